@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Engine specs ("ode:stepper=quickstep,iterations=50") and the modules behind them.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adapters/interface/engine.hpp"
+
+namespace rigor::adapter {
+
+/// A spec as written: engine name and the keys that were given. "preset" and "precision" are among them when
+/// given.
+struct EngineSpec {
+    std::string engine;
+    std::map<std::string, std::string> options;
+    /// "name" or "name:key=value,..." with keys sorted; the stable id used in results.
+    std::string text() const;
+    /// The value of "preset" ("default" when absent).
+    std::string preset() const;
+};
+
+/// Parses one spec. Throws BadInput on malformed text.
+EngineSpec parseSpec(const std::string& text);
+/// Parses "rigor,ode:stepper=quickstep,iterations=50,bullet" (a part with '=' and no ':' continues the spec
+/// before it).
+std::vector<EngineSpec> parseSpecList(const std::string& text);
+
+/// Where modules are looked for, first hit wins: RIGOR_ADAPTER_PATH (colon separated), then `adapters/`
+/// beside the binary's folder and in it.
+std::vector<std::filesystem::path> adapterPath();
+/// Engine names with a module on the path, sorted.
+std::vector<std::string> availableEngines();
+/// The module file for a spec (its precision picks the variant). Throws BadInput naming the known engines.
+std::filesystem::path moduleFor(const EngineSpec& spec);
+
+/// A module kept open as long as the engine lives.
+class LoadedEngine {
+  public:
+    explicit LoadedEngine(const std::filesystem::path& module);
+    ~LoadedEngine();
+    LoadedEngine(LoadedEngine&&) noexcept;
+    LoadedEngine& operator=(LoadedEngine&&) noexcept;
+    const Engine& operator*() const { return *engine_; }
+    const Engine* operator->() const { return engine_.get(); }
+
+  private:
+    void* handle_ = nullptr;
+    std::unique_ptr<Engine> engine_;
+};
+
+/// Loads the module of the spec into this process.
+LoadedEngine loadEngine(const EngineSpec& spec);
+
+/// All options with the preset's values, overridden by those given. Throws BadInput for unknown keys (listing
+/// the known ones) and for values not allowed.
+Settings resolveSettings(const EngineSpec& spec, const Engine& engine);
+
+}  // namespace rigor::adapter

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What goes to and comes from an engine. SI units, world frame unless said, double precision throughout.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "scenarios/model/scenario.hpp"
+
+namespace rigor::adapter {
+
+using scenario::Geometry;
+using scenario::Mat3;
+using scenario::Pose;
+using scenario::Quat;
+using scenario::Scenario;
+using scenario::Vec3;
+
+/// State of one body. The position is that of the body frame's origin; the velocity is that of the centre of
+/// mass.
+struct BodyState {
+    Vec3 position;         ///< [m]
+    Quat orientation;      ///< body to world, unit
+    Vec3 velocity;         ///< [m/s]
+    Vec3 angularVelocity;  ///< [rad/s]
+};
+
+/// One point of contact. A is the body with the lower index in the scenario.
+struct ContactPoint {
+    int bodyA = 0, bodyB = 0;    ///< scenario indices
+    int shapeA = 0, shapeB = 0;  ///< index within Body::shapes; 0 where the engine does not tell
+    Vec3 pointA, pointB;         ///< on the surfaces of A and B [m]
+    Vec3 normal;                 ///< unit, from A to B
+    double depth = 0.0;          ///< penetration [m], > 0 when overlapping; minus the signed distance
+    bool hasImpulse = false;     ///< whether the engine told the impulses of the last step
+    double normalImpulse = 0.0;  ///< [N s], >= 0, pushes B along +normal
+    Vec3 frictionImpulse;        ///< [N s] on B, tangential
+};
+
+/// How well a requested setting was realised.
+enum class Realisation { Exact, Approximate, Unsupported };
+const char* realisationName(Realisation r);
+
+/// One line of the parity ledger: what was asked for, what the engine really does, and why they differ.
+struct LedgerEntry {
+    std::string topic;  ///< short snake_case key: "friction_law", "collision_margin", "sleeping", ...
+    std::string requested;
+    std::string resolved;
+    Realisation realisation = Realisation::Exact;
+    std::string reason;  ///< empty when Exact
+};
+
+/// What the engine says it was given, read from the engine's own objects after the build.
+struct BodyReadBack {
+    double mass = 0.0;  ///< [kg]; 0 for bodies the engine does not move
+    Vec3 centerOfMass;  ///< in the body frame [m]
+    Mat3 inertia;       ///< about the centre of mass, body axes [kg m^2]; in 2D only (2,2)
+    BodyState state;
+    Vec3 gravity;  ///< acceleration acting on this body [m/s^2]
+};
+struct PairReadBack {
+    int materialA = 0, materialB = 0;
+    double friction = 0.0, restitution = 0.0;  ///< as the engine will use them between these two materials
+};
+struct ReadBack {
+    std::vector<BodyReadBack> bodies;  ///< by scenario index
+    std::vector<PairReadBack> pairs;   ///< every pair of materials that can meet
+};
+
+/// Work counters of the last step; -1 where the engine does not tell.
+struct StepCounters {
+    std::int64_t pairs = -1, contacts = -1, islands = -1, solverIterations = -1;
+    double residual = -1.0;                      ///< of the velocity solver, engine's own measure
+    std::map<std::string, double> phaseSeconds;  ///< wall time by phase name, where the engine measures it
+};
+
+/// Free-flight scheme of an engine, so that scheme-exact references know what an ideal run of it would give.
+enum class Scheme { Unknown, SymplecticEuler, ExplicitEuler };
+const char* schemeName(Scheme s);
+
+/// What an engine can do. Names are those of the scenario format.
+struct Capabilities {
+    bool dynamics = false, collision = false, broadPhase = false;
+    std::vector<int> dimensions;  ///< native: {2}, {3} or {2,3}
+    bool planar = false;          ///< runs 2D scenarios in the plane of a 3D world
+    std::vector<std::string>
+        shapes;  ///< geometry names of 3D ("sphere", ...) and 2D ("circle", "polygon", ...)
+    std::vector<std::string> joints;  ///< "ball", "hinge", ...
+    bool contactImpulses = false;
+    bool signedDistance = false;  ///< CollisionEngine answers for separated shapes too
+    bool kinematicBodies = false, damping = false, gravityScale = false, centerOfMassOffset = false;
+};
+
+/// One key of an engine spec.
+struct Option {
+    std::string key;
+    std::vector<std::string> values;  ///< allowed values; empty: a number
+    double min = 0.0, max = 0.0;      ///< range of a number
+    bool integer = false;
+    std::string defaultValue;  ///< of preset=default
+    std::string matchedValue;  ///< of preset=matched
+    std::string help;
+};
+
+/// Who the engine is, read from the library itself where it tells.
+struct EngineInfo {
+    std::string name;        ///< "bullet"
+    std::string version;     ///< "3.24"
+    std::string precision;   ///< "f32" or "f64", of the library's state (the default one if selectable)
+    std::string title;       ///< "Bullet Physics"
+    std::string buildNotes;  ///< flags that matter: "asserts off, SSE2"
+};
+
+/// Key/value pairs of a spec after defaults and the preset were applied; every key of Option is present.
+using Settings = std::map<std::string, std::string>;
+double numberSetting(const Settings& settings, const std::string& key);
+int integerSetting(const Settings& settings, const std::string& key);
+const std::string& textSetting(const Settings& settings, const std::string& key);
+
+/// A scenario asks for what the engine does not have. Not an error of anyone: a recorded outcome.
+class Unsupported : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+/// Input that must never reach a library: NaN, zero mass, degenerate shape, unknown key.
+class BadInput : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A shape in space for a collision query.
+struct PosedShape {
+    const Geometry* geometry = nullptr;
+    Pose pose;  ///< shape to world
+};
+
+struct CollisionQuery {
+    PosedShape a, b;
+    int dimension = 3;
+    int maxContacts = 8;
+};
+
+/// Answer to a query. Contacts have depth > 0 (or the engine's own tolerance); bodyA/bodyB are 0 and 1.
+struct CollisionAnswer {
+    bool overlap = false;
+    std::vector<ContactPoint> contacts;
+    std::optional<double>
+        signedDistance;  ///< [m], < 0 when overlapping; only with Capabilities::signedDistance
+    std::optional<Vec3> witnessA, witnessB;
+};
+
+struct Aabb {
+    Vec3 min, max;  ///< [m]; in 2D z is 0
+};
+struct Pair {
+    int a = 0, b = 0;  ///< a < b
+    friend auto operator<=>(const Pair&, const Pair&) = default;
+};
+
+}  // namespace rigor::adapter

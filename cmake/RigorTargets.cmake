@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: MIT
+# SPDX-FileCopyrightText: 2026 The Rigor authors
+#
+# rigor_library(<target> [LIBS ...] SOURCES ...), rigor_adapter(<name> [PRECISION f32] SOURCES ... LIBS ...),
+# rigor_test(<name> SOURCES ... LIBS ... [LABELS ...]): our own targets, with our warnings and flags.
+
+add_library(rigor_flags INTERFACE)
+target_include_directories(rigor_flags INTERFACE ${PROJECT_SOURCE_DIR})
+# The same bits everywhere: no contraction into fused multiply-adds, no fast-math.
+target_compile_options(rigor_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Werror
+                                             -ffp-contract=off)
+# GCC 12 reports false positives of these from inside Eigen and the standard library when it inlines.
+target_compile_options(rigor_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds
+                                             -Wno-stringop-overflow -Wno-restrict>)
+if(RIGOR_SANITIZE)
+    target_compile_options(rigor_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
+                                                 -fno-sanitize-recover=undefined)
+    target_link_options(rigor_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+
+function(rigor_library target)
+    cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+    add_library(${target} STATIC ${ARG_SOURCES})
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_link_libraries(${target} PUBLIC ${ARG_LIBS} PRIVATE rigor_flags)
+    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+endfunction()
+
+# A module bin/adapters/rigor_adapter_<name>[.<precision>].so
+function(rigor_adapter name)
+    cmake_parse_arguments(ARG "" "PRECISION" "SOURCES;LIBS" ${ARGN})
+    set(target rigor_adapter_${name})
+    set(file rigor_adapter_${name})
+    if(ARG_PRECISION)
+        string(APPEND target _${ARG_PRECISION})
+        string(APPEND file .${ARG_PRECISION})
+    endif()
+    add_library(${target} MODULE ${ARG_SOURCES})
+    set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${file} CXX_VISIBILITY_PRESET hidden
+                                               LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin/adapters)
+    target_link_libraries(${target} PRIVATE rigor_flags rigor_adapter_interface ${ARG_LIBS})
+    set_property(GLOBAL APPEND PROPERTY RIGOR_ADAPTER_TARGETS ${target})
+endfunction()
+
+function(rigor_test name)
+    if(NOT RIGOR_TESTS)
+        return()
+    endif()
+    cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
+    add_executable(${name} ${ARG_SOURCES})
+    target_link_libraries(${name} PRIVATE rigor_flags ${ARG_LIBS} GTest::gtest_main GTest::gmock)
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+    target_compile_definitions(${name} PRIVATE RIGOR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                               RIGOR_BINARY_DIR="${PROJECT_BINARY_DIR}")
+    add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${PROJECT_BINARY_DIR})
+    if(NOT ARG_TIMEOUT)
+        set(ARG_TIMEOUT 120)
+    endif()
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+    if(ARG_LABELS)
+        set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}")
+    endif()
+endfunction()

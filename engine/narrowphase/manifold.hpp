@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A contact manifold: what two convex shapes that touch have in common. The normal points from A to B; a
+// positive impulse along it pushes B away from A. separation < 0 means penetration (depth = -separation).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/math/space.hpp"
+#include "engine/shapes/shape.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+struct ManifoldPoint {
+    typename S::Vec pointA, pointB;   ///< on the surfaces of A and B, world frame [m]
+    typename S::Real separation = 0;  ///< (pointB - pointA) . normal [m]
+    std::uint32_t feature = 0;  ///< names the touching features; stable from frame to frame while they touch
+};
+
+template <class S>
+struct Manifold {
+    typename S::Vec normal = S::Vec::Zero();  ///< unit, world frame, A to B
+    int count = 0;                            ///< 0: no contact within the speculative distance
+    std::array<ManifoldPoint<S>, S::maxManifoldPoints> points;
+};
+
+/// Fills `out` for two posed shapes. Points are reported up to `speculativeDistance` >= 0 [m] of separation.
+template <class S>
+using CollideFunction = void (*)(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
+                                 typename S::Real speculativeDistance, Manifold<S>& out);
+
+/// A narrow phase by name: "sat" = closed forms where they exist, else separating axes with clipped face
+/// manifolds. Null when unknown.
+template <class S>
+CollideFunction<S> findNarrowPhase(const char* name);
+
+}  // namespace rigor::engine

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Scenario and suite files to the model: JSON Schema first, then the checks a schema cannot make. Nothing
+// half-loads.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "scenarios/model/scenario.hpp"
+
+namespace rigor::scenario {
+
+/// One thing wrong with a file.
+struct Problem {
+    std::string id;  ///< stable: "schema.type", "reference.unknown_body", ...
+    std::string file;
+    std::string pointer;  ///< JSON pointer to the value, "" the whole document
+    int line = 0;         ///< 1-based; 0 unknown
+    std::string found, expected;
+    /// "file:line: pointer: found X, expected Y [id]"
+    std::string text() const;
+};
+
+class LoadError : public std::runtime_error {
+  public:
+    explicit LoadError(std::vector<Problem> problems);
+    const std::vector<Problem>& problems() const { return problems_; }
+
+  private:
+    std::vector<Problem> problems_;
+};
+
+struct LoadedScenario {
+    Scenario scenario;
+    std::string text;  ///< JSON as loaded, overrides applied, generators kept; loading it again gives the
+                       ///< same scenario
+};
+
+/// `overrides` are KEY=VALUE with a dotted path and a JSON value: "bodies.block.velocity=[3.1,0,0.2]",
+/// "gravity=[0,-1.6,0]", "bodies.0.mass=2". Elements of arrays of named objects are found by name or index.
+/// Throws LoadError.
+LoadedScenario loadScenario(const std::filesystem::path& file,
+                            const std::vector<std::string>& overrides = {});
+LoadedScenario loadScenarioText(const std::string& json, const std::string& fileName,
+                                const std::vector<std::string>& overrides = {});
+
+/// A named list of scenarios, engine specs and options.
+struct Suite {
+    std::string name, title;
+    std::vector<std::string> scenarios;  ///< names or paths relative to the suite's file
+    std::vector<std::string> engines;    ///< specs; empty: all installed
+    std::vector<double> timeSteps;       ///< empty: each scenario's own
+    int maxTimeSteps = 0;                ///< take only the first n of each scenario; 0: all
+};
+Suite loadSuite(const std::filesystem::path& file);
+
+struct LibraryEntry {
+    std::string name, title;
+    std::filesystem::path file;
+};
+/// The scenario library: RIGOR_SCENARIOS, else the folder the program was built from, else
+/// <prefix>/share/rigor/scenarios.
+std::filesystem::path libraryFolder();
+std::vector<LibraryEntry> listScenarios();  ///< sorted by name; unreadable files are left out
+std::vector<LibraryEntry> listSuites();
+/// A name of the library or a path to a file. Throws LoadError (id "scenario.not_found") listing close names.
+std::filesystem::path findScenario(const std::string& nameOrPath);
+std::filesystem::path findSuite(const std::string& nameOrPath);
+
+}  // namespace rigor::scenario

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The scenario model: plain data in SI units and double precision that every engine is built from.
+// Conventions: right-handed axes; two-dimensional scenarios lie in the x-y plane, z = 0, rotations about +z.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scenarios/model/math.hpp"
+
+namespace rigor::scenario {
+
+/// A value with no physical counterpart that "nothing was given" can be told from.
+inline constexpr int kNone = -1;
+
+// ---------------------------------------------------------------------------------------------- shapes
+// Axis of capsule, cylinder and cone: local y. half_length of a capsule excludes the caps.
+
+/// 3D ball, 2D disc. radius > 0 [m].
+struct Sphere {
+    double radius = 0.0;
+};
+/// Half extents > 0 [m]; in 2D z is ignored (0).
+struct Box {
+    Vec3 halfExtents;
+};
+/// Segment from (0,-halfLength,0) to (0,+halfLength,0) [m], grown by radius [m]; both > 0.
+struct Capsule {
+    double radius = 0.0;
+    double halfLength = 0.0;
+};
+/// Solid cylinder along local y, 3D only. [m], both > 0.
+struct Cylinder {
+    double radius = 0.0;
+    double halfLength = 0.0;
+};
+/// Solid cone along local y, 3D only: apex at +halfLength, base disc of `radius` at -halfLength. [m]
+struct Cone {
+    double radius = 0.0;
+    double halfLength = 0.0;
+};
+/// Convex hull of at least 4 (2D: 3) points [m], local frame. The loader has removed interior points; in 2D
+/// the vertices are in counter-clockwise order.
+struct ConvexHull {
+    std::vector<Vec3> vertices;
+};
+/// Solid where dot(normal, x) <= offset, local frame, unit normal. Static bodies only. In 2D a half-plane.
+struct HalfSpace {
+    Vec3 normal{0.0, 1.0, 0.0};
+    double offset = 0.0;
+};
+/// 2D only, static bodies only: two-sided segment from a to b [m].
+struct Segment {
+    Vec3 a, b;
+};
+
+using Geometry = std::variant<Sphere, Box, Capsule, Cylinder, Cone, ConvexHull, HalfSpace, Segment>;
+
+/// Names used in files, capabilities and reports, by Geometry index: "sphere" ("circle" in 2D), "box",
+/// "capsule", "cylinder", "cone", "hull" ("polygon" in 2D), "half_space" ("half_plane" in 2D), "segment".
+const char* geometryName(const Geometry& geometry, int dimension);
+
+struct Shape {
+    Geometry geometry;
+    Pose pose;         ///< shape frame in the body frame
+    int material = 0;  ///< index into Scenario::materials
+};
+
+// -------------------------------------------------------------------------------------------- materials
+struct Material {
+    std::string name;
+    double friction = 0.0;     ///< Coulomb coefficient, >= 0
+    double restitution = 0.0;  ///< Newton's coefficient, in [0, 1]
+    double density = 1000.0;   ///< [kg/m^3] (2D: [kg/m^2]); used when a body gives no mass
+};
+
+/// Coefficients that replace the combination rule for one unordered pair of materials.
+struct MaterialPair {
+    int a = 0, b = 0;  ///< indices into Scenario::materials
+    double friction = 0.0;
+    double restitution = 0.0;
+};
+
+/// What two touching surfaces share. Every adapter makes its engine use exactly these.
+struct PairCoefficients {
+    double friction = 0.0;
+    double restitution = 0.0;
+};
+
+// ---------------------------------------------------------------------------------------------- bodies
+enum class BodyType { Static, Kinematic, Dynamic };
+
+/// About the centre of mass, axes of the body frame.
+struct MassProperties {
+    double mass = 0.0;  ///< [kg]; 0 for static and kinematic bodies
+    Vec3 centerOfMass;  ///< in the body frame [m]
+    Mat3 inertia;       ///< [kg m^2]; in 2D only inertia(2,2) is meaningful
+};
+
+struct Body {
+    std::string name;
+    BodyType type = BodyType::Dynamic;
+    Pose pose;             ///< initial pose of the body frame in the world
+    Vec3 velocity;         ///< of the centre of mass, world frame [m/s]
+    Vec3 angularVelocity;  ///< world frame [rad/s]
+    std::vector<Shape> shapes;
+    MassProperties massProperties;     ///< complete after loading: given, or computed from the shapes
+    bool collides = true;              ///< false: shapes give mass and a picture, never contacts
+    double linearVelocityKept = 1.0;   ///< damping: v(t) = v0 * kept^t without forces; (0, 1], per second
+    double angularVelocityKept = 1.0;  ///< likewise for the angular velocity
+    double gravityScale = 1.0;         ///< factor on the scenario's gravity
+};
+
+// ---------------------------------------------------------------------------------------------- joints
+enum class JointType { Ball, Hinge, Slider, Fixed, Distance };
+const char* jointName(JointType type);
+
+/// A constraint between two bodies. Anchors coincide at the initial poses except for Distance. In 2D a hinge
+/// turns about +z (axis ignored), a slider slides along `axis`.
+struct Joint {
+    std::string name;
+    JointType type = JointType::Ball;
+    int bodyA = kNone;  ///< kNone: the world
+    int bodyB = kNone;
+    Vec3 anchorA;               ///< in A's body frame (world frame when bodyA is kNone) [m]
+    Vec3 anchorB;               ///< in B's body frame [m]
+    Vec3 axisA{0.0, 0.0, 1.0};  ///< unit; hinge and slider; A's body frame
+    Vec3 axisB{0.0, 0.0, 1.0};  ///< the same world direction initially; B's body frame
+    double length = 0.0;        ///< distance joint: rod length between the anchors [m], > 0
+    bool collideConnected = false;
+};
+
+// ---------------------------------------------------------------------------------------------- forces
+/// Constant force and torque, world frame, acting at the centre of mass during [start, end).
+struct ConstantForce {
+    int body = 0;
+    Vec3 force;                       ///< [N]
+    Vec3 torque;                      ///< [N m]
+    double start = 0.0, end = 1e300;  ///< [s]
+};
+/// Linear spring and damper between two anchors (bodyA kNone: the world).
+struct SpringForce {
+    int bodyA = kNone, bodyB = 0;
+    Vec3 anchorA, anchorB;    ///< in the body frames (world frame for kNone) [m]
+    double stiffness = 0.0;   ///< [N/m], >= 0
+    double damping = 0.0;     ///< [N s/m], >= 0
+    double restLength = 0.0;  ///< [m], >= 0
+};
+/// F = -coefficient * v at the centre of mass.
+struct DragForce {
+    int body = 0;
+    double coefficient = 0.0;  ///< [N s/m], >= 0
+};
+using Force = std::variant<ConstantForce, SpringForce, DragForce>;
+
+/// An impulse at the centre of mass given in the first step that starts at or after `time`.
+struct Event {
+    double time = 0.0;  ///< [s]
+    int body = 0;
+    Vec3 impulse;         ///< [N s], world frame
+    Vec3 angularImpulse;  ///< [N m s], world frame
+};
+
+// ------------------------------------------------------------------------------- references and bounds
+using ParameterValue = std::variant<double, bool, std::string, std::vector<double>, std::vector<std::string>>;
+
+/// A reference solution by name; the parameters name the bodies that play its parts, never physical values.
+struct ReferenceSpec {
+    std::string name;
+    std::map<std::string, ParameterValue> parameters;
+};
+
+/// value <= max * (dt / first dt of the scenario)^order
+struct Bound {
+    std::string engine;  ///< engine name ("rigor"), or "*" for every engine not named
+    std::string preset;  ///< "default", "matched", or "" for both
+    std::string metric;
+    double max = 0.0;
+    double order = 0.0;
+};
+
+/// A recorded deviation: where `metric` misses its bound but stays below `max`, the verdict is "known
+/// deviation".
+struct KnownDeviation {
+    std::string engine, preset, metric;  ///< as in Bound
+    double max = 0.0;
+    std::string reason;
+};
+
+// -------------------------------------------------------------------------------------------- scenario
+struct Scenario {
+    std::string name, title, description, source;
+    std::vector<std::string> isolates, tags;
+    int dimension = 3;
+    Vec3 gravity{0.0, -9.81, 0.0};  ///< [m/s^2]
+    double duration = 1.0;          ///< [s]
+    std::vector<double> timeSteps;  ///< [s], in the order of the file
+    std::vector<Material> materials;
+    std::vector<MaterialPair> pairs;
+    std::vector<Body> bodies;
+    std::vector<Joint> joints;
+    std::vector<Force> forces;
+    std::vector<Event> events;
+    std::vector<int> observed;  ///< bodies whose trajectories are compared; never empty after loading
+    std::optional<ReferenceSpec> reference;  ///< none: cross-engine comparison only
+    std::vector<std::string>
+        metrics;  ///< that matter here, in order of importance; never empty after loading
+    std::vector<Bound> accept;
+    std::vector<KnownDeviation> knownDeviations;
+    double timeLimit = 60.0;  ///< [s] wall time for one case
+};
+
+/// Friction and restitution of two materials: the pair table's, else sqrt(mu_a mu_b) and min(e_a, e_b).
+PairCoefficients pairCoefficients(const Scenario& scenario, int materialA, int materialB);
+
+/// Index of the named body, or kNone.
+int findBody(const Scenario& scenario, const std::string& name);
+
+/// True where contacts between the two bodies are possible: both collide, at least one is dynamic, and no
+/// joint with collideConnected = false connects them.
+bool mayCollide(const Scenario& scenario, int bodyA, int bodyB);
+
+/// Mass, centre of mass and inertia from the shapes, each of the density of its material [kg/m^3] (2D:
+/// [kg/m^2]). `dimension` 2 takes areas. Throws std::invalid_argument for shapes without volume (half-space,
+/// segment).
+MassProperties massPropertiesFromShapes(const std::vector<Shape>& shapes,
+                                        const std::vector<Material>& materials, int dimension);
+
+/// `properties` scaled to `mass` (same shape, uniform factor on the density).
+MassProperties scaledToMass(MassProperties properties, double mass);
+
+}  // namespace rigor::scenario

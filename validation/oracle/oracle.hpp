@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The exact contact oracle: signed distance, all minimising normals and witness points of two convex shapes,
+// by brute force over features in extended precision. Slow on purpose; shares nothing with any engine.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/model/scenario.hpp"
+
+namespace rigor::validation {
+
+struct OracleAnswer {
+    double signedDistance = 0.0;  ///< [m]; < 0: minus the penetration depth (minimum translation distance)
+    std::vector<scenario::Vec3>
+        normals;  ///< unit, A to B; all directions whose signed distance is within `tie` of the best
+    scenario::Vec3 witnessA, witnessB;  ///< one pair of closest (or deepest) points
+};
+
+/// Empty for shape pairs without an exact method (cylinder and cone for now). `tie` is relative to the larger
+/// shape.
+std::optional<OracleAnswer> exactContact(const scenario::Geometry& a, const scenario::Pose& poseA,
+                                         const scenario::Geometry& b, const scenario::Pose& poseB,
+                                         int dimension, double tie = 1e-9);
+
+}  // namespace rigor::validation

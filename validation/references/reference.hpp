@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Reference solutions. A reference takes every physical value from the scenario and names only the bodies
+// that play its parts. Two kinds of answer, never mixed: exact (the physics), and scheme-exact (what an ideal
+// implementation of the engine's own time-stepping scheme gives at this dt). Standard library and the
+// scenario model only: code shared with an engine would prove nothing.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "scenarios/model/scenario.hpp"
+#include "validation/trajectory.hpp"
+
+namespace rigor::validation {
+
+/// What a reference says of one body at one time; parts it does not determine are empty.
+/// Position and orientation are of the body frame, velocity of the centre of mass, as in BodyState.
+struct PartialState {
+    std::optional<scenario::Vec3> position;  ///< [m]
+    std::optional<scenario::Quat> orientation;
+    std::optional<scenario::Vec3> velocity;         ///< [m/s]
+    std::optional<scenario::Vec3> angularVelocity;  ///< world [rad/s]
+};
+
+/// A named number that the exact solution determines and a trajectory can be asked for: a stopping distance,
+/// the time of the second bounce, a velocity after an impact.
+struct Quantity {
+    std::string name;  ///< snake_case, unique within the reference
+    std::string unit;
+    double exact = 0.0;
+    std::optional<double> schemeExact;  ///< at the dt asked for
+    /// The same number taken from a trajectory; empty when it does not show there (no second bounce).
+    std::function<std::optional<double>(const Trajectory&)> measure;
+};
+
+/// The scenario's values break an assumption of the reference ("slope steeper than the friction angle").
+class AssumptionViolated : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+class Reference {
+  public:
+    virtual ~Reference() = default;
+
+    /// Scenario indices of the bodies whose states this reference knows; may be empty.
+    virtual std::vector<int> bodies() const { return {}; }
+
+    /// Until when exact() answers [s]; the duration unless the reference ends earlier (first unresolved
+    /// event).
+    virtual double validUntil() const { return 1e300; }
+
+    /// The exact state of a body of bodies() at time t.
+    virtual PartialState exact(int body, double t) const;
+
+    /// The state after `step` steps of `dt` of an ideal run of `scheme`; empty where no closed form is known.
+    virtual std::optional<PartialState> schemeExact(int body, std::size_t step, double dt,
+                                                    adapter::Scheme scheme) const;
+
+    virtual std::vector<Quantity> quantities(double dt, adapter::Scheme scheme) const;
+};
+
+/// A line of the table of references.
+struct ReferenceEntry {
+    const char* name;
+    const char* title;
+    const char* formula;  ///< plain text for the report
+    const char* source;   ///< literature
+    std::unique_ptr<Reference> (*make)(const scenario::Scenario&, const scenario::ReferenceSpec&);
+};
+const std::vector<ReferenceEntry>& referenceTable();
+const ReferenceEntry* findReference(const std::string& name);
+
+/// The scenario's reference, or null when it has none. Throws AssumptionViolated; std::invalid_argument for
+/// an unknown reference, unknown or missing parameters, or bodies that do not exist.
+std::unique_ptr<Reference> makeReference(const scenario::Scenario& scenario);
+
+}  // namespace rigor::validation

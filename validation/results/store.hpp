@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The results store of a run folder: results.sqlite (schema documented in README.md here) and manifest.json.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "validation/results/types.hpp"
+
+namespace rigor::results {
+
+inline constexpr int kSchemaVersion = 1;
+
+/// Reads a run folder. Throws std::runtime_error when it is none or of a newer schema.
+Run readRun(const std::filesystem::path& directory);
+
+/// Writes a run as it happens. Every call is one transaction: what returned is on disk after a kill.
+class RunWriter {
+  public:
+    /// Creates the folder and store, or opens an existing one (`resume`). Throws std::runtime_error when the
+    /// folder holds a run and resume is false, or when resume is true and it holds none.
+    RunWriter(const std::filesystem::path& directory, bool resume);
+    ~RunWriter();
+    RunWriter(const RunWriter&) = delete;
+    RunWriter& operator=(const RunWriter&) = delete;
+
+    /// Suite, command, environment, engines, scenarios, plannedCases; cases are ignored.
+    void writeHeader(const Run& run);
+    /// Ids of the cases already stored.
+    std::vector<std::string> finishedCases() const;
+    /// Replaces a case with the same id.
+    void writeCase(const CaseRow& row);
+    void finish(const std::string& isoTime);
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rigor::results

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One HDF5 file per case: /time, /bodies/<name>/{position,orientation,velocity,angular_velocity},
+// /reference/<name>/{...}, /series/<name>[/<subject>], /contacts/...; every dataset has a `unit` attribute.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rigor::results {
+
+/// Row-major samples x columns.
+struct Channel {
+    std::string unit;
+    int columns = 0;
+    std::vector<double> values;
+};
+
+struct BodyChannels {
+    std::string name;
+    Channel position, orientation, velocity,
+        angularVelocity;  ///< 3 [m], 4 [1] w x y z, 3 [m/s], 3 [rad/s]; empty: none
+};
+
+struct SeriesChannel {
+    std::string name, subject;
+    Channel channel;  ///< one column
+};
+
+struct ContactSample {
+    double time = 0.0;
+    int bodyA = 0, bodyB = 0, shapeA = 0, shapeB = 0;
+    double pointA[3] = {}, pointB[3] = {}, normal[3] = {};
+    double depth = 0.0;
+    double normalImpulse = 0.0;  ///< NaN where the engine does not tell
+    double frictionImpulse[3] = {};
+};
+
+struct TrajectoryFile {
+    std::string scenario, spec, caseId;
+    double dt = 0.0;
+    int stride = 1;
+    std::vector<double> times;
+    std::vector<BodyChannels> bodies;  ///< all bodies, in scenario order
+    std::vector<BodyChannels>
+        reference;  ///< exact states of the bodies that the reference knows; NaN where unknown
+    std::vector<SeriesChannel> series;
+    std::vector<ContactSample> contacts;  ///< in time order
+};
+
+void writeTrajectory(const std::filesystem::path& file, const TrajectoryFile& data);
+/// Throws std::runtime_error naming the file when it can not be read. `withContacts` false leaves contacts
+/// empty.
+TrajectoryFile readTrajectory(const std::filesystem::path& file, bool withContacts = true);
+
+}  // namespace rigor::results

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A finished or unfinished run as it is stored and reported. All that reports/ may see, with store.hpp and
+// trajectory_file.hpp beside it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rigor::results {
+
+/// What became of a case. Text in the store is the snake_case name.
+enum class Outcome { Completed, Unsupported, Crashed, Timeout, NonFinite, OutOfMemory, Error };
+/// Judgement of a case, derived from the outcome and its metrics.
+enum class Verdict { Pass, Fail, KnownDeviation, Unsupported, Crashed, Timeout, NonFinite };
+const char* outcomeName(Outcome outcome);
+const char* verdictName(Verdict verdict);  ///< "pass", "fail", "known deviation", "unsupported", "crashed",
+                                           ///< "timeout", "non-finite"
+Outcome parseOutcome(const std::string& name);
+Verdict parseVerdict(const std::string& name);
+
+struct MetricRow {
+    std::string name;     ///< of validation/metrics' table
+    std::string subject;  ///< body, joint, quantity; "" the whole scene
+    std::string unit;
+    std::string kind;  ///< "exact", "scheme_exact", "invariant", "contact", "joint", "rest"
+    double value = 0.0;
+    double at = -1.0;                   ///< time of the largest contribution [s], -1 unknown
+    std::optional<double> bound;        ///< acceptance bound at this dt
+    std::optional<double> expectation;  ///< recorded expectation of a known deviation at this dt
+    Verdict verdict = Verdict::Pass;    ///< Pass, Fail or KnownDeviation; Pass where there is no bound
+    std::string note;                   ///< reason of a known deviation, or why there is no value
+};
+
+/// A number of the exact solution beside the engine's.
+struct QuantityRow {
+    std::string name, unit;
+    double exact = 0.0;
+    std::optional<double> schemeExact;
+    std::optional<double> measured;  ///< empty: did not happen in this run
+};
+
+struct LedgerRow {
+    std::string topic, requested, resolved;
+    std::string realisation;  ///< "exact", "approximate", "unsupported"
+    std::string reason;
+};
+
+/// One comparison of what the engine says it was given with the scenario.
+struct ReadBackRow {
+    std::string quantity;                ///< "mass", "inertia", "position", "friction", ...
+    std::string subject;                 ///< body name or "material|material"
+    double expected = 0.0, found = 0.0;  ///< norms or the worst component, for display
+    double error = 0.0;                  ///< absolute
+    bool ok = true;
+};
+
+/// Contact audit: one collision engine asked about the sampled poses of this case.
+struct AuditRow {
+    std::string auditor;           ///< engine spec, or "oracle"
+    std::string outcome;           ///< "completed", "crashed", "timeout", "unsupported"
+    std::int64_t frames = 0;       ///< frames asked about
+    std::int64_t queries = 0;      ///< shape pairs asked
+    std::int64_t overlapping = 0;  ///< answered as overlapping
+    std::int64_t missed = 0;       ///< the oracle overlaps deeper than the tolerance, the auditor says apart
+    std::int64_t spurious = 0;     ///< the reverse
+    std::int64_t undecided = 0;    ///< no exact answer for this shape pair
+    std::optional<double> normalErrorMax, normalErrorMedian;  ///< [rad] to the nearest minimising normal
+    std::optional<double> depthErrorMax, depthErrorMedian;    ///< [m]
+    std::optional<double> pointErrorMax;  ///< [m], of witness points from the exact surfaces
+    std::string worst;                    ///< "block|floor at t=0.25"
+    std::string note;
+};
+
+/// Seconds of wall time.
+struct TimingRow {
+    std::string phase;                                       ///< "step", "build", "collide", ...
+    double median = 0.0, p10 = 0.0, p90 = 0.0, total = 0.0;  ///< per step, except total
+    std::int64_t samples = 0;
+    double meanContacts = 0.0;
+};
+
+struct CaseRow {
+    std::string id;  ///< stable hash of scenario text, spec, preset and dt
+    std::string scenario;
+    std::string spec;    ///< as asked for, with the preset: "ode:preset=matched,stepper=quickstep"
+    std::string engine;  ///< "ode"
+    std::string preset;  ///< "default" or "matched"
+    double dt = 0.0;
+    Outcome outcome = Outcome::Completed;
+    Verdict verdict = Verdict::Pass;
+    std::string reason;        ///< message of the failure, missing capability, signal name, ...
+    double wallSeconds = 0.0;  ///< whole child process
+    double cpuSeconds = 0.0;
+    std::int64_t steps = 0;
+    std::int64_t peakMemoryKiB = 0;
+    std::string stateHash;                        ///< of the final states
+    std::string trajectoryFile;                   ///< relative to the run folder, "" when none
+    std::string command;                          ///< reproduces the numbers of this case
+    std::map<std::string, std::string> settings;  ///< resolved
+    std::vector<MetricRow> metrics;
+    std::vector<QuantityRow> quantities;
+    std::vector<LedgerRow> ledger;
+    std::vector<ReadBackRow> readBack;
+    std::vector<AuditRow> audit;
+    std::vector<TimingRow> timings;
+};
+
+struct ScenarioRow {
+    std::string name, title, description, source;
+    std::vector<std::string> isolates, tags, observed, metrics;
+    int dimension = 3;
+    double duration = 0.0;
+    std::vector<double> timeSteps;
+    std::string reference, referenceTitle, referenceFormula, referenceSource;  ///< "" when cross-engine only
+    std::string referenceProblem;  ///< why the reference does not hold for these values; "" when it does
+    std::string text;              ///< the scenario file as run (JSON, overrides applied)
+};
+
+struct EngineRow {
+    std::string name, title, version, precision, buildNotes;
+    std::string problem;  ///< "not installed", or why the module could not be loaded
+};
+
+struct Run {
+    std::string directory;
+    int schemaVersion = 0;
+    std::string suite, command, started, finished;   ///< ISO 8601 UTC; finished "" while running
+    std::map<std::string, std::string> environment;  ///< cpu, kernel, compiler, flags, library versions, ...
+    std::vector<EngineRow> engines;
+    std::vector<ScenarioRow> scenarios;
+    std::vector<CaseRow> cases;
+    std::int64_t plannedCases = 0;
+};
+
+}  // namespace rigor::results

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Runs cases (scenario x engine spec x time step), each in its own child process, and stores what became of
+// them.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/interface/registry.hpp"
+#include "scenarios/model/scenario.hpp"
+#include "validation/results/types.hpp"
+#include "validation/trajectory.hpp"
+
+namespace rigor::validation {
+
+/// One case to run.
+struct CasePlan {
+    std::string id;
+    std::string scenarioText;  ///< JSON, overrides applied: what the child loads
+    scenario::Scenario scenario;
+    adapter::EngineSpec spec;  ///< with its preset
+    double dt = 0.0;
+};
+
+struct RunOptions {
+    std::filesystem::path directory;
+    std::filesystem::path binary;  ///< the `rigor` program itself, run again as `rigor __case ...`
+    int jobs = 1;
+    bool resume = false;
+    bool audit = true;
+    std::size_t memoryLimitMiB = 4096;  ///< per child
+    std::string suite, command;
+};
+
+/// What the progress line is made of.
+struct Progress {
+    std::int64_t done = 0, total = 0, failed = 0, crashed = 0, skipped = 0;
+    double etaSeconds = -1.0;
+    std::string current;
+    const results::CaseRow* finished = nullptr;  ///< the case that has just ended, or null
+};
+
+/// Expands specs without a preset into both, and scenarios into their time steps (or `timeSteps` when not
+/// empty). Only engines that could take part in a scenario's dimension are planned; others appear as
+/// `unsupported` rows.
+std::vector<CasePlan> planCases(
+    const std::vector<std::pair<scenario::Scenario, std::string>>& scenariosAndTexts,
+    const std::vector<adapter::EngineSpec>& specs, const std::vector<double>& timeSteps);
+
+/// Runs all cases; returns when all are stored or `interrupted` became true (the run can be resumed then).
+results::Run runCases(const std::vector<CasePlan>& plan, const RunOptions& options,
+                      const std::function<void(const Progress&)>& onProgress,
+                      const std::atomic<bool>& interrupted);
+
+/// Entry point of the child: `rigor __case <request.json>`; writes its answer where the request says.
+int childMain(const std::vector<std::string>& arguments);
+
+/// Describes an engine by loading its module in a child process (`rigor __describe ENGINE`), as JSON with
+/// info, capabilities and options; `problem` in EngineDescription when that failed.
+struct EngineDescription {
+    adapter::EngineInfo info;
+    adapter::Capabilities capabilities;
+    std::vector<adapter::Option> options;
+    std::vector<std::string> precisions;
+    std::string problem;
+};
+EngineDescription describeEngine(const std::string& engine, const std::filesystem::path& binary);
+
+/// Runs one case inside this process, without a store: for `rigor run` and tests. Throws Unsupported and
+/// BadInput.
+struct LiveCase {
+    Trajectory trajectory;
+    results::CaseRow row;
+};
+struct LiveOptions {
+    int stride = 0;  ///< 0: chosen from size and duration
+    std::function<void(double time, std::span<const BodyState>, const std::vector<ContactPoint>&)>
+        onStep;  ///< may be empty
+};
+LiveCase runInProcess(const scenario::Scenario& scenario, const adapter::EngineSpec& spec, double dt,
+                      const LiveOptions& options);
+
+/// 0 unless the in-house engine missed a bound, an engine left its recorded expectation, or a case crashed
+/// unexpectedly.
+bool runIsGreen(const results::Run& run);
+
+}  // namespace rigor::validation

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What a run recorded: the input of references, metrics, audit and store alike.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "adapters/interface/types.hpp"
+
+namespace rigor::validation {
+
+using adapter::BodyState;
+using adapter::ContactPoint;
+
+/// Recorded frames of one case. Frame 0 is the initial state as the engine reports it; frame k is the state
+/// after step k * stride. `times` are exact multiples of dt from 0.
+struct Trajectory {
+    double dt = 0.0;
+    int stride = 1;  ///< steps between frames
+    std::size_t bodyCount = 0;
+    std::vector<double> times;      ///< [s], one per frame
+    std::vector<BodyState> states;  ///< frame-major: states[frame * bodyCount + body]
+    std::vector<std::vector<ContactPoint>>
+        contacts;  ///< per frame: contacts the step before acted upon; frame 0 empty
+
+    std::size_t frames() const { return times.size(); }
+    const BodyState& state(std::size_t frame, int body) const {
+        return states[frame * bodyCount + static_cast<std::size_t>(body)];
+    }
+    std::span<const BodyState> frame(std::size_t f) const {
+        return {states.data() + f * bodyCount, bodyCount};
+    }
+};
+
+}  // namespace rigor::validation
