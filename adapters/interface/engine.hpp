@@ -88,7 +88,7 @@ class Engine {
     virtual EngineInfo info() const = 0;
     virtual Capabilities capabilities() const = 0;
     virtual std::vector<Option> options()
-        const = 0;  ///< without "preset" and "precision", which every engine has
+        const = 0;  ///< without "preset"; "precision" only where one module has several
     virtual const DynamicsEngine* dynamics() const { return nullptr; }
     virtual const CollisionEngine* collision() const { return nullptr; }
     virtual const BroadPhaseEngine* broadPhase() const { return nullptr; }

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapters/interface/engine.hpp"
@@ -36,6 +37,8 @@ std::vector<EngineSpec> parseSpecList(const std::string& text);
 std::vector<std::filesystem::path> adapterPath();
 /// Engine names with a module on the path, sorted.
 std::vector<std::string> availableEngines();
+/// Precisions that an engine has as modules of their own ("f32" beside the plain module).
+std::vector<std::string> availablePrecisions(const std::string& engine);
 /// The module file for a spec (its precision picks the variant). Throws BadInput naming the known engines.
 std::filesystem::path moduleFor(const EngineSpec& spec);
 

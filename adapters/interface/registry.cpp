@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "adapters/interface/registry.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+namespace rigor::adapter {
+namespace {
+
+constexpr const char* kPrefix = "rigor_adapter_";
+constexpr const char* kSuffix = ".so";
+
+/// "rigor_adapter_bullet.f32.so" -> {"bullet", "f32"}; empty name when it is no module.
+std::pair<std::string, std::string> moduleName(const std::filesystem::path& file) {
+    std::string name = file.filename().string();
+    const std::string prefix = kPrefix, suffix = kSuffix;
+    if (name.size() <= prefix.size() + suffix.size() || !name.starts_with(prefix) || !name.ends_with(suffix))
+        return {};
+    name = name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
+    const auto dot = name.find('.');
+    return {name.substr(0, dot), dot == std::string::npos ? "" : name.substr(dot + 1)};
+}
+
+std::vector<std::filesystem::path> modulesIn(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+        if (!moduleName(entry.path()).first.empty()) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> adapterPath() {
+    std::vector<std::filesystem::path> folders;
+    if (const char* variable = std::getenv("RIGOR_ADAPTER_PATH")) {
+        std::string rest = variable;
+        while (!rest.empty()) {
+            const auto colon = rest.find(':');
+            if (colon != 0) folders.emplace_back(rest.substr(0, colon));
+            rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
+        }
+    }
+    std::error_code error;
+    const auto binary = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (!error) {
+        folders.push_back(binary.parent_path() / "adapters");
+        folders.push_back(binary.parent_path().parent_path() / "lib" / "rigor" / "adapters");
+    }
+    return folders;
+}
+
+std::vector<std::string> availableEngines() {
+    std::set<std::string> names;
+    for (const auto& folder : adapterPath())
+        for (const auto& file : modulesIn(folder)) names.insert(moduleName(file).first);
+    return {names.begin(), names.end()};
+}
+
+std::vector<std::string> availablePrecisions(const std::string& engine) {
+    std::set<std::string> variants;
+    for (const auto& folder : adapterPath())
+        for (const auto& file : modulesIn(folder))
+            if (const auto [name, precision] = moduleName(file); name == engine && !precision.empty())
+                variants.insert(precision);
+    return {variants.begin(), variants.end()};
+}
+
+std::filesystem::path moduleFor(const EngineSpec& spec) {
+    const auto given = spec.options.find("precision");
+    const std::string precision = given == spec.options.end() ? "" : given->second;
+    std::filesystem::path plain;
+    for (const auto& folder : adapterPath())
+        for (const auto& file : modulesIn(folder)) {
+            const auto [name, variant] = moduleName(file);
+            if (name != spec.engine) continue;
+            if (!variant.empty() && variant == precision) return file;
+            if (variant.empty() && plain.empty()) plain = file;
+        }
+    if (!plain.empty()) return plain;
+    std::string known;
+    for (const auto& name : availableEngines()) known += (known.empty() ? "" : ", ") + name;
+    throw BadInput("engine '" + spec.engine +
+                   "' is not installed; known engines: " + (known.empty() ? "none" : known));
+}
+
+LoadedEngine::LoadedEngine(const std::filesystem::path& module) {
+    handle_ = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle_ == nullptr) throw std::runtime_error(std::string("cannot load the module: ") + dlerror());
+    using Entry = const Module* (*)();
+    const auto entry = reinterpret_cast<Entry>(dlsym(handle_, "rigorAdapter"));
+    if (entry == nullptr) {
+        dlclose(handle_);
+        throw std::runtime_error(module.string() + ": no entry point rigorAdapter");
+    }
+    const Module* described = entry();
+    if (described->abi != kAdapterAbi) {
+        const int abi = described->abi;
+        dlclose(handle_);
+        throw std::runtime_error(module.string() + ": built for adapter interface " + std::to_string(abi) +
+                                 ", this program has " + std::to_string(kAdapterAbi));
+    }
+    engine_ = described->create();
+}
+
+LoadedEngine::LoadedEngine(LoadedEngine&& other) noexcept
+    : handle_(std::exchange(other.handle_, nullptr)), engine_(std::move(other.engine_)) {}
+
+LoadedEngine& LoadedEngine::operator=(LoadedEngine&& other) noexcept {
+    std::swap(handle_, other.handle_);
+    std::swap(engine_, other.engine_);
+    return *this;
+}
+
+// The library itself stays mapped: objects it made may outlive this one, and some libraries do not survive
+// being unloaded.
+LoadedEngine::~LoadedEngine() = default;
+
+LoadedEngine loadEngine(const EngineSpec& spec) {
+    LoadedEngine engine(moduleFor(spec));
+    const auto given = spec.options.find("precision");
+    if (given != spec.options.end()) {
+        const std::string native = engine->info().precision;
+        const auto options = engine->options();
+        const bool selectable =
+            std::any_of(options.begin(), options.end(), [](const Option& o) { return o.key == "precision"; });
+        if (given->second != native && !selectable)
+            throw BadInput("engine '" + spec.engine + "', key 'precision': found '" + given->second +
+                           "', this build has " + native);
+    }
+    return engine;
+}
+
+}  // namespace rigor::adapter
