@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The `rigor` command: one file per sub-command, each adds itself to the parser. Argument parsing and output,
+// nothing else.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scenarios/loader/loader.hpp"
+
+namespace rigor::cli {
+
+/// Exit codes, documented in `rigor --help` and the README.
+enum ExitCode : int {
+    kOk = 0,            ///< done; for `validate`: every bound and recorded expectation held
+    kRed = 1,           ///< the run finished and something in it is red
+    kBadInput = 2,      ///< command line, scenario file or engine spec
+    kInternal = 3,      ///< the environment or Rigor itself failed
+    kUnsupported = 4,   ///< `run`: the engine lacks what the scenario needs
+    kCrashed = 5,       ///< `run`: the engine crashed
+    kInterrupted = 130  ///< Ctrl-C; `validate --resume` goes on
+};
+
+/// What a sub-command does once its arguments are parsed; returns the exit code.
+using Action = std::function<int()>;
+
+void addValidate(CLI::App& app, Action& action);
+void addRun(CLI::App& app, Action& action);
+void addList(CLI::App& app, Action& action);
+void addCheck(CLI::App& app, Action& action);
+void addReport(CLI::App& app, Action& action);
+
+/// This program's own file.
+std::filesystem::path ownBinary();
+
+/// Where a terminal reads, and whether it wants colours (NO_COLOR and TERM=dumb are respected).
+bool isTerminal(int fileDescriptor);
+bool wantsColour(int fileDescriptor);
+int terminalColumns(int fileDescriptor);
+
+/// "0.004", "1/240": a time step in seconds. Throws std::invalid_argument.
+double parseTimeStep(const std::string& text);
+
+/// Prints every problem of a LoadError to stderr, as text or as a JSON array on stdout.
+void printProblems(const scenario::LoadError& error, bool json);
+
+}  // namespace rigor::cli

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <cstdio>
+#include <string_view>
+
+#include "adapters/interface/types.hpp"
+#include "cli/command.hpp"
+#include "validation/runner/runner.hpp"
+
+namespace {
+
+constexpr const char* kFooter =
+    "Exit codes: 0 done and green, 1 something in the run is red, 2 bad command line or input file,\n"
+    "            3 internal error, 4 the engine lacks what the scenario needs, 5 the engine crashed,\n"
+    "            130 interrupted (a run can be resumed).\n"
+    "Engines are named by a spec: bullet, ode:stepper=quickstep,iterations=50, "
+    "rigor:preset=matched,precision=f32.";
+
+int runCommand(int argc, char** argv) {
+    using namespace rigor::cli;
+    CLI::App app{"Rigor: rigid-body engines held to the same references"};
+    app.name("rigor");
+    app.set_version_flag("--version", std::string("rigor ") + RIGOR_VERSION);
+    app.footer(kFooter);
+    app.require_subcommand(1);
+    Action action;
+    addValidate(app, action);
+    addRun(app, action);
+    addList(app, action);
+    addCheck(app, action);
+    addReport(app, action);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? kOk : kBadInput;
+    }
+    return action();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace rigor::cli;
+    try {
+        // The program runs itself again for every case; these are not for people.
+        if (argc > 1 && std::string_view(argv[1]).starts_with("__"))
+            return rigor::validation::childMain({argv + 1, argv + argc});
+        return runCommand(argc, argv);
+    } catch (const rigor::scenario::LoadError& error) {
+        printProblems(error, false);
+        return kBadInput;
+    } catch (const rigor::adapter::BadInput& error) {
+        std::fprintf(stderr, "rigor: %s\n", error.what());
+        return kBadInput;
+    } catch (const rigor::adapter::Unsupported& error) {
+        std::fprintf(stderr, "rigor: unsupported: %s\n", error.what());
+        return kUnsupported;
+    } catch (const std::invalid_argument& error) {
+        std::fprintf(stderr, "rigor: %s\n", error.what());
+        return kBadInput;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "rigor: internal error: %s\n", error.what());
+        return kInternal;
+    }
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "cli/progress.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cli/command.hpp"
+
+namespace rigor::cli {
+namespace {
+
+std::string clock(double seconds) {
+    const long total = std::lround(seconds);
+    char text[32];
+    std::snprintf(text, sizeof text, "%ld:%02ld", total / 60, total % 60);
+    return text;
+}
+
+constexpr int kBarWidth = 24;
+
+}  // namespace
+
+ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), live_(isTerminal(STDERR_FILENO)) {}
+
+ProgressLine::~ProgressLine() {
+    finish();
+}
+
+std::string ProgressLine::liveText(const validation::Progress& p) const {
+    const double share = p.total > 0 ? static_cast<double>(p.done) / static_cast<double>(p.total) : 1.0;
+    const int filled = static_cast<int>(share * kBarWidth);
+    std::string text = "[" + std::string(static_cast<std::size_t>(filled), '#') +
+                       std::string(static_cast<std::size_t>(kBarWidth - filled), '.') + "] " +
+                       std::to_string(p.done) + "/" + std::to_string(p.total);
+    if (p.failed > 0) text += "  " + std::to_string(p.failed) + " failed";
+    if (p.crashed > 0) text += "  " + std::to_string(p.crashed) + " crashed";
+    if (p.etaSeconds >= 0.0) text += "  ETA " + clock(p.etaSeconds);
+    if (!p.current.empty()) text += "  " + p.current;
+    const auto columns = static_cast<std::size_t>(std::max(20, terminalColumns(STDERR_FILENO) - 1));
+    if (text.size() > columns) text.resize(columns);
+    return text;
+}
+
+void ProgressLine::update(const validation::Progress& p) {
+    if (quiet_) return;
+    if (live_) {
+        std::fprintf(stderr, "\r\033[K%s", liveText(p).c_str());
+        std::fflush(stderr);
+        shown_ = true;
+    } else if (p.finished != nullptr) {
+        const auto& c = *p.finished;
+        std::fprintf(stderr, "[%lld/%lld] %s  %s  dt=%.6g  %s  %.2f s%s%s\n", static_cast<long long>(p.done),
+                     static_cast<long long>(p.total), c.scenario.c_str(), c.spec.c_str(), c.dt,
+                     results::verdictName(c.verdict), c.wallSeconds, c.reason.empty() ? "" : "  ",
+                     c.reason.c_str());
+    }
+}
+
+void ProgressLine::finish() {
+    if (shown_) std::fprintf(stderr, "\r\033[K");
+    shown_ = false;
+}
+
+}  // namespace rigor::cli

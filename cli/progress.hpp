@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#pragma once
+
+#include <string>
+
+#include "validation/runner/runner.hpp"
+
+namespace rigor::cli {
+
+/// A live line with counts and ETA on a terminal, one plain line per finished case elsewhere; both on stderr.
+class ProgressLine {
+  public:
+    explicit ProgressLine(bool quiet);
+    ~ProgressLine();
+    void update(const validation::Progress& progress);
+    /// Clears the live line, so that other text may follow.
+    void finish();
+
+  private:
+    std::string liveText(const validation::Progress& progress) const;
+    bool quiet_, live_, shown_ = false;
+};
+
+}  // namespace rigor::cli

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "validation/runner/runner.hpp"
+
+namespace rigor::cli {
+namespace {
+
+struct Arguments {
+    std::string scenario, engine = "rigor", timeStep, csv, log;
+    std::vector<std::string> overrides;
+    bool json = false;
+};
+
+/// The shortest text that reads back as the same double.
+std::string number(double value) {
+    char text[32];
+    const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+    return error == std::errc{} ? std::string(text, end) : "nan";
+}
+
+void writeCsvRows(std::ostream& out, double time, std::span<const validation::BodyState> states,
+                  const scenario::Scenario& s) {
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const auto& b = states[i];
+        out << number(time) << ',' << s.bodies[i].name;
+        for (double v : {b.position.x, b.position.y, b.position.z, b.orientation.w, b.orientation.x,
+                         b.orientation.y, b.orientation.z, b.velocity.x, b.velocity.y, b.velocity.z,
+                         b.angularVelocity.x, b.angularVelocity.y, b.angularVelocity.z})
+            out << ',' << number(v);
+        out << '\n';
+    }
+}
+
+void logContacts(std::ostream& out, double time, const std::vector<validation::ContactPoint>& contacts,
+                 const scenario::Scenario& s) {
+    for (const auto& c : contacts) {
+        char text[256];
+        const std::string impulse = c.hasImpulse ? " jn=" + number(c.normalImpulse) : "";
+        std::snprintf(text, sizeof text, " n=(%.6g,%.6g,%.6g) depth=%.6g", c.normal.x, c.normal.y, c.normal.z,
+                      c.depth);
+        out << "t=" << number(time) << " contact a=" << s.bodies[static_cast<std::size_t>(c.bodyA)].name
+            << " b=" << s.bodies[static_cast<std::size_t>(c.bodyB)].name << text << impulse << '\n';
+    }
+}
+
+void printCase(const results::CaseRow& row, bool json) {
+    if (json) {
+        nlohmann::ordered_json out{{"name", row.scenario},
+                                   {"spec", row.spec},
+                                   {"dt", row.dt},
+                                   {"outcome", results::outcomeName(row.outcome)},
+                                   {"verdict", results::verdictName(row.verdict)},
+                                   {"reason", row.reason},
+                                   {"steps", row.steps},
+                                   {"state_hash", row.stateHash},
+                                   {"metrics", nlohmann::json::array()},
+                                   {"quantities", nlohmann::json::array()}};
+        for (const auto& m : row.metrics)
+            out["metrics"].push_back({{"name", m.name},
+                                      {"subject", m.subject},
+                                      {"kind", m.kind},
+                                      {"value", m.value},
+                                      {"unit", m.unit},
+                                      {"verdict", results::verdictName(m.verdict)}});
+        for (const auto& q : row.quantities) {
+            out["quantities"].push_back({{"name", q.name}, {"unit", q.unit}, {"exact", q.exact}});
+            if (q.schemeExact) out["quantities"].back()["scheme_exact"] = *q.schemeExact;
+            if (q.measured) out["quantities"].back()["measured"] = *q.measured;
+        }
+        std::printf("%s\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+        return;
+    }
+    std::printf("%s  %s  dt=%s  %lld steps  %s%s%s\n", row.scenario.c_str(), row.spec.c_str(),
+                number(row.dt).c_str(), static_cast<long long>(row.steps), results::verdictName(row.verdict),
+                row.reason.empty() ? "" : ": ", row.reason.c_str());
+    for (const auto& m : row.metrics) {
+        if (!m.subject.empty()) continue;
+        std::printf("  %-26s %-13s %14.6g %-8s", m.name.c_str(), m.kind.c_str(), m.value, m.unit.c_str());
+        if (m.bound) std::printf("  bound %.4g  %s", *m.bound, results::verdictName(m.verdict));
+        std::printf("\n");
+    }
+    for (const auto& q : row.quantities) {
+        std::printf("  %-26s exact %.10g %s", q.name.c_str(), q.exact, q.unit.c_str());
+        if (q.measured)
+            std::printf(", measured %.10g", *q.measured);
+        else
+            std::printf(", did not happen");
+        std::printf("\n");
+    }
+}
+
+int runHere(const Arguments& a) {
+    const auto loaded = scenario::loadScenario(scenario::findScenario(a.scenario), a.overrides);
+    const auto& s = loaded.scenario;
+    const double dt = a.timeStep.empty() ? s.timeSteps.front() : parseTimeStep(a.timeStep);
+    std::ofstream csvFile;
+    std::ostream* csv = nullptr;
+    if (a.csv == "-")
+        csv = &std::cout;
+    else if (!a.csv.empty()) {
+        csvFile.open(a.csv);
+        if (!csvFile)
+            throw std::invalid_argument("--csv: cannot write '" + a.csv + "': " + std::strerror(errno));
+        csv = &csvFile;
+    }
+    if (csv != nullptr) *csv << "t,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n";
+    validation::LiveOptions options;
+    options.onStep = [&](double time, std::span<const validation::BodyState> states,
+                         const std::vector<validation::ContactPoint>& contacts) {
+        if (csv != nullptr) writeCsvRows(*csv, time, states, s);
+        if (!a.log.empty()) logContacts(std::cerr, time, contacts, s);
+    };
+    const auto live = validation::runInProcess(s, adapter::parseSpec(a.engine), dt, options);
+    if (csv != nullptr && !csv->flush())
+        throw std::runtime_error("--csv: could not write everything to '" + a.csv + "'");
+    if (a.csv != "-") printCase(live.row, a.json);
+    switch (live.row.verdict) {
+        case results::Verdict::Pass:
+        case results::Verdict::KnownDeviation:
+            return kOk;
+        case results::Verdict::Unsupported:
+            return kUnsupported;
+        default:
+            return kRed;
+    }
+}
+
+/// Libraries may abort: the run happens in a child, so that a crash ends in a sentence and an exit code.
+int runGuarded(const Arguments& arguments, const std::function<int()>& work) {
+    std::fflush(nullptr);
+    const pid_t child = fork();
+    if (child < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
+    if (child == 0) {
+        int code = kInternal;
+        try {
+            code = work();
+        } catch (const scenario::LoadError& error) {
+            printProblems(error, false);
+            code = kBadInput;
+        } catch (const adapter::Unsupported& error) {
+            std::fprintf(stderr, "rigor: unsupported: %s\n", error.what());
+            code = kUnsupported;
+        } catch (const std::logic_error& error) {
+            std::fprintf(stderr, "rigor: %s\n", error.what());
+            code = kBadInput;
+        } catch (const adapter::BadInput& error) {
+            std::fprintf(stderr, "rigor: %s\n", error.what());
+            code = kBadInput;
+        } catch (const std::exception& error) {
+            std::fprintf(stderr, "rigor: internal error: %s\n", error.what());
+        }
+        std::cout.flush();
+        std::fflush(nullptr);
+        _exit(code);
+    }
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (WIFEXITED(status)) return WEXITSTATUS(status);
+    const int signal = WTERMSIG(status);
+    if (signal == SIGINT) return kInterrupted;
+    std::fprintf(stderr, "rigor: %s crashed in %s: %s\n", arguments.engine.c_str(),
+                 arguments.scenario.c_str(), strsignal(signal));
+    return kCrashed;
+}
+
+}  // namespace
+
+void addRun(CLI::App& app, Action& action) {
+    auto a = std::make_shared<Arguments>();
+    auto* command = app.add_subcommand("run", "Run one case and print its metrics");
+    command->add_option("SCENARIO", a->scenario, "Name or file")->required();
+    command->add_option("-e,--engine", a->engine, "Engine spec (default: rigor)");
+    command->add_option("--dt", a->timeStep,
+                        "Time step in seconds (0.004 or 1/240); default: the scenario's first");
+    command
+        ->add_option("--set", a->overrides,
+                     "Override a scenario value: KEY=VALUE, e.g. bodies.block.velocity=[3.1,0,0.2]")
+        ->allow_extra_args(false);
+    command->add_option("--csv", a->csv,
+                        "Write every step of every body (t,body,px,...,wz); '-' for standard output");
+    command->add_option("--log", a->log, "Log events on standard error")->check(CLI::IsMember({"contacts"}));
+    command->add_flag("--json", a->json, "Print the result as JSON");
+    command->callback([a, &action] { action = [a] { return runGuarded(*a, [a] { return runHere(*a); }); }; });
+}
+
+}  // namespace rigor::cli

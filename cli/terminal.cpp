@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "cli/command.hpp"
+
+namespace rigor::cli {
+
+std::filesystem::path ownBinary() {
+    return std::filesystem::read_symlink("/proc/self/exe");
+}
+
+bool isTerminal(int fileDescriptor) {
+    return isatty(fileDescriptor) == 1;
+}
+
+bool wantsColour(int fileDescriptor) {
+    const char* noColour = std::getenv("NO_COLOR");
+    const char* term = std::getenv("TERM");
+    const bool refused =
+        (noColour != nullptr && *noColour != '\0') || (term != nullptr && std::string_view(term) == "dumb");
+    return isTerminal(fileDescriptor) && !refused;
+}
+
+int terminalColumns(int fileDescriptor) {
+    winsize size{};
+    if (ioctl(fileDescriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+    return 120;
+}
+
+double parseTimeStep(const std::string& text) {
+    const auto number = [&](std::string_view part) {
+        double value = 0.0;
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+        if (error != std::errc{} || end != part.data() + part.size() || !std::isfinite(value))
+            throw std::invalid_argument("--dt: found '" + text +
+                                        "', expected seconds such as 0.004 or 1/240");
+        return value;
+    };
+    const auto slash = text.find('/');
+    const std::string_view view = text;
+    const double dt = slash == std::string::npos
+                          ? number(view)
+                          : number(view.substr(0, slash)) / number(view.substr(slash + 1));
+    if (!(dt >= 1e-7 && dt <= 1.0))
+        throw std::invalid_argument("--dt: found '" + text + "', expected 1e-7 to 1 s");
+    return dt;
+}
+
+void printProblems(const scenario::LoadError& error, bool json) {
+    if (!json) {
+        for (const auto& problem : error.problems()) std::fprintf(stderr, "%s\n", problem.text().c_str());
+        return;
+    }
+    auto list = nlohmann::json::array();
+    for (const auto& p : error.problems())
+        list.push_back({{"id", p.id},
+                        {"file", p.file},
+                        {"pointer", p.pointer},
+                        {"line", p.line},
+                        {"found", p.found},
+                        {"expected", p.expected}});
+    std::printf("%s\n", list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+}
+
+}  // namespace rigor::cli

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <unistd.h>
+#include <csignal>
+#include <ctime>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/command.hpp"
+#include "cli/progress.hpp"
+#include "reports/report.hpp"
+#include "validation/runner/runner.hpp"
+
+namespace rigor::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::vector<std::string> what, overrides, timeSteps;
+    std::string engines, out;
+    int jobs = 0;
+    bool resume = false, noAudit = false, json = false, quiet = false;
+    std::string command;
+};
+
+constexpr const char* kDefaultSuite = "standard";
+
+std::atomic<bool> interrupted{false};
+extern "C" void onInterrupt(int) {
+    interrupted = true;
+}
+
+/// What the positional arguments name, flattened: scenarios with their text, the engines and steps a suite
+/// asks for.
+struct Selection {
+    std::vector<std::pair<scenario::Scenario, std::string>> scenarios;
+    std::vector<std::string> engines;
+    std::vector<double> timeSteps;
+    std::string title;
+};
+
+void addScenario(Selection& selection, const std::string& name, const std::vector<std::string>& overrides,
+                 int maxTimeSteps) {
+    auto loaded = scenario::loadScenario(scenario::findScenario(name), overrides);
+    for (const auto& present : selection.scenarios)
+        if (present.first.name == loaded.scenario.name) return;
+    if (maxTimeSteps > 0 && loaded.scenario.timeSteps.size() > static_cast<std::size_t>(maxTimeSteps))
+        loaded.scenario.timeSteps.resize(static_cast<std::size_t>(maxTimeSteps));
+    selection.scenarios.emplace_back(std::move(loaded.scenario), std::move(loaded.text));
+}
+
+bool isSuite(const std::string& name) {
+    for (const auto& suite : scenario::listSuites())
+        if (suite.name == name || suite.file == name) return true;
+    return false;
+}
+
+Selection select(const Arguments& arguments) {
+    Selection selection;
+    for (const auto& name : arguments.what) {
+        selection.title += (selection.title.empty() ? "" : " ") + fs::path(name).stem().string();
+        if (!isSuite(name)) {
+            addScenario(selection, name, arguments.overrides, 0);
+            continue;
+        }
+        const auto suite = scenario::loadSuite(scenario::findSuite(name));
+        for (const auto& scenarioName : suite.scenarios)
+            addScenario(selection, scenarioName, arguments.overrides, suite.maxTimeSteps);
+        selection.engines.insert(selection.engines.end(), suite.engines.begin(), suite.engines.end());
+        selection.timeSteps.insert(selection.timeSteps.end(), suite.timeSteps.begin(), suite.timeSteps.end());
+    }
+    return selection;
+}
+
+/// Every installed engine that can step a world.
+std::vector<adapter::EngineSpec> allDynamicEngines() {
+    std::vector<adapter::EngineSpec> specs;
+    for (const auto& name : adapter::availableEngines()) {
+        const auto description = validation::describeEngine(name, ownBinary());
+        if (!description.problem.empty())
+            std::fprintf(stderr, "rigor: engine %s left out: %s\n", name.c_str(),
+                         description.problem.c_str());
+        else if (description.capabilities.dynamics)
+            specs.push_back({name, {}});
+    }
+    return specs;
+}
+
+std::vector<adapter::EngineSpec> chooseEngines(const Arguments& arguments, const Selection& selection) {
+    std::vector<adapter::EngineSpec> specs;
+    if (!arguments.engines.empty())
+        specs = adapter::parseSpecList(arguments.engines);
+    else if (!selection.engines.empty())
+        for (const auto& text : selection.engines) specs.push_back(adapter::parseSpec(text));
+    else
+        specs = allDynamicEngines();
+    for (const auto& spec : specs)
+        (void)adapter::moduleFor(spec);  // an engine that is not installed is said now
+    return specs;
+}
+
+/// runs/<suite>-<UTC time>, or the latest of them to resume.
+fs::path chooseDirectory(const Arguments& arguments, const std::string& title) {
+    if (!arguments.out.empty()) return arguments.out;
+    const fs::path runs = "runs";
+    if (arguments.resume) {
+        if (!fs::exists(runs / "latest"))
+            throw std::invalid_argument("--resume: there is no runs/latest; name the run with --out");
+        return fs::canonical(runs / "latest");
+    }
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char stamp[32];
+    std::strftime(stamp, sizeof stamp, "%Y%m%d-%H%M%S", &utc);
+    std::string name = title;
+    for (char& c : name)
+        if (c == ' ' || c == '/') c = '+';
+    fs::create_directories(runs);
+    const fs::path directory = runs / (name.substr(0, 60) + "-" + stamp);
+    std::error_code ignored;
+    fs::remove(runs / "latest", ignored);
+    fs::create_directory_symlink(directory.filename(), runs / "latest", ignored);
+    return directory;
+}
+
+nlohmann::ordered_json caseJson(const results::CaseRow& c) {
+    nlohmann::ordered_json metrics = nlohmann::ordered_json::array();
+    for (const auto& m : c.metrics) {
+        metrics.push_back({{"name", m.name},
+                           {"subject", m.subject},
+                           {"kind", m.kind},
+                           {"value", m.value},
+                           {"unit", m.unit}});
+        if (m.bound) metrics.back()["bound"] = *m.bound;
+        metrics.back()["verdict"] = results::verdictName(m.verdict);
+    }
+    return {{"name", c.scenario},
+            {"id", c.id},
+            {"spec", c.spec},
+            {"dt", c.dt},
+            {"outcome", results::outcomeName(c.outcome)},
+            {"verdict", results::verdictName(c.verdict)},
+            {"reason", c.reason},
+            {"command", c.command},
+            {"metrics", metrics}};
+}
+
+void printResult(const results::Run& run, const fs::path& directory, bool json) {
+    if (json) {
+        nlohmann::ordered_json out{{"run", directory.string()},
+                                   {"green", validation::runIsGreen(run)},
+                                   {"cases", nlohmann::json::array()}};
+        for (const auto& c : run.cases) out["cases"].push_back(caseJson(c));
+        std::printf("%s\n", out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+        return;
+    }
+    std::printf(
+        "%s\n",
+        report::terminalSummary(run, 40, terminalColumns(STDOUT_FILENO), wantsColour(STDOUT_FILENO)).c_str());
+    std::printf("Report: %s\n", (directory / "index.html").string().c_str());
+}
+
+int validate(const Arguments& given) {
+    Arguments arguments = given;
+    if (arguments.what.empty()) arguments.what = {kDefaultSuite};
+    const Selection selection = select(arguments);
+    const auto specs = chooseEngines(arguments, selection);
+    std::vector<double> timeSteps = selection.timeSteps;
+    if (!arguments.timeSteps.empty()) timeSteps.clear();
+    for (const auto& text : arguments.timeSteps) timeSteps.push_back(parseTimeStep(text));
+
+    validation::RunOptions options;
+    options.directory = chooseDirectory(arguments, selection.title);
+    options.binary = ownBinary();
+    options.jobs = arguments.jobs > 0 ? arguments.jobs : 1;
+    options.resume = arguments.resume;
+    options.audit = !arguments.noAudit;
+    options.suite = selection.title;
+    options.command = arguments.command;
+
+    const auto plan = validation::planCases(selection.scenarios, specs, timeSteps);
+    std::signal(SIGINT, onInterrupt);
+    std::signal(SIGTERM, onInterrupt);
+    ProgressLine line(arguments.quiet);
+    const auto run = validation::runCases(
+        plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
+    line.finish();
+    if (interrupted) {
+        std::fprintf(stderr, "Interrupted: %zu of %lld cases are stored. Go on with: %s --resume --out %s\n",
+                     run.cases.size(), static_cast<long long>(run.plannedCases), "rigor validate ...",
+                     options.directory.string().c_str());
+        return kInterrupted;
+    }
+    report::writeReports(options.directory);
+    printResult(run, options.directory, arguments.json);
+    return validation::runIsGreen(run) ? kOk : kRed;
+}
+
+}  // namespace
+
+void addValidate(CLI::App& app, Action& action) {
+    auto a = std::make_shared<Arguments>();
+    auto* command = app.add_subcommand(
+        "validate", "Run scenarios on engines, compare with the references, write the report");
+    command->add_option("WHAT", a->what,
+                        "Suites or scenarios (names or files); default: the suite 'standard'");
+    command->add_option("--engines", a->engines,
+                        "Engine specs, comma separated; default: all installed, both presets");
+    command
+        ->add_option("--dt", a->timeSteps,
+                     "Time steps in seconds (0.004 or 1/240) instead of the scenarios' own")
+        ->delimiter(',');
+    command->add_option("--set", a->overrides, "Override a scenario value: KEY=VALUE")
+        ->allow_extra_args(false);
+    command->add_option("-j,--jobs", a->jobs, "Cases at a time (default 1: timings are taken alone)")
+        ->check(CLI::Range(1, 1024));
+    command->add_option("--out", a->out, "Run folder (default: runs/<suite>-<time>)");
+    command->add_flag("--resume", a->resume, "Go on with an interrupted run (--out, or the latest)");
+    command->add_flag("--no-audit", a->noAudit, "Leave out the contact audit");
+    command->add_flag("--json", a->json, "Print the results as JSON");
+    command->add_flag("-q,--quiet", a->quiet, "No progress");
+    command->callback([a, &action] { action = [a] { return validate(*a); }; });
+}
+
+}  // namespace rigor::cli
