@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Who may include whom. The layers are a table; every #include "..." of the tree is held against it.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <regex>
+
+#include "validation/hygiene/tests/source_tree.hpp"
+
+namespace rigor::hygiene {
+namespace {
+
+struct Rule {
+    std::string folder;                ///< of the including file; the longest match counts
+    std::vector<std::string> allowed;  ///< prefixes of the paths it may include, besides its own folder
+};
+
+const std::vector<Rule>& rules() {
+    static const std::vector<Rule> table{
+        {"engine/core", {}},
+        {"engine/math", {"engine/core"}},
+        {"engine/shapes", {"engine/core", "engine/math"}},
+        {"engine/state", {"engine/core", "engine/math", "engine/shapes"}},
+        {"engine/broadphase", {"engine/core", "engine/math"}},
+        {"engine/narrowphase", {"engine/core", "engine/math", "engine/shapes"}},
+        {"engine/constraints",
+         {"engine/core", "engine/math", "engine/state", "engine/narrowphase/manifold.hpp"}},
+        {"engine/solvers", {"engine/core", "engine/math", "engine/state", "engine/constraints/row.hpp"}},
+        {"engine/integrators", {"engine/core", "engine/math", "engine/state"}},
+        {"engine/pipeline", {"engine/"}},
+        {"engine", {"engine/"}},
+        {"scenarios", {"scenarios/"}},
+        {"adapters/interface", {"scenarios/model/"}},
+        {"adapters/conformance", {"adapters/interface/", "scenarios/"}},
+        {"adapters/rigor", {"adapters/interface/", "scenarios/model/", "engine/"}},
+        {"adapters", {"adapters/interface/", "scenarios/model/"}},
+        {"validation/references",
+         {"scenarios/model/", "validation/trajectory.hpp", "adapters/interface/types.hpp"}},
+        {"validation/oracle", {"scenarios/model/"}},
+        {"validation/results", {}},
+        {"validation", {"validation/", "adapters/interface/", "scenarios/"}},
+        {"reports", {"validation/results/"}},
+        {"cli", {"cli/", "engine/", "adapters/interface/", "scenarios/", "validation/", "reports/"}}};
+    return table;
+}
+
+const Rule* ruleFor(const std::string& file) {
+    const Rule* best = nullptr;
+    for (const Rule& rule : rules())
+        if (file.starts_with(rule.folder + "/") &&
+            (best == nullptr || rule.folder.size() > best->folder.size()))
+            best = &rule;
+    return best;
+}
+
+/// Tests may also include what they compare with: their rule is that of their folder plus the tests' own
+/// needs.
+bool isTest(const std::string& file) {
+    return file.find("/tests/") != std::string::npos || file.find("/benchmarks/") != std::string::npos;
+}
+
+/// The folder a file may always include from: its rule's, and for adapters that of the one engine.
+std::string ownFolder(const Rule& rule, const std::string& file) {
+    if (rule.folder != "adapters") return rule.folder + "/";
+    return file.substr(0, file.find('/', rule.folder.size() + 1) + 1);
+}
+
+bool isAllowed(const Rule& rule, const std::string& file, const std::string& included) {
+    if (included.starts_with(ownFolder(rule, file))) return true;
+    const std::string top = file.substr(0, file.find('/') + 1);
+    if (isTest(file) && included.starts_with(top)) return true;
+    if (isTest(file) && file.starts_with("adapters/") && included.starts_with("validation/oracle/"))
+        return true;
+    for (const auto& prefix : rule.allowed)
+        if (included.starts_with(prefix)) return true;
+    return false;
+}
+
+std::vector<std::string> includesOf(const std::string& text) {
+    static const std::regex pattern(R"(^[ \t]*#[ \t]*include[ \t]+"([^"]+)\")", std::regex::multiline);
+    std::vector<std::string> found;
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), pattern); it != std::sregex_iterator();
+         ++it)
+        found.push_back((*it)[1]);
+    return found;
+}
+
+TEST(IncludeRule, EveryIncludeRespectsTheLayers) {
+    std::size_t checked = 0;
+    for (const auto& file : sourceFiles({".hpp", ".cpp", ".def"})) {
+        const Rule* rule = ruleFor(file);
+        ASSERT_NE(rule, nullptr) << file << " is in no known folder";
+        for (const auto& included : includesOf(readFile(file))) {
+            ++checked;
+            EXPECT_TRUE(isAllowed(*rule, file, included))
+                << file << " may not include \"" << included << "\"";
+        }
+    }
+    EXPECT_GT(checked, 100u);
+}
+
+TEST(IncludeRule, TheRuleItselfRefuses) {
+    const auto refused = [](const std::string& file, const std::string& included) {
+        return !isAllowed(*ruleFor(file), file, included);
+    };
+    EXPECT_TRUE(refused("engine/solvers/pgs.cpp", "engine/shapes/shape.hpp"));
+    EXPECT_TRUE(refused("engine/pipeline/world.cpp", "scenarios/model/scenario.hpp"));
+    EXPECT_TRUE(refused("adapters/bullet/world.cpp", "engine/math/space.hpp"));
+    EXPECT_TRUE(refused("adapters/bullet/world.cpp", "adapters/ode/world.hpp"));
+    EXPECT_TRUE(refused("validation/references/free_flight.cpp", "engine/math/space.hpp"));
+    EXPECT_TRUE(refused("reports/html.cpp", "validation/runner/runner.hpp"));
+    EXPECT_TRUE(refused("scenarios/loader/loader.cpp", "adapters/interface/types.hpp"));
+    EXPECT_FALSE(refused("adapters/rigor/world.cpp", "engine/math/space.hpp"));
+}
+
+/// Eigen has one door; engine libraries stay in their adapter's folder.
+TEST(IncludeRule, ThirdPartyHeadersStayInTheirRooms) {
+    const std::vector<std::pair<std::regex, std::vector<std::string>>> rooms{
+        {std::regex(R"(#include\s*<Eigen/)"),
+         {"engine/math/", "engine/shapes/", "engine/narrowphase/", "adapters/fcl/"}},
+        {std::regex(R"(#include\s*<(bullet/|bt[A-Z]|Bullet|LinearMath))"), {"adapters/bullet/"}},
+        {std::regex(R"(#include\s*<ode/)"), {"adapters/ode/"}},
+        {std::regex(R"(#include\s*<box2d/)"), {"adapters/box2d/"}},
+        {std::regex(R"(#include\s*<fcl/)"), {"adapters/fcl/"}},
+        {std::regex(R"(#include\s*<(SQLiteCpp/|sqlite3|hdf5))"), {"validation/results/"}},
+        {std::regex(R"(#include\s*<valijson/)"), {"scenarios/loader/"}},
+        {std::regex(R"(#include\s*<CLI/)"), {"cli/"}}};
+    for (const auto& file : sourceFiles({".hpp", ".cpp"})) {
+        const std::string text = readFile(file);
+        for (const auto& [pattern, folders] : rooms) {
+            if (!std::regex_search(text, pattern)) continue;
+            bool home = file.starts_with("validation/hygiene/");
+            for (const auto& folder : folders) home = home || file.starts_with(folder);
+            EXPECT_TRUE(home) << file << " includes a library's header outside its room (expected in "
+                              << folders.front() << ")";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rigor::hygiene

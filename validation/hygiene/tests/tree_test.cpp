@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The repository's own rules: licence lines, size of files, folders' READMEs, links and words that do not
+// belong.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "validation/hygiene/tests/source_tree.hpp"
+
+namespace rigor::hygiene {
+namespace {
+
+TEST(Tree, EverySourceFileStartsWithTheLicenceLines) {
+    for (const auto& file :
+         sourceFiles({".hpp", ".cpp", ".def", ".cmake", "CMakeLists.txt", ".js", ".css"})) {
+        const std::string head = readFile(file).substr(0, 300);
+        EXPECT_NE(head.find("SPDX-License-Identifier: MIT"), std::string::npos) << file;
+        EXPECT_NE(head.find("SPDX-FileCopyrightText: 2026 The Rigor authors"), std::string::npos) << file;
+    }
+}
+
+TEST(Tree, FilesAreSmallRooms) {
+    constexpr std::ptrdiff_t kMost = 700;
+    for (const auto& file : sourceFiles({".hpp", ".cpp"})) {
+        const std::string text = readFile(file);
+        EXPECT_LE(std::count(text.begin(), text.end(), '\n'), kMost) << file;
+    }
+}
+
+TEST(Tree, EveryFolderHasAReadme) {
+    for (const char* folder :
+         {"engine", "adapters", "scenarios", "validation", "reports", "cli", "adapters/rigor",
+          "adapters/bullet", "adapters/box2d", "adapters/ode", "adapters/fcl", "adapters/conformance",
+          "validation/references", "validation/metrics", "validation/results", "validation/runner"})
+        EXPECT_TRUE(exists(std::string(folder) + "/README.md")) << folder;
+}
+
+/// Relative links and back-quoted paths of the documentation lead somewhere.
+TEST(Tree, DocumentationNamesOnlyWhatExists) {
+    const std::regex link(R"(\]\(([^)#:]+)\))");
+    for (const auto& file : sourceFiles({".md"})) {
+        const std::string text = readFile(file);
+        const std::string folder =
+            file.find('/') == std::string::npos ? "" : file.substr(0, file.rfind('/') + 1);
+        for (auto it = std::sregex_iterator(text.begin(), text.end(), link); it != std::sregex_iterator();
+             ++it)
+            EXPECT_TRUE(exists(folder + (*it)[1].str())) << file << " links to " << (*it)[1].str();
+    }
+}
+
+TEST(Tree, NoUnfinishedWordsAndNoMachinePaths) {
+    const std::regex forbidden(R"((\bTODO\b|\bFIXME\b|\bXXX\b|/home/|/work/|/tmp/build))");
+    for (const auto& file :
+         sourceFiles({".hpp", ".cpp", ".md", ".json", ".cmake", "CMakeLists.txt", ".js", ".css", "rigor"})) {
+        if (file.starts_with("validation/hygiene/")) continue;
+        std::smatch match;
+        const std::string text = readFile(file);
+        EXPECT_FALSE(std::regex_search(text, match, forbidden)) << file << ": " << match.str();
+    }
+}
+
+/// Standard-library random engines are portable, its distributions are not: scenario generators must not use
+/// them.
+TEST(Tree, GeneratorsArePortable) {
+    const std::regex distribution(R"(std::(uniform_real|uniform_int|normal)_distribution)");
+    for (const auto& file : sourceFiles({".cpp", ".hpp"})) {
+        if (!file.starts_with("scenarios/generators/")) continue;
+        EXPECT_FALSE(std::regex_search(readFile(file), distribution)) << file;
+    }
+}
+
+}  // namespace
+}  // namespace rigor::hygiene
