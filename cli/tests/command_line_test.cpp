@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The program as a user meets it: exit codes, messages, JSON, CSV.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+namespace {
+
+struct Result {
+    int code = -1;
+    std::string out;  ///< standard output and error together unless `only stdout` was asked for
+};
+
+Result rigor(const std::string& arguments, bool withErrors = true) {
+    const std::string command =
+        std::string(RIGOR_BINARY_DIR) + "/bin/rigor " + arguments + (withErrors ? " 2>&1" : " 2>/dev/null");
+    FILE* pipe = popen(command.c_str(), "r");
+    Result result;
+    std::array<char, 4096> buffer;
+    while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
+        result.out.append(buffer.data(), n);
+    const int status = pclose(pipe);
+    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return result;
+}
+
+nlohmann::json rigorJson(const std::string& arguments) {
+    const Result result = rigor(arguments, false);
+    EXPECT_EQ(result.code, 0) << arguments << "\n" << result.out;
+    return nlohmann::json::parse(result.out);
+}
+
+/// A projectile in a tilted, weak gravity: the closed form is computed here, from these numbers.
+std::filesystem::path writeProjectile() {
+    const auto file = std::filesystem::path(testing::TempDir()) / "projectile.json";
+    std::ofstream(file) << R"({"rigor": 1, "name": "projectile", "title": "A thrown ball", "dimension": 3,
+        "isolates": ["integrator"], "source": "Galilei 1638", "gravity": [0.5, -3.7, 0.25], "duration": 1.0, "dt": [0.01],
+        "materials": {"steel": {"friction": 0.1, "restitution": 0.5}},
+        "bodies": [{"name": "ball", "mass": 2.0, "position": [1, 2, 3], "velocity": [4, 5, -6],
+                    "shapes": [{"sphere": {"radius": 0.1}, "material": "steel"}]}],
+        "observe": ["ball"], "reference": {"free_flight": {"body": "ball"}}, "metrics": ["position_final"],
+        "accept": {"*": {"position_final": 0.1}}})";
+    return file;
+}
+
+TEST(CommandLine, ListsEnginesWithVersionAndPrecision) {
+    const auto engines = rigorJson("list engines --json");
+    std::set<std::string> names;
+    for (const auto& engine : engines) {
+        names.insert(engine.at("name").get<std::string>());
+        EXPECT_FALSE(engine.at("version").get<std::string>().empty()) << engine.at("name");
+        EXPECT_TRUE(engine.at("precision") == "f32" || engine.at("precision") == "f64") << engine.at("name");
+    }
+    EXPECT_EQ(names, (std::set<std::string>{"box2d", "bullet", "fcl", "ode", "rigor"}));
+}
+
+TEST(CommandLine, EveryListIsAnArrayOfNamedObjects) {
+    for (const char* what : {"engines", "scenarios", "suites", "algorithms", "metrics", "references"}) {
+        const auto list = rigorJson(std::string("list ") + what + " --json");
+        ASSERT_TRUE(list.is_array()) << what;
+        EXPECT_FALSE(list.empty()) << what;
+        for (const auto& entry : list) EXPECT_TRUE(entry.at("name").is_string()) << what;
+    }
+    EXPECT_GE(rigorJson("list scenarios --json").size(), 20u);
+}
+
+TEST(CommandLine, ExitCodes) {
+    EXPECT_EQ(rigor("--help").code, 0);
+    EXPECT_EQ(rigor("--version").code, 0);
+    EXPECT_EQ(rigor("").code, 2);
+    EXPECT_EQ(rigor("frobnicate").code, 2);
+    EXPECT_EQ(rigor("run no_such_scenario").code, 2);
+    EXPECT_EQ(rigor("validate smoke --engines no_such_engine").code, 2);
+    const auto file = writeProjectile().string();
+    EXPECT_EQ(rigor("check " + file).code, 0);
+    EXPECT_EQ(rigor("run " + file + " --engine rigor").code, 0);
+    EXPECT_EQ(rigor("run " + file + " --engine rigor --dt -1").code, 2);
+    EXPECT_EQ(rigor("run " + file + " --engine rigor:no_such_key=1").code, 2);
+    EXPECT_EQ(rigor("run " + file + " --engine box2d").code, 4) << "3D in a 2D engine";
+    EXPECT_EQ(rigor("run " + file + " --set bodies.ball.mass=0").code, 2);
+}
+
+TEST(CommandLine, MessagesNameFileAndPointer) {
+    const auto file = std::filesystem::path(testing::TempDir()) / "broken.json";
+    std::ofstream(file) << "{\"rigor\": 1,\n \"name\": 7}";
+    const Result result = rigor("check " + file.string());
+    EXPECT_EQ(result.code, 2);
+    EXPECT_NE(result.out.find("broken.json:2"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("/name"), std::string::npos) << result.out;
+}
+
+/// Every engine's CSV, against the closed form of its scheme (all five use symplectic Euler: x_n = x0 + v0 t
+/// + g t (t + h) / 2).
+TEST(CommandLine, CsvHoldsTheTrajectory) {
+    const auto file = writeProjectile().string();
+    for (const std::string engine : {"rigor", "bullet", "ode"}) {
+        const Result result = rigor("run " + file + " --engine " + engine + " --dt 0.02 --csv -", false);
+        ASSERT_EQ(result.code, 0) << engine;
+        std::istringstream lines(result.out);
+        std::string line, last;
+        std::getline(lines, line);
+        EXPECT_EQ(line, "t,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
+        int rows = 0;
+        while (std::getline(lines, line)) last = line, ++rows;
+        EXPECT_EQ(rows, 51) << engine << ": the initial state and 50 steps";
+        std::vector<std::string> cells;
+        std::istringstream row(last);
+        while (std::getline(row, line, ',')) cells.push_back(line);
+        ASSERT_EQ(cells.size(), 15u);
+        const double t = 1.0, h = 0.02, x0[3] = {1, 2, 3}, v0[3] = {4, 5, -6}, g[3] = {0.5, -3.7, 0.25};
+        EXPECT_NEAR(std::stod(cells[0]), t, 1e-12);
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_NEAR(std::stod(cells[2 + i]), x0[i] + v0[i] * t + 0.5 * g[i] * t * (t + h), 1e-10)
+                << engine << " axis " << i;
+            EXPECT_NEAR(std::stod(cells[9 + i]), v0[i] + g[i] * t, 1e-10) << engine << " axis " << i;
+        }
+    }
+}
+
+TEST(CommandLine, OverridesChangeSimulationAndReferenceAlike) {
+    const auto file = writeProjectile().string();
+    const auto json = rigorJson(
+        "run " + file + " --dt 0.01 --set bodies.ball.velocity=[1,0,0] --set gravity=[0,-2,0] --json");
+    double error = -1.0;
+    for (const auto& metric : json.at("metrics"))
+        if (metric.at("name") == "position_final" && metric.at("subject") == "")
+            error = metric.at("value").get<double>();
+    EXPECT_NEAR(error, 0.5 * 2.0 * 0.01 * 1.0, 1e-9) << "symplectic Euler is off by g h t / 2";
+}
+
+TEST(CommandLine, ContactLogNamesBodies) {
+    const Result result = rigor("run bounce_3d --engine rigor --log contacts");
+    EXPECT_EQ(result.code, 0) << result.out;
+    EXPECT_NE(result.out.find("contact a="), std::string::npos);
+    EXPECT_NE(result.out.find(" b="), std::string::npos);
+    EXPECT_NE(result.out.find("depth="), std::string::npos);
+}
+
+}  // namespace
