@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Support mappings and bounding boxes, the same formulas in both dimensions.
+#include "engine/shapes/shape.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "engine/shapes/hull.hpp"
+
+namespace rigor::engine {
+namespace {
+
+template <class S>
+typename S::Vec unitOr(const typename S::Vec& v) {
+    const typename S::Real n = v.norm();
+    return n > 0 ? typename S::Vec(v / n) : typename S::Vec(S::Vec::UnitY());
+}
+
+template <class S>
+typename S::Vec supportOf(const Sphere<S>& s, const typename S::Vec& d) {
+    return s.radius * unitOr<S>(d);
+}
+template <class S>
+typename S::Vec supportOf(const Box<S>& s, const typename S::Vec& d) {
+    typename S::Vec p;
+    for (int i = 0; i < S::dim; ++i) p[i] = d[i] < 0 ? -s.halfExtents[i] : s.halfExtents[i];
+    return p;
+}
+template <class S>
+typename S::Vec supportOf(const Capsule<S>& s, const typename S::Vec& d) {
+    typename S::Vec p = s.radius * unitOr<S>(d);
+    p.y() += d.y() < 0 ? -s.halfLength : s.halfLength;
+    return p;
+}
+template <class S>
+typename S::Vec supportOf(const HalfSpace<S>& s, const typename S::Vec&) {
+    return s.offset * s.normal;
+}
+template <class S>
+typename S::Vec supportOf(const Hull<S>& s, const typename S::Vec& d) {
+    const auto& v = s.data->vertices;
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < v.size(); ++i)
+        if (v[i].dot(d) > v[best].dot(d)) best = i;
+    return v[best];
+}
+
+template <class S>
+Aabb<S> boxOf(const Sphere<S>& s, const Pose<S>& X) {
+    const typename S::Vec r = S::Vec::Constant(s.radius);
+    return {X.p - r, X.p + r};
+}
+template <class S>
+Aabb<S> boxOf(const Box<S>& s, const Pose<S>& X) {
+    const typename S::Mat m = toMatrix(X.q);
+    const typename S::Vec r = m.cwiseAbs() * s.halfExtents;
+    return {X.p - r, X.p + r};
+}
+template <class S>
+Aabb<S> boxOf(const Capsule<S>& s, const Pose<S>& X) {
+    const typename S::Vec axis = rotate(X.q, typename S::Vec(s.halfLength * S::Vec::UnitY()));
+    const typename S::Vec r = axis.cwiseAbs() + S::Vec::Constant(s.radius);
+    return {X.p - r, X.p + r};
+}
+/// Unbounded but along an axis that the normal is exactly parallel to.
+template <class S>
+Aabb<S> boxOf(const HalfSpace<S>& s, const Pose<S>& X) {
+    using R = typename S::Real;
+    const R infinite = std::numeric_limits<R>::max();
+    Aabb<S> box{S::Vec::Constant(-infinite), S::Vec::Constant(infinite)};
+    const typename S::Vec n = rotate(X.q, s.normal);
+    const R offset = s.offset + n.dot(X.p);
+    for (int i = 0; i < S::dim; ++i) {
+        if (n[i] == R(1)) box.max[i] = offset;
+        if (n[i] == R(-1)) box.min[i] = -offset;
+    }
+    return box;
+}
+template <class S>
+Aabb<S> boxOf(const Hull<S>& s, const Pose<S>& X) {
+    const typename S::Mat m = toMatrix(X.q);
+    Aabb<S> box;
+    bool first = true;
+    for (const typename S::Vec& v : s.data->vertices) {
+        const typename S::Vec p = m * v;
+        box.min = first ? p : typename S::Vec(box.min.cwiseMin(p));
+        box.max = first ? p : typename S::Vec(box.max.cwiseMax(p));
+        first = false;
+    }
+    return {box.min + X.p, box.max + X.p};
+}
+
+}  // namespace
+
+template <class S>
+Hull<S> makeHull(std::span<const typename S::Vec> points) {
+    return {std::make_shared<const HullData<S>>(buildHull<typename S::Real>(points))};
+}
+
+template <class S>
+Aabb<S> boundingBox(const Shape<S>& shape, const Pose<S>& X) {
+    return std::visit([&](const auto& s) { return boxOf<S>(s, X); }, shape);
+}
+
+template <class S>
+typename S::Vec support(const Shape<S>& shape, const typename S::Vec& direction) {
+    return std::visit([&](const auto& s) { return supportOf<S>(s, direction); }, shape);
+}
+
+#define INSTANTIATE(S)                                                \
+    template Hull<S> makeHull<S>(std::span<const typename S::Vec>);   \
+    template Aabb<S> boundingBox<S>(const Shape<S>&, const Pose<S>&); \
+    template S::Vec support<S>(const Shape<S>&, const S::Vec&);
+INSTANTIATE(Space2f)
+INSTANTIATE(Space2d)
+INSTANTIATE(Space3f)
+INSTANTIATE(Space3d)
+#undef INSTANTIATE
+
+}  // namespace rigor::engine
