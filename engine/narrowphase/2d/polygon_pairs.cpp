@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Convex polygons and capsules of the plane against each other: separating axes over edge normals, then the
+// incident edge clipped to the reference edge [Ericson2005, ch. 5.2; Gregorius2013].
+//
+// A capsule is a polygon of two vertices (both edge normals of its segment) with a rounding radius. For
+// overlapping cores the edge normals are all facet normals of the Minkowski difference, so the best of them
+// is the exact penetration. For separated cores with a rounding radius the closest pair of features gives
+// the exact distance and normal; it always has a vertex. Sharp polygons apart keep the best edge normal: a
+// separating axis whose separation bounds the distance from below, without the jumps of corner normals.
+// Cost O(n m) per pair.
+#include "engine/narrowphase/detail.hpp"
+#include "engine/narrowphase/pairs.hpp"
+
+namespace rigor::engine {
+namespace {
+
+template <class R>
+struct Polygon {
+    const Vec2<R>* vertices;
+    const Vec2<R>* normals;
+    int count;
+    R radius;
+    const Vec2<R>& vertex(int i) const { return vertices[i % count]; }
+};
+
+template <class R>
+struct Storage {
+    std::array<Vec2<R>, 4> vertices, normals;
+};
+
+template <class R>
+Polygon<R> view(const Box<Space<R, 2>>& s, Storage<R>& store) {
+    const R x = s.halfExtents.x(), y = s.halfExtents.y();
+    store.vertices = {Vec2<R>(-x, -y), Vec2<R>(x, -y), Vec2<R>(x, y), Vec2<R>(-x, y)};
+    store.normals = {Vec2<R>(0, -1), Vec2<R>(1, 0), Vec2<R>(0, 1), Vec2<R>(-1, 0)};
+    return {store.vertices.data(), store.normals.data(), 4, R(0)};
+}
+template <class R>
+Polygon<R> view(const Capsule<Space<R, 2>>& s, Storage<R>& store) {
+    store.vertices[0] = {0, -s.halfLength};
+    store.vertices[1] = {0, s.halfLength};
+    store.normals[0] = {1, 0};
+    store.normals[1] = {-1, 0};
+    return {store.vertices.data(), store.normals.data(), 2, s.radius};
+}
+template <class R>
+Polygon<R> view(const Hull<Space<R, 2>>& s, Storage<R>&) {
+    const auto& d = *s.data;
+    return {d.vertices.data(), d.normals.data(), static_cast<int>(d.vertices.size()), R(0)};
+}
+
+template <class R>
+R sizeOf(const Polygon<R>& p) {
+    R size = p.radius;
+    for (int i = 0; i < p.count; ++i) size = std::max(size, p.vertices[i].cwiseAbs().maxCoeff());
+    return size;
+}
+
+template <class R>
+struct EdgeAxis {
+    int edge = 0;
+    R separation = -std::numeric_limits<R>::max();
+};
+
+/// The edge of `a` whose outward normal separates the cores most; `X` is the pose of b in the frame of a.
+template <class R>
+EdgeAxis<R> bestEdge(const Polygon<R>& a, const Polygon<R>& b, const Pose<Space<R, 2>>& X, R tolerance) {
+    EdgeAxis<R> best;
+    for (int i = 0; i < a.count; ++i) {
+        const Vec2<R> n = rotateInverse<R>(X.q, a.normals[i]);
+        const R base = a.normals[i].dot(X.p - a.vertices[i]);
+        R s = std::numeric_limits<R>::max();
+        for (int j = 0; j < b.count; ++j) s = std::min(s, base + n.dot(b.vertices[j]));
+        // An edge must be better by more than rounding, or opposite edges would take turns.
+        if (i == 0 || s > best.separation + tolerance) best = {i, s};
+    }
+    return best;
+}
+
+template <class R>
+struct Closest {
+    R squared = std::numeric_limits<R>::max();
+    int vertex = 0, edge = 0;
+    int corner = -1;  ///< the vertex of the edge that is nearest, -1: its interior
+    bool vertexOnB = true;
+};
+
+/// Vertices of q (posed by X in the frame of p) against edges of p.
+template <class R>
+void closestVertex(const Polygon<R>& p, const Polygon<R>& q, const Pose<Space<R, 2>>& X, bool vertexOnB,
+                   Closest<R>& best) {
+    for (int j = 0; j < q.count; ++j) {
+        const Vec2<R> x = toWorld<Space<R, 2>>(X, q.vertices[j]);
+        for (int i = 0; i < p.count; ++i) {
+            const Vec2<R> v = p.vertices[i], e = p.vertex(i + 1) - v;
+            const R t = e.dot(x - v) / e.squaredNorm();
+            const R clamped = std::clamp(t, R(0), R(1));
+            const R squared = (x - v - clamped * e).squaredNorm();
+            // On the back edge of a capsule's segment the normal would point the wrong way.
+            if (squared < best.squared && p.normals[i].dot(x - v) >= 0) {
+                best.squared = squared, best.vertex = j, best.edge = i, best.vertexOnB = vertexOnB;
+                best.corner = t <= 0 ? i : (t >= 1 ? (i + 1) % p.count : -1);
+            }
+        }
+    }
+}
+
+/// Does the sharp core of two capsules' segments cross? Their four side tests disagree strictly.
+template <class R>
+bool coresApart(const Polygon<R>& a, const Polygon<R>& b, const Pose<Space<R, 2>>& X) {
+    const Vec2<R> p = a.vertices[0], d = a.vertices[1] - p;
+    const Vec2<R> q0 = toWorld<Space<R, 2>>(X, b.vertices[0]), q1 = toWorld<Space<R, 2>>(X, b.vertices[1]);
+    const Vec2<R> e = q1 - q0;
+    const R s0 = cross(d, Vec2<R>(q0 - p)), s1 = cross(d, Vec2<R>(q1 - p));
+    const R t0 = cross(e, Vec2<R>(p - q0)), t1 = cross(e, Vec2<R>(p + d - q0));
+    return !(s0 * s1 < 0 && t0 * t1 < 0);
+}
+
+/// Everything a manifold is made from, in the frame of the reference polygon.
+template <class R>
+struct Reference {
+    const Polygon<R>& ref;
+    const Polygon<R>& inc;
+    Pose<Space<R, 2>> X;  ///< of the incident polygon in the frame of the reference polygon
+    bool refIsA;
+    R speculative;
+};
+
+template <class R>
+void emitPoint(const Reference<R>& c, const Vec2<R>& n, const Vec2<R>& onInc, R height, std::uint32_t feature,
+               Manifold<Space<R, 2>>& out) {
+    const R separation = height - c.ref.radius - c.inc.radius;
+    if (separation > c.speculative || out.count == 2) return;
+    const Vec2<R> pInc = onInc - c.inc.radius * n, pRef = onInc - (height - c.ref.radius) * n;
+    addPoint<Space<R, 2>>(out, c.refIsA ? pRef : pInc, c.refIsA ? pInc : pRef, separation, feature);
+}
+
+/// The incident edge clipped to the strip over the reference edge. Fills `out` in the frame of the reference.
+template <class R>
+void clipEdges(const Reference<R>& c, int edge, Manifold<Space<R, 2>>& out) {
+    const Vec2<R> n = c.ref.normals[edge];
+    const Vec2<R> nLocal = rotateInverse<R>(c.X.q, n);
+    int incident = 0;
+    for (int i = 1; i < c.inc.count; ++i)
+        if (c.inc.normals[i].dot(nLocal) < c.inc.normals[incident].dot(nLocal)) incident = i;
+    const int i0 = incident, i1 = (incident + 1) % c.inc.count;
+    const int r0 = edge, r1 = (edge + 1) % c.ref.count;
+    const Vec2<R> v0 = c.ref.vertices[r0], along = (c.ref.vertices[r1] - v0).normalized();
+    const R length = (c.ref.vertices[r1] - v0).norm();
+    Vec2<R> p = toWorld<Space<R, 2>>(c.X, c.inc.vertices[i0]);
+    Vec2<R> q = toWorld<Space<R, 2>>(c.X, c.inc.vertices[i1]);
+    std::uint32_t fp = vertexFeature(!c.refIsA, i0), fq = vertexFeature(!c.refIsA, i1);
+    R tp = along.dot(p - v0), tq = along.dot(q - v0);  // tp > tq: counter-clockwise edges face each other
+    const R hp = n.dot(p - v0), hq = n.dot(q - v0);
+    out.normal = c.refIsA ? n : Vec2<R>(-n);
+    if (tp < 0 || tq > length || !(tp - tq > kRounding<R> * length)) {
+        // Nothing over the edge (a corner beside it), or the incident edge stands upright: the lower end.
+        const bool first = hp <= hq;
+        emitPoint<R>(c, n, first ? p : q, first ? hp : hq, first ? fp : fq, out);
+        return;
+    }
+    const Vec2<R> p0 = p, d = q - p;
+    const R t0 = tp, slope = R(1) / (tq - tp);
+    if (tp > length) p = p0 + (length - t0) * slope * d, fp = vertexFeature(c.refIsA, r1);
+    if (tq < 0) q = p0 - t0 * slope * d, fq = vertexFeature(c.refIsA, r0);
+    emitPoint<R>(c, n, p, n.dot(p - v0), fp, out);
+    emitPoint<R>(c, n, q, n.dot(q - v0), fq, out);
+}
+
+/// `a` and `b` in the frame of a; fills `out` in the world.
+template <class R>
+void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Polygon<R>& b,
+                     const Pose<Space<R, 2>>& Xb, R speculative, Manifold<Space<R, 2>>& out) {
+    using S = Space<R, 2>;
+    const Pose<S> XAB = relativePose<S>(Xa, Xb), XBA = relativePose<S>(Xb, Xa);
+    const R radius = a.radius + b.radius;
+    const R tolerance = kRounding<R> * std::max({sizeOf(a), sizeOf(b), XAB.p.cwiseAbs().maxCoeff()});
+    const EdgeAxis<R> onA = bestEdge(a, b, XAB, tolerance);
+    if (onA.separation > radius + speculative) return;
+    const EdgeAxis<R> onB = bestEdge(b, a, XBA, tolerance);
+    if (onB.separation > radius + speculative) return;
+    bool refIsA = onB.separation <= onA.separation + tolerance;
+    int edge = refIsA ? onA.edge : onB.edge;
+    const R separation = refIsA ? onA.separation : onB.separation;
+
+    const bool segments = a.count == 2 && b.count == 2;
+    const bool apart = segments ? coresApart(a, b, XAB) : separation > tolerance;
+    if (radius > 0 && apart) {
+        Closest<R> closest;
+        closestVertex(a, b, XAB, true, closest);
+        closestVertex(b, a, XBA, false, closest);
+        const bool touching = closest.squared <= tolerance * tolerance;
+        if (!touching && closest.corner >= 0) {
+            const int va = closest.vertexOnB ? closest.corner : closest.vertex;
+            const int vb = closest.vertexOnB ? closest.vertex : closest.corner;
+            roundedPoint<S>(a.vertices[va], a.radius, toWorld<S>(XAB, b.vertices[vb]), b.radius,
+                            a.normals[va], speculative, vertexFeature(false, vb), out);
+            toWorldFrame<S>(out, Xa);
+            return;
+        }
+        if (!touching) refIsA = closest.vertexOnB, edge = closest.edge;
+    }
+    if (refIsA) {
+        clipEdges<R>({a, b, XAB, true, speculative}, edge, out);
+        toWorldFrame<S>(out, Xa);
+    } else {
+        clipEdges<R>({b, a, XBA, false, speculative}, edge, out);
+        toWorldFrame<S>(out, Xb);
+    }
+}
+
+}  // namespace
+
+/// The centre against the edge of largest separation: inside or over the edge the edge's normal, beside it
+/// the corner.
+template <class R>
+void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, const Hull<Space<R, 2>>& b,
+                 const Pose<Space<R, 2>>& Xb, typename Space<R, 2>::Real speculative,
+                 Manifold<Space<R, 2>>& out) {
+    using S = Space<R, 2>;
+    Storage<R> unused;
+    const Polygon<R> p = view<R>(b, unused);
+    const Vec2<R> c = rotateInverse<R>(Xb.q, Xa.p - Xb.p);
+    int edge = 0;
+    R height = -std::numeric_limits<R>::max();
+    for (int i = 0; i < p.count; ++i)
+        if (const R h = p.normals[i].dot(c - p.vertices[i]); h > height) height = h, edge = i;
+    if (height - a.radius > speculative) return;
+    const Vec2<R> v = p.vertices[edge], e = p.vertex(edge + 1) - v, n = p.normals[edge];
+    const R t = e.dot(c - v) / e.squaredNorm();
+    if (height > 0 && (t < 0 || t > 1)) {
+        const int corner = t < 0 ? edge : (edge + 1) % p.count;
+        roundedPoint<S>(c, a.radius, p.vertices[corner], R(0), -n, speculative, vertexFeature(false, corner),
+                        out);
+    } else {
+        out.normal = -n;
+        addPoint<S>(out, c - a.radius * n, c - height * n, height - a.radius,
+                    crossingFeature(0, static_cast<std::uint32_t>(edge)));
+    }
+    toWorldFrame<S>(out, Xb);
+}
+
+#define PAIR(A, B)                                                                                  \
+    template <class R>                                                                              \
+    void collidePair(const A<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, const B<Space<R, 2>>& b, \
+                     const Pose<Space<R, 2>>& Xb, typename Space<R, 2>::Real speculative,           \
+                     Manifold<Space<R, 2>>& out) {                                                  \
+        Storage<R> storeA, storeB;                                                                  \
+        collidePolygons<R>(view<R>(a, storeA), Xa, view<R>(b, storeB), Xb, speculative, out);       \
+    }                                                                                               \
+    template void collidePair<float>(const A<Space2f>&, const Pose<Space2f>&, const B<Space2f>&,    \
+                                     const Pose<Space2f>&, float, Manifold<Space2f>&);              \
+    template void collidePair<double>(const A<Space2d>&, const Pose<Space2d>&, const B<Space2d>&,   \
+                                      const Pose<Space2d>&, double, Manifold<Space2d>&);
+PAIR(Capsule, Capsule)
+PAIR(Box, Capsule)
+PAIR(Capsule, Hull)
+PAIR(Box, Box)
+PAIR(Box, Hull)
+PAIR(Hull, Hull)
+#undef PAIR
+template void collidePair<float>(const Sphere<Space2f>&, const Pose<Space2f>&, const Hull<Space2f>&,
+                                 const Pose<Space2f>&, float, Manifold<Space2f>&);
+template void collidePair<double>(const Sphere<Space2d>&, const Pose<Space2d>&, const Hull<Space2d>&,
+                                  const Pose<Space2d>&, double, Manifold<Space2d>&);
+
+}  // namespace rigor::engine

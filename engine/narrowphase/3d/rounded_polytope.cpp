@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Ball against hull, and capsule against box and hull: a point or segment core with a rounding radius.
+//
+//   cores apart: the exact closest pair over all features (core vertices and faces, segment and edges);
+//   cores overlapping: the separating axis of largest separation over the facets of the Minkowski difference:
+//   faces, and edges of the hull whose Gauss arc crosses the great circle of the segment's normals.
+// A segment that lies along a face gets two points: its ends clipped to the prism of the face along the
+// contact normal. Cost O(V + E + sum of face sizes).
+#include "engine/narrowphase/3d/polytope.hpp"
+#include "engine/narrowphase/pairs.hpp"
+
+namespace rigor::engine {
+namespace {
+
+/// Closest points of a core and a polytope, in the frame of the polytope.
+template <class R>
+struct Closest {
+    R squared = std::numeric_limits<R>::max();
+    Vec3<R> onCore, onHull;
+    std::uint32_t feature = 0;
+};
+
+template <class R>
+void consider(const Vec3<R>& onCore, const Vec3<R>& onHull, std::uint32_t feature, Closest<R>& best) {
+    const R squared = (onCore - onHull).squaredNorm();
+    if (squared < best.squared) best = {squared, onCore, onHull, feature};
+}
+
+/// Is the foot of x on the plane of the face inside the face?
+template <class R>
+bool overFace(const Polytope<R>& p, const HullFace<R>& f, const Vec3<R>& x) {
+    for (int i = 0; i < f.count; ++i) {
+        const Vec3<R>& v = p.loopVertex(f, i);
+        const Vec3<R> e = p.loopVertex(f, (i + 1) % f.count) - v;
+        if (e.cross(f.normal).dot(x - v) > 0) return false;
+    }
+    return true;
+}
+
+/// Closest points of segments p + s d and q + t e, s and t in [0, 1]; d may be zero.
+template <class R>
+void segmentSegment(const Vec3<R>& p, const Vec3<R>& d, const Vec3<R>& q, const Vec3<R>& e,
+                    std::uint32_t feature, Closest<R>& best) {
+    const Vec3<R> r = p - q;
+    const R dd = d.squaredNorm(), ee = e.squaredNorm(), de = d.dot(e);
+    const R denominator = dd * ee - de * de;
+    R s = 0;
+    if (denominator > kRounding<R> * dd * ee)
+        s = std::clamp((de * e.dot(r) - ee * d.dot(r)) / denominator, R(0), R(1));
+    const R t = std::clamp((de * s + e.dot(r)) / ee, R(0), R(1));
+    if (dd > 0) s = std::clamp((de * t - d.dot(r)) / dd, R(0), R(1));
+    consider<R>(p + s * d, q + t * e, feature, best);
+}
+
+/// Core p to p + d (d = 0: a point) outside the polytope.
+template <class R>
+Closest<R> closestFeatures(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d) {
+    Closest<R> best;
+    const int ends = d.squaredNorm() > 0 ? 2 : 1;
+    for (int i = 0; i < hull.faceCount; ++i) {
+        const HullFace<R>& f = hull.faces[i];
+        for (int k = 0; k < ends; ++k) {
+            const Vec3<R> x = k == 0 ? p : Vec3<R>(p + d);
+            const R height = f.normal.dot(x) - f.offset;
+            if (height >= 0 && height * height < best.squared && overFace(hull, f, x))
+                consider<R>(x, x - height * f.normal, vertexFeature(true, k), best);
+        }
+    }
+    for (int i = 0; i < hull.edgeCount; ++i) {
+        const HullEdge& e = hull.edges[i];
+        const Vec3<R>& q = hull.vertices[e.v0];
+        segmentSegment<R>(p, d, q, hull.vertices[e.v1] - q, crossingFeature(0, edgeName(e.v0, e.v1)), best);
+    }
+    return best;
+}
+
+template <class R>
+struct CoreAxis {
+    Vec3<R> normal = Vec3<R>::UnitY();  ///< out of the polytope
+    R separation = -std::numeric_limits<R>::max();
+    int face = -1, edge = -1;
+};
+
+template <class R>
+CoreAxis<R> bestAxis(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R tolerance) {
+    CoreAxis<R> best;
+    for (int i = 0; i < hull.faceCount; ++i) {
+        const HullFace<R>& f = hull.faces[i];
+        const R s = f.normal.dot(p) - f.offset + std::min(R(0), f.normal.dot(d));
+        if (s > best.separation + tolerance) best = {f.normal, s, i, -1};
+    }
+    if (d.squaredNorm() == 0) return best;
+    for (int i = 0; i < hull.edgeCount; ++i) {
+        const HullEdge& e = hull.edges[i];
+        const Vec3<R>& left = hull.faces[e.left].normal;
+        const Vec3<R>& right = hull.faces[e.right].normal;
+        if (left.dot(d) * right.dot(d) >= 0) continue;
+        const Vec3<R> along = hull.vertices[e.v1] - hull.vertices[e.v0];
+        Vec3<R> n = along.cross(d);
+        const R length = n.norm();
+        if (!(length > kRounding<R> * along.norm() * d.norm())) continue;
+        n *= (n.dot(left + right) < 0 ? R(-1) : R(1)) / length;
+        const R s = n.dot(p - hull.vertices[e.v0]);
+        if (s > best.separation + tolerance) best = {n, s, -1, i};
+    }
+    return best;
+}
+
+/// The part of the core over the face, along n: parameters of p + s d. False where nothing is left.
+template <class R>
+bool clipToFace(const Polytope<R>& hull, const HullFace<R>& f, const Vec3<R>& n, const Vec3<R>& p,
+                const Vec3<R>& d, R& low, R& high) {
+    low = 0;
+    high = 1;
+    for (int i = 0; i < f.count; ++i) {
+        const Vec3<R>& v = hull.loopVertex(f, i);
+        const Vec3<R> m = (hull.loopVertex(f, (i + 1) % f.count) - v).cross(n);
+        const R a = m.dot(p - v), slope = m.dot(d);
+        if (slope > 0)
+            high = std::min(high, -a / slope);
+        else if (slope < 0)
+            low = std::max(low, -a / slope);
+        else if (a > 0)
+            return false;
+    }
+    return low < high;
+}
+
+/// Cosine between a face's normal and the contact normal from which on a core can lie along the face.
+template <class R>
+inline constexpr R kFlat = R(0.999);
+
+/// Fills `out` in the frame of the polytope: A is the core of the given radius, B the polytope.
+template <class R>
+void collideCore(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R radius, R speculative,
+                 Manifold<Space<R, 3>>& out) {
+    using S = Space<R, 3>;
+    using V = Vec3<R>;
+    const R size = std::max({hull.size, p.cwiseAbs().maxCoeff(), (p + d).cwiseAbs().maxCoeff()});
+    const R tolerance = kRounding<R> * size;
+    const CoreAxis<R> axis = bestAxis(hull, p, d, tolerance);
+    if (axis.separation - radius > speculative) return;
+
+    V n = axis.normal;
+    R distance = axis.separation;
+    Closest<R> closest;
+    if (axis.separation > tolerance) {
+        closest = closestFeatures(hull, p, d);
+        distance = std::sqrt(closest.squared);
+        n = (closest.onCore - closest.onHull) / distance;
+        if (distance - radius > speculative) return;
+    } else {
+        // Deepest core point: the lower end along the axis, or the crossing with the edge.
+        const bool second = n.dot(d) < 0;
+        closest.onCore = second ? V(p + d) : p;
+        closest.feature = vertexFeature(true, second ? 1 : 0);
+        if (axis.edge >= 0) {
+            const HullEdge& e = hull.edges[axis.edge];
+            const V q = hull.vertices[e.v0] + distance * n;
+            Closest<R> crossing;
+            segmentSegment<R>(p, d, q, hull.vertices[e.v1] - hull.vertices[e.v0],
+                              crossingFeature(0, edgeName(e.v0, e.v1)), crossing);
+            closest.onCore = crossing.onCore;
+            closest.feature = crossing.feature;
+        }
+    }
+    const auto add = [&](const V& core, R height, std::uint32_t feature) {
+        if (height - radius > speculative) return;
+        addPoint<S>(out, core - radius * n, core - height * n, height - radius, feature);
+    };
+    out.normal = -n;
+
+    if (d.squaredNorm() > 0) {
+        int face = 0;
+        for (int i = 1; i < hull.faceCount; ++i)
+            if (hull.faces[i].normal.dot(n) > hull.faces[face].normal.dot(n)) face = i;
+        const HullFace<R>& f = hull.faces[face];
+        R low = 0, high = 0;
+        if (f.normal.dot(n) > kFlat<R> && clipToFace(hull, f, n, p, d, low, high)) {
+            const auto height = [&](R s) {
+                return R((f.normal.dot(p + s * d) - f.offset) / f.normal.dot(n));
+            };
+            const R least = std::min(height(low), height(high));
+            if (least <= distance + tolerance && high - low > R(1e-3)) {
+                add(p + low * d, height(low), vertexFeature(true, 0));
+                add(p + high * d, height(high), vertexFeature(true, 1));
+                return;
+            }
+        }
+    }
+    add(closest.onCore, distance, closest.feature);
+}
+
+template <class R, class B>
+void capsulePolytope(const Capsule<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const B& b,
+                     const Pose<Space<R, 3>>& Xb, R speculative, Manifold<Space<R, 3>>& out) {
+    using S = Space<R, 3>;
+    BoxStorage<R> store;
+    const Pose<S> X = relativePose<S>(Xb, Xa);
+    const Vec3<R> half = rotate(X.q, Vec3<R>(a.halfLength * Vec3<R>::UnitY()));
+    collideCore<R>(polytopeOf<R>(b, store), X.p - half, R(2) * half, a.radius, speculative, out);
+    toWorldFrame<S>(out, Xb);
+}
+
+}  // namespace
+
+template <class R>
+void collidePair(const Sphere<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Hull<Space<R, 3>>& b,
+                 const Pose<Space<R, 3>>& Xb, typename Space<R, 3>::Real speculative,
+                 Manifold<Space<R, 3>>& out) {
+    BoxStorage<R> unused;
+    const Vec3<R> c = rotateInverse<R>(Xb.q, Xa.p - Xb.p);
+    collideCore<R>(polytopeOf<R>(b, unused), c, Vec3<R>::Zero(), a.radius, speculative, out);
+    toWorldFrame<Space<R, 3>>(out, Xb);
+}
+
+template <class R>
+void collidePair(const Capsule<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Hull<Space<R, 3>>& b,
+                 const Pose<Space<R, 3>>& Xb, typename Space<R, 3>::Real speculative,
+                 Manifold<Space<R, 3>>& out) {
+    capsulePolytope<R>(a, Xa, b, Xb, speculative, out);
+}
+
+template <class R>
+void collidePair(const Box<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Capsule<Space<R, 3>>& b,
+                 const Pose<Space<R, 3>>& Xb, typename Space<R, 3>::Real speculative,
+                 Manifold<Space<R, 3>>& out) {
+    capsulePolytope<R>(b, Xb, a, Xa, speculative, out);
+    flip(out);
+}
+
+#define INSTANTIATE(A, B)                                                                         \
+    template void collidePair<float>(const A<Space3f>&, const Pose<Space3f>&, const B<Space3f>&,  \
+                                     const Pose<Space3f>&, float, Manifold<Space3f>&);            \
+    template void collidePair<double>(const A<Space3d>&, const Pose<Space3d>&, const B<Space3d>&, \
+                                      const Pose<Space3d>&, double, Manifold<Space3d>&);
+INSTANTIATE(Sphere, Hull)
+INSTANTIATE(Capsule, Hull)
+INSTANTIATE(Box, Capsule)
+#undef INSTANTIATE
+
+}  // namespace rigor::engine

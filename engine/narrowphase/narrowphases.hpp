@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The table of narrow phases (narrowphases.def).
+#pragma once
+
+#include <span>
+
+#include "engine/narrowphase/manifold.hpp"
+
+namespace rigor::engine {
+
+struct NarrowPhaseEntry {
+    const char* name;
+    const char* summary;
+};
+/// Every narrow phase findNarrowPhase knows.
+std::span<const NarrowPhaseEntry> narrowPhases();
+
+#define NARROW_PHASE(name, function, summary)                                                 \
+    template <class S>                                                                        \
+    void function(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb, \
+                  typename S::Real speculativeDistance, Manifold<S>& out);
+#include "engine/narrowphase/narrowphases.def"
+#undef NARROW_PHASE
+
+}  // namespace rigor::engine

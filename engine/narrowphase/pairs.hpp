@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One overload per pair of kinds, each in one order only; sat.cpp swaps the others. All have the contract of
+// CollideFunction with out.count = 0 on entry. Private to this folder.
+#pragma once
+
+#include "engine/narrowphase/manifold.hpp"
+
+namespace rigor::engine {
+
+#define RIGOR_PAIR(A, B)                                                                 \
+    template <class S>                                                                   \
+    void collidePair(const A<S>& a, const Pose<S>& Xa, const B<S>& b, const Pose<S>& Xb, \
+                     typename S::Real speculative, Manifold<S>& out);
+
+// The same formulas in both dimensions: sphere_pairs.cpp, half_space_pairs.cpp.
+RIGOR_PAIR(Sphere, Sphere)
+RIGOR_PAIR(Sphere, Box)
+RIGOR_PAIR(Sphere, Capsule)
+RIGOR_PAIR(Sphere, HalfSpace)
+RIGOR_PAIR(Box, HalfSpace)
+RIGOR_PAIR(Capsule, HalfSpace)
+RIGOR_PAIR(Hull, HalfSpace)
+// Per dimension, declared as templates over the scalar: 2d/, 3d/.
+#undef RIGOR_PAIR
+
+#define RIGOR_PAIR(D, A, B)                                                                         \
+    template <class R>                                                                              \
+    void collidePair(const A<Space<R, D>>& a, const Pose<Space<R, D>>& Xa, const B<Space<R, D>>& b, \
+                     const Pose<Space<R, D>>& Xb, typename Space<R, D>::Real speculative,           \
+                     Manifold<Space<R, D>>& out);
+#define RIGOR_PAIRS(D)              \
+    RIGOR_PAIR(D, Sphere, Hull)     \
+    RIGOR_PAIR(D, Capsule, Capsule) \
+    RIGOR_PAIR(D, Box, Capsule)     \
+    RIGOR_PAIR(D, Capsule, Hull)    \
+    RIGOR_PAIR(D, Box, Box)         \
+    RIGOR_PAIR(D, Box, Hull)        \
+    RIGOR_PAIR(D, Hull, Hull)
+RIGOR_PAIRS(2)
+RIGOR_PAIRS(3)
+#undef RIGOR_PAIRS
+#undef RIGOR_PAIR
+
+}  // namespace rigor::engine
