@@ -16,7 +16,8 @@ inline constexpr int kSchemaVersion = 1;
 /// Reads a run folder. Throws std::runtime_error when it is none or of a newer schema.
 Run readRun(const std::filesystem::path& directory);
 
-/// Writes a run as it happens. Every call is one transaction: what returned is on disk after a kill.
+/// Writes a run as it happens. Every call is one transaction: what returned is on disk after a kill. One
+/// writer at a time: a second one on the same folder is refused.
 class RunWriter {
   public:
     /// Creates the folder and store, or opens an existing one (`resume`). Throws std::runtime_error when the
@@ -30,6 +31,8 @@ class RunWriter {
     void writeHeader(const Run& run);
     /// Ids of the cases already stored.
     std::vector<std::string> finishedCases() const;
+    /// Forgets stored cases that are not among `ids`: a changed scenario or spec is another case.
+    void keepOnly(const std::vector<std::string>& ids);
     /// Replaces a case with the same id.
     void writeCase(const CaseRow& row);
     void finish(const std::string& isoTime);

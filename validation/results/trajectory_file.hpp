@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // One HDF5 file per case: /time, /bodies/<name>/{position,orientation,velocity,angular_velocity},
-// /reference/<name>/{...}, /series/<name>[/<subject>], /contacts/...; every dataset has a `unit` attribute.
+// /reference/<name>/{...}, /series/<name>/<subject> ("_" for the whole scene), /contacts/...; every dataset
+// has a `unit` attribute.
 #pragma once
 
 #include <filesystem>
@@ -50,6 +51,7 @@ struct TrajectoryFile {
     std::vector<ContactSample> contacts;  ///< in time order
 };
 
+/// Replaces `file` at once: it is the old one or the whole new one, never a part. Throws std::runtime_error.
 void writeTrajectory(const std::filesystem::path& file, const TrajectoryFile& data);
 /// Throws std::runtime_error naming the file when it can not be read. `withContacts` false leaves contacts
 /// empty.

@@ -85,7 +85,8 @@ struct TimingRow {
 };
 
 struct CaseRow {
-    std::string id;  ///< stable hash of scenario text, spec, preset and dt
+    std::string id;             ///< stable hash of scenario text, spec, preset and dt
+    std::int64_t position = 0;  ///< in the plan: the order of Run::cases
     std::string scenario;
     std::string spec;    ///< as asked for, with the preset: "ode:preset=matched,stepper=quickstep"
     std::string engine;  ///< "ode"

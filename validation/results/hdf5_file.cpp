@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/results/hdf5_file.hpp"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace rigor::results {
+namespace {
+
+constexpr std::size_t kChunkThreshold = 8192;  ///< values; smaller sets gain nothing from compression
+constexpr hsize_t kChunkValues = 16384;        ///< about 128 KiB of doubles per chunk
+constexpr unsigned kDeflateLevel = 1;
+
+[[noreturn]] void failed(const std::string& what) {
+    throw std::runtime_error("HDF5: cannot " + what);
+}
+
+class Handle {
+  public:
+    Handle(hid_t id, herr_t (*closer)(hid_t), const std::string& what) : id_(id), closer_(closer) {
+        if (id < 0) failed(what);
+    }
+    ~Handle() { closer_(id_); }
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    operator hid_t() const { return id_; }
+
+  private:
+    hid_t id_;
+    herr_t (*closer_)(hid_t);
+};
+
+void check(herr_t status, const std::string& what) {
+    if (status < 0) failed(what);
+}
+
+/// We report failures ourselves; the library would print its stack to stderr.
+void silence() {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+void setAttribute(hid_t file, const std::string& path, const char* name, hid_t type, const void* value) {
+    const std::string what = "write attribute " + path + "@" + name;
+    const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, what);
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose, what);
+    const Handle attribute(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, what);
+    check(H5Awrite(attribute, type, value), what);
+}
+
+void getAttribute(hid_t file, const std::string& path, const char* name, hid_t type, void* value) {
+    const std::string what = "read attribute " + path + "@" + name;
+    const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, what);
+    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, what);
+    check(H5Aread(attribute, type, value), what);
+}
+
+template <class T>
+void writeValues(Hdf5File& owner, hid_t file, const std::string& path, const std::vector<T>& values,
+                 int columns, const std::string& unit, hid_t memoryType, hid_t fileType) {
+    const std::string what = "write " + path;
+    if (columns < 1 || values.size() % static_cast<std::size_t>(columns) != 0)
+        failed(what + ": " + std::to_string(values.size()) + " values in " + std::to_string(columns) +
+               " columns");
+    const hsize_t width = static_cast<hsize_t>(columns);
+    const hsize_t extent[2] = {values.size() / width, width};
+    const Handle space(H5Screate_simple(columns == 1 ? 1 : 2, extent, nullptr), H5Sclose, what);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
+    check(H5Pset_obj_track_times(properties, false), what);  // the same data makes the same file
+    if (values.size() >= kChunkThreshold) {
+        const hsize_t chunk[2] = {std::min<hsize_t>(extent[0], std::max<hsize_t>(1, kChunkValues / width)),
+                                  width};
+        check(H5Pset_chunk(properties, columns == 1 ? 1 : 2, chunk), what);
+        check(H5Pset_shuffle(properties), what);
+        check(H5Pset_deflate(properties, kDeflateLevel), what);
+    }
+    {
+        const Handle set(
+            H5Dcreate2(file, path.c_str(), fileType, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose,
+            what);
+        if (!values.empty())
+            check(H5Dwrite(set, memoryType, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+    }
+    owner.setText(path, "unit", unit);
+}
+
+template <class T>
+std::vector<T> readValues(hid_t file, const std::string& path, int& columns, hid_t memoryType) {
+    const std::string what = "read " + path;
+    const Handle set(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, what);
+    const Handle space(H5Dget_space(set), H5Sclose, what);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    if (rank != 1 && rank != 2) failed(what + ": it has neither one nor two dimensions");
+    hsize_t extent[2] = {0, 1};
+    H5Sget_simple_extent_dims(space, extent, nullptr);
+    columns = static_cast<int>(extent[1]);
+    std::vector<T> values(extent[0] * extent[1]);
+    if (!values.empty()) check(H5Dread(set, memoryType, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+    return values;
+}
+
+}  // namespace
+
+Hdf5File Hdf5File::create(const std::filesystem::path& file) {
+    silence();
+    const std::string what = "create " + file.string();
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
+    check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), what);  // readable by old tools
+    const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    if (id < 0) failed(what);
+    return Hdf5File(id);
+}
+
+Hdf5File Hdf5File::open(const std::filesystem::path& file) {
+    silence();
+    const hid_t id = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (id < 0) failed("open it: it is no HDF5 file, or a damaged one");
+    return Hdf5File(id);
+}
+
+Hdf5File::Hdf5File(Hdf5File&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+
+Hdf5File::~Hdf5File() {
+    if (id_ >= 0) H5Fclose(id_);
+}
+
+void Hdf5File::close() {
+    check(H5Fflush(id_, H5F_SCOPE_GLOBAL), "flush the file");
+    check(H5Fclose(std::exchange(id_, -1)), "close the file");
+}
+
+void Hdf5File::createGroup(const std::string& path) {
+    const std::string what = "create group " + path;
+    const Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, what);
+    check(H5Pset_obj_track_times(properties, false), what);
+    const Handle group(H5Gcreate2(id_, path.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose, what);
+}
+
+bool Hdf5File::exists(const std::string& path) const {
+    return H5Lexists(id_, path.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::string> Hdf5File::children(const std::string& path) const {
+    const std::string what = "list " + path;
+    std::vector<std::string> names;
+    const Handle group(H5Gopen2(id_, path.c_str(), H5P_DEFAULT), H5Gclose, what);
+    const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+        static_cast<std::vector<std::string>*>(list)->push_back(name);
+        return 0;
+    };
+    check(H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names), what);
+    return names;
+}
+
+void Hdf5File::writeDoubles(const std::string& path, const std::vector<double>& values, int columns,
+                            const std::string& unit) {
+    writeValues(*this, id_, path, values, columns, unit, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE);
+}
+void Hdf5File::writeIntegers(const std::string& path, const std::vector<int>& values, int columns,
+                             const std::string& unit) {
+    writeValues(*this, id_, path, values, columns, unit, H5T_NATIVE_INT, H5T_STD_I32LE);
+}
+std::vector<double> Hdf5File::readDoubles(const std::string& path, int& columns) const {
+    return readValues<double>(id_, path, columns, H5T_NATIVE_DOUBLE);
+}
+std::vector<int> Hdf5File::readIntegers(const std::string& path, int& columns) const {
+    return readValues<int>(id_, path, columns, H5T_NATIVE_INT);
+}
+
+void Hdf5File::setText(const std::string& path, const char* name, const std::string& text) {
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a string type");
+    check(H5Tset_size(type, text.size() + 1), "make a string type");  // at least the terminating zero
+    check(H5Tset_cset(type, H5T_CSET_UTF8), "make a string type");
+    setAttribute(id_, path, name, type, text.c_str());
+}
+void Hdf5File::setInteger(const std::string& path, const char* name, int value) {
+    setAttribute(id_, path, name, H5T_NATIVE_INT, &value);
+}
+void Hdf5File::setDouble(const std::string& path, const char* name, double value) {
+    setAttribute(id_, path, name, H5T_NATIVE_DOUBLE, &value);
+}
+
+std::string Hdf5File::text(const std::string& path, const char* name) const {
+    const std::string what = "read attribute " + path + "@" + name;
+    const Handle object(H5Oopen(id_, path.c_str(), H5P_DEFAULT), H5Oclose, what);
+    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, what);
+    const Handle type(H5Aget_type(attribute), H5Tclose, what);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0)
+        failed(what + ": it is no plain text");
+    std::string text(H5Tget_size(type), '\0');
+    check(H5Aread(attribute, type, text.data()), what);
+    return text.substr(0, text.find('\0'));
+}
+int Hdf5File::integer(const std::string& path, const char* name) const {
+    int value = 0;
+    getAttribute(id_, path, name, H5T_NATIVE_INT, &value);
+    return value;
+}
+double Hdf5File::number(const std::string& path, const char* name) const {
+    double value = 0.0;
+    getAttribute(id_, path, name, H5T_NATIVE_DOUBLE, &value);
+    return value;
+}
+
+}  // namespace rigor::results

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What we need of HDF5, with handles that close themselves and failures that are exceptions.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rigor::results {
+
+/// An open HDF5 file; paths are absolute ("/bodies/block/position"). Every member throws std::runtime_error
+/// naming the path. Not for use from several threads: the library is not built for that.
+class Hdf5File {
+  public:
+    static Hdf5File create(const std::filesystem::path& file);  ///< truncates
+    static Hdf5File open(const std::filesystem::path& file);    ///< read only
+    Hdf5File(Hdf5File&& other) noexcept;
+    Hdf5File& operator=(Hdf5File&&) = delete;
+    ~Hdf5File();
+    /// Flushes and closes; throws where the destructor would be silent.
+    void close();
+
+    void createGroup(const std::string& path);
+    bool exists(const std::string& path) const;
+    std::vector<std::string> children(const std::string& path) const;  ///< link names, sorted
+
+    /// Row-major, `columns` > 0 divides the number of values; one column makes a one-dimensional dataset.
+    /// Large sets are chunked and deflated.
+    void writeDoubles(const std::string& path, const std::vector<double>& values, int columns,
+                      const std::string& unit);
+    void writeIntegers(const std::string& path, const std::vector<int>& values, int columns,
+                       const std::string& unit);
+    std::vector<double> readDoubles(const std::string& path, int& columns) const;
+    std::vector<int> readIntegers(const std::string& path, int& columns) const;
+
+    /// Attributes of a group or dataset.
+    void setText(const std::string& path, const char* name, const std::string& text);
+    void setInteger(const std::string& path, const char* name, int value);
+    void setDouble(const std::string& path, const char* name, double value);
+    std::string text(const std::string& path, const char* name) const;
+    int integer(const std::string& path, const char* name) const;
+    double number(const std::string& path, const char* name) const;
+
+  private:
+    explicit Hdf5File(std::int64_t id) : id_(id) {}
+    std::int64_t id_;
+};
+
+}  // namespace rigor::results

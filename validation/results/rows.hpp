@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Rows of the store to and from the structs of types.hpp.
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "validation/results/types.hpp"
+
+namespace rigor::results {
+
+/// Replaces run, environment, engines and scenarios; the caller holds the transaction.
+void writeHeaderRows(SQLite::Database& database, const Run& run);
+/// Replaces the case and its rows; the caller holds the transaction.
+void writeCaseRows(SQLite::Database& database, const CaseRow& row);
+
+/// The whole store, cases in the order of the plan.
+Run readRows(SQLite::Database& database);
+
+}  // namespace rigor::results

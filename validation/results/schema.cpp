@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Columns that hold measured numbers have no declared type: SQLite then keeps every double as it is (a REAL
+// column would turn -0.0 into 0). NaN is the text 'nan', because SQLite has no NaN; NULL is "no value".
+#include "validation/results/schema.hpp"
+
+#include <stdexcept>
+
+#include "validation/results/store.hpp"
+
+namespace rigor::results {
+namespace {
+
+constexpr int kApplicationId = 0x52494752;  // "RIGR", so that file(1) and we know the file
+constexpr int kBusyMilliseconds = 10000;
+
+constexpr const char* kTables = R"sql(
+CREATE TABLE run (
+    one INTEGER PRIMARY KEY CHECK (one = 1), suite TEXT, command TEXT, started TEXT, finished TEXT,
+    planned_cases INTEGER);
+CREATE TABLE environment (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;
+CREATE TABLE engines (
+    position INTEGER PRIMARY KEY, name TEXT, title TEXT, version TEXT, precision TEXT, build_notes TEXT, problem TEXT);
+CREATE TABLE scenarios (
+    position INTEGER PRIMARY KEY, name TEXT UNIQUE, title TEXT, description TEXT, source TEXT, isolates TEXT,
+    tags TEXT, observed TEXT, metrics TEXT, dimension INTEGER, duration, time_steps TEXT, reference TEXT,
+    reference_title TEXT, reference_formula TEXT, reference_source TEXT, reference_problem TEXT, text TEXT);
+CREATE TABLE cases (
+    id TEXT PRIMARY KEY, position INTEGER, scenario TEXT, spec TEXT, engine TEXT, preset TEXT, dt, outcome TEXT,
+    verdict TEXT, reason TEXT, wall_seconds, cpu_seconds, steps INTEGER, peak_memory_kib INTEGER, state_hash TEXT,
+    trajectory_file TEXT, command TEXT) WITHOUT ROWID;
+CREATE TABLE settings (
+    case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, key TEXT, value TEXT,
+    PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+CREATE TABLE metrics (
+    case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, subject TEXT, unit TEXT, kind TEXT,
+    value, at, bound, expectation, verdict TEXT, note TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+CREATE TABLE quantities (
+    case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, unit TEXT, exact, scheme_exact,
+    measured, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+CREATE TABLE ledger (
+    case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, topic TEXT, requested TEXT, resolved TEXT,
+    realisation TEXT, reason TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+CREATE TABLE read_back (
+    case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, quantity TEXT, subject TEXT, expected, found,
+    error, ok INTEGER, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+CREATE TABLE audit (
+    case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, auditor TEXT, outcome TEXT, frames INTEGER,
+    queries INTEGER, overlapping INTEGER, missed INTEGER, spurious INTEGER, undecided INTEGER, normal_error_max,
+    normal_error_median, depth_error_max, depth_error_median, point_error_max, worst TEXT, note TEXT,
+    PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+CREATE TABLE timings (
+    case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, phase TEXT, median, p10, p90, total,
+    samples INTEGER, mean_contacts, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+CREATE INDEX cases_by_scenario ON cases (scenario, engine, preset, dt);
+CREATE INDEX metrics_by_name ON metrics (name, subject);
+)sql";
+
+/// A committed transaction is on the disk: rollback journal, synced. One file, whole at rest, that can be
+/// copied while nobody writes.
+void prepare(SQLite::Database& database) {
+    database.setBusyTimeout(kBusyMilliseconds);
+    database.exec("PRAGMA foreign_keys = ON");
+    database.exec("PRAGMA synchronous = FULL");
+}
+
+int pragma(SQLite::Database& database, const char* text) {
+    return database.execAndGet(text).getInt();
+}
+
+void checkVersion(SQLite::Database& database, const std::filesystem::path& file) {
+    if (pragma(database, "PRAGMA application_id") != kApplicationId)
+        throw std::runtime_error(file.string() + ": this is not a results store of rigor");
+    const int version = pragma(database, "PRAGMA user_version");
+    if (version > kSchemaVersion)
+        throw std::runtime_error(file.string() + ": written by a newer rigor: found schema " +
+                                 std::to_string(version) + ", expected at most " +
+                                 std::to_string(kSchemaVersion));
+    if (version < 1) throw std::runtime_error(file.string() + ": the store has no schema version");
+}
+
+/// A store left by a kill may have a journal to roll back, which needs writing; where the folder is
+/// read-only, reading is tried.
+SQLite::Database openFile(const std::filesystem::path& file, bool forWriting) {
+    try {
+        return SQLite::Database(file.string(), SQLite::OPEN_READWRITE);
+    } catch (const SQLite::Exception&) {
+        if (forWriting) throw;
+        return SQLite::Database(file.string(), SQLite::OPEN_READONLY);
+    }
+}
+
+}  // namespace
+
+SQLite::Database createDatabase(const std::filesystem::path& file) {
+    SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    prepare(database);
+    SQLite::Transaction transaction(database);
+    database.exec(kTables);
+    database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
+    database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+    transaction.commit();
+    return database;
+}
+
+SQLite::Database openDatabase(const std::filesystem::path& file, bool forWriting) {
+    try {
+        SQLite::Database database = openFile(file, forWriting);
+        prepare(database);
+        checkVersion(database, file);
+        return database;
+    } catch (const SQLite::Exception& error) {
+        throw std::runtime_error(file.string() + ": cannot be read as a results store: " + error.what());
+    }
+}
+
+}  // namespace rigor::results

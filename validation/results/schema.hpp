@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Opening results.sqlite, and its schema. README.md describes every table for people who read the file with
+// other tools.
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <filesystem>
+
+namespace rigor::results {
+
+/// Creates the tables in a new file. Throws SQLite::Exception.
+SQLite::Database createDatabase(const std::filesystem::path& file);
+
+/// Opens an existing store. Throws std::runtime_error naming the file when it is no store, damaged, or of a
+/// newer schema.
+SQLite::Database openDatabase(const std::filesystem::path& file, bool forWriting);
+
+}  // namespace rigor::results

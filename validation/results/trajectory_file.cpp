@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/results/trajectory_file.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "validation/results/hdf5_file.hpp"
+
+namespace rigor::results {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFormat = 1;
+constexpr const char* kScene = "_";  ///< dataset name of a series without a subject
+
+/// Names become HDF5 links: '/' and '.' have a meaning there, and "_" is ours.
+std::string linkName(const std::string& name) {
+    if (name == kScene) return "%5F";
+    if (name.empty()) return kScene;
+    std::string link;
+    for (const char c : name) {
+        if (c == '%' || c == '/' || c == '.') {
+            constexpr const char* digits = "0123456789ABCDEF";
+            const auto code = static_cast<unsigned char>(c);
+            link += '%';
+            link += digits[code >> 4];
+            link += digits[code & 15];
+        } else {
+            link += c;
+        }
+    }
+    return link;
+}
+
+struct ChannelName {
+    const char* name;
+    Channel BodyChannels::*channel;
+};
+constexpr ChannelName kChannels[]{{"position", &BodyChannels::position},
+                                  {"orientation", &BodyChannels::orientation},
+                                  {"velocity", &BodyChannels::velocity},
+                                  {"angular_velocity", &BodyChannels::angularVelocity}};
+
+void writeBodies(Hdf5File& file, const std::string& folder, const std::vector<BodyChannels>& bodies) {
+    file.createGroup(folder);
+    int index = 0;
+    for (const BodyChannels& body : bodies) {
+        const std::string group = folder + "/" + linkName(body.name);
+        file.createGroup(group);
+        file.setText(group, "name", body.name);
+        file.setInteger(group, "index", index++);
+        for (const auto& [name, channel] : kChannels)
+            if (const Channel& c = body.*channel; c.columns > 0)
+                file.writeDoubles(group + "/" + name, c.values, c.columns, c.unit);
+    }
+}
+
+std::vector<BodyChannels> readBodies(Hdf5File& file, const std::string& folder) {
+    std::vector<BodyChannels> bodies;
+    const auto groups = file.children(folder);
+    bodies.resize(groups.size());
+    for (const std::string& child : groups) {
+        const std::string group = folder + "/" + child;
+        const auto index = static_cast<std::size_t>(file.integer(group, "index"));
+        if (index >= bodies.size()) throw std::runtime_error("index of " + group + " is out of range");
+        BodyChannels& body = bodies[index];
+        body.name = file.text(group, "name");
+        for (const auto& [name, channel] : kChannels) {
+            const std::string dataset = group + "/" + name;
+            if (!file.exists(dataset)) continue;
+            Channel& c = body.*channel;
+            c.values = file.readDoubles(dataset, c.columns);
+            c.unit = file.text(dataset, "unit");
+        }
+    }
+    return bodies;
+}
+
+void writeSeries(Hdf5File& file, const std::vector<SeriesChannel>& series) {
+    file.createGroup("/series");
+    int index = 0;
+    for (const SeriesChannel& s : series) {
+        const std::string group = "/series/" + linkName(s.name);
+        if (!file.exists(group)) {
+            file.createGroup(group);
+            file.setText(group, "name", s.name);
+        }
+        const std::string dataset = group + "/" + linkName(s.subject);
+        file.writeDoubles(dataset, s.channel.values, s.channel.columns, s.channel.unit);
+        file.setText(dataset, "subject", s.subject);
+        file.setInteger(dataset, "index", index++);
+    }
+}
+
+std::vector<SeriesChannel> readSeries(Hdf5File& file) {
+    std::vector<std::pair<int, SeriesChannel>> found;
+    for (const std::string& child : file.children("/series")) {
+        const std::string group = "/series/" + child;
+        for (const std::string& subject : file.children(group)) {
+            const std::string dataset = group + "/" + subject;
+            auto& [index, s] = found.emplace_back();
+            index = file.integer(dataset, "index");
+            s.name = file.text(group, "name");
+            s.subject = file.text(dataset, "subject");
+            s.channel.values = file.readDoubles(dataset, s.channel.columns);
+            s.channel.unit = file.text(dataset, "unit");
+        }
+    }
+    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<SeriesChannel> series;
+    for (auto& entry : found) series.push_back(std::move(entry.second));
+    return series;
+}
+
+// ------------------------------------------------------------------------------------------- contacts
+struct ContactField {
+    const char* name;
+    const char* unit;
+    int columns;
+    double* (*at)(ContactSample&);  ///< first of `columns` consecutive values
+};
+constexpr ContactField kContactFields[]{
+    {"time", "s", 1, [](ContactSample& c) { return &c.time; }},
+    {"point_a", "m", 3, [](ContactSample& c) { return c.pointA; }},
+    {"point_b", "m", 3, [](ContactSample& c) { return c.pointB; }},
+    {"normal", "1", 3, [](ContactSample& c) { return c.normal; }},
+    {"depth", "m", 1, [](ContactSample& c) { return &c.depth; }},
+    {"normal_impulse", "N s", 1, [](ContactSample& c) { return &c.normalImpulse; }},
+    {"friction_impulse", "N s", 3, [](ContactSample& c) { return c.frictionImpulse; }}};
+
+void writeContacts(Hdf5File& file, const std::vector<ContactSample>& contacts) {
+    file.createGroup("/contacts");
+    std::vector<int> indices;
+    indices.reserve(4 * contacts.size());
+    for (const ContactSample& c : contacts)
+        indices.insert(indices.end(), {c.bodyA, c.bodyB, c.shapeA, c.shapeB});
+    file.writeIntegers("/contacts/body_a_body_b_shape_a_shape_b", indices, 4, "1");
+    for (const ContactField& field : kContactFields) {
+        std::vector<double> values;
+        values.reserve(contacts.size() * static_cast<std::size_t>(field.columns));
+        for (ContactSample c : contacts) {
+            const double* first = field.at(c);
+            values.insert(values.end(), first, first + field.columns);
+        }
+        file.writeDoubles(std::string("/contacts/") + field.name, values, field.columns, field.unit);
+    }
+}
+
+std::vector<ContactSample> readContacts(Hdf5File& file) {
+    int columns = 0;
+    const auto indices = file.readIntegers("/contacts/body_a_body_b_shape_a_shape_b", columns);
+    if (columns != 4) throw std::runtime_error("the contact indices have not four columns");
+    std::vector<ContactSample> contacts(indices.size() / 4);
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        ContactSample& c = contacts[i];
+        c.bodyA = indices[4 * i], c.bodyB = indices[4 * i + 1];
+        c.shapeA = indices[4 * i + 2], c.shapeB = indices[4 * i + 3];
+    }
+    for (const ContactField& field : kContactFields) {
+        const auto values = file.readDoubles(std::string("/contacts/") + field.name, columns);
+        const auto width = static_cast<std::size_t>(field.columns);
+        if (columns != field.columns || values.size() != contacts.size() * width)
+            throw std::runtime_error(std::string("/contacts/") + field.name + " has the wrong size");
+        for (std::size_t i = 0; i < contacts.size(); ++i)
+            std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * width), width,
+                        field.at(contacts[i]));
+    }
+    return contacts;
+}
+
+}  // namespace
+
+void writeTrajectory(const fs::path& target, const TrajectoryFile& data) {
+    fs::path part = target;
+    part += ".part";
+    try {
+        Hdf5File file = Hdf5File::create(part);
+        file.setInteger("/", "rigor_trajectory", kFormat);
+        file.setText("/", "scenario", data.scenario);
+        file.setText("/", "spec", data.spec);
+        file.setText("/", "case_id", data.caseId);
+        file.setDouble("/", "dt", data.dt);
+        file.setInteger("/", "stride", data.stride);
+        file.writeDoubles("/time", data.times, 1, "s");
+        writeBodies(file, "/bodies", data.bodies);
+        writeBodies(file, "/reference", data.reference);
+        writeSeries(file, data.series);
+        writeContacts(file, data.contacts);
+        file.close();
+        fs::rename(part, target);
+    } catch (const std::exception& error) {
+        std::error_code ignored;
+        fs::remove(part, ignored);
+        throw std::runtime_error(target.string() + ": cannot be written: " + error.what());
+    }
+}
+
+TrajectoryFile readTrajectory(const fs::path& source, bool withContacts) {
+    if (!fs::exists(source)) throw std::runtime_error(source.string() + ": there is no such trajectory file");
+    try {
+        Hdf5File file = Hdf5File::open(source);
+        const int format = file.integer("/", "rigor_trajectory");
+        if (format > kFormat)
+            throw std::runtime_error("written by a newer rigor: found format " + std::to_string(format) +
+                                     ", expected at most " + std::to_string(kFormat));
+        TrajectoryFile data;
+        data.scenario = file.text("/", "scenario");
+        data.spec = file.text("/", "spec");
+        data.caseId = file.text("/", "case_id");
+        data.dt = file.number("/", "dt");
+        data.stride = file.integer("/", "stride");
+        int columns = 0;
+        data.times = file.readDoubles("/time", columns);
+        data.bodies = readBodies(file, "/bodies");
+        data.reference = readBodies(file, "/reference");
+        data.series = readSeries(file);
+        if (withContacts) data.contacts = readContacts(file);
+        return data;
+    } catch (const std::exception& error) {
+        throw std::runtime_error(source.string() + ": cannot be read as a trajectory: " + error.what());
+    }
+}
+
+}  // namespace rigor::results

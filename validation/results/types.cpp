@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/results/types.hpp"
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace rigor::results {
+namespace {
+
+constexpr std::array<std::pair<Outcome, const char*>, 7> kOutcomes{{{Outcome::Completed, "completed"},
+                                                                    {Outcome::Unsupported, "unsupported"},
+                                                                    {Outcome::Crashed, "crashed"},
+                                                                    {Outcome::Timeout, "timeout"},
+                                                                    {Outcome::NonFinite, "non_finite"},
+                                                                    {Outcome::OutOfMemory, "out_of_memory"},
+                                                                    {Outcome::Error, "error"}}};
+
+constexpr std::array<std::pair<Verdict, const char*>, 7> kVerdicts{
+    {{Verdict::Pass, "pass"},
+     {Verdict::Fail, "fail"},
+     {Verdict::KnownDeviation, "known deviation"},
+     {Verdict::Unsupported, "unsupported"},
+     {Verdict::Crashed, "crashed"},
+     {Verdict::Timeout, "timeout"},
+     {Verdict::NonFinite, "non-finite"}}};
+
+template <class Table, class Value>
+const char* nameIn(const Table& table, Value value) {
+    for (const auto& [entry, name] : table)
+        if (entry == value) return name;
+    throw std::invalid_argument("results: value outside of its enumeration");
+}
+
+template <class Table>
+auto valueIn(const Table& table, const std::string& name, const char* what) {
+    for (const auto& [entry, text] : table)
+        if (name == text) return entry;
+    std::string known;
+    for (const auto& [entry, text] : table) known += (known.empty() ? "" : ", ") + std::string(text);
+    throw std::runtime_error(std::string("results: found ") + what + " '" + name + "', expected one of " +
+                             known);
+}
+
+}  // namespace
+
+const char* outcomeName(Outcome outcome) {
+    return nameIn(kOutcomes, outcome);
+}
+const char* verdictName(Verdict verdict) {
+    return nameIn(kVerdicts, verdict);
+}
+Outcome parseOutcome(const std::string& name) {
+    return valueIn(kOutcomes, name, "outcome");
+}
+Verdict parseVerdict(const std::string& name) {
+    return valueIn(kVerdicts, name, "verdict");
+}
+
+}  // namespace rigor::results
