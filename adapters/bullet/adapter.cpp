@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Bullet Physics as an engine: who it is, what it can do, which keys it has.
+#include <btBulletDynamicsCommon.h>
+
+#include "adapters/bullet/broadphase.hpp"
+#include "adapters/bullet/collision.hpp"
+#include "adapters/bullet/world.hpp"
+#include "adapters/interface/input_check.hpp"
+
+namespace rigor::bullet {
+namespace {
+
+using adapter::Option;
+
+/// "f32" or "f64" as the loaded library stores its bodies: the size is computed inside the library.
+std::string libraryPrecision() {
+    btEmptyShape shape;
+    const btRigidBody body(btScalar(0.0), nullptr, &shape);
+    const int size = body.calculateSerializeBufferSize();
+    if (size == static_cast<int>(sizeof(btRigidBodyDoubleData))) return "f64";
+    if (size == static_cast<int>(sizeof(btRigidBodyFloatData))) return "f32";
+    return "unknown";
+}
+
+constexpr const char* kHeaderPrecision = sizeof(btScalar) == sizeof(double) ? "f64" : "f32";
+
+Option choice(const char* key, std::vector<std::string> values, const char* byDefault, const char* matched,
+              const char* help) {
+    return {key, std::move(values), 0.0, 0.0, false, byDefault, matched, help};
+}
+Option number(const char* key, double min, double max, const char* byDefault, const char* matched,
+              const char* help) {
+    return {key, {}, min, max, false, byDefault, matched, help};
+}
+
+class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngine {
+  public:
+    adapter::EngineInfo info() const override {
+        const int version = btGetVersion();
+        const int minor = version % 100;
+        return {"bullet",
+                std::to_string(version / 100) + "." + (minor < 10 ? "0" : "") + std::to_string(minor),
+                libraryPrecision(), "Bullet Physics",
+                std::string("btScalar ") + kHeaderPrecision + ", asserts off"};
+    }
+
+    adapter::Capabilities capabilities() const override {
+        adapter::Capabilities c;
+        c.dynamics = c.collision = c.broadPhase = true;
+        c.dimensions = {3};
+        c.planar = true;
+        c.shapes = {"sphere", "box",        "capsule", "cylinder", "cone",
+                    "hull",   "half_space", "circle",  "polygon",  "half_plane"};
+        c.joints = {"ball", "hinge", "slider", "fixed"};
+        c.contactImpulses = c.signedDistance = true;
+        c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
+        return c;
+    }
+
+    std::vector<Option> options() const override {
+        Option iterations = number("iterations", 1, 100000, "10", "100", "velocity iterations per step");
+        iterations.integer = true;
+        return {
+            choice("solver", {"si", "nncg", "mlcp_dantzig", "mlcp_pgs", "mlcp_lemke"}, "si", "si",
+                   "constraint solver"),
+            iterations,
+            choice("friction_directions", {"1", "2"}, "1", "2",
+                   "friction rows per contact; with 1 an impact without sliding has no friction along x"),
+            choice("friction_axis", {"velocity", "fixed"}, "velocity", "velocity",
+                   "first friction row along the sliding velocity, or along fixed axes of the normal"),
+            choice("split_impulse", {"on", "off"}, "on", "on",
+                   "penetration goes to pseudo velocities instead of velocities"),
+            number("split_impulse_threshold", -1e9, 1e9, "-0.04", "1e9",
+                   "penetrations deeper than this are split [m, negative inside]; 1e9: all"),
+            number("restitution_threshold", 0, 1e9, "0.2", "0", "no bounce below this speed [m/s]"),
+            number("warm_starting", 0, 1, "0.85", "0.85", "part of the last impulses to start from; 0: none"),
+            choice("speculative_contacts", {"on", "by_restitution"}, "on", "by_restitution",
+                   "solve contacts that are still apart; by_restitution: none for bodies that bounce, 1e-4 m "
+                   "for others"),
+            choice("gyroscopic", {"none", "explicit", "implicit_body", "implicit_world", "external"},
+                   "implicit_body", "implicit_body",
+                   "gyroscopic torque; external: after each step, keeping the angular momentum"),
+            choice("sat", {"on", "off"}, "off", "on",
+                   "separating-axis test and clipping between hulls and boxes"),
+            number("margin", 0, 0.04, "0.04", "0.04", "of boxes and cylinders, inside the shape [m]"),
+            number("hull_margin", 0, 0.04, "0.04", "0", "of hulls and cones; grows hulls [m]"),
+            choice("half_space", {"plane", "box"}, "plane", "box",
+                   "half-spaces as btStaticPlaneShape, or as a large box with full manifolds"),
+            choice("broadphase", {"dbvt", "axis_sweep_3", "simple"}, "dbvt", "dbvt", "broad phase"),
+            choice("sleeping", {"on", "off"}, "on", "off", "bodies at rest are stopped and skipped"),
+            number("erp", 0, 1, "0.2", "0.2", "error reduction of joints per step"),
+            number("contact_erp", 0, 1, "0.2", "0.2", "error reduction of contacts per step"),
+            number("cfm", 0, 1, "0", "0", "global constraint force mixing"),
+            number("linear_slop", 0, 1, "0", "0", "penetration left uncorrected [m]"),
+        };
+    }
+
+    const adapter::DynamicsEngine* dynamics() const override { return this; }
+    const adapter::CollisionEngine* collision() const override { return &collision_; }
+    const adapter::BroadPhaseEngine* broadPhase() const override { return &broadPhase_; }
+
+    std::unique_ptr<adapter::World> build(const adapter::Scenario& scenario, double dt,
+                                          const adapter::Settings& settings) const override {
+        adapter::checkScenarioInput(scenario, dt);
+        adapter::checkSupported(scenario, capabilities(), "bullet");
+        // Bullet takes a step no longer than its scalar's epsilon for no step at all.
+        if (static_cast<btScalar>(dt) <= 2 * SIMD_EPSILON)
+            throw adapter::Unsupported("bullet's precision has no time step this small");
+        return std::make_unique<BulletWorld>(scenario, dt, settings);
+    }
+
+  private:
+    BulletCollisionEngine collision_;
+    BulletBroadPhaseEngine broadPhase_;
+};
+
+std::unique_ptr<adapter::Engine> createEngine() {
+    if (libraryPrecision() != kHeaderPrecision)
+        throw std::runtime_error("bullet: the library holds " + libraryPrecision() +
+                                 " scalars, its headers were compiled for " + kHeaderPrecision);
+    return std::make_unique<BulletEngine>();
+}
+
+}  // namespace
+}  // namespace rigor::bullet
+
+RIGOR_ADAPTER_MODULE(rigor::bullet::createEngine)

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Bullet's broad phases as sets of boxes. All of them answer conservatively (fattened, quantised or stale
+// pairs), so their pairs are tested against the exact boxes before they leave.
+#include "adapters/bullet/broadphase.hpp"
+
+#include <btBulletCollisionCommon.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace rigor::bullet {
+namespace {
+
+using adapter::Aabb;
+using adapter::Pair;
+using adapter::Vec3;
+
+/// Rounded away from the box where the scalar is coarser than double, so that no overlap is lost.
+btScalar roundedDown(double v) {
+    const auto s = static_cast<btScalar>(v);
+    return static_cast<double>(s) > v ? std::nextafter(s, -std::numeric_limits<btScalar>::max()) : s;
+}
+btScalar roundedUp(double v) {
+    return -roundedDown(-v);
+}
+btVector3 lower(const Aabb& box) {
+    return {roundedDown(box.min.x), roundedDown(box.min.y), roundedDown(box.min.z)};
+}
+btVector3 upper(const Aabb& box) {
+    return {roundedUp(box.max.x), roundedUp(box.max.y), roundedUp(box.max.z)};
+}
+
+bool overlap(const Aabb& a, const Aabb& b) {
+    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
+           a.min.z <= b.max.z && b.min.z <= a.max.z;
+}
+
+class BulletBroadPhase final : public adapter::BroadPhase {
+  public:
+    explicit BulletBroadPhase(std::string algorithm)
+        : algorithm_(std::move(algorithm)), dispatcher_(&configuration_) {}
+    ~BulletBroadPhase() override { clear(); }
+
+    void update(std::span<const Aabb> boxes, std::vector<Pair>& pairs) override {
+        for (const Aabb& box : boxes)
+            if (!isFinite(box.min) || !isFinite(box.max)) throw adapter::BadInput("box: not finite");
+        if (boxes.size() != proxies_.size() || !broadphase_) rebuild(boxes);
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+            broadphase_->setAabb(proxies_[i], lower(boxes[i]), upper(boxes[i]), &dispatcher_);
+        broadphase_->calculateOverlappingPairs(&dispatcher_);
+        pairs.clear();
+        const btBroadphasePairArray& found =
+            broadphase_->getOverlappingPairCache()->getOverlappingPairArray();
+        for (int k = 0; k < found.size(); ++k) {
+            if (found[k].m_pProxy0 == nullptr || found[k].m_pProxy1 == nullptr) continue;
+            const auto [a, b] = std::minmax(indexOf(*found[k].m_pProxy0), indexOf(*found[k].m_pProxy1));
+            if (overlap(boxes[static_cast<std::size_t>(a)], boxes[static_cast<std::size_t>(b)]))
+                pairs.push_back({a, b});
+        }
+        std::sort(pairs.begin(), pairs.end());
+        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    }
+
+  private:
+    static int indexOf(const btBroadphaseProxy& proxy) {
+        return static_cast<int>(reinterpret_cast<std::intptr_t>(proxy.m_clientObject)) - 1;
+    }
+
+    void clear() {
+        for (btBroadphaseProxy* proxy : proxies_) broadphase_->destroyProxy(proxy, &dispatcher_);
+        proxies_.clear();
+        broadphase_.reset();
+    }
+
+    void rebuild(std::span<const Aabb> boxes) {
+        clear();
+        create(boxes);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            // The client pointer only has to be distinct and not null: Bullet keeps it and never looks
+            // inside.
+            void* client = reinterpret_cast<void*>(static_cast<std::intptr_t>(i + 1));
+            proxies_.push_back(broadphase_->createProxy(lower(boxes[i]), upper(boxes[i]), BOX_SHAPE_PROXYTYPE,
+                                                        client, btBroadphaseProxy::DefaultFilter,
+                                                        btBroadphaseProxy::AllFilter, &dispatcher_));
+        }
+    }
+
+    void create(std::span<const Aabb> boxes) {
+        const auto count = boxes.size() + 1;
+        if (algorithm_ == "simple") {
+            broadphase_ = std::make_unique<btSimpleBroadphase>(static_cast<int>(count));
+        } else if (algorithm_ == "dbvt") {
+            broadphase_ = std::make_unique<btDbvtBroadphase>();
+        } else {
+            // Coordinates are quantised to 32 bits within these bounds and clamped outside, which can only
+            // add pairs.
+            double reach = 1.0;
+            for (const Aabb& box : boxes)
+                for (const double v : {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z})
+                    reach = std::max(reach, 4.0 * std::abs(v));
+            const auto bound = static_cast<btScalar>(reach);
+            broadphase_ = std::make_unique<bt32BitAxisSweep3>(btVector3(-bound, -bound, -bound),
+                                                              btVector3(bound, bound, bound),
+                                                              static_cast<unsigned>(count));
+        }
+    }
+
+    std::string algorithm_;
+    btDefaultCollisionConfiguration configuration_;
+    btCollisionDispatcher dispatcher_;
+    std::unique_ptr<btBroadphaseInterface> broadphase_;
+    std::vector<btBroadphaseProxy*> proxies_;
+};
+
+}  // namespace
+
+std::unique_ptr<adapter::BroadPhase> BulletBroadPhaseEngine::create(const std::string& algorithm,
+                                                                    int dimension) const {
+    const auto known = algorithms();
+    if (std::find(known.begin(), known.end(), algorithm) == known.end())
+        throw adapter::Unsupported("bullet has no broad phase '" + algorithm + "'");
+    if (dimension != 2 && dimension != 3)
+        throw adapter::Unsupported("bullet has no broad phase of dimension " + std::to_string(dimension));
+    return std::make_unique<BulletBroadPhase>(algorithm);
+}
+
+}  // namespace rigor::bullet

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Contacts come from btCollisionDispatcher::findAlgorithm with BT_CONTACT_POINT_ALGORITHMS, the path that
+// stepping takes (contactPairTest takes another one and rounds edges by the margin). Hulls and boxes carry
+// polyhedral features and SAT is on; margins are 0, which SAT ignores and GJK pairs need to be exact. The
+// distance of separated shapes is GJK's (btGjkPairDetector), the support of the plane for half-spaces.
+#include "adapters/bullet/collision.hpp"
+
+#include <BulletCollision/CollisionShapes/btConvexShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+#include <btBulletCollisionCommon.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "adapters/bullet/convert.hpp"
+#include "adapters/bullet/shapes.hpp"
+#include "adapters/interface/input_check.hpp"
+#include "adapters/interface/planar.hpp"
+
+namespace rigor::bullet {
+namespace {
+
+using adapter::CollisionAnswer;
+using adapter::CollisionQuery;
+using adapter::ContactPoint;
+using adapter::Geometry;
+using adapter::Unsupported;
+
+/// Half depth of the prisms of two-dimensional queries [m]: deeper than any overlap in the plane, so that the
+/// least way out is never along z.
+constexpr double kQueryHalfDepth = 100.0;
+
+Geometry lifted(const Geometry& geometry) {
+    Geometry solid;
+    try {
+        solid = adapter::planarGeometry(geometry);
+    } catch (const std::invalid_argument&) {
+        throw Unsupported("bullet has no shape 'segment'");
+    }
+    if (auto* box = std::get_if<scenario::Box>(&solid)) box->halfExtents.z = kQueryHalfDepth;
+    if (auto* hull = std::get_if<scenario::ConvexHull>(&solid))
+        for (Vec3& v : hull->vertices) v.z = std::copysign(kQueryHalfDepth, v.z);
+    return solid;
+}
+
+/// One side of a query as a collision object.
+struct Side {
+    Side(const adapter::PosedShape& posed, int dimension) {
+        ShapeSettings settings;
+        settings.polyhedralFeatures = true;
+        settings.margin = settings.hullMargin = 0.0;
+        shape =
+            buildGeometry(dimension == 2 ? lifted(*posed.geometry) : *posed.geometry, posed.pose, settings)
+                .shape;
+        object.setCollisionShape(shape.get());
+        object.setWorldTransform(toBullet(posed.pose));
+    }
+    bool isPlane() const { return shape->getShapeType() == STATIC_PLANE_PROXYTYPE; }
+    const btConvexShape& convex() const { return static_cast<const btConvexShape&>(*shape); }
+
+    std::unique_ptr<btCollisionShape> shape;
+    btCollisionObject object;
+};
+
+/// Contacts of the stepping path: every manifold point, overlapping or not.
+class ContactFinder {
+  public:
+    ContactFinder() : dispatcher_(&configuration_) {
+        // A polyhedron on a plane gets one point per call without these perturbed queries.
+        configuration_.setPlaneConvexMultipointIterations(4, 5);
+    }
+
+    std::vector<ContactPoint> find(const Side& a, const Side& b) {
+        const btCollisionObjectWrapper wrapA(nullptr, a.shape.get(), &a.object, a.object.getWorldTransform(),
+                                             -1, -1);
+        const btCollisionObjectWrapper wrapB(nullptr, b.shape.get(), &b.object, b.object.getWorldTransform(),
+                                             -1, -1);
+        btCollisionAlgorithm* algorithm =
+            dispatcher_.findAlgorithm(&wrapA, &wrapB, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+        btDispatcherInfo info;
+        info.m_enableSatConvex = true;
+        btManifoldResult result(&wrapA, &wrapB);
+        algorithm->processCollision(&wrapA, &wrapB, info, &result);
+        btManifoldArray manifolds;
+        algorithm->getAllContactManifolds(manifolds);
+        std::vector<ContactPoint> contacts;
+        for (int i = 0; i < manifolds.size(); ++i) append(*manifolds[i], a.object, contacts);
+        algorithm->~btCollisionAlgorithm();
+        dispatcher_.freeCollisionAlgorithm(algorithm);
+        return contacts;
+    }
+
+  private:
+    static void append(const btPersistentManifold& manifold, const btCollisionObject& objectA,
+                       std::vector<ContactPoint>& contacts) {
+        const bool ordered = manifold.getBody0() == &objectA;
+        for (int i = 0; i < manifold.getNumContacts(); ++i) {
+            const btManifoldPoint& point = manifold.getContactPoint(i);
+            const Vec3 on0 = fromBullet(point.getPositionWorldOnA());
+            const Vec3 on1 = fromBullet(point.getPositionWorldOnB());
+            ContactPoint contact;
+            contact.bodyB = 1;
+            contact.pointA = ordered ? on0 : on1, contact.pointB = ordered ? on1 : on0;
+            contact.normal = (ordered ? -1.0 : 1.0) * fromBullet(point.m_normalWorldOnB);
+            contact.depth = -static_cast<double>(point.getDistance());
+            contacts.push_back(contact);
+        }
+    }
+
+    btDefaultCollisionConfiguration configuration_;
+    btCollisionDispatcher dispatcher_;
+};
+
+struct Closest {
+    double distance = 0.0;
+    Vec3 onA, onB;
+};
+
+/// Closest points of two separated convex shapes.
+std::optional<Closest> gjkDistance(const Side& a, const Side& b) {
+    btVoronoiSimplexSolver simplex;
+    btGjkEpaPenetrationDepthSolver depth;
+    btGjkPairDetector detector(&a.convex(), &b.convex(), &simplex, &depth);
+    btGjkPairDetector::ClosestPointInput input;
+    input.m_transformA = a.object.getWorldTransform();
+    input.m_transformB = b.object.getWorldTransform();
+    btPointCollector closest;
+    detector.getClosestPoints(input, closest, nullptr);
+    if (!closest.m_hasResult) return std::nullopt;
+    const btVector3 onA = closest.m_pointInWorld + closest.m_normalOnBInWorld * closest.m_distance;
+    return Closest{static_cast<double>(closest.m_distance), fromBullet(onA),
+                   fromBullet(closest.m_pointInWorld)};
+}
+
+/// Signed distance of a convex shape from a plane, by its support point.
+Closest planeDistance(const Side& plane, const Side& convex, bool planeIsA) {
+    const auto& shape = static_cast<const btStaticPlaneShape&>(*plane.shape);
+    const btTransform& toWorld = plane.object.getWorldTransform();
+    const btVector3 normal = toWorld.getBasis() * shape.getPlaneNormal();
+    const btVector3 onPlane = toWorld * (shape.getPlaneNormal() * shape.getPlaneConstant());
+    const btTransform& pose = convex.object.getWorldTransform();
+    const btVector3 deepest =
+        pose * convex.convex().localGetSupportingVertex(pose.getBasis().transpose() * -normal);
+    const btScalar distance = normal.dot(deepest - onPlane);
+    const Vec3 foot = fromBullet(deepest - normal * distance), tip = fromBullet(deepest);
+    return {static_cast<double>(distance), planeIsA ? foot : tip, planeIsA ? tip : foot};
+}
+
+std::optional<Closest> closestPoints(const Side& a, const Side& b) {
+    if (a.isPlane()) return planeDistance(a, b, true);
+    if (b.isPlane()) return planeDistance(b, a, false);
+    return gjkDistance(a, b);
+}
+
+/// Drops what a prism says about z and the doubled ends of its edges.
+std::vector<ContactPoint> projected(const std::vector<ContactPoint>& contacts) {
+    std::vector<ContactPoint> planar;
+    for (ContactPoint c : contacts) {
+        const double inPlane = std::hypot(c.normal.x, c.normal.y);
+        if (inPlane < 0.5) continue;
+        c.normal = Vec3{c.normal.x, c.normal.y, 0.0} / inPlane;
+        c.pointA.z = c.pointB.z = 0.0;
+        const bool known = std::any_of(planar.begin(), planar.end(), [&](const ContactPoint& other) {
+            return norm(other.pointA - c.pointA) < 1e-6 && norm(other.pointB - c.pointB) < 1e-6;
+        });
+        if (!known) planar.push_back(c);
+    }
+    return planar;
+}
+
+}  // namespace
+
+CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) const {
+    adapter::checkQueryInput(query);
+    const Side a(query.a, query.dimension), b(query.b, query.dimension);
+    if (a.isPlane() && b.isPlane()) throw Unsupported("bullet has no contact of half-space with half-space");
+    ContactFinder finder;
+    std::vector<ContactPoint> contacts = finder.find(a, b);
+    if (query.dimension == 2) contacts = projected(contacts);
+    std::erase_if(contacts, [](const ContactPoint& c) { return c.depth < 0.0; });
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
+    CollisionAnswer answer;
+    answer.overlap = !contacts.empty();
+    if (answer.overlap) {
+        const ContactPoint& deepest = contacts.front();
+        answer.signedDistance = -deepest.depth;
+        answer.witnessA = deepest.pointA, answer.witnessB = deepest.pointB;
+    } else if (auto closest = closestPoints(a, b)) {
+        if (query.dimension == 2) closest->onA.z = closest->onB.z = 0.0;
+        answer.signedDistance = closest->distance;
+        answer.witnessA = closest->onA, answer.witnessB = closest->onB;
+    }
+    if (static_cast<int>(contacts.size()) > query.maxContacts)
+        contacts.resize(static_cast<std::size_t>(std::max(query.maxContacts, 0)));
+    answer.contacts = std::move(contacts);
+    return answer;
+}
+
+}  // namespace rigor::bullet

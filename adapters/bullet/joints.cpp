@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Joints of the scenario format as Bullet constraints. Bullet's anchors and axes are in the centre-of-mass
+// frames of the two bodies; with useReferenceFrameA = true an angle or travel is that of B relative to A.
+#include "adapters/bullet/joints.hpp"
+
+#include <btBulletDynamicsCommon.h>
+
+#include <cmath>
+
+#include "adapters/bullet/convert.hpp"
+
+namespace rigor::bullet {
+namespace {
+
+using scenario::Joint;
+using scenario::JointType;
+
+/// The shortest rotation that takes +x to the unit vector n: Bullet's slider travels along x of its frame.
+Quat fromXTo(const Vec3& n) {
+    if (n.x < -1.0 + 1e-12) return {0.0, 0.0, 1.0, 0.0};
+    const Vec3 axis = cross(Vec3{1.0, 0.0, 0.0}, n);
+    return normalized(Quat{1.0 + n.x, axis.x, axis.y, axis.z});
+}
+
+/// The joint frame in A and in B, both as Bullet wants them: anchors as given, one common orientation at the
+/// initial poses whose x axis is the joint's axis.
+struct Frames {
+    btTransform inA, inB;
+};
+Frames jointFrames(const Joint& joint, const JointEnd& a, const JointEnd& b) {
+    const Quat inBodyA = fromXTo(joint.axisA);
+    const Quat inBodyB = conjugate(b.bodyPose.orientation) * a.bodyPose.orientation * inBodyA;
+    return {toBullet(inverse(a.comFrame) * Pose{joint.anchorA, inBodyA}),
+            toBullet(inverse(b.comFrame) * Pose{joint.anchorB, normalized(inBodyB)})};
+}
+
+}  // namespace
+
+std::unique_ptr<btTypedConstraint> buildJoint(const Joint& joint, const JointEnd& a, const JointEnd& b) {
+    const btVector3 anchorA = toBullet(inverse(a.comFrame) * joint.anchorA);
+    const btVector3 anchorB = toBullet(inverse(b.comFrame) * joint.anchorB);
+    switch (joint.type) {
+        case JointType::Ball:
+            return std::make_unique<btPoint2PointConstraint>(*a.body, *b.body, anchorA, anchorB);
+        case JointType::Hinge: {
+            const btVector3 axisA = toBullet(rotateInverse(a.comFrame.orientation, joint.axisA));
+            const btVector3 axisB = toBullet(rotateInverse(b.comFrame.orientation, joint.axisB));
+            return std::make_unique<btHingeConstraint>(*a.body, *b.body, anchorA, anchorB, axisA, axisB,
+                                                       true);
+        }
+        case JointType::Slider: {
+            const Frames frames = jointFrames(joint, a, b);
+            auto slider =
+                std::make_unique<btSliderConstraint>(*a.body, *b.body, frames.inA, frames.inB, true);
+            slider->setLowerLinLimit(1.0);  // lower > upper: free
+            slider->setUpperLinLimit(-1.0);
+            slider->setLowerAngLimit(0.0);
+            slider->setUpperAngLimit(0.0);
+            return slider;
+        }
+        case JointType::Fixed: {
+            const Frames frames = jointFrames(joint, a, b);
+            return std::make_unique<btFixedConstraint>(*a.body, *b.body, frames.inA, frames.inB);
+        }
+        case JointType::Distance:
+            break;
+    }
+    throw adapter::Unsupported("bullet has no joint 'distance' (joint '" + joint.name + "')");
+}
+
+}  // namespace rigor::bullet

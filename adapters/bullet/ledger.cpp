@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What was asked of Bullet and what it really does. Numbers are of this build's world; reasons are measured
+// properties of Bullet 3.24.
+#include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "adapters/bullet/world.hpp"
+
+namespace rigor::bullet {
+
+using adapter::LedgerEntry;
+using adapter::Realisation;
+
+namespace {
+
+std::string shown(double value) {
+    std::ostringstream text;
+    text.precision(6);
+    text << value;
+    return text.str();
+}
+
+bool hasShape(const adapter::Scenario& scenario, auto&& predicate) {
+    for (const auto& body : scenario.bodies)
+        for (const auto& shape : body.shapes)
+            if (body.collides && predicate(shape.geometry)) return true;
+    return false;
+}
+
+template <class... Kinds>
+bool has(const adapter::Scenario& scenario) {
+    return hasShape(scenario,
+                    [](const adapter::Geometry& g) { return (std::holds_alternative<Kinds>(g) || ...); });
+}
+
+}  // namespace
+
+std::vector<LedgerEntry> BulletWorld::ledger() const {
+    std::vector<LedgerEntry> lines;
+    const auto add = [&](const char* topic, std::string requested, std::string resolved,
+                         Realisation realisation = Realisation::Exact, std::string reason = "") {
+        lines.push_back({topic, std::move(requested), std::move(resolved), realisation, std::move(reason)});
+    };
+    const auto setting = [&](const char* key) { return adapter::textSetting(settings_, key); };
+    const btContactSolverInfo& info = world_->getSolverInfo();
+
+    add("precision", "f64", sizeof(btScalar) == sizeof(double) ? "f64" : "f32",
+        sizeof(btScalar) == sizeof(double) ? Realisation::Exact : Realisation::Approximate,
+        sizeof(btScalar) == sizeof(double) ? "" : "this build of the library computes in single precision");
+    add("integrator", "symplectic_euler", "symplectic_euler");
+    add("time_step", shown(dt_), shown(dt_) + ", one step per call");
+    add("solver", setting("solver"),
+        setting("solver") + ", " + std::to_string(info.m_numIterations) + " iterations");
+    if (mlcpSolver_ != nullptr && mlcpSolver_->getNumFallbacks() > 0)
+        add("solver_fallback", setting("solver"),
+            "sequential impulses in " + std::to_string(mlcpSolver_->getNumFallbacks()) + " solves",
+            Realisation::Approximate, "the direct solver failed there and Bullet fell back");
+    add("warm_starting", setting("warm_starting"), shown(static_cast<double>(info.m_warmstartingFactor)));
+    const bool pyramid = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0;
+    add("friction_law", "coulomb cone, pair coefficient",
+        pyramid ? "two rows, each within mu N" : "one row within mu N", Realisation::Approximate,
+        pyramid ? "a square pyramid, turned so that one axis follows the sliding velocity"
+                : "along the sliding velocity; where nothing slides, one fixed tangent alone is held");
+    add("friction_pair", "pair table", "written into each contact point");
+    add("restitution", "pair coefficient, no threshold",
+        "pair coefficient, none below " + shown(static_cast<double>(info.m_restitutionVelocityThreshold)) +
+            " m/s",
+        info.m_restitutionVelocityThreshold > 0 ? Realisation::Approximate : Realisation::Exact,
+        info.m_restitutionVelocityThreshold > 0 ? "Bullet's velocity threshold" : "");
+    const bool speculative = is("speculative_contacts", "on");
+    add("speculative_contacts", "none",
+        speculative ? "within the contact breaking distance" : "0 for bodies that bounce, else within 1e-4 m",
+        speculative ? Realisation::Approximate : Realisation::Exact,
+        speculative ? "a contact still apart takes gap/dt off the approach, and off the rebound" : "");
+    const bool allSplit = is("split_impulse", "on") && info.m_splitImpulsePenetrationThreshold > 1e6;
+    add("position_correction", "no change of velocity",
+        allSplit ? "split impulses, ERP " + shown(static_cast<double>(info.m_erp2))
+                 : "Baumgarte velocity for shallow contacts, split impulses below " +
+                       setting("split_impulse_threshold") + " m",
+        allSplit ? Realisation::Exact : Realisation::Approximate,
+        allSplit ? "" : "the correction adds energy to shallow impacts");
+    add("joint_error_reduction", "rigid", "ERP " + setting("erp"),
+        scenario_.joints.empty() ? Realisation::Exact : Realisation::Approximate,
+        scenario_.joints.empty() ? "" : "drift is corrected through velocities");
+    add("sleeping", "off", is("sleeping", "on") ? "on: below 0.8 m/s and 1 rad/s for 2 s" : "off",
+        is("sleeping", "on") ? Realisation::Approximate : Realisation::Exact,
+        is("sleeping", "on") ? "Bullet sets the velocity of slow bodies to zero, even in free space" : "");
+    appendGeometryLedger(lines);
+    return lines;
+}
+
+void BulletWorld::appendGeometryLedger(std::vector<LedgerEntry>& lines) const {
+    const auto add = [&](const char* topic, std::string requested, std::string resolved,
+                         Realisation realisation = Realisation::Exact, std::string reason = "") {
+        lines.push_back({topic, std::move(requested), std::move(resolved), realisation, std::move(reason)});
+    };
+    const ShapeSettings shapes = shapeSettings();
+    if (has<scenario::HalfSpace>(scenario_)) {
+        if (shapes.halfSpaceAsBox)
+            add("half_space", "unbounded",
+                "box of half extents " + shown(shapes.halfSpaceReach) + " x " + shown(kHalfSpaceDepth) +
+                    " x " + shown(shapes.halfSpaceReach) + " m below the bodies' middle",
+                Realisation::Approximate,
+                "a plane gives polyhedra one point per step; the box ends somewhere");
+        else
+            add("half_space", "unbounded", "btStaticPlaneShape", Realisation::Approximate,
+                "a polyhedron gets one new contact point per step and turns at a flat impact");
+    }
+    if (has<scenario::Box, scenario::Cylinder>(scenario_))
+        add("collision_margin", "0", shown(shapes.margin) + " m inside boxes and cylinders",
+            shapes.margin > 0.0 ? Realisation::Approximate : Realisation::Exact,
+            shapes.margin > 0.0 ? "rounds their edges where GJK answers (with spheres, capsules, cylinders)"
+                                : "");
+    if (has<scenario::ConvexHull, scenario::Cone>(scenario_))
+        add("hull_margin", "0", shown(shapes.hullMargin) + " m",
+            shapes.hullMargin > 0.0 ? Realisation::Approximate : Realisation::Exact,
+            shapes.hullMargin > 0.0 ? "hulls and cones are grown outwards" : "");
+    if (has<scenario::ConvexHull>(scenario_))
+        add("hull_contacts", "full manifold",
+            shapes.polyhedralFeatures ? "SAT and clipping with hulls and boxes"
+                                      : "GJK/EPA, one point per step",
+            Realisation::Approximate,
+            shapes.polyhedralFeatures ? "edge-edge contacts are clipped as faces, and may read too deep"
+                                      : "the manifold fills over several steps");
+    if (planar_) {
+        add("planar", "two dimensions",
+            "3D prisms of half depth 0.5 m, z translation and x, y rotation locked", Realisation::Approximate,
+            "contacts are found on solids; each 2D contact is two at z = +-0.5 m");
+    } else {
+        const std::string& gyro = adapter::textSetting(settings_, "gyroscopic");
+        add("gyroscopic_term", "exact rigid-body rotation", gyro, Realisation::Approximate,
+            gyro == "none"       ? "angular velocity is constant without torque, whatever the inertia"
+            : gyro == "external" ? "w := I(R1)^-1 I(R0) w after each step: momentum exact, energy first order"
+                                 : "first order in dt, in energy and momentum");
+    }
+    add("angular_step_limit", "none",
+        "exact below pi/4 rad per step (" + shown(0.7853981633974483 / dt_) + " rad/s)",
+        Realisation::Approximate, "above it the exponential map's sine is clamped and the body turns less");
+    const bool damped = std::any_of(
+        scenario_.bodies.begin(), scenario_.bodies.end(),
+        [](const scenario::Body& b) { return b.linearVelocityKept != 1.0 || b.angularVelocityKept != 1.0; });
+    if (damped) add("damping", "v(t) = v0 kept^t", "v *= kept^dt, before the step's forces");
+}
+
+}  // namespace rigor::bullet

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#pragma once
+
+#include "adapters/interface/types.hpp"
+
+namespace rigor::bullet {
+
+struct PrincipalAxes {
+    adapter::Vec3 moments;  ///< [kg m^2]
+    adapter::Quat axes;     ///< principal frame to body frame
+};
+
+/// Principal moments and axes of a symmetric tensor, by cyclic Jacobi rotations. A tensor that is diagonal
+/// already keeps its axes exactly (identity rotation).
+PrincipalAxes principalAxes(const adapter::Mat3& inertia);
+
+}  // namespace rigor::bullet

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Everything that is read out of Bullet's objects: states, contacts, what was built, counters.
+#include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "adapters/bullet/convert.hpp"
+#include "adapters/bullet/world.hpp"
+
+namespace rigor::bullet {
+
+using adapter::BodyState;
+using adapter::ContactPoint;
+using adapter::Mat3;
+
+BodyState BulletWorld::stateOf(const BodyRecord& record) const {
+    const Pose pose = fromBullet(record.body->getWorldTransform()) * inverse(record.comFrame);
+    BodyState state{pose.position, pose.orientation, fromBullet(record.body->getLinearVelocity()),
+                    fromBullet(record.body->getAngularVelocity())};
+    if (record.body->isKinematicObject()) {
+        state.velocity = fromBullet(record.velocity);
+        state.angularVelocity = fromBullet(record.angularVelocity);
+    }
+    return state;
+}
+
+void BulletWorld::readStates(std::span<BodyState> states) const {
+    for (std::size_t i = 0; i < records_.size(); ++i) states[i] = stateOf(*records_[i]);
+}
+
+namespace {
+
+/// In the plane the two ends of a prism's edge are one contact: same bodies, shapes and place.
+void addPlanarContact(ContactPoint contact, std::vector<ContactPoint>& contacts, std::size_t first) {
+    contact.pointA.z = contact.pointB.z = 0.0;
+    contact.frictionImpulse.z = 0.0;
+    const double scale = std::hypot(contact.normal.x, contact.normal.y);
+    if (scale < 0.5) return;  // a normal along z says nothing about the plane
+    contact.normal = Vec3{contact.normal.x, contact.normal.y, 0.0} / scale;
+    for (std::size_t i = first; i < contacts.size(); ++i) {
+        ContactPoint& known = contacts[i];
+        const bool same = known.shapeA == contact.shapeA && known.shapeB == contact.shapeB &&
+                          norm(known.pointA - contact.pointA) < 1e-5 &&
+                          norm(known.pointB - contact.pointB) < 1e-5;
+        if (!same) continue;
+        known.normalImpulse += contact.normalImpulse;
+        known.frictionImpulse += contact.frictionImpulse;
+        return;
+    }
+    contacts.push_back(contact);
+}
+
+}  // namespace
+
+void BulletWorld::appendManifold(const btPersistentManifold& manifold,
+                                 std::vector<ContactPoint>& contacts) const {
+    const btCollisionObject& object0 = *manifold.getBody0();
+    const btCollisionObject& object1 = *manifold.getBody1();
+    if (!object0.isActive() && !object1.isActive()) return;  // asleep: the step left it alone
+    const int body0 = static_cast<const BodyTag*>(object0.getUserPointer())->body;
+    const int body1 = static_cast<const BodyTag*>(object1.getUserPointer())->body;
+    // Bullet's normal points from its body 1 to its body 0; impulses act on body 0 along it.
+    const bool ordered = body0 < body1;
+    const double towardsB = ordered ? -1.0 : 1.0;
+    const std::size_t first = contacts.size();
+    for (int i = 0; i < manifold.getNumContacts(); ++i) {
+        const btManifoldPoint& point = manifold.getContactPoint(i);
+        if (point.getDistance() > manifold.getContactProcessingThreshold()) continue;
+        const int shape0 = std::max(point.m_index0, 0), shape1 = std::max(point.m_index1, 0);
+        const Vec3 on0 = fromBullet(point.getPositionWorldOnA());
+        const Vec3 on1 = fromBullet(point.getPositionWorldOnB());
+        ContactPoint contact;
+        contact.bodyA = std::min(body0, body1), contact.bodyB = std::max(body0, body1);
+        contact.shapeA = ordered ? shape0 : shape1, contact.shapeB = ordered ? shape1 : shape0;
+        contact.pointA = ordered ? on0 : on1, contact.pointB = ordered ? on1 : on0;
+        contact.normal = towardsB * fromBullet(point.m_normalWorldOnB);
+        contact.depth = -static_cast<double>(point.getDistance());
+        contact.hasImpulse = true;
+        contact.normalImpulse = static_cast<double>(point.m_appliedImpulse);
+        contact.frictionImpulse = towardsB * (static_cast<double>(point.m_appliedImpulseLateral1) *
+                                              fromBullet(point.m_lateralFrictionDir1));
+        if (is("friction_directions", "2"))
+            contact.frictionImpulse += towardsB * (static_cast<double>(point.m_appliedImpulseLateral2) *
+                                                   fromBullet(point.m_lateralFrictionDir2));
+        if (planar_)
+            addPlanarContact(contact, contacts, first);
+        else
+            contacts.push_back(contact);
+    }
+}
+
+void BulletWorld::readContacts(std::vector<ContactPoint>& contacts) const {
+    contacts.clear();
+    if (steps_ == 0) return;
+    for (int i = 0; i < dispatcher_->getNumManifolds(); ++i)
+        appendManifold(*dispatcher_->getManifoldByIndexInternal(i), contacts);
+    std::stable_sort(contacts.begin(), contacts.end(), [](const ContactPoint& a, const ContactPoint& b) {
+        return std::pair(a.bodyA, a.bodyB) < std::pair(b.bodyA, b.bodyB);
+    });
+}
+
+namespace {
+
+/// Any two shapes of different bodies that may meet, by their unordered pair of materials.
+using Meeting = std::pair<std::pair<int, int>, std::pair<int, int>>;  // (body, shape), (body, shape)
+std::map<std::pair<int, int>, Meeting> meetings(const adapter::Scenario& scenario, const PairTable& table) {
+    std::map<std::pair<int, int>, Meeting> found;
+    const int count = static_cast<int>(scenario.bodies.size());
+    for (int a = 0; a < count; ++a)
+        for (int b = a + 1; b < count; ++b) {
+            if (!table.mayCollide(a, b)) continue;
+            const auto& shapesA = scenario.bodies[static_cast<std::size_t>(a)].shapes;
+            const auto& shapesB = scenario.bodies[static_cast<std::size_t>(b)].shapes;
+            for (std::size_t i = 0; i < shapesA.size(); ++i)
+                for (std::size_t j = 0; j < shapesB.size(); ++j)
+                    found.try_emplace(std::minmax({shapesA[i].material, shapesB[j].material}),
+                                      Meeting{{a, static_cast<int>(i)}, {b, static_cast<int>(j)}});
+        }
+    return found;
+}
+
+}  // namespace
+
+adapter::ReadBack BulletWorld::readBack() const {
+    adapter::ReadBack back;
+    for (const auto& record : records_) {
+        const btRigidBody& body = *record->body;
+        adapter::BodyReadBack entry;
+        entry.mass = static_cast<double>(body.getMass());
+        entry.centerOfMass = record->comFrame.position;
+        const btVector3 moments = body.getLocalInertia();
+        const Mat3 principal =
+            Mat3::diagonal(static_cast<double>(moments.x()), static_cast<double>(moments.y()),
+                           static_cast<double>(moments.z()));
+        const Mat3 axes = toMatrix(record->comFrame.orientation);
+        entry.inertia = axes * principal * transpose(axes);
+        if (planar_) entry.inertia = Mat3::diagonal(0.0, 0.0, entry.inertia(2, 2));
+        entry.state = stateOf(*record);
+        if (!body.isStaticOrKinematicObject()) entry.gravity = fromBullet(body.getGravity());
+        back.bodies.push_back(entry);
+    }
+    for (const auto& [materials, meeting] : meetings(scenario_, pairs_)) {
+        const auto& [a, b] = meeting;
+        const auto combined = combinedByBullet(*records_[static_cast<std::size_t>(a.first)]->body, a.second,
+                                               *records_[static_cast<std::size_t>(b.first)]->body, b.second);
+        back.pairs.push_back({materials.first, materials.second, combined.friction, combined.restitution});
+    }
+    return back;
+}
+
+adapter::StepCounters BulletWorld::counters() const {
+    adapter::StepCounters counters;
+    counters.pairs = broadphase_->getOverlappingPairCache()->getNumOverlappingPairs();
+    counters.contacts = 0;
+    for (int i = 0; i < dispatcher_->getNumManifolds(); ++i)
+        counters.contacts += dispatcher_->getManifoldByIndexInternal(i)->getNumContacts();
+    std::set<int> islands;
+    for (const auto& record : records_)
+        if (!record->body->isStaticOrKinematicObject() && record->body->isActive())
+            islands.insert(record->body->getIslandTag());
+    if (steps_ > 0) counters.islands = static_cast<std::int64_t>(islands.size());
+    const btSolverAnalyticsData& analytics = solver_->m_analyticsData;
+    if (mlcpSolver_ == nullptr && analytics.m_numIterationsUsed >= 0) {
+        counters.solverIterations = analytics.m_numIterationsUsed;
+        counters.residual = analytics.m_remainingLeastSquaresResidual;
+    }
+    return counters;
+}
+
+}  // namespace rigor::bullet

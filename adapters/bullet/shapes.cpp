@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Geometries of the scenario format as Bullet shapes. Bullet's capsule, cylinder and cone lie along local y
+// like the format's; its lengths are full, ours are halves.
+#include "adapters/bullet/shapes.hpp"
+
+#include <btBulletCollisionCommon.h>
+
+#include <algorithm>
+#include <string>
+
+#include "adapters/bullet/convert.hpp"
+
+namespace rigor::bullet {
+namespace {
+
+using adapter::Unsupported;
+
+/// The shortest rotation that takes +y to the unit vector n.
+Quat fromYTo(const Vec3& n) {
+    if (n.y < -1.0 + 1e-12) return {0.0, 1.0, 0.0, 0.0};
+    const Vec3 axis = cross(Vec3{0.0, 1.0, 0.0}, n);
+    return normalized(Quat{1.0 + n.y, axis.x, axis.y, axis.z});
+}
+
+struct Builder {
+    const Pose& pose;
+    const ShapeSettings& settings;
+
+    BuiltShape operator()(const scenario::Sphere& s) const {
+        return {std::make_unique<btSphereShape>(static_cast<btScalar>(s.radius)), {}};
+    }
+    BuiltShape operator()(const scenario::Box& b) const {
+        auto box = std::make_unique<btBoxShape>(toBullet(b.halfExtents));
+        const double least = std::min({b.halfExtents.x, b.halfExtents.y, b.halfExtents.z});
+        applyInnerMargin(*box, least);
+        if (settings.polyhedralFeatures) box->initializePolyhedralFeatures();
+        return {std::move(box), {}};
+    }
+    BuiltShape operator()(const scenario::Capsule& c) const {
+        return {std::make_unique<btCapsuleShape>(static_cast<btScalar>(c.radius),
+                                                 static_cast<btScalar>(2.0 * c.halfLength)),
+                {}};
+    }
+    BuiltShape operator()(const scenario::Cylinder& c) const {
+        auto cylinder = std::make_unique<btCylinderShape>(toBullet(Vec3{c.radius, c.halfLength, c.radius}));
+        applyInnerMargin(*cylinder, std::min(c.radius, c.halfLength));
+        return {std::move(cylinder), {}};
+    }
+    BuiltShape operator()(const scenario::Cone& c) const {
+        auto cone = std::make_unique<btConeShape>(static_cast<btScalar>(c.radius),
+                                                  static_cast<btScalar>(2.0 * c.halfLength));
+        cone->setMargin(static_cast<btScalar>(settings.hullMargin));
+        return {std::move(cone), {}};
+    }
+    BuiltShape operator()(const scenario::ConvexHull& h) const {
+        auto hull = std::make_unique<btConvexHullShape>();
+        for (const Vec3& v : h.vertices) hull->addPoint(toBullet(v), false);
+        hull->setMargin(static_cast<btScalar>(settings.hullMargin));
+        hull->recalcLocalAabb();
+        if (settings.polyhedralFeatures) hull->initializePolyhedralFeatures();
+        return {std::move(hull), {}};
+    }
+    BuiltShape operator()(const scenario::HalfSpace& h) const {
+        if (!settings.halfSpaceAsBox)
+            return {std::make_unique<btStaticPlaneShape>(toBullet(h.normal), static_cast<btScalar>(h.offset)),
+                    {}};
+        const double reach = settings.halfSpaceReach;
+        auto box = std::make_unique<btBoxShape>(toBullet(Vec3{reach, kHalfSpaceDepth, reach}));
+        if (settings.polyhedralFeatures) box->initializePolyhedralFeatures();
+        const Vec3 center = inverse(pose) * settings.halfSpaceCenter;
+        const Vec3 onPlane = center + (h.offset - dot(h.normal, center)) * h.normal;
+        return {std::move(box), {onPlane - kHalfSpaceDepth * h.normal, fromYTo(h.normal)}};
+    }
+    BuiltShape operator()(const scenario::Segment&) const {
+        throw Unsupported("bullet has no shape 'segment'");
+    }
+
+  private:
+    /// Boxes and cylinders keep their outer size; the margin rounds their edges in the GJK path only. Never
+    /// larger than Bullet's own "safe margin", a tenth of the smallest half extent.
+    template <class Shape>
+    void applyInnerMargin(Shape& shape, double leastHalfExtent) const {
+        if (settings.margin == kLibraryMargin) return;
+        shape.setMargin(static_cast<btScalar>(std::min(settings.margin, 0.1 * leastHalfExtent)));
+    }
+};
+
+}  // namespace
+
+BuiltShape buildGeometry(const adapter::Geometry& geometry, const Pose& pose, const ShapeSettings& settings) {
+    return std::visit(Builder{pose, settings}, geometry);
+}
+
+BodyShape::BodyShape(const scenario::Body& body, const Pose& comFrame, const ShapeSettings& settings) {
+    if (!body.collides || body.shapes.empty()) {
+        parts_.push_back(std::make_unique<btEmptyShape>());
+        root_ = parts_.back().get();
+        return;
+    }
+    const Pose toCom = inverse(comFrame);
+    for (std::size_t i = 0; i < body.shapes.size(); ++i) {
+        BuiltShape built = buildGeometry(body.shapes[i].geometry, body.pose * body.shapes[i].pose, settings);
+        const Pose local = toCom * body.shapes[i].pose * built.offset;
+        parts_.push_back(std::move(built.shape));
+        if (body.shapes.size() == 1 && local == Pose{}) {
+            root_ = parts_.back().get();
+            return;
+        }
+        if (!compound_) compound_ = std::make_unique<btCompoundShape>();
+        compound_->addChildShape(toBullet(local), parts_.back().get());
+    }
+    root_ = compound_.get();
+}
+
+}  // namespace rigor::bullet

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A scenario as a btDiscreteDynamicsWorld: building and stepping. Bullet's body frame is the centre-of-mass
+// frame with principal axes, so every pose, shape and anchor goes through BodyRecord::comFrame.
+#include "adapters/bullet/world.hpp"
+
+#include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
+#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
+#include <BulletDynamics/MLCPSolvers/btLemkeSolver.h>
+#include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
+#include <BulletDynamics/MLCPSolvers/btSolveProjectedGaussSeidel.h>
+
+#include <algorithm>
+
+#include "adapters/bullet/convert.hpp"
+#include "adapters/bullet/joints.hpp"
+#include "adapters/bullet/principal_axes.hpp"
+#include "adapters/interface/planar.hpp"
+
+namespace rigor::bullet {
+
+using adapter::BodyState;
+using adapter::numberSetting;
+using adapter::Scenario;
+using adapter::Settings;
+using scenario::BodyType;
+
+/// Answers Bullet's question whether two overlapping boxes are a pair at all.
+class BulletWorld::PairFilter final : public btOverlapFilterCallback {
+  public:
+    explicit PairFilter(const PairTable& table) : table_(table) {}
+    bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
+        const auto bodyOf = [](const btBroadphaseProxy* proxy) {
+            const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
+            return static_cast<const BodyTag*>(object->getUserPointer())->body;
+        };
+        return table_.mayCollide(bodyOf(a), bodyOf(b));
+    }
+
+  private:
+    const PairTable& table_;
+};
+
+namespace {
+
+/// How far from its bodies' middle anything of the scenario can get in free flight, and at least 50 m.
+double reachOf(const Scenario& scenario, const Vec3& center) {
+    double distance = 0.0, speed = 0.0, gravity = 0.0;
+    for (const auto& body : scenario.bodies) {
+        if (body.type == BodyType::Static) continue;
+        distance = std::max(distance, norm(body.pose.position - center));
+        speed = std::max(speed, norm(body.velocity));
+        gravity = std::max(gravity, std::abs(body.gravityScale) * norm(scenario.gravity));
+    }
+    const double t = scenario.duration;
+    // Single precision resolves 3e-5 m at 500 m, so the box stays no larger than it has to be.
+    const double largest = sizeof(btScalar) == sizeof(double) ? 5000.0 : 500.0;
+    return std::clamp(2.0 * (distance + speed * t + 0.5 * gravity * t * t), 50.0, largest);
+}
+
+Vec3 middleOfBodies(const Scenario& scenario) {
+    Vec3 sum;
+    int count = 0;
+    for (const auto& body : scenario.bodies)
+        if (body.type != BodyType::Static) sum += body.pose.position, ++count;
+    return count > 0 ? sum / count : Vec3{};
+}
+
+int gyroscopicFlags(const std::string& treatment) {
+    if (treatment == "explicit") return BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT;
+    if (treatment == "implicit_world") return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD;
+    if (treatment == "implicit_body") return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
+    return 0;  // none, external
+}
+
+}  // namespace
+
+BulletWorld::BulletWorld(const Scenario& scenario, double dt, const Settings& settings)
+    : original_(scenario),
+      scenario_(scenario.dimension == 2 ? adapter::planarLift(scenario) : scenario),
+      settings_(settings),
+      dt_(dt),
+      planar_(scenario.dimension == 2),
+      externalGyro_(!planar_ && is("gyroscopic", "external")),
+      pairs_(scenario_) {
+    installContactCallback();
+    createPipeline();
+    configureSolver();
+    for (int i = 0; i < static_cast<int>(scenario_.bodies.size()); ++i) addBody(i);
+    groundShape_ = std::make_unique<btEmptyShape>();
+    ground_ = std::make_unique<btRigidBody>(btScalar(0.0), nullptr, groundShape_.get());
+    for (const auto& joint : scenario_.joints) addJoint(joint);
+}
+
+BulletWorld::~BulletWorld() {
+    for (auto& joint : joints_) world_->removeConstraint(joint.get());
+    for (auto& record : records_) world_->removeRigidBody(record->body.get());
+}
+
+bool BulletWorld::is(const std::string& key, const std::string& value) const {
+    return adapter::textSetting(settings_, key) == value;
+}
+
+void BulletWorld::createPipeline() {
+    configuration_ = std::make_unique<btDefaultCollisionConfiguration>();
+    dispatcher_ = std::make_unique<btCollisionDispatcher>(configuration_.get());
+    if (is("broadphase", "simple")) {
+        broadphase_ = std::make_unique<btSimpleBroadphase>(static_cast<int>(scenario_.bodies.size()) + 1);
+    } else if (is("broadphase", "axis_sweep_3")) {
+        const btVector3 bound(10000, 10000, 10000);
+        broadphase_ = std::make_unique<bt32BitAxisSweep3>(
+            -bound, bound, static_cast<unsigned>(scenario_.bodies.size()) + 1u);
+    } else {
+        broadphase_ = std::make_unique<btDbvtBroadphase>();
+    }
+    filter_ = std::make_unique<PairFilter>(pairs_);
+    broadphase_->getOverlappingPairCache()->setOverlapFilterCallback(filter_.get());
+    createSolver();
+    world_ = std::make_unique<btDiscreteDynamicsWorld>(dispatcher_.get(), broadphase_.get(), solver_.get(),
+                                                       configuration_.get());
+    world_->setGravity(toBullet(scenario_.gravity));
+    world_->setInternalTickCallback(&BulletWorld::beforeStep, this, true);
+    world_->getDispatchInfo().m_enableSatConvex = is("sat", "on");
+}
+
+void BulletWorld::createSolver() {
+    const std::string& name = adapter::textSetting(settings_, "solver");
+    if (name == "mlcp_dantzig")
+        mlcp_ = std::make_unique<btDantzigSolver>();
+    else if (name == "mlcp_pgs")
+        mlcp_ = std::make_unique<btSolveProjectedGaussSeidel>();
+    else if (name == "mlcp_lemke")
+        mlcp_ = std::make_unique<btLemkeSolver>();
+    if (mlcp_) {
+        auto solver = std::make_unique<btMLCPSolver>(mlcp_.get());
+        mlcpSolver_ = solver.get();
+        solver_ = std::move(solver);
+    } else if (name == "nncg") {
+        solver_ = std::make_unique<btNNCGConstraintSolver>();
+    } else {
+        solver_ = std::make_unique<btSequentialImpulseConstraintSolver>();
+    }
+}
+
+void BulletWorld::configureSolver() {
+    btContactSolverInfo& info = world_->getSolverInfo();
+    const auto number = [&](const char* key) { return static_cast<btScalar>(numberSetting(settings_, key)); };
+    info.m_numIterations = adapter::integerSetting(settings_, "iterations");
+    info.m_erp = number("erp");
+    info.m_erp2 = number("contact_erp");
+    info.m_globalCfm = number("cfm");
+    info.m_linearSlop = number("linear_slop");
+    info.m_splitImpulse = is("split_impulse", "on");
+    info.m_splitImpulsePenetrationThreshold = number("split_impulse_threshold");
+    info.m_restitutionVelocityThreshold = number("restitution_threshold");
+    // A factor of 0 and not the absent flag: without the flag Bullet does not store impulses either.
+    info.m_solverMode |= SOLVER_USE_WARMSTARTING;
+    info.m_warmstartingFactor = number("warm_starting");
+    if (is("friction_directions", "2")) info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+    if (is("friction_axis", "fixed"))
+        info.m_solverMode |= SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
+    // A direct solver's matrix should hold one island, not a batch of them.
+    if (mlcpSolver_ != nullptr) info.m_minimumSolverBatchSize = 1;
+}
+
+ShapeSettings BulletWorld::shapeSettings() const {
+    ShapeSettings shapes;
+    shapes.polyhedralFeatures = is("sat", "on");
+    shapes.margin = numberSetting(settings_, "margin");
+    shapes.hullMargin = numberSetting(settings_, "hull_margin");
+    shapes.halfSpaceAsBox = is("half_space", "box");
+    shapes.halfSpaceCenter = middleOfBodies(scenario_);
+    shapes.halfSpaceReach = reachOf(scenario_, shapes.halfSpaceCenter);
+    return shapes;
+}
+
+void BulletWorld::addBody(int index) {
+    const scenario::Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+    const bool dynamic = body.type == BodyType::Dynamic;
+    auto record = std::make_unique<BodyRecord>();
+    btVector3 moments(0, 0, 0);
+    record->comFrame.position = body.massProperties.centerOfMass;
+    if (dynamic) {
+        const PrincipalAxes principal = principalAxes(body.massProperties.inertia);
+        record->comFrame.orientation = principal.axes;
+        moments = toBullet(principal.moments);
+    }
+    record->shape = std::make_unique<BodyShape>(body, record->comFrame, shapeSettings());
+    record->tag.table = &pairs_;
+    record->tag.body = index;
+    for (const auto& shape : body.shapes) record->tag.materials.push_back(shape.material);
+    if (record->tag.materials.empty()) record->tag.materials.push_back(0);
+
+    btRigidBody::btRigidBodyConstructionInfo info(
+        dynamic ? static_cast<btScalar>(body.massProperties.mass) : btScalar(0.0), nullptr,
+        record->shape->get(), moments);
+    info.m_startWorldTransform = toBullet(body.pose * record->comFrame);
+    // v *= (1 - d)^dt: the format's "kept per second" is 1 - d.
+    info.m_linearDamping = static_cast<btScalar>(1.0 - body.linearVelocityKept);
+    info.m_angularDamping = static_cast<btScalar>(1.0 - body.angularVelocityKept);
+    record->body = std::make_unique<btRigidBody>(info);
+    btRigidBody& rigid = *record->body;
+    rigid.setUserPointer(&record->tag);
+    rigid.setCollisionFlags(rigid.getCollisionFlags() | btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
+    if (body.type == BodyType::Kinematic) {
+        rigid.setCollisionFlags(rigid.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+        record->velocity = toBullet(body.velocity);
+        record->angularVelocity = toBullet(body.angularVelocity);
+    }
+    if (body.type != BodyType::Static) {
+        rigid.setLinearVelocity(toBullet(body.velocity));
+        rigid.setAngularVelocity(toBullet(body.angularVelocity));
+    }
+    if (!is("sleeping", "on") || body.type == BodyType::Kinematic)
+        rigid.setActivationState(DISABLE_DEACTIVATION);
+    rigid.setFlags(planar_ ? 0 : gyroscopicFlags(adapter::textSetting(settings_, "gyroscopic")));
+    if (is("speculative_contacts", "by_restitution"))
+        rigid.setContactProcessingThreshold(pairs_.mayBounce(scenario_, index) ? btScalar(0.0)
+                                                                               : btScalar(1e-4));
+    if (planar_) {
+        rigid.setLinearFactor(btVector3(1, 1, 0));
+        rigid.setAngularFactor(btVector3(0, 0, 1));
+    }
+    world_->addRigidBody(&rigid);
+    // After adding: the world overwrites a body's own gravity.
+    if (dynamic) rigid.setGravity(toBullet(body.gravityScale * scenario_.gravity));
+    records_.push_back(std::move(record));
+}
+
+void BulletWorld::addJoint(const scenario::Joint& joint) {
+    const auto endOf = [&](int index) {
+        if (index == scenario::kNone) return JointEnd{ground_.get(), {}, {}};
+        const BodyRecord& record = *records_[static_cast<std::size_t>(index)];
+        return JointEnd{record.body.get(), record.comFrame,
+                        scenario_.bodies[static_cast<std::size_t>(index)].pose};
+    };
+    joints_.push_back(buildJoint(joint, endOf(joint.bodyA), endOf(joint.bodyB)));
+    // Whether the two collide is the pair filter's business.
+    world_->addConstraint(joints_.back().get(), false);
+}
+
+void BulletWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
+    btRigidBody& rigid = *records_[static_cast<std::size_t>(body)]->body;
+    if (rigid.isStaticOrKinematicObject()) return;
+    rigid.activate();
+    rigid.applyCentralForce(toBullet(force));
+    rigid.applyTorque(toBullet(torque));
+}
+
+void BulletWorld::step() {
+    std::vector<btMatrix3x3> bases;
+    if (externalGyro_)
+        for (const auto& record : records_) bases.push_back(record->body->getWorldTransform().getBasis());
+    // Zero sub-steps allowed means: exactly one step of this length.
+    world_->stepSimulation(static_cast<btScalar>(dt_), 0);
+    moveKinematicBodies();
+    if (externalGyro_) turnAngularMomenta(bases);
+    ++steps_;
+}
+
+/// Bullet derives a kinematic body's velocity from its last two poses before this callback; its own constant
+/// velocity is set here, so that friction sees it while the pose is still that of the start of the step.
+void BulletWorld::beforeStep(btDynamicsWorld* world, btScalar) {
+    auto& self = *static_cast<BulletWorld*>(world->getWorldUserInfo());
+    for (auto& record : self.records_) {
+        if (!record->body->isKinematicObject()) continue;
+        record->body->setLinearVelocity(record->velocity);
+        record->body->setAngularVelocity(record->angularVelocity);
+    }
+}
+
+void BulletWorld::moveKinematicBodies() {
+    for (auto& record : records_) {
+        btRigidBody& body = *record->body;
+        if (!body.isKinematicObject()) continue;
+        btTransform next;
+        btTransformUtil::integrateTransform(body.getWorldTransform(), record->velocity,
+                                            record->angularVelocity, static_cast<btScalar>(dt_), next);
+        body.setWorldTransform(next);
+        body.setInterpolationWorldTransform(next);
+    }
+}
+
+/// gyroscopic=external: w := I(R1)^-1 I(R0) w keeps the angular momentum of a free body exactly.
+void BulletWorld::turnAngularMomenta(const std::vector<btMatrix3x3>& basesBefore) {
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        btRigidBody& body = *records_[i]->body;
+        if (body.isStaticOrKinematicObject() || !body.isActive()) continue;
+        const btVector3 inertia = body.getLocalInertia(), inverseInertia = body.getInvInertiaDiagLocal();
+        const btMatrix3x3& before = basesBefore[i];
+        const btMatrix3x3& after = body.getWorldTransform().getBasis();
+        const btVector3 momentum = before * (inertia * (before.transpose() * body.getAngularVelocity()));
+        body.setAngularVelocity(after * (inverseInertia * (after.transpose() * momentum)));
+    }
+}
+
+}  // namespace rigor::bullet

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adapters/bullet/pair_table.hpp"
+#include "adapters/bullet/shapes.hpp"
+#include "adapters/interface/engine.hpp"
+
+class btMLCPSolver;
+class btMLCPSolverInterface;
+
+namespace rigor::bullet {
+
+/// One scenario in one btDiscreteDynamicsWorld. Two-dimensional scenarios are lifted (adapters/interface/
+/// planar.hpp) and kept in the plane by Bullet's linear and angular factors.
+class BulletWorld final : public adapter::World {
+  public:
+    BulletWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings);
+    ~BulletWorld() override;
+
+    void applyForce(int body, const adapter::Vec3& force, const adapter::Vec3& torque) override;
+    void step() override;
+    void readStates(std::span<adapter::BodyState> states) const override;
+    void readContacts(std::vector<adapter::ContactPoint>& contacts) const override;
+    adapter::ReadBack readBack() const override;
+    std::vector<adapter::LedgerEntry> ledger() const override;
+    adapter::StepCounters counters() const override;
+    adapter::Scheme scheme() const override { return adapter::Scheme::SymplecticEuler; }
+
+  private:
+    /// What one scenario body is in Bullet. Addresses are stable: Bullet keeps pointers to all of it.
+    struct BodyRecord {
+        adapter::Pose
+            comFrame;  ///< Bullet's frame (origin: centre of mass, principal axes) in the body frame
+        std::unique_ptr<BodyShape> shape;
+        std::unique_ptr<btRigidBody> body;
+        BodyTag tag;
+        btVector3 velocity{0, 0, 0}, angularVelocity{0, 0, 0};  ///< of a kinematic body
+    };
+    class PairFilter;
+
+    void createPipeline();
+    void createSolver();
+    void configureSolver();
+    void addBody(int index);
+    void addJoint(const scenario::Joint& joint);
+    ShapeSettings shapeSettings() const;
+    adapter::BodyState stateOf(const BodyRecord& record) const;
+    void moveKinematicBodies();
+    void turnAngularMomenta(const std::vector<btMatrix3x3>& basesBefore);
+    void appendManifold(const btPersistentManifold& manifold,
+                        std::vector<adapter::ContactPoint>& contacts) const;
+    void appendGeometryLedger(std::vector<adapter::LedgerEntry>& lines) const;
+    static void beforeStep(btDynamicsWorld* world, btScalar dt);
+    bool is(const std::string& key, const std::string& value) const;
+
+    adapter::Scenario original_;  ///< as given
+    adapter::Scenario scenario_;  ///< three-dimensional
+    adapter::Settings settings_;
+    double dt_ = 0.0;
+    bool planar_ = false;
+    bool externalGyro_ = false;
+    int steps_ = 0;
+
+    PairTable pairs_;
+    std::vector<std::unique_ptr<BodyRecord>> records_;
+    std::unique_ptr<btEmptyShape> groundShape_;
+    std::unique_ptr<btRigidBody> ground_;  ///< what joints to the world hold on to; not in the world
+    std::vector<std::unique_ptr<btTypedConstraint>> joints_;
+
+    std::unique_ptr<btDefaultCollisionConfiguration> configuration_;
+    std::unique_ptr<btCollisionDispatcher> dispatcher_;
+    std::unique_ptr<btBroadphaseInterface> broadphase_;
+    std::unique_ptr<PairFilter> filter_;
+    std::unique_ptr<btMLCPSolverInterface> mlcp_;
+    std::unique_ptr<btSequentialImpulseConstraintSolver> solver_;
+    btMLCPSolver* mlcpSolver_ = nullptr;
+    std::unique_ptr<btDiscreteDynamicsWorld> world_;
+};
+
+}  // namespace rigor::bullet
