@@ -17,6 +17,7 @@ struct OracleAnswer {
     double signedDistance = 0.0;  ///< [m]; < 0: minus the penetration depth (minimum translation distance)
     std::vector<scenario::Vec3>
         normals;  ///< unit, A to B; all directions whose signed distance is within `tie` of the best
+    bool continuum = false;             ///< infinitely many such directions: `normals` holds samples of them
     scenario::Vec3 witnessA, witnessB;  ///< one pair of closest (or deepest) points
 };
 
@@ -25,5 +26,13 @@ struct OracleAnswer {
 std::optional<OracleAnswer> exactContact(const scenario::Geometry& a, const scenario::Pose& poseA,
                                          const scenario::Geometry& b, const scenario::Pose& poseB,
                                          int dimension, double tie = 1e-9);
+
+/// Signed distance of the two shapes along one unit direction from A to B [m]: the gap between the supporting
+/// planes. Never above signedDistance; equal to it exactly for the minimising normals, so that it judges any
+/// normal an engine reports. Empty like exactContact, and -infinity along a direction in which a half-space
+/// is unbounded.
+std::optional<double> separationAlong(const scenario::Geometry& a, const scenario::Pose& poseA,
+                                      const scenario::Geometry& b, const scenario::Pose& poseB, int dimension,
+                                      scenario::Vec3 direction);
 
 }  // namespace rigor::validation
