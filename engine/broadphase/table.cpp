@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/broadphase/broad_phase.hpp"
+
+namespace rigor::engine {
+
+#define ALGORITHM(name, factory, summary) \
+    template <class S>                    \
+    std::unique_ptr<BroadPhase<S>> factory();
+#include "engine/broadphase/broadphases.def"
+#undef ALGORITHM
+
+template <class S>
+std::span<const AlgorithmEntry<BroadPhaseFactory<S>>> broadPhaseTable() {
+    static constexpr AlgorithmEntry<BroadPhaseFactory<S>> table[] = {
+#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#include "engine/broadphase/broadphases.def"
+#undef ALGORITHM
+    };
+    return table;
+}
+template std::span<const AlgorithmEntry<BroadPhaseFactory<Space2f>>> broadPhaseTable<Space2f>();
+template std::span<const AlgorithmEntry<BroadPhaseFactory<Space2d>>> broadPhaseTable<Space2d>();
+template std::span<const AlgorithmEntry<BroadPhaseFactory<Space3f>>> broadPhaseTable<Space3f>();
+template std::span<const AlgorithmEntry<BroadPhaseFactory<Space3d>>> broadPhaseTable<Space3d>();
+
+}  // namespace rigor::engine

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Ball joint: C = xB + rB - xA - rA = 0, with r the anchors from the centres of mass in world axes.
+//     C_dot = vB - vA + wB x rB - wA x rA      J = [-1, [rA]x, 1, -[rB]x]
+// 3 rows (2D: 2) [Catto2009].
+#include "engine/constraints/joint.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+void evaluateBall(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
+    out.count = 0;
+    addAnchorRows<S>(joint, A, B, out);
+}
+template void evaluateBall<Space2f>(const Joint<Space2f>&, const Pose<Space2f>&, const Pose<Space2f>&,
+                                    JointRows<Space2f>&);
+template void evaluateBall<Space2d>(const Joint<Space2d>&, const Pose<Space2d>&, const Pose<Space2d>&,
+                                    JointRows<Space2d>&);
+template void evaluateBall<Space3f>(const Joint<Space3f>&, const Pose<Space3f>&, const Pose<Space3f>&,
+                                    JointRows<Space3f>&);
+template void evaluateBall<Space3d>(const Joint<Space3d>&, const Pose<Space3d>&, const Pose<Space3d>&,
+                                    JointRows<Space3d>&);
+
+}  // namespace rigor::engine

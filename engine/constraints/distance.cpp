@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Distance joint (rod without mass): C = |d| - L = 0 with d = xB + rB - xA - rA and u = d/|d|.
+//     C_dot = u . (vB - vA) + wB . (rB x u) - wA . (rA x u)
+// 1 row. Limit: where the anchors coincide the direction is taken as x.
+#include "engine/constraints/joint.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+void evaluateDistance(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
+    out.count = 1;
+    const typename S::Vec rA = rotate(A.q, joint.anchorA), rB = rotate(B.q, joint.anchorB);
+    const typename S::Vec d = (B.p - A.p) + (rB - rA);
+    const typename S::Real distance = d.norm();
+    const typename S::Vec u = distance > std::numeric_limits<typename S::Real>::min()
+                                  ? typename S::Vec(d / distance)
+                                  : typename S::Vec(S::Vec::Unit(0));
+    Row<S>& row = out.row[0];
+    row = {};
+    row.lin = u;
+    row.angA = -cross(rA, u);
+    row.angB = cross(rB, u);
+    out.error[0] = distance - joint.length;
+}
+template void evaluateDistance<Space2f>(const Joint<Space2f>&, const Pose<Space2f>&, const Pose<Space2f>&,
+                                        JointRows<Space2f>&);
+template void evaluateDistance<Space2d>(const Joint<Space2d>&, const Pose<Space2d>&, const Pose<Space2d>&,
+                                        JointRows<Space2d>&);
+template void evaluateDistance<Space3f>(const Joint<Space3f>&, const Pose<Space3f>&, const Pose<Space3f>&,
+                                        JointRows<Space3f>&);
+template void evaluateDistance<Space3d>(const Joint<Space3d>&, const Pose<Space3d>&, const Pose<Space3d>&,
+                                        JointRows<Space3d>&);
+
+}  // namespace rigor::engine

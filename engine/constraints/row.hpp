@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Rows in the middle: joints and contacts produce rows, solvers consume them and know nothing else.
+//
+// A row couples the velocities of two bodies A and B:
+//     J v = lin . (vB - vA) + angA . wA + angB . wB
+// and an impulse lambda along it changes them by M^-1 J^T lambda. Rows that belong together form a block:
+//     Joint    J v + bias = 0                     1..6 rows solved together, K = J M^-1 J^T
+//     Contact  row 0: 0 <= lambda _|_ J v + bias >= 0; rows 1..: friction, |lambda_t| <= friction * lambda_0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/state/body_arrays.hpp"
+
+namespace rigor::engine {
+
+inline constexpr int kMaxJointRows = 6;
+
+template <class S>
+struct Row {
+    using Real = typename S::Real;
+    typename S::Vec lin = S::Vec::Zero();  ///< of B; A has -lin
+    typename S::Ang angA = zeroAng<S>(), angB = zeroAng<S>();
+    typename S::Ang invIAngA = zeroAng<S>(), invIAngB = zeroAng<S>();  ///< world inverse inertia times ang
+    Real bias = 0;                                                     ///< [m/s] or [rad/s]
+    Real impulse = 0;                                                  ///< accumulated, [N s] or [N m s]
+    Real invK = 0;  ///< effective mass 1 / (J M^-1 J^T) of this row alone
+};
+
+enum class BlockKind : std::uint8_t { Joint, Contact };
+
+template <class S>
+struct Block {
+    using Real = typename S::Real;
+    BlockKind kind = BlockKind::Contact;
+    std::uint8_t rows = 0;
+    std::uint32_t first = 0;     ///< its rows are first .. first + rows - 1
+    std::uint32_t a = 0, b = 0;  ///< dense body indices
+    Real friction = 0;           ///< contact: Coulomb coefficient
+    Real invMassA = 0, invMassB = 0;
+    Real k11 = 0, k12 = 0, k22 = 0;  ///< contact: K of the friction rows
+    std::uint32_t matrix = 0;        ///< joint: index of its inverse K
+};
+
+/// Inverse of the K of a joint block; the upper left rows x rows part is used.
+template <class S>
+using BlockMatrix =
+    Eigen::Matrix<typename S::Real, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxJointRows, kMaxJointRows>;
+template <class S>
+using BlockVector = Eigen::Matrix<typename S::Real, Eigen::Dynamic, 1, 0, kMaxJointRows, 1>;
+
+template <class S>
+struct ConstraintRows {
+    std::vector<Row<S>> rows;
+    std::vector<Block<S>> blocks;
+    std::vector<BlockMatrix<S>> matrices;
+    void clear() { rows.clear(), blocks.clear(), matrices.clear(); }
+};
+
+/// J v of a row.
+template <class S>
+typename S::Real rowVelocity(const Row<S>& row, const Velocity<S>& a, const Velocity<S>& b) {
+    return row.lin.dot(b.v - a.v) + dotAng(row.angA, a.w) + dotAng(row.angB, b.w);
+}
+/// v += M^-1 J^T lambda.
+template <class S>
+void applyRowImpulse(const Row<S>& row, const Block<S>& block, typename S::Real lambda, Velocity<S>& a,
+                     Velocity<S>& b) {
+    a.v -= (block.invMassA * lambda) * row.lin;
+    a.w += lambda * row.invIAngA;
+    b.v += (block.invMassB * lambda) * row.lin;
+    b.w += lambda * row.invIAngB;
+}
+/// J1 M^-1 J2^T of two rows of one block.
+template <class S>
+typename S::Real rowCoupling(const Row<S>& r1, const Row<S>& r2, const Block<S>& block) {
+    return (block.invMassA + block.invMassB) * r1.lin.dot(r2.lin) + dotAng(r1.angA, r2.invIAngA) +
+           dotAng(r1.angB, r2.invIAngB);
+}
+/// Fills the inverse-inertia products of a row for the block's bodies.
+template <class S>
+void completeRow(Row<S>& row, const Block<S>& block, const std::vector<typename S::Inertia>& invInertia) {
+    row.invIAngA = invInertia[block.a] * row.angA;
+    row.invIAngB = invInertia[block.b] * row.angB;
+}
+/// Inverse of K of a joint block; directions that no body can follow (K singular) get no impulse.
+template <class S>
+void invertBlock(const Row<S>* rows, const Block<S>& block, BlockMatrix<S>& inverse);
+
+}  // namespace rigor::engine

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Stable handles. A handle names an object for its whole life; the dense index behind it may change when
+// other objects are removed, and a stale handle never names a newer object.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/core/check.hpp"
+
+namespace rigor::engine {
+
+/// index 0 is "none" (for bodies: the world); generation tells re-used slots apart.
+template <class Tag>
+struct Id {
+    std::uint32_t index = 0;
+    std::uint32_t generation = 0;
+    explicit operator bool() const { return index != 0; }
+    friend bool operator==(const Id&, const Id&) = default;
+};
+using BodyId = Id<struct BodyTag>;
+using ShapeId = Id<struct ShapeTag>;
+using JointId = Id<struct JointTag>;
+
+/// Handle -> dense index. The order of the free list is part of the state: two copies give out equal handles.
+template <class Tag>
+class IdTable {
+  public:
+    IdTable() : slots_(1) {}
+
+    Id<Tag> add(std::uint32_t dense) {
+        std::uint32_t index = freeHead_;
+        if (index != 0) {
+            freeHead_ = slots_[index].dense;
+        } else {
+            index = static_cast<std::uint32_t>(slots_.size());
+            slots_.emplace_back();
+        }
+        slots_[index].dense = dense;
+        slots_[index].alive = true;
+        return {index, slots_[index].generation};
+    }
+    bool contains(Id<Tag> id) const {
+        return id.index != 0 && id.index < slots_.size() && slots_[id.index].alive &&
+               slots_[id.index].generation == id.generation;
+    }
+    std::uint32_t dense(Id<Tag> id) const {
+        RIGOR_CHECK(contains(id), "stale or foreign handle");
+        return slots_[id.index].dense;
+    }
+    void move(Id<Tag> id, std::uint32_t dense) {
+        RIGOR_CHECK(contains(id), "stale or foreign handle");
+        slots_[id.index].dense = dense;
+    }
+    void remove(Id<Tag> id) {
+        RIGOR_CHECK(contains(id), "stale or foreign handle");
+        Slot& slot = slots_[id.index];
+        slot.alive = false;
+        ++slot.generation;
+        slot.dense = freeHead_;
+        freeHead_ = id.index;
+    }
+
+  private:
+    struct Slot {
+        std::uint32_t dense = 0;  ///< alive: dense index; free: next free slot
+        std::uint32_t generation = 0;
+        bool alive = false;
+    };
+    std::vector<Slot> slots_;
+    std::uint32_t freeHead_ = 0;
+};
+
+}  // namespace rigor::engine

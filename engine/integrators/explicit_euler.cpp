@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Explicit Euler: x_1 = x_0 + h v_0, v_1 = v_0 + h a(x_0). Order 1; in free fall
+//     v_n = v_0 + n h g,   x_n = x_0 + n h v_0 + h^2 g n (n - 1) / 2
+// Oscillators gain energy at every step, and constraints act one step late: for comparison only.
+#include <algorithm>
+
+#include "engine/integrators/integrator.hpp"
+
+namespace rigor::engine {
+namespace {
+
+template <class S>
+void move(BodyArrays<S>& bodies, std::span<const Velocity<S>> start, std::span<Velocity<S>> used,
+          typename S::Real h) {
+    std::copy(start.begin(), start.end(), used.begin());
+    moveWith<S>(bodies, used, h);
+}
+
+}  // namespace
+
+template <class S>
+Integrator<S> integratorExplicitEuler() {
+    return {&move<S>, false};
+}
+template Integrator<Space2f> integratorExplicitEuler<Space2f>();
+template Integrator<Space2d> integratorExplicitEuler<Space2d>();
+template Integrator<Space3f> integratorExplicitEuler<Space3f>();
+template Integrator<Space3d> integratorExplicitEuler<Space3d>();
+
+}  // namespace rigor::engine

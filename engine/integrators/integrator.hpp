@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Time integration: how forces change velocities, how velocities move bodies, and what a body's own rotation
+// does to its angular velocity.
+#pragma once
+
+#include <span>
+
+#include "engine/core/table.hpp"
+#include "engine/state/body_arrays.hpp"
+
+namespace rigor::engine {
+
+/// What a damping factor and a force do to a velocity in one step of h:  v' = kept v + kick a.
+template <class R>
+struct DampedStep {
+    R kept = 1;  ///< factor on the velocity
+    R kick = 0;  ///< factor on the acceleration [s]
+};
+/// The exact solution of v_dot = ln(keptPerSecond) v + a over h; kept = 1 gives exactly {1, h}.
+template <class R>
+DampedStep<R> dampedStep(R keptPerSecond, R h);
+
+/// Linear and rotational motion over one step. `start` are the velocities before the step, the arrays hold
+/// those after it. Moves the poses and writes to `used` the velocities that moved them.
+template <class S>
+using MoveBodies = void (*)(BodyArrays<S>& bodies, std::span<const Velocity<S>> start,
+                            std::span<Velocity<S>> used, typename S::Real h);
+template <class S>
+struct Integrator {
+    MoveBodies<S> move = nullptr;
+    bool movesWithSolvedVelocity = true;  ///< constraints of this step already act on this step's motion
+};
+template <class S>
+using IntegratorFactory = Integrator<S> (*)();
+template <class S>
+std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable();
+
+/// p += h v, q := exp(h w) q for every body that may move.
+template <class S>
+void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, typename S::Real h);
+
+/// The gyroscopic term of one body. 2D: nothing to do.
+template <class S>
+struct RotationScheme {
+    /// Before the constraints: from the angular velocity w (forces already in it) the one that constraints
+    /// act on and that moves the body.
+    typename S::Ang (*predict)(const BodyConstants<S>& body, const typename S::Rot& q,
+                               const typename S::Ang& w, typename S::Real h);
+    /// After the move from q0 to q1: the angular velocity at the end of the step. w is the one given to
+    /// predict, predicted what it returned, solved what constraints made of that. Null: `solved` stays.
+    typename S::Ang (*finish)(const BodyConstants<S>& body, const typename S::Rot& q0,
+                              const typename S::Rot& q1, const typename S::Ang& w,
+                              const typename S::Ang& predicted, const typename S::Ang& solved);
+};
+template <class S>
+using RotationFactory = RotationScheme<S> (*)();
+template <class S>
+std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable();
+
+}  // namespace rigor::engine

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Symplectic (semi-implicit) Euler: v_1 = v_0 + h a(x_0), x_1 = x_0 + h v_1. Order 1; in free fall
+//     v_n = v_0 + n h g,   x_n = x_0 + n h v_0 + h^2 g n (n + 1) / 2
+// and oscillators keep their energy bounded [HairerLubichWanner2006, section I.1].
+#include <algorithm>
+
+#include "engine/integrators/integrator.hpp"
+
+namespace rigor::engine {
+namespace {
+
+template <class S>
+void move(BodyArrays<S>& bodies, std::span<const Velocity<S>> start, std::span<Velocity<S>> used,
+          typename S::Real h) {
+    (void)start;
+    std::copy(bodies.velocity.begin(), bodies.velocity.end(), used.begin());
+    moveWith<S>(bodies, used, h);
+}
+
+}  // namespace
+
+template <class S>
+Integrator<S> integratorSymplecticEuler() {
+    return {&move<S>, true};
+}
+template Integrator<Space2f> integratorSymplecticEuler<Space2f>();
+template Integrator<Space2d> integratorSymplecticEuler<Space2d>();
+template Integrator<Space3f> integratorSymplecticEuler<Space3f>();
+template Integrator<Space3d> integratorSymplecticEuler<Space3d>();
+
+}  // namespace rigor::engine

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/integrators/integrator.hpp"
+
+namespace rigor::engine {
+
+#define ALGORITHM(name, factory, summary) \
+    template <class S>                    \
+    Integrator<S> factory();
+#include "engine/integrators/integrators.def"
+#undef ALGORITHM
+#define ALGORITHM(name, factory, summary) \
+    template <class S>                    \
+    RotationScheme<S> factory();
+#include "engine/integrators/rotations.def"
+#undef ALGORITHM
+
+template <class S>
+std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable() {
+    static constexpr AlgorithmEntry<IntegratorFactory<S>> table[] = {
+#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#include "engine/integrators/integrators.def"
+#undef ALGORITHM
+    };
+    return table;
+}
+template <class S>
+std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable() {
+    static constexpr AlgorithmEntry<RotationFactory<S>> table[] = {
+#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#include "engine/integrators/rotations.def"
+#undef ALGORITHM
+    };
+    return table;
+}
+
+#define RIGOR_INSTANTIATE(S)                                                             \
+    template std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable<S>(); \
+    template std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable<S>();
+RIGOR_INSTANTIATE(Space2f)
+RIGOR_INSTANTIATE(Space2d)
+RIGOR_INSTANTIATE(Space3f)
+RIGOR_INSTANTIATE(Space3d)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/pipeline/algorithms.hpp"
+
+#include "engine/broadphase/broad_phase.hpp"
+#include "engine/integrators/integrator.hpp"
+#include "engine/narrowphase/narrowphases.hpp"
+#include "engine/solvers/position_correction.hpp"
+#include "engine/solvers/solver.hpp"
+#include "engine/state/world_def.hpp"
+
+namespace rigor::engine {
+namespace {
+
+template <class Table>
+AlgorithmFamily family(const char* name, const char* summary, const std::string& defaultChoice, Table table) {
+    AlgorithmFamily result{name, summary, defaultChoice, {}};
+    for (const auto& entry : table) result.algorithms.push_back({entry.name, entry.summary});
+    return result;
+}
+
+}  // namespace
+
+std::vector<AlgorithmFamily> algorithmFamilies() {
+    using S = Space3d;
+    const WorldDef<S> def;
+    return {
+        family("broad_phase", "which bounding boxes overlap", def.broadPhase, broadPhaseTable<S>()),
+        family("narrow_phase", "where two shapes touch", def.narrowPhase, narrowPhases()),
+        family("integrator", "how velocities move bodies", def.integrator, integratorTable<S>()),
+        family("rotation", "gyroscopic term; bodies turn by the exponential map", def.rotation,
+               rotationTable<S>()),
+        family("solver", "impulses of contacts and joints", def.solver, solverTable<S>()),
+        family("friction", "the friction law of one contact point", def.friction, frictionTable<S>()),
+        family("position_correction", "what removes overlap and joint drift", def.positionCorrection,
+               positionCorrectionTable<S>()),
+    };
+}
+
+}  // namespace rigor::engine

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Contact rows. At a point with normal n (A to B), separation s, arms rA, rB from the centres of mass and
+// relative velocity u = vB + wB x rB - vA - wA x rA:
+//     normal    0 <= lambda_n _|_ n . u + b >= 0
+//     tangents  Coulomb's law with limit mu lambda_n
+// and the bias b is one of
+//     e n . u_0         impact: s <= 0, n . u_0 < -threshold; u_0 from before this step's forces, so that the
+//                       rebound is e times the approach and not e times (approach + g h)
+//     s / h             a gap: the point may just close it in this step
+//     -beta s / h       overlap, where position correction works by velocities; else 0
+// A gap with e > 0 that is closing faster than the threshold gets no rows: closing it would take the speed
+// that the impact has to reverse. The bodies then meet with an overlap of at most one step's motion.
+#include "engine/pipeline/contact_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor::engine {
+
+template <class S>
+std::array<typename S::Vec, S::tangents> tangentBasis(const typename S::Vec& n) {
+    if constexpr (S::dim == 2) {
+        return {typename S::Vec(-n.y(), n.x())};
+    } else {
+        using Vec = typename S::Vec;
+        const Vec axis = std::abs(n.x()) < typename S::Real(0.7) ? Vec::Unit(0) : Vec::Unit(1);
+        const Vec t1 = axis.cross(n).normalized();
+        return {t1, Vec(n.cross(t1))};
+    }
+}
+
+template <class S>
+std::uint32_t ContactSet<S>::addMaterial(Real friction, Real restitution) {
+    const std::uint32_t added = materialCount_++;
+    materials_.push_back({friction, restitution});
+    std::vector<PairCoefficients<S>> table(materialCount_ * materialCount_);
+    for (std::uint32_t a = 0; a < materialCount_; ++a)
+        for (std::uint32_t b = 0; b < materialCount_; ++b) {
+            if (a < added && b < added)
+                table[a * materialCount_ + b] = pairs_[a * added + b];
+            else
+                table[a * materialCount_ + b] = {
+                    std::sqrt(materials_[a].friction * materials_[b].friction),
+                    std::min(materials_[a].restitution, materials_[b].restitution)};
+        }
+    pairs_ = std::move(table);
+    return added;
+}
+
+template <class S>
+void ContactSet<S>::setPair(std::uint32_t a, std::uint32_t b, const PairCoefficients<S>& coefficients) {
+    pairs_[a * materialCount_ + b] = pairs_[b * materialCount_ + a] = coefficients;
+}
+
+template <class S>
+void ContactSet<S>::structureChanged(bool indicesChanged) {
+    boxesValid_ = false;
+    if (indicesChanged) contacts_.clear(), previous_.clear();
+}
+
+template <class S>
+bool ContactSet<S>::mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b) const {
+    if (a == b) return false;
+    const BodyConstants<S>&A = bodies.constants[a], &B = bodies.constants[b];
+    if (!A.collides || !B.collides) return false;
+    if (A.type != BodyType::Dynamic && B.type != BodyType::Dynamic) return false;
+    return excluded_.empty() || !std::binary_search(excluded_.begin(), excluded_.end(), pairKey(a, b));
+}
+
+template <class S>
+void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase,
+                              Real speculativeDistance) {
+    const std::size_t n = shapes_.size();
+    shapePoses_.resize(n);
+    boxes_.resize(n);
+    movable_.resize(n);
+    const Vec margin = Vec::Constant(speculativeDistance);
+    for (std::size_t i = 0; i < n; ++i) {
+        const ShapeRecord<S>& record = shapes_[i];
+        const bool isStatic = bodies.constants[record.body].type == BodyType::Static;
+        if (isStatic && boxesValid_) continue;
+        shapePoses_[i] = compose<S>(bodies.pose[record.body], record.local);
+        boxes_[i] = boundingBox<S>(record.shape, shapePoses_[i]);
+        movable_[i] = bodies.constants[record.body].type == BodyType::Dynamic;
+        if (movable_[i]) boxes_[i].min -= margin, boxes_[i].max += margin;
+    }
+    boxesValid_ = true;
+    broadPhase.update(boxes_, movable_, proxyPairs_);
+}
+
+template <class S>
+void ContactSet<S>::takeOver(const Contact<S>& old, Contact<S>& contact) const {
+    for (int i = 0; i < contact.manifold.count; ++i)
+        for (int j = 0; j < old.manifold.count; ++j) {
+            const auto n = static_cast<std::size_t>(i), o = static_cast<std::size_t>(j);
+            if (contact.manifold.points[n].feature != old.manifold.points[o].feature) continue;
+            if (!old.points[o].impact) {
+                contact.points[n].normalImpulse = old.points[o].normalImpulse;
+                contact.points[n].frictionImpulse = old.points[o].frictionImpulse;
+            }
+            break;
+        }
+}
+
+template <class S>
+void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, CollideFunction<S> collide,
+                                  Real speculativeDistance) {
+    std::swap(contacts_, previous_);
+    contacts_.clear();
+    auto old = previous_.begin();
+    for (const ProxyPair& p : proxyPairs_) {
+        if (!mayCollide(bodies, shapes_[p.a].body, shapes_[p.b].body)) continue;
+        const bool ordered = shapes_[p.a].body < shapes_[p.b].body;
+        const std::uint32_t a = ordered ? p.a : p.b, b = ordered ? p.b : p.a;
+        Contact<S>& contact = contacts_.emplace_back();
+        collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b], speculativeDistance,
+                contact.manifold);
+        if (contact.manifold.count == 0) {
+            contacts_.pop_back();
+            continue;
+        }
+        contact.shapeA = a, contact.shapeB = b;
+        contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
+        contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
+        const auto sortKey = [](const Contact<S>& c) { return pairKey(c.shapeA, c.shapeB); };
+        while (old != previous_.end() && sortKey(*old) < sortKey(contact)) ++old;
+        if (old != previous_.end() && sortKey(*old) == sortKey(contact)) takeOver(*old, contact);
+    }
+}
+
+template <class S>
+void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step,
+                            ConstraintRows<S>& rows) {
+    separations_.clear();
+    for (Contact<S>& contact : contacts_)
+        for (int i = 0; i < contact.manifold.count; ++i) addPointRows(bodies, step, contact, i, rows);
+}
+
+template <class S>
+void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
+                                 int index, ConstraintRows<S>& rows) {
+    typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(index)];
+    const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(index)];
+    const Vec& n = contact.manifold.normal;
+    const std::uint32_t a = contact.bodyA, b = contact.bodyB;
+
+    Block<S> block;
+    block.kind = BlockKind::Contact;
+    block.first = static_cast<std::uint32_t>(rows.rows.size());
+    block.a = a, block.b = b;
+    block.friction = contact.coefficients.friction;
+    block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
+    block.rows = static_cast<std::uint8_t>(block.friction > 0 ? 1 + S::tangents : 1);
+
+    // One point for both bodies, or equal and opposite impulses would make a couple; against a body that
+    // takes no momentum the other's own surface, so that its arm does not depend on the overlap.
+    Vec at = Real(0.5) * (where.pointA + where.pointB);
+    if (block.invMassA == 0) at = where.pointB;
+    if (block.invMassB == 0) at = where.pointA;
+    const Vec rA = at - bodies.pose[a].p, rB = at - bodies.pose[b].p;
+
+    const auto makeRow = [&](const Vec& direction) {
+        Row<S> row;
+        row.lin = direction;
+        row.angA = -cross(rA, direction);
+        row.angB = cross(rB, direction);
+        completeRow<S>(row, block, bodies.invInertia);
+        row.invK = Real(1) / rowCoupling<S>(row, row, block);
+        return row;
+    };
+    Row<S> normal = makeRow(n);
+    const Real approach = rowVelocity<S>(normal, bodies.velocity[a], bodies.velocity[b]);
+    const Real s = where.separation;
+    // Rounding of coordinates of order one metre: closer than this is touching.
+    const Real touching = Real(64) * std::numeric_limits<Real>::epsilon();
+    const bool bounces = contact.coefficients.restitution > 0 && approach < -step.restitutionThreshold;
+    point.impact = approach < -step.impactSpeed;
+    point.block = Contact<S>::kNoBlock;
+    if (bounces && s > touching) {
+        point.normalImpulse = 0;
+        point.frictionImpulse.setZero();
+        return;
+    }
+    if (bounces)
+        normal.bias = contact.coefficients.restitution * approach;
+    else if (s > 0)
+        normal.bias = s / step.h;
+    else
+        normal.bias = step.biasFactor * std::min(Real(0), s + step.slop) / step.h;
+    normal.impulse = step.warmStart * point.normalImpulse;
+    rows.rows.push_back(normal);
+
+    if (block.rows > 1) {
+        const std::array<Vec, S::tangents> basis = tangentBasis<S>(n);
+        for (const Vec& t : basis) {
+            Row<S> row = makeRow(t);
+            row.impulse = step.warmStart * t.dot(point.frictionImpulse);
+            rows.rows.push_back(row);
+        }
+        const Row<S>* t = rows.rows.data() + block.first + 1;
+        block.k11 = rowCoupling<S>(t[0], t[0], block);
+        block.k12 = S::tangents > 1 ? rowCoupling<S>(t[0], t[S::tangents - 1], block) : Real(0);
+        block.k22 = S::tangents > 1 ? rowCoupling<S>(t[S::tangents - 1], t[S::tangents - 1], block) : Real(1);
+    }
+    point.block = static_cast<std::uint32_t>(rows.blocks.size());
+    rows.blocks.push_back(block);
+    separations_.push_back(s);
+}
+
+template <class S>
+void ContactSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
+    for (Contact<S>& contact : contacts_)
+        for (int i = 0; i < contact.manifold.count; ++i) {
+            typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
+            if (point.block == Contact<S>::kNoBlock) continue;
+            const Block<S>& block = rows.blocks[point.block];
+            point.normalImpulse = rows.rows[block.first].impulse;
+            point.frictionImpulse.setZero();
+            for (std::uint32_t r = 1; r < block.rows; ++r)
+                point.frictionImpulse += rows.rows[block.first + r].impulse * rows.rows[block.first + r].lin;
+        }
+}
+
+template class ContactSet<Space2f>;
+template class ContactSet<Space2d>;
+template class ContactSet<Space3f>;
+template class ContactSet<Space3d>;
+
+}  // namespace rigor::engine

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Shapes, materials and contacts of a world: from poses to manifolds, from manifolds to rows, and the
+// impulses back, kept by shape pair and feature for warm starting.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engine/broadphase/broad_phase.hpp"
+#include "engine/constraints/row.hpp"
+#include "engine/core/clone_ptr.hpp"
+#include "engine/narrowphase/manifold.hpp"
+#include "engine/state/world_def.hpp"
+
+namespace rigor::engine {
+
+/// A shape of a body; the dense index is its broad-phase proxy.
+template <class S>
+struct ShapeRecord {
+    Shape<S> shape;
+    Pose<S> local;           ///< in the frame at the body's centre of mass
+    std::uint32_t body = 0;  ///< dense index
+    std::uint32_t material = 0;
+    ShapeId id;
+};
+
+/// Two shapes that touch or nearly do. A is the body of lower index.
+template <class S>
+struct Contact {
+    using Real = typename S::Real;
+    static constexpr std::uint32_t kNoBlock = 0xffffffffu;
+    struct Point {
+        Real normalImpulse = 0;                            ///< of the last step [N s], >= 0
+        typename S::Vec frictionImpulse = S::Vec::Zero();  ///< on B, world frame [N s]
+        std::uint32_t block = kNoBlock;                    ///< its rows in this step; kNoBlock: let through
+        bool impact = false;                               ///< hit, rather than rested, in this step
+    };
+    std::uint32_t shapeA = 0, shapeB = 0, bodyA = 0, bodyB = 0;  ///< dense indices
+    PairCoefficients<S> coefficients;
+    Manifold<S> manifold;
+    std::array<Point, S::maxManifoldPoints> points;
+};
+
+/// What making contact rows needs to know of a step.
+template <class S>
+struct ContactStep {
+    typename S::Real h;                     ///< [s]
+    typename S::Real restitutionThreshold;  ///< [m/s]
+    typename S::Real impactSpeed;           ///< faster approaches are impacts: not warm started from [m/s]
+    typename S::Real biasFactor;            ///< share of the overlap to remove by velocity; 0: none
+    typename S::Real slop;                  ///< [m]
+    typename S::Real warmStart;             ///< factor on the last impulses; 0: none
+};
+
+template <class S>
+class ContactSet {
+  public:
+    using Real = typename S::Real;
+    using Vec = typename S::Vec;
+
+    std::uint32_t addMaterial(Real friction, Real restitution);
+    void setPair(std::uint32_t a, std::uint32_t b, const PairCoefficients<S>& coefficients);
+    const PairCoefficients<S>& pair(std::uint32_t a, std::uint32_t b) const {
+        return pairs_[a * materialCount_ + b];
+    }
+    std::uint32_t materialCount() const { return materialCount_; }
+
+    std::vector<ShapeRecord<S>>& shapes() { return shapes_; }
+    const std::vector<ShapeRecord<S>>& shapes() const { return shapes_; }
+    /// Bodies that a joint keeps from colliding; sorted keys of pairKey.
+    std::vector<std::uint64_t>& excluded() { return excluded_; }
+    static std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
+        return a < b ? (std::uint64_t(a) << 32 | b) : (std::uint64_t(b) << 32 | a);
+    }
+    /// After shapes or bodies were added or removed: contacts are forgotten where dense indices changed.
+    void structureChanged(bool indicesChanged);
+
+    /// Broad phase at the bodies' poses.
+    void findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase, Real speculativeDistance);
+    /// Narrow phase of the pairs; takes over the impulses of contacts that were there in the last step.
+    void findManifolds(const BodyArrays<S>& bodies, CollideFunction<S> collide, Real speculativeDistance);
+    /// Appends the rows of all contacts. The bodies' velocities are those of the start of the step.
+    void addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows);
+    /// Reads the impulses of the solved rows.
+    void storeImpulses(const ConstraintRows<S>& rows);
+
+    const std::vector<ProxyPair>& proxyPairs() const { return proxyPairs_; }
+    const std::vector<Contact<S>>& contacts() const { return contacts_; }
+    /// Separation of contact block i (in the order of the rows) when it was found [m].
+    const std::vector<Real>& separations() const { return separations_; }
+    /// True where contacts between the two bodies are possible.
+    bool mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b) const;
+
+  private:
+    void takeOver(const Contact<S>& old, Contact<S>& contact) const;
+    void addPointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact, int index,
+                      ConstraintRows<S>& rows);
+
+    std::vector<ShapeRecord<S>> shapes_;
+    std::uint32_t materialCount_ = 1;
+    std::vector<PairCoefficients<S>> materials_ = std::vector<PairCoefficients<S>>(1);
+    std::vector<PairCoefficients<S>> pairs_ = std::vector<PairCoefficients<S>>(1);
+    std::vector<std::uint64_t> excluded_;
+
+    std::vector<Contact<S>> contacts_, previous_;  ///< sorted by shape pair
+
+    std::vector<Pose<S>> shapePoses_;
+    std::vector<Aabb<S>> boxes_;
+    std::vector<std::uint8_t> movable_;
+    bool boxesValid_ = false;
+    std::vector<ProxyPair> proxyPairs_;
+    std::vector<Real> separations_;
+};
+
+/// Unit tangents that with n form a right-handed orthonormal frame; a function of n alone.
+template <class S>
+std::array<typename S::Vec, S::tangents> tangentBasis(const typename S::Vec& n);
+
+}  // namespace rigor::engine

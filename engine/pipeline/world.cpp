@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/pipeline/world.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "engine/core/hash.hpp"
+#include "engine/narrowphase/narrowphases.hpp"
+
+namespace rigor::engine {
+namespace {
+
+void require(bool ok, const char* id, const char* message) {
+    if (!ok) throw EngineError(id, message);
+}
+
+template <class S>
+bool positiveDefinite(const typename S::Inertia& I) {
+    if constexpr (S::dim == 2) {
+        return I > 0 && std::isfinite(I);
+    } else {
+        if (!I.allFinite()) return false;
+        const typename S::Real size = I.cwiseAbs().maxCoeff();
+        if ((I - I.transpose()).cwiseAbs().maxCoeff() > typename S::Real(1e-4) * size) return false;
+        return Eigen::SelfAdjointEigenSolver<typename S::Mat>(I, Eigen::EigenvaluesOnly)
+                   .eigenvalues()
+                   .minCoeff() > 0;
+    }
+}
+
+template <class R>
+R rotNorm(const Rot2<R>& q) {
+    return std::sqrt(q.c * q.c + q.s * q.s);
+}
+template <class R>
+R rotNorm(const Eigen::Quaternion<R>& q) {
+    return q.norm();
+}
+template <class S>
+bool validPose(const Pose<S>& X) {
+    return X.p.allFinite() && std::abs(rotNorm(X.q) - typename S::Real(1)) < typename S::Real(1e-4);
+}
+
+template <class S>
+void checkBody(const BodyDef<S>& def) {
+    using Real = typename S::Real;
+    require(validPose<S>(def.pose), "body_pose", "position must be finite, orientation a unit rotation");
+    require(def.velocity.allFinite() && finiteAng(def.angularVelocity), "body_velocity",
+            "velocities must be finite");
+    require(def.centerOfMass.allFinite(), "body_center_of_mass", "centre of mass must be finite");
+    require(std::isfinite(def.gravityScale), "body_gravity_scale", "gravity scale must be finite");
+    const auto kept = [](Real k) { return k > 0 && k <= 1; };
+    require(kept(def.linearVelocityKept) && kept(def.angularVelocityKept), "body_damping",
+            "velocity kept per second must be in (0, 1]");
+    if (def.type != BodyType::Dynamic) return;
+    require(def.mass > 0 && std::isfinite(def.mass), "body_mass", "mass of a dynamic body must be positive");
+    require(positiveDefinite<S>(def.inertia), "body_inertia",
+            "inertia of a dynamic body must be symmetric and positive definite");
+}
+
+template <class S>
+std::string narrowPhaseNames() {
+    std::string names;
+    for (const NarrowPhaseEntry& entry : narrowPhases())
+        names += (names.empty() ? "" : ", ") + std::string(entry.name);
+    return names;
+}
+
+}  // namespace
+
+template <class S>
+World<S>::World(const WorldDef<S>& def) : def_(def) {
+    require(def.gravity.allFinite(), "gravity", "gravity must be finite");
+    require(def.velocityIterations >= 1, "velocity_iterations", "at least one velocity iteration");
+    require(def.positionIterations >= 0, "position_iterations", "position iterations must not be negative");
+    require(def.restitutionThreshold >= 0 && std::isfinite(def.restitutionThreshold), "restitution_threshold",
+            "restitution threshold must not be negative");
+    require(def.slop >= 0 && std::isfinite(def.slop), "slop", "slop must not be negative");
+    require(def.speculativeDistance >= 0 && std::isfinite(def.speculativeDistance), "speculative_distance",
+            "speculative distance must not be negative");
+    integrator_ = findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make();
+    rotation_ = findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make();
+    broadPhase_ = findAlgorithm(broadPhaseTable<S>(), "broad_phase", def.broadPhase).make();
+    solver_ = findAlgorithm(solverTable<S>(), "solver", def.solver).make();
+    correction_ =
+        findAlgorithm(positionCorrectionTable<S>(), "position_correction", def.positionCorrection).make();
+    friction_ = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;
+    collide_ = findNarrowPhase<S>(def.narrowPhase.c_str());
+    if (!collide_)
+        throw EngineError("unknown_algorithm",
+                          "narrow_phase \"" + def.narrowPhase + "\", known: " + narrowPhaseNames<S>());
+
+    // Body 0 is the world.
+    bodies_.pose.emplace_back();
+    bodies_.velocity.emplace_back();
+    bodies_.wrench.emplace_back();
+    bodies_.constants.emplace_back();
+    bodies_.constants[0].collides = false;
+    bodies_.invMass.push_back(0);
+    bodies_.invInertiaLocal.push_back(zeroInertia<S>());
+    bodies_.invInertia.push_back(zeroInertia<S>());
+    bodies_.id.emplace_back();
+}
+
+template <class S>
+BodyId World<S>::addBody(const BodyDef<S>& def) {
+    checkBody<S>(def);
+    const bool dynamic = def.type == BodyType::Dynamic;
+    BodyConstants<S> constants;
+    constants.type = def.type;
+    constants.collides = def.collides;
+    constants.centerOfMass = def.centerOfMass;
+    constants.gravityScale = def.gravityScale;
+    constants.linearVelocityKept = def.linearVelocityKept;
+    constants.angularVelocityKept = def.angularVelocityKept;
+    if (dynamic) {
+        constants.mass = def.mass;
+        constants.inertia = def.inertia;
+        if constexpr (S::dim == 3) constants.inertia = Real(0.5) * (def.inertia + def.inertia.transpose());
+    }
+    const Pose<S> pose{def.pose.p, normalizedRot(def.pose.q)};
+    const BodyId id = bodyIds_.add(static_cast<std::uint32_t>(bodies_.size()));
+    bodies_.pose.push_back({toWorld<S>(pose, def.centerOfMass), pose.q});
+    bodies_.velocity.push_back(def.type == BodyType::Static ? Velocity<S>{}
+                                                            : Velocity<S>{def.velocity, def.angularVelocity});
+    bodies_.wrench.emplace_back();
+    bodies_.constants.push_back(constants);
+    bodies_.invMass.push_back(dynamic ? Real(1) / def.mass : Real(0));
+    bodies_.invInertiaLocal.push_back(dynamic ? inverseInertia<S>(constants.inertia) : zeroInertia<S>());
+    bodies_.invInertia.push_back(zeroInertia<S>());
+    bodies_.id.push_back(id);
+    return id;
+}
+
+template <class S>
+ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
+    const std::uint32_t dense = bodyIds_.dense(body);
+    require(validPose<S>(def.pose), "shape_pose", "position must be finite, orientation a unit rotation");
+    require(def.material < contacts_.materialCount(), "shape_material", "unknown material");
+    require(
+        !std::holds_alternative<HalfSpace<S>>(def.shape) || bodies_.constants[dense].type == BodyType::Static,
+        "half_space_body", "a half-space needs a static body");
+    ShapeRecord<S> record;
+    record.shape = def.shape;
+    record.local = {def.pose.p - bodies_.constants[dense].centerOfMass, normalizedRot(def.pose.q)};
+    record.body = dense;
+    record.material = def.material;
+    record.id = shapeIds_.add(static_cast<std::uint32_t>(contacts_.shapes().size()));
+    contacts_.shapes().push_back(record);
+    contacts_.structureChanged(false);
+    return record.id;
+}
+
+template <class S>
+std::uint32_t World<S>::addMaterial(Real friction, Real restitution) {
+    require(friction >= 0 && std::isfinite(friction), "material_friction", "friction must not be negative");
+    require(restitution >= 0 && restitution <= 1, "material_restitution", "restitution must be in [0, 1]");
+    return contacts_.addMaterial(friction, restitution);
+}
+
+template <class S>
+void World<S>::setPair(std::uint32_t materialA, std::uint32_t materialB,
+                       const PairCoefficients<S>& coefficients) {
+    require(materialA < contacts_.materialCount() && materialB < contacts_.materialCount(), "pair_material",
+            "unknown material");
+    require(coefficients.friction >= 0 && std::isfinite(coefficients.friction), "material_friction",
+            "friction must not be negative");
+    require(coefficients.restitution >= 0 && coefficients.restitution <= 1, "material_restitution",
+            "restitution must be in [0, 1]");
+    contacts_.setPair(materialA, materialB, coefficients);
+}
+
+template <class S>
+const PairCoefficients<S>& World<S>::pairCoefficients(std::uint32_t a, std::uint32_t b) const {
+    require(a < contacts_.materialCount() && b < contacts_.materialCount(), "pair_material",
+            "unknown material");
+    return contacts_.pair(a, b);
+}
+
+template <class S>
+JointId World<S>::addJoint(const JointDef<S>& def) {
+    const std::uint32_t a = bodyOrWorld(def.bodyA), b = bodyOrWorld(def.bodyB);
+    require(a != b, "joint_bodies", "a joint needs two bodies");
+    require(bodies_.invMass[a] > 0 || bodies_.invMass[b] > 0, "joint_bodies", "a joint needs a dynamic body");
+    typename JointSet<S>::Record record;
+    record.joint = makeJoint<S>(def, bodies_.pose[a], bodies_.constants[a].centerOfMass, bodies_.pose[b],
+                                bodies_.constants[b].centerOfMass);
+    record.joint.a = a, record.joint.b = b;
+    record.evaluate = findJoint<S>(def.type);
+    record.joint.id = jointIds_.add(static_cast<std::uint32_t>(joints_.records().size()));
+    joints_.records().push_back(record);
+    rebuildExclusions();
+    return record.joint.id;
+}
+
+template <class S>
+void World<S>::rebuildExclusions() {
+    std::vector<std::uint64_t>& excluded = contacts_.excluded();
+    excluded.clear();
+    for (const typename JointSet<S>::Record& record : joints_.records())
+        if (!record.joint.collideConnected)
+            excluded.push_back(ContactSet<S>::pairKey(record.joint.a, record.joint.b));
+    std::sort(excluded.begin(), excluded.end());
+}
+
+/// The last body takes the place of the removed one; likewise its shapes and joints.
+template <class S>
+void World<S>::removeBody(BodyId body) {
+    const std::uint32_t gone = bodyIds_.dense(body);
+    const auto last = static_cast<std::uint32_t>(bodies_.size() - 1);
+    const auto fill = [gone](auto& array) {
+        array[gone] = array.back();
+        array.pop_back();
+    };
+    fill(bodies_.pose), fill(bodies_.velocity), fill(bodies_.wrench), fill(bodies_.constants);
+    fill(bodies_.invMass), fill(bodies_.invInertiaLocal), fill(bodies_.invInertia), fill(bodies_.id);
+    bodyIds_.remove(body);
+    if (gone != last) bodyIds_.move(bodies_.id[gone], gone);
+
+    std::vector<ShapeRecord<S>>& shapes = contacts_.shapes();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        if (shapes[i].body == gone) {
+            shapeIds_.remove(shapes[i].id);
+            continue;
+        }
+        if (shapes[i].body == last) shapes[i].body = gone;
+        shapeIds_.move(shapes[i].id, static_cast<std::uint32_t>(kept));
+        if (kept != i) shapes[kept] = shapes[i];
+        ++kept;
+    }
+    shapes.resize(kept);
+
+    auto& joints = joints_.records();
+    kept = 0;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        Joint<S>& joint = joints[i].joint;
+        if (joint.a == gone || joint.b == gone) {
+            jointIds_.remove(joint.id);
+            continue;
+        }
+        if (joint.a == last) joint.a = gone;
+        if (joint.b == last) joint.b = gone;
+        jointIds_.move(joint.id, static_cast<std::uint32_t>(kept));
+        if (kept != i) joints[kept] = joints[i];
+        ++kept;
+    }
+    joints.resize(kept);
+    rebuildExclusions();
+    contacts_.structureChanged(true);
+    broadPhase_->reset();
+}
+
+template <class S>
+void World<S>::applyForce(BodyId body, const Vec& force, const Ang& torque) {
+    require(force.allFinite() && finiteAng(torque), "force", "forces must be finite");
+    Wrench<S>& wrench = bodies_.wrench[bodyIds_.dense(body)];
+    wrench.force += force;
+    wrench.torque += torque;
+}
+
+template <class S>
+void World<S>::setVelocity(BodyId body, const Vec& velocity, const Ang& angularVelocity) {
+    require(velocity.allFinite() && finiteAng(angularVelocity), "body_velocity", "velocities must be finite");
+    const std::uint32_t i = bodyIds_.dense(body);
+    require(bodies_.constants[i].type != BodyType::Static, "static_body", "a static body has no velocity");
+    bodies_.velocity[i] = {velocity, angularVelocity};
+}
+
+template <class S>
+Pose<S> World<S>::pose(BodyId body) const {
+    const std::uint32_t i = bodyIds_.dense(body);
+    const Pose<S>& X = bodies_.pose[i];
+    if (bodies_.constants[i].centerOfMass.isZero(0)) return X;
+    return {X.p - rotate(X.q, bodies_.constants[i].centerOfMass), X.q};
+}
+
+template <class S>
+void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
+    out.clear();
+    for (const Contact<S>& contact : contacts_.contacts())
+        for (int i = 0; i < contact.manifold.count; ++i) {
+            const auto& point = contact.points[static_cast<std::size_t>(i)];
+            const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
+            if (point.block == Contact<S>::kNoBlock) continue;
+            out.push_back({bodies_.id[contact.bodyA], bodies_.id[contact.bodyB],
+                           contacts_.shapes()[contact.shapeA].id, contacts_.shapes()[contact.shapeB].id,
+                           where.pointA, where.pointB, contact.manifold.normal, where.separation,
+                           point.normalImpulse, point.frictionImpulse});
+        }
+}
+
+template <class S>
+std::span<const typename S::Real> World<S>::jointImpulses(JointId joint) const {
+    const auto& record = joints_.records()[jointIds_.dense(joint)];
+    const std::size_t rows = rows_.blocks.size() > record.block ? rows_.blocks[record.block].rows : 0;
+    return {record.impulse.data(), rows};
+}
+
+namespace {
+
+template <class Derived>
+void hashField(Hasher& hash, const Eigen::MatrixBase<Derived>& m) {
+    for (Eigen::Index i = 0; i < m.size(); ++i) hash.add(m(i));
+}
+template <class R>
+void hashField(Hasher& hash, const Eigen::Quaternion<R>& q) {
+    hashField(hash, q.coeffs());
+}
+template <class R>
+void hashField(Hasher& hash, const Rot2<R>& q) {
+    hash.add(q.c), hash.add(q.s);
+}
+void hashField(Hasher& hash, float v) {
+    hash.add(v);
+}
+void hashField(Hasher& hash, double v) {
+    hash.add(v);
+}
+template <class S>
+void hashField(Hasher& hash, const Pose<S>& X) {
+    hashField(hash, X.p), hashField(hash, X.q);
+}
+template <class S>
+void hashField(Hasher& hash, const Velocity<S>& v) {
+    hashField(hash, v.v), hashField(hash, v.w);
+}
+template <class S>
+void hashField(Hasher& hash, const Wrench<S>& f) {
+    hashField(hash, f.force), hashField(hash, f.torque);
+}
+
+}  // namespace
+
+template <class S>
+std::uint64_t World<S>::stateHash() const {
+    Hasher hash;
+    hash.add(stepCount_);
+    hash.add(lastStepSize_);
+#define FIELD(name) \
+    for (const auto& value : bodies_.name) hashField(hash, value);
+#include "engine/state/state_fields.def"
+#undef FIELD
+    for (const Contact<S>& contact : contacts_.contacts()) {
+        hash.add(contact.shapeA), hash.add(contact.shapeB);
+        for (int i = 0; i < contact.manifold.count; ++i) {
+            const auto& point = contact.points[static_cast<std::size_t>(i)];
+            hash.add(contact.manifold.points[static_cast<std::size_t>(i)].feature);
+            hash.add(point.normalImpulse), hashField(hash, point.frictionImpulse), hash.add(point.impact);
+        }
+    }
+    for (const auto& record : joints_.records())
+        for (const Real impulse : record.impulse) hash.add(impulse);
+    return hash.value();
+}
+
+template class World<Space2f>;
+template class World<Space2d>;
+template class World<Space3f>;
+template class World<Space3d>;
+
+}  // namespace rigor::engine

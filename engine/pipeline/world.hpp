@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The world: bodies, shapes, joints, and the step. Two worlds share nothing; a copy of a world has the same
+// future, bit for bit. Instantiated for Space2f, Space2d, Space3f and Space3d.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/integrators/integrator.hpp"
+#include "engine/pipeline/contact_set.hpp"
+#include "engine/pipeline/joint_set.hpp"
+#include "engine/pipeline/step_positions.hpp"
+#include "engine/state/world_def.hpp"
+
+namespace rigor::engine {
+
+/// Parts of a step that are timed, in the order they run.
+enum class Phase : std::uint8_t { BroadPhase, NarrowPhase, Rows, Velocities, Solve, Move, Correct };
+inline constexpr std::size_t kPhases = 7;
+const char* phaseName(Phase phase);  ///< "broad_phase", "narrow_phase", ...
+
+/// What happened in one step. Spans are valid until the next.
+template <class S>
+struct StepResult {
+    bool nonFinite = false;  ///< a velocity or pose has become NaN or infinite
+    std::size_t pairs = 0, contacts = 0, rows = 0;
+    int iterations = 0;  ///< of the velocity solver
+    /// Largest velocity error removed from a block, per iteration [m/s or rad/s].
+    std::span<const typename S::Real> residuals;
+    std::array<double, kPhases> seconds{};  ///< wall time per phase
+};
+
+/// A contact point as the last step solved it. A is the body of lower dense index.
+template <class S>
+struct ContactView {
+    BodyId bodyA, bodyB;
+    ShapeId shapeA, shapeB;
+    typename S::Vec pointA, pointB, normal;  ///< at the pose where it was found; normal from A to B
+    typename S::Real separation;             ///< [m]; < 0: overlap
+    typename S::Real normalImpulse;          ///< [N s], >= 0
+    typename S::Vec frictionImpulse;         ///< on B [N s]
+};
+
+template <class S>
+class World {
+  public:
+    using Real = typename S::Real;
+    using Vec = typename S::Vec;
+    using Ang = typename S::Ang;
+
+    /// Throws EngineError for unknown algorithm names and for numbers out of range.
+    explicit World(const WorldDef<S>& def);
+
+    // --- building. Each throws EngineError for values out of range.
+    BodyId addBody(const BodyDef<S>& def);
+    /// Removes the body with its shapes and joints.
+    void removeBody(BodyId body);
+    ShapeId addShape(BodyId body, const ShapeDef<S>& def);
+    std::uint32_t addMaterial(Real friction, Real restitution);
+    /// Coefficients of two materials instead of sqrt(mu_a mu_b) and min(e_a, e_b).
+    void setPair(std::uint32_t materialA, std::uint32_t materialB, const PairCoefficients<S>& coefficients);
+    JointId addJoint(const JointDef<S>& def);
+
+    // --- running
+    /// Force [N] and torque [N m] at the centre of mass, world frame, during the next step. Adds up.
+    void applyForce(BodyId body, const Vec& force, const Ang& torque);
+    /// Advances by h [s], > 0.
+    const StepResult<S>& step(Real h);
+
+    // --- reading
+    std::size_t bodyCount() const { return bodies_.size() - 1; }
+    bool contains(BodyId body) const { return bodyIds_.contains(body); }
+    Pose<S> pose(BodyId body) const;  ///< of the body frame
+    Vec velocity(BodyId body) const {
+        return bodies_.velocity[bodyIds_.dense(body)].v;
+    }  ///< of the centre of mass
+    Ang angularVelocity(BodyId body) const { return bodies_.velocity[bodyIds_.dense(body)].w; }
+    const BodyConstants<S>& constants(BodyId body) const { return bodies_.constants[bodyIds_.dense(body)]; }
+    void setVelocity(BodyId body, const Vec& velocity, const Ang& angularVelocity);
+    const PairCoefficients<S>& pairCoefficients(std::uint32_t a, std::uint32_t b) const;
+    const WorldDef<S>& def() const { return def_; }
+    const StepResult<S>& lastStep() const { return result_; }
+    /// Replaces `out` by the contacts of the last step.
+    void readContacts(std::vector<ContactView<S>>& out) const;
+    /// Impulses of a joint's rows in the last step.
+    std::span<const Real> jointImpulses(JointId joint) const;
+    /// Of everything that decides the future.
+    std::uint64_t stateHash() const;
+
+  private:
+    void rebuildExclusions();
+    void setInertia();
+    void integrateVelocities(Real h);
+    void finishRotations();
+    void checkFinite();
+    std::uint32_t bodyOrWorld(BodyId id) const { return id ? bodyIds_.dense(id) : 0; }
+
+    WorldDef<S> def_;
+    Integrator<S> integrator_{};
+    RotationScheme<S> rotation_{};
+    CollideFunction<S> collide_ = nullptr;
+    FrictionLaw<S> friction_ = nullptr;
+    ClonePtr<BroadPhase<S>> broadPhase_;
+    ClonePtr<Solver<S>> solver_;
+    ClonePtr<PositionCorrection<S>> correction_;
+
+    BodyArrays<S> bodies_;
+    IdTable<BodyTag> bodyIds_;
+    IdTable<ShapeTag> shapeIds_;
+    IdTable<JointTag> jointIds_;
+    ContactSet<S> contacts_;
+    JointSet<S> joints_;
+    Real lastStepSize_ = 0;
+    std::uint64_t stepCount_ = 0;
+
+    // --- recomputed every step
+    ConstraintRows<S> rows_;
+    std::vector<Velocity<S>> start_, used_;
+    std::vector<Ang> kicked_, predicted_;
+    std::vector<typename S::Rot> startRotations_;
+    PositionScratch<S> positionScratch_;
+    std::vector<Real> residuals_;
+    StepResult<S> result_;
+};
+
+}  // namespace rigor::engine

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/solvers/solver.hpp"
+
+namespace rigor::engine {
+
+#define ALGORITHM(name, factory, summary) \
+    template <class S>                    \
+    std::unique_ptr<Solver<S>> factory();
+#include "engine/solvers/solvers.def"
+#undef ALGORITHM
+
+template <class S>
+std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable() {
+    static constexpr AlgorithmEntry<SolverFactory<S>> table[] = {
+#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#include "engine/solvers/solvers.def"
+#undef ALGORITHM
+    };
+    return table;
+}
+
+template <class R>
+using Vec2 = Eigen::Matrix<R, 2, 1>;
+#define ALGORITHM(name, function, summary) \
+    template <class R>                     \
+    Vec2<R> function(R, R, R, const Vec2<R>&, const Vec2<R>&, R);
+#include "engine/solvers/frictions.def"
+#undef ALGORITHM
+
+template <class S>
+std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable() {
+    static constexpr AlgorithmEntry<FrictionLaw<S>> table[] = {
+#define ALGORITHM(name, function, summary) {#name, &function<typename S::Real>, summary},
+#include "engine/solvers/frictions.def"
+#undef ALGORITHM
+    };
+    return table;
+}
+
+#define RIGOR_INSTANTIATE(S)                                                     \
+    template std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable<S>(); \
+    template std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable<S>();
+RIGOR_INSTANTIATE(Space2f)
+RIGOR_INSTANTIATE(Space2d)
+RIGOR_INSTANTIATE(Space3f)
+RIGOR_INSTANTIATE(Space3d)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The bodies of a world as structure of arrays, split by access pattern: what every solver iteration touches
+// (velocities), what a step touches (poses, masses), and what is read once. Index 0 is the world itself, a
+// static body at the origin that joints may attach to.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/core/ids.hpp"
+#include "engine/math/rotation.hpp"
+#include "engine/math/space.hpp"
+
+namespace rigor::engine {
+
+enum class BodyType : std::uint8_t { Static, Kinematic, Dynamic };
+
+/// Velocity of the centre of mass [m/s] and angular velocity [rad/s], world frame.
+template <class S>
+struct Velocity {
+    typename S::Vec v = S::Vec::Zero();
+    typename S::Ang w = zeroAng<S>();
+};
+
+/// Force [N] at the centre of mass and torque [N m], world frame.
+template <class S>
+struct Wrench {
+    typename S::Vec force = S::Vec::Zero();
+    typename S::Ang torque = zeroAng<S>();
+};
+
+/// What does not change while a body lives.
+template <class S>
+struct BodyConstants {
+    BodyType type = BodyType::Static;
+    bool collides = true;
+    typename S::Real mass = 0;                       ///< [kg]; 0 unless dynamic
+    typename S::Inertia inertia = zeroInertia<S>();  ///< about the centre of mass, body axes [kg m^2]
+    typename S::Vec centerOfMass = S::Vec::Zero();   ///< in the body frame [m]
+    typename S::Real gravityScale = 1;               ///< factor on the world's gravity
+    typename S::Real linearVelocityKept = 1;         ///< v(t) = v0 kept^t, (0, 1], per second
+    typename S::Real angularVelocityKept = 1;        ///< likewise for the angular velocity
+};
+
+template <class S>
+struct BodyArrays {
+    // --- state (state_fields.def)
+    std::vector<Pose<S>> pose;  ///< origin at the centre of mass, axes of the body frame
+    std::vector<Velocity<S>> velocity;
+    std::vector<Wrench<S>> wrench;  ///< acts during the next step, then cleared
+    // --- constant
+    std::vector<BodyConstants<S>> constants;
+    std::vector<typename S::Real> invMass;             ///< [1/kg]; 0 unless dynamic
+    std::vector<typename S::Inertia> invInertiaLocal;  ///< body axes; 0 unless dynamic
+    std::vector<BodyId> id;
+    // --- recomputed every step
+    std::vector<typename S::Inertia> invInertia;  ///< world axes, at the start-of-step pose
+
+    std::size_t size() const { return pose.size(); }
+};
+
+}  // namespace rigor::engine
