@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "scenarios/loader/json_text.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace rigor::scenario {
+namespace {
+
+int lineAt(const std::string& text, std::size_t offset) {
+    return 1 + static_cast<int>(std::count(
+                   text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size())),
+                   '\n'));
+}
+
+/// Bracket depth outside strings; the parser recurses, so this comes before it.
+int depthOf(const std::string& text, std::size_t& where) {
+    int depth = 0, deepest = 0;
+    bool inString = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (inString) {
+            if (c == '\\')
+                ++i;
+            else if (c == '"')
+                inString = false;
+        } else if (c == '"') {
+            inString = true;
+        } else if (c == '[' || c == '{') {
+            if (++depth > deepest) deepest = depth, where = i;
+        } else if (c == ']' || c == '}') {
+            --depth;
+        }
+    }
+    return deepest;
+}
+
+/// Walks text that is known to be valid JSON and notes where each value starts and which keys come twice.
+class Locator {
+  public:
+    Locator(const std::string& text, const std::string& file) : text_(text), file_(file) {}
+    std::map<std::string, int> lines;
+    std::vector<Problem> problems;
+
+    void value(const std::string& pointer) {
+        skipSpace();
+        lines.emplace(pointer, line_);
+        const char c = text_[at_];
+        if (c == '{')
+            object(pointer);
+        else if (c == '[')
+            array(pointer);
+        else if (c == '"')
+            (void)string();
+        else
+            while (at_ < text_.size() &&
+                   std::string_view(",]} \t\r\n").find(text_[at_]) == std::string_view::npos)
+                ++at_;
+    }
+
+  private:
+    void skipSpace() {
+        for (; at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos;
+             ++at_)
+            if (text_[at_] == '\n') ++line_;
+    }
+    std::string string() {
+        const std::size_t begin = at_++;
+        while (text_[at_] != '"') at_ += text_[at_] == '\\' ? 2 : 1;
+        ++at_;
+        return Json::parse(text_.substr(begin, at_ - begin)).get<std::string>();
+    }
+    void object(const std::string& pointer) {
+        std::set<std::string> keys;
+        ++at_;
+        for (skipSpace(); text_[at_] != '}'; skipSpace()) {
+            if (text_[at_] == ',') ++at_, skipSpace();
+            const int line = line_;
+            const std::string key = string();
+            const std::string child = pointer + "/" + escapeToken(key);
+            if (!keys.insert(key).second)
+                problems.push_back({"json.duplicate_key", file_, child, line,
+                                    "the key '" + key + "' a second time", "each key once"});
+            skipSpace();
+            ++at_;  // the colon
+            value(child);
+        }
+        ++at_;
+    }
+    void array(const std::string& pointer) {
+        std::size_t index = 0;
+        ++at_;
+        for (skipSpace(); text_[at_] != ']'; skipSpace()) {
+            if (text_[at_] == ',') ++at_;
+            value(pointer + "/" + std::to_string(index++));
+        }
+        ++at_;
+    }
+
+    const std::string& text_;
+    const std::string& file_;
+    std::size_t at_ = 0;
+    int line_ = 1;
+};
+
+}  // namespace
+
+std::string escapeToken(const std::string& token) {
+    std::string escaped;
+    for (const char c : token)
+        if (c == '~')
+            escaped += "~0";
+        else if (c == '/')
+            escaped += "~1";
+        else
+            escaped += c;
+    return escaped;
+}
+
+std::string describe(const Json& value) {
+    switch (value.type()) {
+        case Json::value_t::object:
+            return "object with " + std::to_string(value.size()) + " keys";
+        case Json::value_t::array:
+            return "array of " + std::to_string(value.size());
+        case Json::value_t::null:
+            return "null";
+        default:
+            break;
+    }
+    std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+    if (text.size() > 60) text = text.substr(0, 57) + "...";
+    return std::string(value.type_name()) + " " + text;
+}
+
+int JsonDocument::lineOf(std::string pointer) const {
+    for (;;) {
+        if (const auto it = lines.find(pointer); it != lines.end()) return it->second;
+        const auto slash = pointer.rfind('/');
+        if (slash == std::string::npos) return 0;
+        pointer.resize(slash);
+    }
+}
+
+JsonDocument parseDocument(const std::string& text, const std::string& fileName) {
+    const auto refuse = [&](const char* id, std::size_t offset, const std::string& found,
+                            const std::string& expected) {
+        throw LoadError({{id, fileName, "", lineAt(text, offset), found, expected}});
+    };
+    if (text.size() > kMaxBytes)
+        refuse("json.size", 0, std::to_string(text.size()) + " bytes",
+               "at most " + std::to_string(kMaxBytes));
+    std::size_t where = 0;
+    if (const int depth = depthOf(text, where); depth > kMaxDepth)
+        refuse("json.depth", where, std::to_string(depth) + " levels of brackets",
+               "at most " + std::to_string(kMaxDepth));
+    JsonDocument document;
+    try {
+        document.value = Json::parse(text);
+    } catch (const Json::parse_error& error) {
+        std::string message = error.what();
+        if (const auto colon = message.find("error"); colon != std::string::npos)
+            message = message.substr(colon);
+        refuse("json.syntax", error.byte > 0 ? error.byte - 1 : 0, message, "JSON (RFC 8259)");
+    } catch (const Json::exception& error) {
+        refuse("json.syntax", 0, error.what(), "JSON (RFC 8259) with numbers in double range");
+    }
+    Locator locator(text, fileName);
+    locator.value("");
+    if (!locator.problems.empty()) throw LoadError(std::move(locator.problems));
+    document.lines = std::move(locator.lines);
+    return document;
+}
+
+}  // namespace rigor::scenario

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A JSON value together with its pointer. Getters check type, range and dimension; what is wrong becomes a
+// Problem and a harmless default, so that one pass finds every mistake. The caller throws in the end; nothing
+// half-loads.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/loader/json_text.hpp"
+#include "scenarios/model/scenario.hpp"
+
+namespace rigor::scenario {
+
+/// What the nodes of one file share.
+struct ReadContext {
+    std::string file;
+    const JsonDocument* document = nullptr;
+    std::vector<Problem> problems;
+    int dimension = 3;
+};
+
+class Node {
+  public:
+    Node(const Json& value, std::string pointer, ReadContext& context)
+        : value_(&value), pointer_(std::move(pointer)), context_(&context) {}
+
+    const Json& json() const { return *value_; }
+    const std::string& pointer() const { return pointer_; }
+    ReadContext& context() const { return *context_; }
+    int dimension() const { return context_->dimension; }
+
+    void problem(const std::string& id, const std::string& expected) const {
+        problem(id, describe(*value_), expected);
+    }
+    void problem(const std::string& id, const std::string& found, const std::string& expected) const;
+
+    /// True for an object whose keys are all among `keys`; reports otherwise (unknown keys are named one by
+    /// one).
+    bool isObject(std::initializer_list<const char*> keys) const;
+    bool isArray() const;
+    bool has(const char* key) const { return value_->is_object() && value_->contains(key); }
+    Node operator[](const char* key) const;
+    Node operator[](std::size_t index) const;
+    std::optional<Node> find(const char* key) const;
+    /// The member, or null (reported) when it is missing.
+    std::optional<Node> require(const char* key) const;
+    std::vector<Node> items() const;                            ///< of an array (reported otherwise)
+    std::vector<std::pair<std::string, Node>> members() const;  ///< of an object (reported otherwise)
+
+    double number(double min, double max) const;
+    double positive() const;
+    int integer(int min, int max) const;
+    bool boolean() const;
+    std::string text() const;
+    /// A name: letters, digits and _ - . : not empty, at most 64 characters.
+    std::string name() const;
+    std::vector<std::string> texts() const;
+    std::vector<double> numbers(std::size_t count) const;  ///< exactly `count` finite numbers
+    /// [x, y, z] in 3D, [x, y] in 2D.
+    Vec3 vector() const;
+    Vec3 unitVector() const;
+    /// A vector in 3D, a number about +z in 2D.
+    Vec3 angularVector() const;
+
+  private:
+    const Json* value_;
+    std::string pointer_;
+    ReadContext* context_;
+};
+
+// Parts of a scenario, one file each.
+struct MaterialNames;
+std::vector<Shape> readShapes(const Node& list, const Scenario& scenario, int defaultMaterial);
+/// "orientation", "axis_angle_deg", "angle", "angle_deg" of an object; identity without any.
+Quat readOrientation(const Node& object);
+Body readBody(const Node& node, const Scenario& scenario);
+void readJoints(const Node& list, Scenario& scenario);
+void readForces(const Node& list, Scenario& scenario);
+void readEvents(const Node& list, Scenario& scenario);
+void readAcceptance(const Node& root, Scenario& scenario);
+std::optional<ReferenceSpec> readReference(const Node& node);
+/// Index of the body that a text node names; kNone for "world" where `mayBeWorld`; reported otherwise.
+int readBodyName(const Node& node, const Scenario& scenario, bool mayBeWorld);
+int readMaterialName(const Node& node, const Scenario& scenario);
+
+}  // namespace rigor::scenario

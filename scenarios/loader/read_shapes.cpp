@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <cmath>
+#include <stdexcept>
+
+#include "scenarios/loader/node.hpp"
+#include "scenarios/model/hull.hpp"
+
+namespace rigor::scenario {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;
+constexpr std::size_t kMaxHullPoints = 64;
+
+std::optional<double> roundRadius(const Node& node) {
+    node.isObject({"radius", "half_length"});
+    const auto radius = node.require("radius");
+    return radius ? std::optional(radius->positive()) : std::nullopt;
+}
+
+template <class Round>
+Geometry readRound(const Node& node) {
+    const double radius = roundRadius(node).value_or(1.0);
+    const auto length = node.require("half_length");
+    return Round{radius, length ? length->positive() : 1.0};
+}
+
+Geometry readSphere(const Node& node) {
+    node.isObject({"radius"});
+    const auto radius = node.require("radius");
+    return Sphere{radius ? radius->positive() : 1.0};
+}
+
+Geometry readBox(const Node& node) {
+    node.isObject({"half_extents"});
+    const auto half = node.require("half_extents");
+    if (!half) return Box{{1, 1, 1}};
+    const Vec3 h = half->vector();
+    if (!(h.x > 0.0 && h.y > 0.0 && (node.dimension() == 2 || h.z > 0.0)))
+        half->problem("value.range", "half extents > 0");
+    return Box{h};
+}
+
+Geometry readHull(const Node& node) {
+    node.isObject({"vertices"});
+    const auto list = node.require("vertices");
+    ConvexHull hull;
+    if (!list) return hull;
+    if (list->json().is_array() && list->json().size() > kMaxHullPoints) {
+        list->problem("value.range", "at most " + std::to_string(kMaxHullPoints) + " points");
+        return hull;
+    }
+    for (const Node& point : list->items()) hull.vertices.push_back(point.vector());
+    try {
+        hull.vertices =
+            node.dimension() == 2 ? convexHull2d(hull.vertices) : convexHull3d(hull.vertices).vertices;
+    } catch (const std::invalid_argument& error) {
+        list->problem("shape.degenerate", error.what(), "points that span a solid");
+    }
+    return hull;
+}
+
+Geometry readHalfSpace(const Node& node) {
+    node.isObject({"normal", "offset"});
+    const auto normal = node.require("normal");
+    const auto offset = node.find("offset");
+    return HalfSpace{normal ? normal->unitVector() : Vec3{0, 1, 0}, offset ? offset->number(-1e9, 1e9) : 0.0};
+}
+
+Geometry readSegment(const Node& node) {
+    node.isObject({"a", "b"});
+    const auto a = node.require("a"), b = node.require("b");
+    Segment segment{a ? a->vector() : Vec3{}, b ? b->vector() : Vec3{1, 0, 0}};
+    if (norm(segment.b - segment.a) <= 0.0)
+        node.problem("shape.degenerate", "two equal points", "two different points");
+    return segment;
+}
+
+struct Kind {
+    const char* key;
+    int dimension;  ///< 0: both
+    Geometry (*read)(const Node&);
+};
+constexpr Kind kKinds[] = {{"sphere", 3, readSphere},
+                           {"circle", 2, readSphere},
+                           {"box", 0, readBox},
+                           {"capsule", 0, readRound<Capsule>},
+                           {"cylinder", 3, readRound<Cylinder>},
+                           {"cone", 3, readRound<Cone>},
+                           {"hull", 3, readHull},
+                           {"polygon", 2, readHull},
+                           {"half_space", 3, readHalfSpace},
+                           {"half_plane", 2, readHalfSpace},
+                           {"segment", 2, readSegment}};
+
+std::string kindNames(int dimension) {
+    std::string names;
+    for (const Kind& kind : kKinds)
+        if (kind.dimension == 0 || kind.dimension == dimension)
+            names += (names.empty() ? "" : ", ") + std::string(kind.key);
+    return names;
+}
+
+Shape readShape(const Node& node, const Scenario& scenario, int defaultMaterial) {
+    Shape shape;
+    node.isObject({"sphere", "circle", "box", "capsule", "cylinder", "cone", "hull", "polygon", "half_space",
+                   "half_plane", "segment", "material", "position", "orientation", "axis_angle_deg", "angle",
+                   "angle_deg"});
+    const Kind* found = nullptr;
+    for (const Kind& kind : kKinds) {
+        if (!node.has(kind.key)) continue;
+        if (kind.dimension != 0 && kind.dimension != node.dimension())
+            node[kind.key].problem("shape.dimension", std::string("the shape '") + kind.key + "'",
+                                   "one of " + kindNames(node.dimension()));
+        else if (found != nullptr)
+            node.problem("shape.count", "more than one shape", "one shape for each entry");
+        found = &kind;
+    }
+    if (found == nullptr) {
+        node.problem("shape.missing", "no shape", "one of " + kindNames(node.dimension()));
+        return shape;
+    }
+    if (found->dimension == 0 || found->dimension == node.dimension())
+        shape.geometry = found->read(node[found->key]);
+    if (const auto position = node.find("position")) shape.pose.position = position->vector();
+    shape.pose.orientation = readOrientation(node);
+    shape.material = defaultMaterial;
+    if (const auto material = node.find("material")) shape.material = readMaterialName(*material, scenario);
+    if (shape.material == kNone) {
+        node.problem("material.missing", "no material", "the key 'material' here or at the body");
+        shape.material = 0;
+    }
+    return shape;
+}
+
+}  // namespace
+
+Quat readOrientation(const Node& object) {
+    int given = 0;
+    Quat q;
+    for (const char* key : {"orientation", "axis_angle_deg", "angle", "angle_deg"})
+        given += object.has(key) ? 1 : 0;
+    if (given > 1)
+        object.problem("orientation.count", "several orientations",
+                       "one of orientation, axis_angle_deg, angle, angle_deg");
+    const auto only = [&](const Node& node, int dimension) {
+        if (node.dimension() != dimension)
+            node.problem("orientation.dimension", "a key for " + std::to_string(dimension) + "D",
+                         node.dimension() == 2 ? "angle or angle_deg" : "orientation or axis_angle_deg");
+        return node.dimension() == dimension;
+    };
+    if (const auto node = object.find("orientation"); node && only(*node, 3)) {
+        const auto v = node->numbers(4);
+        q = {v[0], v[1], v[2], v[3]};
+        if (std::abs(norm(q) - 1.0) > 1e-3) {
+            node->problem("orientation.unit", "norm " + std::to_string(norm(q)),
+                          "unit quaternion [w, x, y, z]");
+            return {};
+        }
+        return normalized(q);
+    }
+    if (const auto node = object.find("axis_angle_deg"); node && only(*node, 3)) {
+        node->isObject({"axis", "angle_deg"});
+        const auto axis = node->require("axis"), angle = node->require("angle_deg");
+        if (axis && angle) return fromAxisAngle(axis->unitVector(), kDegree * angle->number(-1e6, 1e6));
+    }
+    if (const auto node = object.find("angle"); node && only(*node, 2))
+        return fromAxisAngle({0, 0, 1}, node->number(-1e6, 1e6));
+    if (const auto node = object.find("angle_deg"); node && only(*node, 2))
+        return fromAxisAngle({0, 0, 1}, kDegree * node->number(-1e6, 1e6));
+    return {};
+}
+
+std::vector<Shape> readShapes(const Node& list, const Scenario& scenario, int defaultMaterial) {
+    std::vector<Shape> shapes;
+    for (const Node& item : list.items()) shapes.push_back(readShape(item, scenario, defaultMaterial));
+    return shapes;
+}
+
+int readMaterialName(const Node& node, const Scenario& scenario) {
+    const std::string name = node.text();
+    std::string known;
+    for (std::size_t i = 0; i < scenario.materials.size(); ++i) {
+        if (scenario.materials[i].name == name) return static_cast<int>(i);
+        known += (known.empty() ? "" : ", ") + scenario.materials[i].name;
+    }
+    if (node.json().is_string()) node.problem("material.unknown", "a material of the file: " + known);
+    return 0;
+}
+
+}  // namespace rigor::scenario
