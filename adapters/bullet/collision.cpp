@@ -53,7 +53,7 @@ struct Side {
     Side(const adapter::PosedShape& posed, int dimension) {
         ShapeSettings settings;
         settings.polyhedralFeatures = true;
-        settings.margin = settings.hullMargin = 0.0;
+        settings.boxMargin = settings.cylinderMargin = settings.hullMargin = 0.0;
         shape =
             buildGeometry(dimension == 2 ? lifted(*posed.geometry) : *posed.geometry, posed.pose, settings)
                 .shape;

@@ -110,15 +110,17 @@ void BulletWorld::appendGeometryLedger(std::vector<LedgerEntry>& lines) const {
             add("half_space", "unbounded", "btStaticPlaneShape", Realisation::Approximate,
                 "a polyhedron gets one new contact point per step and turns at a flat impact");
     }
-    if (has<scenario::Box, scenario::Cylinder>(scenario_))
-        add("collision_margin", "0", shown(shapes.margin) + " m inside boxes and cylinders",
-            shapes.margin > 0.0 ? Realisation::Approximate : Realisation::Exact,
-            shapes.margin > 0.0 ? "rounds their edges where GJK answers (with spheres, capsules, cylinders)"
-                                : "");
+    const auto addMargin = [&](const char* topic, double margin, const char* effect) {
+        add(topic, "0", shown(margin) + " m", margin > 0.0 ? Realisation::Approximate : Realisation::Exact,
+            margin > 0.0 ? effect : "");
+    };
+    if (has<scenario::Box>(scenario_))
+        addMargin("box_margin", shapes.boxMargin, "rounds edges against spheres, capsules, cylinders (GJK)");
+    if (has<scenario::Cylinder>(scenario_))
+        addMargin("cylinder_margin", shapes.cylinderMargin,
+                  "rounds rims (GJK); 0 would leave flat contacts to EPA");
     if (has<scenario::ConvexHull, scenario::Cone>(scenario_))
-        add("hull_margin", "0", shown(shapes.hullMargin) + " m",
-            shapes.hullMargin > 0.0 ? Realisation::Approximate : Realisation::Exact,
-            shapes.hullMargin > 0.0 ? "hulls and cones are grown outwards" : "");
+        addMargin("hull_margin", shapes.hullMargin, "hulls and cones are grown outwards");
     if (has<scenario::ConvexHull>(scenario_))
         add("hull_contacts", "full manifold",
             shapes.polyhedralFeatures ? "SAT and clipping with hulls and boxes"

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "adapters/bullet/convert.hpp"
@@ -104,28 +103,6 @@ void BulletWorld::readContacts(std::vector<ContactPoint>& contacts) const {
     });
 }
 
-namespace {
-
-/// Any two shapes of different bodies that may meet, by their unordered pair of materials.
-using Meeting = std::pair<std::pair<int, int>, std::pair<int, int>>;  // (body, shape), (body, shape)
-std::map<std::pair<int, int>, Meeting> meetings(const adapter::Scenario& scenario, const PairTable& table) {
-    std::map<std::pair<int, int>, Meeting> found;
-    const int count = static_cast<int>(scenario.bodies.size());
-    for (int a = 0; a < count; ++a)
-        for (int b = a + 1; b < count; ++b) {
-            if (!table.mayCollide(a, b)) continue;
-            const auto& shapesA = scenario.bodies[static_cast<std::size_t>(a)].shapes;
-            const auto& shapesB = scenario.bodies[static_cast<std::size_t>(b)].shapes;
-            for (std::size_t i = 0; i < shapesA.size(); ++i)
-                for (std::size_t j = 0; j < shapesB.size(); ++j)
-                    found.try_emplace(std::minmax({shapesA[i].material, shapesB[j].material}),
-                                      Meeting{{a, static_cast<int>(i)}, {b, static_cast<int>(j)}});
-        }
-    return found;
-}
-
-}  // namespace
-
 adapter::ReadBack BulletWorld::readBack() const {
     adapter::ReadBack back;
     for (const auto& record : records_) {
@@ -144,11 +121,12 @@ adapter::ReadBack BulletWorld::readBack() const {
         if (!body.isStaticOrKinematicObject()) entry.gravity = fromBullet(body.getGravity());
         back.bodies.push_back(entry);
     }
-    for (const auto& [materials, meeting] : meetings(scenario_, pairs_)) {
-        const auto& [a, b] = meeting;
-        const auto combined = combinedByBullet(*records_[static_cast<std::size_t>(a.first)]->body, a.second,
-                                               *records_[static_cast<std::size_t>(b.first)]->body, b.second);
-        back.pairs.push_back({materials.first, materials.second, combined.friction, combined.restitution});
+    const auto bodyOf = [&](const adapter::PairTable::ShapeRef& ref) -> const btRigidBody& {
+        return *records_[static_cast<std::size_t>(ref.body)]->body;
+    };
+    for (const auto& m : pairs_.meetings()) {
+        const auto combined = combinedByBullet(bodyOf(m.a), m.a.shape, bodyOf(m.b), m.b.shape);
+        back.pairs.push_back({m.materialA, m.materialB, combined.friction, combined.restitution});
     }
     return back;
 }

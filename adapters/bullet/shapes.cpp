@@ -34,7 +34,7 @@ struct Builder {
     BuiltShape operator()(const scenario::Box& b) const {
         auto box = std::make_unique<btBoxShape>(toBullet(b.halfExtents));
         const double least = std::min({b.halfExtents.x, b.halfExtents.y, b.halfExtents.z});
-        applyInnerMargin(*box, least);
+        applyInnerMargin(*box, settings.boxMargin, least);
         if (settings.polyhedralFeatures) box->initializePolyhedralFeatures();
         return {std::move(box), {}};
     }
@@ -45,7 +45,7 @@ struct Builder {
     }
     BuiltShape operator()(const scenario::Cylinder& c) const {
         auto cylinder = std::make_unique<btCylinderShape>(toBullet(Vec3{c.radius, c.halfLength, c.radius}));
-        applyInnerMargin(*cylinder, std::min(c.radius, c.halfLength));
+        applyInnerMargin(*cylinder, settings.cylinderMargin, std::min(c.radius, c.halfLength));
         return {std::move(cylinder), {}};
     }
     BuiltShape operator()(const scenario::Cone& c) const {
@@ -68,6 +68,7 @@ struct Builder {
                     {}};
         const double reach = settings.halfSpaceReach;
         auto box = std::make_unique<btBoxShape>(toBullet(Vec3{reach, kHalfSpaceDepth, reach}));
+        applyInnerMargin(*box, settings.boxMargin, kHalfSpaceDepth);
         if (settings.polyhedralFeatures) box->initializePolyhedralFeatures();
         const Vec3 center = inverse(pose) * settings.halfSpaceCenter;
         const Vec3 onPlane = center + (h.offset - dot(h.normal, center)) * h.normal;
@@ -81,9 +82,9 @@ struct Builder {
     /// Boxes and cylinders keep their outer size; the margin rounds their edges in the GJK path only. Never
     /// larger than Bullet's own "safe margin", a tenth of the smallest half extent.
     template <class Shape>
-    void applyInnerMargin(Shape& shape, double leastHalfExtent) const {
-        if (settings.margin == kLibraryMargin) return;
-        shape.setMargin(static_cast<btScalar>(std::min(settings.margin, 0.1 * leastHalfExtent)));
+    static void applyInnerMargin(Shape& shape, double margin, double leastHalfExtent) {
+        if (margin == kLibraryMargin) return;
+        shape.setMargin(static_cast<btScalar>(std::min(margin, 0.1 * leastHalfExtent)));
     }
 };
 

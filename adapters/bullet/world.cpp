@@ -11,12 +11,11 @@
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 #include <BulletDynamics/MLCPSolvers/btSolveProjectedGaussSeidel.h>
 
-#include <algorithm>
-
 #include "adapters/bullet/convert.hpp"
 #include "adapters/bullet/joints.hpp"
 #include "adapters/bullet/principal_axes.hpp"
 #include "adapters/interface/planar.hpp"
+#include "adapters/interface/reach.hpp"
 
 namespace rigor::bullet {
 
@@ -29,7 +28,7 @@ using scenario::BodyType;
 /// Answers Bullet's question whether two overlapping boxes are a pair at all.
 class BulletWorld::PairFilter final : public btOverlapFilterCallback {
   public:
-    explicit PairFilter(const PairTable& table) : table_(table) {}
+    explicit PairFilter(const adapter::PairTable& table) : table_(table) {}
     bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
         const auto bodyOf = [](const btBroadphaseProxy* proxy) {
             const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
@@ -39,33 +38,10 @@ class BulletWorld::PairFilter final : public btOverlapFilterCallback {
     }
 
   private:
-    const PairTable& table_;
+    const adapter::PairTable& table_;
 };
 
 namespace {
-
-/// How far from its bodies' middle anything of the scenario can get in free flight, and at least 50 m.
-double reachOf(const Scenario& scenario, const Vec3& center) {
-    double distance = 0.0, speed = 0.0, gravity = 0.0;
-    for (const auto& body : scenario.bodies) {
-        if (body.type == BodyType::Static) continue;
-        distance = std::max(distance, norm(body.pose.position - center));
-        speed = std::max(speed, norm(body.velocity));
-        gravity = std::max(gravity, std::abs(body.gravityScale) * norm(scenario.gravity));
-    }
-    const double t = scenario.duration;
-    // Single precision resolves 3e-5 m at 500 m, so the box stays no larger than it has to be.
-    const double largest = sizeof(btScalar) == sizeof(double) ? 5000.0 : 500.0;
-    return std::clamp(2.0 * (distance + speed * t + 0.5 * gravity * t * t), 50.0, largest);
-}
-
-Vec3 middleOfBodies(const Scenario& scenario) {
-    Vec3 sum;
-    int count = 0;
-    for (const auto& body : scenario.bodies)
-        if (body.type != BodyType::Static) sum += body.pose.position, ++count;
-    return count > 0 ? sum / count : Vec3{};
-}
 
 int gyroscopicFlags(const std::string& treatment) {
     if (treatment == "explicit") return BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT;
@@ -167,11 +143,15 @@ void BulletWorld::configureSolver() {
 ShapeSettings BulletWorld::shapeSettings() const {
     ShapeSettings shapes;
     shapes.polyhedralFeatures = is("sat", "on");
-    shapes.margin = numberSetting(settings_, "margin");
+    shapes.boxMargin = numberSetting(settings_, "box_margin");
+    shapes.cylinderMargin = numberSetting(settings_, "cylinder_margin");
     shapes.hullMargin = numberSetting(settings_, "hull_margin");
     shapes.halfSpaceAsBox = is("half_space", "box");
-    shapes.halfSpaceCenter = middleOfBodies(scenario_);
-    shapes.halfSpaceReach = reachOf(scenario_, shapes.halfSpaceCenter);
+    // Single precision resolves 3e-5 m at 500 m, so the box stays no larger than it has to be.
+    const double most = sizeof(btScalar) == sizeof(double) ? 5000.0 : 500.0;
+    const adapter::Reach reach = adapter::reachOf(scenario_, 50.0, most);
+    shapes.halfSpaceCenter = reach.middle;
+    shapes.halfSpaceReach = reach.distance;
     return shapes;
 }
 
@@ -216,8 +196,7 @@ void BulletWorld::addBody(int index) {
         rigid.setActivationState(DISABLE_DEACTIVATION);
     rigid.setFlags(planar_ ? 0 : gyroscopicFlags(adapter::textSetting(settings_, "gyroscopic")));
     if (is("speculative_contacts", "by_restitution"))
-        rigid.setContactProcessingThreshold(pairs_.mayBounce(scenario_, index) ? btScalar(0.0)
-                                                                               : btScalar(1e-4));
+        rigid.setContactProcessingThreshold(pairs_.mayBounce(index) ? btScalar(0.0) : btScalar(1e-4));
     if (planar_) {
         rigid.setLinearFactor(btVector3(1, 1, 0));
         rigid.setAngularFactor(btVector3(0, 0, 1));

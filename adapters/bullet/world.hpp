@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/bullet/pair_table.hpp"
+#include "adapters/bullet/contact_rules.hpp"
 #include "adapters/bullet/shapes.hpp"
 #include "adapters/interface/engine.hpp"
 
@@ -68,7 +68,7 @@ class BulletWorld final : public adapter::World {
     bool externalGyro_ = false;
     int steps_ = 0;
 
-    PairTable pairs_;
+    adapter::PairTable pairs_;
     std::vector<std::unique_ptr<BodyRecord>> records_;
     std::unique_ptr<btEmptyShape> groundShape_;
     std::unique_ptr<btRigidBody> ground_;  ///< what joints to the world hold on to; not in the world

@@ -8,32 +8,15 @@
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/NarrowPhaseCollision/btManifoldPoint.h>
 
-#include <utility>
 #include <vector>
 
-#include "adapters/interface/types.hpp"
+#include "adapters/interface/pair_table.hpp"
 
 namespace rigor::bullet {
 
-/// Friction and restitution of every pair of materials, and which bodies may touch.
-class PairTable {
-  public:
-    explicit PairTable(const adapter::Scenario& scenario);
-    const scenario::PairCoefficients& coefficients(int materialA, int materialB) const;
-    bool mayCollide(int bodyA, int bodyB) const;
-    /// True where some body that `body` may touch has a restitution with it.
-    bool mayBounce(const adapter::Scenario& scenario, int body) const;
-
-  private:
-    std::size_t materials_ = 0;
-    std::vector<scenario::PairCoefficients> table_;
-    std::vector<bool> collides_, dynamic_;
-    std::vector<std::pair<int, int>> connected_;  ///< sorted pairs that a joint keeps from colliding
-};
-
 /// What Bullet's callbacks find behind a collision object's user pointer.
 struct BodyTag {
-    const PairTable* table = nullptr;
+    const adapter::PairTable* table = nullptr;
     int body = 0;
     std::vector<int> materials;  ///< by shape index; Bullet's child index (-1 for a single shape)
     int materialOf(int child) const;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "adapters/interface/pair_table.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace rigor::adapter {
+
+PairTable::PairTable(const Scenario& scenario) : materials_(scenario.materials.size()) {
+    for (std::size_t a = 0; a < materials_; ++a)
+        for (std::size_t b = 0; b < materials_; ++b)
+            table_.push_back(pairCoefficients(scenario, static_cast<int>(a), static_cast<int>(b)));
+    for (const auto& body : scenario.bodies) {
+        collides_.push_back(body.collides && !body.shapes.empty());
+        dynamic_.push_back(body.type == scenario::BodyType::Dynamic);
+        materialsOf_.emplace_back();
+        for (const auto& shape : body.shapes) materialsOf_.back().push_back(shape.material);
+    }
+    for (const auto& joint : scenario.joints)
+        if (!joint.collideConnected && joint.bodyA != scenario::kNone)
+            connected_.emplace_back(std::minmax(joint.bodyA, joint.bodyB));
+    std::sort(connected_.begin(), connected_.end());
+}
+
+bool PairTable::mayCollide(int bodyA, int bodyB) const {
+    const auto a = static_cast<std::size_t>(bodyA), b = static_cast<std::size_t>(bodyB);
+    if (!collides_[a] || !collides_[b] || !(dynamic_[a] || dynamic_[b])) return false;
+    const std::pair<int, int> key = std::minmax(bodyA, bodyB);
+    return !std::binary_search(connected_.begin(), connected_.end(), key);
+}
+
+std::vector<PairTable::Meeting> PairTable::meetings() const {
+    std::map<std::pair<int, int>, Meeting> found;
+    const int count = static_cast<int>(materialsOf_.size());
+    const auto addShapes = [&](int a, int b) {
+        const auto& ofA = materialsOf_[static_cast<std::size_t>(a)];
+        const auto& ofB = materialsOf_[static_cast<std::size_t>(b)];
+        for (std::size_t i = 0; i < ofA.size(); ++i)
+            for (std::size_t j = 0; j < ofB.size(); ++j) {
+                Meeting meeting{ofA[i], ofB[j], {a, static_cast<int>(i)}, {b, static_cast<int>(j)}};
+                if (meeting.materialA > meeting.materialB) {
+                    std::swap(meeting.materialA, meeting.materialB);
+                    std::swap(meeting.a, meeting.b);
+                }
+                found.try_emplace({meeting.materialA, meeting.materialB}, meeting);
+            }
+    };
+    for (int a = 0; a < count; ++a)
+        for (int b = a + 1; b < count; ++b)
+            if (mayCollide(a, b)) addShapes(a, b);
+    std::vector<Meeting> all;
+    for (const auto& [materials, meeting] : found) all.push_back(meeting);
+    return all;
+}
+
+bool PairTable::mayBounce(int body) const {
+    for (int other = 0; other < static_cast<int>(materialsOf_.size()); ++other) {
+        if (other == body || !mayCollide(body, other)) continue;
+        for (const int mine : materialsOf_[static_cast<std::size_t>(body)])
+            for (const int theirs : materialsOf_[static_cast<std::size_t>(other)])
+                if (coefficients(mine, theirs).restitution > 0.0) return true;
+    }
+    return false;
+}
+
+}  // namespace rigor::adapter

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Who may touch whom, with which coefficients: looked up by adapters from inside engine callbacks.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "adapters/interface/types.hpp"
+
+namespace rigor::adapter {
+
+/// Friction and restitution of every pair of materials, and which bodies may touch; constant-time or nearly
+/// so, where scenario::pairCoefficients and scenario::mayCollide search.
+class PairTable {
+  public:
+    explicit PairTable(const Scenario& scenario);
+
+    const scenario::PairCoefficients& coefficients(int materialA, int materialB) const {
+        return table_[static_cast<std::size_t>(materialA) * materials_ + static_cast<std::size_t>(materialB)];
+    }
+
+    /// As scenario::mayCollide; bodies without shapes never collide.
+    bool mayCollide(int bodyA, int bodyB) const;
+
+    /// One shape of one body.
+    struct ShapeRef {
+        int body = 0, shape = 0;
+    };
+    /// Two shapes that may touch.
+    struct Meeting {
+        int materialA = 0, materialB = 0;  ///< materialA <= materialB
+        ShapeRef a, b;                     ///< of materialA and of materialB
+    };
+    /// One example for every unordered pair of materials that can meet, sorted by materials.
+    std::vector<Meeting> meetings() const;
+
+    /// True where some shape that may touch `body` has a restitution > 0 with it.
+    bool mayBounce(int body) const;
+
+  private:
+    std::size_t materials_ = 0;
+    std::vector<scenario::PairCoefficients> table_;
+    std::vector<bool> collides_, dynamic_;
+    std::vector<std::vector<int>> materialsOf_;   ///< by body and shape
+    std::vector<std::pair<int, int>> connected_;  ///< sorted pairs that a joint keeps from colliding
+};
+
+}  // namespace rigor::adapter
