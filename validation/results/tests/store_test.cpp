@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/results/store.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "validation/results/tests/sample_run.hpp"
+
+namespace rigor::results {
+namespace {
+
+using sample::caseRow;
+using sample::header;
+using sample::TemporaryFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+void expectSame(const char* what, double a, double b) {
+    if (std::isnan(a))
+        EXPECT_TRUE(std::isnan(b)) << what;
+    else
+        EXPECT_TRUE(sample::sameBits(a, b)) << what << ": " << a << " and " << b;
+}
+void expectSame(const char* what, const std::optional<double>& a, const std::optional<double>& b) {
+    ASSERT_EQ(a.has_value(), b.has_value()) << what;
+    if (a) expectSame(what, *a, *b);
+}
+
+void expectSameMeasured(const CaseRow& a, const CaseRow& b) {
+    ASSERT_EQ(a.metrics.size(), b.metrics.size());
+    for (std::size_t i = 0; i < a.metrics.size(); ++i) {
+        const MetricRow &m = a.metrics[i], &n = b.metrics[i];
+        EXPECT_EQ(std::tie(m.name, m.subject, m.unit, m.kind, m.verdict, m.note),
+                  std::tie(n.name, n.subject, n.unit, n.kind, n.verdict, n.note));
+        expectSame("value", m.value, n.value);
+        expectSame("at", m.at, n.at);
+        expectSame("bound", m.bound, n.bound);
+        expectSame("expectation", m.expectation, n.expectation);
+    }
+    ASSERT_EQ(a.quantities.size(), b.quantities.size());
+    for (std::size_t i = 0; i < a.quantities.size(); ++i) {
+        const QuantityRow &m = a.quantities[i], &n = b.quantities[i];
+        EXPECT_EQ(std::tie(m.name, m.unit), std::tie(n.name, n.unit));
+        expectSame("exact", m.exact, n.exact);
+        expectSame("scheme_exact", m.schemeExact, n.schemeExact);
+        expectSame("measured", m.measured, n.measured);
+    }
+    ASSERT_EQ(a.timings.size(), b.timings.size());
+    for (std::size_t i = 0; i < a.timings.size(); ++i) {
+        const TimingRow &m = a.timings[i], &n = b.timings[i];
+        EXPECT_EQ(std::tie(m.phase, m.median, m.p10, m.p90, m.total, m.samples, m.meanContacts),
+                  std::tie(n.phase, n.median, n.p10, n.p90, n.total, n.samples, n.meanContacts));
+    }
+}
+
+void expectSameParity(const CaseRow& a, const CaseRow& b) {
+    EXPECT_EQ(a.settings, b.settings);
+    ASSERT_EQ(a.ledger.size(), b.ledger.size());
+    for (std::size_t i = 0; i < a.ledger.size(); ++i) {
+        const LedgerRow &m = a.ledger[i], &n = b.ledger[i];
+        EXPECT_EQ(std::tie(m.topic, m.requested, m.resolved, m.realisation, m.reason),
+                  std::tie(n.topic, n.requested, n.resolved, n.realisation, n.reason));
+    }
+    ASSERT_EQ(a.readBack.size(), b.readBack.size());
+    for (std::size_t i = 0; i < a.readBack.size(); ++i) {
+        const ReadBackRow &m = a.readBack[i], &n = b.readBack[i];
+        EXPECT_EQ(std::tie(m.quantity, m.subject, m.expected, m.found, m.error, m.ok),
+                  std::tie(n.quantity, n.subject, n.expected, n.found, n.error, n.ok));
+    }
+    ASSERT_EQ(a.audit.size(), b.audit.size());
+    for (std::size_t i = 0; i < a.audit.size(); ++i) {
+        const AuditRow &m = a.audit[i], &n = b.audit[i];
+        EXPECT_EQ(std::tie(m.auditor, m.outcome, m.frames, m.queries, m.overlapping, m.missed, m.spurious,
+                           m.undecided, m.worst, m.note),
+                  std::tie(n.auditor, n.outcome, n.frames, n.queries, n.overlapping, n.missed, n.spurious,
+                           n.undecided, n.worst, n.note));
+        expectSame("normal max", m.normalErrorMax, n.normalErrorMax);
+        expectSame("normal median", m.normalErrorMedian, n.normalErrorMedian);
+        expectSame("depth max", m.depthErrorMax, n.depthErrorMax);
+        expectSame("depth median", m.depthErrorMedian, n.depthErrorMedian);
+        expectSame("point max", m.pointErrorMax, n.pointErrorMax);
+    }
+}
+
+void expectSame(const CaseRow& a, const CaseRow& b) {
+    EXPECT_EQ(std::tie(a.id, a.position, a.scenario, a.spec, a.engine, a.preset, a.dt, a.outcome, a.verdict,
+                       a.reason, a.wallSeconds, a.cpuSeconds, a.steps, a.peakMemoryKiB, a.stateHash,
+                       a.trajectoryFile, a.command),
+              std::tie(b.id, b.position, b.scenario, b.spec, b.engine, b.preset, b.dt, b.outcome, b.verdict,
+                       b.reason, b.wallSeconds, b.cpuSeconds, b.steps, b.peakMemoryKiB, b.stateHash,
+                       b.trajectoryFile, b.command));
+    expectSameMeasured(a, b);
+    expectSameParity(a, b);
+}
+
+std::vector<std::string> idsOf(const Run& run) {
+    std::vector<std::string> ids;
+    for (const CaseRow& c : run.cases) ids.push_back(c.id);
+    return ids;
+}
+
+/// The message of the exception that `work` throws.
+template <class Work>
+std::string refusal(Work work) {
+    try {
+        work();
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "nothing was thrown";
+}
+
+TEST(Store, EveryFieldSurvivesBitForBit) {
+    const TemporaryFolder folder;
+    const auto asked = header();
+    {
+        RunWriter writer(folder.path() / "run", false);
+        writer.writeHeader(asked);
+        writer.writeCase(caseRow("a", 0));
+        writer.finish("2026-01-01T00:01:00Z");
+    }
+    const auto read = readRun(folder.path() / "run");
+    EXPECT_EQ(read.schemaVersion, kSchemaVersion);
+    EXPECT_EQ(std::tie(read.suite, read.command, read.started, read.plannedCases, read.environment),
+              std::tie(asked.suite, asked.command, asked.started, asked.plannedCases, asked.environment));
+    EXPECT_EQ(read.finished, "2026-01-01T00:01:00Z");
+    ASSERT_EQ(read.engines.size(), 2u);
+    EXPECT_EQ(read.engines[0].buildNotes, "flags");
+    EXPECT_EQ(read.engines[1].problem, "not installed");
+    ASSERT_EQ(read.scenarios.size(), 1u);
+    const ScenarioRow &s = asked.scenarios[0], &r = read.scenarios[0];
+    EXPECT_EQ(std::tie(s.name, s.title, s.description, s.source, s.isolates, s.tags, s.observed, s.metrics,
+                       s.dimension, s.duration, s.timeSteps, s.reference, s.referenceTitle,
+                       s.referenceFormula, s.referenceSource, s.referenceProblem, s.text),
+              std::tie(r.name, r.title, r.description, r.source, r.isolates, r.tags, r.observed, r.metrics,
+                       r.dimension, r.duration, r.timeSteps, r.reference, r.referenceTitle,
+                       r.referenceFormula, r.referenceSource, r.referenceProblem, r.text));
+    ASSERT_EQ(read.cases.size(), 1u);
+    expectSame(caseRow("a", 0), read.cases[0]);
+}
+
+TEST(Store, CasesComeInTheOrderOfThePlan) {
+    const TemporaryFolder folder;
+    RunWriter writer(folder.path(), false);
+    writer.writeHeader(header());
+    writer.writeCase(caseRow("a", 2));
+    writer.writeCase(caseRow("c", 0));
+    writer.writeCase(caseRow("b", 1));
+    EXPECT_THAT(idsOf(readRun(folder.path())), ElementsAre("c", "b", "a")) << "read while the writer is open";
+    EXPECT_THAT(writer.finishedCases(), ElementsAre("c", "b", "a"));
+}
+
+TEST(Store, WritingACaseAgainReplacesItWhole) {
+    const TemporaryFolder folder;
+    RunWriter writer(folder.path(), false);
+    writer.writeHeader(header());
+    writer.writeCase(caseRow("a", 0));
+    CaseRow second = caseRow("a", 0);
+    second.metrics.pop_back();
+    second.audit.clear();
+    second.outcome = Outcome::Crashed;
+    writer.writeCase(second);
+    const auto run = readRun(folder.path());
+    ASSERT_EQ(run.cases.size(), 1u);
+    expectSame(second, run.cases[0]);
+}
+
+TEST(Store, ResumeKeepsCasesAndKeepOnlyForgets) {
+    const TemporaryFolder folder;
+    {
+        RunWriter writer(folder.path(), false);
+        writer.writeHeader(header());
+        writer.writeCase(caseRow("a", 0));
+        writer.writeCase(caseRow("b", 1));
+    }
+    RunWriter writer(folder.path(), true);
+    writer.writeHeader(header());
+    EXPECT_THAT(writer.finishedCases(), ElementsAre("a", "b"));
+    writer.keepOnly({"b", "c"});
+    const auto run = readRun(folder.path());
+    ASSERT_THAT(idsOf(run), ElementsAre("b"));
+    expectSame(caseRow("b", 1), run.cases[0]);
+    SQLite::Database database((folder.path() / "results.sqlite").string());
+    EXPECT_EQ(database.execAndGet("SELECT count(*) FROM metrics WHERE case_id = 'a'").getInt(), 0);
+}
+
+TEST(Store, RefusesToOverwriteAndToResumeNothing) {
+    const TemporaryFolder folder;
+    EXPECT_THAT(refusal([&] { RunWriter(folder.path(), true); }), HasSubstr("holds no run"));
+    { RunWriter(folder.path(), false).writeHeader(header()); }
+    EXPECT_THAT(refusal([&] { RunWriter(folder.path(), false); }), HasSubstr("holds a run already"));
+    EXPECT_THAT(refusal([&] { readRun(folder.path() / "nowhere"); }), HasSubstr("is no run folder"));
+}
+
+TEST(Store, OneWriterAtATime) {
+    const TemporaryFolder folder;
+    RunWriter first(folder.path(), false);
+    EXPECT_THAT(refusal([&] { RunWriter(folder.path(), true); }), HasSubstr("another rigor"));
+}
+
+TEST(Store, RefusesANewerSchema) {
+    const TemporaryFolder folder;
+    { RunWriter(folder.path(), false).writeHeader(header()); }
+    {
+        SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+        database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion + 1));
+    }
+    EXPECT_THAT(refusal([&] { readRun(folder.path()); }), HasSubstr("newer rigor"));
+    EXPECT_THAT(refusal([&] { RunWriter(folder.path(), true); }), HasSubstr("newer rigor"));
+}
+
+TEST(Store, DamagedFilesAreNamed) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "results.sqlite";
+    std::ofstream(file) << "this is no database, though long enough to be looked at as if it were one";
+    EXPECT_THAT(refusal([&] { readRun(folder.path()); }), HasSubstr(file.string()));
+    std::filesystem::remove(file);
+    {
+        RunWriter writer(folder.path(), false);
+        writer.writeHeader(header());
+        for (int i = 0; i < 200; ++i) writer.writeCase(caseRow(std::to_string(i), i));
+    }
+    std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+    EXPECT_THAT(refusal([&] { readRun(folder.path()); }), HasSubstr(file.string()));
+    std::ofstream(file, std::ios::trunc);  // an empty file is a valid, empty database without our mark
+    EXPECT_THAT(refusal([&] { readRun(folder.path()); }), HasSubstr("not a results store"));
+}
+
+/// kill -9 right after a case was written: everything that was returned is there, and the store opens again.
+TEST(Store, WhatReturnedSurvivesAKill) {
+    const TemporaryFolder folder;
+    int ready[2];
+    ASSERT_EQ(pipe(ready), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        RunWriter writer(folder.path(), false);
+        writer.writeHeader(header());
+        for (int i = 0;; ++i) {
+            writer.writeCase(caseRow(std::to_string(i), i));
+            const char done = 'x';
+            if (write(ready[1], &done, 1) != 1) _exit(1);
+        }
+    }
+    close(ready[1]);
+    char done[8];
+    std::size_t written = 0;
+    while (written < sizeof done) {
+        const auto n = read(ready[0], done, sizeof done - written);
+        ASSERT_GT(n, 0);
+        written += static_cast<std::size_t>(n);
+    }
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    close(ready[0]);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    const auto run = readRun(folder.path());
+    ASSERT_GE(run.cases.size(), written);
+    for (std::size_t i = 0; i < run.cases.size(); ++i)
+        expectSame(caseRow(std::to_string(i), static_cast<std::int64_t>(i)), run.cases[i]);
+    EXPECT_NO_THROW(RunWriter(folder.path(), true).finishedCases());
+}
+
+TEST(Store, ManifestDescribesTheFolder) {
+    const TemporaryFolder folder;
+    RunWriter writer(folder.path(), false);
+    writer.writeHeader(header());
+    writer.finish("2026-01-01T00:01:00Z");
+    const auto manifest = nlohmann::json::parse(std::ifstream(folder.path() / "manifest.json"));
+    EXPECT_EQ(manifest.at("rigor_run"), kSchemaVersion);
+    EXPECT_EQ(manifest.at("suite"), "smoke");
+    EXPECT_EQ(manifest.at("finished"), "2026-01-01T00:01:00Z");
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / manifest.at("store").get<std::string>()));
+}
+
+TEST(Names, AreTheDocumentedOnesAndParseBack) {
+    EXPECT_STREQ(outcomeName(Outcome::NonFinite), "non_finite");
+    EXPECT_STREQ(verdictName(Verdict::KnownDeviation), "known deviation");
+    for (int i = 0; i < 7; ++i) {
+        EXPECT_EQ(parseOutcome(outcomeName(static_cast<Outcome>(i))), static_cast<Outcome>(i));
+        EXPECT_EQ(parseVerdict(verdictName(static_cast<Verdict>(i))), static_cast<Verdict>(i));
+    }
+    EXPECT_THAT(refusal([] { parseVerdict("green"); }), HasSubstr("known deviation"));
+}
+
+}  // namespace
+}  // namespace rigor::results
