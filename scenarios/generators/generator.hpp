@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Generators write the bodies and joints of large scenes as if they had been written out, so that every
+// engine gets the same scene from the same file. They work on JSON: what they make is read and checked like
+// the rest.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "scenarios/loader/node.hpp"
+
+namespace rigor::scenario {
+
+/// More is a mistake in a file.
+inline constexpr int kMaxBodies = 20000;
+
+struct Generated {
+    std::vector<Json> bodies, joints;
+};
+
+/// A line of the table of generators.
+struct Generator {
+    const char* name;
+    const char* summary;
+    Generated (*make)(const Node&);
+};
+const std::vector<Generator>& generatorTable();
+
+/// Expands one entry of "generators": an object with one key, the generator's name. Reports unknown names.
+Generated generate(const Node& entry);
+
+Generated generateGrid(const Node& node);
+Generated generatePyramid(const Node& node);
+Generated generatePile(const Node& node);
+Generated generateChain(const Node& node);
+
+/// Uniform numbers that are the same on every platform: the engine is specified by the standard, its
+/// distributions are not.
+class PortableRandom {
+  public:
+    explicit PortableRandom(std::uint64_t seed) : engine_(seed) {}
+    /// In [0, 1), 53 random bits.
+    double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+    double between(double a, double b) { return a + (b - a) * unit(); }
+
+  private:
+    std::mt19937_64 engine_;
+};
+
+/// A vector as it stands in a file: three numbers, or two in 2D.
+Json vectorJson(const Vec3& v, int dimension);
+/// A copy of the template with name and position.
+Json placed(const Json& body, const std::string& name, const Vec3& position, int dimension);
+
+}  // namespace rigor::scenario

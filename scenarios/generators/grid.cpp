@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// grid {name, body, counts, origin, spacing}: body (i, j, k) stands at origin + (i, j, k) * spacing and is
+// called name_i_j_k (2D: name_i_j).
+#include "scenarios/generators/generator.hpp"
+
+namespace rigor::scenario {
+
+Generated generateGrid(const Node& node) {
+    node.isObject({"name", "body", "counts", "origin", "spacing"});
+    const auto name = node.require("name"), body = node.require("body"), counts = node.require("counts"),
+               spacing = node.require("spacing");
+    Generated made;
+    if (!name || !body || !counts || !spacing) return made;
+    const auto n = counts->numbers(static_cast<std::size_t>(node.dimension()));
+    double total = 1.0;
+    for (const double count : n) {
+        if (count < 1.0 || count > kMaxBodies || count != static_cast<int>(count))
+            counts->problem("value.range", "whole counts >= 1");
+        total *= count;
+    }
+    if (total > kMaxBodies)
+        counts->problem("generator.size", "at most " + std::to_string(kMaxBodies) + " bodies");
+    const Vec3 step = spacing->vector(), origin = node.has("origin") ? node["origin"].vector() : Vec3{};
+    if (!node.context().problems.empty()) return made;
+    const int layers = node.dimension() == 3 ? static_cast<int>(n[2]) : 1;
+    for (int k = 0; k < layers; ++k)
+        for (int j = 0; j < static_cast<int>(n[1]); ++j)
+            for (int i = 0; i < static_cast<int>(n[0]); ++i) {
+                std::string label = name->name() + "_" + std::to_string(i) + "_" + std::to_string(j);
+                if (node.dimension() == 3) label += "_" + std::to_string(k);
+                made.bodies.push_back(placed(body->json(), label,
+                                             origin + Vec3{i * step.x, j * step.y, k * step.z},
+                                             node.dimension()));
+            }
+    return made;
+}
+
+}  // namespace rigor::scenario
