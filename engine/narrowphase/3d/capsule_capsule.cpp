@@ -37,6 +37,45 @@ void closestPair(const Segments<R>& s, R& y, R& t) {
 template <class R>
 inline constexpr R kSideBySide = R(0.05);
 
+/// The contact normal. Where the closest points are inside both segments it is the common perpendicular,
+/// which stays accurate when the axes nearly meet; `across` = axis A x axis B, of length sine.
+template <class R>
+Vec3<R> contactNormal(const Segments<R>& s, R y, R t, const Vec3<R>& across, R sine, R size) {
+    const Vec3<R> d = s.onB(t) - s.onA(y);
+    const bool inside = std::abs(y) < s.h && std::abs(t) < R(1);
+    if (inside && sine > R(1e-3)) return across * ((across.dot(d) < 0 ? R(-1) : R(1)) / sine);
+    const R distance = d.norm();
+    if (distance > kRounding<R> * size) return d / distance;
+    return sine > kRounding<R> ? Vec3<R>(across / sine) : Vec3<R>(Vec3<R>::UnitX());
+}
+
+/// The two ends of the common stretch of nearly parallel segments, along the axis of A, with separations
+/// along n. False where there is no stretch worth two points, or the closest point is inside it (skew
+/// segments).
+template <class R>
+bool sideBySide(const Segments<R>& s, R radiusA, R radiusB, const Vec3<R>& n, R closest, R speculative,
+                Manifold<Space<R, 3>>& out) {
+    const R low = std::max(-s.h, s.c.y() - std::abs(s.e.y()));
+    const R high = std::min(s.h, s.c.y() + std::abs(s.e.y()));
+    if (high - low <= R(1e-3) * std::min(s.h, s.e.norm()) || std::abs(n.y()) >= kSideBySide<R>) return false;
+    R least = std::numeric_limits<R>::max();
+    for (const R end : {low, high}) {
+        const R u = std::clamp((end - s.c.y()) / s.e.y(), R(-1), R(1));
+        const Vec3<R> p = s.onA(end);
+        const R separation = n.dot(s.onB(u) - p) - radiusA - radiusB;
+        least = std::min(least, separation);
+        if (separation > speculative) continue;
+        // Which end of which segment bounds the stretch names the point.
+        const bool endOfA = std::abs(end) >= s.h;
+        const int vertex = endOfA ? (end < 0 ? 0 : 1) : (u < 0 ? 0 : 1);
+        addPoint<Space<R, 3>>(out, p + radiusA * n, p + (radiusA + separation) * n, separation,
+                              vertexFeature(endOfA, vertex));
+    }
+    if (least <= closest + kRounding<R> * (radiusA + radiusB)) return true;
+    out.count = 0;
+    return false;
+}
+
 }  // namespace
 
 template <class R>
@@ -49,39 +88,15 @@ void collidePair(const Capsule<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, con
     const Segments<R> s{a.halfLength, X.p, b.halfLength * rotate(X.q, V(V::UnitY()))};
     R y = 0, t = 0;
     closestPair(s, y, t);
-    const V cross = V::UnitY().cross(s.e);
-    const R sine = cross.norm() / b.halfLength;
-    const V fallback = sine > kRounding<R> ? V(cross.normalized()) : V(V::UnitX());
-    roundedPoint<S>(s.onA(y), a.radius, s.onB(t), b.radius, fallback, speculative, 0, out);
-    if (out.count == 1 && sine < kSideBySide<R>) {
-        // The common stretch along the axis of A; the closest point stays among the two.
-        const R y0 = std::max(-s.h, s.c.y() - std::abs(s.e.y()));
-        const R y1 = std::min(s.h, s.c.y() + std::abs(s.e.y()));
-        const V n = out.normal;
-        const R closest = out.points[0].separation;
-        if (y1 - y0 > R(1e-3) * std::min(s.h, b.halfLength) && std::abs(n.y()) < kSideBySide<R>) {
-            out.count = 0;
-            for (const R end : {y0, y1}) {
-                const R u = std::clamp((end - s.c.y()) / s.e.y(), R(-1), R(1));
-                const V p = s.onA(end), q = s.onB(u);
-                const R separation = n.dot(q - p) - a.radius - b.radius;
-                if (separation > speculative) continue;
-                // Which end of which segment bounds the stretch names the point.
-                const bool endOfA = std::abs(end) >= s.h;
-                const int vertex = endOfA ? (end < 0 ? 0 : 1) : (u < 0 ? 0 : 1);
-                addPoint<S>(out, p + a.radius * n, p + (a.radius + separation) * n, separation,
-                            vertexFeature(endOfA, vertex));
-            }
-            R best = std::numeric_limits<R>::max();
-            for (int i = 0; i < out.count; ++i)
-                best = std::min(best, out.points[static_cast<std::size_t>(i)].separation);
-            if (best > closest + kRounding<R> * (a.radius + b.radius)) {
-                // Skew segments are closest inside the stretch: that point alone.
-                out.count = 0;
-                roundedPoint<S>(s.onA(y), a.radius, s.onB(t), b.radius, fallback, speculative, 0, out);
-            }
-        }
-    }
+    const V p = s.onA(y), q = s.onB(t);
+    const R separation = (q - p).norm() - a.radius - b.radius;
+    if (separation > speculative) return;
+    const V across = V::UnitY().cross(s.e) / b.halfLength;
+    const R sine = across.norm();
+    out.normal = contactNormal<R>(s, y, t, across, sine, a.radius + b.radius);
+    const V n = out.normal;
+    if (sine >= kSideBySide<R> || !sideBySide<R>(s, a.radius, b.radius, n, separation, speculative, out))
+        addPoint<S>(out, p + a.radius * n, q - b.radius * n, separation, 0);
     toWorldFrame<S>(out, Xa);
 }
 

@@ -149,11 +149,31 @@ void closestOnEdges(const Vec3<R>& p, const Vec3<R>& d, const Vec3<R>& q, const 
 }
 
 template <class R>
-int mostAligned(const Polytope<R>& p, const Vec3<R>& direction) {
+int deepestIndex(const Polytope<R>& p, const Vec3<R>& direction) {
     int best = 0;
-    for (int i = 1; i < p.faceCount; ++i)
-        if (p.faces[i].normal.dot(direction) > p.faces[best].normal.dot(direction)) best = i;
+    for (int i = 1; i < p.vertexCount; ++i)
+        if (p.vertices[i].dot(direction) > p.vertices[best].dot(direction)) best = i;
     return best;
+}
+
+/// Of the faces that meet at the vertex furthest along `direction`, the one that faces it most. (The best of
+/// all faces need not hold that vertex: hulls can be sharp.)
+template <class R>
+int incidentFace(const Polytope<R>& p, const Vec3<R>& direction) {
+    const Vec3<R>& v = p.vertices[deepestIndex(p, direction)];
+    int best = 0;
+    R facing = -2;
+    for (int i = 0; i < p.faceCount; ++i) {
+        const HullFace<R>& f = p.faces[i];
+        if (f.offset - f.normal.dot(v) > kRounding<R> * p.size) continue;
+        if (const R c = f.normal.dot(direction); c > facing) facing = c, best = i;
+    }
+    return best;
+}
+
+template <class R>
+int betterFace(const Polytope<R>& p, const HullEdge& e, const Vec3<R>& direction) {
+    return p.faces[e.left].normal.dot(direction) >= p.faces[e.right].normal.dot(direction) ? e.left : e.right;
 }
 
 template <class R>
@@ -176,9 +196,7 @@ void deepestVertex(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>
     const bool vertexOnB = axis.kind == PolytopeAxis<R>::FaceA;
     const Polytope<R>& p = vertexOnB ? b : a;
     const Vec3<R> n = vertexOnB ? Vec3<R>(X.rotation.transpose() * -axis.normal) : axis.normal;
-    int best = 0;
-    for (int i = 1; i < p.vertexCount; ++i)
-        if (p.vertices[i].dot(n) > p.vertices[best].dot(n)) best = i;
+    const int best = deepestIndex<R>(p, n);
     const Vec3<R> x = vertexOnB ? X.point(p.vertices[best]) : p.vertices[best];
     const Vec3<R> shift = axis.separation * axis.normal;
     addPoint<Space<R, 3>>(out, vertexOnB ? Vec3<R>(x - shift) : x, vertexOnB ? x : Vec3<R>(x + shift),
@@ -193,12 +211,20 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
     using V = Vec3<R>;
     out.normal = axis.normal;
     const V towardsB = X.rotation.transpose() * axis.normal;
-    const int faceA = axis.kind == PolytopeAxis<R>::FaceA ? axis.featureA : mostAligned<R>(a, axis.normal);
-    const int faceB = axis.kind == PolytopeAxis<R>::FaceB ? axis.featureB : mostAligned<R>(b, -towardsB);
-    if (axis.kind == PolytopeAxis<R>::Edges && (a.faces[faceA].normal.dot(axis.normal) < kFlat<R> ||
-                                                -b.faces[faceB].normal.dot(towardsB) < kFlat<R>)) {
-        edgePoint(a, b, X, axis, out);
-        return;
+    const bool edges = axis.kind == PolytopeAxis<R>::Edges;
+    int faceA = axis.featureA, faceB = axis.featureB;
+    if (edges) {
+        faceA = betterFace<R>(a, a.edges[axis.featureA], axis.normal);
+        faceB = betterFace<R>(b, b.edges[axis.featureB], -towardsB);
+        if (a.faces[faceA].normal.dot(axis.normal) < kFlat<R> ||
+            -b.faces[faceB].normal.dot(towardsB) < kFlat<R>) {
+            edgePoint(a, b, X, axis, out);
+            return;
+        }
+    } else if (axis.kind == PolytopeAxis<R>::FaceA) {
+        faceB = incidentFace<R>(b, -towardsB);
+    } else {
+        faceA = incidentFace<R>(a, axis.normal);
     }
     const bool refIsA = axis.kind != PolytopeAxis<R>::FaceB;
     FaceLoop<R> loopA, loopB;
@@ -212,10 +238,17 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
         plane.offset += plane.normal.dot(X.translation);
     }
     clipFaces<R>(refIsA ? loopA : loopB, plane, refIsA ? loopB : loopA, refIsA, axis, speculative, out);
-    if (out.count > 0) return;
-    if (axis.kind == PolytopeAxis<R>::Edges)
+    // Of overlapping polytopes the deepest point is on both faces; where rounding clipped it away it is put
+    // back.
+    R least = std::numeric_limits<R>::max();
+    for (int i = 0; i < out.count; ++i)
+        least = std::min(least, out.points[static_cast<std::size_t>(i)].separation);
+    const R size = std::max(a.size, b.size);
+    if (axis.separation > 0 || least <= axis.separation + R(4) * axisTolerance(size, axis.separation)) return;
+    if (out.count == Space<R, 3>::maxManifoldPoints) --out.count;
+    if (edges)
         edgePoint(a, b, X, axis, out);
-    else if (axis.separation <= 0)
+    else
         deepestVertex(a, b, X, axis, out);
 }
 

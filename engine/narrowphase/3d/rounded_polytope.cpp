@@ -20,12 +20,16 @@ struct Closest {
     R squared = std::numeric_limits<R>::max();
     Vec3<R> onCore, onHull;
     std::uint32_t feature = 0;
+    /// Along the normal, either sign, where the features themselves fix it (a face; two crossing edges):
+    /// better than the difference of two points that are close together. Zero where they do not.
+    Vec3<R> direction = Vec3<R>::Zero();
 };
 
 template <class R>
-void consider(const Vec3<R>& onCore, const Vec3<R>& onHull, std::uint32_t feature, Closest<R>& best) {
+void consider(const Vec3<R>& onCore, const Vec3<R>& onHull, std::uint32_t feature, const Vec3<R>& direction,
+              Closest<R>& best) {
     const R squared = (onCore - onHull).squaredNorm();
-    if (squared < best.squared) best = {squared, onCore, onHull, feature};
+    if (squared < best.squared) best = {squared, onCore, onHull, feature, direction};
 }
 
 /// Is the foot of x on the plane of the face inside the face?
@@ -51,7 +55,8 @@ void segmentSegment(const Vec3<R>& p, const Vec3<R>& d, const Vec3<R>& q, const 
         s = std::clamp((de * e.dot(r) - ee * d.dot(r)) / denominator, R(0), R(1));
     const R t = std::clamp((de * s + e.dot(r)) / ee, R(0), R(1));
     if (dd > 0) s = std::clamp((de * t - d.dot(r)) / dd, R(0), R(1));
-    consider<R>(p + s * d, q + t * e, feature, best);
+    const bool inside = denominator > R(1e-6) * dd * ee && s > 0 && s < 1 && t > 0 && t < 1;
+    consider<R>(p + s * d, q + t * e, feature, inside ? Vec3<R>(d.cross(e)) : Vec3<R>(Vec3<R>::Zero()), best);
 }
 
 /// Core p to p + d (d = 0: a point) outside the polytope.
@@ -65,7 +70,7 @@ Closest<R> closestFeatures(const Polytope<R>& hull, const Vec3<R>& p, const Vec3
             const Vec3<R> x = k == 0 ? p : Vec3<R>(p + d);
             const R height = f.normal.dot(x) - f.offset;
             if (height >= 0 && height * height < best.squared && overFace(hull, f, x))
-                consider<R>(x, x - height * f.normal, vertexFeature(true, k), best);
+                consider<R>(x, x - height * f.normal, vertexFeature(true, k), f.normal, best);
         }
     }
     for (int i = 0; i < hull.edgeCount; ++i) {
@@ -150,6 +155,8 @@ void collideCore(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R 
         closest = closestFeatures(hull, p, d);
         distance = std::sqrt(closest.squared);
         n = (closest.onCore - closest.onHull) / distance;
+        if (const R length = closest.direction.norm(); length > 0)
+            n = closest.direction * ((closest.direction.dot(n) < 0 ? R(-1) : R(1)) / length);
         if (distance - radius > speculative) return;
     } else {
         // Deepest core point: the lower end along the axis, or the crossing with the edge.
