@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The library of scenarios and suites: <folder>/{2d,3d}/*.json and <folder>/suites/*.json.
+#include <algorithm>
+#include <cstdlib>
+
+#include "scenarios/loader/node.hpp"
+#include "scenarios/loader/overrides.hpp"
+#include "scenarios/loader/schema_check.hpp"
+
+namespace rigor::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Levenshtein distance, for "did you mean".
+std::size_t distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+        }
+    }
+    return row[b.size()];
+}
+
+std::vector<LibraryEntry> entriesOf(const std::vector<fs::path>& folders) {
+    std::vector<LibraryEntry> entries;
+    for (const fs::path& folder : folders) {
+        std::error_code error;
+        for (const auto& file : fs::directory_iterator(folder, error)) {
+            if (file.path().extension() != ".json") continue;
+            const Json json = Json::parse(readTextFile(file.path()), nullptr, false);
+            if (json.is_object() && json.contains("name") && json["name"].is_string())
+                entries.push_back({json["name"], json.value("title", ""), file.path()});
+        }
+    }
+    std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+    return entries;
+}
+
+fs::path findEntry(const std::vector<LibraryEntry>& entries, const std::string& nameOrPath,
+                   const std::string& kind) {
+    for (const LibraryEntry& entry : entries)
+        if (entry.name == nameOrPath) return entry.file;
+    std::error_code error;
+    if (fs::is_regular_file(nameOrPath, error)) return nameOrPath;
+    std::vector<std::pair<std::size_t, std::string>> near;
+    for (const LibraryEntry& entry : entries) near.emplace_back(distance(nameOrPath, entry.name), entry.name);
+    std::sort(near.begin(), near.end());
+    std::string close;
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, near.size()); ++i)
+        close += (i > 0 ? ", " : "") + near[i].second;
+    throw LoadError(
+        {{kind + ".not_found", nameOrPath, "", 0, "no such " + kind,
+          "a file, or a name of the library" + (close.empty() ? "" : " (close: " + close + ")")}});
+}
+
+}  // namespace
+
+fs::path libraryFolder() {
+    if (const char* variable = std::getenv("RIGOR_SCENARIOS"); variable != nullptr && *variable != '\0')
+        return variable;
+    const fs::path source = fs::path(RIGOR_SOURCE_DIR) / "scenarios" / "library";
+    std::error_code error;
+    if (fs::is_directory(source, error)) return source;
+    const fs::path binary = fs::read_symlink("/proc/self/exe", error);
+    return binary.parent_path().parent_path() / "share" / "rigor" / "scenarios";
+}
+
+std::vector<LibraryEntry> listScenarios() {
+    return entriesOf({libraryFolder() / "2d", libraryFolder() / "3d"});
+}
+std::vector<LibraryEntry> listSuites() {
+    return entriesOf({libraryFolder() / "suites"});
+}
+fs::path findScenario(const std::string& nameOrPath) {
+    return findEntry(listScenarios(), nameOrPath, "scenario");
+}
+fs::path findSuite(const std::string& nameOrPath) {
+    return findEntry(listSuites(), nameOrPath, "suite");
+}
+
+Suite loadSuite(const fs::path& file) {
+    const JsonDocument document = parseDocument(readTextFile(file), file.string());
+    ReadContext context{file.string(), &document, {}, 3};
+    const Node root(document.value, "", context);
+    Suite suite;
+    root.isObject({"rigor_suite", "name", "title", "scenarios", "engines", "dt", "max_time_steps"});
+    if (document.value.is_object()) {
+        if (const auto n = root.require("rigor_suite")) n->integer(1, 1);
+        if (const auto n = root.require("name")) suite.name = n->name();
+        if (const auto n = root.find("title")) suite.title = n->text();
+        if (const auto n = root.require("scenarios")) suite.scenarios = n->texts();
+        if (const auto n = root.find("engines")) suite.engines = n->texts();
+        if (const auto n = root.find("dt"))
+            for (const Node& item : n->items()) suite.timeSteps.push_back(item.number(1e-7, 1.0));
+        if (const auto n = root.find("max_time_steps")) suite.maxTimeSteps = n->integer(1, 1000);
+    }
+    if (!context.problems.empty()) throw LoadError(std::move(context.problems));
+    checkSuiteSchema(document, file.string());
+    if (suite.scenarios == std::vector<std::string>{"*"}) {
+        suite.scenarios.clear();
+        for (const LibraryEntry& entry : listScenarios()) suite.scenarios.push_back(entry.name);
+    }
+    // Paths are relative to the suite's own file; names stay names.
+    for (std::string& name : suite.scenarios)
+        if (const fs::path beside = file.parent_path() / name; name.ends_with(".json") && fs::exists(beside))
+            name = beside.string();
+    return suite;
+}
+
+}  // namespace rigor::scenario

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#pragma once
+
+#include <string>
+
+#include "scenarios/loader/json_text.hpp"
+
+namespace rigor::scenario {
+
+/// Holds a document against scenarios/schema/scenario.schema.json (built into the program). Throws LoadError
+/// ("schema.violation").
+void checkScenarioSchema(const JsonDocument& document, const std::string& fileName);
+/// Likewise against suite.schema.json.
+void checkSuiteSchema(const JsonDocument& document, const std::string& fileName);
+
+}  // namespace rigor::scenario
