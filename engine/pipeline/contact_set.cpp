@@ -90,18 +90,34 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
     broadPhase.update(boxes_, movable_, proxyPairs_);
 }
 
+/// By feature; points whose feature is new (a face that has become the other body's reference) take the
+/// impulses of the nearest point left over, if it is near compared with its arm.
 template <class S>
-void ContactSet<S>::takeOver(const Contact<S>& old, Contact<S>& contact) const {
-    for (int i = 0; i < contact.manifold.count; ++i)
-        for (int j = 0; j < old.manifold.count; ++j) {
-            const auto n = static_cast<std::size_t>(i), o = static_cast<std::size_t>(j);
-            if (contact.manifold.points[n].feature != old.manifold.points[o].feature) continue;
-            if (!old.points[o].impact) {
-                contact.points[n].normalImpulse = old.points[o].normalImpulse;
-                contact.points[n].frictionImpulse = old.points[o].frictionImpulse;
-            }
-            break;
+void ContactSet<S>::takeOver(const BodyArrays<S>& bodies, const Contact<S>& old, Contact<S>& contact) const {
+    std::array<bool, S::maxManifoldPoints> used{}, done{};
+    const auto take = [&](std::size_t from, std::size_t to) {
+        used[from] = done[to] = true;
+        if (old.points[from].impact) return;
+        contact.points[to].normalImpulse = old.points[from].normalImpulse;
+        contact.points[to].frictionImpulse = old.points[from].frictionImpulse;
+    };
+    const auto n = static_cast<std::size_t>(contact.manifold.count),
+               m = static_cast<std::size_t>(old.manifold.count);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < m && !done[i]; ++j)
+            if (!used[j] && contact.manifold.points[i].feature == old.manifold.points[j].feature) take(j, i);
+    const std::uint32_t arm = bodies.invMass[contact.bodyB] > 0 ? contact.bodyB : contact.bodyA;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (done[i]) continue;
+        const Vec& at = contact.manifold.points[i].pointB;
+        Real nearest = Real(0.04) * (at - bodies.pose[arm].p).squaredNorm();
+        std::size_t best = m;
+        for (std::size_t j = 0; j < m; ++j) {
+            const Real distance = (old.manifold.points[j].pointB - at).squaredNorm();
+            if (!used[j] && distance < nearest) nearest = distance, best = j;
         }
+        if (best < m) take(best, i);
+    }
 }
 
 template <class S>
@@ -126,7 +142,7 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, CollideFunction<S
         contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
         const auto sortKey = [](const Contact<S>& c) { return pairKey(c.shapeA, c.shapeB); };
         while (old != previous_.end() && sortKey(*old) < sortKey(contact)) ++old;
-        if (old != previous_.end() && sortKey(*old) == sortKey(contact)) takeOver(*old, contact);
+        if (old != previous_.end() && sortKey(*old) == sortKey(contact)) takeOver(bodies, *old, contact);
     }
 }
 

@@ -95,7 +95,7 @@ class ContactSet {
     bool mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b) const;
 
   private:
-    void takeOver(const Contact<S>& old, Contact<S>& contact) const;
+    void takeOver(const BodyArrays<S>& bodies, const Contact<S>& old, Contact<S>& contact) const;
     void addPointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact, int index,
                       ConstraintRows<S>& rows);
 

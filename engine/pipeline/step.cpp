@@ -82,7 +82,15 @@ const StepResult<S>& World<S>::step(Real h) {
     clock.end(Phase::Velocities);
 
     JointBiases<S> biases(joints_, bodies_, jointStep, rows_);
-    solver_->solve({rows_, bodies_.velocity, friction_, &biases, def_.velocityIterations}, residuals_);
+    const bool first = stepCount_ == 0;
+    // A millionth of what gravity adds in a step, or the limit of the precision.
+    const Real converged =
+        std::max(Real(1e-6) * h * def_.gravity.norm(), std::numeric_limits<Real>::epsilon());
+    solver_->solve(
+        {rows_, bodies_.velocity, friction_, &biases,
+         first ? std::max(def_.firstStepIterations, def_.velocityIterations) : def_.velocityIterations,
+         first ? converged : Real(0)},
+        residuals_);
     joints_.storeImpulses(rows_);
     contacts_.storeImpulses(rows_);
     clock.end(Phase::Solve);

@@ -74,6 +74,8 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     require(def.gravity.allFinite(), "gravity", "gravity must be finite");
     require(def.velocityIterations >= 1, "velocity_iterations", "at least one velocity iteration");
     require(def.positionIterations >= 0, "position_iterations", "position iterations must not be negative");
+    require(def.firstStepIterations >= 1, "first_step_iterations",
+            "at least one iteration in the first step");
     require(def.restitutionThreshold >= 0 && std::isfinite(def.restitutionThreshold), "restitution_threshold",
             "restitution threshold must not be negative");
     require(def.slop >= 0 && std::isfinite(def.slop), "slop", "slop must not be negative");

@@ -39,6 +39,7 @@ struct SolverInput {
     FrictionLaw<S> friction;
     BiasUpdate<S>* biases = nullptr;  ///< called before each iteration; may be null
     int iterations = 8;
+    typename S::Real tolerance = 0;  ///< ends early when an iteration's residual is below [m/s or rad/s]
 };
 
 template <class S>

@@ -32,12 +32,14 @@ struct WorldDef {
 
     int velocityIterations = 8;  ///< >= 1
     int positionIterations = 3;  ///< >= 0
-    bool warmStarting = true;    ///< start from the impulses of the last step
+    /// Of the first step, which has no impulses to start from; it ends early when they have converged. >= 1
+    int firstStepIterations = 400;
+    bool warmStarting = true;  ///< start from the impulses of the last step
     /// Joint rows aim at the constraint at the end of the step instead of its linearisation at the start:
     /// pendulums keep their energy.
     bool curvedJoints = true;
     Real restitutionThreshold = Real(0.01);  ///< slower approaches do not bounce [m/s], >= 0
-    Real slop = Real(0);                     ///< penetration that position correction leaves alone [m], >= 0
+    Real slop = Real(1e-5);                  ///< overlap that position correction leaves alone [m], >= 0
     /// Contacts are found up to this separation [m], >= 0, so that resting bodies land without overlap.
     Real speculativeDistance = Real(1e-3);
 };
