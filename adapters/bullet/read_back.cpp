@@ -56,11 +56,24 @@ void addPlanarContact(ContactPoint contact, std::vector<ContactPoint>& contacts,
 
 }  // namespace
 
+/// Bullet's impulses act on its body 0; `towardsB` is -1 where that is the scenario's A.
+void BulletWorld::readImpulses(const btManifoldPoint& point, double towardsB, ContactPoint& contact) const {
+    contact.hasImpulse = true;
+    contact.normalImpulse = static_cast<double>(point.m_appliedImpulse);
+    contact.frictionImpulse = (towardsB * static_cast<double>(point.m_appliedImpulseLateral1)) *
+                              fromBullet(point.m_lateralFrictionDir1);
+    if (is("friction_directions", "2"))
+        contact.frictionImpulse += (towardsB * static_cast<double>(point.m_appliedImpulseLateral2)) *
+                                   fromBullet(point.m_lateralFrictionDir2);
+}
+
 void BulletWorld::appendManifold(const btPersistentManifold& manifold,
                                  std::vector<ContactPoint>& contacts) const {
     const btCollisionObject& object0 = *manifold.getBody0();
     const btCollisionObject& object1 = *manifold.getBody1();
-    if (!object0.isActive() && !object1.isActive()) return;  // asleep: the step left it alone
+    // Between sleeping bodies the contact stays, but the step did not solve it.
+    const auto awake = [](const btCollisionObject& o) { return o.isActive() && !o.isStaticObject(); };
+    const bool solved = awake(object0) || awake(object1);
     const int body0 = static_cast<const BodyTag*>(object0.getUserPointer())->body;
     const int body1 = static_cast<const BodyTag*>(object1.getUserPointer())->body;
     // Bullet's normal points from its body 1 to its body 0; impulses act on body 0 along it.
@@ -79,13 +92,7 @@ void BulletWorld::appendManifold(const btPersistentManifold& manifold,
         contact.pointA = ordered ? on0 : on1, contact.pointB = ordered ? on1 : on0;
         contact.normal = towardsB * fromBullet(point.m_normalWorldOnB);
         contact.depth = -static_cast<double>(point.getDistance());
-        contact.hasImpulse = true;
-        contact.normalImpulse = static_cast<double>(point.m_appliedImpulse);
-        contact.frictionImpulse = towardsB * (static_cast<double>(point.m_appliedImpulseLateral1) *
-                                              fromBullet(point.m_lateralFrictionDir1));
-        if (is("friction_directions", "2"))
-            contact.frictionImpulse += towardsB * (static_cast<double>(point.m_appliedImpulseLateral2) *
-                                                   fromBullet(point.m_lateralFrictionDir2));
+        if (solved) readImpulses(point, towardsB, contact);
         if (planar_)
             addPlanarContact(contact, contacts, first);
         else

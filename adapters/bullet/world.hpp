@@ -54,6 +54,7 @@ class BulletWorld final : public adapter::World {
     adapter::BodyState stateOf(const BodyRecord& record) const;
     void moveKinematicBodies();
     void turnAngularMomenta(const std::vector<btMatrix3x3>& basesBefore);
+    void readImpulses(const btManifoldPoint& point, double towardsB, adapter::ContactPoint& contact) const;
     void appendManifold(const btPersistentManifold& manifold,
                         std::vector<adapter::ContactPoint>& contacts) const;
     void appendGeometryLedger(std::vector<adapter::LedgerEntry>& lines) const;

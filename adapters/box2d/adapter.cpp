@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Box2D as an engine: who it is, what it can do, which keys it has.
+#include "adapters/box2d/broadphase.hpp"
+#include "adapters/box2d/collision.hpp"
+#include "adapters/box2d/world.hpp"
+#include "adapters/interface/input_check.hpp"
+
+namespace rigor::box2d {
+namespace {
+
+using adapter::Option;
+
+Option choice(const char* key, std::vector<std::string> values, const char* byDefault, const char* matched,
+              const char* help) {
+    return {key, std::move(values), 0.0, 0.0, false, byDefault, matched, help};
+}
+Option number(const char* key, double min, double max, bool integer, const char* byDefault,
+              const char* matched, const char* help) {
+    return {key, {}, min, max, integer, byDefault, matched, help};
+}
+
+class Box2dEngine final : public adapter::Engine, public adapter::DynamicsEngine {
+  public:
+    adapter::EngineInfo info() const override {
+        const std::string version = std::to_string(b2_version.major) + "." +
+                                    std::to_string(b2_version.minor) + "." +
+                                    std::to_string(b2_version.revision);
+        std::string notes = "asserts on";
+        if (version != RIGOR_BOX2D_PACKAGE)
+            notes += "; b2_version of package " RIGOR_BOX2D_PACKAGE " still says " + version;
+        return {"box2d", version, sizeof(b2Vec2) == 2 * sizeof(float) ? "f32" : "f64", "Box2D", notes};
+    }
+
+    adapter::Capabilities capabilities() const override {
+        adapter::Capabilities c;
+        c.dynamics = c.collision = c.broadPhase = true;
+        c.dimensions = {2};
+        c.shapes = {"circle", "box", "capsule", "polygon", "half_plane", "segment"};
+        c.joints = {"ball", "hinge", "slider", "fixed", "distance"};
+        c.contactImpulses = c.signedDistance = true;
+        c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
+        return c;
+    }
+
+    std::vector<Option> options() const override {
+        return {
+            number("velocity_iterations", 1, 100000, true, "8", "50", "velocity iterations per step"),
+            number("position_iterations", 0, 100000, true, "3", "10", "position iterations per step"),
+            number("scale", 0.01, 1000, false, "1", "4",
+                   "Box2D lengths per metre: its tolerances shrink and its speed limit falls with it"),
+            choice("skin", {"library", "least"}, "library", "least",
+                   "rounding around shapes; least: true surfaces touch at rest"),
+            choice("restitution", {"library", "corrected"}, "library", "corrected",
+                   "corrected: bounces exactly e times the approach speed"),
+            number("restitution_threshold", 0, 1e9, false, "1", "0", "no bounce below this speed [m/s]"),
+            choice("warm_starting", {"on", "off"}, "on", "on", "start from the last impulses"),
+            choice("continuous", {"on", "off"}, "on", "off", "time-of-impact handling of fast bodies"),
+            choice("sleeping", {"on", "off"}, "on", "off", "bodies at rest are stopped and skipped"),
+        };
+    }
+
+    const adapter::DynamicsEngine* dynamics() const override { return this; }
+    const adapter::CollisionEngine* collision() const override { return &collision_; }
+    const adapter::BroadPhaseEngine* broadPhase() const override { return &broadPhase_; }
+
+    std::unique_ptr<adapter::World> build(const adapter::Scenario& scenario, double dt,
+                                          const adapter::Settings& settings) const override {
+        adapter::checkScenarioInput(scenario, dt);
+        adapter::checkSupported(scenario, capabilities(), "box2d");
+        return std::make_unique<Box2dWorld>(scenario, dt, settings);
+    }
+
+  private:
+    Box2dCollisionEngine collision_;
+    Box2dBroadPhaseEngine broadPhase_;
+};
+
+std::unique_ptr<adapter::Engine> createEngine() {
+    return std::make_unique<Box2dEngine>();
+}
+
+}  // namespace
+}  // namespace rigor::box2d
+
+RIGOR_ADAPTER_MODULE(rigor::box2d::createEngine)

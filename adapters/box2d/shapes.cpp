@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Geometries of the scenario format as Box2D shapes. Box2D has circles, polygons of at most 8 vertices and
+// edges; a capsule is two circles and a rectangle, a half-plane a large rectangle. Its asserts are compiled
+// in and abort, so whatever would fail one is refused here.
+#include "adapters/box2d/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor::box2d {
+namespace {
+
+using adapter::Unsupported;
+using Shapes = std::vector<std::unique_ptr<b2Shape>>;
+
+/// b2PolygonShape::Set welds vertices closer than half a slop and aborts when fewer than three are left.
+void refuseWelding(const std::vector<b2Vec2>& points) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (b2Distance(points[i], points[j]) <= 0.51f * b2_linearSlop)
+                throw Unsupported("box2d welds polygon vertices closer than half its slop (option scale)");
+}
+
+/// ... and aborts on an area that rounds to nothing.
+void refuseSliver(const std::vector<b2Vec2>& points) {
+    double area = 0.0;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i)
+        area += 0.5 * static_cast<double>(b2Cross(points[i] - points[0], points[i + 1] - points[0]));
+    if (std::abs(area) < 1e-6) throw Unsupported("box2d cannot hold a polygon of so small an area");
+}
+
+struct Builder {
+    const Pose& inBody;
+    const Pose& bodyPose;
+    const ShapeSettings& settings;
+
+    Shapes operator()(const scenario::Sphere& s) const {
+        Shapes shapes;
+        shapes.push_back(circle({}, s.radius));
+        return shapes;
+    }
+    Shapes operator()(const scenario::Box& b) const {
+        Shapes shapes;
+        shapes.push_back(rectangle({}, b.halfExtents.x, b.halfExtents.y, 0.0));
+        return shapes;
+    }
+    Shapes operator()(const scenario::Capsule& c) const {
+        Shapes shapes;
+        shapes.push_back(rectangle({}, c.radius, c.halfLength, 0.0));
+        shapes.push_back(circle({0.0, c.halfLength, 0.0}, c.radius));
+        shapes.push_back(circle({0.0, -c.halfLength, 0.0}, c.radius));
+        return shapes;
+    }
+    Shapes operator()(const scenario::ConvexHull& h) const {
+        if (h.vertices.size() > b2_maxPolygonVertices)
+            throw Unsupported("box2d has no polygon of " + std::to_string(h.vertices.size()) +
+                              " vertices (at most " + std::to_string(b2_maxPolygonVertices) + ")");
+        std::vector<b2Vec2> points;
+        for (const Vec3& v : h.vertices) points.push_back(toBox2d(inBody * v, settings.scale));
+        refuseWelding(points);
+        refuseSliver(points);
+        auto polygon = std::make_unique<b2PolygonShape>();
+        polygon->Set(points.data(), static_cast<int32>(points.size()));
+        polygon->m_radius = settings.skin.polygon;
+        Shapes shapes;
+        shapes.push_back(std::move(polygon));
+        return shapes;
+    }
+    Shapes operator()(const scenario::HalfSpace& h) const {
+        const Vec3 center = inverse(bodyPose * inBody) * settings.halfPlaneCenter;
+        const Vec3 onPlane = center + (h.offset - dot(h.normal, center)) * h.normal;
+        Shapes shapes;
+        const double depth = settings.halfPlaneDepth;
+        shapes.push_back(rectangle(onPlane - depth * h.normal, settings.halfPlaneReach, depth,
+                                   std::atan2(-h.normal.x, h.normal.y)));
+        return shapes;
+    }
+    Shapes operator()(const scenario::Segment& s) const {
+        auto edge = std::make_unique<b2EdgeShape>();
+        edge->SetTwoSided(toBox2d(inBody * s.a, settings.scale), toBox2d(inBody * s.b, settings.scale));
+        edge->m_radius = settings.skin.polygon;
+        Shapes shapes;
+        shapes.push_back(std::move(edge));
+        return shapes;
+    }
+    template <class Solid>
+    Shapes operator()(const Solid&) const {
+        throw Unsupported("box2d has no such shape");
+    }
+
+  private:
+    std::unique_ptr<b2Shape> circle(const Vec3& center, double radius) const {
+        auto shape = std::make_unique<b2CircleShape>();
+        shape->m_p = toBox2d(inBody * center, settings.scale);
+        shape->m_radius = static_cast<float>(settings.scale * radius) + settings.skin.circle;
+        return shape;
+    }
+    /// Half extents in metres, turned by `angle` in the shape's frame.
+    std::unique_ptr<b2Shape> rectangle(const Vec3& center, double hx, double hy, double angle) const {
+        auto shape = std::make_unique<b2PolygonShape>();
+        const double turn = angle + angleAboutZ(inBody.orientation);
+        shape->SetAsBox(static_cast<float>(settings.scale * hx), static_cast<float>(settings.scale * hy),
+                        toBox2d(inBody * center, settings.scale), static_cast<float>(turn));
+        shape->m_radius = settings.skin.polygon;
+        return shape;
+    }
+};
+
+}  // namespace
+
+Skin librarySkin() {
+    return {b2_polygonRadius, 0.0f};
+}
+
+Skin leastSkin() {
+    return {0.5f * b2_linearSlop, 0.5f * b2_linearSlop};
+}
+
+Shapes buildGeometry(const adapter::Geometry& geometry, const Pose& inBody, const Pose& bodyPose,
+                     const ShapeSettings& settings) {
+    return std::visit(Builder{inBody, bodyPose, settings}, geometry);
+}
+
+float skinOf(const b2Shape& shape, const Skin& skin) {
+    return shape.GetType() == b2Shape::e_circle ? skin.circle : skin.polygon;
+}
+
+}  // namespace rigor::box2d
