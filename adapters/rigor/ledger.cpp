@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "adapters/rigor/settings.hpp"
+
+namespace rigor::adapter {
+
+std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings& settings, bool bounces) {
+    std::vector<LedgerEntry> lines;
+    const auto text = [&](const char* key) { return textSetting(settings, key); };
+    const auto add = [&](const char* topic, std::string requested, std::string resolved,
+                         Realisation realisation = Realisation::Exact, std::string reason = "") {
+        lines.push_back({topic, std::move(requested), std::move(resolved), realisation, std::move(reason)});
+    };
+    const bool single = text("precision") == "f32";
+    add("precision", "f64", text("precision"), single ? Realisation::Approximate : Realisation::Exact,
+        single ? "single precision was asked for" : "");
+    add("integrator", text("integrator"), text("integrator"));
+    if (scenario.dimension == 3) {
+        const bool kept = text("rotation") == "lie_midpoint";
+        add("gyroscopic_term", "angular momentum kept without torque", text("rotation"),
+            kept ? Realisation::Exact : Realisation::Approximate,
+            kept ? ""
+                 : "angular momentum changes by the order of the scheme, or altogether without the term");
+    }
+    add("solver", text("solver"),
+        text("solver") + ", " + text("velocity_iterations") + " velocity and " + text("position_iterations") +
+            " position iterations, up to " + text("first_step_iterations") + " in the first step");
+    add("warm_starting", text("warm_starting"), text("warm_starting"));
+    const bool cone = text("friction") == "cone" || scenario.dimension == 2;
+    add("friction_law", "coulomb cone, pair coefficient", text("friction"),
+        cone ? Realisation::Exact : Realisation::Approximate,
+        cone ? "" : "up to sqrt(2) times the friction diagonal to the tangents");
+    add("friction_pair", "pair table", "pair table");
+    const double threshold = numberSetting(settings, "restitution_threshold");
+    const bool late = bounces && threshold > 0;
+    add("restitution", "pair coefficient, no threshold",
+        "pair coefficient, none below " + text("restitution_threshold") + " m/s",
+        late ? Realisation::Approximate : Realisation::Exact, late ? "velocity threshold" : "");
+    add("contact_margin", "0",
+        "none in the shapes; resting contacts are found within " + text("speculative_distance") +
+            " m and act so that the gap just closes",
+        Realisation::Approximate,
+        "an inelastic impact takes place at the end of the step that would close the gap, up to that far "
+        "early");
+    const std::string correction = text("position_correction");
+    add("position_correction", "no change of velocity", correction + ", slop " + text("slop") + " m",
+        correction == "baumgarte" ? Realisation::Approximate : Realisation::Exact,
+        correction == "baumgarte" ? "the velocities that remove overlap stay in the bodies" : "");
+    if (!scenario.joints.empty()) {
+        const bool curved = text("curved_joints") == "on" && text("integrator") != "explicit_euler";
+        add("joints", "rigid",
+            curved ? "rigid, solved at the end of the step" : "rigid, linearised at the start",
+            Realisation::Exact);
+    }
+    add("damping", "velocity kept per second", "velocity kept per second, exact over a step");
+    add("sleeping", "off", "off");
+    add("velocity_clamp", "none", "none");
+    add("continuous_collision", "off", "off");
+    return lines;
+}
+
+}  // namespace rigor::adapter

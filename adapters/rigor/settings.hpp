@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A spec's settings as the engine's WorldDef, and what they mean for the parity ledger.
+#pragma once
+
+#include <vector>
+
+#include "adapters/interface/types.hpp"
+#include "adapters/rigor/convert_shape.hpp"
+#include "engine/state/world_def.hpp"
+
+namespace rigor::adapter {
+
+Capabilities rigorCapabilities();
+
+/// Throws BadInput for settings that are missing or malformed.
+template <class S>
+engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& settings) {
+    using R = typename S::Real;
+    engine::WorldDef<S> def;
+    def.gravity = toEngineVec<S>(scenario.gravity);
+    def.integrator = textSetting(settings, "integrator");
+    def.rotation = textSetting(settings, "rotation");
+    def.broadPhase = textSetting(settings, "broad_phase");
+    def.narrowPhase = textSetting(settings, "narrow_phase");
+    def.solver = textSetting(settings, "solver");
+    def.positionCorrection = textSetting(settings, "position_correction");
+    def.friction = textSetting(settings, "friction");
+    def.velocityIterations = integerSetting(settings, "velocity_iterations");
+    def.positionIterations = integerSetting(settings, "position_iterations");
+    def.firstStepIterations = integerSetting(settings, "first_step_iterations");
+    def.warmStarting = textSetting(settings, "warm_starting") == "on";
+    def.curvedJoints = textSetting(settings, "curved_joints") == "on";
+    def.restitutionThreshold = static_cast<R>(numberSetting(settings, "restitution_threshold"));
+    def.slop = static_cast<R>(numberSetting(settings, "slop"));
+    def.speculativeDistance = static_cast<R>(numberSetting(settings, "speculative_distance"));
+    return def;
+}
+
+/// The ledger that follows from the settings alone. `bounces`: some pair has a restitution above zero.
+std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings& settings, bool bounces);
+
+}  // namespace rigor::adapter

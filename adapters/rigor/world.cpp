@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A scenario inside the in-house engine. Bodies are added in the order of the scenario, so that A of a
+// contact is the body of lower index on both sides. What is read back comes from the engine's own objects.
+#include <algorithm>
+
+#include "adapters/interface/input_check.hpp"
+#include "adapters/interface/pair_table.hpp"
+#include "adapters/rigor/parts.hpp"
+#include "adapters/rigor/settings.hpp"
+#include "engine/pipeline/world.hpp"
+
+namespace rigor::adapter {
+namespace {
+
+using engine::Space2d;
+using engine::Space2f;
+using engine::Space3d;
+using engine::Space3f;
+
+template <class S>
+typename S::Ang toEngineAng(const Vec3& v) {
+    if constexpr (S::dim == 2)
+        return static_cast<typename S::Real>(v.z);
+    else
+        return toEngineVec<S>(v);
+}
+template <class R>
+Vec3 fromEngineAng(R v) {
+    return {0.0, 0.0, static_cast<double>(v)};
+}
+template <class R>
+Vec3 fromEngineAng(const Eigen::Matrix<R, 3, 1>& v) {
+    return fromEngineVec(v);
+}
+template <class R>
+Quat fromEngineRot(const engine::Rot2<R>& q) {
+    return scenario::fromAxisAngle({0, 0, 1}, std::atan2(static_cast<double>(q.s), static_cast<double>(q.c)));
+}
+template <class R>
+Quat fromEngineRot(const Eigen::Quaternion<R>& q) {
+    const Quat raw{static_cast<double>(q.w()), static_cast<double>(q.x()), static_cast<double>(q.y()),
+                   static_cast<double>(q.z())};
+    return sizeof(R) == sizeof(double) ? raw : scenario::normalized(raw);
+}
+template <class S>
+typename S::Inertia toEngineInertia(const Mat3& m) {
+    using R = typename S::Real;
+    if constexpr (S::dim == 2) {
+        return static_cast<R>(m(2, 2));
+    } else {
+        typename S::Inertia I;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) I(i, j) = static_cast<R>(m(i, j));
+        return I;
+    }
+}
+template <class S>
+Mat3 fromEngineInertia(const typename S::Inertia& I) {
+    Mat3 m;
+    if constexpr (S::dim == 2) {
+        m(2, 2) = static_cast<double>(I);
+    } else {
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) m(i, j) = static_cast<double>(I(i, j));
+    }
+    return m;
+}
+
+engine::BodyType toEngineType(scenario::BodyType type) {
+    switch (type) {
+        case scenario::BodyType::Static:
+            return engine::BodyType::Static;
+        case scenario::BodyType::Kinematic:
+            return engine::BodyType::Kinematic;
+        case scenario::BodyType::Dynamic:
+            break;
+    }
+    return engine::BodyType::Dynamic;
+}
+engine::JointType toEngineJoint(scenario::JointType type) {
+    switch (type) {
+        case scenario::JointType::Ball:
+            return engine::JointType::Ball;
+        case scenario::JointType::Hinge:
+            return engine::JointType::Hinge;
+        case scenario::JointType::Slider:
+            return engine::JointType::Slider;
+        case scenario::JointType::Fixed:
+            return engine::JointType::Fixed;
+        case scenario::JointType::Distance:
+            break;
+    }
+    return engine::JointType::Distance;
+}
+
+template <class S>
+class RigorWorld final : public World {
+  public:
+    using R = typename S::Real;
+
+    RigorWorld(const Scenario& scenario, double dt, const Settings& settings)
+        : scenario_(scenario),
+          settings_(settings),
+          pairs_(scenario),
+          dt_(static_cast<R>(dt)),
+          world_(toWorldDef<S>(scenario, settings)) {
+        addMaterials();
+        for (const scenario::Body& body : scenario.bodies) addBody(body);
+        for (const scenario::Joint& joint : scenario.joints) addJoint(joint);
+    }
+
+    void applyForce(int body, const Vec3& force, const Vec3& torque) override {
+        if (scenario_.bodies[static_cast<std::size_t>(body)].type != scenario::BodyType::Dynamic) return;
+        world_.applyForce(id(body), toEngineVec<S>(force), toEngineAng<S>(torque));
+    }
+    void step() override { world_.step(dt_); }
+
+    void readStates(std::span<BodyState> states) const override {
+        for (std::size_t i = 0; i < bodies_.size(); ++i) states[i] = state(static_cast<int>(i));
+    }
+
+    void readContacts(std::vector<ContactPoint>& contacts) const override {
+        contacts.clear();
+        world_.readContacts(views_);
+        for (const engine::ContactView<S>& view : views_) {
+            // Found because it was near, but the step did not need it.
+            if (view.separation > 0 && view.normalImpulse == 0) continue;
+            ContactPoint c;
+            c.bodyA = static_cast<int>(view.bodyA.index) - 1;
+            c.bodyB = static_cast<int>(view.bodyB.index) - 1;
+            c.shapeA = shapeIndex_[view.shapeA.index];
+            c.shapeB = shapeIndex_[view.shapeB.index];
+            c.pointA = fromEngineVec(view.pointA);
+            c.pointB = fromEngineVec(view.pointB);
+            c.normal = fromEngineVec(view.normal);
+            c.depth = -static_cast<double>(view.separation);
+            c.hasImpulse = true;
+            c.normalImpulse = static_cast<double>(view.normalImpulse);
+            c.frictionImpulse = fromEngineVec(view.frictionImpulse);
+            contacts.push_back(c);
+        }
+    }
+
+    ReadBack readBack() const override {
+        ReadBack result;
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            const engine::BodyConstants<S>& body = world_.constants(bodies_[i]);
+            const bool moves = body.type == engine::BodyType::Dynamic;
+            BodyReadBack b;
+            b.mass = static_cast<double>(body.mass);
+            b.centerOfMass = fromEngineVec(body.centerOfMass);
+            b.inertia = fromEngineInertia<S>(body.inertia);
+            b.state = state(static_cast<int>(i));
+            if (moves) b.gravity = fromEngineVec(typename S::Vec(body.gravityScale * world_.def().gravity));
+            result.bodies.push_back(b);
+        }
+        for (const PairTable::Meeting& meeting : pairs_.meetings()) {
+            const engine::PairCoefficients<S>& c =
+                world_.pairCoefficients(material(meeting.materialA), material(meeting.materialB));
+            result.pairs.push_back({meeting.materialA, meeting.materialB, static_cast<double>(c.friction),
+                                    static_cast<double>(c.restitution)});
+        }
+        return result;
+    }
+
+    std::vector<LedgerEntry> ledger() const override {
+        bool bounces = false;
+        for (const PairTable::Meeting& m : pairs_.meetings())
+            bounces = bounces || pairs_.coefficients(m.materialA, m.materialB).restitution > 0;
+        return settingsLedger(scenario_, settings_, bounces);
+    }
+
+    StepCounters counters() const override {
+        const engine::StepResult<S>& last = world_.lastStep();
+        StepCounters c;
+        c.pairs = static_cast<std::int64_t>(last.pairs);
+        c.contacts = static_cast<std::int64_t>(last.contacts);
+        c.solverIterations = last.iterations;
+        if (!last.residuals.empty()) c.residual = static_cast<double>(last.residuals.back());
+        for (std::size_t i = 0; i < engine::kPhases; ++i)
+            c.phaseSeconds[engine::phaseName(static_cast<engine::Phase>(i))] = last.seconds[i];
+        return c;
+    }
+
+    Scheme scheme() const override {
+        const std::string& name = world_.def().integrator;
+        if (name == "symplectic_euler") return Scheme::SymplecticEuler;
+        if (name == "explicit_euler") return Scheme::ExplicitEuler;
+        return Scheme::Unknown;
+    }
+
+  private:
+    engine::BodyId id(int body) const {
+        return body == scenario::kNone ? engine::BodyId{} : bodies_[static_cast<std::size_t>(body)];
+    }
+    /// The engine's material 0 is its own.
+    static std::uint32_t material(int index) { return static_cast<std::uint32_t>(index + 1); }
+
+    BodyState state(int body) const {
+        const engine::Pose<S> X = world_.pose(id(body));
+        return {fromEngineVec(X.p), fromEngineRot(X.q), fromEngineVec(world_.velocity(id(body))),
+                fromEngineAng(world_.angularVelocity(id(body)))};
+    }
+
+    void addMaterials() {
+        const int count = static_cast<int>(scenario_.materials.size());
+        for (const scenario::Material& m : scenario_.materials)
+            world_.addMaterial(static_cast<R>(m.friction), static_cast<R>(m.restitution));
+        for (int a = 0; a < count; ++a)
+            for (int b = a; b < count; ++b) {
+                const scenario::PairCoefficients& c = pairs_.coefficients(a, b);
+                world_.setPair(material(a), material(b),
+                               {static_cast<R>(c.friction), static_cast<R>(c.restitution)});
+            }
+    }
+
+    void addBody(const scenario::Body& body) {
+        engine::BodyDef<S> def;
+        def.type = toEngineType(body.type);
+        def.pose = toEnginePose<S>(body.pose);
+        def.velocity = toEngineVec<S>(body.velocity);
+        def.angularVelocity = toEngineAng<S>(body.angularVelocity);
+        def.centerOfMass = toEngineVec<S>(body.massProperties.centerOfMass);
+        if (body.type == scenario::BodyType::Dynamic) {
+            def.mass = static_cast<R>(body.massProperties.mass);
+            def.inertia = toEngineInertia<S>(body.massProperties.inertia);
+        }
+        def.linearVelocityKept = static_cast<R>(body.linearVelocityKept);
+        def.angularVelocityKept = static_cast<R>(body.angularVelocityKept);
+        def.gravityScale = static_cast<R>(body.gravityScale);
+        def.collides = body.collides;
+        const engine::BodyId added = world_.addBody(def);
+        bodies_.push_back(added);
+        // Shapes of a body that never collides are for its mass and for pictures; the engine needs neither.
+        if (!body.collides) return;
+        for (std::size_t i = 0; i < body.shapes.size(); ++i) {
+            engine::ShapeDef<S> shape;
+            shape.shape = toEngineShape<S>(body.shapes[i].geometry);
+            shape.pose = toEnginePose<S>(body.shapes[i].pose);
+            shape.material = material(body.shapes[i].material);
+            const engine::ShapeId shapeId = world_.addShape(added, shape);
+            shapeIndex_.resize(shapeId.index + 1);
+            shapeIndex_[shapeId.index] = static_cast<int>(i);
+        }
+    }
+
+    void addJoint(const scenario::Joint& joint) {
+        engine::JointDef<S> def;
+        def.type = toEngineJoint(joint.type);
+        def.bodyA = id(joint.bodyA), def.bodyB = id(joint.bodyB);
+        def.anchorA = toEngineVec<S>(joint.anchorA), def.anchorB = toEngineVec<S>(joint.anchorB);
+        def.axisA = toEngineVec<S>(joint.axisA), def.axisB = toEngineVec<S>(joint.axisB);
+        def.length = static_cast<R>(joint.length);
+        def.collideConnected = joint.collideConnected;
+        world_.addJoint(def);
+    }
+
+    Scenario scenario_;
+    Settings settings_;
+    PairTable pairs_;
+    R dt_;
+    engine::World<S> world_;
+    std::vector<engine::BodyId> bodies_;
+    std::vector<int> shapeIndex_;  ///< by engine shape: index within its body
+    mutable std::vector<engine::ContactView<S>> views_;
+};
+
+class RigorDynamics final : public DynamicsEngine {
+  public:
+    std::unique_ptr<World> build(const Scenario& scenario, double dt,
+                                 const Settings& settings) const override {
+        checkSupported(scenario, rigorCapabilities(), "rigor");
+        const bool single = textSetting(settings, "precision") == "f32";
+        try {
+            if (scenario.dimension == 2) {
+                if (single) return std::make_unique<RigorWorld<Space2f>>(scenario, dt, settings);
+                return std::make_unique<RigorWorld<Space2d>>(scenario, dt, settings);
+            }
+            if (single) return std::make_unique<RigorWorld<Space3f>>(scenario, dt, settings);
+            return std::make_unique<RigorWorld<Space3d>>(scenario, dt, settings);
+        } catch (const std::invalid_argument& error) {
+            throw BadInput(error.what());
+        }
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<DynamicsEngine> makeRigorDynamics() {
+    return std::make_unique<RigorDynamics>();
+}
+
+}  // namespace rigor::adapter
