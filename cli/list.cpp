@@ -90,9 +90,12 @@ Json suites() {
 
 Json algorithms() {
     Json list = Json::array();
-    for (const auto& a : engine::algorithms())
-        list.push_back(
-            {{"name", a.name}, {"stage", a.stage}, {"default", a.isDefault}, {"summary", a.summary}});
+    for (const auto& family : engine::algorithmFamilies())
+        for (const auto& algorithm : family.algorithms)
+            list.push_back({{"name", algorithm.name},
+                            {"stage", family.name},
+                            {"default", algorithm.name == family.defaultChoice},
+                            {"summary", algorithm.summary}});
     return list;
 }
 
