@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The contact audit: at sampled frames of every run, every collision engine is asked about the same poses,
+// and the exact oracle knows the truth. Runs in child processes: one finds the questions and the oracle's
+// answers for all cases of a scenario, then one per auditor answers them.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adapters/interface/engine.hpp"
+#include "validation/results/types.hpp"
+#include "validation/runner/process_pool.hpp"
+
+namespace rigor::validation {
+
+/// Deeper than this is an overlap that must be found, farther apart one that must not [m].
+inline constexpr double kTouchTolerance = 1e-6;
+
+/// One question: two shapes of two bodies at one moment, and what the oracle says.
+struct AuditQuery {
+    double time = 0.0;
+    int bodyA = 0, bodyB = 0, shapeA = 0, shapeB = 0;
+    scenario::Pose poseA, poseB;  ///< of the shapes, in the world
+    bool decided = false;         ///< whether the oracle has an exact method for this pair
+    double signedDistance = 0.0;
+    std::vector<scenario::Vec3> normals;  ///< all minimising directions, A to B
+};
+
+/// The questions of one case, from its recorded trajectory.
+struct AuditCase {
+    std::string id;
+    std::int64_t frames = 0;
+    std::vector<AuditQuery> queries;
+};
+AuditCase findQueries(const scenario::Scenario& scenario, const std::string& caseId,
+                      const std::filesystem::path& trajectory);
+
+/// What one collision engine answers, held against the oracle.
+results::AuditRow askAuditor(const scenario::Scenario& scenario, const AuditCase& questions,
+                             const adapter::CollisionEngine& engine, const std::string& auditor);
+/// The oracle's own row: how many questions there were, how many it could decide.
+results::AuditRow oracleRow(const AuditCase& questions);
+
+/// Whether any two bodies may ever touch.
+bool hasAuditablePairs(const scenario::Scenario& scenario);
+
+/// The parent's side: queues the children of the audits in a pool and hands back the rows of each case.
+class AuditQueue {
+  public:
+    using Deliver = std::function<void(const std::string& caseId, std::vector<results::AuditRow>)>;
+    struct Files {
+        std::filesystem::path binary, run, scratch;
+    };
+    AuditQueue(ProcessPool& pool, Files files, std::vector<std::string> auditors, Deliver deliver);
+    ~AuditQueue();
+
+    /// Cases of one scenario: id to trajectory file (relative to the run).
+    void add(const std::string& scenario, const std::string& scenarioText,
+             const std::map<std::string, std::string>& cases);
+
+  private:
+    struct Batch;
+    void ask(const std::shared_ptr<Batch>& batch, const std::string& auditor, const std::string& onlyCase);
+    void answered(const std::shared_ptr<Batch>& batch, const std::string& auditor,
+                  const std::string& onlyCase, const ProcessResult& result,
+                  const std::filesystem::path& answer);
+    void finishOne(const std::shared_ptr<Batch>& batch);
+
+    ProcessPool& pool_;
+    Files files_;
+    std::vector<std::string> auditors_;
+    Deliver deliver_;
+    int next_ = 0;
+};
+
+/// The child's side: `__audit <request.json>`.
+int auditChild(const std::filesystem::path& request);
+
+}  // namespace rigor::validation

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <nlohmann/json.hpp>
+
+#include "adapters/interface/registry.hpp"
+#include "scenarios/loader/loader.hpp"
+#include "validation/runner/answer.hpp"
+#include "validation/runner/audit.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using nlohmann::json;
+using scenario::Pose;
+using scenario::Vec3;
+
+json vectorToJson(Vec3 v) {
+    return {v.x, v.y, v.z};
+}
+Vec3 vectorFromJson(const json& j) {
+    return {j.at(0), j.at(1), j.at(2)};
+}
+json poseToJson(const Pose& pose) {
+    const auto& [p, q] = pose;
+    return {p.x, p.y, p.z, q.w, q.x, q.y, q.z};
+}
+Pose poseFromJson(const json& j) {
+    return {{j.at(0), j.at(1), j.at(2)}, {j.at(3), j.at(4), j.at(5), j.at(6)}};
+}
+
+json queryToJson(const AuditQuery& q) {
+    json normals = json::array();
+    for (const Vec3& n : q.normals) normals.push_back(vectorToJson(n));
+    return {q.time,
+            {q.bodyA, q.bodyB, q.shapeA, q.shapeB},
+            poseToJson(q.poseA),
+            poseToJson(q.poseB),
+            q.decided,
+            numberToJson(q.signedDistance),
+            normals};
+}
+
+AuditQuery queryFromJson(const json& j) {
+    AuditQuery q;
+    q.time = j.at(0);
+    const json& ids = j.at(1);
+    q.bodyA = ids.at(0), q.bodyB = ids.at(1), q.shapeA = ids.at(2), q.shapeB = ids.at(3);
+    q.poseA = poseFromJson(j.at(2)), q.poseB = poseFromJson(j.at(3));
+    q.decided = j.at(4), q.signedDistance = numberFromJson(j.at(5));
+    for (const json& n : j.at(6)) q.normals.push_back(vectorFromJson(n));
+    return q;
+}
+
+scenario::Scenario scenarioOf(const json& request) {
+    return scenario::loadScenarioText(request.at("text").get<std::string>(),
+                                      request.at("scenario").get<std::string>())
+        .scenario;
+}
+
+/// Finds the questions of all cases and the oracle's answers.
+json prepare(const json& request) {
+    const scenario::Scenario s = scenarioOf(request);
+    json cases = json::array();
+    for (const auto& [id, trajectory] : request.at("cases").items()) {
+        const AuditCase found = findQueries(s, id, trajectory.get<std::string>());
+        json queries = json::array();
+        for (const AuditQuery& q : found.queries) queries.push_back(queryToJson(q));
+        cases.push_back({{"id", id},
+                         {"frames", found.frames},
+                         {"queries", std::move(queries)},
+                         {"oracle", auditToJson(oracleRow(found))}});
+    }
+    return {{"cases", std::move(cases)}};
+}
+
+/// One engine's answers to the questions of all cases, or of one.
+json ask(const json& request) {
+    const scenario::Scenario s = scenarioOf(request);
+    const auto questions = readJsonFile(request.at("questions").get<std::string>());
+    if (!questions) throw std::runtime_error("the questions of the audit can not be read");
+    const auto auditor = request.at("auditor").get<std::string>();
+    const auto only = request.at("only").get<std::string>();
+    const adapter::LoadedEngine engine = adapter::loadEngine(adapter::parseSpec(auditor));
+    if (engine->collision() == nullptr)
+        throw std::runtime_error("'" + auditor + "' has no collision queries");
+    json rows = json::object();
+    for (const json& entry : questions->at("cases")) {
+        AuditCase asked;
+        asked.id = entry.at("id"), asked.frames = entry.at("frames");
+        if (!only.empty() && asked.id != only) continue;
+        for (const json& q : entry.at("queries")) asked.queries.push_back(queryFromJson(q));
+        rows[asked.id] = auditToJson(askAuditor(s, asked, *engine->collision(), auditor));
+    }
+    return rows;
+}
+
+}  // namespace
+
+int auditChild(const std::filesystem::path& requestFile) {
+    const auto request = readJsonFile(requestFile);
+    if (!request) throw std::runtime_error(requestFile.string() + ": no request");
+    const json answer = request->contains("auditor") ? ask(*request) : prepare(*request);
+    writeJsonFile(request->at("answer").get<std::string>(), answer);
+    return 0;
+}
+
+}  // namespace rigor::validation

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "validation/oracle/oracle.hpp"
+#include "validation/results/trajectory_file.hpp"
+#include "validation/runner/audit.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using scenario::Pose;
+using scenario::Scenario;
+using scenario::Vec3;
+
+constexpr std::size_t kFrames = 20;
+constexpr std::size_t kMostQueries = 400;  ///< per case
+constexpr double kNearby = 0.02;           ///< bounding spheres closer than this are asked about [m]
+
+/// Smallest sphere we know around a shape, shape frame; infinite radius for a half-space.
+struct Ball {
+    Vec3 centre;
+    double radius = 0.0;
+};
+
+Ball ballAround(const scenario::Geometry& geometry) {
+    struct Visitor {
+        Ball operator()(const scenario::Sphere& s) const { return {{}, s.radius}; }
+        Ball operator()(const scenario::Box& s) const { return {{}, norm(s.halfExtents)}; }
+        Ball operator()(const scenario::Capsule& s) const { return {{}, s.radius + s.halfLength}; }
+        Ball operator()(const scenario::Cylinder& s) const {
+            return {{}, std::hypot(s.radius, s.halfLength)};
+        }
+        Ball operator()(const scenario::Cone& s) const { return {{}, std::hypot(s.radius, s.halfLength)}; }
+        Ball operator()(const scenario::ConvexHull& s) const {
+            Ball ball;
+            for (const Vec3& v : s.vertices) ball.centre += v / static_cast<double>(s.vertices.size());
+            for (const Vec3& v : s.vertices) ball.radius = std::max(ball.radius, norm(v - ball.centre));
+            return ball;
+        }
+        Ball operator()(const scenario::HalfSpace&) const {
+            return {{}, std::numeric_limits<double>::infinity()};
+        }
+        Ball operator()(const scenario::Segment& s) const {
+            return {0.5 * (s.a + s.b), 0.5 * norm(s.b - s.a)};
+        }
+    };
+    return std::visit(Visitor{}, geometry);
+}
+
+/// A pair of shapes that could ever touch.
+struct Candidate {
+    int bodyA, bodyB, shapeA, shapeB;
+};
+
+struct ShapeAt {
+    const scenario::Geometry* geometry;
+    Pose pose;
+    Ball ball;  ///< world frame
+};
+
+const scenario::Shape& shapeOf(const Scenario& s, int body, int shape) {
+    return s.bodies[static_cast<std::size_t>(body)].shapes[static_cast<std::size_t>(shape)];
+}
+
+ShapeAt place(const Scenario& s, int body, int shape, const Pose& bodyPose) {
+    const scenario::Shape& local = shapeOf(s, body, shape);
+    const Pose pose = bodyPose * local.pose;
+    const Ball ball = ballAround(local.geometry);
+    return {&local.geometry, pose, {pose * ball.centre, ball.radius}};
+}
+
+/// Distance of the bounding spheres, or of a sphere from a half-space.
+double gap(const ShapeAt& a, const ShapeAt& b) {
+    const auto fromPlane = [](const ShapeAt& plane, const ShapeAt& other) {
+        const auto& h = std::get<scenario::HalfSpace>(*plane.geometry);
+        const Vec3 n = rotate(plane.pose.orientation, h.normal);
+        return dot(n, other.ball.centre - plane.pose.position) - h.offset - other.ball.radius;
+    };
+    if (std::holds_alternative<scenario::HalfSpace>(*a.geometry)) return fromPlane(a, b);
+    if (std::holds_alternative<scenario::HalfSpace>(*b.geometry)) return fromPlane(b, a);
+    return norm(a.ball.centre - b.ball.centre) - a.ball.radius - b.ball.radius;
+}
+
+std::vector<Candidate> candidates(const Scenario& s) {
+    std::vector<Candidate> pairs;
+    const int bodies = static_cast<int>(s.bodies.size());
+    const auto shapes = [&](int body) {
+        return static_cast<int>(s.bodies[static_cast<std::size_t>(body)].shapes.size());
+    };
+    for (int a = 0; a < bodies; ++a)
+        for (int b = a + 1; b < bodies; ++b) {
+            if (!mayCollide(s, a, b)) continue;
+            for (int i = 0; i < shapes(a); ++i)
+                for (int j = 0; j < shapes(b); ++j) pairs.push_back({a, b, i, j});
+        }
+    return pairs;
+}
+
+/// Half of the frames evenly over the run, half evenly over the frames in which the engine had contacts.
+std::vector<std::size_t> sampledFrames(const results::TrajectoryFile& file) {
+    std::set<std::size_t> chosen;
+    const auto spread = [&](const std::vector<std::size_t>& from, std::size_t count) {
+        if (from.empty()) return;
+        for (std::size_t k = 0; k < count; ++k)
+            chosen.insert(from[k * (from.size() - 1) / std::max<std::size_t>(1, count - 1)]);
+    };
+    std::vector<std::size_t> all(file.times.size()), touching;
+    for (std::size_t f = 0; f < all.size(); ++f) all[f] = f;
+    for (const auto& contact : file.contacts) {
+        const auto it = std::lower_bound(file.times.begin(), file.times.end(), contact.time);
+        const auto frame = static_cast<std::size_t>(it - file.times.begin());
+        if (frame < all.size() && (touching.empty() || touching.back() != frame)) touching.push_back(frame);
+    }
+    spread(all, kFrames / 2);
+    spread(touching, kFrames / 2);
+    return {chosen.begin(), chosen.end()};
+}
+
+Pose bodyPose(const results::TrajectoryFile& file, std::size_t frame, int body) {
+    const auto& channels = file.bodies[static_cast<std::size_t>(body)];
+    const double* p = channels.position.values.data() + 3 * frame;
+    const double* q = channels.orientation.values.data() + 4 * frame;
+    return {{p[0], p[1], p[2]}, scenario::normalized({q[0], q[1], q[2], q[3]})};
+}
+
+std::vector<AuditQuery> frameQueries(const Scenario& s, const std::vector<Candidate>& pairs,
+                                     const results::TrajectoryFile& file, std::size_t frame) {
+    std::vector<AuditQuery> queries;
+    for (const Candidate& c : pairs) {
+        const ShapeAt a = place(s, c.bodyA, c.shapeA, bodyPose(file, frame, c.bodyA));
+        const ShapeAt b = place(s, c.bodyB, c.shapeB, bodyPose(file, frame, c.bodyB));
+        if (!isFinite(a.pose.position) || !isFinite(b.pose.position) || gap(a, b) > kNearby) continue;
+        AuditQuery q;
+        q.time = file.times[frame];
+        q.bodyA = c.bodyA, q.bodyB = c.bodyB, q.shapeA = c.shapeA, q.shapeB = c.shapeB;
+        q.poseA = a.pose, q.poseB = b.pose;
+        queries.push_back(std::move(q));
+    }
+    return queries;
+}
+
+void thinOut(std::vector<AuditQuery>& queries) {
+    if (queries.size() <= kMostQueries) return;
+    std::vector<AuditQuery> kept;
+    for (std::size_t k = 0; k < kMostQueries; ++k)
+        kept.push_back(std::move(queries[k * queries.size() / kMostQueries]));
+    queries = std::move(kept);
+}
+
+}  // namespace
+
+bool hasAuditablePairs(const Scenario& s) {
+    for (int a = 0; a < static_cast<int>(s.bodies.size()); ++a)
+        for (int b = a + 1; b < static_cast<int>(s.bodies.size()); ++b)
+            if (mayCollide(s, a, b)) return true;
+    return false;
+}
+
+AuditCase findQueries(const Scenario& s, const std::string& caseId, const std::filesystem::path& trajectory) {
+    const results::TrajectoryFile file = results::readTrajectory(trajectory);
+    const std::vector<Candidate> pairs = candidates(s);
+    AuditCase found;
+    found.id = caseId;
+    for (const std::size_t frame : sampledFrames(file)) {
+        auto queries = frameQueries(s, pairs, file, frame);
+        found.queries.insert(found.queries.end(), queries.begin(), queries.end());
+        ++found.frames;
+    }
+    thinOut(found.queries);
+    for (AuditQuery& q : found.queries) {
+        const auto answer = exactContact(shapeOf(s, q.bodyA, q.shapeA).geometry, q.poseA,
+                                         shapeOf(s, q.bodyB, q.shapeB).geometry, q.poseB, s.dimension);
+        q.decided = answer.has_value();
+        if (!answer) continue;
+        q.signedDistance = answer->signedDistance;
+        q.normals = answer->normals;
+    }
+    return found;
+}
+
+results::AuditRow oracleRow(const AuditCase& questions) {
+    results::AuditRow row;
+    row.auditor = "oracle", row.outcome = "completed";
+    row.frames = questions.frames;
+    row.queries = static_cast<std::int64_t>(questions.queries.size());
+    for (const AuditQuery& q : questions.queries) {
+        row.undecided += q.decided ? 0 : 1;
+        row.overlapping += q.decided && q.signedDistance < -kTouchTolerance ? 1 : 0;
+    }
+    return row;
+}
+
+}  // namespace rigor::validation

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The program runs itself again for everything that touches an engine: `__case`, `__audit` and `__describe`.
+#include "validation/runner/child.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "scenarios/loader/loader.hpp"
+#include "validation/runner/answer.hpp"
+#include "validation/runner/audit.hpp"
+#include "validation/runner/describe.hpp"
+#include "validation/runner/judge.hpp"
+#include "validation/runner/live.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using nlohmann::json;
+using results::CaseRow;
+using results::Outcome;
+
+[[noreturn]] void onOutOfMemory() {
+    _exit(kExitOutOfMemory);
+}
+
+CaseRow refusedRow(const json& request, const adapter::EngineSpec& spec, Outcome outcome,
+                   const char* reason) {
+    CaseRow row;
+    row.scenario = request.at("scenario"), row.spec = spec.text(), row.engine = spec.engine;
+    row.preset = spec.preset(), row.dt = numberFromJson(request.at("dt"));
+    row.outcome = outcome, row.reason = reason;
+    return row;
+}
+
+CaseRow runRequested(const json& request, const scenario::Scenario& s, const adapter::EngineSpec& spec) {
+    const double dt = numberFromJson(request.at("dt"));
+    WholeCase whole = runWholeCase(s, spec, dt, {});
+    CaseRow& row = whole.live.row;
+    row.id = request.at("id");
+    const auto file = request.at("trajectory").get<std::string>();
+    results::writeTrajectory(
+        file, trajectoryFile({s, whole.live.trajectory, whole.reference.get(), whole.scheme}, row));
+    return std::move(row);
+}
+
+int caseChild(const std::filesystem::path& requestFile) {
+    const auto request = readJsonFile(requestFile);
+    if (!request) throw std::runtime_error(requestFile.string() + ": no request");
+    const scenario::Scenario s = scenario::loadScenarioText(request->at("text").get<std::string>(),
+                                                            request->at("scenario").get<std::string>())
+                                     .scenario;
+    const adapter::EngineSpec spec = adapter::parseSpec(request->at("spec").get<std::string>());
+    CaseRow row;
+    try {
+        row = runRequested(*request, s, spec);
+    } catch (const adapter::Unsupported& error) {
+        row = refusedRow(*request, spec, Outcome::Unsupported, error.what());
+    } catch (const std::exception& error) {
+        row = refusedRow(*request, spec, Outcome::Error, error.what());
+    }
+    if (row.outcome == Outcome::Unsupported || row.outcome == Outcome::Error) judgeCase(row, s);
+    writeJsonFile(request->at("answer").get<std::string>(), caseToJson(row));
+    return 0;
+}
+
+int dispatch(const std::vector<std::string>& arguments) {
+    const std::string what = arguments.empty() ? "" : arguments[0];
+    if (what == "__case" && arguments.size() == 2) return caseChild(arguments[1]);
+    if (what == "__audit" && arguments.size() == 2) return auditChild(arguments[1]);
+    if (what == "__describe" && arguments.size() == 3) return describeChild(arguments[1], arguments[2]);
+    std::fprintf(stderr, "rigor: '%s' is not for people\n", what.c_str());
+    return 2;
+}
+
+}  // namespace
+
+int childMain(const std::vector<std::string>& arguments) {
+    std::set_new_handler(onOutOfMemory);
+    int code = 1;
+    try {
+        code = dispatch(arguments);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    }
+    // The answer is on the disk: what a library does while it is taken down is no part of it.
+    std::fflush(nullptr);
+    _exit(code);
+}
+
+}  // namespace rigor::validation

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/runner/describe.hpp"
+
+#include <stdlib.h>
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "validation/runner/answer.hpp"
+#include "validation/runner/process_pool.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using nlohmann::json;
+constexpr ProcessLimits kDescribeLimits{20.0, 4096};
+
+json optionToJson(const adapter::Option& o) {
+    return {{"key", o.key},
+            {"values", o.values},
+            {"min", numberToJson(o.min)},
+            {"max", numberToJson(o.max)},
+            {"integer", o.integer},
+            {"default", o.defaultValue},
+            {"matched", o.matchedValue},
+            {"help", o.help}};
+}
+
+adapter::Option optionFromJson(const json& j) {
+    adapter::Option o;
+    o.key = j.at("key");
+    o.values = j.at("values").get<std::vector<std::string>>();
+    o.min = numberFromJson(j.at("min")), o.max = numberFromJson(j.at("max"));
+    o.integer = j.at("integer");
+    o.defaultValue = j.at("default"), o.matchedValue = j.at("matched"), o.help = j.at("help");
+    return o;
+}
+
+json capabilitiesToJson(const adapter::Capabilities& c) {
+    return {{"dynamics", c.dynamics},
+            {"collision", c.collision},
+            {"broad_phase", c.broadPhase},
+            {"dimensions", c.dimensions},
+            {"planar", c.planar},
+            {"shapes", c.shapes},
+            {"joints", c.joints},
+            {"contact_impulses", c.contactImpulses},
+            {"signed_distance", c.signedDistance},
+            {"kinematic_bodies", c.kinematicBodies},
+            {"damping", c.damping},
+            {"gravity_scale", c.gravityScale},
+            {"center_of_mass_offset", c.centerOfMassOffset}};
+}
+
+adapter::Capabilities capabilitiesFromJson(const json& j) {
+    adapter::Capabilities c;
+    c.dynamics = j.at("dynamics"), c.collision = j.at("collision"), c.broadPhase = j.at("broad_phase");
+    c.dimensions = j.at("dimensions").get<std::vector<int>>();
+    c.planar = j.at("planar");
+    c.shapes = j.at("shapes").get<std::vector<std::string>>();
+    c.joints = j.at("joints").get<std::vector<std::string>>();
+    c.contactImpulses = j.at("contact_impulses"), c.signedDistance = j.at("signed_distance");
+    c.kinematicBodies = j.at("kinematic_bodies"), c.damping = j.at("damping");
+    c.gravityScale = j.at("gravity_scale"), c.centerOfMassOffset = j.at("center_of_mass_offset");
+    return c;
+}
+
+void readDescription(const json& j, EngineDescription& d) {
+    d.info = {j.at("name"), j.at("version"), j.at("precision"), j.at("title"), j.at("build_notes")};
+    d.capabilities = capabilitiesFromJson(j.at("capabilities"));
+    for (const json& o : j.at("options")) d.options.push_back(optionFromJson(o));
+}
+
+/// What the child said last, in one line.
+std::string lastLine(const std::string& output) {
+    const auto end = output.find_last_not_of(" \n\r");
+    if (end == std::string::npos) return "";
+    const auto begin = output.rfind('\n', end);
+    return output.substr(begin == std::string::npos ? 0 : begin + 1,
+                         end - (begin == std::string::npos ? 0 : begin + 1) + 1);
+}
+
+}  // namespace
+
+ScratchFolder::ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "rigor-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+        throw std::runtime_error("cannot make a temporary folder " + name + ": " + std::strerror(errno));
+    path_ = name;
+}
+
+ScratchFolder::~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+int describeChild(const std::string& engine, const std::filesystem::path& answer) {
+    const adapter::LoadedEngine loaded = adapter::loadEngine(adapter::parseSpec(engine));
+    const adapter::EngineInfo info = loaded->info();
+    json options = json::array();
+    for (const auto& o : loaded->options()) options.push_back(optionToJson(o));
+    writeJsonFile(answer, {{"name", info.name},
+                           {"version", info.version},
+                           {"precision", info.precision},
+                           {"title", info.title},
+                           {"build_notes", info.buildNotes},
+                           {"capabilities", capabilitiesToJson(loaded->capabilities())},
+                           {"options", std::move(options)}});
+    return 0;
+}
+
+std::vector<EngineDescription> describeEngines(const std::vector<std::string>& engines,
+                                               const std::filesystem::path& binary, int jobs) {
+    const ScratchFolder scratch;
+    ProcessPool pool(jobs);
+    std::vector<EngineDescription> descriptions(engines.size());
+    for (std::size_t i = 0; i < engines.size(); ++i) {
+        EngineDescription& d = descriptions[i];
+        d.info.name = engines[i];
+        const auto answer = scratch.path() / (std::to_string(i) + ".json");
+        pool.add({{binary.string(), "__describe", engines[i], answer.string()},
+                  kDescribeLimits,
+                  engines[i],
+                  [&d, answer](const ProcessResult& result) {
+                      const auto json = readJsonFile(answer);
+                      if (result.exitedWith(0) && json) {
+                          readDescription(*json, d);
+                          return;
+                      }
+                      d.problem = result.timedOut ? "no answer within the time limit" : result.ending();
+                      if (const std::string line = lastLine(result.outputTail); !line.empty())
+                          d.problem += ": " + line;
+                  }});
+    }
+    const std::atomic<bool> never{false};
+    pool.run(never, [](const std::string&) {});
+    for (std::size_t i = 0; i < engines.size(); ++i) {
+        const std::string& own = descriptions[i].info.precision;
+        auto& precisions = descriptions[i].precisions;
+        if (!own.empty()) precisions.push_back(own);
+        for (const auto& variant : adapter::availablePrecisions(adapter::parseSpec(engines[i]).engine))
+            if (variant != own) precisions.push_back(variant);
+        for (const auto& option : descriptions[i].options)
+            if (option.key == "precision") precisions = option.values;
+    }
+    return descriptions;
+}
+
+EngineDescription describeEngine(const std::string& engine, const std::filesystem::path& binary) {
+    return describeEngines({engine}, binary, 1).front();
+}
+
+}  // namespace rigor::validation

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "validation/runner/runner.hpp"
+
+namespace rigor::validation {
+
+/// The child's side of describeEngine: `__describe SPEC ANSWER_FILE`.
+int describeChild(const std::string& engine, const std::filesystem::path& answer);
+
+/// Describes several engines, `jobs` at a time.
+std::vector<EngineDescription> describeEngines(const std::vector<std::string>& engines,
+                                               const std::filesystem::path& binary, int jobs);
+
+/// A folder for requests and answers that goes away with its owner.
+class ScratchFolder {
+  public:
+    ScratchFolder();
+    ~ScratchFolder();
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+}  // namespace rigor::validation

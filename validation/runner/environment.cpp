@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/runner/environment.hpp"
+
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <ctime>
+#include <fstream>
+
+namespace rigor::validation {
+namespace {
+
+/// The value after `separator` of the first line that starts with `key`.
+std::string valueIn(const char* file, const std::string& key, char separator) {
+    std::ifstream in(file);
+    std::string line;
+    while (std::getline(in, line)) {
+        if (!line.starts_with(key)) continue;
+        const auto at = line.find(separator);
+        if (at == std::string::npos) continue;
+        std::string value = line.substr(line.find_first_not_of(" \t\"", at + 1));
+        value.erase(value.find_last_not_of(" \t\"") + 1);
+        return value;
+    }
+    return "unknown";
+}
+
+std::string compiler() {
+#if defined(__clang__)
+    return "clang " __clang_version__;
+#elif defined(__GNUC__)
+    return "gcc " __VERSION__;
+#else
+    return "unknown";
+#endif
+}
+
+}  // namespace
+
+std::map<std::string, std::string> describeEnvironment() {
+    struct utsname system {};
+    uname(&system);
+    const long pages = sysconf(_SC_PHYS_PAGES), pageSize = sysconf(_SC_PAGESIZE);
+    return {{"cpu", valueIn("/proc/cpuinfo", "model name", ':')},
+            {"cores", std::to_string(sysconf(_SC_NPROCESSORS_ONLN))},
+            {"memory", std::to_string(pages / 1024 * pageSize / 1024) + " MiB"},
+            {"kernel", std::string(system.sysname) + " " + system.release + " " + system.machine},
+            {"system", valueIn("/etc/os-release", "PRETTY_NAME", '=')},
+            {"compiler", compiler()},
+            {"build_type", RIGOR_BUILD_TYPE},
+            {"flags", RIGOR_BUILD_FLAGS},
+            {"rigor", RIGOR_VERSION},
+            {"date", isoTime()}};
+}
+
+std::string isoTime() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return text;
+}
+
+}  // namespace rigor::validation

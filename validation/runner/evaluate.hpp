@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What a recorded trajectory says: metrics with verdicts, quantities of the reference, curves.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "validation/metrics/metric.hpp"
+#include "validation/references/reference.hpp"
+#include "validation/results/trajectory_file.hpp"
+#include "validation/results/types.hpp"
+
+namespace rigor::validation {
+
+/// The reference of a scenario, or why there is none: its assumptions do not hold for these values.
+struct ReferenceOrProblem {
+    std::unique_ptr<Reference> reference;
+    std::string problem;  ///< "" when the reference holds, or the scenario has none
+};
+ReferenceOrProblem referenceOf(const scenario::Scenario& scenario);
+
+/// Fills metrics (those that matter to the scenario first) and quantities of `row`, whose engine, preset and
+/// dt are set.
+void evaluateCase(const MetricInput& input, results::CaseRow& row);
+
+/// The trajectory, the exact states at the same times, and the diagnostic curves, ready to be written.
+results::TrajectoryFile trajectoryFile(const MetricInput& input, const results::CaseRow& row);
+
+}  // namespace rigor::validation

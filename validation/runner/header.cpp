@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/runner/header.hpp"
+
+#include <charconv>
+#include <fstream>
+#include <set>
+
+#include "scenarios/loader/loader.hpp"
+#include "validation/runner/environment.hpp"
+#include "validation/runner/evaluate.hpp"
+
+namespace rigor::validation {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path storedScenario(const std::string& name, const fs::path& run) {
+    return run / "scenarios" / (name + ".json");
+}
+
+/// The shortest text that reads back as the same double.
+std::string shortest(double value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+std::string quoted(const std::string& word) {
+    constexpr const char* harmless =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
+    if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+results::ScenarioRow scenarioRow(const CasePlan& plan) {
+    const scenario::Scenario& s = plan.scenario;
+    results::ScenarioRow row;
+    row.name = s.name, row.title = s.title, row.description = s.description, row.source = s.source;
+    row.isolates = s.isolates, row.tags = s.tags, row.metrics = s.metrics;
+    for (const int body : s.observed) row.observed.push_back(s.bodies[static_cast<std::size_t>(body)].name);
+    row.dimension = s.dimension, row.duration = s.duration, row.timeSteps = s.timeSteps;
+    row.text = plan.scenarioText;
+    if (!s.reference) return row;
+    row.reference = s.reference->name;
+    if (const ReferenceEntry* entry = findReference(s.reference->name); entry != nullptr)
+        row.referenceTitle = entry->title, row.referenceFormula = entry->formula,
+        row.referenceSource = entry->source;
+    row.referenceProblem = referenceOf(s).problem;
+    return row;
+}
+
+results::EngineRow engineRow(const EngineDescription& d) {
+    return {d.info.name, d.info.title, d.info.version, d.info.precision, d.info.buildNotes, d.problem};
+}
+
+}  // namespace
+
+bool isLibraryScenario(const std::string& name, const std::string& text) {
+    try {
+        for (const auto& entry : scenario::listScenarios())
+            if (entry.name == name) return scenario::loadScenario(entry.file).text == text;
+    } catch (const std::exception&) {  // an unreadable library: then the stored file is the one to name
+    }
+    return false;
+}
+
+std::string reproduceCommand(const CasePlan& plan, const fs::path& run, bool fromLibrary) {
+    const std::string scenario =
+        fromLibrary ? plan.scenario.name : storedScenario(plan.scenario.name, run).string();
+    return "./rigor run " + quoted(scenario) + " --engine " + quoted(plan.spec.text()) + " --dt " +
+           shortest(plan.dt);
+}
+
+void writeScenarioFiles(const std::vector<CasePlan>& plan, const fs::path& run) {
+    fs::create_directories(run / "scenarios");
+    std::set<std::string> written;
+    for (const CasePlan& c : plan) {
+        if (!written.insert(c.scenario.name).second) continue;
+        const fs::path file = storedScenario(c.scenario.name, run);
+        std::ofstream out(file, std::ios::trunc);
+        out << c.scenarioText;
+        if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+    }
+}
+
+results::Run runHeader(const std::vector<CasePlan>& plan, const RunOptions& options,
+                       const std::vector<EngineDescription>& engines) {
+    results::Run run;
+    run.suite = options.suite, run.command = options.command, run.started = isoTime();
+    run.environment = describeEnvironment();
+    run.environment["jobs"] = std::to_string(options.jobs);
+    for (const EngineDescription& d : engines) {
+        run.engines.push_back(engineRow(d));
+        if (d.problem.empty())
+            run.environment["engine_" + d.info.name] = d.info.version + " " + d.info.precision;
+    }
+    std::set<std::string> seen;
+    for (const CasePlan& c : plan)
+        if (seen.insert(c.scenario.name).second) run.scenarios.push_back(scenarioRow(c));
+    run.plannedCases = static_cast<std::int64_t>(plan.size());
+    return run;
+}
+
+}  // namespace rigor::validation

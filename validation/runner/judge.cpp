@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/runner/judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/runner/read_back.hpp"
+#include "validation/runner/runner.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using results::CaseRow;
+using results::MetricRow;
+using results::Outcome;
+using results::Verdict;
+using scenario::Scenario;
+
+/// The most specific entry for engine, preset and metric.
+template <class Entry>
+const Entry* entryFor(const std::vector<Entry>& entries, const std::string& engine, const std::string& preset,
+                      const std::string& metric) {
+    const Entry* best = nullptr;
+    int bestRank = -1;
+    for (const Entry& e : entries) {
+        const bool named = e.engine == engine;
+        if (e.metric != metric || (!named && e.engine != "*") || (!e.preset.empty() && e.preset != preset))
+            continue;
+        const int rank = (named ? 2 : 0) + (e.preset.empty() ? 0 : 1);
+        if (rank > bestRank) best = &e, bestRank = rank;
+    }
+    return best;
+}
+
+Verdict verdictOf(Outcome outcome) {
+    switch (outcome) {
+        case Outcome::Completed:
+            return Verdict::Pass;
+        case Outcome::Unsupported:
+            return Verdict::Unsupported;
+        case Outcome::Timeout:
+            return Verdict::Timeout;
+        case Outcome::NonFinite:
+            return Verdict::NonFinite;
+        case Outcome::Crashed:
+        case Outcome::OutOfMemory:
+            return Verdict::Crashed;
+        case Outcome::Error:
+            return Verdict::Fail;
+    }
+    return Verdict::Fail;
+}
+
+void judgeEnding(CaseRow& row, const Scenario& scenario) {
+    row.verdict = verdictOf(row.outcome);
+    const auto* expected = deviationFor(scenario, row.engine, row.preset, results::outcomeName(row.outcome));
+    if (expected == nullptr || row.outcome == Outcome::Unsupported) return;
+    row.verdict = Verdict::KnownDeviation;
+    row.reason = expected->reason + (row.reason.empty() ? "" : " (" + row.reason + ")");
+}
+
+void judgeCompleted(CaseRow& row) {
+    row.verdict = Verdict::Pass;
+    for (const MetricRow& m : row.metrics) {
+        if (m.verdict == Verdict::KnownDeviation && row.verdict == Verdict::Pass) {
+            row.verdict = Verdict::KnownDeviation;
+            row.reason = m.name + ": " + m.note;
+        } else if (m.verdict == Verdict::Fail && row.verdict != Verdict::Fail) {
+            row.verdict = Verdict::Fail;
+            row.reason = m.name + " misses its bound" + (m.note.empty() ? "" : ": " + m.note);
+        }
+    }
+    if (const std::string problem = readBackProblem(row.readBack, row.ledger); !problem.empty()) {
+        row.verdict = Verdict::Fail;
+        row.reason = problem;
+    }
+}
+
+}  // namespace
+
+const scenario::Bound* boundFor(const Scenario& scenario, const std::string& engine,
+                                const std::string& preset, const std::string& metric) {
+    return entryFor(scenario.accept, engine, preset, metric);
+}
+
+const scenario::KnownDeviation* deviationFor(const Scenario& scenario, const std::string& engine,
+                                             const std::string& preset, const std::string& metric) {
+    return entryFor(scenario.knownDeviations, engine, preset, metric);
+}
+
+double boundAt(const scenario::Bound& bound, const Scenario& scenario, double dt) {
+    if (bound.order == 0.0 || scenario.timeSteps.empty()) return bound.max;
+    return bound.max * std::pow(dt / scenario.timeSteps.front(), bound.order);
+}
+
+void judgeMetric(MetricRow& row, const Scenario& scenario, const std::string& engine,
+                 const std::string& preset, double dt) {
+    const auto* bound = boundFor(scenario, engine, preset, row.name);
+    const auto* known = deviationFor(scenario, engine, preset, row.name);
+    if (bound != nullptr) row.bound = boundAt(*bound, scenario, dt);
+    if (known != nullptr) row.expectation = known->max;
+    const bool within = bound != nullptr && row.value <= *row.bound;  // false for NaN
+    const bool asKnown = known != nullptr && row.value <= known->max;
+    if (bound == nullptr && known == nullptr)
+        row.verdict = Verdict::Pass;
+    else if (within || (bound == nullptr && asKnown))
+        row.verdict = Verdict::Pass;
+    else
+        row.verdict = asKnown ? Verdict::KnownDeviation : Verdict::Fail;
+    if (row.verdict == Verdict::KnownDeviation) row.note = known->reason;
+}
+
+void judgeCase(CaseRow& row, const Scenario& scenario) {
+    if (row.outcome == Outcome::Completed)
+        judgeCompleted(row);
+    else
+        judgeEnding(row, scenario);
+}
+
+bool runIsGreen(const results::Run& run) {
+    return std::none_of(run.cases.begin(), run.cases.end(), [](const CaseRow& c) {
+        switch (c.verdict) {
+            case Verdict::Pass:
+            case Verdict::Unsupported:
+                return false;
+            case Verdict::KnownDeviation:
+                return c.engine == kInHouseEngine;
+            default:
+                return true;
+        }
+    });
+}
+
+}  // namespace rigor::validation

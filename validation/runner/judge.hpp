@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// From numbers to verdicts.
+#pragma once
+
+#include <string>
+
+#include "scenarios/model/scenario.hpp"
+#include "validation/results/types.hpp"
+
+namespace rigor::validation {
+
+/// The one engine that is held to its bounds without excuses: a known deviation of it is a missed bound.
+inline constexpr const char* kInHouseEngine = "rigor";
+
+/// The bound for a metric: the entry for this engine and preset, else for this engine, else for "*"; null
+/// when there is none.
+const scenario::Bound* boundFor(const scenario::Scenario& scenario, const std::string& engine,
+                                const std::string& preset, const std::string& metric);
+const scenario::KnownDeviation* deviationFor(const scenario::Scenario& scenario, const std::string& engine,
+                                             const std::string& preset, const std::string& metric);
+
+/// max * (dt / first dt of the scenario)^order
+double boundAt(const scenario::Bound& bound, const scenario::Scenario& scenario, double dt);
+
+/// Sets bound, expectation, verdict and note of a whole-scene row ("" as subject) from the scenario. A value
+/// that is NaN misses every bound.
+void judgeMetric(results::MetricRow& row, const scenario::Scenario& scenario, const std::string& engine,
+                 const std::string& preset, double dt);
+
+/// Sets verdict (and reason where it has none) of a case from its outcome, metrics and read-back. A known
+/// deviation whose metric is the outcome's name ("crashed", "timeout", ...) makes that outcome an expected
+/// one.
+void judgeCase(results::CaseRow& row, const scenario::Scenario& scenario);
+
+}  // namespace rigor::validation

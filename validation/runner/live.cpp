@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/runner/live.hpp"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <fstream>
+#include <string>
+
+#include "adapters/interface/input_check.hpp"
+#include "validation/runner/judge.hpp"
+#include "validation/runner/read_back.hpp"
+#include "validation/runner/simulate.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using adapter::BadInput;
+using results::CaseRow;
+using scenario::Scenario;
+
+std::vector<results::LedgerRow> ledgerRows(const std::vector<adapter::LedgerEntry>& entries) {
+    std::vector<results::LedgerRow> rows;
+    for (const auto& e : entries)
+        rows.push_back({e.topic, e.requested, e.resolved, adapter::realisationName(e.realisation), e.reason});
+    return rows;
+}
+
+/// Peak resident memory of this process image [KiB]. ru_maxrss would include the process it was forked from.
+std::int64_t peakMemoryKiB() {
+    std::ifstream status("/proc/self/status");
+    std::string line;
+    while (std::getline(status, line))
+        if (line.starts_with("VmHWM:")) return std::stoll(line.substr(6));
+    struct rusage usage {};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+}
+
+CaseRow startRow(const Scenario& scenario, const adapter::EngineSpec& spec, double dt) {
+    CaseRow row;
+    row.scenario = scenario.name, row.spec = spec.text(), row.engine = spec.engine;
+    row.preset = spec.preset(), row.dt = dt;
+    return row;
+}
+
+}  // namespace
+
+WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec, double dt,
+                       const LiveOptions& options) {
+    using Clock = std::chrono::steady_clock;
+    const auto since = [](Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    const auto started = Clock::now();
+    WholeCase whole;
+    CaseRow& row = whole.live.row;
+    row = startRow(scenario, spec, dt);
+    const adapter::LoadedEngine engine = adapter::loadEngine(spec);
+    if (engine->dynamics() == nullptr)
+        throw adapter::Unsupported("engine '" + spec.engine + "' has no dynamics");
+    const adapter::Settings settings = adapter::resolveSettings(spec, *engine);
+    adapter::checkScenarioInput(scenario, dt);
+    adapter::checkSupported(scenario, engine->capabilities(), spec.engine);
+    row.settings = settings;
+
+    const auto buildStart = Clock::now();
+    const auto world = engine->dynamics()->build(scenario, dt, settings);
+    const double buildSeconds = since(buildStart);
+    row.ledger = ledgerRows(world->ledger());
+    row.readBack = compareReadBack(scenario, world->readBack(), readBackTolerance(settings.at("precision")));
+    whole.scheme = world->scheme();
+
+    Simulation run = simulate(scenario, dt, *world, options);
+    row.steps = static_cast<std::int64_t>(run.steps);
+    row.stateHash = run.stateHash;
+    row.timings = std::move(run.timings);
+    row.timings.insert(row.timings.begin() + 1,
+                       {"build", buildSeconds, buildSeconds, buildSeconds, buildSeconds, 1, 0.0});
+    whole.live.trajectory = std::move(run.trajectory);
+    if (run.nonFinite.empty()) {
+        whole.reference = referenceOf(scenario).reference;
+        evaluateCase({scenario, whole.live.trajectory, whole.reference.get(), whole.scheme}, row);
+    } else {
+        row.outcome = results::Outcome::NonFinite;
+        row.reason = run.nonFinite;
+    }
+    judgeCase(row, scenario);
+    row.peakMemoryKiB = peakMemoryKiB();
+    row.wallSeconds = since(started);
+    return whole;
+}
+
+LiveCase runInProcess(const Scenario& scenario, const adapter::EngineSpec& spec, double dt,
+                      const LiveOptions& options) {
+    return runWholeCase(scenario, spec, dt, options).live;
+}
+
+}  // namespace rigor::validation

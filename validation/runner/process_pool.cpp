@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/runner/process_pool.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <stdexcept>
+
+namespace rigor::validation {
+namespace {
+
+constexpr std::size_t kTailBytes = 4096;
+constexpr int kExecFailed = 127;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+constexpr bool kSanitized = __has_feature(address_sanitizer);
+#else
+constexpr bool kSanitized = false;
+#endif
+
+/// Between fork and exec only calls that are safe there.
+[[noreturn]] void becomeProgram(char* const* argv, int output, pid_t parent, std::size_t memoryMiB) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(kExecFailed);  // it died before prctl took effect
+    struct rlimit none {};
+    setrlimit(RLIMIT_CORE, &none);
+    if (memoryMiB > 0) {
+        const struct rlimit limit { memoryMiB << 20, memoryMiB << 20 };
+        setrlimit(RLIMIT_AS, &limit);
+    }
+    const int null = open("/dev/null", O_RDONLY);
+    if (null >= 0) dup2(null, STDIN_FILENO);
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+    execv(argv[0], argv);
+    constexpr char message[] = "cannot run the program itself\n";
+    (void)!write(STDERR_FILENO, message, sizeof message - 1);
+    _exit(kExecFailed);
+}
+
+double seconds(const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+}
+
+/// Appends what is there; false at the end of the stream.
+bool drain(int file, std::string& tail) {
+    char buffer[4096];
+    for (;;) {
+        const ssize_t n = read(file, buffer, sizeof buffer);
+        if (n > 0) {
+            tail.append(buffer, static_cast<std::size_t>(n));
+            if (tail.size() > 2 * kTailBytes) tail.erase(0, tail.size() - kTailBytes);
+        } else if (n == 0) {
+            return false;
+        } else if (errno != EINTR) {
+            return true;
+        }
+    }
+}
+
+}  // namespace
+
+double timeLimitFactor() {
+    return kSanitized ? 10.0 : 1.0;
+}
+
+bool ProcessResult::exitedWith(int code) const {
+    return WIFEXITED(status) && WEXITSTATUS(status) == code;
+}
+
+std::string ProcessResult::ending() const {
+    if (!WIFSIGNALED(status)) return "exit code " + std::to_string(WEXITSTATUS(status));
+    const int signal = WTERMSIG(status);
+    const char* name = sigabbrev_np(signal);
+    return std::string("SIG") + (name != nullptr ? name : std::to_string(signal).c_str()) + " (" +
+           strsignal(signal) + ")";
+}
+
+ProcessPool::~ProcessPool() {
+    killAll();
+}
+
+void ProcessPool::start(ProcessTask task) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
+    fcntl(ends[0], F_SETFL, O_NONBLOCK);
+    std::vector<char*> argv;
+    for (auto& argument : task.arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    const pid_t self = getpid();
+    const std::size_t memory = kSanitized ? 0 : task.limits.memoryMiB;
+    const pid_t pid = fork();
+    if (pid == 0) becomeProgram(argv.data(), ends[1], self, memory);
+    const int problem = errno;
+    close(ends[1]);
+    if (pid < 0) {
+        close(ends[0]);
+        throw std::runtime_error(std::string("fork: ") + std::strerror(problem));
+    }
+    setpgid(pid, pid);  // whoever comes first
+    const auto now = Clock::now();
+    const auto limit = std::chrono::duration<double>(task.limits.seconds * timeLimitFactor());
+    Running& child = running_.emplace_back();
+    child.task = std::move(task);
+    child.pid = pid, child.output = ends[0];
+    child.started = now, child.deadline = now + std::chrono::duration_cast<Clock::duration>(limit);
+}
+
+void ProcessPool::waitForEvents() {
+    std::vector<pollfd> files;
+    int milliseconds = 50;
+    for (const Running& child : running_) {
+        if (child.output >= 0)
+            files.push_back({child.output, POLLIN, 0});
+        else
+            milliseconds = 1;  // its output has ended: it is about to end itself
+    }
+    poll(files.data(), files.size(), milliseconds);
+}
+
+/// True when the child has ended and its result is complete.
+bool ProcessPool::collect(Running& child) {
+    ProcessResult& result = child.result;
+    if (child.output >= 0 && !drain(child.output, result.outputTail)) {
+        close(child.output);
+        child.output = -1;
+    }
+    struct rusage usage {};
+    const pid_t ended = wait4(child.pid, &result.status, WNOHANG, &usage);
+    if (ended == 0) {
+        if (Clock::now() >= child.deadline && !result.timedOut) {
+            result.timedOut = true;
+            kill(-child.pid, SIGKILL);
+        }
+        return false;
+    }
+    kill(-child.pid, SIGKILL);  // whatever it may have started
+    if (child.output >= 0) {
+        drain(child.output, result.outputTail);
+        close(child.output);
+    }
+    if (result.outputTail.size() > kTailBytes)
+        result.outputTail.erase(0, result.outputTail.size() - kTailBytes);
+    result.wallSeconds = std::chrono::duration<double>(Clock::now() - child.started).count();
+    result.cpuSeconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+    result.peakMemoryKiB = usage.ru_maxrss;
+    return true;
+}
+
+void ProcessPool::killAll() {
+    for (Running& child : running_) {
+        kill(-child.pid, SIGKILL);
+        kill(child.pid, SIGKILL);
+        int status = 0;
+        while (waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {
+        }
+        if (child.output >= 0) close(child.output);
+    }
+    running_.clear();
+}
+
+bool ProcessPool::run(const std::atomic<bool>& interrupted,
+                      const std::function<void(const std::string&)>& onStart) {
+    while (!waiting_.empty() || !running_.empty()) {
+        if (interrupted) {
+            killAll();
+            return false;
+        }
+        while (!waiting_.empty() && running_.size() < static_cast<std::size_t>(std::max(1, slots_))) {
+            ProcessTask task = std::move(waiting_.front());
+            waiting_.pop_front();
+            const std::string name = task.name;
+            start(std::move(task));
+            onStart(name);
+        }
+        waitForEvents();
+        for (std::size_t i = 0; i < running_.size();) {
+            if (!collect(running_[i])) {
+                ++i;
+                continue;
+            }
+            const Running ended = std::move(running_[i]);
+            running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
+            ended.task.done(ended.result);
+        }
+    }
+    return true;
+}
+
+}  // namespace rigor::validation

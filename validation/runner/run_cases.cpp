@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "validation/results/store.hpp"
+#include "validation/runner/answer.hpp"
+#include "validation/runner/audit.hpp"
+#include "validation/runner/child.hpp"
+#include "validation/runner/describe.hpp"
+#include "validation/runner/environment.hpp"
+#include "validation/runner/header.hpp"
+#include "validation/runner/judge.hpp"
+#include "validation/runner/process_pool.hpp"
+#include "validation/runner/runner.hpp"
+
+namespace rigor::validation {
+namespace {
+
+namespace fs = std::filesystem;
+using results::CaseRow;
+using results::Outcome;
+using results::Verdict;
+
+/// The end of what a child printed, fit for a line of a report: printable, short.
+std::string readable(const std::string& output) {
+    constexpr std::size_t kMost = 600;
+    std::string text;
+    for (const char c : output.substr(output.size() > kMost ? output.size() - kMost : 0)) {
+        const auto code = static_cast<unsigned char>(c);
+        text += code >= 0x20 && code < 0x7f ? c : (c == '\n' ? '\n' : '?');
+    }
+    const auto begin = text.find_first_not_of(" \n");
+    return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \n") - begin + 1);
+}
+
+CaseRow plannedRow(const CasePlan& plan, std::int64_t position) {
+    CaseRow row;
+    row.id = plan.id, row.position = position;
+    row.scenario = plan.scenario.name, row.spec = plan.spec.text(), row.engine = plan.spec.engine;
+    row.preset = plan.spec.preset(), row.dt = plan.dt;
+    return row;
+}
+
+/// The row of a case whose child gave no answer.
+CaseRow failedRow(const CasePlan& plan, std::int64_t position, const ProcessResult& result) {
+    CaseRow row = plannedRow(plan, position);
+    if (result.timedOut) {
+        row.outcome = Outcome::Timeout;
+        row.reason = "no end within " + std::to_string(static_cast<int>(plan.scenario.timeLimit)) + " s";
+    } else if (result.exitedWith(kExitOutOfMemory)) {
+        row.outcome = Outcome::OutOfMemory;
+        row.reason = "the memory limit was reached";
+    } else if (WIFSIGNALED(result.status) && WTERMSIG(result.status) == SIGKILL) {
+        row.outcome = Outcome::OutOfMemory;
+        row.reason = "SIGKILL from outside: the system ran out of memory";
+    } else {
+        row.outcome = Outcome::Crashed;
+        row.reason = result.ending();
+        if (!WIFSIGNALED(result.status)) row.reason += " without an answer";
+    }
+    if (const std::string said = readable(result.outputTail); !said.empty())
+        row.reason += "; it said: " + said;
+    judgeCase(row, plan.scenario);
+    return row;
+}
+
+class RunInProgress {
+  public:
+    RunInProgress(const std::vector<CasePlan>& plan, const RunOptions& options,
+                  const std::function<void(const Progress&)>& onProgress)
+        : plan_(plan),
+          options_(options),
+          onProgress_(onProgress),
+          directory_(fs::absolute(options.directory)),
+          writer_(directory_, options.resume),
+          pool_(options.jobs) {}
+
+    results::Run run(const std::atomic<bool>& interrupted) {
+        prepare();
+        const bool complete = pool_.run(interrupted, [&](const std::string& name) {
+            progress_.current = name;
+            report(nullptr);
+        });
+        audits_.reset();
+        if (complete) writer_.finish(isoTime());
+        auto stored = results::readRun(directory_);
+        stored.directory = options_.directory.string();
+        return stored;
+    }
+
+  private:
+    void prepare() {
+        const auto engines = describeInvolved();
+        auto header = runHeader(plan_, options_, engines);
+        std::vector<std::string> ids;
+        for (const CasePlan& c : plan_) ids.push_back(c.id);
+        std::map<std::string, CaseRow> present;
+        if (options_.resume) {
+            writer_.keepOnly(ids);
+            const auto stored = results::readRun(directory_);
+            if (!stored.started.empty()) header.started = stored.started;
+            for (const CaseRow& row : stored.cases) present[row.id] = row;
+        }
+        writer_.writeHeader(header);
+        writeScenarioFiles(plan_, directory_);
+        for (const auto& s : header.scenarios) fromLibrary_[s.name] = isLibraryScenario(s.name, s.text);
+
+        progress_.total = static_cast<std::int64_t>(plan_.size());
+        for (const CasePlan& c : plan_) ++open_[c.scenario.name];
+        for (std::size_t i = 0; i < plan_.size(); ++i)
+            if (const auto it = present.find(plan_[i].id); it != present.end())
+                keep(i, it->second);
+            else
+                queue(i);
+        started_ = std::chrono::steady_clock::now();
+    }
+
+    /// The plan's engines and, for the audit, every engine with collision queries.
+    std::vector<EngineDescription> describeInvolved() {
+        std::set<std::string> names;
+        for (const auto& name : adapter::availableEngines()) names.insert(name);
+        for (const CasePlan& c : plan_) names.insert(c.spec.engine);
+        const auto engines = describeEngines({names.begin(), names.end()}, options_.binary, options_.jobs);
+        std::vector<std::string> auditors;
+        for (const auto& d : engines)
+            if (d.problem.empty() && d.capabilities.collision) auditors.push_back(d.info.name);
+        if (options_.audit)
+            audits_ = std::make_unique<AuditQueue>(
+                pool_, AuditQueue::Files{options_.binary, directory_, scratch_.path()}, auditors,
+                [this](const std::string& id, std::vector<results::AuditRow> rows) {
+                    audited(id, std::move(rows));
+                });
+        return engines;
+    }
+
+    /// A case that an earlier part of the run has stored.
+    void keep(std::size_t index, const CaseRow& stored) {
+        CaseRow row = stored;
+        if (row.position != static_cast<std::int64_t>(index)) {
+            row.position = static_cast<std::int64_t>(index);
+            writer_.writeCase(row);
+        }
+        ++progress_.skipped;
+        count(row);
+        closed(plan_[index], row);
+    }
+
+    void queue(std::size_t index) {
+        const CasePlan& c = plan_[index];
+        const fs::path request = scratch_.path() / (c.id + ".json"),
+                       answer = scratch_.path() / (c.id + ".answer.json");
+        pool_.add({{options_.binary.string(), "__case", request.string()},
+                   {c.scenario.timeLimit, options_.memoryLimitMiB},
+                   c.scenario.name + ", " + c.spec.text(),
+                   [this, index, answer](const ProcessResult& result) { ended(index, answer, result); }});
+        writeJsonFile(request, {{"id", c.id},
+                                {"scenario", c.scenario.name},
+                                {"text", c.scenarioText},
+                                {"spec", c.spec.text()},
+                                {"dt", numberToJson(c.dt)},
+                                {"trajectory", (directory_ / trajectoryName(c.id)).string()},
+                                {"answer", answer.string()}});
+    }
+
+    static std::string trajectoryName(const std::string& id) { return "trajectories/" + id + ".h5"; }
+
+    void ended(std::size_t index, const fs::path& answer, const ProcessResult& result) {
+        const CasePlan& c = plan_[index];
+        const auto json = result.exitedWith(0) ? readJsonFile(answer) : std::nullopt;
+        CaseRow row = json ? caseFromJson(*json) : failedRow(c, static_cast<std::int64_t>(index), result);
+        row.id = c.id, row.position = static_cast<std::int64_t>(index);
+        row.wallSeconds = result.wallSeconds, row.cpuSeconds = result.cpuSeconds;
+        if (!json) row.peakMemoryKiB = result.peakMemoryKiB;
+        row.command = reproduceCommand(c, options_.directory, fromLibrary_[c.scenario.name]);
+        removePart(c.id);
+        if (json && fs::exists(directory_ / trajectoryName(c.id))) row.trajectoryFile = trajectoryName(c.id);
+        writer_.writeCase(row);
+        std::error_code ignored;
+        fs::remove(answer, ignored);
+        count(row);
+        report(&row);
+        closed(c, row);
+    }
+
+    /// What a killed child may have left half-written.
+    void removePart(const std::string& id) {
+        std::error_code ignored;
+        fs::remove(directory_ / (trajectoryName(id) + ".part"), ignored);
+    }
+
+    /// After the last case of a scenario its audit begins, before the next scenario's cases.
+    void closed(const CasePlan& c, const CaseRow& row) {
+        if (!row.trajectoryFile.empty() && row.audit.empty()) unaudited_[c.scenario.name][row.id] = row;
+        if (--open_[c.scenario.name] > 0 || !audits_ || !hasAuditablePairs(c.scenario)) return;
+        std::map<std::string, std::string> cases;
+        for (const auto& [id, waiting] : unaudited_[c.scenario.name]) cases[id] = waiting.trajectoryFile;
+        audits_->add(c.scenario.name, c.scenarioText, cases);
+    }
+
+    void audited(const std::string& id, std::vector<results::AuditRow> rows) {
+        for (auto& [scenario, cases] : unaudited_)
+            if (const auto it = cases.find(id); it != cases.end()) {
+                it->second.audit = std::move(rows);
+                writer_.writeCase(it->second);
+                cases.erase(it);
+                return;
+            }
+    }
+
+    void count(const CaseRow& row) {
+        ++progress_.done;
+        const bool broke = row.verdict == Verdict::Crashed || row.verdict == Verdict::Timeout ||
+                           row.verdict == Verdict::NonFinite;
+        progress_.crashed += broke ? 1 : 0;
+        progress_.failed += row.verdict == Verdict::Fail ? 1 : 0;
+    }
+
+    void report(const CaseRow* finished) {
+        const auto ran = progress_.done - progress_.skipped;
+        if (ran > 0) {
+            const double elapsed =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
+            progress_.etaSeconds =
+                elapsed / static_cast<double>(ran) * static_cast<double>(progress_.total - progress_.done);
+        }
+        progress_.finished = finished;
+        if (onProgress_) onProgress_(progress_);
+        progress_.finished = nullptr;
+    }
+
+    const std::vector<CasePlan>& plan_;
+    const RunOptions& options_;
+    const std::function<void(const Progress&)>& onProgress_;
+    fs::path directory_;
+    results::RunWriter writer_;
+    ScratchFolder scratch_;
+    ProcessPool pool_;
+    std::unique_ptr<AuditQueue> audits_;
+    Progress progress_;
+    std::chrono::steady_clock::time_point started_;
+    std::map<std::string, bool> fromLibrary_;
+    std::map<std::string, int> open_;  ///< cases of a scenario still to come
+    std::map<std::string, std::map<std::string, CaseRow>> unaudited_;
+};
+
+}  // namespace
+
+results::Run runCases(const std::vector<CasePlan>& plan, const RunOptions& options,
+                      const std::function<void(const Progress&)>& onProgress,
+                      const std::atomic<bool>& interrupted) {
+    return RunInProgress(plan, options, onProgress).run(interrupted);
+}
+
+}  // namespace rigor::validation

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/runner/simulate.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "validation/runner/forces.hpp"
+#include "validation/runner/hash.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using scenario::Scenario;
+constexpr std::size_t kMostStates = 400000;  ///< recorded body states per case: 42 MB as doubles
+
+double quantile(const std::vector<double>& sorted, double q) {
+    const double place = q * static_cast<double>(sorted.size() - 1);
+    const auto low = static_cast<std::size_t>(place);
+    const std::size_t high = std::min(low + 1, sorted.size() - 1);
+    const double part = place - static_cast<double>(low);
+    return sorted[low] * (1.0 - part) + sorted[high] * part;
+}
+
+results::TimingRow timingRow(const std::string& phase, std::vector<double> samples, double meanContacts) {
+    results::TimingRow row;
+    row.phase = phase, row.meanContacts = meanContacts;
+    row.samples = static_cast<std::int64_t>(samples.size());
+    if (samples.empty()) return row;
+    for (const double s : samples) row.total += s;
+    std::sort(samples.begin(), samples.end());
+    row.median = quantile(samples, 0.5), row.p10 = quantile(samples, 0.1), row.p90 = quantile(samples, 0.9);
+    return row;
+}
+
+/// Wall times of step() alone, the engine's own phase times, and how many contacts there were.
+class Stopwatch {
+  public:
+    void measure(adapter::World& world) {
+        const auto begin = std::chrono::steady_clock::now();
+        world.step();
+        const auto end = std::chrono::steady_clock::now();
+        steps_.push_back(std::chrono::duration<double>(end - begin).count());
+        const adapter::StepCounters counters = world.counters();
+        for (const auto& [phase, seconds] : counters.phaseSeconds) phases_[phase].push_back(seconds);
+        if (counters.contacts >= 0) contacts_ += static_cast<double>(counters.contacts), ++counted_;
+    }
+    std::vector<results::TimingRow> rows(const Trajectory& trajectory) const {
+        const double contacts =
+            counted_ > 0 ? contacts_ / static_cast<double>(counted_) : recordedContacts(trajectory);
+        std::vector<results::TimingRow> rows{timingRow("step", steps_, contacts)};
+        for (const auto& [phase, samples] : phases_) rows.push_back(timingRow(phase, samples, contacts));
+        return rows;
+    }
+
+  private:
+    static double recordedContacts(const Trajectory& t) {
+        double sum = 0.0;
+        for (const auto& frame : t.contacts) sum += static_cast<double>(frame.size());
+        return t.frames() > 1 ? sum / static_cast<double>(t.frames() - 1) : 0.0;
+    }
+    std::vector<double> steps_;
+    std::map<std::string, std::vector<double>> phases_;
+    double contacts_ = 0.0;
+    std::size_t counted_ = 0;
+};
+
+bool isFiniteState(const BodyState& s) {
+    return isFinite(s.position) && isFinite(s.orientation) && isFinite(s.velocity) &&
+           isFinite(s.angularVelocity);
+}
+
+std::string firstNonFinite(const Scenario& scenario, std::span<const BodyState> states, double time) {
+    for (std::size_t i = 0; i < states.size(); ++i)
+        if (!isFiniteState(states[i]))
+            return "the state of " + scenario.bodies[i].name +
+                   " is not finite at t = " + std::to_string(time) + " s";
+    return "";
+}
+
+std::string hashOf(std::span<const BodyState> states) {
+    Fnv1a hash;
+    for (const BodyState& s : states)
+        for (const double v : {s.position.x, s.position.y, s.position.z, s.orientation.w, s.orientation.x,
+                               s.orientation.y, s.orientation.z, s.velocity.x, s.velocity.y, s.velocity.z,
+                               s.angularVelocity.x, s.angularVelocity.y, s.angularVelocity.z})
+            hash.number(v);
+    return hash.hex();
+}
+
+void appendFrame(Trajectory& t, double time, std::span<const BodyState> states,
+                 const std::vector<ContactPoint>& contacts) {
+    t.times.push_back(time);
+    t.states.insert(t.states.end(), states.begin(), states.end());
+    t.contacts.push_back(contacts);
+}
+
+}  // namespace
+
+std::size_t stepCount(const Scenario& scenario, double dt) {
+    return static_cast<std::size_t>(std::max(1.0, std::round(scenario.duration / dt)));
+}
+
+int recordingStride(std::size_t steps, std::size_t bodies) {
+    const std::size_t least = std::max<std::size_t>(1, (steps * bodies + kMostStates - 1) / kMostStates);
+    for (std::size_t stride = least; stride <= 2 * least; ++stride)
+        if (steps % stride == 0) return static_cast<int>(stride);
+    return static_cast<int>(least);
+}
+
+Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, const LiveOptions& options) {
+    const std::size_t bodies = scenario.bodies.size(), total = stepCount(scenario, dt);
+    Simulation run;
+    Trajectory& t = run.trajectory;
+    t.dt = dt, t.bodyCount = bodies;
+    t.stride = options.stride > 0 ? options.stride : recordingStride(total, bodies);
+    const auto stride = static_cast<std::size_t>(t.stride);
+
+    std::vector<BodyState> states(bodies);
+    std::vector<ContactPoint> contacts;
+    world.readStates(states);
+    appendFrame(t, 0.0, states, {});
+    if (options.onStep) options.onStep(0.0, states, {});
+    run.nonFinite = firstNonFinite(scenario, states, 0.0);
+
+    const bool needsStates = forcesNeedStates(scenario);
+    const bool everyStep = needsStates || static_cast<bool>(options.onStep);
+    Stopwatch watch;
+    for (std::size_t step = 0; step < total && run.nonFinite.empty(); ++step) {
+        applyForces(scenario, step, dt, states, world);
+        watch.measure(world);
+        run.steps = step + 1;
+        const double time = static_cast<double>(step + 1) * dt;
+        const bool isFrame = (step + 1) % stride == 0;
+        if (everyStep || isFrame || step + 1 == total) world.readStates(states);
+        if (isFrame || options.onStep) world.readContacts(contacts);
+        if (isFrame) {
+            appendFrame(t, time, states, contacts);
+            run.nonFinite = firstNonFinite(scenario, states, time);
+        }
+        if (options.onStep) options.onStep(time, states, contacts);
+    }
+    if (run.nonFinite.empty())
+        run.nonFinite = firstNonFinite(scenario, states, static_cast<double>(run.steps) * dt);
+    run.stateHash = hashOf(states);
+    run.timings = watch.rows(t);
+    return run;
+}
+
+}  // namespace rigor::validation
