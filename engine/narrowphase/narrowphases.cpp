@@ -8,19 +8,19 @@ namespace rigor::engine {
 
 std::span<const NarrowPhaseEntry> narrowPhases() {
     static constexpr NarrowPhaseEntry kTable[] = {
-#define NARROW_PHASE(name, function, summary) {#name, summary},
+#define ALGORITHM(name, function, summary) {#name, summary},
 #include "engine/narrowphase/narrowphases.def"
-#undef NARROW_PHASE
+#undef ALGORITHM
     };
     return kTable;
 }
 
 template <class S>
 CollideFunction<S> findNarrowPhase(const char* name) {
-#define NARROW_PHASE(entry, function, summary) \
+#define ALGORITHM(entry, function, summary) \
     if (std::strcmp(name, #entry) == 0) return &function<S>;
 #include "engine/narrowphase/narrowphases.def"
-#undef NARROW_PHASE
+#undef ALGORITHM
     return nullptr;
 }
 

@@ -17,11 +17,11 @@ struct NarrowPhaseEntry {
 /// Every narrow phase findNarrowPhase knows.
 std::span<const NarrowPhaseEntry> narrowPhases();
 
-#define NARROW_PHASE(name, function, summary)                                                 \
+#define ALGORITHM(name, function, summary)                                                 \
     template <class S>                                                                        \
     void function(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb, \
                   typename S::Real speculativeDistance, Manifold<S>& out);
 #include "engine/narrowphase/narrowphases.def"
-#undef NARROW_PHASE
+#undef ALGORITHM
 
 }  // namespace rigor::engine
