@@ -139,7 +139,7 @@ TEST(CommandLine, OverridesChangeSimulationAndReferenceAlike) {
 }
 
 TEST(CommandLine, ContactLogNamesBodies) {
-    const Result result = rigor("run bounce_3d --engine rigor --log contacts");
+    const Result result = rigor("run bouncing_ball --engine rigor --log contacts");
     EXPECT_EQ(result.code, 0) << result.out;
     EXPECT_NE(result.out.find("contact a="), std::string::npos);
     EXPECT_NE(result.out.find(" b="), std::string::npos);
