@@ -36,6 +36,8 @@ struct Quantity {
     std::string unit;
     double exact = 0.0;
     std::optional<double> schemeExact;  ///< at the dt asked for
+    /// What an error of this quantity is measured against; 0: |exact|. Set where the exact value can be zero.
+    double scale = 0.0;
     /// The same number taken from a trajectory; empty when it does not show there (no second bounce).
     std::function<std::optional<double>(const Trajectory&)> measure;
 };

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One extrapolation step: T(j,1) from n_j = 2 j substeps of the modified midpoint rule, then
+// T(j,k+1) = T(j,k) + (T(j,k) - T(j-1,k)) / ((n_j/n_(j-k))^2 - 1); the difference of the last two diagonal
+// entries is the error estimate.
+#include "validation/references/numerics/ode.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace rigor::validation::numerics {
+namespace {
+
+constexpr int kColumns = 8;       // order 16
+constexpr int kPanelDegree = 15;  // 16 nodes
+
+void midpointRule(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dydt, Real step, int n,
+                  OdeState& result, OdeState& previous, OdeState& slope) {
+    const Real h = step / n;
+    const std::size_t size = y.size();
+    previous = y;
+    result.resize(size);
+    slope.resize(size);
+    for (std::size_t i = 0; i < size; ++i) result[i] = y[i] + h * dydt[i];
+    for (int k = 1; k < n; ++k) {
+        f(t + k * h, result, slope);
+        for (std::size_t i = 0; i < size; ++i) {
+            const Real next = previous[i] + 2 * h * slope[i];
+            previous[i] = result[i];
+            result[i] = next;
+        }
+    }
+    f(t + step, result, slope);
+    for (std::size_t i = 0; i < size; ++i) result[i] = (result[i] + previous[i] + h * slope[i]) / 2;
+}
+
+struct Step {
+    OdeState y;
+    Real error = 0;  ///< relative to the tolerance
+    int column = 0;  ///< where it converged
+};
+
+Step extrapolate(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dydt, Real step,
+                 Real tolerance) {
+    std::array<std::vector<OdeState>, kColumns> table;
+    OdeState previous, slope;
+    Step result;
+    for (int j = 0; j < kColumns; ++j) {
+        auto& row = table[static_cast<std::size_t>(j)];
+        row.resize(static_cast<std::size_t>(j) + 1);
+        midpointRule(f, t, y, dydt, step, 2 * (j + 1), row[0], previous, slope);
+        for (int k = 1; k <= j; ++k) {
+            const auto c = static_cast<std::size_t>(k);
+            const auto& above = table[static_cast<std::size_t>(j) - 1][c - 1];
+            const Real ratio = static_cast<Real>(j + 1) / static_cast<Real>(j + 1 - k);
+            const Real factor = 1 / (ratio * ratio - 1);
+            row[c].resize(y.size());
+            for (std::size_t i = 0; i < y.size(); ++i)
+                row[c][i] = row[c - 1][i] + factor * (row[c - 1][i] - above[i]);
+        }
+        if (j == 0) continue;
+        const auto d = static_cast<std::size_t>(j);
+        result.error = 0;
+        for (std::size_t i = 0; i < y.size(); ++i) {
+            const Real scale = std::max({Real(1), std::abs(y[i]), std::abs(row[d][i])});
+            result.error = std::max(result.error, std::abs(row[d][i] - row[d - 1][i]) / (tolerance * scale));
+        }
+        result.y = row[d];
+        result.column = j;
+        if (!(result.error > 1)) break;
+    }
+    return result;
+}
+
+/// Chebyshev-Lobatto point j of [-1, 1], ascending.
+Real chebyshevPoint(int j) {
+    return -std::cos(kPi * j / kPanelDegree);
+}
+
+}  // namespace
+
+OdeState integrateOde(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Real tolerance, Real firstStep) {
+    OdeState y = y0, dydt(y0.size());
+    Real t = t0;
+    const Real span = t1 - t0;
+    if (span == 0) return y;
+    Real step = firstStep != 0 ? firstStep : span / 16;
+    while ((t1 - t) * span > 0) {
+        if (std::abs(step) > std::abs(t1 - t)) step = t1 - t;
+        f(t, y, dydt);
+        Step trial = extrapolate(f, t, y, dydt, step, tolerance);
+        if (!(trial.error <= 1)) {
+            step *= std::isfinite(trial.error)
+                        ? std::clamp(std::pow(trial.error, Real(-1) / (2 * kColumns - 1)) * 0.8L, 0.1L, 0.7L)
+                        : 0.1L;
+            if (std::abs(step) < 1e-14L * std::max(Real(1), std::abs(t)))
+                throw std::runtime_error("integrateOde: the step became too small");
+            continue;
+        }
+        const bool last = step == t1 - t;
+        t = last ? t1 : t + step;
+        y = std::move(trial.y);
+        if (trial.column < kColumns - 2) step *= 1.5L;
+        if (trial.column == kColumns - 1) step *= 0.85L;
+    }
+    return y;
+}
+
+bool DenseSolution::build(const OdeRhs& f, const OdeState& y0, Real tolerance, Panel& panel) {
+    const Real middle = (panel.begin + panel.end) / 2, half = (panel.end - panel.begin) / 2;
+    panel.nodes.assign(1, y0);
+    std::vector<std::pair<Real, OdeState>> checks;
+    Real t = panel.begin;
+    for (int j = 1; j <= kPanelDegree; ++j) {
+        const Real next = middle + half * chebyshevPoint(j);
+        const bool check = j == 2 || j == kPanelDegree / 2 + 1 || j == kPanelDegree - 1;
+        const Real between = (t + next) / 2;
+        OdeState y = panel.nodes.back();
+        if (check) {
+            y = integrateOde(f, t, y, between, tolerance / 100, between - t);
+            checks.emplace_back(between, y);
+            y = integrateOde(f, between, y, next, tolerance / 100, next - between);
+        } else {
+            y = integrateOde(f, t, y, next, tolerance / 100, next - t);
+        }
+        panel.nodes.push_back(std::move(y));
+        t = next;
+    }
+    for (const auto& [time, exact] : checks) {
+        const OdeState value = evaluate(panel, time);
+        for (std::size_t i = 0; i < exact.size(); ++i)
+            if (!(std::abs(value[i] - exact[i]) <= tolerance * std::max(Real(1), std::abs(exact[i]))))
+                return false;
+    }
+    return true;
+}
+
+DenseSolution::DenseSolution(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Real tolerance,
+                             std::vector<Real> breaks) {
+    OdeState y = y0;
+    std::sort(breaks.begin(), breaks.end());
+    Real begin = t0;
+    for (const Real time : breaks) {
+        if (!(time > begin && time < t1)) continue;
+        append(f, begin, y, time, tolerance);
+        begin = time;
+    }
+    if (t1 > begin) append(f, begin, y, t1, tolerance);
+    if (panels_.empty()) panels_.push_back({t0, t0, {y0}});
+}
+
+void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, Real t1, Real tolerance) {
+    Real length = t1 - t0;
+    const Real shortest = (t1 - t0) * 1e-6L;
+    for (Real t = t0; t < t1;) {
+        Panel panel;
+        panel.begin = t;
+        panel.end = t1 - t <= length * 1.0001L ? t1 : t + length;
+        if (!build(f, y, tolerance, panel)) {
+            length = (panel.end - panel.begin) / 2;
+            if (length < shortest) throw std::runtime_error("DenseSolution: panels became too short");
+            continue;
+        }
+        t = panel.end;
+        y = panel.nodes.back();
+        panels_.push_back(std::move(panel));
+    }
+}
+
+OdeState DenseSolution::evaluate(const Panel& panel, Real t) {
+    if (panel.nodes.size() == 1) return panel.nodes.front();
+    const Real x = (2 * t - panel.begin - panel.end) / (panel.end - panel.begin);
+    OdeState sum(panel.nodes.front().size(), 0);
+    Real weights = 0;
+    for (int j = 0; j <= kPanelDegree; ++j) {
+        const Real d = x - chebyshevPoint(j);
+        const auto& node = panel.nodes[static_cast<std::size_t>(j)];
+        if (d == 0) return node;
+        Real w = (j % 2 == 0 ? 1 : -1) / d;
+        if (j == 0 || j == kPanelDegree) w /= 2;
+        weights += w;
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += w * node[i];
+    }
+    for (auto& value : sum) value /= weights;
+    return sum;
+}
+
+OdeState DenseSolution::at(Real t) const {
+    const auto after = std::upper_bound(panels_.begin(), panels_.end(), t,
+                                        [](Real value, const Panel& p) { return value < p.begin; });
+    const Panel& panel = after == panels_.begin() ? panels_.front() : *(after - 1);
+    return evaluate(panel, std::clamp(t, panel.begin, panel.end));
+}
+
+}  // namespace rigor::validation::numerics
