@@ -109,6 +109,18 @@ template <class R>
 bool polytopeAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X, R speculative,
                   PolytopeAxis<R>& best);
 
+/// The same for two boxes, by the fifteen axes in closed form.
+template <class R>
+bool boxAxis(const Vec3<R>& halfA, const Vec3<R>& halfB, const Relative<R>& X, R speculative,
+             PolytopeAxis<R>& best);
+
+/// Near-parallel edges make no axis: their facet of the Minkowski difference is thin, and its normal lost to
+/// rounding. Sine of the angle.
+template <class R>
+inline constexpr R kParallel = R(1e-7);
+template <>
+inline constexpr float kParallel<float> = 5e-3f;
+
 /// Contact points for an axis, in the frame of A.
 template <class R>
 void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X,

@@ -36,12 +36,6 @@ FaceAxis<R> bestFace(const Polytope<R>& p, const Polytope<R>& q, const Relative<
     return best;
 }
 
-/// Near-parallel edges are left out: their facet is thin, and its normal lost to rounding.
-template <class R>
-inline constexpr R kParallel = R(1e-7);
-template <>
-inline constexpr float kParallel<float> = 5e-3f;
-
 template <class R>
 PolytopeAxis<R> bestEdges(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X) {
     PolytopeAxis<R> best;

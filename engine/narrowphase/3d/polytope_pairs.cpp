@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Box and hull against box and hull: the best separating axis, then its contact points, both in the frame of
-// A, so that distance from the world's origin costs no digits.
+// A, so that distance from the world's origin costs no digits. Two boxes have their own axis search.
 #include "engine/narrowphase/3d/polytope.hpp"
 #include "engine/narrowphase/pairs.hpp"
 
@@ -16,13 +16,24 @@ Relative<R> relative(const Pose<Space<R, 3>>& Xa, const Pose<Space<R, 3>>& Xb) {
 }
 
 template <class R, class A, class B>
+bool bestAxis(const A&, const Polytope<R>& pa, const B&, const Polytope<R>& pb, const Relative<R>& X,
+              R speculative, PolytopeAxis<R>& axis) {
+    return polytopeAxis<R>(pa, pb, X, speculative, axis);
+}
+template <class R>
+bool bestAxis(const Box<Space<R, 3>>& a, const Polytope<R>&, const Box<Space<R, 3>>& b, const Polytope<R>&,
+              const Relative<R>& X, R speculative, PolytopeAxis<R>& axis) {
+    return boxAxis<R>(a.halfExtents, b.halfExtents, X, speculative, axis);
+}
+
+template <class R, class A, class B>
 void collidePolytopes(const A& a, const Pose<Space<R, 3>>& Xa, const B& b, const Pose<Space<R, 3>>& Xb,
                       R speculative, Manifold<Space<R, 3>>& out) {
     BoxStorage<R> storeA, storeB;
     const Polytope<R> pa = polytopeOf<R>(a, storeA), pb = polytopeOf<R>(b, storeB);
     const Relative<R> X = relative<R>(Xa, Xb);
     PolytopeAxis<R> axis;
-    if (!polytopeAxis<R>(pa, pb, X, speculative, axis)) return;
+    if (!bestAxis<R>(a, pa, b, pb, X, speculative, axis)) return;
     polytopeManifold<R>(pa, pb, X, axis, speculative, out);
     toWorldFrame<Space<R, 3>>(out, Xa);
 }

@@ -146,6 +146,31 @@ TEST(Known3d, RockingFacesKeepTheirManifold) {
     }
 }
 
+/// The fifteen axes in closed form against the general search on the same boxes as hulls.
+TEST(Known3d, BoxesAgreeWithTheirHulls) {
+    using S = Space3d;
+    Random<S> random{std::mt19937(6)};
+    int edges = 0, touching = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const auto extents = [&] {
+            return vec<S>(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1));
+        };
+        const S::Vec ha = extents(), hb = extents();
+        const Pose<S> Xa = pose<S>(vec<S>(0, 0, 0), random.rotation());
+        const Pose<S> Xb = pose<S>(random.uniform(0, 1.6) * random.direction(), random.rotation());
+        const auto m = collide<S>(Box<S>{ha}, Xa, Box<S>{hb}, Xb, 0.01);
+        const auto h = collide<S>(boxHull<S>(ha), Xa, boxHull<S>(hb), Xb, 0.01);
+        ASSERT_EQ(m.count, h.count);
+        if (m.count == 0) continue;
+        ++touching;
+        edges += m.count == 1;
+        EXPECT_LE((m.normal - h.normal).norm(), 1e-9);
+        EXPECT_NEAR(leastSeparation(m), leastSeparation(h), 1e-14);
+    }
+    EXPECT_GT(touching, 1000);
+    EXPECT_GT(edges, 100);
+}
+
 TEST(Known3d, CrossedEdges) {
     using S = Space3d;
     const Shape<S> cube = Box<S>{vec<S>(0.5, 0.5, 0.5)}, hull = boxHull<S>(vec<S>(0.5, 0.5, 0.5));
