@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The Open Dynamics Engine: who it is, what it can do, which keys it has.
+#include <ode/ode.h>
+
+#include "adapters/interface/input_check.hpp"
+#include "adapters/ode/broadphase.hpp"
+#include "adapters/ode/collision.hpp"
+#include "adapters/ode/library.hpp"
+#include "adapters/ode/world.hpp"
+
+namespace rigor::ode {
+namespace {
+
+using adapter::Option;
+
+Option choice(const char* key, std::vector<std::string> values, const char* byDefault, const char* matched,
+              const char* help) {
+    return {key, std::move(values), 0.0, 0.0, false, byDefault, matched, help};
+}
+Option number(const char* key, double min, double max, const char* byDefault, const char* matched,
+              const char* help) {
+    return {key, {}, min, max, false, byDefault, matched, help};
+}
+Option integer(const char* key, double min, double max, const char* byDefault, const char* matched,
+               const char* help) {
+    return {key, {}, min, max, true, byDefault, matched, help};
+}
+
+const char* libraryPrecision() {
+    return dCheckConfiguration("ODE_double_precision") != 0 ? "f64" : "f32";
+}
+constexpr const char* kHeaderPrecision = sizeof(dReal) == sizeof(double) ? "f64" : "f32";
+
+class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
+  public:
+    adapter::EngineInfo info() const override {
+        return {"ode", dODE_VERSION, libraryPrecision(), "Open Dynamics Engine", dGetConfiguration()};
+    }
+
+    adapter::Capabilities capabilities() const override {
+        adapter::Capabilities c;
+        c.dynamics = c.collision = c.broadPhase = true;
+        c.dimensions = {3};
+        c.planar = true;
+        c.shapes = {"sphere",     "box",    "capsule", "cylinder",  "hull",
+                    "half_space", "circle", "polygon", "half_plane"};
+        c.joints = {"ball", "hinge", "slider", "fixed", "distance"};
+        c.contactImpulses = true;
+        c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
+        return c;
+    }
+
+    std::vector<Option> options() const override {
+        return {
+            choice("stepper", {"worldstep", "quickstep"}, "worldstep", "worldstep",
+                   "direct Dantzig LCP, or projected Gauss-Seidel with over-relaxation"),
+            integer("iterations", 1, 1000000, "20", "200", "QuickStep iterations"),
+            number("sor", 0.1, 2.0, "1.3", "1.3", "QuickStep over-relaxation"),
+            integer("worldstep_limit", 0, 1000000, "160", "160",
+                    "a step with more contacts than this is done by QuickStep; 0: never"),
+            number("erp", 0, 1, "0.2", "0.2", "error reduction of contacts and joints per step"),
+            number("cfm", 1e-15, 1, "1e-10", "1e-10", "constraint force mixing; 0 would be singular"),
+            number("max_correcting_velocity", 0, 1e30, "1e30", "0.1",
+                   "fastest push out of penetration [m/s]; 1e30: none"),
+            number("surface_layer", 0, 1, "0", "0", "penetration left uncorrected [m]"),
+            choice("friction", {"pyramid_world", "pyramid_velocity"}, "pyramid_world", "pyramid_velocity",
+                   "axes of the friction square: fixed by the normal, or along the predicted sliding"),
+            number("bounce_threshold", 0, 1e9, "0", "0", "no bounce below this speed [m/s]"),
+            choice("gyroscopic", {"none", "ode", "external"}, "ode", "external",
+                   "gyroscopic torque; external: outside of ODE, keeping the angular momentum"),
+            choice("rotation", {"infinitesimal", "finite"}, "infinitesimal", "finite",
+                   "orientation update: first order and normalised, or exact for constant velocity"),
+            integer("max_contacts", 1, 64, "8", "4", "points kept per pair of shapes"),
+            choice("space", {"simple", "hash", "sap", "quadtree"}, "hash", "hash", "broad phase"),
+            integer("seed", 0, 2147483647, "1", "1", "of QuickStep's row order, set before each step"),
+        };
+    }
+
+    const adapter::DynamicsEngine* dynamics() const override { return this; }
+    const adapter::CollisionEngine* collision() const override { return &collision_; }
+    const adapter::BroadPhaseEngine* broadPhase() const override { return &broadPhase_; }
+
+    std::unique_ptr<adapter::World> build(const adapter::Scenario& scenario, double dt,
+                                          const adapter::Settings& settings) const override {
+        adapter::checkScenarioInput(scenario, dt);
+        adapter::checkSupported(scenario, capabilities(), "ode");
+        return std::make_unique<OdeWorld>(scenario, dt, settings);
+    }
+
+  private:
+    OdeCollisionEngine collision_;
+    OdeBroadPhaseEngine broadPhase_;
+};
+
+std::unique_ptr<adapter::Engine> createEngine() {
+    useLibrary();
+    if (std::string(libraryPrecision()) != kHeaderPrecision)
+        throw std::runtime_error(std::string("ode: the library is ") + libraryPrecision() +
+                                 ", its headers were compiled for " + kHeaderPrecision);
+    return std::make_unique<OdeEngine>();
+}
+
+}  // namespace
+}  // namespace rigor::ode
+
+RIGOR_ADAPTER_MODULE(rigor::ode::createEngine)

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "adapters/ode/contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "adapters/ode/convert.hpp"
+
+namespace rigor::ode {
+namespace {
+
+/// More than any pair of geoms finds: with fewer, dCollide drops points in no particular order.
+constexpr int kMostPoints = 64;
+/// Points of a prism's two edges agree to rounding; other corners are apart by more than this [m].
+constexpr double kSamePoint = 1e-9;
+
+void bringIntoPlane(std::vector<FoundPoint>& points) {
+    std::vector<FoundPoint> flat;
+    for (FoundPoint p : points) {
+        p.position.z = p.normal.z = 0.0;
+        const double length = norm(p.normal);
+        if (length < 0.5) continue;  // out of the plane: deeper than the prisms are thick
+        p.normal = p.normal / length;
+        const auto same = std::find_if(flat.begin(), flat.end(), [&](const FoundPoint& q) {
+            return norm(q.position - p.position) < kSamePoint && dot(q.normal, p.normal) > 1.0 - 1e-9;
+        });
+        if (same == flat.end())
+            flat.push_back(p);
+        else
+            same->depth = std::max(same->depth, p.depth);
+    }
+    points.swap(flat);
+}
+
+}  // namespace
+
+void collideGeoms(dGeomID a, dGeomID b, bool planar, std::vector<FoundPoint>& points) {
+    std::array<dContactGeom, kMostPoints> found;
+    const int count = dCollide(a, b, kMostPoints, found.data(), sizeof(dContactGeom));
+    points.clear();
+    for (int i = 0; i < count; ++i) {
+        const dContactGeom& c = found[static_cast<std::size_t>(i)];
+        const Vec3 normal = -fromOde(c.normal);
+        // Centres that coincide leave some pairs without a direction.
+        if (!(std::abs(norm(normal) - 1.0) < 1e-6)) continue;
+        points.push_back({fromOde(c.pos), normal, c.depth});
+    }
+    if (planar) bringIntoPlane(points);
+}
+
+void reducePoints(std::size_t count, std::vector<FoundPoint>& points) {
+    if (points.size() <= count) return;
+    const auto deepest =
+        std::max_element(points.begin(), points.end(),
+                         [](const FoundPoint& p, const FoundPoint& q) { return p.depth < q.depth; });
+    std::iter_swap(points.begin(), deepest);
+    std::vector<double> distance(points.size(), INFINITY);
+    for (std::size_t kept = 1; kept < count; ++kept) {
+        std::size_t farthest = kept;
+        for (std::size_t i = kept; i < points.size(); ++i) {
+            distance[i] = std::min(distance[i], norm(points[i].position - points[kept - 1].position));
+            if (distance[i] > distance[farthest] + kSamePoint) farthest = i;
+        }
+        std::swap(points[kept], points[farthest]);
+        std::swap(distance[kept], distance[farthest]);
+    }
+    points.resize(count);
+}
+
+dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bounceThreshold) {
+    dSurfaceParameters surface{};
+    // Without the approximation mu would be a force and not a coefficient.
+    surface.mode = dContactApprox1;
+    surface.mu = pair.friction;
+    if (pair.restitution > 0.0) {
+        surface.mode |= dContactBounce;
+        surface.bounce = pair.restitution;
+        surface.bounce_vel = bounceThreshold;
+    }
+    return surface;
+}
+
+}  // namespace rigor::ode

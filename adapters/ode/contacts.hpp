@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// From two geoms to the points a step acts upon.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <vector>
+
+#include "adapters/interface/types.hpp"
+
+namespace rigor::ode {
+
+/// One point of dCollide in our convention.
+struct FoundPoint {
+    adapter::Vec3 position;  ///< as ODE gives it: on either surface or between them [m]
+    adapter::Vec3 normal;    ///< unit, from the first geom to the second (ODE's own points the other way)
+    double depth = 0.0;      ///< [m], >= 0
+};
+
+/// All points of two geoms (untruncated). With `planar` they are brought into the plane z = 0 and equal ones
+/// merged: the two edges of a prism are one corner of a polygon. Replaces `points`.
+void collideGeoms(dGeomID a, dGeomID b, bool planar, std::vector<FoundPoint>& points);
+
+/// Keeps at most `count` points: the deepest, then again and again the one farthest from those kept.
+void reducePoints(std::size_t count, std::vector<FoundPoint>& points);
+
+/// How ODE treats one contact between surfaces of these coefficients.
+dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bounceThreshold);
+
+}  // namespace rigor::ode

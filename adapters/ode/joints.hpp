@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#pragma once
+
+#include <ode/ode.h>
+
+#include "adapters/interface/types.hpp"
+
+namespace rigor::ode {
+
+/// One end of a joint: the ODE body (null for the world and for static bodies) and the initial pose of the
+/// body frame.
+struct JointEnd {
+    dBodyID body = nullptr;
+    adapter::Pose pose;
+};
+
+/// The scenario's joint between two bodies at their initial poses; null when neither end moves.
+dJointID buildJoint(dWorldID world, const scenario::Joint& joint, const JointEnd& a, const JointEnd& b);
+
+}  // namespace rigor::ode

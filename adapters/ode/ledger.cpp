@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What was asked of ODE and what it really does. Reasons are measured properties of ODE 0.16.2.
+#include <algorithm>
+#include <sstream>
+
+#include "adapters/ode/world.hpp"
+
+namespace rigor::ode {
+
+using adapter::LedgerEntry;
+using adapter::Realisation;
+
+namespace {
+
+std::string shown(double value) {
+    std::ostringstream text;
+    text.precision(6);
+    text << value;
+    return text.str();
+}
+
+/// Adds lines; a reason makes a line approximate.
+class Lines {
+  public:
+    explicit Lines(std::vector<LedgerEntry>& lines) : lines_(lines) {}
+    void add(const char* topic, std::string requested, std::string resolved, std::string reason = "") {
+        const auto realisation = reason.empty() ? Realisation::Exact : Realisation::Approximate;
+        lines_.push_back({topic, std::move(requested), std::move(resolved), realisation, std::move(reason)});
+    }
+
+  private:
+    std::vector<LedgerEntry>& lines_;
+};
+
+}  // namespace
+
+std::vector<LedgerEntry> OdeWorld::ledger() const {
+    std::vector<LedgerEntry> all;
+    Lines lines(all);
+    const auto setting = [&](const char* key) { return adapter::textSetting(settings_, key); };
+    lines.add(
+        "precision", "f64", sizeof(dReal) == sizeof(double) ? "f64" : "f32",
+        sizeof(dReal) == sizeof(double) ? "" : "this build of the library computes in single precision");
+    lines.add("integrator", "symplectic_euler", "symplectic_euler");
+    lines.add("time_step", shown(dt_), shown(dt_) + ", one step per call");
+    if (quickStep_)
+        lines.add("solver", "quickstep",
+                  "quickstep, " + setting("iterations") + " iterations, sor " + setting("sor") + ", seed " +
+                      setting("seed"),
+                  "a fixed number of iterations, no warm starting");
+    else
+        lines.add("solver", "worldstep", "worldstep, direct Dantzig LCP");
+    if (fallbackSteps_ > 0)
+        lines.add(
+            "solver_fallback", "worldstep",
+            "quickstep in " + std::to_string(fallbackSteps_) + " of " + std::to_string(steps_) + " steps",
+            "more than " + setting("worldstep_limit") +
+                " contacts: the direct solver's cost grows with the cube (tens of seconds per step)");
+    if (messages_ > 0)
+        lines.add("solver_messages", "0", std::to_string(messages_),
+                  "ODE reported trouble inside the LCP solver");
+    lines.add(
+        "friction_law", "coulomb cone, pair coefficient",
+        friction_ == Friction::PyramidVelocity ? "square pyramid along the predicted sliding"
+                                               : "square pyramid on axes fixed by the normal",
+        quickStep_ || fallbackSteps_ > 0
+            ? "each axis within mu N of its own"
+            : "each axis within mu N of its own, N from the problem without friction (dContactApprox1)");
+    lines.add("friction_pair", "pair table", "written into each contact");
+    lines.add("restitution", "pair coefficient, no threshold",
+              "pair coefficient, none below " + setting("bounce_threshold") + " m/s",
+              bounceThreshold_ > 0.0 ? "velocity threshold" : "");
+    const bool capped = adapter::numberSetting(settings_, "max_correcting_velocity") < 1e30;
+    lines.add("position_correction", "no change of velocity",
+              "ERP " + setting("erp") +
+                  (capped ? ", at most " + setting("max_correcting_velocity") + " m/s" : ", unlimited"),
+              "penetration is pushed out through the velocity and leaves it behind");
+    lines.add("contact_softness", "rigid", "CFM " + setting("cfm"),
+              "regularises redundant contacts; sinks by about 1e-11 m under 1 kg");
+    lines.add("joint_error_reduction", "rigid", "ERP " + setting("erp"),
+              scenario_.joints.empty() ? "" : "drift is corrected through velocities");
+    lines.add("contacts_per_pair", "all", "at most " + setting("max_contacts"),
+              "the deepest and those farthest apart: the direct solver's cost grows with the cube");
+    lines.add("sleeping", "off", "off");
+    lines.add("velocity_limits", "none", "none");
+    appendGeometryLedger(all);
+    return all;
+}
+
+void OdeWorld::appendGeometryLedger(std::vector<LedgerEntry>& all) const {
+    Lines lines(all);
+    const auto setting = [&](const char* key) { return adapter::textSetting(settings_, key); };
+    const auto anyShape = [&](auto&& predicate) {
+        for (const auto& body : scenario_.bodies)
+            for (const auto& shape : body.shapes)
+                if (body.collides && predicate(shape.geometry)) return true;
+        return false;
+    };
+    const auto anyBody = [&](auto&& predicate) {
+        return std::any_of(scenario_.bodies.begin(), scenario_.bodies.end(), predicate);
+    };
+    lines.add("collision_margin", "0", "0");
+    if (anyShape([](const auto& g) { return std::holds_alternative<scenario::ConvexHull>(g); }))
+        lines.add("hull_contacts", "full manifold", "one point against anything but a half-space",
+                  "libccd's MPR: hulls rock on each other and 5% of depths are off by more than 1%");
+    if (anyShape([](const auto& g) { return std::holds_alternative<scenario::Capsule>(g); }))
+        lines.add("capsule_contacts", "full manifold", "one point against boxes",
+                  "a capsule lying on a box rests on a single moving point");
+    if (planar_) {
+        lines.add("planar", "two dimensions",
+                  "3D prisms of half depth 0.5 m, Plane2D joints, contacts merged in the plane z = 0",
+                  "contacts are found on solids; rounding out of the plane is removed after each step");
+    } else {
+        const std::string gyro = setting("gyroscopic");
+        lines.add("gyroscopic_term", "exact rigid-body rotation", gyro,
+                  gyro == "none" ? "angular velocity is constant without torque, whatever the inertia"
+                  : gyro == "ode"
+                      ? "first order in dt, in energy and momentum"
+                      : "w := I(R1)^-1 I(R0) w between steps: momentum exact, energy first order");
+        lines.add("rotation_update", "exact for constant angular velocity", setting("rotation"),
+                  setting("rotation") == "finite" ? "" : "turns by atan-like less: w dt = 1 turns 0.927 rad");
+    }
+    if (anyBody([](const auto& b) { return b.linearVelocityKept != 1.0 || b.angularVelocityKept != 1.0; }))
+        lines.add("damping", "v(t) = v0 kept^t", "v *= kept^dt at the end of each step, no threshold");
+    if (anyBody([](const auto& b) { return b.gravityScale != 1.0; }))
+        lines.add("gravity_scale", "factor on gravity", "own weight as a force on each step");
+}
+
+}  // namespace rigor::ode

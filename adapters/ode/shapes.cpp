@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Shapes as ODE geoms. ODE's capsules and cylinders lie along z and take the length without caps; boxes take
+// full sides; a plane is solid where n.x < d and has no pose of its own; a convex needs its frame inside it.
+#include "adapters/ode/shapes.hpp"
+
+#include <cmath>
+
+#include "adapters/ode/convert.hpp"
+#include "scenarios/model/hull.hpp"
+
+namespace rigor::ode {
+
+using adapter::Geometry;
+using adapter::Unsupported;
+
+namespace {
+
+/// Turns ODE's z axis into our y axis: a quarter turn about -x.
+const Quat kFromZToY{std::sqrt(0.5), -std::sqrt(0.5), 0.0, 0.0};
+
+void place(dGeomID geom, const Pose& pose) {
+    dQuaternion q;
+    toOde(pose.orientation, q);
+    dGeomSetPosition(geom, pose.position.x, pose.position.y, pose.position.z);
+    dGeomSetQuaternion(geom, q);
+}
+
+}  // namespace
+
+Geom::Geom(const Geometry& geometry, const Pose& pose) {
+    if (const auto* sphere = std::get_if<scenario::Sphere>(&geometry)) {
+        id_ = dCreateSphere(nullptr, sphere->radius);
+    } else if (const auto* box = std::get_if<scenario::Box>(&geometry)) {
+        id_ = dCreateBox(nullptr, 2 * box->halfExtents.x, 2 * box->halfExtents.y, 2 * box->halfExtents.z);
+    } else if (const auto* capsule = std::get_if<scenario::Capsule>(&geometry)) {
+        id_ = dCreateCapsule(nullptr, capsule->radius, 2 * capsule->halfLength);
+        frame_.orientation = kFromZToY;
+    } else if (const auto* cylinder = std::get_if<scenario::Cylinder>(&geometry)) {
+        id_ = dCreateCylinder(nullptr, cylinder->radius, 2 * cylinder->halfLength);
+        frame_.orientation = kFromZToY;
+    } else if (const auto* hull = std::get_if<scenario::ConvexHull>(&geometry)) {
+        createConvex(*hull);
+    } else if (const auto* half = std::get_if<scenario::HalfSpace>(&geometry)) {
+        const Vec3 n = rotate(pose.orientation, half->normal);
+        id_ = dCreatePlane(nullptr, n.x, n.y, n.z, half->offset + dot(n, pose.position));
+        return;
+    } else {
+        throw Unsupported(std::string("ode has no shape '") + geometryName(geometry, 3) + "'");
+    }
+    place(id_, pose * frame_);
+}
+
+Geom::~Geom() {
+    dGeomDestroy(id_);
+}
+
+void Geom::createConvex(const scenario::ConvexHull& hull) {
+    const scenario::HullMesh mesh = scenario::convexHull3d(hull.vertices);
+    for (const Vec3& v : mesh.vertices) frame_.position += v / static_cast<double>(mesh.vertices.size());
+    convex_ = std::make_unique<Convex>();
+    const auto corner = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)] - frame_.position; };
+    for (int i = 0; i < static_cast<int>(mesh.vertices.size()); ++i)
+        for (const double c : {corner(i).x, corner(i).y, corner(i).z}) convex_->points.push_back(c);
+    for (const auto& face : mesh.faces) {
+        // Newell's sum: twice the area along the outward normal of a counter-clockwise loop.
+        Vec3 n, middle;
+        for (std::size_t i = 0; i < face.size(); ++i) {
+            n += cross(corner(face[i]), corner(face[(i + 1) % face.size()]));
+            middle += corner(face[i]) / static_cast<double>(face.size());
+        }
+        n = n / norm(n);
+        for (const double c : {n.x, n.y, n.z, dot(n, middle)}) convex_->planes.push_back(c);
+        convex_->polygons.push_back(static_cast<unsigned>(face.size()));
+        for (const int i : face) convex_->polygons.push_back(static_cast<unsigned>(i));
+    }
+    id_ = dCreateConvex(nullptr, convex_->planes.data(), static_cast<unsigned>(mesh.faces.size()),
+                        convex_->points.data(), static_cast<unsigned>(mesh.vertices.size()),
+                        convex_->polygons.data());
+}
+
+void Geom::attach(dBodyID body, const Pose& inBody) {
+    const Pose offset = inBody * frame_;
+    dQuaternion q;
+    toOde(offset.orientation, q);
+    dGeomSetBody(id_, body);
+    dGeomSetOffsetPosition(id_, offset.position.x, offset.position.y, offset.position.z);
+    dGeomSetOffsetQuaternion(id_, q);
+}
+
+void Geom::setTag(const GeomTag& tag) {
+    tag_ = tag;
+    dGeomSetData(id_, &tag_);
+}
+
+const GeomTag& Geom::tagOf(dGeomID geom) {
+    return *static_cast<const GeomTag*>(dGeomGetData(geom));
+}
+
+}  // namespace rigor::ode

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One step: contacts at the pose of the start of the step, contact joints from them, then dWorldStep (the
+// direct Dantzig LCP) or dWorldQuickStep (projected Gauss-Seidel with over-relaxation).
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <tuple>
+
+#include "adapters/ode/convert.hpp"
+#include "adapters/ode/library.hpp"
+#include "adapters/ode/world.hpp"
+
+namespace rigor::ode {
+
+namespace {
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Slower than this a contact does not tell where it is about to slide [m/s].
+constexpr double kNoDirection = 1e-12;
+
+}  // namespace
+
+void OdeWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
+    const BodyRecord& record = *records_[static_cast<std::size_t>(body)];
+    if (!record.dynamic) return;
+    dBodyAddForce(record.body, force.x, force.y, force.z);
+    dBodyAddTorque(record.body, torque.x, torque.y, torque.z);
+}
+
+void OdeWorld::step() {
+    useLibrary();
+    const std::int64_t messagesBefore = messageCount();
+    for (auto& record : records_) {
+        if (record->turnPending) turnAngularMomentum(*record, record->turnFrom);
+        record->turnPending = false;
+    }
+    pushGravity();
+    const auto start = std::chrono::steady_clock::now();
+    findContacts();
+    counters_.phaseSeconds["collision"] = secondsSince(start);
+    createContactJoints();
+    const auto solving = std::chrono::steady_clock::now();
+    advance();
+    counters_.phaseSeconds["solve_and_integrate"] = secondsSince(solving);
+    dJointGroupEmpty(contactGroup_);
+    counters_.contacts = static_cast<std::int64_t>(contacts_.size());
+    messages_ += messageCount() - messagesBefore;
+    ++steps_;
+}
+
+void OdeWorld::pushGravity() {
+    for (const auto& record : records_) {
+        if (!record->dynamic || !record->ownGravity) continue;
+        dMass mass;
+        dBodyGetMass(record->body, &mass);
+        const Vec3 weight = mass.mass * record->gravity;
+        dBodyAddForce(record->body, weight.x, weight.y, weight.z);
+    }
+}
+
+void OdeWorld::nearPair(void* self, dGeomID a, dGeomID b) {
+    auto& world = *static_cast<OdeWorld*>(self);
+    const GeomTag &tagA = Geom::tagOf(a), &tagB = Geom::tagOf(b);
+    if (tagA.body == tagB.body || !world.pairs_.mayCollide(tagA.body, tagB.body)) return;
+    if (tagA.body < tagB.body)
+        world.near_.emplace_back(a, b);
+    else
+        world.near_.emplace_back(b, a);
+}
+
+/// Pairs come from the space in an order of its own; sorted by scenario index every space gives the same
+/// steps.
+void OdeWorld::findContacts() {
+    near_.clear();
+    contacts_.clear();
+    dSpaceCollide(space_, this, &OdeWorld::nearPair);
+    const auto key = [](const std::pair<dGeomID, dGeomID>& pair) {
+        const GeomTag &a = Geom::tagOf(pair.first), &b = Geom::tagOf(pair.second);
+        return std::tuple(a.body, b.body, a.shape, b.shape);
+    };
+    std::sort(near_.begin(), near_.end(), [&](const auto& p, const auto& q) { return key(p) < key(q); });
+    counters_.pairs = static_cast<std::int64_t>(near_.size());
+    for (const auto& [a, b] : near_) {
+        collideGeoms(a, b, planar_, found_);
+        reducePoints(maxContacts_, found_);
+        if (found_.empty()) continue;
+        const GeomTag &tagA = Geom::tagOf(a), &tagB = Geom::tagOf(b);
+        const auto shapePose = [&](const GeomTag& tag) {
+            const auto& shapes = scenario_.bodies[static_cast<std::size_t>(tag.body)].shapes;
+            return poseOf(tag.body) * shapes[static_cast<std::size_t>(tag.shape)].pose;
+        };
+        for (const FoundPoint& point : found_)
+            contacts_.push_back({tagA, tagB, point, shapePose(tagA), shapePose(tagB), {}, false});
+    }
+}
+
+/// All of `contacts_` exists before the first joint does, because ODE writes the forces back into it.
+void OdeWorld::createContactJoints() {
+    for (StepContact& c : contacts_) {
+        const dBodyID bodyA = records_[static_cast<std::size_t>(c.a.body)]->body;
+        const dBodyID bodyB = records_[static_cast<std::size_t>(c.b.body)]->body;
+        dContact contact{};
+        contact.surface = surfaceFor(pairs_.coefficients(c.a.material, c.b.material), bounceThreshold_);
+        toOde(c.point.position, contact.geom.pos);
+        toOde(-c.point.normal, contact.geom.normal);
+        contact.geom.depth = c.point.depth;
+        if (friction_ == Friction::PyramidVelocity) chooseFrictionDirection(c, contact);
+        const dJointID joint = dJointCreateContact(world_, contactGroup_, &contact);
+        dJointAttach(joint, bodyA, bodyB);
+        // The first force is that on the first body there is.
+        c.feedbackOnA = bodyA != nullptr;
+        dJointSetFeedback(joint, &c.feedback);
+    }
+}
+
+/// The velocity that a point of a body would have at the end of the step without contacts and joints.
+Vec3 OdeWorld::freeVelocityAt(int body, const Vec3& point) const {
+    const BodyRecord& record = *records_[static_cast<std::size_t>(body)];
+    if (record.body == nullptr) return {};
+    Vec3 velocity = fromOde(dBodyGetLinearVel(record.body));
+    Vec3 turning = fromOde(dBodyGetAngularVel(record.body));
+    if (record.dynamic) {
+        dMass mass;
+        dBodyGetMass(record.body, &mass);
+        velocity += dt_ / mass.mass * fromOde(dBodyGetForce(record.body));
+        if (!record.ownGravity) velocity += dt_ * record.gravity;
+        const Quat q = quatFromOde(dBodyGetQuaternion(record.body));
+        const Vec3 torque = rotateInverse(q, fromOde(dBodyGetTorque(record.body)));
+        turning += dt_ * rotate(q, record.inverseInertia * torque);
+    }
+    return velocity + cross(turning, point - fromOde(dBodyGetPosition(record.body)));
+}
+
+/// friction=pyramid_velocity: the first axis of the square points where the surfaces are about to slide. The
+/// velocity they have now would not do: at rest on a slope it is zero or noise.
+void OdeWorld::chooseFrictionDirection(const StepContact& c, dContact& out) const {
+    const Vec3 p = c.point.position;
+    const Vec3 relative = freeVelocityAt(c.b.body, p) - freeVelocityAt(c.a.body, p);
+    const Vec3 sliding = relative - dot(relative, c.point.normal) * c.point.normal;
+    const double speed = norm(sliding);
+    if (speed < kNoDirection) return;
+    out.surface.mode |= dContactFDir1;
+    toOde(sliding / speed, out.fdir1);
+}
+
+void OdeWorld::advance() {
+    std::vector<Quat> before;
+    std::vector<bool> held;
+    if (externalGyro_)
+        for (const auto& record : records_) {
+            before.push_back(record->dynamic ? quatFromOde(dBodyGetQuaternion(record->body)) : Quat{});
+            held.push_back(record->dynamic && dBodyGetNumJoints(record->body) > 0);
+        }
+    const bool tooMany = !quickStep_ && worldStepLimit_ > 0 && contacts_.size() > worldStepLimit_;
+    if (quickStep_ || tooMany) {
+        const std::lock_guard lock(randomMutex());
+        dRandSetSeed(static_cast<unsigned long>(adapter::integerSetting(settings_, "seed")));
+        dWorldQuickStep(world_, dt_);
+        counters_.solverIterations = dWorldGetQuickStepNumIterations(world_);
+        if (tooMany) ++fallbackSteps_;
+    } else {
+        dWorldStep(world_, dt_);
+        counters_.solverIterations = -1;
+    }
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        BodyRecord& record = *records_[i];
+        if (!record.dynamic) continue;
+        if (planar_) keepInPlane(record);
+        if (!externalGyro_) continue;
+        if (held[i])
+            record.turnPending = true, record.turnFrom = before[i];
+        else
+            turnAngularMomentum(record, before[i]);
+    }
+}
+
+/// gyroscopic=external: w := I(R1)^-1 I(R0) w, with I(R) = R I R^T, keeps the angular momentum of a body
+/// that turned from R0 to R1. Free bodies at once; bodies in contacts or joints at the start of the next
+/// step, so that their constraints see the change.
+void OdeWorld::turnAngularMomentum(BodyRecord& record, const Quat& from) {
+    const Quat now = quatFromOde(dBodyGetQuaternion(record.body));
+    const Vec3 w = fromOde(dBodyGetAngularVel(record.body));
+    const Vec3 momentum = rotate(from, record.inertia * rotateInverse(from, w));
+    const Vec3 turned = rotate(now, record.inverseInertia * rotateInverse(now, momentum));
+    dBodySetAngularVel(record.body, turned.x, turned.y, turned.z);
+}
+
+/// Plane2D holds a body to the plane up to its error reduction; what rounding leaves is taken away.
+void OdeWorld::keepInPlane(BodyRecord& record) {
+    const dBodyID body = record.body;
+    const dReal* p = dBodyGetPosition(body);
+    dBodySetPosition(body, p[0], p[1], 0.0);
+    const dReal* v = dBodyGetLinearVel(body);
+    dBodySetLinearVel(body, v[0], v[1], 0.0);
+    dBodySetAngularVel(body, 0.0, 0.0, dBodyGetAngularVel(body)[2]);
+    const Quat q = quatFromOde(dBodyGetQuaternion(body));
+    dQuaternion flat;
+    toOde(normalized(Quat{q.w, 0.0, 0.0, q.z}), flat);
+    dBodySetQuaternion(body, flat);
+}
+
+}  // namespace rigor::ode

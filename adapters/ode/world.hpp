@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#pragma once
+
+#include <ode/ode.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "adapters/interface/engine.hpp"
+#include "adapters/interface/pair_table.hpp"
+#include "adapters/ode/contacts.hpp"
+#include "adapters/ode/shapes.hpp"
+
+namespace rigor::ode {
+
+/// One scenario in one ODE world. ODE's body frame has its origin at the centre of mass and the axes of the
+/// scenario's body frame. Static bodies are geoms without a body. Two-dimensional scenarios are lifted
+/// (adapters/interface/planar.hpp) and held in the plane by Plane2D joints.
+class OdeWorld final : public adapter::World {
+  public:
+    OdeWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings);
+    ~OdeWorld() override;
+
+    void applyForce(int body, const adapter::Vec3& force, const adapter::Vec3& torque) override;
+    void step() override;
+    void readStates(std::span<adapter::BodyState> states) const override;
+    void readContacts(std::vector<adapter::ContactPoint>& contacts) const override;
+    adapter::ReadBack readBack() const override;
+    std::vector<adapter::LedgerEntry> ledger() const override;
+    adapter::StepCounters counters() const override { return counters_; }
+    adapter::Scheme scheme() const override { return adapter::Scheme::SymplecticEuler; }
+
+  private:
+    enum class Friction { PyramidWorld, PyramidVelocity };
+
+    /// What one scenario body is in ODE. Addresses are stable: ODE keeps pointers into it.
+    struct BodyRecord {
+        dBodyID body = nullptr;  ///< null for static bodies
+        bool dynamic = false;
+        bool ownGravity = false;  ///< gravityScale != 1: given as a force
+        adapter::Vec3 gravity;    ///< acceleration [m/s^2]
+        adapter::Vec3 com;        ///< in the body frame [m]
+        adapter::Mat3 inertia, inverseInertia;
+        std::vector<std::unique_ptr<Geom>> geoms;
+        /// gyroscopic=external: orientation whose angular momentum the next step has to start from
+        bool turnPending = false;
+        adapter::Quat turnFrom;
+    };
+    /// A contact that the current step acts upon.
+    struct StepContact {
+        GeomTag a, b;
+        FoundPoint point;
+        adapter::Pose poseA, poseB;  ///< of the two shapes, when found
+        dJointFeedback feedback;
+        bool feedbackOnA = false;  ///< whether f1 is the force on A (else on B)
+    };
+
+    void configureWorld();
+    void createSpace();
+    void addBody(int index);
+    void addDynamics(const scenario::Body& body, BodyRecord& record);
+    adapter::BodyState stateOf(int index) const;
+    adapter::Pose poseOf(int index) const;
+
+    void pushGravity();
+    void findContacts();
+    void createContactJoints();
+    void chooseFrictionDirection(const StepContact& contact, dContact& out) const;
+    adapter::Vec3 freeVelocityAt(int body, const adapter::Vec3& point) const;
+    void advance();
+    void turnAngularMomentum(BodyRecord& record, const adapter::Quat& from);
+    void keepInPlane(BodyRecord& record);
+    static void nearPair(void* self, dGeomID a, dGeomID b);
+    const adapter::Vec3& gravityOf(const BodyRecord& record) const { return record.gravity; }
+    bool is(const std::string& key, const std::string& value) const;
+    void appendGeometryLedger(std::vector<adapter::LedgerEntry>& lines) const;
+
+    adapter::Scenario original_;  ///< as given
+    adapter::Scenario scenario_;  ///< three-dimensional
+    adapter::Settings settings_;
+    double dt_ = 0.0;
+    bool planar_ = false, quickStep_ = false, externalGyro_ = false;
+    Friction friction_ = Friction::PyramidWorld;
+    std::size_t maxContacts_ = 0;
+    std::size_t worldStepLimit_ = 0;
+    double bounceThreshold_ = 0.0;
+
+    adapter::PairTable pairs_;
+    dWorldID world_ = nullptr;
+    dSpaceID space_ = nullptr;
+    dJointGroupID contactGroup_ = nullptr;
+    std::vector<std::unique_ptr<BodyRecord>> records_;
+    std::vector<std::pair<dGeomID, dGeomID>> near_;
+    std::vector<FoundPoint> found_;
+    std::vector<StepContact> contacts_;
+
+    adapter::StepCounters counters_;
+    std::int64_t steps_ = 0, fallbackSteps_ = 0, messages_ = 0;
+};
+
+}  // namespace rigor::ode
