@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "scenarios/model/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace rigor::scenario {
+namespace {
+
+Scenario threeBodies() {
+    Scenario s;
+    s.materials = {{"wood", 0.4, 0.3, 700}, {"steel", 0.9, 0.8, 7800}};
+    for (const char* name : {"a", "b", "c"}) {
+        Body body;
+        body.name = name;
+        s.bodies.push_back(body);
+    }
+    return s;
+}
+
+TEST(PairCoefficients, RuleThenTable) {
+    Scenario s = threeBodies();
+    const auto rule = pairCoefficients(s, 0, 1);
+    EXPECT_DOUBLE_EQ(rule.friction, std::sqrt(0.4 * 0.9));
+    EXPECT_DOUBLE_EQ(rule.restitution, 0.3);
+    s.pairs = {{1, 0, 0.25, 0.05}};
+    for (const auto& [a, b] : {std::pair{0, 1}, std::pair{1, 0}}) {  // unordered
+        EXPECT_DOUBLE_EQ(pairCoefficients(s, a, b).friction, 0.25);
+        EXPECT_DOUBLE_EQ(pairCoefficients(s, a, b).restitution, 0.05);
+    }
+    EXPECT_DOUBLE_EQ(pairCoefficients(s, 1, 1).friction, 0.9);
+}
+
+TEST(FindBody, ByName) {
+    const Scenario s = threeBodies();
+    EXPECT_EQ(findBody(s, "c"), 2);
+    EXPECT_EQ(findBody(s, "d"), kNone);
+}
+
+TEST(MayCollide, DynamicBodiesThatNoJointKeepsApart) {
+    Scenario s = threeBodies();
+    s.bodies[1].type = BodyType::Static;
+    s.bodies[2].type = BodyType::Kinematic;
+    EXPECT_TRUE(mayCollide(s, 0, 1));
+    EXPECT_TRUE(mayCollide(s, 2, 0));
+    EXPECT_FALSE(mayCollide(s, 1, 2)) << "neither is dynamic";
+    EXPECT_FALSE(mayCollide(s, 0, 0));
+    s.joints.push_back({});
+    s.joints[0].bodyA = 1;
+    s.joints[0].bodyB = 0;
+    EXPECT_FALSE(mayCollide(s, 0, 1));
+    s.joints[0].collideConnected = true;
+    EXPECT_TRUE(mayCollide(s, 0, 1));
+    s.bodies[0].collides = false;
+    EXPECT_FALSE(mayCollide(s, 0, 1));
+}
+
+TEST(Names, OfShapesByDimension) {
+    EXPECT_STREQ(geometryName(Sphere{}, 3), "sphere");
+    EXPECT_STREQ(geometryName(Sphere{}, 2), "circle");
+    EXPECT_STREQ(geometryName(ConvexHull{}, 2), "polygon");
+    EXPECT_STREQ(geometryName(HalfSpace{}, 2), "half_plane");
+    EXPECT_STREQ(jointName(JointType::Slider), "slider");
+}
+
+}  // namespace
+}  // namespace rigor::scenario
