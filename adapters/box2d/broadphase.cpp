@@ -59,7 +59,8 @@ class Box2dBroadPhase final : public adapter::BroadPhase {
             const auto indexOf = [](void* data) {
                 return static_cast<int>(reinterpret_cast<std::intptr_t>(data));
             };
-            const auto [a, b] = std::minmax(indexOf(first), indexOf(second));
+            const int i = indexOf(first), j = indexOf(second);
+            const int a = std::min(i, j), b = std::max(i, j);
             if (overlap(boxes[static_cast<std::size_t>(a)], boxes[static_cast<std::size_t>(b)]))
                 pairs.push_back({a, b});
         }

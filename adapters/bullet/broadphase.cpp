@@ -39,10 +39,17 @@ bool overlap(const Aabb& a, const Aabb& b) {
            a.min.z <= b.max.z && b.min.z <= a.max.z;
 }
 
+/// The dispatcher is only there to be passed on: no pools of manifolds for it.
+btDefaultCollisionConstructionInfo smallPools() {
+    btDefaultCollisionConstructionInfo info;
+    info.m_defaultMaxPersistentManifoldPoolSize = info.m_defaultMaxCollisionAlgorithmPoolSize = 1;
+    return info;
+}
+
 class BulletBroadPhase final : public adapter::BroadPhase {
   public:
     explicit BulletBroadPhase(std::string algorithm)
-        : algorithm_(std::move(algorithm)), dispatcher_(&configuration_) {}
+        : algorithm_(std::move(algorithm)), configuration_(smallPools()), dispatcher_(&configuration_) {}
     ~BulletBroadPhase() override { clear(); }
 
     void update(std::span<const Aabb> boxes, std::vector<Pair>& pairs) override {
@@ -57,7 +64,8 @@ class BulletBroadPhase final : public adapter::BroadPhase {
             broadphase_->getOverlappingPairCache()->getOverlappingPairArray();
         for (int k = 0; k < found.size(); ++k) {
             if (found[k].m_pProxy0 == nullptr || found[k].m_pProxy1 == nullptr) continue;
-            const auto [a, b] = std::minmax(indexOf(*found[k].m_pProxy0), indexOf(*found[k].m_pProxy1));
+            const int first = indexOf(*found[k].m_pProxy0), second = indexOf(*found[k].m_pProxy1);
+            const int a = std::min(first, second), b = std::max(first, second);
             if (overlap(boxes[static_cast<std::size_t>(a)], boxes[static_cast<std::size_t>(b)]))
                 pairs.push_back({a, b});
         }

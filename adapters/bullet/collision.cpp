@@ -70,9 +70,10 @@ struct Side {
 /// Contacts of the stepping path: every manifold point, overlapping or not.
 class ContactFinder {
   public:
-    ContactFinder() : dispatcher_(&configuration_) {
-        // A polyhedron on a plane gets one point per call without these perturbed queries.
-        configuration_.setPlaneConvexMultipointIterations(4, 5);
+    ContactFinder() : configuration_(smallPools()), dispatcher_(&configuration_) {
+        // A polyhedron on a plane gets one point per call without these queries in slightly turned poses;
+        // with eight directions each corner of a square face is met at least once.
+        configuration_.setPlaneConvexMultipointIterations(8, 5);
     }
 
     std::vector<ContactPoint> find(const Side& a, const Side& b) {
@@ -96,6 +97,13 @@ class ContactFinder {
     }
 
   private:
+    /// One pair at a time: the library's pools of 4096 manifolds would cost more than the query.
+    static btDefaultCollisionConstructionInfo smallPools() {
+        btDefaultCollisionConstructionInfo info;
+        info.m_defaultMaxPersistentManifoldPoolSize = info.m_defaultMaxCollisionAlgorithmPoolSize = 4;
+        return info;
+    }
+
     static void append(const btPersistentManifold& manifold, const btCollisionObject& objectA,
                        std::vector<ContactPoint>& contacts) {
         const bool ordered = manifold.getBody0() == &objectA;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Scenarios built by hand, and the module under test.
+// Scenarios built by hand, and the adapter module under test (RIGOR_MODULE): for the tests of adapters.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -105,18 +105,18 @@ inline ConvexHull boxHull(const Vec3& h) {
 }
 
 /// A world of the spec's settings ("preset=matched,iterations=50") at one time step.
-class Run {
+class Simulation {
   public:
-    Run(const Scenario& s, double dt, const std::string& options = "preset=matched")
+    Simulation(const Scenario& s, double dt, const std::string& options = "preset=matched")
         : dt_(dt), count_(s.bodies.size()) {
         const auto spec = adapter::parseSpec(engine().info().name + (options.empty() ? "" : ":" + options));
         world = engine().dynamics()->build(s, dt, adapter::resolveSettings(spec, engine()));
     }
-    Run& steps(int n) {
+    Simulation& steps(int n) {
         for (int i = 0; i < n; ++i) world->step();
         return *this;
     }
-    Run& seconds(double t) { return steps(static_cast<int>(t / dt_ + 0.5)); }
+    Simulation& seconds(double t) { return steps(static_cast<int>(t / dt_ + 0.5)); }
     BodyState state(int body) const {
         std::vector<BodyState> states(count_);
         world->readStates(states);
