@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The page's data. Numbers keep all their digits; non-finite ones, which JSON lacks, are the strings "nan",
+// "inf" and "-inf"; what is absent is null.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "reports/curves.hpp"
+#include "reports/text.hpp"
+#include "reports/writers.hpp"
+
+namespace rigor::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using results::CaseRow;
+
+constexpr std::size_t kMostBodies = 6;      // curves of more bodies would drown the page
+constexpr std::size_t kMostSubjects = 6;    // per series
+constexpr std::size_t kMostReadBack = 200;  // rows per case that differ
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(fullNumber(value));
+}
+Json number(const std::optional<double>& value) {
+    return value ? number(*value) : Json(nullptr);
+}
+
+std::string text(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json metricsJson(const CaseRow& row) {
+    Json list = Json::array();
+    for (const auto& m : row.metrics)
+        list.push_back({{"name", m.name},
+                        {"subject", m.subject},
+                        {"unit", m.unit},
+                        {"kind", m.kind},
+                        {"value", number(m.value)},
+                        {"at", number(m.at)},
+                        {"bound", number(m.bound)},
+                        {"expectation", number(m.expectation)},
+                        {"verdict", results::verdictName(m.verdict)},
+                        {"note", m.note}});
+    return list;
+}
+
+Json quantitiesJson(const CaseRow& row) {
+    Json list = Json::array();
+    for (const auto& q : row.quantities)
+        list.push_back({{"name", q.name},
+                        {"unit", q.unit},
+                        {"exact", number(q.exact)},
+                        {"schemeExact", number(q.schemeExact)},
+                        {"measured", number(q.measured)}});
+    return list;
+}
+
+Json ledgerJson(const CaseRow& row) {
+    Json list = Json::array();
+    for (const auto& l : row.ledger)
+        list.push_back({{"topic", l.topic},
+                        {"requested", l.requested},
+                        {"resolved", l.resolved},
+                        {"realisation", l.realisation},
+                        {"reason", l.reason}});
+    return list;
+}
+
+/// Everything was compared; the page shows what differs.
+Json readBackJson(const CaseRow& row) {
+    Json differing = Json::array();
+    std::size_t bad = 0;
+    for (const auto& r : row.readBack) {
+        if (r.ok) continue;
+        if (++bad > kMostReadBack) continue;
+        differing.push_back({{"quantity", r.quantity},
+                             {"subject", r.subject},
+                             {"expected", number(r.expected)},
+                             {"found", number(r.found)},
+                             {"error", number(r.error)}});
+    }
+    return {{"compared", row.readBack.size()}, {"bad", bad}, {"differing", differing}};
+}
+
+Json auditJson(const CaseRow& row) {
+    Json list = Json::array();
+    for (const auto& a : row.audit)
+        list.push_back({{"auditor", a.auditor},
+                        {"outcome", a.outcome},
+                        {"frames", a.frames},
+                        {"queries", a.queries},
+                        {"overlapping", a.overlapping},
+                        {"missed", a.missed},
+                        {"spurious", a.spurious},
+                        {"undecided", a.undecided},
+                        {"normalErrorMax", number(a.normalErrorMax)},
+                        {"normalErrorMedian", number(a.normalErrorMedian)},
+                        {"depthErrorMax", number(a.depthErrorMax)},
+                        {"depthErrorMedian", number(a.depthErrorMedian)},
+                        {"pointErrorMax", number(a.pointErrorMax)},
+                        {"worst", a.worst},
+                        {"note", a.note}});
+    return list;
+}
+
+Json timingsJson(const CaseRow& row) {
+    Json list = Json::array();
+    for (const auto& t : row.timings)
+        list.push_back({{"phase", t.phase},
+                        {"median", number(t.median)},
+                        {"p10", number(t.p10)},
+                        {"p90", number(t.p90)},
+                        {"total", number(t.total)},
+                        {"samples", t.samples},
+                        {"meanContacts", number(t.meanContacts)}});
+    return list;
+}
+
+/// One line of the scoreboard and of the timing table.
+Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) {
+    Json brief{{"id", row.id},
+               {"spec", row.spec},
+               {"dt", number(row.dt)},
+               {"outcome", results::outcomeName(row.outcome)},
+               {"verdict", results::verdictName(row.verdict)},
+               {"shown", shownText(shownOf(row)).key},
+               {"reason", row.reason}};
+    const auto* main = findMetric(row, view.mainMetric(scenario).name);
+    brief["value"] = main ? number(main->value) : Json(nullptr);
+    brief["bound"] = main ? number(main->bound) : Json(nullptr);
+    const auto* timing = stepTiming(row);
+    brief["step"] = timing ? Json{{"median", number(timing->median)},
+                                  {"p10", number(timing->p10)},
+                                  {"p90", number(timing->p90)},
+                                  {"samples", timing->samples},
+                                  {"contacts", number(timing->meanContacts)}}
+                           : Json(nullptr);
+    return brief;
+}
+
+Json scenariosJson(const ViewModel& view) {
+    Json list = Json::array();
+    const auto& run = view.run();
+    for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
+        const auto& s = run.scenarios[i];
+        const auto& metric = view.mainMetric(i);
+        Json cases = Json::array();
+        for (std::size_t c = 0; c < view.columns().size(); ++c)
+            for (const auto* row : view.cell(i, c).cases) cases.push_back(briefCase(view, i, *row));
+        Json steps = Json::array();
+        for (const double dt : s.timeSteps) steps.push_back(number(dt));
+        list.push_back({{"name", s.name},
+                        {"title", s.title},
+                        {"description", s.description},
+                        {"source", s.source},
+                        {"isolates", s.isolates},
+                        {"tags", s.tags},
+                        {"observed", s.observed},
+                        {"metrics", s.metrics},
+                        {"dimension", s.dimension},
+                        {"duration", number(s.duration)},
+                        {"timeSteps", steps},
+                        {"reference", s.reference},
+                        {"referenceTitle", s.referenceTitle},
+                        {"referenceFormula", s.referenceFormula},
+                        {"referenceSource", s.referenceSource},
+                        {"referenceProblem", s.referenceProblem},
+                        {"main", {{"name", metric.name}, {"unit", metric.unit}, {"kind", metric.kind}}},
+                        {"cases", cases}});
+    }
+    return list;
+}
+
+Json mechanismsJson(const ViewModel& view) {
+    Json list = Json::array();
+    for (const auto& m : view.mechanisms()) {
+        Json standings = Json::array();
+        for (const auto& s : m.standings)
+            standings.push_back({{"scenarios", s.scenarios},
+                                 {"ran", s.ran},
+                                 {"good", s.good},
+                                 {"bad", s.bad},
+                                 {"ratio", number(s.ratio)}});
+        list.push_back(
+            {{"name", m.name}, {"scenarios", m.scenarios}, {"best", m.best}, {"standings", standings}});
+    }
+    return list;
+}
+
+/// Contact audit gathered per scenario and auditor over all cases whose poses were asked about.
+Json gatheredAudit(const ViewModel& view) {
+    Json list = Json::array();
+    const auto& run = view.run();
+    const auto worst = [](std::optional<double>& into, const std::optional<double>& value) {
+        if (value && (!into || *value > *into || std::isnan(*value))) into = value;
+    };
+    for (const auto& scenario : run.scenarios) {
+        std::vector<results::AuditRow> rows;
+        for (const auto& row : run.cases) {
+            if (row.scenario != scenario.name) continue;
+            for (const auto& a : row.audit) {
+                auto it = std::find_if(rows.begin(), rows.end(),
+                                       [&](const auto& r) { return r.auditor == a.auditor; });
+                if (it == rows.end()) {
+                    rows.push_back({});
+                    it = rows.end() - 1;
+                    it->auditor = a.auditor, it->outcome = a.outcome;
+                }
+                if (a.outcome != "completed") it->outcome = a.outcome, it->note = a.note;
+                it->frames += a.frames, it->queries += a.queries, it->overlapping += a.overlapping;
+                it->missed += a.missed, it->spurious += a.spurious, it->undecided += a.undecided;
+                if (a.normalErrorMax && (!it->normalErrorMax || *a.normalErrorMax > *it->normalErrorMax))
+                    it->worst = a.worst + " (" + row.spec + ")";
+                worst(it->normalErrorMax, a.normalErrorMax);
+                worst(it->depthErrorMax, a.depthErrorMax);
+                worst(it->pointErrorMax, a.pointErrorMax);
+            }
+        }
+        if (rows.empty()) continue;
+        CaseRow holder;
+        holder.audit = rows;
+        list.push_back({{"scenario", scenario.name}, {"rows", auditJson(holder)}});
+    }
+    return list;
+}
+
+Json gatheredLedger(const ViewModel& view) {
+    Json list = Json::array();
+    for (const auto& l : view.ledger())
+        list.push_back({{"engine", l.engine},
+                        {"preset", l.preset},
+                        {"topic", l.row.topic},
+                        {"requested", l.row.requested},
+                        {"resolved", l.row.resolved},
+                        {"realisation", l.row.realisation},
+                        {"reason", l.row.reason},
+                        {"scenarios", l.scenarios}});
+    return list;
+}
+
+// ---- curves ----
+
+Json packed(const std::vector<double>& values, const std::vector<std::size_t>& at) {
+    std::vector<double> chosen;
+    chosen.reserve(at.size());
+    for (const std::size_t i : at) chosen.push_back(values[i]);
+    return packSingles(chosen);
+}
+
+/// Component `k` of the rows of a channel; empty when the channel does not have it for every time.
+std::vector<double> column(const results::Channel& channel, int k, std::size_t rows) {
+    if (k >= channel.columns || channel.values.size() < rows * static_cast<std::size_t>(channel.columns))
+        return {};
+    std::vector<double> out(rows);
+    for (std::size_t i = 0; i < rows; ++i)
+        out[i] = channel.values[i * static_cast<std::size_t>(channel.columns) + static_cast<std::size_t>(k)];
+    return out;
+}
+
+bool anyFinite(const std::vector<double>& values) {
+    return std::any_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+std::vector<std::string> shownBodies(const results::ScenarioRow& scenario,
+                                     const results::TrajectoryFile& file) {
+    std::vector<std::string> names;
+    for (const auto& name : scenario.observed)
+        if (names.size() < kMostBodies) names.push_back(name);
+    if (names.empty())
+        for (const auto& body : file.bodies)
+            if (names.size() < kMostBodies) names.push_back(body.name);
+    return names;
+}
+
+/// Positions of the shown bodies, all at the same thinned times.
+Json bodiesJson(const std::vector<results::BodyChannels>& bodies, const std::vector<std::string>& names,
+                int dimension, std::size_t rows, const std::vector<std::size_t>& at) {
+    Json list = Json::array();
+    for (const auto& name : names)
+        for (const auto& body : bodies) {
+            if (body.name != name) continue;
+            Json components = Json::array();
+            for (int k = 0; k < dimension; ++k) {
+                const auto values = column(body.position, k, rows);
+                components.push_back(anyFinite(values) ? packed(values, at) : Json(nullptr));
+            }
+            list.push_back({{"name", name}, {"position", components}});
+        }
+    return list;
+}
+
+Json seriesJson(const results::TrajectoryFile& file) {
+    Json list = Json::array();
+    std::map<std::string, std::size_t> subjects;
+    for (const auto& series : file.series) {
+        const auto values = column(series.channel, 0, file.times.size());
+        if (!anyFinite(values) || subjects[series.name]++ >= kMostSubjects) continue;
+        const auto at = outlineIndices(values, kCurvePoints);
+        Json entry{{"name", series.name}, {"subject", series.subject}, {"unit", series.channel.unit}};
+        if (at.size() < file.times.size()) entry["t"] = packed(file.times, at);
+        entry["y"] = packed(values, at);
+        list.push_back(entry);
+    }
+    return list;
+}
+
+Json curvesJson(const results::ScenarioRow& scenario, const results::TrajectoryFile& file,
+                bool withReference) {
+    const std::size_t rows = file.times.size();
+    const auto at = evenIndices(rows, kCurvePoints);
+    const auto names = shownBodies(scenario, file);
+    Json out{{"samples", rows}, {"t", packed(file.times, at)}};
+    if (rows <= kCurvePoints) out["all"] = true;
+    out["bodies"] = bodiesJson(file.bodies, names, scenario.dimension, rows, at);
+    if (withReference) out["reference"] = bodiesJson(file.reference, names, scenario.dimension, rows, at);
+    out["series"] = seriesJson(file);
+    return out;
+}
+
+}  // namespace
+
+std::string overviewJson(const ViewModel& view) {
+    const auto& run = view.run();
+    Json columns = Json::array(), engines = Json::array(), symbols = Json::object();
+    for (const auto& c : view.columns())
+        columns.push_back({{"spec", c.spec},
+                           {"engine", c.engine},
+                           {"preset", c.preset},
+                           {"options", c.options},
+                           {"label", c.label}});
+    for (const auto& e : run.engines)
+        engines.push_back({{"name", e.name},
+                           {"title", e.title},
+                           {"version", e.version},
+                           {"precision", e.precision},
+                           {"buildNotes", e.buildNotes},
+                           {"problem", e.problem}});
+    for (int i = 0; i <= static_cast<int>(Shown::Unsupported); ++i) {
+        const auto shown = static_cast<Shown>(i);
+        const auto found = view.totals().cases.find(shown);
+        symbols[shownText(shown).key] = {{"symbol", shownText(shown).symbol},
+                                         {"word", shownText(shown).word},
+                                         {"count", found == view.totals().cases.end() ? 0 : found->second}};
+    }
+    return text({{"suite", run.suite},
+                 {"command", run.command},
+                 {"started", run.started},
+                 {"finished", run.finished},
+                 {"planned", run.plannedCases},
+                 {"total", view.totals().total},
+                 {"environment", run.environment},
+                 {"symbols", symbols},
+                 {"columns", columns},
+                 {"engines", engines},
+                 {"scenarios", scenariosJson(view)},
+                 {"mechanisms", mechanismsJson(view)},
+                 {"audit", gatheredAudit(view)},
+                 {"ledger", gatheredLedger(view)}});
+}
+
+std::string scenarioJson(const ViewModel& view, std::size_t index, const TrajectoryLoader& load) {
+    const auto& scenario = view.run().scenarios[index];
+    Json cases = Json::array();
+    std::vector<double> withReference;  // the exact states are the same for every engine at one time step
+    for (std::size_t c = 0; c < view.columns().size(); ++c)
+        for (const auto* row : view.cell(index, c).cases) {
+            Json entry{{"id", row->id},
+                       {"spec", row->spec},
+                       {"dt", number(row->dt)},
+                       {"outcome", results::outcomeName(row->outcome)},
+                       {"verdict", results::verdictName(row->verdict)},
+                       {"shown", shownText(shownOf(*row)).key},
+                       {"reason", row->reason},
+                       {"wallSeconds", number(row->wallSeconds)},
+                       {"cpuSeconds", number(row->cpuSeconds)},
+                       {"steps", row->steps},
+                       {"peakMemoryKiB", row->peakMemoryKiB},
+                       {"stateHash", row->stateHash},
+                       {"trajectoryFile", row->trajectoryFile},
+                       {"command", row->command},
+                       {"settings", row->settings},
+                       {"metrics", metricsJson(*row)},
+                       {"quantities", quantitiesJson(*row)},
+                       {"ledger", ledgerJson(*row)},
+                       {"readBack", readBackJson(*row)},
+                       {"audit", auditJson(*row)},
+                       {"timings", timingsJson(*row)},
+                       {"curves", nullptr}};
+            if (const auto file = load(*row); file && !file->times.empty()) {
+                const bool first =
+                    std::find(withReference.begin(), withReference.end(), row->dt) == withReference.end();
+                const bool reference =
+                    first && !file->reference.empty() && row->outcome == results::Outcome::Completed;
+                if (reference) withReference.push_back(row->dt);
+                entry["curves"] = curvesJson(scenario, *file, reference);
+            }
+            cases.push_back(std::move(entry));
+        }
+    return text({{"name", scenario.name}, {"text", scenario.text}, {"cases", cases}});
+}
+
+}  // namespace rigor::report

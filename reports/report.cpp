@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "reports/report.hpp"
+
+#include <exception>
+
+#include "reports/svg_plot.hpp"
+#include "reports/text.hpp"
+#include "reports/writers.hpp"
+#include "validation/results/store.hpp"
+#include "validation/results/trajectory_file.hpp"
+
+namespace rigor::report {
+namespace fs = std::filesystem;
+
+std::vector<fs::path> writeReports(const fs::path& runDirectory) {
+    const results::Run run = results::readRun(runDirectory);
+    const ViewModel view(run);
+    const TrajectoryLoader load = [&](const results::CaseRow& row) -> std::optional<results::TrajectoryFile> {
+        if (row.trajectoryFile.empty()) return std::nullopt;
+        try {
+            return results::readTrajectory(runDirectory / row.trajectoryFile, false);
+        } catch (const std::exception&) {
+            return std::nullopt;  // a lost or damaged file costs its curves, not the report
+        }
+    };
+    std::vector<fs::path> written;
+    const auto write = [&](const fs::path& name, const std::string& content) {
+        writeFile(runDirectory / name, content);
+        written.push_back(runDirectory / name);
+    };
+    write("index.html", htmlReport(view, load));
+    write("results.csv", csvReport(run));
+    write("summary.md", markdownSummary(view));
+    write("junit.xml", junitReport(run));
+    const auto plots = scenarioPlots(view, load);
+    if (!plots.empty()) fs::create_directories(runDirectory / "plots");
+    for (const auto& plot : plots) write(fs::path("plots") / plot.fileName, plot.svg);
+    return written;
+}
+
+}  // namespace rigor::report

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The report formats as pure functions from a run to text. writeReports() is the shell around them.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "reports/view_model.hpp"
+#include "validation/results/trajectory_file.hpp"
+
+namespace rigor::report {
+
+/// Trajectory of a case without its contacts; empty when there is none or it can not be read.
+using TrajectoryLoader = std::function<std::optional<results::TrajectoryFile>(const results::CaseRow& row)>;
+
+/// One row per case x metric and per case x quantity; columns in README.md.
+std::string csvReport(const results::Run& run);
+/// Fits a pull-request comment.
+std::string markdownSummary(const ViewModel& view);
+/// JUnit XML: one testcase per case.
+std::string junitReport(const results::Run& run);
+/// The self-contained page.
+std::string htmlReport(const ViewModel& view, const TrajectoryLoader& load);
+/// The data behind the page's overview, and behind the page of one scenario, as JSON.
+std::string overviewJson(const ViewModel& view);
+std::string scenarioJson(const ViewModel& view, std::size_t scenario, const TrajectoryLoader& load);
+
+}  // namespace rigor::report
