@@ -10,8 +10,9 @@
 //                       rebound is e times the approach and not e times (approach + g h)
 //     s / h             a gap: the point may just close it in this step
 //     -beta s / h       overlap, where position correction works by velocities; else 0
-// A gap with e > 0 that is closing faster than the threshold gets no rows: closing it would take the speed
-// that the impact has to reverse. The bodies then meet with an overlap of at most one step's motion.
+// A gap with e > 0 gets no rows where it is closing faster than the threshold, or is wider than gravity alone
+// closes in a step: closing it would take the speed that the impact has to reverse, or pass on a blow that
+// has not reached it. The bodies then meet with an overlap of at most one step's motion.
 #include "engine/pipeline/contact_set.hpp"
 
 #include <algorithm>
@@ -194,7 +195,8 @@ void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<
     const bool bounces = contact.coefficients.restitution > 0 && approach < -step.restitutionThreshold;
     point.impact = approach < -step.impactSpeed;
     point.block = Contact<S>::kNoBlock;
-    if (bounces && s > touching) {
+    const bool mayBounce = contact.coefficients.restitution > 0 && s > std::max(touching, step.restingGap);
+    if ((bounces && s > touching) || mayBounce) {
         point.normalImpulse = 0;
         point.frictionImpulse.setZero();
         return;

@@ -49,6 +49,7 @@ template <class S>
 struct ContactStep {
     typename S::Real h;                     ///< [s]
     typename S::Real restitutionThreshold;  ///< [m/s]
+    typename S::Real restingGap;            ///< what gravity may close in this step, generously [m]
     typename S::Real impactSpeed;           ///< faster approaches are impacts: not warm started from [m/s]
     typename S::Real biasFactor;            ///< share of the overlap to remove by velocity; 0: none
     typename S::Real slop;                  ///< [m]

@@ -72,10 +72,12 @@ const StepResult<S>& World<S>::step(Real h) {
     const JointStep<S> jointStep{h, correction_->biasFactor(), warmStart, curved};
     joints_.addRows(bodies_, jointStep, rows_);
     // Twice what gravity adds in a step: a resting contact never approaches that fast.
-    const Real impactSpeed = std::max(def_.restitutionThreshold, Real(2) * h * def_.gravity.norm());
-    contacts_.addRows(
-        bodies_, {h, def_.restitutionThreshold, impactSpeed, correction_->biasFactor(), def_.slop, warmStart},
-        rows_);
+    const Real gravityStep = h * def_.gravity.norm();
+    const Real impactSpeed = std::max(def_.restitutionThreshold, Real(2) * gravityStep);
+    contacts_.addRows(bodies_,
+                      {h, def_.restitutionThreshold, Real(2) * h * gravityStep, impactSpeed,
+                       correction_->biasFactor(), def_.slop, warmStart},
+                      rows_);
     clock.end(Phase::Rows);
 
     integrateVelocities(h);
@@ -84,8 +86,7 @@ const StepResult<S>& World<S>::step(Real h) {
     JointBiases<S> biases(joints_, bodies_, jointStep, rows_);
     const bool first = stepCount_ == 0;
     // A millionth of what gravity adds in a step, or the limit of the precision.
-    const Real converged =
-        std::max(Real(1e-6) * h * def_.gravity.norm(), std::numeric_limits<Real>::epsilon());
+    const Real converged = std::max(Real(1e-6) * gravityStep, std::numeric_limits<Real>::epsilon());
     solver_->solve(
         {rows_, bodies_.velocity, friction_, &biases,
          first ? std::max(def_.firstStepIterations, def_.velocityIterations) : def_.velocityIterations,

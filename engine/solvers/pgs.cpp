@@ -52,32 +52,38 @@ class Pgs final : public Solver<S> {
     }
 
   private:
-    /// Consecutive contact blocks between the same two bodies form a group; so does each joint.
+    /// Consecutive contact blocks between the same two bodies form a group; so do all consecutive joints.
     void findGroups(const std::vector<Block<S>>& blocks) {
         groups_.clear();
         for (std::uint32_t i = 0; i < blocks.size(); ++i) {
-            const bool joins = i > 0 && blocks[i].kind == BlockKind::Contact &&
-                               blocks[i - 1].kind == BlockKind::Contact && blocks[i].a == blocks[i - 1].a &&
-                               blocks[i].b == blocks[i - 1].b;
+            const bool joins = i > 0 && blocks[i].kind == blocks[i - 1].kind &&
+                               (blocks[i].kind == BlockKind::Joint ||
+                                (blocks[i].a == blocks[i - 1].a && blocks[i].b == blocks[i - 1].b));
             if (!joins) groups_.push_back(i);
         }
         groups_.push_back(static_cast<std::uint32_t>(blocks.size()));
     }
 
-    Real solveGroup(const SolverInput<S>& input, std::uint32_t first, std::uint32_t last) {
-        const std::vector<Block<S>>& blocks = input.constraints.blocks;
-        Velocity<S>&a = input.velocities[blocks[first].a], &b = input.velocities[blocks[first].b];
-        if (blocks[first].kind == BlockKind::Joint) return solveJoint(input, blocks[first], a, b);
-        Real removed = 0;
+    /// Returns the residual that the group had when it was visited.
+    static Real solveGroup(const SolverInput<S>& input, std::uint32_t first, std::uint32_t last) {
+        Real found = 0;
         const int sweeps = last - first > 1 ? kInnerSweeps : 1;
         for (int sweep = 0; sweep < sweeps; ++sweep) {
             Real largest = 0;
-            for (std::uint32_t i = first; i < last; ++i)
-                largest = std::max(largest, solveContact(input, blocks[i], a, b));
-            if (sweep == 0) removed = largest;
-            if (largest <= kInnerTolerance * removed) break;
+            for (std::uint32_t k = 0; k < last - first; ++k) {
+                // Joints forwards and backwards; contacts always forwards, which measurably calms stacks.
+                const bool backwards =
+                    sweep % 2 != 0 && input.constraints.blocks[first].kind == BlockKind::Joint;
+                const Block<S>& block = input.constraints.blocks[backwards ? last - 1 - k : first + k];
+                Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
+                largest =
+                    std::max(largest, block.kind == BlockKind::Contact ? solveContact(input, block, a, b)
+                                                                       : solveJoint(input, block, a, b));
+            }
+            if (sweep == 0) found = largest;
+            if (largest <= kInnerTolerance * found) break;
         }
-        return removed;
+        return found;
     }
 
     static Real solveJoint(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
