@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Contacts: penetration as the engine reports it, overlap as the poses show it, normals against closed forms.
+// Source: Ericson, Real-Time Collision Detection, 2005, chapter 5.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "validation/metrics/closed_forms.hpp"
+#include "validation/metrics/metric_parts.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using namespace scenario;
+
+bool anyContactPossible(const Scenario& scenario) {
+    const int count = static_cast<int>(scenario.bodies.size());
+    for (int a = 0; a < count; ++a)
+        for (int b = a + 1; b < count; ++b)
+            if (mayCollide(scenario, a, b)) return true;
+    return false;
+}
+
+std::vector<MetricValue> bodyRows(const MetricInput& input, const std::map<int, Worst>& worst) {
+    std::vector<MetricValue> rows;
+    for (const auto& [body, value] : worst) rows.push_back(value.row(bodyName(input, body)));
+    return withWorst(std::move(rows));
+}
+
+Pose poseOf(const BodyState& state, const Shape& shape) {
+    return Pose{state.position, state.orientation} * shape.pose;
+}
+
+std::optional<PairGeometry> exactPair(const MetricInput& input, const ContactPoint& contact,
+                                      std::size_t frame) {
+    const auto shapeOf = [&](int body, int shape) -> const Shape* {
+        if (body < 0 || static_cast<std::size_t>(body) >= input.scenario.bodies.size()) return nullptr;
+        const auto& shapes = input.scenario.bodies[static_cast<std::size_t>(body)].shapes;
+        return shape >= 0 && static_cast<std::size_t>(shape) < shapes.size()
+                   ? &shapes[static_cast<std::size_t>(shape)]
+                   : nullptr;
+    };
+    const Shape *a = shapeOf(contact.bodyA, contact.shapeA), *b = shapeOf(contact.bodyB, contact.shapeB);
+    if (!a || !b) return std::nullopt;
+    return closedFormPair(a->geometry, poseOf(input.trajectory.state(frame, contact.bodyA), *a), b->geometry,
+                          poseOf(input.trajectory.state(frame, contact.bodyB), *b), input.scenario.dimension);
+}
+
+/// Engines that do not tell which shape touched say 0: only bodies of one shape are judged.
+bool shapesAreKnown(const MetricInput& input, const ContactPoint& contact) {
+    return input.scenario.bodies[static_cast<std::size_t>(contact.bodyA)].shapes.size() == 1 &&
+           input.scenario.bodies[static_cast<std::size_t>(contact.bodyB)].shapes.size() == 1;
+}
+
+double angleBetween(Vec3 a, Vec3 b) {
+    return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+
+}  // namespace
+
+std::vector<MetricValue> penetrationMax(const MetricInput& input) {
+    if (input.trajectory.frames() < 2 || !anyContactPossible(input.scenario)) return {};
+    std::map<int, Worst> worst;
+    for (const int body : observedDynamic(input)) worst[body].add(0.0, -1.0);
+    const std::size_t frames = std::min(input.trajectory.frames(), input.trajectory.contacts.size());
+    Worst all;
+    all.add(0.0, -1.0);
+    for (std::size_t k = 0; k < frames; ++k)
+        for (const auto& contact : input.trajectory.contacts[k]) {
+            all.add(contact.depth, input.trajectory.times[k]);
+            for (const int body : {contact.bodyA, contact.bodyB})
+                if (const auto it = worst.find(body); it != worst.end())
+                    it->second.add(contact.depth, input.trajectory.times[k]);
+        }
+    auto rows = bodyRows(input, worst);
+    if (rows.empty()) return {all.row("")};
+    rows.front() = all.row("");
+    return rows;
+}
+
+std::vector<MetricValue> overlapMax(const MetricInput& input) {
+    const auto& bodies = input.scenario.bodies;
+    const int count = static_cast<int>(bodies.size());
+    std::map<int, Worst> worst;
+    if (input.trajectory.frames() < 2) return {};
+    for (int a = 0; a < count; ++a)
+        for (int b = a + 1; b < count; ++b) {
+            if (!mayCollide(input.scenario, a, b)) continue;
+            for (const auto& sa : bodies[static_cast<std::size_t>(a)].shapes)
+                for (const auto& sb : bodies[static_cast<std::size_t>(b)].shapes)
+                    for (std::size_t k = 0; k < input.trajectory.frames(); ++k) {
+                        const auto pair = closedFormPair(
+                            sa.geometry, poseOf(input.trajectory.state(k, a), sa), sb.geometry,
+                            poseOf(input.trajectory.state(k, b), sb), input.scenario.dimension);
+                        if (!pair) continue;
+                        const double overlap = pair->distance > 0.0 ? 0.0 : -pair->distance;
+                        for (const int body : {a, b})
+                            if (isDynamic(input.scenario, body))
+                                worst[body].add(overlap, input.trajectory.times[k]);
+                    }
+        }
+    return bodyRows(input, worst);
+}
+
+std::vector<MetricValue> normalError(const MetricInput& input) {
+    std::map<int, Worst> worst;
+    const std::size_t frames = std::min(input.trajectory.frames(), input.trajectory.contacts.size());
+    for (std::size_t k = 0; k < frames; ++k)
+        for (const auto& contact : input.trajectory.contacts[k]) {
+            if (contact.bodyA < 0 || contact.bodyB < 0 ||
+                contact.bodyA >= static_cast<int>(input.scenario.bodies.size()) ||
+                contact.bodyB >= static_cast<int>(input.scenario.bodies.size()) ||
+                !shapesAreKnown(input, contact))
+                continue;
+            std::optional<double> error;
+            // The contacts of a step are found at the poses before it, or after: either will do.
+            for (std::size_t back = 0; back <= (k > 0 && input.trajectory.stride == 1 ? 1U : 0U); ++back)
+                if (const auto pair = exactPair(input, contact, k - back)) {
+                    const double angle = angleBetween(contact.normal, pair->normal);
+                    error = error ? std::min(*error, angle) : angle;
+                }
+            if (!error) continue;
+            for (const int body : {contact.bodyA, contact.bodyB})
+                if (isDynamic(input.scenario, body)) worst[body].add(*error, input.trajectory.times[k]);
+        }
+    return bodyRows(input, worst);
+}
+
+}  // namespace rigor::validation

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// When energy is a measure of quality, and beside what.
+#pragma once
+
+#include <optional>
+
+#include "validation/metrics/mechanics.hpp"
+#include "validation/metrics/metric_parts.hpp"
+
+namespace rigor::validation {
+
+/// Energy of the exact solution at time t; empty unless the reference knows every dynamic body in full.
+std::optional<double> exactEnergy(const MetricInput& input, double t);
+/// Kinetic energy of the exact solution, likewise.
+std::optional<double> exactKinetic(const MetricInput& input, double t);
+
+/// Nothing does work on the scene: no constant force, event or moving kinematic body. Friction, impacts, drag
+/// and damping only take energy.
+bool isPassive(const scenario::Scenario& scenario);
+/// The scene keeps its energy: passive, without damping or drag, and either every possible contact is elastic
+/// and frictionless, or the exact solution keeps it (rolling, central elastic impacts).
+bool conservesEnergy(const MetricInput& input);
+
+/// What energies are measured against [J]: the largest kinetic energy of the exact solution where it is known
+/// in full, else of the run, at least that at the start; where nothing moves, sum of m |g| times the bodies'
+/// size. 0 when there is neither motion nor gravity.
+double energyScale(const MetricInput& input);
+
+}  // namespace rigor::validation

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Joints: how far anchors and axes have come apart, from the states alone.
+// Source: constraint functions as in Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems,
+// 1989.
+#include <algorithm>
+#include <cmath>
+
+#include "validation/metrics/metric_parts.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using namespace scenario;
+
+Pose poseOf(const MetricInput& input, std::size_t frame, int body) {
+    if (body == kNone) return {};
+    const BodyState& s = input.trajectory.state(frame, body);
+    return {s.position, s.orientation};
+}
+
+std::optional<double> anchorError(const MetricInput& input, const Joint& joint, std::size_t frame) {
+    const Pose a = poseOf(input, frame, joint.bodyA), b = poseOf(input, frame, joint.bodyB);
+    const Vec3 gap = b * joint.anchorB - a * joint.anchorA;
+    switch (joint.type) {
+        case JointType::Distance:
+            return std::abs(norm(gap) - joint.length);
+        case JointType::Slider: {
+            const Vec3 axis = rotate(a.orientation, joint.axisA);
+            return norm(gap - dot(gap, axis) * axis);
+        }
+        case JointType::Ball:
+        case JointType::Hinge:
+        case JointType::Fixed:
+            break;
+    }
+    return norm(gap);
+}
+
+std::optional<double> axisError(const MetricInput& input, const Joint& joint, std::size_t frame) {
+    const Pose a = poseOf(input, frame, joint.bodyA), b = poseOf(input, frame, joint.bodyB);
+    if (joint.type == JointType::Hinge) {
+        if (input.scenario.dimension == 2) return std::nullopt;
+        const Vec3 x = rotate(a.orientation, joint.axisA), y = rotate(b.orientation, joint.axisB);
+        return std::atan2(norm(cross(x, y)), dot(x, y));
+    }
+    if (joint.type != JointType::Slider && joint.type != JointType::Fixed) return std::nullopt;
+    const auto initial = [&](int body) {
+        return body == kNone ? Quat{}
+                             : input.scenario.bodies[static_cast<std::size_t>(body)].pose.orientation;
+    };
+    const Quat start = conjugate(initial(joint.bodyA)) * initial(joint.bodyB);
+    return rotationAngle(start, conjugate(a.orientation) * b.orientation);
+}
+
+template <class Error>
+std::vector<MetricValue> jointRows(const MetricInput& input, Error error) {
+    std::vector<MetricValue> rows;
+    if (input.trajectory.frames() < 2) return rows;
+    for (const auto& joint : input.scenario.joints) {
+        Worst worst;
+        for (std::size_t k = 0; k < input.trajectory.frames(); ++k)
+            if (const auto value = error(input, joint, k)) worst.add(*value, input.trajectory.times[k]);
+        if (worst.any()) rows.push_back(worst.row(joint.name));
+    }
+    return withWorst(std::move(rows));
+}
+
+}  // namespace
+
+std::vector<MetricValue> jointDrift(const MetricInput& input) {
+    return jointRows(input, anchorError);
+}
+
+std::vector<MetricValue> jointAxisDrift(const MetricInput& input) {
+    return jointRows(input, axisError);
+}
+
+}  // namespace rigor::validation
