@@ -68,7 +68,8 @@ adapter::Capabilities capabilitiesFromJson(const json& j) {
 }
 
 void readDescription(const json& j, EngineDescription& d) {
-    d.info = {j.at("name"), j.at("version"), j.at("precision"), j.at("title"), j.at("build_notes")};
+    // The name is the one its module goes by: specs and reports use that.
+    d.info = {d.info.name, j.at("version"), j.at("precision"), j.at("title"), j.at("build_notes")};
     d.capabilities = capabilitiesFromJson(j.at("capabilities"));
     for (const json& o : j.at("options")) d.options.push_back(optionFromJson(o));
 }
@@ -77,9 +78,9 @@ void readDescription(const json& j, EngineDescription& d) {
 std::string lastLine(const std::string& output) {
     const auto end = output.find_last_not_of(" \n\r");
     if (end == std::string::npos) return "";
-    const auto begin = output.rfind('\n', end);
-    return output.substr(begin == std::string::npos ? 0 : begin + 1,
-                         end - (begin == std::string::npos ? 0 : begin + 1) + 1);
+    const auto newline = output.rfind('\n', end);
+    const auto begin = newline == std::string::npos ? 0 : newline + 1;
+    return output.substr(begin, end - begin + 1);
 }
 
 }  // namespace
@@ -101,8 +102,7 @@ int describeChild(const std::string& engine, const std::filesystem::path& answer
     const adapter::EngineInfo info = loaded->info();
     json options = json::array();
     for (const auto& o : loaded->options()) options.push_back(optionToJson(o));
-    writeJsonFile(answer, {{"name", info.name},
-                           {"version", info.version},
+    writeJsonFile(answer, {{"version", info.version},
                            {"precision", info.precision},
                            {"title", info.title},
                            {"build_notes", info.buildNotes},
@@ -118,7 +118,7 @@ std::vector<EngineDescription> describeEngines(const std::vector<std::string>& e
     std::vector<EngineDescription> descriptions(engines.size());
     for (std::size_t i = 0; i < engines.size(); ++i) {
         EngineDescription& d = descriptions[i];
-        d.info.name = engines[i];
+        d.info.name = adapter::parseSpec(engines[i]).engine;
         const auto answer = scratch.path() / (std::to_string(i) + ".json");
         pool.add({{binary.string(), "__describe", engines[i], answer.string()},
                   kDescribeLimits,

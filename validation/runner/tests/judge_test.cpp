@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/runner/judge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "validation/runner/runner.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using results::Outcome;
+using results::Verdict;
+using scenario::Scenario;
+
+Scenario judged() {
+    Scenario s;
+    s.timeSteps = {0.1, 0.01};
+    s.accept = {{"*", "", "drift", 1.0, 0.0},
+                {"ode", "", "drift", 2.0, 0.0},
+                {"ode", "matched", "drift", 0.5, 0.0},
+                {"*", "", "scaled", 1.0, 2.0}};
+    s.knownDeviations = {{"ode", "", "drift", 5.0, "a skin"}, {"bullet", "", "crashed", 0.0, "an assertion"}};
+    return s;
+}
+
+struct Row {
+    const char *engine, *preset, *metric;
+    double dt, value;
+    Verdict verdict;
+};
+
+class MetricVerdicts : public testing::TestWithParam<Row> {};
+
+TEST_P(MetricVerdicts, FollowTheTable) {
+    const Row& c = GetParam();
+    results::MetricRow row;
+    row.name = c.metric, row.value = c.value;
+    judgeMetric(row, judged(), c.engine, c.preset, c.dt);
+    EXPECT_STREQ(results::verdictName(row.verdict), results::verdictName(c.verdict));
+    EXPECT_EQ(row.note, c.verdict == Verdict::KnownDeviation ? "a skin" : "");
+}
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+INSTANTIATE_TEST_SUITE_P(
+    Table, MetricVerdicts,
+    testing::Values(Row{"box2d", "default", "drift", 0.1, 1.0, Verdict::Pass},        // exactly at the bound
+                    Row{"box2d", "default", "drift", 0.1, 1.0000001, Verdict::Fail},  // "*" binds the unnamed
+                    Row{"ode", "default", "drift", 0.1, 1.9, Verdict::Pass},          // named beats "*"
+                    Row{"ode", "default", "drift", 0.1, 2.1, Verdict::KnownDeviation},  // over, but recorded
+                    Row{"ode", "default", "drift", 0.1, 5.1, Verdict::Fail},            // beyond the record
+                    Row{"ode", "matched", "drift", 0.1, 0.6, Verdict::KnownDeviation},  // preset beats name
+                    Row{"ode", "matched", "drift", 0.1, 0.4, Verdict::Pass},
+                    Row{"ode", "default", "drift", 0.1, kNaN, Verdict::Fail},  // NaN is never within
+                    Row{"box2d", "default", "drift", 0.1, kNaN, Verdict::Fail},
+                    Row{"box2d", "default", "unbounded", 0.1, 1e9, Verdict::Pass},
+                    Row{"box2d", "default", "scaled", 0.1, 0.99, Verdict::Pass},
+                    Row{"box2d", "default", "scaled", 0.01, 0.011, Verdict::Fail},  // 1 * (0.01/0.1)^2
+                    Row{"box2d", "default", "scaled", 0.01, 0.0099, Verdict::Pass},
+                    Row{"box2d", "default", "scaled", 0.2, 3.9, Verdict::Pass}));
+
+results::CaseRow caseWith(const std::string& engine, Outcome outcome) {
+    results::CaseRow row;
+    row.engine = engine, row.preset = "default", row.outcome = outcome;
+    judgeCase(row, judged());
+    return row;
+}
+
+TEST(CaseVerdict, FollowsTheOutcome) {
+    EXPECT_EQ(caseWith("ode", Outcome::Completed).verdict, Verdict::Pass);
+    EXPECT_EQ(caseWith("ode", Outcome::Unsupported).verdict, Verdict::Unsupported);
+    EXPECT_EQ(caseWith("ode", Outcome::Crashed).verdict, Verdict::Crashed);
+    EXPECT_EQ(caseWith("ode", Outcome::OutOfMemory).verdict, Verdict::Crashed);
+    EXPECT_EQ(caseWith("ode", Outcome::Timeout).verdict, Verdict::Timeout);
+    EXPECT_EQ(caseWith("ode", Outcome::NonFinite).verdict, Verdict::NonFinite);
+    EXPECT_EQ(caseWith("ode", Outcome::Error).verdict, Verdict::Fail);
+    EXPECT_EQ(caseWith("bullet", Outcome::Crashed).verdict, Verdict::KnownDeviation) << "a recorded crash";
+    EXPECT_EQ(caseWith("bullet", Outcome::Timeout).verdict, Verdict::Timeout)
+        << "another ending is not recorded";
+}
+
+TEST(CaseVerdict, TheWorstMetricDecides) {
+    results::CaseRow row;
+    row.engine = "ode";
+    row.metrics.resize(3);
+    row.metrics[1].name = "depth", row.metrics[1].note = "a skin",
+    row.metrics[1].verdict = Verdict::KnownDeviation;
+    judgeCase(row, judged());
+    EXPECT_EQ(row.verdict, Verdict::KnownDeviation);
+    EXPECT_EQ(row.reason, "depth: a skin");
+    row.metrics[2].name = "energy", row.metrics[2].verdict = Verdict::Fail;
+    judgeCase(row, judged());
+    EXPECT_EQ(row.verdict, Verdict::Fail);
+    EXPECT_EQ(row.reason, "energy misses its bound");
+}
+
+TEST(CaseVerdict, WhatWasBuiltMustBeWhatWasAskedFor) {
+    results::CaseRow row;
+    row.engine = "ode";
+    row.readBack = {{"mass", "block", 2.0, 2.0, 0.0, true}, {"inertia", "block", 1.0, 3.0, 2.0, false}};
+    judgeCase(row, judged());
+    EXPECT_EQ(row.verdict, Verdict::Fail);
+    EXPECT_EQ(row.reason, "read-back, inertia of block: found 3, expected 1");
+    row.reason.clear();
+    row.ledger = {{"inertia", "exact", "box", "approximate", "the library has no other"}};
+    judgeCase(row, judged());
+    EXPECT_EQ(row.verdict, Verdict::Pass);
+    row.ledger[0].realisation = "exact";
+    judgeCase(row, judged());
+    EXPECT_EQ(row.verdict, Verdict::Fail) << "a ledger that claims exactness excuses nothing";
+}
+
+TEST(Green, IsWhatTheExitCodeSays) {
+    const auto green = [](const std::string& engine, Verdict verdict) {
+        results::Run run;
+        run.cases.resize(2);
+        run.cases[1].engine = engine, run.cases[1].verdict = verdict;
+        return runIsGreen(run);
+    };
+    for (const std::string engine : {"ode", kInHouseEngine}) {
+        EXPECT_TRUE(green(engine, Verdict::Pass));
+        EXPECT_TRUE(green(engine, Verdict::Unsupported));
+        EXPECT_FALSE(green(engine, Verdict::Fail));
+        EXPECT_FALSE(green(engine, Verdict::Crashed));
+        EXPECT_FALSE(green(engine, Verdict::Timeout));
+        EXPECT_FALSE(green(engine, Verdict::NonFinite));
+    }
+    EXPECT_TRUE(green("ode", Verdict::KnownDeviation));
+    EXPECT_FALSE(green(kInHouseEngine, Verdict::KnownDeviation)) << "it may not excuse itself";
+}
+
+}  // namespace
+}  // namespace rigor::validation

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Whole runs with engines of known faults: each costs its own row and nothing else; a run that was killed is
+// finished by another process with the same results.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "validation/results/store.hpp"
+#include "validation/results/trajectory_file.hpp"
+#include "validation/runner/answer.hpp"
+#include "validation/runner/process_pool.hpp"
+#include "validation/runner/tests/fixtures.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using fixtures::plan;
+using fixtures::thrownBall;
+using results::Outcome;
+using results::Verdict;
+using testing::HasSubstr;
+
+using RunCases = fixtures::RunnerTest;
+
+/// Everything of a run that must not depend on when and beside what it ran.
+std::string timeless(const results::Run& run) {
+    std::string text;
+    for (results::CaseRow row : run.cases) {
+        row.wallSeconds = row.cpuSeconds = 0.0;
+        row.peakMemoryKiB = 0;
+        row.timings.clear();
+        row.command.clear();  // names the folder
+        text += caseToJson(row).dump() + "\n";
+    }
+    return text;
+}
+
+/// Bit for bit, NaN included.
+bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
+void expectSameMotion(const results::TrajectoryFile& a, const results::TrajectoryFile& b) {
+    EXPECT_TRUE(sameBits(a.times, b.times)) << a.spec;
+    ASSERT_EQ(a.bodies.size(), b.bodies.size());
+    for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+        EXPECT_TRUE(sameBits(a.bodies[i].position.values, b.bodies[i].position.values)) << a.spec;
+        EXPECT_TRUE(sameBits(a.bodies[i].velocity.values, b.bodies[i].velocity.values)) << a.spec;
+    }
+    ASSERT_EQ(a.series.size(), b.series.size());
+    for (std::size_t i = 0; i < a.series.size(); ++i)
+        EXPECT_TRUE(sameBits(a.series[i].channel.values, b.series[i].channel.values)) << a.series[i].name;
+}
+
+const results::CaseRow& rowOf(const results::Run& run, const std::string& engine) {
+    for (const auto& row : run.cases)
+        if (row.engine == engine) return row;
+    throw std::runtime_error("no row of " + engine);
+}
+
+TEST_F(RunCases, AGoodCaseHasEverything) {
+    const auto run =
+        RunCases::run(plan({thrownBall("ball")}, "double_free_flight:preset=matched"), options());
+    ASSERT_EQ(run.cases.size(), 1u);
+    const auto& c = run.cases[0];
+    EXPECT_EQ(c.outcome, Outcome::Completed);
+    EXPECT_EQ(c.verdict, Verdict::Pass) << c.reason;
+    EXPECT_EQ(c.spec, "double_free_flight:preset=matched");
+    EXPECT_EQ(c.preset, "matched");
+    EXPECT_EQ(c.steps, 64);
+    EXPECT_EQ(c.settings.at("pause_us"), "0");
+    EXPECT_GT(c.peakMemoryKiB, 1000);
+    EXPECT_GT(c.wallSeconds, 0.0);
+    EXPECT_EQ(c.command, "./rigor run " + (options().directory / "scenarios/ball.json").string() +
+                             " --engine double_free_flight:preset=matched --dt 0.0078125");
+    EXPECT_TRUE(std::filesystem::exists(options().directory / "scenarios/ball.json"));
+    EXPECT_THAT(c.readBack, testing::SizeIs(testing::Gt(8u)));
+    // Symplectic Euler is off by g t h / 2 at the end: |g| = 3.7914 m/s^2.
+    const double gravity = std::sqrt(0.25 + 3.75 * 3.75 + 0.0625);
+    ASSERT_FALSE(c.metrics.empty());
+    EXPECT_EQ(c.metrics[0].name, "position_final") << "what matters to the scenario comes first";
+    EXPECT_EQ(c.metrics[0].subject, "");
+    EXPECT_NEAR(c.metrics[0].value, 0.5 * gravity * 0.5 * 0.0078125, 1e-12);
+    EXPECT_FALSE(run.finished.empty());
+    EXPECT_EQ(run.plannedCases, 1);
+    for (const char* key : {"cpu", "cores", "kernel", "compiler", "flags", "rigor"})
+        EXPECT_FALSE(run.environment.at(key).empty()) << key;
+}
+
+TEST_F(RunCases, TheTrajectoryFileHoldsRunAndReference) {
+    const auto run =
+        RunCases::run(plan({thrownBall("ball")}, "double_free_flight:preset=default"), options());
+    const auto file = results::readTrajectory(options().directory / run.cases[0].trajectoryFile);
+    ASSERT_EQ(file.times.size(), 65u);
+    ASSERT_EQ(file.bodies.size(), 2u);
+    EXPECT_EQ(file.bodies[1].name, "ball");
+    ASSERT_EQ(file.reference.size(), 1u);
+    EXPECT_EQ(file.reference[0].name, "ball");
+    const double h = 0.0078125;
+    const scenario::Vec3 g{0.5, -3.75, 0.25};
+    for (std::size_t n = 0; n < 65; ++n) {
+        const double t = static_cast<double>(n) * h;
+        const double error =
+            file.bodies[1].position.values[3 * n + 1] - file.reference[0].position.values[3 * n + 1];
+        EXPECT_NEAR(error, 0.5 * g.y * t * h, 1e-12) << n;
+    }
+    EXPECT_FALSE(file.series.empty());
+    for (const auto& s : file.series) EXPECT_EQ(s.channel.values.size(), 65u) << s.name;
+}
+
+/// The faulty engines and the good one: one red row each, the good rows as if they had been alone.
+TEST_F(RunCases, EveryFaultCostsOneRow) {
+    std::string text = thrownBall("ball", R"(, "time_limit": 4)");
+    auto o = options();
+    o.memoryLimitMiB = 256;
+    const std::string faults =
+        "double_abort,double_segfault,double_hang,double_nan,double_exit,double_throw,double_heavy,double_"
+        "out_of_memory";
+    std::string specs;
+    for (const auto& spec : adapter::parseSpecList(faults)) specs += spec.engine + ":preset=default,";
+    const auto cases = plan({text}, specs + "double_free_flight:preset=default");
+    const auto run = RunCases::run(cases, o);
+    ASSERT_EQ(run.cases.size(), 9u);
+
+    struct Expected {
+        const char* engine;
+        Outcome outcome;
+        Verdict verdict;
+        const char* reason;
+    };
+    for (const Expected& e :
+         {Expected{"double_abort", Outcome::Crashed, Verdict::Crashed, "SIGABRT"},
+          Expected{"double_abort", Outcome::Crashed, Verdict::Crashed, "assertion failed: mass > 0"},
+          Expected{"double_hang", Outcome::Timeout, Verdict::Timeout, "no end within 4 s"},
+          Expected{"double_nan", Outcome::NonFinite, Verdict::NonFinite, "ball is not finite"},
+          Expected{"double_exit", Outcome::Crashed, Verdict::Crashed, "exit code 0 without an answer"},
+          Expected{"double_throw", Outcome::Error, Verdict::Fail, "the library is unhappy"},
+          Expected{"double_heavy", Outcome::Completed, Verdict::Fail, "mass of ball: found 4, expected 2"},
+          Expected{"double_free_flight", Outcome::Completed, Verdict::Pass, ""}}) {
+        const auto& row = rowOf(run, e.engine);
+        EXPECT_STREQ(results::outcomeName(row.outcome), results::outcomeName(e.outcome)) << e.engine;
+        EXPECT_STREQ(results::verdictName(row.verdict), results::verdictName(e.verdict)) << e.engine;
+        EXPECT_THAT(row.reason, HasSubstr(e.reason)) << e.engine;
+    }
+    EXPECT_EQ(rowOf(run, "double_segfault").verdict, Verdict::Crashed);
+    if (timeLimitFactor() == 1.0) {  // sanitizer builds have no memory limit
+        EXPECT_EQ(rowOf(run, "double_out_of_memory").outcome, Outcome::OutOfMemory)
+            << rowOf(run, "double_out_of_memory").reason;
+        EXPECT_EQ(rowOf(run, "double_out_of_memory").verdict, Verdict::Crashed);
+    }
+    EXPECT_FALSE(runIsGreen(run));
+    EXPECT_FALSE(run.finished.empty()) << "the run went to its end";
+    EXPECT_TRUE(rowOf(run, "double_abort").trajectoryFile.empty());
+    EXPECT_FALSE(rowOf(run, "double_nan").trajectoryFile.empty())
+        << "up to the fault there is something to see";
+
+    const auto alone = RunCases::run(plan({text}, "double_free_flight:preset=default"), options("alone"));
+    EXPECT_EQ(rowOf(run, "double_free_flight").stateHash, alone.cases[0].stateHash);
+}
+
+TEST_F(RunCases, UnknownEnginesAndKeysAreRowsToo) {
+    const auto run =
+        RunCases::run(plan({thrownBall("ball")},
+                           "no_such_engine:preset=default,double_free_flight:no_such_key=1,preset=default"),
+                      options());
+    ASSERT_EQ(run.cases.size(), 2u);
+    EXPECT_EQ(run.cases[0].outcome, Outcome::Error);
+    EXPECT_THAT(run.cases[0].reason, HasSubstr("not installed"));
+    EXPECT_EQ(run.cases[1].outcome, Outcome::Error);
+    EXPECT_THAT(run.cases[1].reason, HasSubstr("unknown key 'no_such_key'"));
+    for (const auto& e : run.engines)
+        EXPECT_EQ(e.problem.empty(), e.name != "no_such_engine") << e.name << ": " << e.problem;
+}
+
+TEST_F(RunCases, BoundsDecideTheVerdict) {
+    const auto judged = [&](const std::string& folder, const std::string& bound) {
+        const std::string accept = R"(, "accept": {"*": {"position_final": )" + bound + "}}";
+        return RunCases::run(plan({thrownBall("ball", accept)},
+                                  "double_free_flight:preset=default,double_drifting:preset=default"),
+                             options(folder));
+    };
+    const auto wide = judged("wide", "0.01");  // the scheme's own error is 0.0074 m
+    EXPECT_EQ(rowOf(wide, "double_free_flight").verdict, Verdict::Pass);
+    EXPECT_EQ(rowOf(wide, "double_drifting").verdict, Verdict::Fail) << "a metre off";
+    EXPECT_THAT(rowOf(wide, "double_drifting").reason, HasSubstr("position_final"));
+    const auto narrow = judged("narrow", "0.005");
+    EXPECT_EQ(rowOf(narrow, "double_free_flight").verdict, Verdict::Fail);
+}
+
+/// The reference's assumption (no contact) is broken by the scenario itself: the case runs, the reason is
+/// told, and nothing is compared with an exact solution that does not hold.
+TEST_F(RunCases, AReferenceThatDoesNotHoldIsSaidAndNotUsed) {
+    const auto wrong = fixtures::load(thrownBall("ball", R"(, "accept": {"*": {"position_final": 0.01}})"));
+    auto cases = planCases({wrong}, adapter::parseSpecList("double_free_flight:preset=default"), {});
+    std::string text = wrong.second;
+    const auto at = text.find("free_flight");
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, std::string("free_flight").size(), "no_such_reference");
+    cases[0].scenarioText = text;
+    cases[0].scenario.reference->name = "no_such_reference";
+    const auto run = RunCases::run(cases, options());
+    EXPECT_FALSE(run.scenarios[0].referenceProblem.empty());
+    EXPECT_EQ(run.cases[0].outcome, Outcome::Completed) << run.cases[0].reason;
+    for (const auto& m : run.cases[0].metrics) EXPECT_NE(m.kind, "exact") << m.name;
+}
+
+TEST_F(RunCases, TwoAtATimeGiveTheResultsOfOne) {
+    const auto cases = plan({thrownBall("a"), thrownBall("b"), thrownBall("c")},
+                            "double_free_flight,double_drifting,double_nan");
+    auto serial = options("serial"), parallel = options("parallel");
+    parallel.jobs = 3;
+    const std::string one = timeless(RunCases::run(cases, serial));
+    EXPECT_EQ(one, timeless(RunCases::run(cases, parallel)));
+    EXPECT_EQ(std::count(one.begin(), one.end(), '\n'), 18);
+}
+
+TEST_F(RunCases, ProgressCountsUpAndNamesWhatEnded) {
+    const auto cases = plan({thrownBall("a")}, "double_free_flight,double_abort");
+    std::vector<std::string> ended;
+    Progress last;
+    const std::atomic<bool> never{false};
+    runCases(
+        cases, options(),
+        [&](const Progress& p) {
+            if (p.finished != nullptr) ended.push_back(p.finished->engine);
+            EXPECT_GE(p.done, last.done);
+            last = p;
+        },
+        never);
+    EXPECT_THAT(ended, testing::ElementsAre("double_free_flight", "double_free_flight", "double_abort",
+                                            "double_abort"));
+    EXPECT_EQ(last.done, 4);
+    EXPECT_EQ(last.total, 4);
+    EXPECT_EQ(last.crashed, 2);
+}
+
+TEST_F(RunCases, AnInterruptedRunIsResumed) {
+    const auto cases = plan({thrownBall("a"), thrownBall("b")}, "double_free_flight,double_abort");
+    std::atomic<bool> interrupted{false};
+    const auto partial = runCases(
+        cases, options(), [&](const Progress& p) { interrupted = p.done >= 3; }, interrupted);
+    EXPECT_EQ(partial.cases.size(), 3u);
+    EXPECT_EQ(partial.finished, "");
+    auto o = options();
+    o.resume = true;
+    std::int64_t skipped = 0;
+    const std::atomic<bool> never{false};
+    const auto resumed = runCases(
+        cases, o, [&](const Progress& p) { skipped = p.skipped; }, never);
+    EXPECT_EQ(skipped, 3);
+    EXPECT_FALSE(resumed.finished.empty());
+    EXPECT_EQ(timeless(resumed), timeless(RunCases::run(cases, options("whole"))));
+}
+
+TEST_F(RunCases, ResumingAChangedPlanForgetsWhatIsNoLongerAsked) {
+    RunCases::run(plan({thrownBall("a"), thrownBall("b")}, "double_free_flight"), options());
+    auto o = options();
+    o.resume = true;
+    const auto cases = plan({thrownBall("c"), thrownBall("b")}, "double_free_flight");
+    const auto run = RunCases::run(cases, o);
+    ASSERT_EQ(run.cases.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(run.cases[i].id, cases[i].id);
+}
+
+/// kill -9 in the middle of a run of slow cases, some of them faulty, with the audit on.
+TEST_F(RunCases, AKilledRunIsResumedToTheSameResults) {
+    const auto cases = plan({thrownBall("a"), fixtures::crossingBalls(), thrownBall("c")},
+                            "double_free_flight:pause_us=500,double_abort,double_nan");
+    auto o = options();
+    o.audit = true;
+    const pid_t parent = fork();
+    if (parent == 0) {
+        RunCases::run(cases, o);
+        _exit(0);
+    }
+    std::size_t stored = 0;
+    for (int i = 0; i < 3000 && stored < 7; ++i) {
+        usleep(10000);
+        try {
+            stored = results::readRun(o.directory).cases.size();
+        } catch (const std::runtime_error&) {  // not yet there
+        }
+    }
+    kill(parent, SIGKILL);
+    int status = 0;
+    waitpid(parent, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status)) << "it was to be killed before its end";
+    const auto partial = results::readRun(o.directory);
+    ASSERT_GE(partial.cases.size(), 7u);
+    ASSERT_LT(partial.cases.size(), cases.size());
+
+    o.resume = true;
+    const auto resumed = RunCases::run(cases, o);
+    auto whole = options("whole");
+    whole.audit = true;
+    const auto uninterrupted = RunCases::run(cases, whole);
+    EXPECT_EQ(timeless(resumed), timeless(uninterrupted));
+    for (const auto& row : uninterrupted.cases) {
+        if (row.trajectoryFile.empty()) continue;
+        expectSameMotion(results::readTrajectory(o.directory / row.trajectoryFile),
+                         results::readTrajectory(whole.directory / row.trajectoryFile));
+    }
+}
+
+TEST_F(RunCases, DescribesEnginesAndWhatIsWrongWithThem) {
+    const auto good = describeEngine("double_free_flight", options().binary);
+    EXPECT_EQ(good.problem, "");
+    EXPECT_EQ(good.info.name, "double_free_flight");
+    EXPECT_EQ(good.info.version, "1");
+    EXPECT_EQ(good.info.precision, "f64");
+    EXPECT_TRUE(good.capabilities.dynamics);
+    ASSERT_EQ(good.options.size(), 1u);
+    EXPECT_EQ(good.options[0].key, "pause_us");
+    EXPECT_THAT(good.precisions, testing::ElementsAre("f64"));
+    EXPECT_THAT(describeEngine("no_such_engine", options().binary).problem, HasSubstr("not installed"));
+}
+
+}  // namespace
+}  // namespace rigor::validation
