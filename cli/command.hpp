@@ -5,13 +5,17 @@
 // nothing else.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "scenarios/loader/loader.hpp"
+namespace CLI {
+class App;
+}
+namespace rigor::scenario {
+class LoadError;
+}
 
 namespace rigor::cli {
 

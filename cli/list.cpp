@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "adapters/interface/registry.hpp"
 #include "cli/command.hpp"
 #include "engine/pipeline/algorithms.hpp"
+#include "scenarios/loader/loader.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/references/reference.hpp"
 #include "validation/runner/runner.hpp"

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string_view>
 
 #include "adapters/interface/types.hpp"
 #include "cli/command.hpp"
+#include "scenarios/loader/loader.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "reports/report.hpp"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 #include "cli/command.hpp"

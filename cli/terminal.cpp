@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string_view>
 
 #include "cli/command.hpp"
@@ -52,22 +52,6 @@ double parseTimeStep(const std::string& text) {
     if (!(dt >= 1e-7 && dt <= 1.0))
         throw std::invalid_argument("--dt: found '" + text + "', expected 1e-7 to 1 s");
     return dt;
-}
-
-void printProblems(const scenario::LoadError& error, bool json) {
-    if (!json) {
-        for (const auto& problem : error.problems()) std::fprintf(stderr, "%s\n", problem.text().c_str());
-        return;
-    }
-    auto list = nlohmann::json::array();
-    for (const auto& p : error.problems())
-        list.push_back({{"id", p.id},
-                        {"file", p.file},
-                        {"pointer", p.pointer},
-                        {"line", p.line},
-                        {"found", p.found},
-                        {"expected", p.expected}});
-    std::printf("%s\n", list.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
 }
 
 }  // namespace rigor::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 #include <csignal>
 #include <ctime>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
 #include "reports/report.hpp"
+#include "scenarios/loader/loader.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace rigor::cli {
