@@ -124,13 +124,18 @@ void expectSameMoved(const Manifold<S>& m, const Manifold<S>& moved, const Pose<
 /// The same pair carried through the world as one rigid body: same manifold, point by point.
 TYPED_TEST(Pairs, RigidMotionCarriesTheManifold) {
     using S = TypeParam;
-    if (sizeof(typename S::Real) == 4)
-        GTEST_SKIP() << "rounding reorders equal points; the double case tells";
     Random<S> random{std::mt19937(123)};
     this->forEachPair(20, [&](const auto& a, const auto& Xa, const auto& b, const auto& Xb) {
         const Pose<S> by = pose<S>(vec<S>(-3, 5, 2), random.rotation());
-        expectSameMoved<S>(collide<S>(a, Xa, b, Xb), collide<S>(a, compose<S>(by, Xa), b, compose<S>(by, Xb)),
-                           by, 1e-11);
+        const Manifold<S> m = collide<S>(a, Xa, b, Xb);
+        const Manifold<S> moved = collide<S>(a, compose<S>(by, Xa), b, compose<S>(by, Xb));
+        if (sizeof(typename S::Real) == 8) {
+            expectSameMoved<S>(m, moved, by, 1e-11);
+        } else if (leastSeparation(m) < -1e-4) {
+            // In float, rounding may add or drop a point at the edge of a patch: depth and normal.
+            EXPECT_NEAR(leastSeparation(m), leastSeparation(moved), 1e-5);
+            EXPECT_LE((rotate(by.q, m.normal) - moved.normal).norm(), 1e-3);
+        }
     });
 }
 
