@@ -3,7 +3,7 @@
 //
 // Signed distance of two convex cores, less their rounding radii.
 //
-//   sd(A, B) = max over unit n of  min_{b in B} n.b - max_{a in A} n.a      [Cameron1986]
+//   sd(A, B) = max over unit n of  min_{b in B} n.b - max_{a in A} n.a      (Cameron and Culley, ICRA 1986)
 //
 // Cores apart: the least distance over all pairs of features; the normal joins the closest points.
 // Cores overlapping: the maximum is at a facet normal of the Minkowski difference B - A. Every facet is
