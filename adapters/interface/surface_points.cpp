@@ -41,8 +41,8 @@ struct PointDistance {
     std::optional<double> operator()(const scenario::Segment&) const { return std::nullopt; }
 };
 
-double gap(const PosedShape& shape, const Vec3& point) {
-    return std::abs(pointDistance(*shape.geometry, inverse(shape.pose) * point).value_or(0.0));
+std::optional<double> distanceTo(const PosedShape& shape, const Vec3& point) {
+    return pointDistance(*shape.geometry, inverse(shape.pose) * point);
 }
 
 }  // namespace
@@ -63,11 +63,16 @@ SurfacePoints surfacePoints(const PosedShape& a, const PosedShape& b, const Vec3
     }
     SurfacePoints best;
     double least = INFINITY;
-    for (const double s : {0.5, 0.0, 1.0}) {
-        const SurfacePoints points{reported + s * depth * normal, reported - (1.0 - s) * depth * normal};
-        const double error = gap(a, points.onA) + gap(b, points.onB);
+    const auto consider = [&](const Vec3& onA) {
+        const SurfacePoints points{onA, onA - depth * normal};
+        const double error = std::abs(distanceTo(a, points.onA).value_or(0.0)) +
+                             std::abs(distanceTo(b, points.onB).value_or(0.0));
         if (error < least - 1e-12) least = error, best = points;
-    }
+    };
+    for (const double s : {0.5, 0.0, 1.0}) consider(reported + s * depth * normal);
+    // The normal leads out of A and into B: one step along it reaches a surface that is not too curved.
+    if (const auto d = distanceTo(a, reported)) consider(reported - *d * normal);
+    if (const auto d = distanceTo(b, reported)) consider(reported + (*d + depth) * normal);
     return best;
 }
 

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What an adapter says about itself and its world, and what it refuses.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <set>
+
+#include "adapters/conformance/kit.hpp"
+
+namespace rigor::conformance {
+namespace {
+
+using scenario::Box;
+using scenario::Capsule;
+using scenario::Cone;
+using scenario::ConvexHull;
+using scenario::Cylinder;
+using scenario::HalfSpace;
+using scenario::Segment;
+using scenario::Sphere;
+
+TEST(Describe, FacesAndCapabilitiesAgree) {
+    const auto info = engine().info();
+    const auto capabilities = engine().capabilities();
+    EXPECT_EQ(info.name, engineSpec().engine);
+    EXPECT_FALSE(info.version.empty());
+    EXPECT_FALSE(info.title.empty());
+    EXPECT_TRUE(info.precision == "f32" || info.precision == "f64") << info.precision;
+    EXPECT_EQ(capabilities.dynamics, engine().dynamics() != nullptr);
+    EXPECT_EQ(capabilities.collision, engine().collision() != nullptr);
+    EXPECT_EQ(capabilities.broadPhase, engine().broadPhase() != nullptr);
+    EXPECT_FALSE(queryDimensions().empty());
+}
+
+TEST(Describe, EveryOptionTakesItsOwnDefaults) {
+    std::set<std::string> keys;
+    for (const auto& option : engine().options()) {
+        SCOPED_TRACE(option.key);
+        EXPECT_TRUE(keys.insert(option.key).second) << "listed twice";
+        EXPECT_NE(option.key, "preset");
+        EXPECT_FALSE(option.help.empty());
+        for (const auto& value : {option.defaultValue, option.matchedValue}) {
+            auto spec = engineSpec();
+            spec.options[option.key] = value;
+            EXPECT_EQ(adapter::resolveSettings(spec, engine()).at(option.key), value);
+        }
+    }
+}
+
+class Build : public DynamicsTest {};
+INSTANTIATE_TEST_SUITE_P(Kit, Build, testing::ValuesIn(dynamicsArenas()), arenaName);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Build);
+
+TEST_P(Build, ReadBackIsTheScenario) {
+    Scenario s = scene(0.3, 0.2);
+    s.gravity = {0.5, -9.81, 0.0};
+    s.materials.push_back({"other", 0.6, 0.8, 500.0});
+    s.pairs.push_back({0, 1, 0.45, 0.15});
+    addStatic(s, block({5, 1, 5}), {0, -1, 0});
+    addBody(s, block({0.3, 0.2, 0.4}), flat({1, 2, 3}), 2.0, {0.2, 0.3, 0.4});
+    addBody(s, ball(0.4), flat({-1, 2, 1}), 3.0, {0.5, 0.5, 0.5});
+    s.bodies[2].shapes[0].material = 1;
+    Body& turned = s.bodies[1];
+    turned.pose.orientation =
+        is2d() ? fromAxisAngle({0, 0, 1}, -0.8) : fromAxisAngle(Vec3{1, -2, 2} / 3.0, 0.8);
+    turned.velocity = flat({0.1, -0.2, 0.3});
+    turned.angularVelocity = is2d() ? Vec3{0, 0, 0.7} : Vec3{0.4, -0.5, 0.6};
+    if (!is2d()) {
+        const Mat3 axes = toMatrix(fromAxisAngle({0, 0.6, 0.8}, 0.5));
+        turned.massProperties.inertia = axes * turned.massProperties.inertia * transpose(axes);
+    }
+    if (engine().capabilities().centerOfMassOffset)
+        turned.massProperties.centerOfMass = flat({0.05, -0.1, 0.02});
+    if (engine().capabilities().gravityScale) s.bodies[2].gravityScale = 0.5;
+    const auto back = build(s, 0.01)->readBack();
+    ASSERT_EQ(back.bodies.size(), s.bodies.size());
+    const double eps = tol(1e-12, 1e-5);
+    EXPECT_EQ(back.bodies[0].mass, 0.0);
+    for (std::size_t i = 1; i < s.bodies.size(); ++i) {
+        SCOPED_TRACE(s.bodies[i].name);
+        const Body& body = s.bodies[i];
+        const auto& read = back.bodies[i];
+        EXPECT_NEAR(read.mass, body.massProperties.mass, eps * body.massProperties.mass);
+        EXPECT_LE(norm(read.centerOfMass - body.massProperties.centerOfMass), eps);
+        for (int r = is2d() ? 2 : 0; r < 3; ++r)
+            for (int c = is2d() ? 2 : 0; c < 3; ++c)
+                EXPECT_NEAR(read.inertia(r, c), body.massProperties.inertia(r, c), eps) << r << "," << c;
+        EXPECT_LE(norm(read.state.position - body.pose.position), 4 * eps);
+        EXPECT_LE(angleBetween(read.state.orientation, body.pose.orientation), tol(1e-7, 1e-3));
+        EXPECT_LE(norm(read.state.velocity - body.velocity), eps);
+        EXPECT_LE(norm(read.state.angularVelocity - body.angularVelocity), eps);
+        EXPECT_LE(norm(read.gravity - body.gravityScale * s.gravity), 10 * eps);
+    }
+    std::set<std::pair<int, int>> told;
+    for (const auto& pair : back.pairs) {
+        const auto expected = scenario::pairCoefficients(s, pair.materialA, pair.materialB);
+        EXPECT_NEAR(pair.friction, expected.friction, 1e-6);
+        EXPECT_NEAR(pair.restitution, expected.restitution, 1e-6);
+        told.insert(std::minmax(pair.materialA, pair.materialB));
+    }
+    EXPECT_TRUE(told.contains({0, 0}) && told.contains({0, 1})) << "pairs that can meet are read back";
+}
+
+TEST_P(Build, TheLedgerExplainsWhatDiffers) {
+    Scenario s = scene();
+    addBody(s, ball(0.5), {});
+    const auto lines = build(s, 0.01)->ledger();
+    EXPECT_FALSE(lines.empty());
+    std::set<std::string> topics;
+    for (const auto& line : lines) {
+        SCOPED_TRACE(line.topic);
+        EXPECT_TRUE(topics.insert(line.topic).second) << "listed twice";
+        EXPECT_FALSE(line.topic.empty() || line.resolved.empty());
+        EXPECT_EQ(line.reason.empty(), line.realisation == adapter::Realisation::Exact);
+    }
+}
+
+TEST_P(Build, StepsRepeatBitForBitAndWorldsDoNotMeet) {
+    const auto pile = [&](double shift) {
+        Scenario s = scene(0.4, 0.3);
+        s.gravity = {0, -9.81, 0};
+        addStatic(s, block({5, 1, 5}), {0, -1, 0});
+        for (int i = 0; i < 5; ++i)
+            addBody(s, block({0.3, 0.2, 0.25}), flat({0.15 * (i % 2) + shift, 0.3 + 0.5 * i, 0.05 * i}),
+                    1.0 + i, boxMoments(1.0 + i, {0.3, 0.2, 0.25}));
+        return s;
+    };
+    const auto bitsOf = [](const adapter::World& world, const Scenario& s) {
+        std::vector<BodyState> states(s.bodies.size());
+        world.readStates(states);
+        return states;
+    };
+    const Scenario s = pile(0.0), other = pile(0.11);
+    auto alone = build(s, 1.0 / 120.0);
+    run(*alone, 150);
+    const auto expected = bitsOf(*alone, s);
+    auto interleaved = build(s, 1.0 / 120.0), neighbour = build(other, 1.0 / 120.0);
+    for (int i = 0; i < 150; ++i) {
+        interleaved->step();
+        neighbour->step();
+    }
+    const auto found = bitsOf(*interleaved, s);
+    EXPECT_EQ(std::memcmp(expected.data(), found.data(), expected.size() * sizeof(BodyState)), 0);
+}
+
+TEST_P(Build, WhatTheEngineLacksIsRefusedByName) {
+    const std::pair<const char*, Geometry> shapes[] = {{is2d() ? "circle" : "sphere", Sphere{0.5}},
+                                                       {"box", block({0.5, 0.5, 0.5})},
+                                                       {"capsule", Capsule{0.2, 0.3}},
+                                                       {"cylinder", Cylinder{0.2, 0.3}},
+                                                       {"cone", Cone{0.2, 0.3}},
+                                                       {is2d() ? "half_plane" : "half_space", HalfSpace{}},
+                                                       {"segment", Segment{{-1, 0, 0}, {1, 0, 0}}}};
+    for (const auto& [name, geometry] : shapes) {
+        const bool only3d = std::string(name) == "cylinder" || std::string(name) == "cone";
+        if ((is2d() && only3d) || (!is2d() && std::string(name) == "segment")) continue;
+        SCOPED_TRACE(name);
+        Scenario s = scene();
+        addStatic(s, geometry);
+        addBody(s, ball(0.1), {0, 3, 0});
+        if (hasShape(name)) {
+            EXPECT_NO_THROW(build(s, 0.01)->step());
+            continue;
+        }
+        try {
+            build(s, 0.01);
+            ADD_FAILURE() << "built without the shape";
+        } catch (const adapter::Unsupported& refused) {
+            EXPECT_NE(std::string(refused.what()).find(name), std::string::npos) << refused.what();
+        }
+    }
+    for (const auto type :
+         {JointType::Ball, JointType::Hinge, JointType::Slider, JointType::Fixed, JointType::Distance}) {
+        if (hasJoint(jointName(type))) continue;
+        SCOPED_TRACE(jointName(type));
+        Scenario s = scene();
+        addBody(s, ball(0.1), {});
+        Joint joint;
+        joint.type = type;
+        joint.bodyB = 0;
+        joint.length = 1.0;
+        s.joints.push_back(joint);
+        try {
+            build(s, 0.01);
+            ADD_FAILURE() << "built without the joint";
+        } catch (const adapter::Unsupported& refused) {
+            EXPECT_NE(std::string(refused.what()).find(jointName(type)), std::string::npos) << refused.what();
+        }
+    }
+    const auto dimensions = queryDimensions();
+    for (const int dimension : {2, 3}) {
+        if (std::count(dimensions.begin(), dimensions.end(), dimension) != 0) continue;
+        Scenario s = scene();
+        s.dimension = dimension;
+        addBody(s, ball(0.1), {});
+        s.bodies[0].massProperties.inertia = Mat3::diagonal(0.1, 0.1, 0.1);
+        EXPECT_THROW(build(s, 0.01), adapter::Unsupported);
+    }
+}
+
+TEST_P(Build, InputThatMustNotReachALibraryIsRefused) {
+    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = INFINITY;
+    using Spoil = std::function<void(Scenario&)>;
+    const std::pair<const char*, Spoil> spoilers[] = {
+        {"position NaN", [&](Scenario& s) { s.bodies[0].pose.position.y = nan; }},
+        {"velocity infinite", [&](Scenario& s) { s.bodies[0].velocity.x = inf; }},
+        {"angular velocity NaN", [&](Scenario& s) { s.bodies[0].angularVelocity.z = nan; }},
+        {"orientation zero",
+         [&](Scenario& s) {
+             s.bodies[0].pose.orientation = {0, 0, 0, 0};
+         }},
+        {"orientation not unit",
+         [&](Scenario& s) {
+             s.bodies[0].pose.orientation = {2, 0, 0, 0};
+         }},
+        {"mass zero", [&](Scenario& s) { s.bodies[0].massProperties.mass = 0.0; }},
+        {"mass negative", [&](Scenario& s) { s.bodies[0].massProperties.mass = -1.0; }},
+        {"mass NaN", [&](Scenario& s) { s.bodies[0].massProperties.mass = nan; }},
+        {"inertia zero", [&](Scenario& s) { s.bodies[0].massProperties.inertia = {}; }},
+        {"inertia negative",
+         [&](Scenario& s) { s.bodies[0].massProperties.inertia = Mat3::diagonal(1, 1, -1); }},
+        {"gravity NaN", [&](Scenario& s) { s.gravity.y = nan; }},
+        {"radius zero", [&](Scenario& s) { s.bodies[0].shapes[0].geometry = Sphere{0.0}; }},
+        {"radius negative", [&](Scenario& s) { s.bodies[0].shapes[0].geometry = Sphere{-1.0}; }},
+        {"box flat",
+         [&](Scenario& s) {
+             s.bodies[0].shapes[0].geometry = Box{{0.5, 0.0, 0.5}};
+         }},
+        {"capsule NaN",
+         [&](Scenario& s) {
+             s.bodies[0].shapes[0].geometry = Capsule{0.1, nan};
+         }},
+        {"hull empty", [&](Scenario& s) { s.bodies[0].shapes[0].geometry = ConvexHull{}; }},
+        {"hull on a line",
+         [&](Scenario& s) {
+             s.bodies[0].shapes[0].geometry = ConvexHull{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}};
+         }},
+        {"material unknown", [&](Scenario& s) { s.bodies[0].shapes[0].material = 7; }},
+        {"damping zero", [&](Scenario& s) { s.bodies[0].linearVelocityKept = 0.0; }},
+        {"joint to nobody",
+         [&](Scenario& s) {
+             Joint joint;
+             joint.type = JointType::Hinge;
+             joint.bodyB = 9;
+             s.joints.push_back(joint);
+         }},
+    };
+    for (const auto& [what, spoil] : spoilers) {
+        SCOPED_TRACE(what);
+        Scenario s = scene();
+        addBody(s, ball(0.5), {});
+        spoil(s);
+        EXPECT_THROW(build(s, 0.01), adapter::BadInput);
+    }
+    Scenario s = scene();
+    addBody(s, ball(0.5), {});
+    for (const double dt : {0.0, -0.01, nan, inf}) {
+        SCOPED_TRACE(dt);
+        EXPECT_THROW(build(s, dt), adapter::BadInput);
+    }
+}
+
+}  // namespace
+}  // namespace rigor::conformance

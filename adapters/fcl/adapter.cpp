@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The Flexible Collision Library: collision queries and broad phases, no dynamics.
+#include <fcl/config.h>
+
+#include "adapters/fcl/broadphase.hpp"
+#include "adapters/fcl/collision.hpp"
+
+namespace rigor::fcl_adapter {
+namespace {
+
+class FclEngine final : public adapter::Engine {
+  public:
+    adapter::EngineInfo info() const override {
+        return {"fcl", FCL_VERSION, "f64", "Flexible Collision Library",
+                "libccd solver, asserts on" + std::string(FCL_HAVE_SSE ? ", SSE" : ", no SSE")};
+    }
+    adapter::Capabilities capabilities() const override {
+        adapter::Capabilities c;
+        c.collision = c.broadPhase = true;
+        c.dimensions = {3};
+        c.planar = true;
+        c.shapes = {"sphere", "box",        "capsule", "cylinder", "cone",
+                    "hull",   "half_space", "circle",  "polygon",  "half_plane"};
+        c.signedDistance = true;
+        return c;
+    }
+    std::vector<adapter::Option> options() const override { return {}; }
+    const adapter::CollisionEngine* collision() const override { return &collision_; }
+    const adapter::BroadPhaseEngine* broadPhase() const override { return &broadPhase_; }
+
+  private:
+    FclCollisionEngine collision_;
+    FclBroadPhaseEngine broadPhase_;
+};
+
+std::unique_ptr<adapter::Engine> createEngine() {
+    return std::make_unique<FclEngine>();
+}
+
+}  // namespace
+}  // namespace rigor::fcl_adapter
+
+RIGOR_ADAPTER_MODULE(rigor::fcl_adapter::createEngine)

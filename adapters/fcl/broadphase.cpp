@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// FCL's managers. Each box is a collision object at the identity whose local bounds are overwritten with the
+// box itself, so that no rounding of a centre and sides comes between.
+#include "adapters/fcl/broadphase.hpp"
+
+#include <fcl/broadphase/broadphase_SSaP.h>
+#include <fcl/broadphase/broadphase_SaP.h>
+#include <fcl/broadphase/broadphase_bruteforce.h>
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
+#include <fcl/broadphase/broadphase_interval_tree.h>
+#include <fcl/broadphase/broadphase_spatialhash.h>
+#include <fcl/geometry/shape/box.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "adapters/fcl/shapes.hpp"
+
+namespace rigor::fcl_adapter {
+namespace {
+
+using adapter::Aabb;
+using adapter::Pair;
+using Manager = fcl::BroadPhaseCollisionManagerd;
+
+bool overlap(const Aabb& a, const Aabb& b) {
+    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
+           a.min.z <= b.max.z && b.min.z <= a.max.z;
+}
+
+/// Cells of twice the mean extent over the region of the boxes.
+std::unique_ptr<Manager> spatialHash(std::span<const Aabb> boxes) {
+    fcl::Vector3d low(0, 0, 0), high(1, 1, 1);
+    double extent = 0.0;
+    for (const Aabb& box : boxes) {
+        low = low.cwiseMin(toFcl(box.min));
+        high = high.cwiseMax(toFcl(box.max));
+        const adapter::Vec3 size = box.max - box.min;
+        extent += std::max({size.x, size.y, size.z}) / static_cast<double>(boxes.size());
+    }
+    const double cell = std::max(2.0 * extent, 1e-3 * (high - low).maxCoeff());
+    return std::make_unique<fcl::SpatialHashingCollisionManagerd<>>(cell, low, high);
+}
+
+struct Algorithm {
+    const char* name;
+    std::unique_ptr<Manager> (*create)(std::span<const Aabb> boxes);
+};
+template <class M>
+std::unique_ptr<Manager> createManager(std::span<const Aabb>) {
+    return std::make_unique<M>();
+}
+constexpr Algorithm kAlgorithms[] = {
+    {"naive", createManager<fcl::NaiveCollisionManagerd>},
+    {"ssap", createManager<fcl::SSaPCollisionManagerd>},
+    {"sap", createManager<fcl::SaPCollisionManagerd>},
+    {"interval_tree", createManager<fcl::IntervalTreeCollisionManagerd>},
+    {"spatial_hash", spatialHash},
+    {"dynamic_aabb_tree", createManager<fcl::DynamicAABBTreeCollisionManagerd>},
+    {"dynamic_aabb_tree_array", createManager<fcl::DynamicAABBTreeCollisionManager_Array<double>>},
+};
+
+class FclBroadPhase final : public adapter::BroadPhase {
+  public:
+    explicit FclBroadPhase(const Algorithm& algorithm) : algorithm_(algorithm) {}
+
+    void update(std::span<const Aabb> boxes, std::vector<Pair>& pairs) override {
+        for (const Aabb& box : boxes)
+            if (!isFinite(box.min) || !isFinite(box.max)) throw adapter::BadInput("box: not finite");
+        pairs.clear();
+        if (boxes.empty()) return;
+        if (!manager_ || boxes.size() != objects_.size())
+            rebuild(boxes);
+        else
+            move(boxes);
+        Collector collector{boxes, pairs};
+        manager_->collide(&collector, &Collector::add);
+        std::sort(pairs.begin(), pairs.end());
+        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    }
+
+  private:
+    struct Collector {
+        std::span<const Aabb> boxes;
+        std::vector<Pair>& pairs;
+        static bool add(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* self) {
+            auto& collector = *static_cast<Collector*>(self);
+            const auto [a, b] = std::minmax(indexOf(*p), indexOf(*q));
+            if (a != b && overlap(collector.boxes[static_cast<std::size_t>(a)],
+                                  collector.boxes[static_cast<std::size_t>(b)]))
+                collector.pairs.push_back({a, b});
+            return false;  // go on
+        }
+        static int indexOf(const fcl::CollisionObjectd& object) {
+            return static_cast<int>(reinterpret_cast<std::intptr_t>(object.getUserData()));
+        }
+    };
+
+    void place(std::size_t i, const Aabb& box) {
+        geometries_[i]->aabb_local = fcl::AABBd(toFcl(box.min), toFcl(box.max));
+        objects_[i]->computeAABB();
+    }
+
+    void rebuild(std::span<const Aabb> boxes) {
+        manager_.reset();
+        objects_.clear();
+        geometries_.clear();
+        std::vector<fcl::CollisionObjectd*> raw;
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            geometries_.push_back(std::make_shared<fcl::Boxd>(1.0, 1.0, 1.0));
+            objects_.push_back(std::make_unique<fcl::CollisionObjectd>(geometries_.back()));
+            objects_.back()->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(i)));
+            place(i, boxes[i]);
+            raw.push_back(objects_.back().get());
+        }
+        manager_ = algorithm_.create(boxes);
+        manager_->registerObjects(raw);
+        manager_->setup();
+    }
+
+    void move(std::span<const Aabb> boxes) {
+        for (std::size_t i = 0; i < boxes.size(); ++i) place(i, boxes[i]);
+        manager_->update();
+    }
+
+    const Algorithm& algorithm_;
+    std::vector<std::shared_ptr<fcl::Boxd>> geometries_;
+    std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
+    std::unique_ptr<Manager> manager_;
+};
+
+}  // namespace
+
+std::vector<std::string> FclBroadPhaseEngine::algorithms() const {
+    std::vector<std::string> names;
+    for (const Algorithm& algorithm : kAlgorithms) names.emplace_back(algorithm.name);
+    return names;
+}
+
+std::unique_ptr<adapter::BroadPhase> FclBroadPhaseEngine::create(const std::string& name,
+                                                                 int dimension) const {
+    if (dimension != 2 && dimension != 3)
+        throw adapter::Unsupported("fcl has no broad phase of dimension " + std::to_string(dimension));
+    for (const Algorithm& algorithm : kAlgorithms)
+        if (name == algorithm.name) return std::make_unique<FclBroadPhase>(algorithm);
+    throw adapter::Unsupported("fcl has no broad phase '" + name + "'");
+}
+
+}  // namespace rigor::fcl_adapter

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Shapes as FCL geometries. FCL's capsules, cylinders and cones lie along z, centred, and take the length
+// without caps; boxes take full sides; a half-space is solid where n.x < d.
+#include "adapters/fcl/shapes.hpp"
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include "scenarios/model/hull.hpp"
+
+namespace rigor::fcl_adapter {
+namespace {
+
+using adapter::Pose;
+using adapter::Vec3;
+
+struct ToGeometry {
+    Vec3 origin;          ///< of FCL's frame in the shape's frame
+    bool alongZ = false;  ///< FCL's z axis is our y axis
+
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Sphere& s) {
+        return std::make_shared<fcl::Sphered>(s.radius);
+    }
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Box& b) {
+        const Vec3& h = b.halfExtents;
+        return std::make_shared<fcl::Boxd>(2 * h.x, 2 * h.y, 2 * h.z);
+    }
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Capsule& c) {
+        alongZ = true;
+        return std::make_shared<fcl::Capsuled>(c.radius, 2 * c.halfLength);
+    }
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Cylinder& c) {
+        alongZ = true;
+        return std::make_shared<fcl::Cylinderd>(c.radius, 2 * c.halfLength);
+    }
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Cone& c) {
+        alongZ = true;
+        return std::make_shared<fcl::Coned>(c.radius, 2 * c.halfLength);
+    }
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::ConvexHull& hull) {
+        const scenario::HullMesh mesh = scenario::convexHull3d(hull.vertices);
+        // The solvers start from the frame's origin, which has to be inside.
+        for (const Vec3& v : mesh.vertices) origin += v / static_cast<double>(mesh.vertices.size());
+        auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
+        for (const Vec3& v : mesh.vertices) vertices->push_back(toFcl(v - origin));
+        auto faces = std::make_shared<std::vector<int>>();
+        for (const auto& face : mesh.faces) {
+            faces->push_back(static_cast<int>(face.size()));
+            faces->insert(faces->end(), face.begin(), face.end());
+        }
+        return std::make_shared<fcl::Convexd>(vertices, static_cast<int>(mesh.faces.size()), faces);
+    }
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::HalfSpace& h) {
+        return std::make_shared<fcl::Halfspaced>(toFcl(h.normal), h.offset);
+    }
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Segment&) {
+        throw adapter::Unsupported("fcl has no shape 'segment'");
+    }
+};
+
+fcl::Transform3d toFcl(const Pose& pose) {
+    fcl::Transform3d transform = fcl::Transform3d::Identity();
+    const scenario::Mat3 R = toMatrix(normalized(pose.orientation));
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) transform.linear()(i, j) = R(i, j);
+    transform.translation() = toFcl(pose.position);
+    return transform;
+}
+
+}  // namespace
+
+FclShape toFcl(const adapter::Geometry& geometry, const Pose& pose) {
+    ToGeometry convert;
+    FclShape shape;
+    shape.geometry = std::visit(convert, geometry);
+    // A quarter turn about -x takes z to y.
+    const double half = std::sqrt(0.5);
+    const scenario::Quat turn = convert.alongZ ? scenario::Quat{half, -half, 0, 0} : scenario::Quat{};
+    shape.pose = toFcl(pose * Pose{convert.origin, turn});
+    return shape;
+}
+
+}  // namespace rigor::fcl_adapter
