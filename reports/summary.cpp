@@ -23,7 +23,9 @@ std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t co
     if (cell.cases.empty()) return " ";
     std::string text = shownText(cell.worst).symbol;
     const auto* metric = findMetric(*cell.cases.front(), view.mainMetric(scenario).name);
-    if (metric) return text + " " + shortNumber(metric->value);
+    const bool lost =
+        cell.worst == Shown::Crashed || cell.worst == Shown::Timeout || cell.worst == Shown::NonFinite;
+    if (metric && !lost) return text + " " + shortNumber(metric->value);
     if (cell.worst != Shown::Unsupported) text += std::string(" ") + shownText(cell.worst).word;
     return text;
 }

@@ -71,7 +71,7 @@ Layout layoutOf(const ViewModel& view, std::size_t columns) {
     layout.nameWidth = std::min<std::size_t>(layout.nameWidth, std::max<std::size_t>(12, columns / 3));
     std::size_t widest = 4;
     for (const auto& c : view.columns())
-        widest = std::max({widest, displayWidth(c.engine), displayWidth(c.preset), displayWidth(c.options)});
+        widest = std::max({widest, displayWidth(c.engine), displayWidth(c.preset)});
     const std::size_t room = columns > layout.nameWidth ? columns - layout.nameWidth : 0;
     const std::size_t each = room / std::max<std::size_t>(1, view.columns().size());
     if (each >= std::max<std::size_t>(widest, 10) + 1)
@@ -92,15 +92,20 @@ std::string letter(std::size_t i) {
     return text;
 }
 
-std::vector<std::string> headLines(const ViewModel& view, const Layout& layout, const Painter& paint) {
+std::vector<std::string> headLines(const ViewModel& view, const Layout& layout, std::size_t width,
+                                   const Painter& paint) {
     std::vector<std::string> lines;
     if (layout.letters) {
         std::string head = std::string(layout.nameWidth, ' '), key;
         for (std::size_t c = 0; c < view.columns().size(); ++c) {
             head += " " + pad(letter(c), layout.cellWidth - 1);
-            key += (c ? ", " : "") + letter(c) + " " + plain(view.columns()[c].label);
+            const std::string entry = letter(c) + " " + plain(view.columns()[c].label);
+            if (!key.empty() && displayWidth(key) + displayWidth(entry) + 2 > width)
+                lines.push_back(key + ","), key.clear();
+            key += (key.empty() ? "" : ", ") + entry;
         }
-        lines = {key, paint(head, "1")};
+        lines.push_back(key);
+        lines.push_back(paint(head, "1"));
         return lines;
     }
     const auto row = [&](const auto& text) {
@@ -126,7 +131,7 @@ std::string scenarioLine(const ViewModel& view, std::size_t s, const Layout& lay
         if (!cell.cases.empty()) {
             text = shownText(cell.worst).symbol;
             const auto* m = findMetric(*cell.cases.front(), view.mainMetric(s).name);
-            if (layout.values && m) text += " " + shortNumber(m->value);
+            if (layout.values && m && cell.worst < Shown::NonFinite) text += " " + shortNumber(m->value);
         }
         const std::string padded = pad(text, layout.cellWidth - 1);
         line += " " + (cell.cases.empty() ? padded : paint(padded, colourOf(cell.worst)));
@@ -192,7 +197,7 @@ std::string terminalSummary(const results::Run& run, int lines, int columns, boo
     const auto most = static_cast<std::size_t>(std::max(lines, 6));
     const Layout layout = layoutOf(view, width);
 
-    std::vector<std::string> out = headLines(view, layout, paint);
+    std::vector<std::string> out = headLines(view, layout, width, paint);
     const std::size_t offenderRoom = std::min<std::size_t>(6, most / 4);
     const auto worst = offenderLines(view, offenderRoom, width, paint);
     std::vector<std::string> tail{totalsLine(view, paint)};

@@ -65,7 +65,7 @@ Rigor.chartCard = function (plot, shown, focus) {
     const column = Rigor.run.columns.find((c) => c.spec === line.spec);
     const data = log ? line.points.map((p) => ({x: p.x, y: p.y > 0 ? p.y : null})) : line.points;
     const base = {data, pointRadius: 0, pointHitRadius: 6, tension: 0, spanGaps: false};
-    if (!column) return {...base, label: 'exact reference', borderColor: style('--reference'), borderWidth: 4, order: 1, borderDash: [1, 0]};
+    if (!column) return {...base, label: 'exact reference', borderColor: style('--reference'), borderWidth: 6, order: 1};
     return {...base, label: column.label, spec: line.spec, borderColor: Rigor.engineColour(column.engine), borderDash: Rigor.dashOf(column),
       borderWidth: line.spec === focus ? 3 : 1.6, hidden: !shown(line.spec)};
   };
@@ -77,7 +77,7 @@ Rigor.chartCard = function (plot, shown, focus) {
       animation: false, parsing: false, normalized: true, responsive: true, maintainAspectRatio: false,
       interaction: {mode: 'nearest', axis: 'x', intersect: false},
       scales: {x: {type: 'linear', grid, ticks: {...tick, maxTicksLimit: 7}, title: {display: true, text: 't [s]', color: style('--muted'), font: {size: 11}}},
-        y: {type: log ? 'logarithmic' : 'linear', grid, ticks: {...tick, maxTicksLimit: 7, callback: (v) => Rigor.format(v)}}},
+        y: {type: log ? 'logarithmic' : 'linear', grid, ticks: {...tick, maxTicksLimit: 7, callback: (v) => Rigor.tick(v)}}},
       plugins: {legend: {display: false}, tooltip: {callbacks: {title: (items) => items.length ? `t = ${Rigor.format(items[0].parsed.x)} s` : '',
         label: (item) => `${item.dataset.label}: ${Rigor.format(item.parsed.y)}${Rigor.unit(plot.unit)}`}}}}});
     Rigor.liveCharts.push(chart);
@@ -132,7 +132,7 @@ Rigor.curvesPanel = function (scenario, cases, focus) {
       names.length > 1 ? Rigor.select('Body', names.map((n) => [n, n]), body, (value) => { body = value; draw(); }) : null,
       el('span', {class: 'seg'}, el('button', {class: 'button', onclick: setAll(() => true)}, 'all'),
         presets.map((p) => el('button', {class: 'button', onclick: setAll((c) => c.preset === p)}, p)), el('button', {class: 'button', onclick: setAll(() => false)}, 'none'))),
-    el('div', {class: 'lines'}, hasReference ? el('span', {class: 'lines'}, el('label', {}, Rigor.lineSample('var(--reference)', [], 4), 'exact reference')) : null,
+    el('div', {class: 'lines'}, hasReference ? el('span', {class: 'lines'}, el('label', {}, Rigor.lineSample('var(--reference)', [], 6), 'exact reference')) : null,
       columns.map((c, i) => el('label', {}, boxes[i], Rigor.lineSample(Rigor.engineColour(c.engine), Rigor.dashOf(c), 2), c.label))),
     grid, el('p', {class: 'muted small'}, 'Thinned for viewing to about 200 points that keep the extremes; the full series are in the trajectory files.'));
 };

@@ -38,6 +38,8 @@ Rigor.format = function (value) {
   if (size < 1e-3 || size >= 1e5) return v.toExponential(2).replace('e+', 'e').replace('-', v < 0 ? '−' : '-');
   return String(Number(v.toPrecision(4))).replace(/^-/, '−');
 };
+/** Of an axis: no more digits than the value needs. */
+Rigor.tick = (value) => (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5) && value !== 0 ? Number(value.toPrecision(4)).toExponential().replace('e+', 'e').replace(/^-/, '−') : Rigor.format(value);
 /** All digits: parses back to the stored bits. */
 Rigor.full = (value) => (value === null || value === undefined ? 'no value' : String(value));
 Rigor.unit = (unit) => (unit && unit !== '1' ? '\u202f' + unit : '');
@@ -70,6 +72,8 @@ Rigor.chip = function (key, text, title) {
 };
 /** How bad, for sorting and for the worst of several: unsupported is the mildest. */
 Rigor.severity = (key) => ['unsupported', 'pass', 'no_bound', 'known_deviation', 'fail', 'non_finite', 'timeout', 'crashed'].indexOf(key);
+
+Rigor.isLost = (key) => ['non_finite', 'timeout', 'crashed'].includes(key);
 
 /** Okabe-Ito: told apart with every common colour vision; by place in the list of engines. */
 Rigor.palette = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#7A5C00'];

@@ -55,20 +55,21 @@ Rigor.scoreboard = function () {
     if (!cell) return el('span', {class: 'muted small', title: 'not in the plan'}, '');
     const v = Rigor.verdict(cell.shown);
     const value = Rigor.number(cell.at.value);
-    const hasValue = cell.at.value !== null;
+    // A number beside a crash would be that of another time step: the word stands there instead.
+    const hasValue = cell.at.value !== null && !Rigor.isLost(cell.shown);
     const words = [column.label, s.name, v.word];
     if (hasValue) words.push(`${s.main.name} ${Rigor.full(cell.at.value)} ${s.main.unit} at ${Rigor.timeStep(cell.at.dt)}`);
     if (hasValue && cell.at.bound !== null) words.push(`bound ${Rigor.format(cell.at.bound)}`);
     for (const c of cell.cases) if (cell.cases.length > 1) words.push(`${Rigor.timeStep(c.dt)}: ${Rigor.verdict(c.shown).word}`);
     if (cell.worst.reason) words.push(cell.worst.reason);
-    const text = hasValue ? Rigor.format(cell.at.value) : v.word;
+    const text = hasValue ? Rigor.format(cell.at.value) : cell.shown === 'unsupported' ? 'n/a' : v.word;
     return el('a', {class: `cell v v-${cell.shown}`, title: words.join('\n'), 'aria-label': words.slice(0, 4).join(', '),
       href: Rigor.scenarioLink(s.name, {spec: column.spec, dt: cell.worst.dt})},
       el('span', {class: 'sym', 'aria-hidden': 'true'}, v.symbol),
       el('span', {class: hasValue && value === best ? 'best' : null}, text));
   };
   const row = function (s, columns) {
-    const values = columns.map((c) => Rigor.cellSummary(s, c, filters.step)).filter(Boolean)
+    const values = columns.map((c) => Rigor.cellSummary(s, c, filters.step)).filter((cell) => cell && !Rigor.isLost(cell.shown))
       .map((cell) => Rigor.number(cell.at.value)).filter(Number.isFinite);
     const best = values.length > 1 ? Math.min(...values) : NaN;
     return el('tr', {'data-scenario': s.name},

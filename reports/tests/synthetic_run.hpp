@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A made-up run of realistic size and variety: every outcome and verdict, audit, ledger, curves, hostile
+// names.
+#pragma once
+
+#include "reports/writers.hpp"
+#include "validation/results/types.hpp"
+
+namespace rigor::report::synthetic {
+
+/// A scenario name that would break every format that forgets to escape.
+inline constexpr const char* kHostileName = "a</script><img src=x onerror=\"window.hostile=1\">,'\"\n|b&c";
+
+/// `scenarios` x nine engine specs x two time steps. Deterministic.
+results::Run makeRun(int scenarios = 25);
+/// Damped swings for every case that has a trajectory file named.
+TrajectoryLoader makeLoader(const results::Run& run);
+
+}  // namespace rigor::report::synthetic

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// CSV, JUnit XML, Markdown, SVG and the terminal table, read by parsers of their own.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+
+#include "reports/report.hpp"
+#include "reports/svg_plot.hpp"
+#include "reports/tests/synthetic_run.hpp"
+#include "reports/text.hpp"
+
+namespace rigor::report {
+namespace {
+
+/// RFC 4180, written from its grammar alone.
+std::vector<std::vector<std::string>> parseCsv(const std::string& text) {
+    std::vector<std::vector<std::string>> rows(1, {""});
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quoted) {
+            if (c != '"')
+                rows.back().back() += c;
+            else if (i + 1 < text.size() && text[i + 1] == '"')
+                rows.back().back() += '"', ++i;
+            else
+                quoted = false;
+        } else if (c == '"') {
+            quoted = true;
+        } else if (c == ',') {
+            rows.back().emplace_back();
+        } else if (c == '\n') {
+            rows.push_back({""});
+        } else {
+            rows.back().back() += c;
+        }
+    }
+    EXPECT_FALSE(quoted);
+    rows.pop_back();  // after the last line end
+    return rows;
+}
+
+void expectBits(const std::string& text, double wanted) {
+    ASSERT_FALSE(text.empty());
+    const double found = std::strtod(text.c_str(), nullptr);
+    if (std::isnan(wanted))
+        EXPECT_TRUE(std::isnan(found)) << text;
+    else
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(found), std::bit_cast<std::uint64_t>(wanted)) << text;
+}
+
+TEST(Csv, EveryNumberComesBackWithItsBits) {
+    const auto run = synthetic::makeRun();
+    const auto rows = parseCsv(csvReport(run));
+    std::map<std::string, std::size_t> column;
+    for (std::size_t i = 0; i < rows[0].size(); ++i) column[rows[0][i]] = i;
+    std::size_t next = 1;
+    const auto field = [&](const char* name) { return rows.at(next).at(column.at(name)); };
+    for (const auto& c : run.cases) {
+        const auto head = [&] {
+            ASSERT_LT(next, rows.size());
+            ASSERT_EQ(rows[next].size(), rows[0].size());
+            EXPECT_EQ(field("scenario"), c.scenario);
+            EXPECT_EQ(field("spec"), c.spec);
+            EXPECT_EQ(field("command"), c.command);
+            expectBits(field("dt"), c.dt);
+            EXPECT_EQ(field("verdict"), results::verdictName(c.verdict));
+        };
+        for (const auto& m : c.metrics) {
+            head();
+            EXPECT_EQ(field("metric"), m.name);
+            EXPECT_EQ(field("subject"), m.subject);
+            expectBits(field("value"), m.value);
+            EXPECT_EQ(field("bound").empty(), !m.bound);
+            if (m.bound) expectBits(field("bound"), *m.bound);
+            if (m.expectation) expectBits(field("expectation"), *m.expectation);
+            EXPECT_EQ(field("metric_verdict"), results::verdictName(m.verdict));
+            EXPECT_EQ(field("note"), m.note);
+            ++next;
+        }
+        for (const auto& q : c.quantities) {
+            head();
+            EXPECT_EQ(field("kind"), "quantity");
+            EXPECT_EQ(field("value").empty(), !q.measured);
+            if (q.measured) expectBits(field("value"), *q.measured);
+            expectBits(field("exact"), q.exact);
+            if (q.schemeExact) expectBits(field("scheme_exact"), *q.schemeExact);
+            ++next;
+        }
+        if (c.metrics.empty() && c.quantities.empty()) {
+            head();
+            EXPECT_EQ(field("note"), c.reason);
+            ++next;
+        }
+    }
+    EXPECT_EQ(next, rows.size());
+}
+
+/// Enough of XML 1.0 to be sure of nesting, attributes and references; throws where it is not well formed.
+struct Xml {
+    std::string text;
+    std::size_t at = 0;
+    std::map<std::string, int> elements;
+    std::vector<std::string> names;  ///< values of the attribute `name`
+
+    [[noreturn]] void fail(const std::string& why) const {
+        throw std::runtime_error(why + " near " + text.substr(at > 40 ? at - 40 : 0, 80));
+    }
+    bool eat(const std::string& what) {
+        if (text.compare(at, what.size(), what) != 0) return false;
+        at += what.size();
+        return true;
+    }
+    std::string name() {
+        const auto start = at;
+        while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '-'))
+            ++at;
+        if (at == start) fail("a name expected");
+        return text.substr(start, at - start);
+    }
+    std::string characters(const std::string& stops) {
+        std::string out;
+        while (at < text.size() && stops.find(text[at]) == std::string::npos) {
+            const auto c = static_cast<unsigned char>(text[at]);
+            if (c == '<' || (c < 0x20 && c != '\n' && c != '\t')) fail("raw character");
+            if (c == '&') {
+                const auto end = text.find(';', at);
+                const std::string entity = text.substr(at, end - at + 1);
+                static const std::map<std::string, std::string> known{
+                    {"&lt;", "<"},  {"&gt;", ">"},   {"&amp;", "&"},  {"&quot;", "\""},
+                    {"&#39;", "'"}, {"&#10;", "\n"}, {"&#13;", "\r"}, {"&#9;", "\t"}};
+                if (!known.count(entity)) fail("reference " + entity);
+                out += known.at(entity), at = end + 1;
+                continue;
+            }
+            out += text[at++];
+        }
+        return out;
+    }
+    void space() {
+        while (at < text.size() && (text[at] == ' ' || text[at] == '\n')) ++at;
+    }
+    void element() {
+        if (!eat("<")) fail("an element expected");
+        const std::string tag = name();
+        ++elements[tag];
+        std::map<std::string, std::string> attributes;
+        for (space(); !eat(">"); space()) {
+            if (eat("/>")) return;
+            const std::string key = name();
+            if (!eat("=\"")) fail("no value");
+            if (attributes.count(key)) fail("attribute twice");
+            attributes[key] = characters("\"");
+            if (tag == "testcase" && key == "classname") names.push_back(attributes[key]);
+            if (!eat("\"")) fail("open value");
+        }
+        for (;;) {
+            characters("<");
+            if (eat("</")) break;
+            element();
+        }
+        if (name() != tag || !eat(">")) fail("wrong closing tag of " + tag);
+    }
+};
+
+TEST(Junit, IsWellFormedAndCountsRight) {
+    auto run = synthetic::makeRun();
+    run.cases[0].reason = std::string("control \x01 broken \xff utf-8 \xc3\xa9 ]]>");
+    run.cases[0].verdict = results::Verdict::Crashed;
+    Xml xml{junitReport(run), 0, {}, {}};
+    ASSERT_TRUE(xml.eat("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"));
+    ASSERT_NO_THROW(xml.element());
+    xml.space();
+    EXPECT_EQ(xml.at, xml.text.size());
+    std::map<results::Verdict, int> verdicts;
+    for (const auto& c : run.cases) ++verdicts[c.verdict];
+    using V = results::Verdict;
+    EXPECT_EQ(xml.elements["testcase"], static_cast<int>(run.cases.size()));
+    EXPECT_EQ(xml.elements["failure"], verdicts[V::Fail]);
+    EXPECT_EQ(xml.elements["skipped"], verdicts[V::Unsupported]);
+    EXPECT_EQ(xml.elements["error"], verdicts[V::Crashed] + verdicts[V::Timeout] + verdicts[V::NonFinite]);
+    EXPECT_EQ(xml.names.back(), synthetic::kHostileName);
+    EXPECT_EQ(xml.text.find('\x01'), std::string::npos);
+    EXPECT_EQ(xml.text.find('\xff'), std::string::npos);
+}
+
+TEST(Summary, FitsAPullRequestComment) {
+    const auto run = synthetic::makeRun(60);
+    const std::string text = markdownSummary(ViewModel(run));
+    EXPECT_LT(text.size(), 65536u);
+    EXPECT_EQ(text.find("<img"), std::string::npos);
+    for (const char* word :
+         {"pass", "fail", "known deviation", "crashed", "timeout", "non-finite", "unsupported"})
+        EXPECT_NE(text.find(word), std::string::npos) << word;
+}
+
+TEST(Svg, IsWellFormedWithCurvesInsideTheFrame) {
+    const auto run = synthetic::makeRun(4);
+    const auto plots = scenarioPlots(ViewModel(run), synthetic::makeLoader(run));
+    ASSERT_EQ(plots.size(), 4u);
+    for (const auto& plot : plots) {
+        EXPECT_EQ(plot.fileName.find('/'), std::string::npos);
+        EXPECT_NE(plot.svg.find("<path d=\"M"), std::string::npos);
+        EXPECT_EQ(plot.svg.find("nan"), std::string::npos);
+        EXPECT_EQ(plot.svg.find("inf"), std::string::npos);
+    }
+}
+
+TEST(Svg, TicksAreRoundAndCoverTheRange) {
+    EXPECT_EQ(niceTicks(0.0, 10.0, 5), (std::vector<double>{0, 2, 4, 6, 8, 10}));
+    for (const double scale : {1e-12, 0.37, 1.0, 4321.0, 1e15}) {
+        const auto ticks = niceTicks(-0.3 * scale, 0.9 * scale, 6);
+        EXPECT_GE(ticks.size(), 3u) << scale;
+        EXPECT_LE(ticks.size(), 10u) << scale;
+        EXPECT_GE(ticks.front(), -0.3 * scale * (1 + 1e-9));
+        EXPECT_LE(ticks.back(), 0.9 * scale * (1 + 1e-9));
+    }
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+    std::vector<std::string> lines(1);
+    for (const char c : text) {
+        if (c == '\n')
+            lines.emplace_back();
+        else
+            lines.back().push_back(c);
+    }
+    return lines;
+}
+
+TEST(Terminal, KeepsToItsLinesAndColumns) {
+    for (const int scenarios : {0, 3, 25, 60})
+        for (const int columns : {60, 80, 140, 240})
+            for (const int most : {12, 40}) {
+                const auto run = synthetic::makeRun(scenarios);
+                const auto text = terminalSummary(run, most, columns, false);
+                const auto lines = linesOf(text);
+                EXPECT_LE(lines.size(), static_cast<std::size_t>(most));
+                EXPECT_EQ(text.find('\x1b'), std::string::npos);
+                for (const auto& line : lines) {
+                    const bool totals = line.find(" cases") != std::string::npos;  // may wrap
+                    if (!totals) {
+                        EXPECT_LE(displayWidth(line), static_cast<std::size_t>(columns)) << line;
+                    }
+                }
+                EXPECT_NE(text.find("Report: " + run.directory), std::string::npos);
+            }
+}
+
+TEST(Terminal, ColourChangesNothingButColour) {
+    const auto run = synthetic::makeRun(25);
+    const std::string coloured = terminalSummary(run, 40, 120, true);
+    std::string stripped;
+    for (std::size_t i = 0; i < coloured.size(); ++i) {
+        if (coloured[i] == '\x1b') {
+            i = coloured.find('m', i);
+            continue;
+        }
+        stripped += coloured[i];
+    }
+    EXPECT_EQ(stripped, terminalSummary(run, 40, 120, false));
+    EXPECT_NE(stripped, coloured);
+}
+
+TEST(Text, NumbersAndEscapes) {
+    EXPECT_EQ(shortNumber(0.0123456), "0.01235");
+    EXPECT_EQ(shortNumber(1.5e-9), "1.50e-09");
+    EXPECT_EQ(timeStepLabel(1.0 / 240.0), "1/240 s");
+    EXPECT_EQ(timeStepLabel(0.0033), "0.0033 s");
+    EXPECT_EQ(escapeMarkup("<a href='x'>&\"\xc0"), "&lt;a href=&#39;x&#39;&gt;&amp;&quot;\xEF\xBF\xBD");
+    EXPECT_EQ(csvField("a\"b,c"), "\"a\"\"b,c\"");
+    EXPECT_EQ(fileNamePart("../../etc/passwd"), "_._.._etc_passwd");
+}
+
+}  // namespace
+}  // namespace rigor::report
