@@ -109,7 +109,9 @@ Hdf5File Hdf5File::create(const std::filesystem::path& file) {
     const std::string what = "create " + file.string();
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, what);
     check(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18), what);  // readable by old tools
-    const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, what);
+    check(H5Pset_obj_track_times(creation, false), what);
+    const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, access);
     if (id < 0) failed(what);
     return Hdf5File(id);
 }

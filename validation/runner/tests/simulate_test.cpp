@@ -31,8 +31,8 @@ TEST(Simulate, StepsAreTheDurationRoundedToWholeSteps) {
 TEST(Simulate, LargeRunsAreRecordedWithAStride) {
     EXPECT_EQ(recordingStride(1000, 10), 1);
     EXPECT_EQ(recordingStride(1200, 1000), 3) << "1.2e6 states";
-    EXPECT_EQ(recordingStride(1001, 1000), 7)
-        << "at least 3, and 1001 = 7 * 11 * 13: out of reach of twice 3";
+    EXPECT_EQ(recordingStride(1000, 1000), 4) << "at least 3, and 4 divides the steps";
+    EXPECT_EQ(recordingStride(1001, 1000), 3) << "1001 = 7 * 11 * 13 has no divisor from 3 to 6";
 }
 
 /// x_n = x0 + n h v0 + h^2 g n (n + 1) / 2: every frame, its time, and the state of the last step.
