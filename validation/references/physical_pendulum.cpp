@@ -9,6 +9,7 @@
 // Source: Whittaker, Analytical Dynamics, 1937, section 44.
 // Assumes: a hinge (2D: also a ball joint) to a fixed point, initial motion about its axis, nothing else.
 // Quantities: period (mean over the passages through the lowest point), amplitude.
+#include <algorithm>
 #include <cmath>
 
 #include "validation/references/joint_parts.hpp"
@@ -150,16 +151,17 @@ class PhysicalPendulum : public Reference {
         return (*last - *first) / (count - 1);
     }
 
-    /// Largest |angle| over the frames, moved to the top of the arc by th'^2/(2 |th''|).
+    /// Largest turning point: near the top of an arc cos(th_max) = cos(th) - th'^2/(2 W^2).
     std::optional<double> largestAngle(const Trajectory& run) const {
-        double largest = 0.0;
+        std::optional<double> largest;
+        const auto W2 = static_cast<double>(W_ * W_);
         for (std::size_t k = 0; k < run.frames(); ++k) {
             const double angle = std::abs(angleIn(run, k)), rate = rateIn(run, k);
-            const double pull = static_cast<double>(W_ * W_) * std::sin(angle);
-            if (!(pull > 0.0) || !(rate * rate / (2.0 * pull) < 0.05)) continue;
-            largest = std::max(largest, angle + rate * rate / (2.0 * pull));
+            if (!(rate * rate < 0.1 * W2 * std::sin(angle))) continue;
+            const double top = std::acos(std::max(-1.0, std::cos(angle) - 0.5 * rate * rate / W2));
+            if (!largest || top > *largest) largest = top;
         }
-        return largest > 0.0 ? std::optional<double>(largest) : std::nullopt;
+        return largest;
     }
 
     double duration_;

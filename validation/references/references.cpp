@@ -31,7 +31,16 @@ const ReferenceEntry* findReference(const std::string& name) {
 std::unique_ptr<Reference> makeReference(const scenario::Scenario& scenario) {
     if (!scenario.reference) return nullptr;
     const ReferenceEntry* entry = findReference(scenario.reference->name);
-    if (entry) return entry->make(scenario, *scenario.reference);
+    if (entry) {
+        try {
+            return entry->make(scenario, *scenario.reference);
+        } catch (const AssumptionViolated&) {
+            throw;
+        } catch (const std::runtime_error& numerical) {
+            throw AssumptionViolated(std::string("no reference to the accuracy asked for: ") +
+                                     numerical.what());
+        }
+    }
     std::string names;
     for (const auto& known : referenceTable()) names += (names.empty() ? "" : ", ") + std::string(known.name);
     throw std::invalid_argument("unknown reference '" + scenario.reference->name + "'; known: " + names);

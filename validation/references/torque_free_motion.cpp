@@ -126,7 +126,7 @@ Real TorqueFreeMotion::precessionBetween(Real ua, Real ub) const {
         const Real Ia = moments_[axisCn_], Ib = moments_[1];
         return (Ia * a * a + Ib * b * b) / (Ia * Ia * a * a + Ib * Ib * b * b);
     };
-    return static_cast<Real>(momentum_) / rate_ * numerics::integrate(integrand, ua, ub, 1e-17L);
+    return static_cast<Real>(momentum_) / rate_ * numerics::integrate(integrand, ua, ub, 1e-15L);
 }
 
 Attitude TorqueFreeMotion::at(double t) const {

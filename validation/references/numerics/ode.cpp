@@ -14,7 +14,8 @@
 namespace rigor::validation::numerics {
 namespace {
 
-constexpr int kColumns = 8;       // order 16
+constexpr int kColumns = 8;  // order 16
+constexpr int kMaxSteps = 20000;
 constexpr int kPanelDegree = 15;  // 16 nodes
 
 void midpointRule(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dydt, Real step, int n,
@@ -88,7 +89,8 @@ OdeState integrateOde(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Rea
     const Real span = t1 - t0;
     if (span == 0) return y;
     Real step = firstStep != 0 ? firstStep : span / 16;
-    while ((t1 - t) * span > 0) {
+    for (int count = 0; (t1 - t) * span > 0; ++count) {
+        if (count > kMaxSteps) throw std::runtime_error("integrateOde: too many steps");
         if (std::abs(step) > std::abs(t1 - t)) step = t1 - t;
         f(t, y, dydt);
         Step trial = extrapolate(f, t, y, dydt, step, tolerance);

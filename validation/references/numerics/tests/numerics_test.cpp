@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Elliptic functions against defining integrals and identities, the integrator against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "validation/references/numerics/eigen_symmetric.hpp"
+#include "validation/references/numerics/ode.hpp"
+#include "validation/references/numerics/quadrature.hpp"
+
+namespace rigor::validation::numerics {
+namespace {
+
+TEST(Elliptic, CompleteIntegralsAgreeWithTheirDefinition) {
+    for (const Real m : {0.0L, 0.1L, 0.5L, 0.9L, 0.999L}) {
+        const Real k =
+            integrate([&](Real a) { return 1 / std::sqrt(1 - m * std::sin(a) * std::sin(a)); }, 0, kPi / 2);
+        const Real e =
+            integrate([&](Real a) { return std::sqrt(1 - m * std::sin(a) * std::sin(a)); }, 0, kPi / 2);
+        EXPECT_NEAR(static_cast<double>(ellipticK(m) - k), 0.0, 1e-16 * static_cast<double>(k));
+        EXPECT_NEAR(static_cast<double>(ellipticE(m) - e), 0.0, 1e-16);
+    }
+    // The parameter, not the modulus: K(m = 1/2) = Gamma(1/4)^2/(4 sqrt(pi)).
+    EXPECT_NEAR(static_cast<double>(ellipticK(0.5L)), 1.85407467730137191843, 1e-15);
+    EXPECT_THROW(ellipticK(1), std::domain_error);
+    EXPECT_THROW(ellipticK(std::nanl("")), std::domain_error);
+}
+
+TEST(Elliptic, LegendresRelationHolds) {
+    for (const Real m : {0.05L, 0.3L, 0.77L}) {
+        const Real sum = ellipticE(m) * ellipticK(1 - m) + ellipticE(1 - m) * ellipticK(m) -
+                         ellipticK(m) * ellipticK(1 - m);
+        EXPECT_NEAR(static_cast<double>(sum - kPi / 2), 0.0, 1e-17);
+    }
+}
+
+TEST(Elliptic, IncompleteIntegralAgreesWithItsDefinitionForAnyAngle) {
+    for (const Real m : {0.0L, 0.2L, 0.95L})
+        for (const Real phi : {-7.0L, -1.0L, 0.3L, 1.5L, 2.0L, 4.0L, 12.0L}) {
+            const Real f =
+                integrate([&](Real a) { return 1 / std::sqrt(1 - m * std::sin(a) * std::sin(a)); }, 0, phi);
+            EXPECT_NEAR(static_cast<double>(ellipticF(phi, m) - f), 0.0, 1e-15) << static_cast<double>(phi);
+        }
+}
+
+TEST(Elliptic, JacobiFunctionsInvertTheIntegralAndSolveTheirEquations) {
+    for (const Real m : {0.0L, 0.4L, 0.99L, 0.999999L, 1.0L})
+        for (const Real u : {-5.0L, -0.2L, 0.7L, 3.0L, 9.0L}) {
+            const Jacobi f = jacobi(u, m);
+            EXPECT_NEAR(static_cast<double>(f.sn * f.sn + f.cn * f.cn), 1.0, 1e-17);
+            EXPECT_NEAR(static_cast<double>(f.dn * f.dn + m * f.sn * f.sn), 1.0, 1e-17);
+            if (m < 0.9999L) {
+                EXPECT_NEAR(static_cast<double>(ellipticF(f.am, m)), static_cast<double>(u), 1e-15);
+            }
+            // sn' = cn dn by a fourth-order difference.
+            const Real h = 1e-4L;
+            const Real slope = (8 * (jacobi(u + h, m).sn - jacobi(u - h, m).sn) -
+                                (jacobi(u + 2 * h, m).sn - jacobi(u - 2 * h, m).sn)) /
+                               (12 * h);
+            EXPECT_NEAR(static_cast<double>(slope), static_cast<double>(f.cn * f.dn), 1e-14);
+        }
+}
+
+TEST(Ode, HarmonicOscillatorToTwelveDigitsAndBack) {
+    const OdeRhs f = [](Real, const OdeState& y, OdeState& d) { d = {y[1], -9 * y[0]}; };
+    const OdeState y = integrateOde(f, 0, {1, 0}, 10);
+    EXPECT_NEAR(static_cast<double>(y[0] - std::cos(30.0L)), 0.0, 1e-13);
+    EXPECT_NEAR(static_cast<double>(y[1] + 3 * std::sin(30.0L)), 0.0, 1e-13);
+    const OdeState back = integrateOde(f, 10, y, 0);
+    EXPECT_NEAR(static_cast<double>(back[0]), 1.0, 1e-13);
+}
+
+TEST(Ode, DenseSolutionAnswersBetweenItsNodesAndAcrossBreaks) {
+    const OdeRhs f = [](Real t, const OdeState& y, OdeState& d) { d = {y[0] * std::cos(t)}; };
+    const DenseSolution smooth(f, 0, {1}, 20);
+    for (Real t = 0; t <= 20; t += 0.0371L)
+        EXPECT_NEAR(static_cast<double>(smooth.at(t)[0] - std::exp(std::sin(t))), 0.0, 3e-13);
+    const OdeRhs kink = [](Real t, const OdeState&, OdeState& d) { d = {std::abs(t - 1.3L)}; };
+    const DenseSolution broken(kink, 0, {0}, 3, 1e-14L, {1.3L});
+    for (Real t = 0; t <= 3; t += 0.1L) {
+        const Real s = t - 1.3L, exact = (1.69L + (s < 0 ? -s * s : s * s)) / 2;
+        EXPECT_NEAR(static_cast<double>(broken.at(t)[0] - exact), 0.0, 1e-14);
+    }
+}
+
+TEST(Ode, ASingularityIsReportedNotLoopedOn) {
+    const OdeRhs f = [](Real, const OdeState& y, OdeState& d) { d = {y[0] * y[0]}; };  // pole at t = 1
+    EXPECT_THROW(integrateOde(f, 0, {1}, 2), std::runtime_error);
+}
+
+TEST(Roots, FindRootAndFirstDescent) {
+    EXPECT_NEAR(static_cast<double>(findRoot([](Real x) { return std::cos(x) - x; }, 0, 1)),
+                0.73908513321516064, 1e-16);
+    EXPECT_THROW(findRoot([](Real x) { return x * x + 1; }, 0, 1), std::domain_error);
+    // Height 5 + 2 t - 4.905 t^2.
+    const auto t = firstDescent(-4.905L, 2, 5);
+    ASSERT_TRUE(t.has_value());
+    EXPECT_NEAR(static_cast<double>(5 + 2 * *t - 4.905L * *t * *t), 0.0, 1e-17);
+    EXPECT_GT(*t, 0);
+    EXPECT_FALSE(firstDescent(1, 1, 1).has_value());                        // grows
+    EXPECT_FALSE(firstDescent(1, -1, 1).has_value());                       // misses
+    EXPECT_NEAR(static_cast<double>(*firstDescent(1, -3, 2)), 1.0, 1e-17);  // first of 1 and 2
+    EXPECT_NEAR(static_cast<double>(*firstDescent(-1, 2, 0)), 2.0, 1e-17);  // thrown up from the floor
+    EXPECT_EQ(*firstDescent(0, -1, 0), 0);
+}
+
+TEST(Eigen, PrincipalAxesRebuildTheTensor) {
+    scenario::Mat3 tensor;
+    const double values[3][3] = {{2.0, 0.3, -0.1}, {0.3, 1.5, 0.2}, {-0.1, 0.2, 1.1}};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) tensor(i, j) = values[i][j];
+    const PrincipalAxes p = principalAxes(tensor);
+    const auto again =
+        p.axes * scenario::Mat3::diagonal(p.values.x, p.values.y, p.values.z) * transpose(p.axes);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) EXPECT_NEAR(again(i, j), values[i][j], 1e-15);
+    EXPECT_LE(p.values.x, p.values.y);
+    EXPECT_LE(p.values.y, p.values.z);
+    const auto matrix = scenario::toMatrix(toQuaternion(p.axes));
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) EXPECT_NEAR(matrix(i, j), p.axes(i, j), 1e-15);
+}
+
+}  // namespace
+}  // namespace rigor::validation::numerics
