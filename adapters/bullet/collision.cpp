@@ -31,32 +31,42 @@ using adapter::ContactPoint;
 using adapter::Geometry;
 using adapter::Unsupported;
 
-/// Half depth of the prisms of two-dimensional queries [m]: deeper than any overlap in the plane, so that the
-/// least way out is never along z.
-constexpr double kQueryHalfDepth = 100.0;
+/// Distance from a bounded shape's origin to its farthest point in the plane [m].
+double planarExtent(const Geometry& geometry) {
+    if (const auto* sphere = std::get_if<scenario::Sphere>(&geometry)) return sphere->radius;
+    if (const auto* capsule = std::get_if<scenario::Capsule>(&geometry))
+        return capsule->radius + capsule->halfLength;
+    if (const auto* box = std::get_if<scenario::Box>(&geometry))
+        return std::hypot(box->halfExtents.x, box->halfExtents.y);
+    double most = 0.0;
+    if (const auto* hull = std::get_if<scenario::ConvexHull>(&geometry))
+        for (const Vec3& v : hull->vertices) most = std::max(most, std::hypot(v.x, v.y));
+    return most;
+}
 
-Geometry lifted(const Geometry& geometry) {
+Geometry lifted(const Geometry& geometry, double halfDepth) {
     Geometry solid;
     try {
         solid = adapter::planarGeometry(geometry);
     } catch (const std::invalid_argument&) {
         throw Unsupported("bullet has no shape 'segment'");
     }
-    if (auto* box = std::get_if<scenario::Box>(&solid)) box->halfExtents.z = kQueryHalfDepth;
+    if (auto* box = std::get_if<scenario::Box>(&solid)) box->halfExtents.z = halfDepth;
     if (auto* hull = std::get_if<scenario::ConvexHull>(&solid))
-        for (Vec3& v : hull->vertices) v.z = std::copysign(kQueryHalfDepth, v.z);
+        for (Vec3& v : hull->vertices) v.z = std::copysign(halfDepth, v.z);
     return solid;
 }
 
 /// One side of a query as a collision object.
 struct Side {
-    Side(const adapter::PosedShape& posed, int dimension) {
+    /// `halfDepth` of the prisms of a two-dimensional query; 0 for three dimensions.
+    Side(const adapter::PosedShape& posed, double halfDepth) {
         ShapeSettings settings;
         settings.polyhedralFeatures = true;
         settings.boxMargin = settings.cylinderMargin = settings.hullMargin = 0.0;
-        shape =
-            buildGeometry(dimension == 2 ? lifted(*posed.geometry) : *posed.geometry, posed.pose, settings)
-                .shape;
+        shape = buildGeometry(halfDepth > 0.0 ? lifted(*posed.geometry, halfDepth) : *posed.geometry,
+                              posed.pose, settings)
+                    .shape;
         object.setCollisionShape(shape.get());
         object.setWorldTransform(toBullet(posed.pose));
     }
@@ -185,7 +195,11 @@ std::vector<ContactPoint> projected(const std::vector<ContactPoint>& contacts) {
 
 CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) const {
     adapter::checkQueryInput(query);
-    const Side a(query.a, query.dimension), b(query.b, query.dimension);
+    // Deeper than any overlap in the plane, so that the least way out is never along z, and no longer than
+    // that: EPA loses digits on slender prisms.
+    const double halfDepth =
+        query.dimension == 2 ? planarExtent(*query.a.geometry) + planarExtent(*query.b.geometry) : 0.0;
+    const Side a(query.a, halfDepth), b(query.b, halfDepth);
     if (a.isPlane() && b.isPlane()) throw Unsupported("bullet has no contact of half-space with half-space");
     ContactFinder finder;
     std::vector<ContactPoint> contacts = finder.find(a, b);
