@@ -14,6 +14,14 @@ int lineAt(const std::string& text, std::size_t offset) {
                    '\n'));
 }
 
+/// The parser's words without its "[json.exception.parse_error.101] parse error at ".
+std::string withoutPrefix(std::string message) {
+    if (const auto end = message.find("] "); end != std::string::npos) message.erase(0, end + 2);
+    const std::string words = "parse error at ";
+    if (message.starts_with(words)) message.erase(0, words.size());
+    return message;
+}
+
 /// Bracket depth outside strings; the parser recurses, so this comes before it.
 int depthOf(const std::string& text, std::size_t& where) {
     int depth = 0, deepest = 0;
@@ -159,12 +167,16 @@ JsonDocument parseDocument(const std::string& text, const std::string& fileName)
     try {
         document.value = Json::parse(text);
     } catch (const Json::parse_error& error) {
-        std::string message = error.what();
-        if (const auto colon = message.find("error"); colon != std::string::npos)
-            message = message.substr(colon);
-        refuse("json.syntax", error.byte > 0 ? error.byte - 1 : 0, message, "JSON (RFC 8259)");
-    } catch (const Json::exception& error) {
-        refuse("json.syntax", 0, error.what(), "JSON (RFC 8259) with numbers in double range");
+        refuse("json.syntax", error.byte > 0 ? error.byte - 1 : 0, withoutPrefix(error.what()),
+               "JSON (RFC 8259)");
+    } catch (const Json::out_of_range& error) {
+        // "number overflow parsing '1e999'": the parser gives no place, its token does.
+        const std::string message = withoutPrefix(error.what());
+        const auto quote = message.find('\'');
+        const std::string token =
+            quote == std::string::npos ? "" : message.substr(quote + 1, message.size() - quote - 2);
+        const auto place = token.empty() ? std::string::npos : text.find(token);
+        refuse("json.number", place == std::string::npos ? 0 : place, message, "numbers in double range");
     }
     Locator locator(text, fileName);
     locator.value("");

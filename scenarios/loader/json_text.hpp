@@ -26,7 +26,8 @@ struct JsonDocument {
     int lineOf(std::string pointer) const;
 };
 
-/// Parses strict JSON. Throws LoadError: "json.depth", "json.size", "json.syntax", "json.duplicate_key".
+/// Parses strict JSON. Throws LoadError: "json.depth", "json.size", "json.syntax", "json.number",
+/// "json.duplicate_key".
 JsonDocument parseDocument(const std::string& text, const std::string& fileName);
 
 /// One token of a JSON pointer, escaped (RFC 6901).

@@ -22,7 +22,8 @@ namespace {
 constexpr int kFormatVersion = 1;
 
 void readHeader(const Node& root, Scenario& s) {
-    if (const auto n = root.require("rigor")) n->integer(kFormatVersion, kFormatVersion);
+    if (const auto n = root.require("rigor"); n && n->json() != kFormatVersion)
+        n->problem("schema.version", "1, the version of this format");
     if (const auto n = root.require("name")) s.name = n->name();
     if (const auto n = root.require("title")) s.title = n->text();
     if (const auto n = root.find("description")) s.description = n->text();
@@ -35,6 +36,7 @@ void readHeader(const Node& root, Scenario& s) {
     if (const auto n = root.require("dt"))
         for (const Node& step : n->items()) s.timeSteps.push_back(step.number(1e-7, 1.0));
     if (root.has("dt") && s.timeSteps.empty()) root["dt"].problem("value.range", "at least one time step");
+    if (!root.context().problems.empty()) return;
     for (const double dt : s.timeSteps)
         if (dt > s.duration || s.duration / dt > 1e8)
             root["dt"].problem("value.range", "time steps not longer than the duration, at most 1e8 of them");
@@ -152,7 +154,9 @@ Scenario readScenario(const JsonDocument& document, const std::string& file) {
                    "time_limit"});
     std::deque<Json> made;  // generated nodes refer to it
     if (document.value.is_object()) {
+        // Without a dimension nothing else can be understood.
         if (const auto n = root.require("dimension")) s.dimension = context.dimension = n->integer(2, 3);
+        if (!context.problems.empty()) throw LoadError(std::move(context.problems));
         readHeader(root, s);
         readMaterials(root, s);
         if (context.problems.empty()) readBodies(root, s, made);

@@ -127,8 +127,8 @@ Body readBody(const Node& node, const Scenario& scenario) {
     if (const auto n = node.find("damping")) readDamping(*n, body);
     if (const auto n = node.find("gravity_scale")) body.gravityScale = n->number(-1e6, 1e6);
     if (node.context().problems.empty()) {
-        readMass(node, scenario, body);
         checkStaticShapes(node, body);
+        if (node.context().problems.empty()) readMass(node, scenario, body);
     }
     return body;
 }

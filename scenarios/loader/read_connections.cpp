@@ -123,6 +123,7 @@ void readJoints(const Node& list, Scenario& scenario) {
         const auto name = node.require("name"), type = node.require("type"), a = node.require("a"),
                    b = node.require("b");
         if (!name || !type || !a || !b) continue;
+        const auto clean = node.context().problems.size();
         joint.name = name->name();
         for (const Joint& other : scenario.joints)
             if (other.name == joint.name) name->problem("joint.duplicate", "a name that no other joint has");
@@ -131,6 +132,7 @@ void readJoints(const Node& list, Scenario& scenario) {
             type->problem("joint.type", "hinge: a ball joint in the plane is one");
         joint.bodyA = readBodyName(*a, scenario, true);
         joint.bodyB = readBodyName(*b, scenario, false);
+        if (node.context().problems.size() > clean) continue;  // the rest would only repeat it
         if (joint.bodyA == joint.bodyB)
             node.problem("joint.bodies", "a body joined to itself", "two bodies, or \"world\" as a");
         if (!isDynamic(scenario, joint.bodyA) && !isDynamic(scenario, joint.bodyB))
