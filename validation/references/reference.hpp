@@ -81,8 +81,8 @@ const std::vector<ReferenceEntry>& referenceTable();
 const ReferenceEntry* findReference(const std::string& name);
 
 /// The scenario's reference, or null when it has none. Throws AssumptionViolated; std::invalid_argument for
-/// an unknown reference, unknown or missing parameters, or bodies that do not exist. The reference refers to the
-/// scenario, which must outlive it; asking it is not safe from two threads at once.
+/// an unknown reference, unknown or missing parameters, or bodies that do not exist. The reference refers to
+/// the scenario, which must outlive it; asking it is not safe from two threads at once.
 std::unique_ptr<Reference> makeReference(const scenario::Scenario& scenario);
 
 }  // namespace rigor::validation

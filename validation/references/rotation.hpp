@@ -59,7 +59,7 @@ class TorqueFreeMotion {
     Attitude symmetricAt(double t) const;
     Attitude asymmetricAt(double t) const;
     Vec3 principalRates(numerics::Real u) const;
-    numerics::Real precessionBetween(numerics::Real ua, numerics::Real ub) const;
+    numerics::Real precessionAt(numerics::Real u) const;
 
     Kind kind_ = Kind::Constant;
     Quat q0_;
@@ -73,6 +73,7 @@ class TorqueFreeMotion {
     std::size_t axisCn_ = 0, axisDn_ = 2;
     std::array<numerics::Real, 3> amplitude_{};
     numerics::Real rate_ = 0, parameter_ = 0, u0_ = 0, halfPeriod_ = 0, halfPeriodPrecession_ = 0;
+    numerics::DenseSolution precessionTable_;  ///< angle turned about L over half a period of u
     std::optional<FixedPointMotion> integrated_;
 };
 

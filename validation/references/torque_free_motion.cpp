@@ -11,7 +11,6 @@
 #include <cmath>
 
 #include "validation/references/numerics/eigen_symmetric.hpp"
-#include "validation/references/numerics/quadrature.hpp"
 #include "validation/references/rotation.hpp"
 
 namespace rigor::validation {
@@ -106,7 +105,15 @@ void TorqueFreeMotion::buildAsymmetric() {
     }
     u0_ = numerics::ellipticF(std::atan2(w[1] / amplitude_[1], w[axisCn_] / amplitude_[axisCn_]), parameter_);
     halfPeriod_ = 2 * numerics::ellipticK(parameter_);
-    halfPeriodPrecession_ = precessionBetween(0, halfPeriod_);
+    const auto turning = [this](Real u, const numerics::OdeState&, numerics::OdeState& d) {
+        const auto f = numerics::jacobi(u, parameter_);
+        const Real a = amplitude_[axisCn_] * f.cn, b = amplitude_[1] * f.sn;
+        const Real Ia = moments_[axisCn_], Ib = moments_[1];
+        d[0] = static_cast<Real>(momentum_) / rate_ * (Ia * a * a + Ib * b * b) /
+               (Ia * Ia * a * a + Ib * Ib * b * b);
+    };
+    precessionTable_ = numerics::DenseSolution(turning, 0, {0}, halfPeriod_, 1e-15L);
+    halfPeriodPrecession_ = precessionTable_.at(halfPeriod_)[0];
 }
 
 Vec3 TorqueFreeMotion::principalRates(Real u) const {
@@ -118,15 +125,10 @@ Vec3 TorqueFreeMotion::principalRates(Real u) const {
     return toVec(w);
 }
 
-/// Angle turned about L while u goes from ua to ub.
-Real TorqueFreeMotion::precessionBetween(Real ua, Real ub) const {
-    const auto integrand = [this](Real u) {
-        const auto f = numerics::jacobi(u, parameter_);
-        const Real a = amplitude_[axisCn_] * f.cn, b = amplitude_[1] * f.sn;
-        const Real Ia = moments_[axisCn_], Ib = moments_[1];
-        return (Ia * a * a + Ib * b * b) / (Ia * Ia * a * a + Ib * Ib * b * b);
-    };
-    return static_cast<Real>(momentum_) / rate_ * numerics::integrate(integrand, ua, ub, 1e-15L);
+/// Angle turned about L since u = 0; the rate has half the period of sn.
+Real TorqueFreeMotion::precessionAt(Real u) const {
+    const Real turns = std::floor(u / halfPeriod_);
+    return turns * halfPeriodPrecession_ + precessionTable_.at(u - turns * halfPeriod_)[0];
 }
 
 Attitude TorqueFreeMotion::at(double t) const {
@@ -157,8 +159,7 @@ Attitude TorqueFreeMotion::symmetricAt(double t) const {
 
 Attitude TorqueFreeMotion::asymmetricAt(double t) const {
     const Real u = rate_ * t + u0_;
-    const Real turns = std::floor((u - u0_) / halfPeriod_);
-    const Real angle = turns * halfPeriodPrecession_ + precessionBetween(u0_, u - turns * halfPeriod_);
+    const Real angle = precessionAt(u) - precessionAt(u0_);
     // Triads (x, y, z): z along L, x the part of the dn axis across L; in the frame and in the world.
     const auto triad = [&](Vec3 rates) {
         const auto w = components(rates);

@@ -40,8 +40,11 @@ TEST(PlanarSlide, AgreesWithIntegrationForEveryRatioOfFrictionToSlope) {
     for (const double f : {0.5, 2.0, 4.0, 5.9})
         for (const Vec3 v : {Vec3{2, 0, 0}, Vec3{1, 0, -3}, Vec3{-0.5, 0, 4}}) {
             const Vec3 pull{0, 0, 4};
-            const auto numeric = integrateSlide(pull, f, v, 0.5);
-            const auto exact = PlanarSlide(pull, f, v).at(0.5);
+            const PlanarSlide slide(pull, f, v);
+            // Integration does not resolve the stop itself: end shortly before it.
+            const double duration = std::min(0.5, 0.95 * slide.stopTime().value_or(1));
+            const auto numeric = integrateSlide(pull, f, v, duration);
+            const auto exact = slide.at(duration);
             expectVec(exact.velocity, numeric.velocity, 1e-9);
             expectVec(exact.displacement, numeric.displacement, 1e-9);
         }
@@ -149,7 +152,7 @@ TEST(BouncingBall, CatalogueQuantitiesAndAccumulation) {
         EXPECT_NEAR(findQuantity(quantities, "bounce_time_" + std::to_string(n))->exact, times[n - 1], 1e-9);
     EXPECT_NEAR(findQuantity(quantities, "apex_height_1")->exact, 0.1 + 0.64, 1e-12);
     EXPECT_GT(reference->exact(0, 4.06).position->y, 0.1);
-    EXPECT_EQ(reference->exact(0, 4.07).position->y, 0.1);  // after t = 4.063712769
+    EXPECT_NEAR(reference->exact(0, 4.07).position->y, 0.1, 1e-15);  // after t = 4.063712769
     for (const double dt : {0.01, 0.013}) {
         const Trajectory run = exactRun(s, *reference, dt, static_cast<int>(5 / dt));
         for (const auto& q : quantities) EXPECT_NEAR(q.measure(run).value(), q.exact, 1e-9) << q.name;
@@ -340,7 +343,7 @@ TEST(SlipToRoll, SchemeIsWhatSteppingByHandGives) {
 }
 
 TEST(RollingIncline, CatalogueRollAndSlip) {
-    const double alpha = 0.52359878;
+    const double alpha = M_PI / 6;
     for (const double mu : {0.5, 0.1}) {
         Scenario s = emptyScene(3, {9.81 * std::sin(alpha), -9.81 * std::cos(alpha), 0}, 1);
         addBall(s, "ball", 0.1, 1, 0.4, {0, 0.1, 0});
