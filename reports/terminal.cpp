@@ -202,7 +202,6 @@ std::string terminalSummary(const results::Run& run, int lines, int columns, boo
     const auto worst = offenderLines(view, offenderRoom, width, paint);
     std::vector<std::string> tail{totalsLine(view, paint)};
     tail.insert(tail.end(), worst.begin(), worst.end());
-    if (!run.directory.empty()) tail.push_back("Report: " + plain(run.directory) + "/index.html");
 
     const std::size_t used = out.size() + tail.size() + 1;
     const std::size_t room = most > used ? most - used : 0;

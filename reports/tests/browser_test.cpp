@@ -176,9 +176,11 @@ TEST_F(Browser, EveryScenarioPageOpensWithTheNumbersOfTheRun) {
             commands: [...document.querySelectorAll('#commands code')].map(c => c.textContent),
             outcomes: document.querySelector('#outcomes')?.textContent || ''});
         }
+        Rigor.drawAllCharts();  // as for printing: no frames are shown here that would bring them into view
         const box = document.querySelector('#curves input[data-spec]');
         box.click();
         found.hidden = Rigor.liveCharts.length > 0 && Rigor.liveCharts.every(c => c.data.datasets.filter(d => d.spec === box.dataset.spec).every(d => d.hidden));
+        await pause();
         const pixels = (c) => { const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; return d.some((v) => v !== 0); };
         found.drawn = [...document.querySelectorAll('#curves canvas')].slice(0, 1).every(pixels);
     )js");

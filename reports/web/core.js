@@ -38,8 +38,12 @@ Rigor.format = function (value) {
   if (size < 1e-3 || size >= 1e5) return v.toExponential(2).replace('e+', 'e').replace('-', v < 0 ? '−' : '-');
   return String(Number(v.toPrecision(4))).replace(/^-/, '−');
 };
-/** Of an axis: no more digits than the value needs. */
-Rigor.tick = (value) => (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5) && value !== 0 ? Number(value.toPrecision(4)).toExponential().replace('e+', 'e').replace(/^-/, '−') : Rigor.format(value);
+/** Of an axis: as many digits as neighbouring ticks need, no more. */
+Rigor.tick = function (value) {
+  const short = Number(value.toPrecision(7));
+  const far = short !== 0 && (Math.abs(short) < 1e-3 || Math.abs(short) >= 1e5);
+  return (far ? short.toExponential().replace('e+', 'e') : String(short)).replace(/^-/, '−');
+};
 /** All digits: parses back to the stored bits. */
 Rigor.full = (value) => (value === null || value === undefined ? 'no value' : String(value));
 Rigor.unit = (unit) => (unit && unit !== '1' ? '\u202f' + unit : '');
