@@ -144,7 +144,7 @@ results::ContactSample sample(double time, const ContactPoint& c) {
 
 /// All contacts of every n-th frame, n as small as the size of the file allows.
 std::vector<results::ContactSample> contactSamples(const Trajectory& t) {
-    constexpr std::size_t kMostContacts = 200000;
+    constexpr std::size_t kMostContacts = 60000;
     std::size_t count = 0;
     for (const auto& frame : t.contacts) count += frame.size();
     const std::size_t every = std::max<std::size_t>(1, (count + kMostContacts - 1) / kMostContacts);
