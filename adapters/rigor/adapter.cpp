@@ -52,6 +52,8 @@ class RigorEngine final : public Engine {
         options.push_back(number("restitution_threshold", 0, 100, false, "0.01", "0",
                                  "slower approaches do not bounce [m/s]"));
         options.push_back(number("slop", 0, 1, false, "1e-5", "1e-5", "overlap that is not corrected [m]"));
+        options.push_back(number("gap_slop", 0, 1, false, "5e-4", "5e-4",
+                                 "gaps of resting contacts that count as closed [m]"));
         options.push_back(number("speculative_distance", 0, 1, false, "1e-3", "1e-3",
                                  "contacts are found up to this separation [m]"));
         options.push_back(choice("precision", {"f32", "f64"}, "f64", "number type of state and computation"));

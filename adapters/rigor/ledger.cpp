@@ -38,7 +38,7 @@ std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings
         late ? Realisation::Approximate : Realisation::Exact, late ? "velocity threshold" : "");
     add("contact_margin", "0",
         "none in the shapes; resting contacts are found within " + text("speculative_distance") +
-            " m and act so that the gap just closes",
+            " m and may just close the gap; below " + text("gap_slop") + " m it counts as closed",
         Realisation::Approximate,
         "an inelastic impact takes place at the end of the step that would close the gap, up to that far "
         "early");

@@ -34,6 +34,7 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     def.curvedJoints = textSetting(settings, "curved_joints") == "on";
     def.restitutionThreshold = static_cast<R>(numberSetting(settings, "restitution_threshold"));
     def.slop = static_cast<R>(numberSetting(settings, "slop"));
+    def.gapSlop = static_cast<R>(numberSetting(settings, "gap_slop"));
     def.speculativeDistance = static_cast<R>(numberSetting(settings, "speculative_distance"));
     return def;
 }

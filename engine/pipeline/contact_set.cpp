@@ -8,7 +8,7 @@
 // and the bias b is one of
 //     e n . u_0         impact: s <= 0, n . u_0 < -threshold; u_0 from before this step's forces, so that the
 //                       rebound is e times the approach and not e times (approach + g h)
-//     s / h             a gap: the point may just close it in this step
+//     s / h             a gap wider than gapSlop, or an impact: the point may just close it in this step
 //     -beta s / h       overlap, where position correction works by velocities; else 0
 // A gap with e > 0 gets no rows where it is closing faster than the threshold, or is wider than gravity alone
 // closes in a step: closing it would take the speed that the impact has to reverse, or pass on a blow that
@@ -203,7 +203,7 @@ void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<
     }
     if (bounces)
         normal.bias = contact.coefficients.restitution * approach;
-    else if (s > 0)
+    else if (s > (point.impact ? Real(0) : step.gapSlop))
         normal.bias = s / step.h;
     else
         normal.bias = step.biasFactor * std::min(Real(0), s + step.slop) / step.h;

@@ -53,6 +53,7 @@ struct ContactStep {
     typename S::Real impactSpeed;           ///< faster approaches are impacts: not warm started from [m/s]
     typename S::Real biasFactor;            ///< share of the overlap to remove by velocity; 0: none
     typename S::Real slop;                  ///< [m]
+    typename S::Real gapSlop;               ///< gaps up to this count as closed [m]
     typename S::Real warmStart;             ///< factor on the last impulses; 0: none
 };
 

@@ -76,7 +76,7 @@ const StepResult<S>& World<S>::step(Real h) {
     const Real impactSpeed = std::max(def_.restitutionThreshold, Real(2) * gravityStep);
     contacts_.addRows(bodies_,
                       {h, def_.restitutionThreshold, Real(2) * h * gravityStep, impactSpeed,
-                       correction_->biasFactor(), def_.slop, warmStart},
+                       correction_->biasFactor(), def_.slop, def_.gapSlop, warmStart},
                       rows_);
     clock.end(Phase::Rows);
 

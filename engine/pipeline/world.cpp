@@ -79,6 +79,7 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     require(def.restitutionThreshold >= 0 && std::isfinite(def.restitutionThreshold), "restitution_threshold",
             "restitution threshold must not be negative");
     require(def.slop >= 0 && std::isfinite(def.slop), "slop", "slop must not be negative");
+    require(def.gapSlop >= 0 && std::isfinite(def.gapSlop), "gap_slop", "gap slop must not be negative");
     require(def.speculativeDistance >= 0 && std::isfinite(def.speculativeDistance), "speculative_distance",
             "speculative distance must not be negative");
     integrator_ = findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make();

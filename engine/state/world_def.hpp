@@ -40,6 +40,9 @@ struct WorldDef {
     bool curvedJoints = true;
     Real restitutionThreshold = Real(0.01);  ///< slower approaches do not bounce [m/s], >= 0
     Real slop = Real(1e-5);                  ///< overlap that position correction leaves alone [m], >= 0
+    /// A gap up to this counts as closed [m], >= 0: where position correction has lifted a corner, closing
+    /// the gap by velocity would start stacks rocking. Impacts close it all the same.
+    Real gapSlop = Real(5e-4);
     /// Contacts are found up to this separation [m], >= 0, so that resting bodies land without overlap.
     Real speculativeDistance = Real(1e-3);
 };

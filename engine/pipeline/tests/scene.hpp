@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Small scenes for the tests of the step, alike in both dimensions.
+#pragma once
+
+#include "engine/pipeline/world.hpp"
+
+namespace rigor::engine::test {
+
+inline constexpr double kGravity = 9.81;
+
+template <class S>
+WorldDef<S> earth() {
+    WorldDef<S> def;
+    def.gravity[1] = -static_cast<typename S::Real>(kGravity);
+    return def;
+}
+template <class S>
+typename S::Vec at(double x, double y) {
+    typename S::Vec v = S::Vec::Zero();
+    v[0] = static_cast<typename S::Real>(x);
+    v[1] = static_cast<typename S::Real>(y);
+    return v;
+}
+/// Angular velocity about +z.
+template <class S>
+typename S::Ang spin(double w) {
+    if constexpr (S::dim == 2)
+        return static_cast<typename S::Real>(w);
+    else
+        return typename S::Ang(0, 0, static_cast<typename S::Real>(w));
+}
+template <class S>
+double spinOf(const typename S::Ang& w) {
+    if constexpr (S::dim == 2)
+        return static_cast<double>(w);
+    else
+        return static_cast<double>(w.z());
+}
+template <class S>
+typename S::Inertia isotropic(double value) {
+    const auto v = static_cast<typename S::Real>(value);
+    if constexpr (S::dim == 2)
+        return v;
+    else
+        return typename S::Inertia(S::Inertia::Identity() * v);
+}
+template <class S>
+ShapeId attach(World<S>& world, BodyId body, const Shape<S>& shape, std::uint32_t material) {
+    ShapeDef<S> def;
+    def.shape = shape;
+    def.material = material;
+    return world.addShape(body, def);
+}
+/// Solid below y = 0.
+template <class S>
+BodyId addGround(World<S>& world, std::uint32_t material) {
+    BodyDef<S> def;
+    def.type = BodyType::Static;
+    const BodyId id = world.addBody(def);
+    attach<S>(world, id, HalfSpace<S>{S::Vec::Unit(1), 0}, material);
+    return id;
+}
+/// Ball with the inertia of a solid sphere in both dimensions, so that the plane and space agree.
+template <class S>
+BodyId addBall(World<S>& world, double x, double y, double radius, double mass, std::uint32_t material,
+               double vx = 0, double vy = 0, double w = 0) {
+    BodyDef<S> def;
+    def.mass = static_cast<typename S::Real>(mass);
+    def.inertia = isotropic<S>(0.4 * mass * radius * radius);
+    def.pose.p = at<S>(x, y);
+    def.velocity = at<S>(vx, vy);
+    def.angularVelocity = spin<S>(w);
+    const BodyId id = world.addBody(def);
+    attach<S>(world, id, Sphere<S>{static_cast<typename S::Real>(radius)}, material);
+    return id;
+}
+/// Cube (2D: square) of half extent `half`.
+template <class S>
+BodyId addCube(World<S>& world, double x, double y, double half, double mass, std::uint32_t material,
+               double vx = 0) {
+    BodyDef<S> def;
+    def.mass = static_cast<typename S::Real>(mass);
+    def.inertia = isotropic<S>(2.0 / 3.0 * mass * half * half);
+    def.pose.p = at<S>(x, y);
+    def.velocity = at<S>(vx, 0);
+    const BodyId id = world.addBody(def);
+    attach<S>(world, id, Box<S>{S::Vec::Constant(static_cast<typename S::Real>(half))}, material);
+    return id;
+}
+/// Tolerance by precision.
+template <class S>
+constexpr double tol(double forDouble, double forFloat) {
+    return sizeof(typename S::Real) == 8 ? forDouble : forFloat;
+}
+
+}  // namespace rigor::engine::test
