@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "adapters/interface/input_check.hpp"
 #include "adapters/rigor/convert_shape.hpp"
 #include "adapters/rigor/parts.hpp"
 #include "engine/narrowphase/manifold.hpp"
@@ -60,6 +61,7 @@ CollisionAnswer collideIn(const CollisionQuery& query) {
 class RigorCollision final : public CollisionEngine {
   public:
     CollisionAnswer collide(const CollisionQuery& query) const override {
+        checkQueryInput(query);
         return query.dimension == 2 ? collideIn<engine::Space2d>(query) : collideIn<engine::Space3d>(query);
     }
 };

@@ -271,6 +271,7 @@ class RigorDynamics final : public DynamicsEngine {
   public:
     std::unique_ptr<World> build(const Scenario& scenario, double dt,
                                  const Settings& settings) const override {
+        checkScenarioInput(scenario, dt);
         checkSupported(scenario, rigorCapabilities(), "rigor");
         const bool single = textSetting(settings, "precision") == "f32";
         try {
