@@ -59,6 +59,20 @@ void checkBody(const BodyDef<S>& def) {
             "inertia of a dynamic body must be symmetric and positive definite");
 }
 
+/// Sizes finite and positive, normals unit.
+template <class S>
+bool validShape(const Shape<S>& shape) {
+    using R = typename S::Real;
+    const auto size = [](R x) { return x > 0 && std::isfinite(x); };
+    if (const auto* s = std::get_if<Sphere<S>>(&shape)) return size(s->radius);
+    if (const auto* s = std::get_if<Capsule<S>>(&shape)) return size(s->radius) && size(s->halfLength);
+    if (const auto* s = std::get_if<Box<S>>(&shape))
+        return s->halfExtents.allFinite() && s->halfExtents.minCoeff() > 0;
+    if (const auto* s = std::get_if<HalfSpace<S>>(&shape))
+        return std::isfinite(s->offset) && std::abs(s->normal.norm() - R(1)) < R(1e-4);
+    return std::get<Hull<S>>(shape).data != nullptr;
+}
+
 template <class S>
 std::string narrowPhaseNames() {
     std::string names;
@@ -140,6 +154,8 @@ template <class S>
 ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
     const std::uint32_t dense = bodyIds_.dense(body);
     require(validPose<S>(def.pose), "shape_pose", "position must be finite, orientation a unit rotation");
+    require(validShape<S>(def.shape), "shape_size",
+            "sizes must be positive and finite, normals unit vectors");
     require(def.material < contacts_.materialCount(), "shape_material", "unknown material");
     require(
         !std::holds_alternative<HalfSpace<S>>(def.shape) || bodies_.constants[dense].type == BodyType::Static,

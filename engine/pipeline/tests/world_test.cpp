@@ -154,6 +154,10 @@ TYPED_TEST(Worlds, BadInputIsRefusedById) {
 
     const BodyId a = world.addBody(BodyDef<S>{});
     EXPECT_EQ(refusal([&] { attach<S>(world, a, HalfSpace<S>{S::Vec::Unit(1), 0}, 0); }), "half_space_body");
+    EXPECT_EQ(refusal([&] { attach<S>(world, a, Sphere<S>{0}, 0); }), "shape_size");
+    EXPECT_EQ(refusal([&] { attach<S>(world, a, Box<S>{S::Vec::Constant(nan)}, 0); }), "shape_size");
+    EXPECT_EQ(refusal([&] { attach<S>(world, a, Capsule<S>{1, -1}, 0); }), "shape_size");
+    EXPECT_EQ(refusal([&] { attach<S>(world, a, Hull<S>{}, 0); }), "shape_size");
     EXPECT_EQ(refusal([&] { attach<S>(world, a, Sphere<S>{1}, 7); }), "shape_material");
     EXPECT_EQ(refusal([&] { world.addMaterial(-1, 0); }), "material_friction");
     EXPECT_EQ(refusal([&] { world.addMaterial(0, R(1.5)); }), "material_restitution");
