@@ -105,7 +105,13 @@ TEST_P(BroadPhases, NothingMeetsNothing) {
 }
 
 TEST_P(BroadPhases, UnknownNamesAreRefused) {
-    EXPECT_THROW(engine().broadPhase()->create("no such algorithm", GetParam()), adapter::Unsupported);
+    // Either of the interface's two refusals; a std::runtime_error of the library's own would not do.
+    try {
+        engine().broadPhase()->create("no such algorithm", GetParam());
+        ADD_FAILURE() << "created something";
+    } catch (const adapter::Unsupported&) {
+    } catch (const adapter::BadInput&) {
+    }
     EXPECT_FALSE(engine().broadPhase()->algorithms().empty());
 }
 

@@ -12,7 +12,27 @@ namespace {
 
 // engine, precision, preset, dimension, check, tolerance instead, reason
 constexpr Deviation kDeviations[] = {
-    {"", "", "", 0, "", 0.0, ""},
+    {"bullet", "", "default", 3, "rest_creep", 2e-3, "btStaticPlaneShape: boxes drift by lateral impulses"},
+    {"bullet", "f64", "default", 0, "contact_points_aside", 1e-3, "cached points move with their bodies"},
+    {"bullet", "", "default", 2, "perch_polygon", 0.045, "hulls are grown by their margin of 0.04 m"},
+    {"bullet", "", "default", 3, "perch_hull", 0.045, "hulls are grown by their margin of 0.04 m"},
+    {"bullet", "", "default", 3, "perch_cone", 0.045, "cones are grown by their margin of 0.04 m"},
+    {"box2d", "", "default", 2, "rest_height", 0.019, "polygon skins of 0.01 m less 0.005 m of slop"},
+    {"box2d", "", "default", 2, "contact_within_face", 0.025, "faces are clipped with their skins"},
+    {"box2d", "", "default", 2, "perch_box", 0.01, "circle and polygon skins of 0.01 m less 0.005 m of slop"},
+    {"box2d", "", "default", 2, "perch_capsule", 0.01, "circle and polygon skins of 0.01 m less slop"},
+    {"box2d", "", "default", 2, "perch_polygon", 0.01, "circle and polygon skins of 0.01 m less slop"},
+    {"fcl", "", "", 0, "half_space_ball_distance_told", 1.0, "no distances from unbounded shapes"},
+    {"fcl", "", "", 0, "half_space_box_distance_told", 1.0, "no distances from unbounded shapes"},
+    {"fcl", "", "", 0, "half_space_capsule_side_distance_told", 1.0, "no distances from unbounded shapes"},
+    {"fcl", "", "", 0, "half_space_capsule_end_distance_told", 1.0, "no distances from unbounded shapes"},
+    {"fcl", "", "", 0, "half_space_hull_distance_told", 1.0, "no distances from unbounded shapes"},
+    {"fcl", "", "", 0, "box_capsule_side_gap", 1e-4, "libccd's distance iteration stops at 1e-6"},
+    {"fcl", "", "", 0, "box_capsule_end_gap", 1e-4, "libccd's distance iteration stops at 1e-6"},
+    {"fcl", "", "", 0, "hull_ball_gap", 5e-4, "libccd's distance iteration stops at 1e-6"},
+    {"rigor", "", "", 0, "box_box_distance_told", 1.0, "SAT tells no distance of polytopes that are apart"},
+    {"rigor", "", "", 0, "hull_hull_distance_told", 1.0, "SAT tells no distance of polytopes that are apart"},
+    {"rigor", "", "", 0, "box_hull_distance_told", 1.0, "SAT tells no distance of polytopes that are apart"},
 };
 
 struct Use {

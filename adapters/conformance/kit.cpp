@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <ostream>
 
 namespace rigor::conformance {
 namespace {
@@ -56,6 +57,10 @@ std::vector<int> queryDimensions() {
     std::sort(dimensions.begin(), dimensions.end());
     dimensions.erase(std::unique(dimensions.begin(), dimensions.end()), dimensions.end());
     return dimensions;
+}
+
+std::ostream& operator<<(std::ostream& out, const Arena& arena) {
+    return out << arena.preset << ' ' << arena.dimension << "D " << arena.precision;
 }
 
 std::string arenaName(const testing::TestParamInfo<Arena>& info) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <iosfwd>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,6 +46,7 @@ struct Arena {
     std::string precision;  ///< "f32", "f64"
     bool f64() const { return precision == "f64"; }
 };
+std::ostream& operator<<(std::ostream& out, const Arena& arena);
 /// Both presets in every dimension, native or planar, at every precision the loaded module can select; empty
 /// for engines without dynamics.
 std::vector<Arena> dynamicsArenas();

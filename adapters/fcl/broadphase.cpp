@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // FCL's managers. Each box is a collision object at the identity whose local bounds are overwritten with the
-// box itself, so that no rounding of a centre and sides comes between.
+// box (a little grown), so that no rounding of a centre and sides comes between; pairs are tested against the
+// exact boxes.
 #include "adapters/fcl/broadphase.hpp"
 
 #include <fcl/broadphase/broadphase_SSaP.h>
@@ -26,6 +27,10 @@ namespace {
 using adapter::Aabb;
 using adapter::Pair;
 using Manager = fcl::BroadPhaseCollisionManagerd;
+
+/// Relative growth of the boxes given to FCL: its sorted lists miss pairs whose ends coincide. What that
+/// finds too much is taken out again.
+constexpr double kGrowth = 1e-12;
 
 bool overlap(const Aabb& a, const Aabb& b) {
     return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
@@ -89,7 +94,7 @@ class FclBroadPhase final : public adapter::BroadPhase {
         std::vector<Pair>& pairs;
         static bool add(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* self) {
             auto& collector = *static_cast<Collector*>(self);
-            const auto [a, b] = std::minmax(indexOf(*p), indexOf(*q));
+            const auto [a, b] = std::minmax({indexOf(*p), indexOf(*q)});
             if (a != b && overlap(collector.boxes[static_cast<std::size_t>(a)],
                                   collector.boxes[static_cast<std::size_t>(b)]))
                 collector.pairs.push_back({a, b});
@@ -101,7 +106,12 @@ class FclBroadPhase final : public adapter::BroadPhase {
     };
 
     void place(std::size_t i, const Aabb& box) {
-        geometries_[i]->aabb_local = fcl::AABBd(toFcl(box.min), toFcl(box.max));
+        fcl::Vector3d low = toFcl(box.min), high = toFcl(box.max);
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] -= kGrowth * (1.0 + std::abs(low[axis]));
+            high[axis] += kGrowth * (1.0 + std::abs(high[axis]));
+        }
+        geometries_[i]->aabb_local = fcl::AABBd(low, high);
         objects_[i]->computeAABB();
     }
 

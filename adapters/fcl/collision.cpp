@@ -29,6 +29,11 @@ using adapter::Vec3;
 
 /// More than any pair gives: with fewer, FCL drops contacts in no particular order.
 constexpr std::size_t kMostContacts = 64;
+/// Where libccd's iteration on a distance stops, FCL's own value: it leaves errors of 2e-4 m at round shapes
+/// that are apart, but with a smaller one the assertions of its EPA fail and end the process.
+constexpr double kDistanceTolerance = 1e-6;
+/// Overlaps and distances of centres [m] below which EPA is not asked; measured trouble starts at 1e-12.
+constexpr double kLeastDepth = 1e-7;
 constexpr double kSamePoint = 1e-9;  ///< corners of a prism's two edges agree to rounding [m]
 
 template <class Kind>
@@ -51,10 +56,10 @@ struct Separation {
     Vec3 onA, onB;
 };
 
-/// fcl::distance; nothing for unbounded shapes, and where libccd gives up (it throws) or its two points
-/// contradict its distance.
-std::optional<Separation> separation(const FclShape& a, const FclShape& b) {
-    const fcl::DistanceRequestd request(true, true, 0.0, 0.0, 1e-6, fcl::GST_LIBCCD);
+/// fcl::distance; nothing where libccd gives up (it throws). With `inside` an overlap is measured by EPA,
+/// without it has some negative distance.
+std::optional<Separation> separation(const FclShape& a, const FclShape& b, bool inside) {
+    const fcl::DistanceRequestd request(true, inside, 0.0, 0.0, kDistanceTolerance, fcl::GST_LIBCCD);
     fcl::DistanceResultd result;
     try {
         fcl::distance(a.geometry.get(), a.pose, b.geometry.get(), b.pose, request, result);
@@ -65,6 +70,12 @@ std::optional<Separation> separation(const FclShape& a, const FclShape& b) {
                            fromFcl(result.nearest_points[1])};
     if (!std::isfinite(found.distance) || std::abs(found.distance) > 1e150) return std::nullopt;
     return found;
+}
+
+/// Whether libccd's EPA can be asked about an overlap: shallow ones of polytopes fail an assertion and end
+/// the process, round shapes with coinciding centres keep it busy for ever.
+bool maySendToEpa(const FclShape& a, const FclShape& b, double depth) {
+    return depth > kLeastDepth && (a.pose.translation() - b.pose.translation()).norm() > kLeastDepth;
 }
 
 bool pointsAgree(const Separation& s) {
@@ -103,6 +114,35 @@ std::vector<ContactPoint> contactsOf(const fcl::CollisionResultd& result, const 
     std::stable_sort(contacts.begin(), contacts.end(),
                      [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
     return contacts;
+}
+
+/// Also of contacts that had no direction.
+double deepest(const fcl::CollisionResultd& result) {
+    double depth = 0.0;
+    for (std::size_t i = 0; i < result.numContacts(); ++i)
+        depth = std::max(depth, result.getContact(i).penetration_depth);
+    return depth;
+}
+
+/// Adds the signed distance to an answer of fcl::collide, and where that had no closed form the contact.
+void answerDistance(const FclShape& a, const FclShape& b, bool unbounded, bool closedForm, double depth,
+                    CollisionAnswer& answer) {
+    std::optional<Separation> found;
+    if (answer.overlap) {
+        answer.signedDistance = -depth;
+        if (closedForm || unbounded || !maySendToEpa(a, b, depth)) return;
+        found = separation(a, b, true);
+        if (!found || found->distance >= 0.0 || !pointsAgree(*found)) return;
+        answer.contacts.assign(1, contactOf(*found));
+    } else {
+        if (unbounded) return;
+        found = separation(a, b, false);
+        // Within its tolerance GJK may see an overlap where fcl::collide saw none.
+        if (found && found->distance < 0.0) found->distance = 0.0;
+        if (!found) return;
+    }
+    answer.signedDistance = found->distance;
+    if (pointsAgree(*found)) answer.witnessA = found->onA, answer.witnessB = found->onB;
 }
 
 /// The two edges of a prism are one corner of a polygon: one contact in the plane z = 0.
@@ -145,18 +185,7 @@ CollisionAnswer FclCollisionEngine::collide(const CollisionQuery& query) const {
     CollisionAnswer answer;
     answer.overlap = result.isCollision();
     answer.contacts = contactsOf(result, {&solidA, query.a.pose}, {&solidB, query.b.pose});
-    std::optional<Separation> apart;
-    if (!unboundedA && !unboundedB) apart = separation(a, b);
-    if (apart) {
-        answer.signedDistance = apart->distance;
-        if (pointsAgree(*apart)) {
-            answer.witnessA = apart->onA, answer.witnessB = apart->onB;
-            if (apart->distance < -1e-9 && !hasClosedForm(solidA, solidB))
-                answer.contacts.assign(1, contactOf(*apart));
-        }
-    } else if (!answer.contacts.empty()) {
-        answer.signedDistance = -answer.contacts.front().depth;
-    }
+    answerDistance(a, b, unboundedA || unboundedB, hasClosedForm(solidA, solidB), deepest(result), answer);
     if (query.dimension == 2) {
         bringIntoPlane(answer.contacts);
         if (answer.witnessA) answer.witnessA->z = answer.witnessB->z = 0.0;

@@ -13,6 +13,8 @@
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/sphere.h>
 
+#include <cmath>
+
 #include "scenarios/model/hull.hpp"
 
 namespace rigor::fcl_adapter {
@@ -65,7 +67,7 @@ struct ToGeometry {
     }
 };
 
-fcl::Transform3d toFcl(const Pose& pose) {
+fcl::Transform3d transformOf(const Pose& pose) {
     fcl::Transform3d transform = fcl::Transform3d::Identity();
     const scenario::Mat3 R = toMatrix(normalized(pose.orientation));
     for (int i = 0; i < 3; ++i)
@@ -83,7 +85,7 @@ FclShape toFcl(const adapter::Geometry& geometry, const Pose& pose) {
     // A quarter turn about -x takes z to y.
     const double half = std::sqrt(0.5);
     const scenario::Quat turn = convert.alongZ ? scenario::Quat{half, -half, 0, 0} : scenario::Quat{};
-    shape.pose = toFcl(pose * Pose{convert.origin, turn});
+    shape.pose = transformOf(pose * Pose{convert.origin, turn});
     return shape;
 }
 
