@@ -84,7 +84,8 @@ Capabilities rigorCapabilities() {
         c.joints.push_back(joint.name);
     c.contactImpulses = true;
     // Separated polytopes get no distance from the separating axis; see collision.cpp.
-    c.signedDistance = true;
+    // Separating axes only bound the distance of polytopes that are apart; it is told where it is exact.
+    c.signedDistance = false;
     c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
     return c;
 }
