@@ -81,6 +81,7 @@ bool isBad(Shown s) {
 /// Main errors of a scenario at the finest time step, per column; NaN where there is none.
 std::vector<double> mainErrors(const ViewModel& view, std::size_t scenario) {
     std::vector<double> errors(view.columns().size(), std::numeric_limits<double>::quiet_NaN());
+    if (view.run().scenarios[scenario].reference.empty()) return errors;  // nobody knows who is right
     double finest = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < errors.size(); ++c)
         for (const auto* row : view.cell(scenario, c).cases)
@@ -94,15 +95,19 @@ std::vector<double> mainErrors(const ViewModel& view, std::size_t scenario) {
     return errors;
 }
 
-/// Error over the best one's. Differences far below the typical error count as none: a thousandth of the
-/// median is added to both, so an engine that is exact to rounding does not make the next one look 1e9 worse.
+/// In SI units and scenes of about a metre: what single precision can hold. Below it errors count as equal.
+constexpr double kRoundingFloor = 1e-6;
+
+/// Error over the best one's. Differences far below the typical error, or below single-precision rounding,
+/// count as none: a floor is added to both, so an engine that is exact to rounding does not make the next one
+/// look 1e9 worse.
 std::vector<double> ratiosToBest(const std::vector<double>& errors) {
     std::vector<double> finite;
     for (const double e : errors)
         if (std::isfinite(e)) finite.push_back(e);
     std::vector<double> ratios(errors.size(), std::numeric_limits<double>::quiet_NaN());
     if (finite.empty()) return ratios;
-    const double floor = std::max(1e-3 * median(finite), 1e-12);
+    const double floor = std::max(1e-3 * median(finite), kRoundingFloor);
     const double best = *std::min_element(finite.begin(), finite.end()) + floor;
     for (std::size_t i = 0; i < errors.size(); ++i)
         if (std::isfinite(errors[i])) ratios[i] = (errors[i] + floor) / best;

@@ -58,7 +58,7 @@ Rigor.trust = function () {
         poor.length ? '' : el('span', {class: 'muted'}, '—')));
   };
   return Rigor.panel('trust', 'Which engine for what',
-    el('p', {class: 'muted'}, 'By mechanism, over the scenarios that isolate it. ', el('b', {}, 'Trust first'), ': fewest failures, then the smallest error; several where they agree within 5 %. ',
+    el('p', {class: 'muted'}, 'By mechanism, over the scenarios that isolate it. ', el('b', {}, 'Trust first'), ': fewest failures, then the smallest error; several where they agree within 5 %. Errors under 1e-6 (single-precision rounding) count as equal; scenarios without a reference rank nobody. ',
       '×', 'n is the typical error relative to the most accurate engine, at the same time step. ',
       el('b', {}, 'Fails'), ' counts scenarios with a missed bound, crash, timeout or NaN.'),
     Rigor.scroll(el('table', {class: 'full trust'},
