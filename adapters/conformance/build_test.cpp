@@ -60,7 +60,9 @@ TEST_P(Build, ReadBackIsTheScenario) {
     s.gravity = {0.5, -9.81, 0.0};
     s.materials.push_back({"other", 0.6, 0.8, 500.0});
     s.pairs.push_back({0, 1, 0.45, 0.15});
+    const bool touching = hasShape("box") && hasShape(is2d() ? "circle" : "sphere");
     addStatic(s, block({5, 1, 5}), {0, -1, 0});
+    s.bodies[0].collides = touching;
     addBody(s, block({0.3, 0.2, 0.4}), flat({1, 2, 3}), 2.0, {0.2, 0.3, 0.4});
     addBody(s, ball(0.4), flat({-1, 2, 1}), 3.0, {0.5, 0.5, 0.5});
     s.bodies[2].shapes[0].material = 1;
@@ -102,6 +104,7 @@ TEST_P(Build, ReadBackIsTheScenario) {
         EXPECT_NEAR(pair.restitution, expected.restitution, 1e-6);
         told.insert(std::minmax(pair.materialA, pair.materialB));
     }
+    if (!touching) return;
     EXPECT_TRUE(told.contains({0, 0}) && told.contains({0, 1})) << "pairs that can meet are read back";
 }
 
@@ -124,6 +127,7 @@ TEST_P(Build, StepsRepeatBitForBitAndWorldsDoNotMeet) {
         Scenario s = scene(0.4, 0.3);
         s.gravity = {0, -9.81, 0};
         addStatic(s, block({5, 1, 5}), {0, -1, 0});
+        s.bodies[0].collides = hasShape("box");
         for (int i = 0; i < 5; ++i)
             addBody(s, block({0.3, 0.2, 0.25}), flat({0.15 * (i % 2) + shift, 0.3 + 0.5 * i, 0.05 * i}),
                     1.0 + i, boxMoments(1.0 + i, {0.3, 0.2, 0.25}));

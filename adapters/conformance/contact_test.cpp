@@ -12,6 +12,10 @@ namespace {
 
 class Contact : public DynamicsTest {
   protected:
+    void SetUp() override {
+        if (!hasShape("box") || !hasShape(is2d() ? "circle" : "sphere"))
+            GTEST_SKIP() << "no boxes and balls to touch";
+    }
     const char* halfSpaceName() const { return is2d() ? "half_plane" : "half_space"; }
     /// A ground whose surface is y = 0: a half-space where there is one, else a large block.
     int addGround(Scenario& s) const {

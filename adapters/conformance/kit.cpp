@@ -98,6 +98,7 @@ int DynamicsTest::addBody(Scenario& s, const Geometry& geometry, const Vec3& pos
     body.name = "body" + std::to_string(s.bodies.size());
     body.pose.position = position;
     body.shapes.push_back({geometry, {}, 0});
+    body.collides = hasShape(geometryName(geometry, s.dimension));
     body.massProperties = {mass, {}, Mat3::diagonal(moments.x, moments.y, moments.z)};
     if (is2d()) body.massProperties.inertia = Mat3::diagonal(0.0, 0.0, moments.z);
     s.bodies.push_back(body);

@@ -93,7 +93,8 @@ class DynamicsTest : public testing::TestWithParam<Arena> {
     Geometry block(const Vec3& half) const;
     /// The z component vanishes in two dimensions.
     Vec3 flat(const Vec3& v) const { return is2d() ? Vec3{v.x, v.y, 0.0} : v; }
-    /// A dynamic body of one shape with these principal moments; returns its index.
+    /// A dynamic body of one shape with these principal moments, colliding where the engine has the shape;
+    /// returns its index.
     int addBody(Scenario& s, const Geometry& geometry, const Vec3& position, double mass = 1.0,
                 const Vec3& moments = {0.1, 0.1, 0.1}) const;
     int addStatic(Scenario& s, const Geometry& geometry, const Vec3& position = {},

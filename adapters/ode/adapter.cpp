@@ -68,7 +68,7 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
             choice("friction", {"pyramid_world", "pyramid_velocity"}, "pyramid_world", "pyramid_velocity",
                    "axes of the friction square: fixed by the normal, or along the predicted sliding"),
             number("bounce_threshold", 0, 1e9, "0", "0", "no bounce below this speed [m/s]"),
-            choice("gyroscopic", {"none", "ode", "external"}, "ode", "external",
+            choice("gyroscopic", {"none", "ode", "external"}, "ode", "ode",
                    "gyroscopic torque; external: outside of ODE, keeping the angular momentum"),
             choice("rotation", {"infinitesimal", "finite"}, "infinitesimal", "finite",
                    "orientation update: first order and normalised, or exact for constant velocity"),
