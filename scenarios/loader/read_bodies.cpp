@@ -80,6 +80,10 @@ void readMass(const Node& node, const Scenario& scenario, Body& body) {
         if (body.shapes.empty()) throw std::invalid_argument("no shapes to compute mass and inertia from");
         body.massProperties = massPropertiesFromShapes(body.shapes, scenario.materials, scenario.dimension);
         if (mass) body.massProperties = scaledToMass(body.massProperties, given);
+        const Mat3& tensor = body.massProperties.inertia;
+        const bool solid = scenario.dimension == 2 ? tensor(2, 2) > 0.0 : isInertia(tensor);
+        if (!solid || !std::isfinite(body.massProperties.mass * tensor(2, 2)))
+            throw std::invalid_argument("shapes too thin or too large for an inertia in double precision");
     } catch (const std::invalid_argument& error) {
         node.problem("body.mass", error.what(), "solid shapes, or mass and inertia");
     }
