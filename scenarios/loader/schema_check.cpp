@@ -10,8 +10,8 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "scenario_schema.hpp"  // generated from scenarios/schema/*.json
 #include "scenarios/loader/loader.hpp"
+#include "scenarios/schema/scenario_schema.hpp"  // generated from the JSON files beside it
 
 namespace rigor::scenario {
 namespace {
