@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 #include <tuple>
 
 #include "adapters/ode/convert.hpp"
@@ -33,6 +34,16 @@ void OdeWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
 }
 
 void OdeWorld::step() {
+    if (broken_) throw std::runtime_error("ODE failed in an earlier step of this world");
+    try {
+        doStep();
+    } catch (...) {
+        broken_ = true;
+        throw;
+    }
+}
+
+void OdeWorld::doStep() {
     useLibrary();
     const std::int64_t messagesBefore = messageCount();
     for (auto& record : records_) {

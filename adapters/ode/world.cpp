@@ -51,15 +51,17 @@ OdeWorld::OdeWorld(const Scenario& scenario, double dt, const Settings& settings
 }
 
 OdeWorld::~OdeWorld() {
-    // After an error inside ODE its space may still be locked, and destroying it would raise the next one:
-    // then the rest is left to the end of the process.
-    try {
-        records_.clear();
-        dJointGroupDestroy(contactGroup_);
-        dSpaceDestroy(space_);
-        dWorldDestroy(world_);
-    } catch (const std::exception&) {
+    if (broken_) {
+        // Its space may still be locked, and touching that would raise the next error: left to the end of the
+        // process.
+        for (auto& record : records_)
+            for (auto& geom : record->geoms) static_cast<void>(geom.release());
+        return;
     }
+    records_.clear();
+    dJointGroupDestroy(contactGroup_);
+    dSpaceDestroy(space_);
+    dWorldDestroy(world_);
 }
 
 bool OdeWorld::is(const std::string& key, const std::string& value) const {

@@ -65,6 +65,7 @@ class OdeWorld final : public adapter::World {
     adapter::BodyState stateOf(int index) const;
     adapter::Pose poseOf(int index) const;
 
+    void doStep();
     void pushGravity();
     void findContacts();
     void createContactJoints();
@@ -74,7 +75,6 @@ class OdeWorld final : public adapter::World {
     void turnAngularMomentum(BodyRecord& record, const adapter::Quat& from);
     void keepInPlane(BodyRecord& record);
     static void nearPair(void* self, dGeomID a, dGeomID b);
-    const adapter::Vec3& gravityOf(const BodyRecord& record) const { return record.gravity; }
     bool is(const std::string& key, const std::string& value) const;
     void appendGeometryLedger(std::vector<adapter::LedgerEntry>& lines) const;
 
@@ -97,6 +97,7 @@ class OdeWorld final : public adapter::World {
     std::vector<FoundPoint> found_;
     std::vector<StepContact> contacts_;
 
+    bool broken_ = false;  ///< an error left ODE in the middle of something
     adapter::StepCounters counters_;
     std::int64_t steps_ = 0, fallbackSteps_ = 0, messages_ = 0;
 };
