@@ -92,7 +92,7 @@ TEST(CommandLine, ExitCodes) {
 
 TEST(CommandLine, MessagesNameFileAndPointer) {
     const auto file = std::filesystem::path(testing::TempDir()) / "broken.json";
-    std::ofstream(file) << "{\"rigor\": 1,\n \"name\": 7}";
+    std::ofstream(file) << "{\"rigor\": 1, \"dimension\": 3,\n \"name\": 7}";
     const Result result = rigor("check " + file.string());
     EXPECT_EQ(result.code, 2);
     EXPECT_NE(result.out.find("broken.json:2"), std::string::npos) << result.out;

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/constraints/row.hpp"
 
-#include <Eigen/Cholesky>
 #include <limits>
+#include "engine/math/decompositions.hpp"
 
 namespace rigor::engine {
 

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/pipeline/world.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include "engine/math/decompositions.hpp"
 
 #include "engine/core/hash.hpp"
 #include "engine/narrowphase/narrowphases.hpp"

@@ -30,6 +30,7 @@ Run twoScenarios() {
     for (const char* name : {"a", "b"}) {
         ScenarioRow s;
         s.name = name, s.isolates = {"friction"}, s.metrics = {"absent", "error"};
+        s.reference = "sliding_stop";
         run.scenarios.push_back(s);
     }
     return run;
@@ -64,6 +65,19 @@ TEST(ViewModel, ErrorsAreComparedAtTheSameTimeStepAlone) {
     const auto mechanisms = ViewModel(run).mechanisms();
     EXPECT_TRUE(std::isnan(mechanisms[0].standings[1].ratio));
     EXPECT_EQ(mechanisms[0].best, 0);
+}
+
+TEST(ViewModel, WithoutAReferenceNobodyIsRanked) {
+    results::Run run = twoScenarios();
+    for (auto& s : run.scenarios) s.reference.clear();
+    run.cases = {makeCase("a", "one", 0.01, 1.0), makeCase("a", "two", 0.01, 4.0)};
+    EXPECT_EQ(ViewModel(run).mechanisms()[0].best, -1);
+}
+
+TEST(ViewModel, RoundingCountsAsEqual) {
+    results::Run run = twoScenarios();
+    run.cases = {makeCase("a", "one", 0.01, 1e-16), makeCase("a", "two", 0.01, 1e-9)};
+    EXPECT_NEAR(ViewModel(run).mechanisms()[0].standings[1].ratio, 1.0, 0.01);
 }
 
 TEST(ViewModel, WhoNeverFinishesIsNotRanked) {
