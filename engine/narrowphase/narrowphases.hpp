@@ -17,7 +17,7 @@ struct NarrowPhaseEntry {
 /// Every narrow phase findNarrowPhase knows.
 std::span<const NarrowPhaseEntry> narrowPhases();
 
-#define ALGORITHM(name, function, summary)                                                 \
+#define ALGORITHM(name, function, summary)                                                    \
     template <class S>                                                                        \
     void function(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb, \
                   typename S::Real speculativeDistance, Manifold<S>& out);
