@@ -6,20 +6,15 @@
 #include "adapters/box2d/collision.hpp"
 #include "adapters/box2d/world.hpp"
 #include "adapters/interface/input_check.hpp"
+#include "adapters/interface/options.hpp"
 
 namespace rigor::box2d {
 namespace {
 
+using adapter::choice;
+using adapter::integer;
+using adapter::number;
 using adapter::Option;
-
-Option choice(const char* key, std::vector<std::string> values, const char* byDefault, const char* matched,
-              const char* help) {
-    return {key, std::move(values), 0.0, 0.0, false, byDefault, matched, help};
-}
-Option number(const char* key, double min, double max, bool integer, const char* byDefault,
-              const char* matched, const char* help) {
-    return {key, {}, min, max, integer, byDefault, matched, help};
-}
 
 class Box2dEngine final : public adapter::Engine, public adapter::DynamicsEngine {
   public:
@@ -46,15 +41,15 @@ class Box2dEngine final : public adapter::Engine, public adapter::DynamicsEngine
 
     std::vector<Option> options() const override {
         return {
-            number("velocity_iterations", 1, 100000, true, "8", "50", "velocity iterations per step"),
-            number("position_iterations", 0, 100000, true, "3", "10", "position iterations per step"),
-            number("scale", 0.01, 1000, false, "1", "4",
+            integer("velocity_iterations", 1, 100000, "8", "50", "velocity iterations per step"),
+            integer("position_iterations", 0, 100000, "3", "10", "position iterations per step"),
+            number("scale", 0.01, 1000, "1", "4",
                    "Box2D lengths per metre: its tolerances shrink and its speed limit falls with it"),
             choice("skin", {"library", "least"}, "library", "least",
                    "rounding around shapes; least: true surfaces touch at rest"),
             choice("restitution", {"library", "corrected"}, "library", "corrected",
                    "corrected: bounces exactly e times the approach speed"),
-            number("restitution_threshold", 0, 1e9, false, "1", "0", "no bounce below this speed [m/s]"),
+            number("restitution_threshold", 0, 1e9, "1", "0", "no bounce below this speed [m/s]"),
             choice("warm_starting", {"on", "off"}, "on", "on", "start from the last impulses"),
             choice("continuous", {"on", "off"}, "on", "off", "time-of-impact handling of fast bodies"),
             choice("sleeping", {"on", "off"}, "on", "off", "bodies at rest are stopped and skipped"),

@@ -3,33 +3,15 @@
 //
 // What was asked of Box2D and what it really does. Reasons are measured properties of Box2D 2.4.1.
 #include <algorithm>
-#include <sstream>
 
 #include "adapters/box2d/world.hpp"
+#include "adapters/interface/options.hpp"
 
 namespace rigor::box2d {
 
 using adapter::LedgerEntry;
 using adapter::Realisation;
-
-namespace {
-
-std::string shown(double value) {
-    std::ostringstream text;
-    text.precision(6);
-    text << value;
-    return text.str();
-}
-
-template <class Kind>
-bool has(const adapter::Scenario& scenario) {
-    for (const auto& body : scenario.bodies)
-        for (const auto& shape : body.shapes)
-            if (body.collides && std::holds_alternative<Kind>(shape.geometry)) return true;
-    return false;
-}
-
-}  // namespace
+using adapter::shown;
 
 std::vector<LedgerEntry> Box2dWorld::ledger() const {
     std::vector<LedgerEntry> lines;
@@ -91,12 +73,12 @@ void Box2dWorld::appendShapeLedger(std::vector<LedgerEntry>& lines) const {
         Realisation::Approximate,
         least ? "surfaces touch when at rest on each other, to within a slop"
               : "shapes rest up to 3 slops apart (" + shown(3.0 * b2_linearSlop / scale_) + " m)");
-    if (has<scenario::HalfSpace>(scenario_))
+    if (adapter::hasCollidingShape<scenario::HalfSpace>(scenario_))
         add("half_plane", "unbounded",
             "rectangle of half extents " + shown(shapes_.halfPlaneReach) + " x " + shown(kHalfPlaneDepth) +
                 " m",
             Realisation::Approximate, "Box2D has no half-plane");
-    if (has<scenario::Capsule>(scenario_))
+    if (adapter::hasCollidingShape<scenario::Capsule>(scenario_))
         add("capsule", "one shape", "a rectangle and two circles", Realisation::Approximate,
             "Box2D has no capsule; contacts may come twice where the parts meet");
     const bool damped = std::any_of(

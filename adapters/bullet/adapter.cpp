@@ -8,10 +8,13 @@
 #include "adapters/bullet/collision.hpp"
 #include "adapters/bullet/world.hpp"
 #include "adapters/interface/input_check.hpp"
+#include "adapters/interface/options.hpp"
 
 namespace rigor::bullet {
 namespace {
 
+using adapter::choice;
+using adapter::number;
 using adapter::Option;
 
 /// "f32" or "f64" as the loaded library stores its bodies: the size is computed inside the library.
@@ -25,15 +28,6 @@ std::string libraryPrecision() {
 }
 
 constexpr const char* kHeaderPrecision = sizeof(btScalar) == sizeof(double) ? "f64" : "f32";
-
-Option choice(const char* key, std::vector<std::string> values, const char* byDefault, const char* matched,
-              const char* help) {
-    return {key, std::move(values), 0.0, 0.0, false, byDefault, matched, help};
-}
-Option number(const char* key, double min, double max, const char* byDefault, const char* matched,
-              const char* help) {
-    return {key, {}, min, max, false, byDefault, matched, help};
-}
 
 class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngine {
   public:

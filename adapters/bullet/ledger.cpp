@@ -6,38 +6,15 @@
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "adapters/bullet/world.hpp"
+#include "adapters/interface/options.hpp"
 
 namespace rigor::bullet {
 
 using adapter::LedgerEntry;
 using adapter::Realisation;
-
-namespace {
-
-std::string shown(double value) {
-    std::ostringstream text;
-    text.precision(6);
-    text << value;
-    return text.str();
-}
-
-bool hasShape(const adapter::Scenario& scenario, auto&& predicate) {
-    for (const auto& body : scenario.bodies)
-        for (const auto& shape : body.shapes)
-            if (body.collides && predicate(shape.geometry)) return true;
-    return false;
-}
-
-template <class... Kinds>
-bool has(const adapter::Scenario& scenario) {
-    return hasShape(scenario,
-                    [](const adapter::Geometry& g) { return (std::holds_alternative<Kinds>(g) || ...); });
-}
-
-}  // namespace
+using adapter::shown;
 
 std::vector<LedgerEntry> BulletWorld::ledger() const {
     std::vector<LedgerEntry> lines;
@@ -99,7 +76,7 @@ void BulletWorld::appendGeometryLedger(std::vector<LedgerEntry>& lines) const {
         lines.push_back({topic, std::move(requested), std::move(resolved), realisation, std::move(reason)});
     };
     const ShapeSettings shapes = shapeSettings();
-    if (has<scenario::HalfSpace>(scenario_)) {
+    if (adapter::hasCollidingShape<scenario::HalfSpace>(scenario_)) {
         if (shapes.halfSpaceAsBox)
             add("half_space", "unbounded",
                 "box of half extents " + shown(shapes.halfSpaceReach) + " x " + shown(kHalfSpaceDepth) +
@@ -114,14 +91,14 @@ void BulletWorld::appendGeometryLedger(std::vector<LedgerEntry>& lines) const {
         add(topic, "0", shown(margin) + " m", margin > 0.0 ? Realisation::Approximate : Realisation::Exact,
             margin > 0.0 ? effect : "");
     };
-    if (has<scenario::Box>(scenario_))
+    if (adapter::hasCollidingShape<scenario::Box>(scenario_))
         addMargin("box_margin", shapes.boxMargin, "rounds edges against spheres, capsules, cylinders (GJK)");
-    if (has<scenario::Cylinder>(scenario_))
+    if (adapter::hasCollidingShape<scenario::Cylinder>(scenario_))
         addMargin("cylinder_margin", shapes.cylinderMargin,
                   "rounds rims (GJK); 0 would leave flat contacts to EPA");
-    if (has<scenario::ConvexHull, scenario::Cone>(scenario_))
+    if (adapter::hasCollidingShape<scenario::ConvexHull, scenario::Cone>(scenario_))
         addMargin("hull_margin", shapes.hullMargin, "hulls and cones are grown outwards");
-    if (has<scenario::ConvexHull>(scenario_))
+    if (adapter::hasCollidingShape<scenario::ConvexHull>(scenario_))
         add("hull_contacts", "full manifold",
             shapes.polyhedralFeatures ? "SAT and clipping with hulls and boxes"
                                       : "GJK/EPA, one point per step",

@@ -5,6 +5,7 @@
 #include <ode/ode.h>
 
 #include "adapters/interface/input_check.hpp"
+#include "adapters/interface/options.hpp"
 #include "adapters/ode/broadphase.hpp"
 #include "adapters/ode/collision.hpp"
 #include "adapters/ode/library.hpp"
@@ -13,20 +14,10 @@
 namespace rigor::ode {
 namespace {
 
+using adapter::choice;
+using adapter::integer;
+using adapter::number;
 using adapter::Option;
-
-Option choice(const char* key, std::vector<std::string> values, const char* byDefault, const char* matched,
-              const char* help) {
-    return {key, std::move(values), 0.0, 0.0, false, byDefault, matched, help};
-}
-Option number(const char* key, double min, double max, const char* byDefault, const char* matched,
-              const char* help) {
-    return {key, {}, min, max, false, byDefault, matched, help};
-}
-Option integer(const char* key, double min, double max, const char* byDefault, const char* matched,
-               const char* help) {
-    return {key, {}, min, max, true, byDefault, matched, help};
-}
 
 const char* libraryPrecision() {
     return dCheckConfiguration("ODE_double_precision") != 0 ? "f64" : "f32";

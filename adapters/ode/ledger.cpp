@@ -3,23 +3,17 @@
 //
 // What was asked of ODE and what it really does. Reasons are measured properties of ODE 0.16.2.
 #include <algorithm>
-#include <sstream>
 
+#include "adapters/interface/options.hpp"
 #include "adapters/ode/world.hpp"
 
 namespace rigor::ode {
 
 using adapter::LedgerEntry;
 using adapter::Realisation;
+using adapter::shown;
 
 namespace {
-
-std::string shown(double value) {
-    std::ostringstream text;
-    text.precision(6);
-    text << value;
-    return text.str();
-}
 
 /// Adds lines; a reason makes a line approximate.
 class Lines {

@@ -3,6 +3,7 @@
 //
 // The in-house engine as an adapter: who it is, what it can do, and every choice it offers. Algorithm names
 // come from the engine's own tables.
+#include "adapters/interface/options.hpp"
 #include "adapters/rigor/parts.hpp"
 #include "adapters/rigor/settings.hpp"
 #include "engine/constraints/joint.hpp"
@@ -10,14 +11,6 @@
 
 namespace rigor::adapter {
 namespace {
-
-Option number(const char* key, double min, double max, bool integer, const char* defaultValue,
-              const char* matchedValue, const char* help) {
-    return {key, {}, min, max, integer, defaultValue, matchedValue, help};
-}
-Option choice(const char* key, std::vector<std::string> values, const char* chosen, const char* help) {
-    return {key, std::move(values), 0.0, 0.0, false, chosen, chosen, help};
-}
 
 class RigorEngine final : public Engine {
   public:
@@ -35,28 +28,29 @@ class RigorEngine final : public Engine {
         for (const engine::AlgorithmFamily& family : engine::algorithmFamilies()) {
             std::vector<std::string> names;
             for (const engine::AlgorithmInfo& algorithm : family.algorithms) names.push_back(algorithm.name);
-            options.push_back(
-                choice(family.name.c_str(), names, family.defaultChoice.c_str(), family.summary.c_str()));
+            options.push_back(choice(family.name.c_str(), names, family.defaultChoice.c_str(),
+                                     family.defaultChoice.c_str(), family.summary.c_str()));
         }
         options.push_back(
-            number("velocity_iterations", 1, 100000, true, "8", "50", "iterations of the velocity solver"));
+            integer("velocity_iterations", 1, 100000, "8", "50", "iterations of the velocity solver"));
         options.push_back(
-            number("position_iterations", 0, 100000, true, "3", "10", "iterations of position correction"));
+            integer("position_iterations", 0, 100000, "3", "10", "iterations of position correction"));
         options.push_back(
-            number("first_step_iterations", 1, 100000, true, "400", "400",
-                   "most velocity iterations of the first step, which has no impulses to start from"));
+            integer("first_step_iterations", 1, 100000, "400", "400",
+                    "most velocity iterations of the first step, which has no impulses to start from"));
         options.push_back(
-            choice("warm_starting", {"off", "on"}, "on", "start from the impulses of the last step"));
-        options.push_back(choice("curved_joints", {"off", "on"}, "on",
+            choice("warm_starting", {"off", "on"}, "on", "on", "start from the impulses of the last step"));
+        options.push_back(choice("curved_joints", {"off", "on"}, "on", "on",
                                  "joint rows aim at the constraint at the end of the step"));
-        options.push_back(number("restitution_threshold", 0, 100, false, "0.01", "0",
-                                 "slower approaches do not bounce [m/s]"));
-        options.push_back(number("slop", 0, 1, false, "1e-5", "1e-5", "overlap that is not corrected [m]"));
-        options.push_back(number("gap_slop", 0, 1, false, "5e-4", "5e-4",
-                                 "gaps of resting contacts that count as closed [m]"));
-        options.push_back(number("speculative_distance", 0, 1, false, "1e-3", "1e-3",
+        options.push_back(
+            number("restitution_threshold", 0, 100, "0.01", "0", "slower approaches do not bounce [m/s]"));
+        options.push_back(number("slop", 0, 1, "1e-5", "1e-5", "overlap that is not corrected [m]"));
+        options.push_back(
+            number("gap_slop", 0, 1, "5e-4", "5e-4", "gaps of resting contacts that count as closed [m]"));
+        options.push_back(number("speculative_distance", 0, 1, "1e-3", "1e-3",
                                  "contacts are found up to this separation [m]"));
-        options.push_back(choice("precision", {"f32", "f64"}, "f64", "number type of state and computation"));
+        options.push_back(
+            choice("precision", {"f32", "f64"}, "f64", "f64", "number type of state and computation"));
         return options;
     }
     const DynamicsEngine* dynamics() const override { return dynamics_.get(); }
