@@ -72,7 +72,7 @@ std::vector<LedgerEntry> OdeWorld::ledger() const {
                   (capped ? ", at most " + setting("max_correcting_velocity") + " m/s" : ", unlimited"),
               "penetration is pushed out through the velocity and leaves it behind");
     lines.add("contact_softness", "rigid", "CFM " + setting("cfm"),
-              "regularises redundant contacts; sinks by about 1e-11 m under 1 kg");
+              "regularises redundant contacts; bodies sink and impacts lose speed in proportion to it");
     lines.add("joint_error_reduction", "rigid", "ERP " + setting("erp"),
               scenario_.joints.empty() ? "" : "drift is corrected through velocities");
     lines.add("contacts_per_pair", "all", "at most " + setting("max_contacts"),

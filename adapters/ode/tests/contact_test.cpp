@@ -113,6 +113,33 @@ TEST(OdeContacts, LeverOfAnImpactIsShorterByTheOverlap) {
     }
 }
 
+/// Ten cubes, each `overlap` into what is below it.
+Scenario stack(double overlap, bool onBox) {
+    Scenario s = scene(0.5);
+    if (onBox)
+        addStatic(s, Box{{20, 0.5, 20}}, {0, -0.5, 0});
+    else
+        addStatic(s, HalfSpace{});
+    for (int i = 0; i < 10; ++i)
+        addBody(s, Box{{0.5, 0.5, 0.5}}, {0, 0.5 + i - overlap * (i + 1), 0}, 1.0,
+                boxMoments(1.0, {0.5, 0.5, 0.5}));
+    return s;
+}
+
+TEST(OdeContacts, AStackWithALittleOverlapStandsOnABox) {
+    Simulation run(stack(1e-5, true), 1.0 / 60);
+    run.seconds(2);
+    for (int i = 1; i <= 10; ++i)
+        EXPECT_NEAR(norm(run.state(i).position - Vec3{0, i - 0.5, 0}), 0.0, 1e-3) << i;
+}
+
+/// Contacts that start at depth zero: the direct solver gives up and says so, whatever the softness.
+TEST(OdeContacts, ASolverThatGivesUpIsInTheLedger) {
+    Simulation run(stack(0.0, false), 1.0 / 60, "preset=matched,cfm=1e-5");
+    run.seconds(2);
+    EXPECT_NE(run.ledgerLine("solver_messages"), nullptr);
+}
+
 TEST(OdeMotion, DampingKeepsTheGivenPartPerSecondAtAnySpeed) {
     for (const double speed : {2.0, 0.005})  // ODE's own threshold is 0.01
         for (const double dt : {1.0 / 60, 1.0 / 240}) {
