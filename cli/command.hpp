@@ -41,6 +41,8 @@ void addReport(CLI::App& app, Action& action);
 
 /// This program's own file.
 std::filesystem::path ownBinary();
+/// How this program was called, as one would type it: "./rigor validate smoke -j 2".
+std::string ownCommandLine();
 
 /// Where a terminal reads, and whether it wants colours (NO_COLOR and TERM=dumb are respected).
 bool isTerminal(int fileDescriptor);

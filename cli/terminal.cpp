@@ -6,7 +6,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "cli/command.hpp"
@@ -15,6 +17,23 @@ namespace rigor::cli {
 
 std::filesystem::path ownBinary() {
     return std::filesystem::read_symlink("/proc/self/exe");
+}
+
+std::string ownCommandLine() {
+    std::ifstream in("/proc/self/cmdline", std::ios::binary);
+    std::string text, argument;
+    while (std::getline(in, argument, '\0')) {
+        if (text.empty()) {
+            text = "./rigor";
+            continue;
+        }
+        const bool plain =
+            argument.find_first_of(" \t\n\"'\\$&|;<>()*?[]{}!#~`") == std::string::npos && !argument.empty();
+        std::string quoted = "'";
+        for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        text += " " + (plain ? argument : quoted + "'");
+    }
+    return text;
 }
 
 bool isTerminal(int fileDescriptor) {

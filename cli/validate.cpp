@@ -24,7 +24,6 @@ struct Arguments {
     std::string engines, out;
     int jobs = 0;
     bool resume = false, noAudit = false, json = false, quiet = false;
-    std::string command;
 };
 
 constexpr const char* kDefaultSuite = "standard";
@@ -181,7 +180,7 @@ int validate(const Arguments& given) {
     options.resume = arguments.resume;
     options.audit = !arguments.noAudit;
     options.suite = selection.title;
-    options.command = arguments.command;
+    options.command = ownCommandLine();
 
     const auto plan = validation::planCases(selection.scenarios, specs, timeSteps);
     std::signal(SIGINT, onInterrupt);
@@ -191,9 +190,11 @@ int validate(const Arguments& given) {
         plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
     line.finish();
     if (interrupted) {
-        std::fprintf(stderr, "Interrupted: %zu of %lld cases are stored. Go on with: %s --resume --out %s\n",
-                     run.cases.size(), static_cast<long long>(run.plannedCases), "rigor validate ...",
-                     options.directory.string().c_str());
+        std::string again = options.command;
+        if (!arguments.resume) again += " --resume";
+        if (arguments.out.empty()) again += " --out " + options.directory.string();
+        std::fprintf(stderr, "Interrupted: %zu of %lld cases are stored. Go on with: %s\n", run.cases.size(),
+                     static_cast<long long>(run.plannedCases), again.c_str());
         return kInterrupted;
     }
     report::writeReports(options.directory);
