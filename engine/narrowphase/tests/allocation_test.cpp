@@ -4,28 +4,8 @@
 // The narrow phase allocates nothing: counted by replacing the global operator new of this test program.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "engine/core/tests/counting_new.hpp"
 #include "engine/narrowphase/tests/pair_table.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Not inlined: the compiler would take malloc and delete for a mismatched pair.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size ? size : 1)) return p;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept {
-    std::free(p);
-}
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
 
 namespace rigor::engine::test {
 namespace {
@@ -48,17 +28,17 @@ TYPED_TEST(Allocation, NoneInAnyPair) {
                 const Pose<S> Xa = pose<S>(vec<S>(0, 0, 0), random.rotation());
                 const Pose<S> Xb =
                     pose<S>(static_cast<R>(random.uniform(0, 1)) * random.direction(), random.rotation());
-                const long before = allocations;
+                const long before = allocationCount();
                 touching += collide<S>(a, Xa, b, Xb, 0.01).count > 0;
-                counted += allocations - before;
+                counted += allocationCount() - before;
             }
         }
     EXPECT_EQ(counted, 0);
     EXPECT_GT(touching, 200);
     // The counter itself works.
-    const long before = allocations;
+    const long before = allocationCount();
     const Shape<S> hull = shapeOfKind<S>(Kind::Hull);
-    EXPECT_GT(allocations, before);
+    EXPECT_GT(allocationCount(), before);
 }
 
 }  // namespace

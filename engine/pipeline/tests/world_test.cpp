@@ -4,45 +4,12 @@
 // The world as a container: the same bits, no allocation, refusals, handles, tables.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <limits>
-#include <new>
 
 #include "engine/broadphase/broad_phase.hpp"
+#include "engine/core/tests/counting_new.hpp"
 #include "engine/pipeline/algorithms.hpp"
 #include "engine/pipeline/tests/scene.hpp"
-
-namespace {
-std::atomic<long> allocations{0};
-void* counted(std::size_t size, std::size_t alignment) {
-    ++allocations;
-    void* p = alignment > alignof(std::max_align_t)
-                  ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment)
-                  : std::malloc(size ? size : 1);
-    if (!p) throw std::bad_alloc();
-    return p;
-}
-}  // namespace
-
-void* operator new(std::size_t size) {
-    return counted(size, 1);
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    return counted(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* p) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::align_val_t) noexcept {
-    std::free(p);
-}
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-    std::free(p);
-}
 
 namespace rigor::engine::test {
 namespace {
@@ -104,9 +71,9 @@ TYPED_TEST(Worlds, SteadyStepDoesNotAllocate) {
             (family.name == "broad_phase" ? def.broadPhase : def.positionCorrection) = choice.name;
             World<S> world = busyWorld<S>(def);
             for (int i = 0; i < 400; ++i) world.step(typename S::Real(1.0 / 60));
-            const long before = allocations;
+            const long before = allocationCount();
             for (int i = 0; i < 100; ++i) world.step(typename S::Real(1.0 / 60));
-            EXPECT_EQ(allocations - before, 0) << choice.name;
+            EXPECT_EQ(allocationCount() - before, 0) << choice.name;
             EXPECT_GT(world.lastStep().contacts, 0u);
         }
     }
