@@ -6,31 +6,15 @@
 
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
-#include "validation/references/reference.hpp"
 
 namespace rigor::cli {
 namespace {
-
-/// The scenario's reference is checked as well: its name, its bodies and whether its assumptions hold.
-void checkReference(const scenario::Scenario& scenario, const std::string& file) {
-    try {
-        (void)validation::makeReference(scenario);
-    } catch (const validation::AssumptionViolated& error) {
-        throw scenario::LoadError({{"reference.assumption", file, "/reference", 0, error.what(),
-                                    "values for which the reference holds"}});
-    } catch (const std::invalid_argument& error) {
-        throw scenario::LoadError({{"reference.invalid", file, "/reference", 0, error.what(),
-                                    "a reference of `rigor list references`"}});
-    }
-}
 
 int checkFiles(const std::vector<std::string>& files, const std::vector<std::string>& overrides, bool json) {
     std::vector<scenario::Problem> problems;
     for (const auto& file : files) {
         try {
-            const auto path = scenario::findScenario(file);
-            const auto loaded = scenario::loadScenario(path, overrides);
-            checkReference(loaded.scenario, path.string());
+            const auto loaded = loadWithReference(file, overrides, true);
             if (!json) std::printf("%s: ok (%s)\n", file.c_str(), loaded.scenario.name.c_str());
         } catch (const scenario::LoadError& error) {
             problems.insert(problems.end(), error.problems().begin(), error.problems().end());

@@ -15,7 +15,8 @@ class App;
 }
 namespace rigor::scenario {
 class LoadError;
-}
+struct LoadedScenario;
+}  // namespace rigor::scenario
 
 namespace rigor::cli {
 
@@ -51,6 +52,13 @@ int terminalColumns(int fileDescriptor);
 
 /// "0.004", "1/240": a time step in seconds. Throws std::invalid_argument.
 double parseTimeStep(const std::string& text);
+
+/// A scenario of the library or a file, with its reference checked: its name and its bodies always. Values
+/// for which the reference does not hold are an error when `assumptionsMustHold`, else a line on stderr.
+/// Throws LoadError.
+scenario::LoadedScenario loadWithReference(const std::string& nameOrFile,
+                                           const std::vector<std::string>& overrides,
+                                           bool assumptionsMustHold);
 
 /// Prints every problem of a LoadError to stderr, as text or as a JSON array on stdout.
 void printProblems(const scenario::LoadError& error, bool json);

@@ -33,6 +33,12 @@ int runCommand(int argc, char** argv) {
     addReport(app, action);
     try {
         app.parse(argc, argv);
+    } catch (const CLI::RequiredError& error) {
+        if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty()) {
+            std::fprintf(stderr, "rigor: no command '%s'; `rigor --help` lists them\n", argv[1]);
+            return kBadInput;
+        }
+        return app.exit(error) == 0 ? kOk : kBadInput;
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? kOk : kBadInput;
     }

@@ -3,7 +3,9 @@
 #include "reports/report.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
+#include <stdexcept>
 
 #include "cli/command.hpp"
 
@@ -17,8 +19,13 @@ void addReport(CLI::App& app, Action& action) {
         ->check(CLI::ExistingDirectory);
     command->callback([directory, &action] {
         action = [directory] {
-            for (const auto& file : report::writeReports(*directory))
-                std::printf("%s\n", file.string().c_str());
+            try {
+                for (const auto& file : report::writeReports(*directory))
+                    std::printf("%s\n", file.string().c_str());
+            } catch (const std::runtime_error& error) {  // no run, a broken one, or a folder we may not write
+                std::fprintf(stderr, "rigor: %s\n", error.what());
+                return static_cast<int>(kBadInput);
+            }
             return static_cast<int>(kOk);
         };
     });

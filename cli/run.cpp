@@ -103,8 +103,27 @@ void printCase(const results::CaseRow& row, bool json) {
     }
 }
 
+/// What a library throws is its own failure, not ours: a red row, as in `validate`.
+validation::LiveCase runEngine(const scenario::Scenario& s, const adapter::EngineSpec& spec, double dt,
+                               const validation::LiveOptions& options) {
+    (void)adapter::moduleFor(spec);
+    try {
+        return validation::runInProcess(s, spec, dt, options);
+    } catch (const adapter::BadInput&) {
+        throw;
+    } catch (const adapter::Unsupported&) {
+        throw;
+    } catch (const std::exception& error) {
+        validation::LiveCase failed;
+        failed.row.scenario = s.name, failed.row.spec = spec.text(), failed.row.dt = dt;
+        failed.row.outcome = results::Outcome::Error, failed.row.verdict = results::Verdict::Fail;
+        failed.row.reason = error.what();
+        return failed;
+    }
+}
+
 int runHere(const Arguments& a) {
-    const auto loaded = scenario::loadScenario(scenario::findScenario(a.scenario), a.overrides);
+    const auto loaded = loadWithReference(a.scenario, a.overrides, false);
     const auto& s = loaded.scenario;
     const double dt = a.timeStep.empty() ? s.timeSteps.front() : parseTimeStep(a.timeStep);
     std::ofstream csvFile;
@@ -124,7 +143,7 @@ int runHere(const Arguments& a) {
         if (csv != nullptr) writeCsvRows(*csv, time, states, s);
         if (!a.log.empty()) logContacts(std::cerr, time, contacts, s);
     };
-    const auto live = validation::runInProcess(s, adapter::parseSpec(a.engine), dt, options);
+    const auto live = runEngine(s, adapter::parseSpec(a.engine), dt, options);
     if (csv != nullptr && !csv->flush())
         throw std::runtime_error("--csv: could not write everything to '" + a.csv + "'");
     if (a.csv != "-") printCase(live.row, a.json);
@@ -142,6 +161,8 @@ int runHere(const Arguments& a) {
 /// Libraries may abort: the run happens in a child, so that a crash ends in a sentence and an exit code.
 int runGuarded(const Arguments& arguments, const std::function<int()>& work) {
     std::fflush(nullptr);
+    int finished[2];  // the child writes a byte when it got to its end: a library may call exit()
+    if (pipe(finished) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
     if (child == 0) {
@@ -165,12 +186,22 @@ int runGuarded(const Arguments& arguments, const std::function<int()>& work) {
         }
         std::cout.flush();
         std::fflush(nullptr);
-        _exit(code);
+        const bool told = write(finished[1], "x", 1) == 1;
+        _exit(told ? code : kInternal);
     }
+    close(finished[1]);
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    if (WIFEXITED(status)) return WEXITSTATUS(status);
+    char byte = 0;
+    const bool reachedEnd = read(finished[0], &byte, 1) == 1;
+    close(finished[0]);
+    if (WIFEXITED(status) && reachedEnd) return WEXITSTATUS(status);
+    if (WIFEXITED(status)) {
+        std::fprintf(stderr, "rigor: %s crashed in %s: it ended the process with exit code %d\n",
+                     arguments.engine.c_str(), arguments.scenario.c_str(), WEXITSTATUS(status));
+        return kCrashed;
+    }
     const int signal = WTERMSIG(status);
     if (signal == SIGINT) return kInterrupted;
     std::fprintf(stderr, "rigor: %s crashed in %s: %s\n", arguments.engine.c_str(),

@@ -44,9 +44,13 @@ struct Selection {
 
 void addScenario(Selection& selection, const std::string& name, const std::vector<std::string>& overrides,
                  int maxTimeSteps) {
-    auto loaded = scenario::loadScenario(scenario::findScenario(name), overrides);
-    for (const auto& present : selection.scenarios)
-        if (present.first.name == loaded.scenario.name) return;
+    auto loaded = loadWithReference(name, overrides, false);
+    for (const auto& present : selection.scenarios) {
+        if (present.first.name != loaded.scenario.name) continue;
+        if (present.second == loaded.text) return;
+        throw std::invalid_argument("'" + name + "': another scenario of this run has the name '" +
+                                    loaded.scenario.name + "'; rename one or use two runs");
+    }
     if (maxTimeSteps > 0 && loaded.scenario.timeSteps.size() > static_cast<std::size_t>(maxTimeSteps))
         loaded.scenario.timeSteps.resize(static_cast<std::size_t>(maxTimeSteps));
     selection.scenarios.emplace_back(std::move(loaded.scenario), std::move(loaded.text));
@@ -119,12 +123,28 @@ fs::path chooseDirectory(const Arguments& arguments, const std::string& title) {
     std::string name = title;
     for (char& c : name)
         if (c == ' ' || c == '/') c = '+';
-    fs::create_directories(runs);
-    const fs::path directory = runs / (name.substr(0, 60) + "-" + stamp);
     std::error_code ignored;
+    fs::create_directories(runs, ignored);
+    const fs::path directory = runs / (name.substr(0, 60) + "-" + stamp);
     fs::remove(runs / "latest", ignored);
     fs::create_directory_symlink(directory.filename(), runs / "latest", ignored);
     return directory;
+}
+
+/// A folder that can hold this run: said before anything runs.
+void prepareDirectory(const fs::path& directory, bool resume) {
+    const bool holdsRun = fs::exists(directory / "results.sqlite");
+    if (resume && !holdsRun)
+        throw std::invalid_argument("--resume: '" + directory.string() + "' holds no run");
+    if (!resume && holdsRun)
+        throw std::invalid_argument("--out: '" + directory.string() +
+                                    "' holds a run already; add --resume or choose another folder");
+    std::error_code error;
+    fs::create_directories(directory, error);
+    if (!error && access(directory.c_str(), W_OK) != 0)
+        error = std::error_code(errno, std::generic_category());
+    if (error)
+        throw std::invalid_argument("--out: cannot write '" + directory.string() + "': " + error.message());
 }
 
 nlohmann::ordered_json caseJson(const results::CaseRow& c) {
@@ -175,6 +195,7 @@ int validate(const Arguments& given) {
 
     validation::RunOptions options;
     options.directory = chooseDirectory(arguments, selection.title);
+    prepareDirectory(options.directory, arguments.resume);
     options.binary = ownBinary();
     options.jobs = arguments.jobs > 0 ? arguments.jobs : 1;
     options.resume = arguments.resume;

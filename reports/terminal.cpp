@@ -157,17 +157,35 @@ std::vector<std::size_t> order(const ViewModel& view, std::size_t room) {
     return all;
 }
 
-std::string totalsLine(const ViewModel& view, const Painter& paint) {
-    std::string line;
+/// "3 pass   1 fail   of 4 cases", in as many lines as the width asks for.
+std::vector<std::string> totalsLines(const ViewModel& view, std::size_t width, const Painter& paint) {
+    struct Part {
+        std::string text;
+        const char* colour;
+    };
+    std::vector<Part> parts;
     for (const auto& [shown, count] : view.totals().cases)
-        line += (line.empty() ? "" : "   ") + paint(std::string(shownText(shown).symbol) + " " +
-                                                        std::to_string(count) + " " + shownText(shown).word,
-                                                    colourOf(shown));
-    const auto& run = view.run();
-    const auto planned = std::max<std::int64_t>(run.plannedCases, view.totals().total);
-    line += "   of " + std::to_string(planned) + " cases";
-    if (view.totals().total < planned) line += ", " + std::to_string(view.totals().total) + " done";
-    return line;
+        parts.push_back(
+            {std::string(shownText(shown).symbol) + " " + std::to_string(count) + " " + shownText(shown).word,
+             colourOf(shown)});
+    const auto planned = std::max<std::int64_t>(view.run().plannedCases, view.totals().total);
+    std::string total = "of " + std::to_string(planned) + " cases";
+    if (view.totals().total < planned) total += ", " + std::to_string(view.totals().total) + " done";
+    parts.push_back({total, nullptr});
+
+    std::vector<std::string> lines(1);
+    std::size_t used = 0;
+    for (const auto& part : parts) {
+        const std::size_t gap = used == 0 ? 0 : 3;
+        if (used > 0 && used + gap + displayWidth(part.text) > width) {
+            lines.emplace_back();
+            used = 0;
+        }
+        lines.back() += std::string(used == 0 ? 0 : gap, ' ') +
+                        (part.colour != nullptr ? paint(part.text, part.colour) : part.text);
+        used += (used == 0 ? 0 : gap) + displayWidth(part.text);
+    }
+    return lines;
 }
 
 std::vector<std::string> offenderLines(const ViewModel& view, std::size_t most, std::size_t width,
@@ -200,7 +218,7 @@ std::string terminalSummary(const results::Run& run, int lines, int columns, boo
     std::vector<std::string> out = headLines(view, layout, width, paint);
     const std::size_t offenderRoom = std::min<std::size_t>(6, most / 4);
     const auto worst = offenderLines(view, offenderRoom, width, paint);
-    std::vector<std::string> tail{totalsLine(view, paint)};
+    std::vector<std::string> tail = totalsLines(view, width, paint);
     tail.insert(tail.end(), worst.begin(), worst.end());
 
     const std::size_t used = out.size() + tail.size() + 1;

@@ -126,7 +126,8 @@ Settings resolveSettings(const EngineSpec& spec, const Engine& engine) {
         }
         if (option == options.end()) {
             std::vector<std::string> known{"preset", "precision"};
-            for (const auto& o : options) known.push_back(o.key);
+            for (const auto& o : options)
+                if (o.key != "precision") known.push_back(o.key);
             throw BadInput("engine '" + spec.engine + "': unknown key '" + key + "', expected one of " +
                            joined(known));
         }

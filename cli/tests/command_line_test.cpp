@@ -21,9 +21,10 @@ struct Result {
     std::string out;  ///< standard output and error together unless `only stdout` was asked for
 };
 
-Result rigor(const std::string& arguments, bool withErrors = true) {
-    const std::string command =
-        std::string(RIGOR_BINARY_DIR) + "/bin/rigor " + arguments + (withErrors ? " 2>&1" : " 2>/dev/null");
+Result rigor(const std::string& arguments, bool withErrors = true, const std::string& environment = "") {
+    const std::string command = environment + (environment.empty() ? "" : " ") +
+                                std::string(RIGOR_BINARY_DIR) + "/bin/rigor " + arguments +
+                                (withErrors ? " 2>&1" : " 2>/dev/null");
     FILE* pipe = popen(command.c_str(), "r");
     Result result;
     std::array<char, 4096> buffer;
@@ -78,7 +79,9 @@ TEST(CommandLine, ExitCodes) {
     EXPECT_EQ(rigor("--help").code, 0);
     EXPECT_EQ(rigor("--version").code, 0);
     EXPECT_EQ(rigor("").code, 2);
-    EXPECT_EQ(rigor("frobnicate").code, 2);
+    const Result unknown = rigor("frobnicate");
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_NE(unknown.out.find("'frobnicate'"), std::string::npos) << unknown.out;
     EXPECT_EQ(rigor("run no_such_scenario").code, 2);
     EXPECT_EQ(rigor("validate smoke --engines no_such_engine").code, 2);
     const auto file = writeProjectile().string();
@@ -144,6 +147,89 @@ TEST(CommandLine, ContactLogNamesBodies) {
     EXPECT_NE(result.out.find("contact a="), std::string::npos);
     EXPECT_NE(result.out.find(" b="), std::string::npos);
     EXPECT_NE(result.out.find("depth="), std::string::npos);
+}
+
+std::filesystem::path freshFolder(const char* name) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / name;
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    return folder;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+    const auto at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    return text.replace(at, what.size(), with);
+}
+
+std::string projectileText() {
+    std::ifstream in(writeProjectile());
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A reference that names no body, or a parameter it does not have, is refused before anything runs.
+TEST(CommandLine, BadReferencesAreRefusedEverywhere) {
+    const auto folder = freshFolder("bad_reference");
+    const auto file = (folder / "bad.json").string();
+    std::ofstream(file) << replaced(projectileText(), R"({"body": "ball"})", R"({"bodq": "ball"})");
+    for (const std::string& command :
+         {"check " + file, "run " + file + " --engine rigor",
+          "validate " + file + " --engines rigor --out " + folder.string() + "/run"}) {
+        const Result result = rigor(command);
+        EXPECT_EQ(result.code, 2) << command;
+        EXPECT_NE(result.out.find("bad.json:6: /reference: found"), std::string::npos) << result.out;
+        EXPECT_NE(result.out.find("'bodq'"), std::string::npos) << result.out;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "run")) << "nothing is written for a bad file";
+}
+
+TEST(CommandLine, TwoScenariosOfOneNameAreRefused) {
+    const auto folder = freshFolder("same_name");
+    const auto one = (folder / "one.json").string(), two = (folder / "two.json").string();
+    std::ofstream(one) << projectileText();
+    std::ofstream(two) << replaced(projectileText(), "[4, 5, -6]", "[1, 0, 0]");
+    const Result result =
+        rigor("validate " + one + " " + two + " --engines rigor --out " + (folder / "run").string());
+    EXPECT_EQ(result.code, 2);
+    EXPECT_NE(result.out.find("'projectile'"), std::string::npos) << result.out;
+}
+
+/// Folders that can not be used are the caller's error, told as such.
+TEST(CommandLine, UnusableFoldersAreBadInput) {
+    const auto folder = freshFolder("folders");
+    const auto file = writeProjectile().string(), run = (folder / "run").string();
+    const auto validate = [&](const std::string& rest) {
+        const Result result = rigor("validate " + file + " --engines rigor -q " + rest);
+        EXPECT_EQ(result.out.find("internal error"), std::string::npos) << result.out;
+        return result.code;
+    };
+    EXPECT_EQ(validate("--resume --out " + run), 2) << "nothing to resume";
+    EXPECT_EQ(validate("--out " + run), 0);
+    EXPECT_EQ(validate("--out " + run), 2) << "holds a run already";
+    EXPECT_EQ(validate("--out " + run + " --resume"), 0);
+    std::ofstream(folder / "file") << "x";
+    EXPECT_EQ(validate("--out " + (folder / "file").string()), 2);
+    EXPECT_EQ(rigor("report " + run).code, 0);
+    EXPECT_EQ(rigor("report " + folder.string()).code, 2) << "no run in there";
+    std::ofstream(folder / "run/results.sqlite") << "garbage";
+    EXPECT_EQ(rigor("report " + run).code, 2);
+}
+
+/// A library that aborts, ends the process or throws must not look like a green run, nor like our own error.
+TEST(CommandLine, RunTellsOfLibrariesThatFail) {
+    const std::string doubles = "RIGOR_ADAPTER_PATH=" + std::string(RIGOR_BINARY_DIR) + "/tests/doubles";
+    const auto file = writeProjectile().string();
+    const std::pair<const char*, int> expected[] = {{"double_abort", 5},
+                                                    {"double_segfault", 5},
+                                                    {"double_exit", 5},
+                                                    {"double_throw", 1},
+                                                    {"double_nan", 1}};
+    for (const auto& [engine, code] : expected) {
+        const Result result = rigor("run " + file + " --engine " + engine, true, doubles);
+        EXPECT_EQ(result.code, code) << engine << "\n" << result.out;
+        EXPECT_NE(result.out.find(engine), std::string::npos) << result.out;
+        EXPECT_EQ(result.out.find("internal error"), std::string::npos) << result.out;
+    }
 }
 
 }  // namespace

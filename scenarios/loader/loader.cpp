@@ -195,7 +195,8 @@ LoadedScenario loadScenarioText(const std::string& json, const std::string& file
     JsonDocument document = parseDocument(json, fileName);
     for (const std::string& override : overrides) applyOverride(document, override, fileName);
     LoadedScenario loaded{readScenario(document, fileName),
-                          overrides.empty() ? json : document.value.dump(2) + "\n"};
+                          overrides.empty() ? json : document.value.dump(2) + "\n",
+                          document.value.contains("reference") ? document.lineOf("/reference") : 0};
     checkScenarioSchema(document, fileName);
     return loaded;
 }

@@ -38,6 +38,7 @@ struct LoadedScenario {
     Scenario scenario;
     std::string text;  ///< JSON as loaded, overrides applied, generators kept; loading it again gives the
                        ///< same scenario
+    int referenceLine = 0;  ///< line of the reference in the file, 0: it has none
 };
 
 /// `overrides` are KEY=VALUE with a dotted path and a JSON value: "bodies.block.velocity=[3.1,0,0.2]",
