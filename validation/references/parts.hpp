@@ -127,6 +127,9 @@ double supportMargin(const std::vector<Vec3>& points, Vec3 p, Vec3 n, int dimens
 
 /// Throws AssumptionViolated unless the two bodies can touch.
 void requireContact(const Scenario& scenario, int a, int b);
+/// Throws AssumptionViolated when the exact motion runs through another body: through one that the reference
+/// knows or one that stays where it is.
+void requireClearWay(const Scenario& scenario, const Reference& reference);
 /// Length that positions of this body are small beside [m]: the size of its shapes.
 double sizeOf(const Body& body);
 

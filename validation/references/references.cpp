@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The table of references, from references.def.
+#include "validation/references/parts.hpp"
 #include "validation/references/reference.hpp"
 
 #include <cstring>
@@ -33,7 +34,9 @@ std::unique_ptr<Reference> makeReference(const scenario::Scenario& scenario) {
     const ReferenceEntry* entry = findReference(scenario.reference->name);
     if (entry) {
         try {
-            return entry->make(scenario, *scenario.reference);
+            auto reference = entry->make(scenario, *scenario.reference);
+            requireClearWay(scenario, *reference);
+            return reference;
         } catch (const AssumptionViolated&) {
             throw;
         } catch (const std::runtime_error& numerical) {

@@ -399,6 +399,43 @@ TEST(AtRest, StandsAndRefusesWhatCanNotStand) {
     EXPECT_THROW(makeReference(slope), AssumptionViolated);
 }
 
+TEST(ClearWay, WhatStandsInThePathBreaksTheAssumptionsWhatStandsBesideItDoesNot) {
+    const auto scene = [](Vec3 wall) {
+        Scenario s = emptyScene(3, {0, -10, 0}, 2);
+        s.materials[0].friction = 0.2;
+        addFloor(s);
+        addBody(s, "wall", BodyType::Static, Box{{0.1, 1, 1}}, wall);
+        addBox(s, "block", {0.2, 0.1, 0.2}, 1, {0, 0.1, 0}, {3, 0, 0});
+        setReference(s, "sliding_stop", {{"body", std::string("block")}, {"on", std::string("floor")}});
+        return s;
+    };
+    // It stops after 9/(2 2) = 2.25 m: its front comes to 2.45.
+    EXPECT_THROW(makeReference(scene({1.5, 1, 0})), AssumptionViolated);
+    EXPECT_THROW(makeReference(scene({2.5, 1, 0})), AssumptionViolated);
+    const Scenario beyond = scene({2.56, 1, 0}), beside = scene({1.5, 1, 1.21});
+    EXPECT_NE(makeReference(beyond), nullptr);
+    EXPECT_NE(makeReference(beside), nullptr);
+
+    for (const double aside : {0.0, 0.25}) {
+        Scenario balls = emptyScene(3, {}, 1);
+        addBall(balls, "a", 0.1, 1, 0.4, {}, {2, 0, 0});
+        addBall(balls, "b", 0.1, 1, 0.4, {0.5, 0, 0});
+        addBall(balls, "third", 0.1, 1, 0.4, {0.9, aside, 0});
+        balls.materials[0].restitution = 1.0;
+        setReference(balls, "collision_1d", {{"a", std::string("a")}, {"b", std::string("b")}});
+        if (aside == 0.0) {
+            EXPECT_THROW(makeReference(balls), AssumptionViolated);
+        } else {
+            EXPECT_NE(makeReference(balls), nullptr);
+        }
+    }
+    Scenario fall = emptyScene(3, {0, -10, 0}, 1);
+    addBody(fall, "table", BodyType::Static, Box{{1, 0.1, 1}}, {0, -2, 0});
+    addBall(fall, "ball", 0.1, 1, 0.4, {});
+    setReference(fall, "free_flight", {{"body", std::string("ball")}});
+    EXPECT_THROW(makeReference(fall), AssumptionViolated);
+}
+
 TEST(Table, SortedNamedAndComplete) {
     const auto& table = referenceTable();
     EXPECT_EQ(table.size(), 19U);
