@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <unistd.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <ctime>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "cli/progress.hpp"
 #include "reports/report.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "validation/results/store.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace rigor::cli {
@@ -147,6 +149,26 @@ void prepareDirectory(const fs::path& directory, bool resume) {
         throw std::invalid_argument("--out: cannot write '" + directory.string() + "': " + error.message());
 }
 
+/// Resuming with other scenarios or engines would drop finished cases: that is refused. Other time steps or a
+/// changed file are not.
+void checkResumed(const fs::path& directory, const std::vector<validation::CasePlan>& plan) {
+    results::Run stored;
+    try {
+        stored = results::readRun(directory);
+    } catch (const std::exception&) {
+        return;  // killed before anything was stored; the runner judges the rest
+    }
+    for (const auto& row : stored.cases) {
+        const bool planned = std::any_of(plan.begin(), plan.end(), [&](const auto& c) {
+            return c.scenario.name == row.scenario && c.spec.text() == row.spec;
+        });
+        if (!planned)
+            throw std::invalid_argument(
+                "--resume: '" + directory.string() + "' holds " + row.scenario + " on " + row.spec +
+                ", which this command does not ask for; it was started by: " + stored.command);
+    }
+}
+
 nlohmann::ordered_json caseJson(const results::CaseRow& c) {
     nlohmann::ordered_json metrics = nlohmann::ordered_json::array();
     for (const auto& m : c.metrics) {
@@ -204,6 +226,7 @@ int validate(const Arguments& given) {
     options.command = ownCommandLine();
 
     const auto plan = validation::planCases(selection.scenarios, specs, timeSteps);
+    if (options.resume) checkResumed(options.directory, plan);
     std::signal(SIGINT, onInterrupt);
     std::signal(SIGTERM, onInterrupt);
     ProgressLine line(arguments.quiet);

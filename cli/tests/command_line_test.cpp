@@ -207,6 +207,8 @@ TEST(CommandLine, UnusableFoldersAreBadInput) {
     EXPECT_EQ(validate("--out " + run), 0);
     EXPECT_EQ(validate("--out " + run), 2) << "holds a run already";
     EXPECT_EQ(validate("--out " + run + " --resume"), 0);
+    EXPECT_EQ(rigor("validate " + file + " --engines ode -q --resume --out " + run).code, 2)
+        << "would drop the finished cases of another engine";
     std::ofstream(folder / "file") << "x";
     EXPECT_EQ(validate("--out " + (folder / "file").string()), 2);
     EXPECT_EQ(rigor("report " + run).code, 0);
