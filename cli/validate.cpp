@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <csignal>
 #include <ctime>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "cli/command.hpp"
@@ -28,7 +30,7 @@ struct Arguments {
     bool resume = false, noAudit = false, json = false, quiet = false;
 };
 
-constexpr const char* kDefaultSuite = "standard";
+const std::string kDefaultSuite = "standard";
 
 std::atomic<bool> interrupted{false};
 extern "C" void onInterrupt(int) {
@@ -206,9 +208,18 @@ void printResult(const results::Run& run, const fs::path& directory, bool json) 
     std::printf("Report: %s\n", (directory / "index.html").string().c_str());
 }
 
+/// What the run that is resumed was asked for.
+std::vector<std::string> resumedWhat(const Arguments& arguments) {
+    const fs::path directory = chooseDirectory(arguments, "");
+    prepareDirectory(directory, true);
+    std::istringstream words(results::readRun(directory).suite);
+    return {std::istream_iterator<std::string>(words), {}};
+}
+
 int validate(const Arguments& given) {
     Arguments arguments = given;
-    if (arguments.what.empty()) arguments.what = {kDefaultSuite};
+    if (arguments.what.empty())
+        arguments.what = arguments.resume ? resumedWhat(arguments) : std::vector{kDefaultSuite};
     const Selection selection = select(arguments);
     const auto specs = chooseEngines(arguments, selection);
     std::vector<double> timeSteps = selection.timeSteps;

@@ -234,4 +234,15 @@ TEST(CommandLine, RunTellsOfLibrariesThatFail) {
     }
 }
 
+TEST(CommandLine, ResumeKnowsWhatWasAskedFor) {
+    const auto run = (std::filesystem::path(testing::TempDir()) / "resumed-run").string();
+    std::filesystem::remove_all(run);
+    ASSERT_EQ(rigor("validate elastic_collision --engines rigor -q --out " + run).code, 0);
+    const Result again = rigor("validate --resume --engines rigor -q --json --out " + run, false);
+    EXPECT_EQ(again.code, 0);
+    const auto cases = nlohmann::json::parse(again.out).at("cases");
+    ASSERT_FALSE(cases.empty());
+    for (const auto& c : cases) EXPECT_EQ(c.at("name"), "elastic_collision");
+}
+
 }  // namespace
