@@ -50,13 +50,13 @@ void keepWorstSubjects(std::vector<MetricValue>& values) {
 /// reference that does not hold for these values.
 void addMissing(const MetricEntry& entry, const MetricInput& input, const std::string& problem,
                 CaseRow& row) {
-    if (boundFor(input.scenario, row.engine, row.preset, entry.name) == nullptr) return;
+    if (boundFor(input.scenario, row, entry.name) == nullptr) return;
     const bool compares = entry.kind == MetricKind::Exact || entry.kind == MetricKind::SchemeExact;
     if (problem.empty() && compares && input.reference == nullptr) return;
     MetricRow missing = metricRow(entry, {"", kNaN, -1.0});
     missing.note = problem.empty() ? "the run shows no value of it" : problem;
     const std::string note = missing.note;
-    judgeMetric(missing, input.scenario, row.engine, row.preset, row.dt);
+    judgeMetric(missing, input.scenario, row);
     missing.note = note;
     row.metrics.push_back(missing);
 }
@@ -76,8 +76,7 @@ void evaluateMetric(const MetricEntry& entry, const MetricInput& input, CaseRow&
     keepWorstSubjects(values);
     for (const MetricValue& value : values) {
         row.metrics.push_back(metricRow(entry, value));
-        if (value.subject.empty())
-            judgeMetric(row.metrics.back(), input.scenario, row.engine, row.preset, row.dt);
+        if (value.subject.empty()) judgeMetric(row.metrics.back(), input.scenario, row);
     }
 }
 

@@ -17,7 +17,7 @@ using results::Outcome;
 using results::Verdict;
 using scenario::Scenario;
 
-/// The most specific entry for engine, preset and metric.
+/// The most specific entry for engine, preset and metric; an engine without a name finds everyone's alone.
 template <class Entry>
 const Entry* entryFor(const std::vector<Entry>& entries, const std::string& engine, const std::string& preset,
                       const std::string& metric) {
@@ -79,9 +79,10 @@ void judgeCompleted(CaseRow& row) {
 
 }  // namespace
 
-const scenario::Bound* boundFor(const Scenario& scenario, const std::string& engine,
-                                const std::string& preset, const std::string& metric) {
-    return entryFor(scenario.accept, engine, preset, metric);
+const scenario::Bound* boundFor(const Scenario& scenario, const CaseRow& row, const std::string& metric) {
+    const auto precision = row.settings.find("precision");
+    const bool isSingle = precision != row.settings.end() && precision->second == "f32";
+    return entryFor(scenario.accept, isSingle ? "" : row.engine, row.preset, metric);
 }
 
 const scenario::KnownDeviation* deviationFor(const Scenario& scenario, const std::string& engine,
@@ -94,11 +95,10 @@ double boundAt(const scenario::Bound& bound, const Scenario& scenario, double dt
     return bound.max * std::pow(dt / scenario.timeSteps.front(), bound.order);
 }
 
-void judgeMetric(MetricRow& row, const Scenario& scenario, const std::string& engine,
-                 const std::string& preset, double dt) {
-    const auto* bound = boundFor(scenario, engine, preset, row.name);
-    const auto* known = deviationFor(scenario, engine, preset, row.name);
-    if (bound != nullptr) row.bound = boundAt(*bound, scenario, dt);
+void judgeMetric(MetricRow& row, const Scenario& scenario, const CaseRow& judged) {
+    const auto* bound = boundFor(scenario, judged, row.name);
+    const auto* known = deviationFor(scenario, judged.engine, judged.preset, row.name);
+    if (bound != nullptr) row.bound = boundAt(*bound, scenario, judged.dt);
     if (known != nullptr) row.expectation = known->max;
     const bool within = bound != nullptr && row.value <= *row.bound;  // false for NaN
     const bool asKnown = known != nullptr && row.value <= known->max;

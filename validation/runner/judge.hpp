@@ -14,10 +14,11 @@ namespace rigor::validation {
 /// The one engine that is held to its bounds without excuses: a known deviation of it is a missed bound.
 inline constexpr const char* kInHouseEngine = "rigor";
 
-/// The bound for a metric: the entry for this engine and preset, else for this engine, else for "*"; null
-/// when there is none.
-const scenario::Bound* boundFor(const scenario::Scenario& scenario, const std::string& engine,
-                                const std::string& preset, const std::string& metric);
+/// The bound of a case for a metric: the entry for its engine and preset, else for its engine, else for "*";
+/// null when there is none. Bounds that name an engine are meant for double precision: in single precision
+/// everyone's holds.
+const scenario::Bound* boundFor(const scenario::Scenario& scenario, const results::CaseRow& row,
+                                const std::string& metric);
 const scenario::KnownDeviation* deviationFor(const scenario::Scenario& scenario, const std::string& engine,
                                              const std::string& preset, const std::string& metric);
 
@@ -26,8 +27,7 @@ double boundAt(const scenario::Bound& bound, const scenario::Scenario& scenario,
 
 /// Sets bound, expectation, verdict and note of a whole-scene row ("" as subject) from the scenario. A value
 /// that is NaN misses every bound.
-void judgeMetric(results::MetricRow& row, const scenario::Scenario& scenario, const std::string& engine,
-                 const std::string& preset, double dt);
+void judgeMetric(results::MetricRow& row, const scenario::Scenario& scenario, const results::CaseRow& judged);
 
 /// Sets verdict (and reason where it has none) of a case from its outcome, metrics and read-back. A known
 /// deviation whose metric is the outcome's name ("crashed", "timeout", ...) makes that outcome an expected

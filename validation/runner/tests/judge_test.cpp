@@ -38,7 +38,9 @@ TEST_P(MetricVerdicts, FollowTheTable) {
     const Row& c = GetParam();
     results::MetricRow row;
     row.name = c.metric, row.value = c.value;
-    judgeMetric(row, judged(), c.engine, c.preset, c.dt);
+    results::CaseRow judgedCase;
+    judgedCase.engine = c.engine, judgedCase.preset = c.preset, judgedCase.dt = c.dt;
+    judgeMetric(row, judged(), judgedCase);
     EXPECT_STREQ(results::verdictName(row.verdict), results::verdictName(c.verdict));
     EXPECT_EQ(row.note, c.verdict == Verdict::KnownDeviation ? "a skin" : "");
 }
@@ -60,6 +62,20 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"box2d", "default", "scaled", 0.01, 0.011, Verdict::Fail},  // 1 * (0.01/0.1)^2
                     Row{"box2d", "default", "scaled", 0.01, 0.0099, Verdict::Pass},
                     Row{"box2d", "default", "scaled", 0.2, 3.9, Verdict::Pass}));
+
+TEST(MetricVerdict, SinglePrecisionIsHeldToEveryonesBound) {
+    results::CaseRow c;
+    c.engine = "ode", c.preset = "matched", c.dt = 0.1;
+    results::MetricRow row;
+    row.name = "drift", row.value = 0.9;
+    c.settings["precision"] = "f64";
+    judgeMetric(row, judged(), c);
+    EXPECT_EQ(row.bound, 0.5);
+    c.settings["precision"] = "f32";
+    judgeMetric(row, judged(), c);
+    EXPECT_EQ(row.bound, 1.0);
+    EXPECT_EQ(row.verdict, Verdict::Pass);
+}
 
 results::CaseRow caseWith(const std::string& engine, Outcome outcome) {
     results::CaseRow row;
