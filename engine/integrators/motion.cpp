@@ -1,35 +1,60 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-//
-// What every integrator uses: damping solved exactly over a step, and motion at constant velocity along the
-// exponential map.
-#include <cmath>
-
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/motion.hpp"
 
 namespace rigor::engine {
 
-template <class R>
-DampedStep<R> dampedStep(R keptPerSecond, R h) {
-    if (keptPerSecond == R(1)) return {R(1), h};
-    const double rate = std::log(static_cast<double>(keptPerSecond));  // < 0
-    const double change = std::expm1(rate * static_cast<double>(h));
-    return {static_cast<R>(1.0 + change), static_cast<R>(change / rate)};
+template <class S>
+void Motion<S>::setInertia(BodyArrays<S>& bodies) {
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        if (bodies.invMass[i] > 0)
+            bodies.invInertia[i] = worldInertia<S>(bodies.pose[i].q, bodies.invInertiaLocal[i]);
 }
-template DampedStep<float> dampedStep(float, float);
-template DampedStep<double> dampedStep(double, double);
 
 template <class S>
-void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, typename S::Real h) {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (bodies.constants[i].type == BodyType::Static) continue;
-        bodies.pose[i].p += h * velocities[i].v;
-        bodies.pose[i].q = rotatedBy(bodies.pose[i].q, typename S::Ang(h * velocities[i].w));
+void Motion<S>::kick(BodyArrays<S>& bodies, const Vec& gravity, Real h) {
+    const std::size_t n = bodies.size();
+    start_.assign(bodies.velocity.begin(), bodies.velocity.end());
+    kicked_.resize(n);
+    predicted_.resize(n);
+    startRotations_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        startRotations_[i] = bodies.pose[i].q;
+        if (bodies.invMass[i] == 0) continue;
+        const BodyConstants<S>& body = bodies.constants[i];
+        const DampedStep<Real> linear = dampedStep(body.linearVelocityKept, h);
+        const DampedStep<Real> angular = dampedStep(body.angularVelocityKept, h);
+        Velocity<S>& velocity = bodies.velocity[i];
+        const Wrench<S>& wrench = bodies.wrench[i];
+        const Vec acceleration = body.gravityScale * gravity + bodies.invMass[i] * wrench.force;
+        velocity.v = linear.kept * velocity.v + linear.kick * acceleration;
+        kicked_[i] = angular.kept * velocity.w + angular.kick * Ang(bodies.invInertia[i] * wrench.torque);
+        predicted_[i] = rotation_.predict(body, bodies.pose[i].q, kicked_[i], h);
+        velocity.w = predicted_[i];
     }
 }
-template void moveWith<Space2f>(BodyArrays<Space2f>&, std::span<const Velocity<Space2f>>, float);
-template void moveWith<Space2d>(BodyArrays<Space2d>&, std::span<const Velocity<Space2d>>, double);
-template void moveWith<Space3f>(BodyArrays<Space3f>&, std::span<const Velocity<Space3f>>, float);
-template void moveWith<Space3d>(BodyArrays<Space3d>&, std::span<const Velocity<Space3d>>, double);
+
+template <class S>
+void Motion<S>::move(BodyArrays<S>& bodies, Real h) {
+    used_.resize(bodies.size());
+    integrator_.move(bodies, start_, used_, h);
+}
+
+template <class S>
+void Motion<S>::finish(BodyArrays<S>& bodies, Real h) {
+    (void)h;
+    if (!rotation_.finish) return;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (bodies.invMass[i] == 0) continue;
+        Ang& w = bodies.velocity[i].w;
+        w = rotation_.finish(bodies.constants[i], startRotations_[i], bodies.pose[i].q, kicked_[i],
+                             predicted_[i], w);
+    }
+}
+
+template class Motion<Space2f>;
+template class Motion<Space2d>;
+template class Motion<Space3f>;
+template class Motion<Space3d>;
 
 }  // namespace rigor::engine

@@ -65,10 +65,10 @@ const StepResult<S>& World<S>::step(Real h) {
     contacts_.findManifolds(bodies_, collide_, def_.speculativeDistance);
     clock.end(Phase::NarrowPhase);
 
-    setInertia();
+    Motion<S>::setInertia(bodies_);
     rows_.clear();
     const Real warmStart = def_.warmStarting && lastStepSize_ > 0 ? h / lastStepSize_ : Real(0);
-    const bool curved = def_.curvedJoints && integrator_.movesWithSolvedVelocity;
+    const bool curved = def_.curvedJoints && motion_.movesWithSolvedVelocity();
     const JointStep<S> jointStep{h, correction_->biasFactor(), warmStart, curved};
     joints_.addRows(bodies_, jointStep, rows_);
     // Twice what gravity adds in a step: a resting contact never approaches that fast.
@@ -80,7 +80,7 @@ const StepResult<S>& World<S>::step(Real h) {
                       rows_);
     clock.end(Phase::Rows);
 
-    integrateVelocities(h);
+    motion_.kick(bodies_, def_.gravity, h);
     clock.end(Phase::Velocities);
 
     JointBiases<S> biases(joints_, bodies_, jointStep, rows_);
@@ -96,15 +96,16 @@ const StepResult<S>& World<S>::step(Real h) {
     contacts_.storeImpulses(rows_);
     clock.end(Phase::Solve);
 
-    used_.resize(bodies_.size());
-    integrator_.move(bodies_, start_, used_, h);
+    motion_.move(bodies_, h);
     clock.end(Phase::Move);
 
     // Slower than this a contact is as good as resting, and its overlap is corrected.
     const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
-    StepPositions<S> positions(bodies_, joints_, contacts_, rows_, used_, h, separating, positionScratch_);
+    StepPositions<S> positions(bodies_, joints_, contacts_, rows_, motion_.used(), h, separating,
+                               positionScratch_);
     correction_->correct(positions, def_.positionIterations, def_.slop);
-    finishRotations();
+    motion_.finish(bodies_, h);
+    bodies_.wrench.assign(bodies_.size(), {});
     checkFinite();
     clock.end(Phase::Correct);
 
@@ -119,48 +120,6 @@ const StepResult<S>& World<S>::step(Real h) {
 }
 
 template <class S>
-void World<S>::setInertia() {
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (bodies_.invMass[i] > 0)
-            bodies_.invInertia[i] = worldInertia<S>(bodies_.pose[i].q, bodies_.invInertiaLocal[i]);
-}
-
-template <class S>
-void World<S>::integrateVelocities(Real h) {
-    const std::size_t n = bodies_.size();
-    start_.assign(bodies_.velocity.begin(), bodies_.velocity.end());
-    kicked_.resize(n);
-    predicted_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        if (bodies_.invMass[i] == 0) continue;
-        const BodyConstants<S>& body = bodies_.constants[i];
-        const DampedStep<Real> linear = dampedStep(body.linearVelocityKept, h);
-        const DampedStep<Real> angular = dampedStep(body.angularVelocityKept, h);
-        Velocity<S>& velocity = bodies_.velocity[i];
-        const Wrench<S>& wrench = bodies_.wrench[i];
-        const Vec acceleration = body.gravityScale * def_.gravity + bodies_.invMass[i] * wrench.force;
-        velocity.v = linear.kept * velocity.v + linear.kick * acceleration;
-        kicked_[i] = angular.kept * velocity.w + angular.kick * Ang(bodies_.invInertia[i] * wrench.torque);
-        predicted_[i] = rotation_.predict(body, bodies_.pose[i].q, kicked_[i], h);
-        velocity.w = predicted_[i];
-        bodies_.wrench[i] = {};
-    }
-    startRotations_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) startRotations_[i] = bodies_.pose[i].q;
-}
-
-template <class S>
-void World<S>::finishRotations() {
-    if (!rotation_.finish) return;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (bodies_.invMass[i] == 0) continue;
-        Ang& w = bodies_.velocity[i].w;
-        w = rotation_.finish(bodies_.constants[i], startRotations_[i], bodies_.pose[i].q, kicked_[i],
-                             predicted_[i], w);
-    }
-}
-
-template <class S>
 void World<S>::checkFinite() {
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         if (!bodies_.pose[i].p.allFinite() || !bodies_.velocity[i].v.allFinite() ||
@@ -170,9 +129,6 @@ void World<S>::checkFinite() {
 
 #define RIGOR_INSTANTIATE(S)                            \
     template const StepResult<S>& World<S>::step(Real); \
-    template void World<S>::setInertia();               \
-    template void World<S>::integrateVelocities(Real);  \
-    template void World<S>::finishRotations();          \
     template void World<S>::checkFinite();
 RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)

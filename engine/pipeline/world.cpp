@@ -96,8 +96,8 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     require(def.gapSlop >= 0 && std::isfinite(def.gapSlop), "gap_slop", "gap slop must not be negative");
     require(def.speculativeDistance >= 0 && std::isfinite(def.speculativeDistance), "speculative_distance",
             "speculative distance must not be negative");
-    integrator_ = findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make();
-    rotation_ = findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make();
+    motion_ = {findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make(),
+               findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make()};
     broadPhase_ = findAlgorithm(broadPhaseTable<S>(), "broad_phase", def.broadPhase).make();
     solver_ = findAlgorithm(solverTable<S>(), "solver", def.solver).make();
     correction_ =

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/motion.hpp"
 #include "engine/pipeline/contact_set.hpp"
 #include "engine/pipeline/joint_set.hpp"
 #include "engine/pipeline/step_positions.hpp"
@@ -93,15 +93,11 @@ class World {
 
   private:
     void rebuildExclusions();
-    void setInertia();
-    void integrateVelocities(Real h);
-    void finishRotations();
     void checkFinite();
     std::uint32_t bodyOrWorld(BodyId id) const { return id ? bodyIds_.dense(id) : 0; }
 
     WorldDef<S> def_;
-    Integrator<S> integrator_{};
-    RotationScheme<S> rotation_{};
+    Motion<S> motion_;
     CollideFunction<S> collide_ = nullptr;
     FrictionLaw<S> friction_ = nullptr;
     ClonePtr<BroadPhase<S>> broadPhase_;
@@ -119,9 +115,6 @@ class World {
 
     // --- recomputed every step
     ConstraintRows<S> rows_;
-    std::vector<Velocity<S>> start_, used_;
-    std::vector<Ang> kicked_, predicted_;
-    std::vector<typename S::Rot> startRotations_;
     PositionScratch<S> positionScratch_;
     std::vector<Real> residuals_;
     StepResult<S> result_;

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What every integrator uses: damping solved exactly over a step, and motion at constant velocity along the
+// exponential map.
+#include <cmath>
+
+#include "engine/integrators/integrator.hpp"
+
+namespace rigor::engine {
+
+template <class R>
+DampedStep<R> dampedStep(R keptPerSecond, R h) {
+    if (keptPerSecond == R(1)) return {R(1), h};
+    const double rate = std::log(static_cast<double>(keptPerSecond));  // < 0
+    const double change = std::expm1(rate * static_cast<double>(h));
+    return {static_cast<R>(1.0 + change), static_cast<R>(change / rate)};
+}
+template DampedStep<float> dampedStep(float, float);
+template DampedStep<double> dampedStep(double, double);
+
+template <class S>
+void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, typename S::Real h) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (bodies.constants[i].type == BodyType::Static) continue;
+        bodies.pose[i].p += h * velocities[i].v;
+        bodies.pose[i].q = rotatedBy(bodies.pose[i].q, typename S::Ang(h * velocities[i].w));
+    }
+}
+template void moveWith<Space2f>(BodyArrays<Space2f>&, std::span<const Velocity<Space2f>>, float);
+template void moveWith<Space2d>(BodyArrays<Space2d>&, std::span<const Velocity<Space2d>>, double);
+template void moveWith<Space3f>(BodyArrays<Space3f>&, std::span<const Velocity<Space3f>>, float);
+template void moveWith<Space3d>(BodyArrays<Space3d>&, std::span<const Velocity<Space3d>>, double);
+
+}  // namespace rigor::engine

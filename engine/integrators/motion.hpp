@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The motion of the bodies over one step, or over each sub-step of one:
+//     kick      velocities get what forces, damping and the gyroscopic term add
+//     move      poses follow the velocities, which constraints have changed in between
+//     finish    angular velocity at the end, from the angular momentum in the new orientation
+// Which velocities move the bodies is the integrator's choice, what the body's own rotation does is that of
+// the rotation scheme.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/integrators/integrator.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+class Motion {
+  public:
+    using Real = typename S::Real;
+    using Vec = typename S::Vec;
+    using Ang = typename S::Ang;
+
+    Motion() = default;
+    Motion(const Integrator<S>& integrator, const RotationScheme<S>& rotation)
+        : integrator_(integrator), rotation_(rotation) {}
+
+    /// Constraints of a step already act on the motion of that step.
+    bool movesWithSolvedVelocity() const { return integrator_.movesWithSolvedVelocity; }
+
+    /// World inertia of every body at its present pose. Before rows are made and before kick().
+    static void setInertia(BodyArrays<S>& bodies);
+
+    /// Velocities after h [s] of forces alone. Wrenches are read, not cleared: they last all sub-steps.
+    void kick(BodyArrays<S>& bodies, const Vec& gravity, Real h);
+    /// Moves every body over h.
+    void move(BodyArrays<S>& bodies, Real h);
+    /// The velocities of the last move().
+    std::span<const Velocity<S>> used() const { return used_; }
+    /// After poses have changed for the last time, by move() of h and position correction.
+    void finish(BodyArrays<S>& bodies, Real h);
+
+  private:
+    Integrator<S> integrator_{};
+    RotationScheme<S> rotation_{};
+    // --- recomputed every sub-step
+    std::vector<Velocity<S>> start_;  ///< before kick()
+    std::vector<Velocity<S>> used_;
+    std::vector<Ang> kicked_;     ///< with forces, without the gyroscopic term
+    std::vector<Ang> predicted_;  ///< with the gyroscopic term, before constraints
+    std::vector<typename S::Rot> startRotations_;
+};
+
+}  // namespace rigor::engine
