@@ -31,6 +31,17 @@ class RigorEngine final : public Engine {
             options.push_back(choice(family.name.c_str(), names, family.defaultChoice.c_str(),
                                      family.defaultChoice.c_str(), family.summary.c_str()));
         }
+        options.push_back(integer("substeps", 1, 1000, "1", "1",
+                                  "equal parts that a step is solved in; contacts are found once"));
+        options.push_back(
+            number("contact_frequency", 1e-3, 1e6, "30", "30",
+                   "soft contacts: spring frequency, at most a quarter of the sub-step rate [Hz]"));
+        options.push_back(
+            number("contact_damping_ratio", 0, 1000, "10", "10", "soft contacts: damping ratio"));
+        options.push_back(
+            number("joint_frequency", 1e-3, 1e6, "60", "60",
+                   "soft joints: spring frequency, at most a quarter of the sub-step rate [Hz]"));
+        options.push_back(number("joint_damping_ratio", 0, 1000, "2", "2", "soft joints: damping ratio"));
         options.push_back(
             integer("velocity_iterations", 1, 100000, "8", "50", "iterations of the velocity solver"));
         options.push_back(

@@ -27,6 +27,11 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     def.solver = textSetting(settings, "solver");
     def.positionCorrection = textSetting(settings, "position_correction");
     def.friction = textSetting(settings, "friction");
+    def.substeps = integerSetting(settings, "substeps");
+    def.contactFrequency = static_cast<R>(numberSetting(settings, "contact_frequency"));
+    def.contactDampingRatio = static_cast<R>(numberSetting(settings, "contact_damping_ratio"));
+    def.jointFrequency = static_cast<R>(numberSetting(settings, "joint_frequency"));
+    def.jointDampingRatio = static_cast<R>(numberSetting(settings, "joint_damping_ratio"));
     def.velocityIterations = integerSetting(settings, "velocity_iterations");
     def.positionIterations = integerSetting(settings, "position_iterations");
     def.firstStepIterations = integerSetting(settings, "first_step_iterations");

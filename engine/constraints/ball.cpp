@@ -10,7 +10,7 @@ namespace rigor::engine {
 
 template <class S>
 void evaluateBall(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
-    out.count = 0;
+    out.clear();
     addAnchorRows<S>(joint, A, B, out);
 }
 template void evaluateBall<Space2f>(const Joint<Space2f>&, const Pose<Space2f>&, const Pose<Space2f>&,

@@ -10,19 +10,17 @@ namespace rigor::engine {
 
 template <class S>
 void evaluateDistance(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
-    out.count = 1;
+    out.clear();
     const typename S::Vec rA = rotate(A.q, joint.anchorA), rB = rotate(B.q, joint.anchorB);
     const typename S::Vec d = (B.p - A.p) + (rB - rA);
     const typename S::Real distance = d.norm();
     const typename S::Vec u = distance > std::numeric_limits<typename S::Real>::min()
                                   ? typename S::Vec(d / distance)
                                   : typename S::Vec(S::Vec::Unit(0));
-    Row<S>& row = out.row[0];
-    row = {};
+    Row<S>& row = out.add(distance - joint.length);
     row.lin = u;
     row.angA = -cross(rA, u);
     row.angB = cross(rB, u);
-    out.error[0] = distance - joint.length;
 }
 template void evaluateDistance<Space2f>(const Joint<Space2f>&, const Pose<Space2f>&, const Pose<Space2f>&,
                                         JointRows<Space2f>&);

@@ -10,7 +10,7 @@ namespace rigor::engine {
 
 template <class S>
 void evaluateFixed(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
-    out.count = 0;
+    out.clear();
     addAnchorRows<S>(joint, A, B, out);
     addOrientationRows<S>(joint, A, B, out);
 }

@@ -12,17 +12,15 @@ namespace rigor::engine {
 
 template <class S>
 void evaluateHinge(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
-    out.count = 0;
+    out.clear();
     addAnchorRows<S>(joint, A, B, out);
     if constexpr (S::dim == 3) {
         const typename S::Vec aB = rotate(B.q, joint.axisB);
         for (const typename S::Vec& local : {joint.perpA1, joint.perpA2}) {
             const typename S::Vec t = rotate(A.q, local);
-            Row<S>& row = out.row[static_cast<std::size_t>(out.count)];
-            row = {};
+            Row<S>& row = out.add(t.dot(aB));
             row.angB = aB.cross(t);
             row.angA = -row.angB;
-            out.error[static_cast<std::size_t>(out.count++)] = t.dot(aB);
         }
     }
 }

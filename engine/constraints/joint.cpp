@@ -36,12 +36,10 @@ void addAnchorRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, Jo
     const Vec C = (B.p - A.p) + (rB - rA);
     for (int i = 0; i < S::dim; ++i) {
         const Vec e = Vec::Unit(i);
-        Row<S>& row = out.row[static_cast<std::size_t>(out.count)];
-        row = {};
+        Row<S>& row = out.add(C[i]);
         row.lin = e;
         row.angA = -cross(rA, e);
         row.angB = cross(rB, e);
-        out.error[static_cast<std::size_t>(out.count++)] = C[i];
     }
 }
 
@@ -50,18 +48,14 @@ void addOrientationRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& 
     // C = log(qB (qA relative)^-1), whose rate is wB - wA to first order in C.
     const typename S::Ang C = logMap(compose(B.q, inverse(compose(A.q, joint.relative))));
     if constexpr (S::dim == 2) {
-        Row<S>& row = out.row[static_cast<std::size_t>(out.count)];
-        row = {};
+        Row<S>& row = out.add(C);
         row.angA = -1;
         row.angB = 1;
-        out.error[static_cast<std::size_t>(out.count++)] = C;
     } else {
         for (int i = 0; i < 3; ++i) {
-            Row<S>& row = out.row[static_cast<std::size_t>(out.count)];
-            row = {};
+            Row<S>& row = out.add(C[i]);
             row.angA = -S::Vec::Unit(i);
             row.angB = S::Vec::Unit(i);
-            out.error[static_cast<std::size_t>(out.count++)] = C[i];
         }
     }
 }

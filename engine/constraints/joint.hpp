@@ -10,6 +10,7 @@
 #include <span>
 
 #include "engine/constraints/row.hpp"
+#include "engine/constraints/soft.hpp"
 #include "engine/state/world_def.hpp"
 
 namespace rigor::engine {
@@ -28,12 +29,44 @@ struct Joint {
     JointId id;
 };
 
-/// Directions and errors of a joint at given poses. Only lin, angA and angB of the rows are filled.
+/// What a row of a joint is for.
+enum class RowRole : std::uint8_t {
+    Hold,    ///< C = 0
+    Limit,   ///< C >= 0: a unilateral stop
+    Motor,   ///< J v = speed, as far as maxForce allows; C plays no part
+    Spring,  ///< C = 0 softly, by stiffness and damping
+};
+template <class S>
+struct RowLaw {
+    using Real = typename S::Real;
+    RowRole role = RowRole::Hold;
+    Real speed = 0;                   ///< motor [m/s] or [rad/s]
+    Real maxForce = 0;                ///< motor [N] or [N m], >= 0
+    Real stiffness = 0, damping = 0;  ///< spring [N/m, N s/m] or per radian
+    Softness<Real> softness;          ///< spring where frequency > 0: instead of stiffness and damping
+};
+
+inline constexpr int kMaxRowsPerJoint = 18;  ///< of all roles
+
+/// Directions and errors of a joint at given poses; rows that hold come first. Only lin, angA and angB of the
+/// rows are filled. The number and the roles of the rows do not depend on the poses.
 template <class S>
 struct JointRows {
-    int count = 0;
-    std::array<Row<S>, kMaxJointRows> row;
-    std::array<typename S::Real, kMaxJointRows> error;  ///< C, zero when satisfied [m] or [rad]
+    using Real = typename S::Real;
+    int count = 0, held = 0;
+    std::array<Row<S>, kMaxRowsPerJoint> row;
+    std::array<Real, kMaxRowsPerJoint> error;  ///< C, zero when satisfied [m] or [rad]
+    std::array<RowLaw<S>, kMaxRowsPerJoint> law;
+
+    void clear() { count = held = 0; }
+    Row<S>& add(Real C, const RowLaw<S>& rowLaw = {}) {
+        const auto i = static_cast<std::size_t>(count++);
+        if (rowLaw.role == RowRole::Hold) held = count;
+        error[i] = C, law[i] = rowLaw;
+        row[i].lin.setZero();
+        row[i].angA = row[i].angB = zeroAng<S>();
+        return row[i];
+    }
 };
 
 template <class S>

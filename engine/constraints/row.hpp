@@ -5,19 +5,25 @@
 //
 // A row couples the velocities of two bodies A and B:
 //     J v = lin . (vB - vA) + angA . wA + angB . wB
-// and an impulse lambda along it changes them by M^-1 J^T lambda. Rows that belong together form a block:
-//     Joint    J v + bias = 0                     1..6 rows solved together, K = J M^-1 J^T
-//     Contact  row 0: 0 <= lambda _|_ J v + bias >= 0; rows 1..: friction, |lambda_t| <= friction * lambda_0
+// and an impulse lambda along it changes them by M^-1 J^T lambda. A row is satisfied where
+//     J v + bias + softness lambda = 0,   lower <= lambda <= upper
+// (at a bound the equation becomes an inequality: at lower the left side may be > 0, at upper < 0).
+// softness > 0 makes a row a damped spring, see soft.hpp. Rows that belong together form a block:
+//     Joint    1..6 unbounded rows that one joint holds, K = J M^-1 J^T
+//     Bounded  1 row with bounds or softness: a limit, a motor, a spring
+//     Contact  row 0: 0 <= lambda _|_ J v + bias + softness lambda >= 0;
+//              rows 1..: friction, |lambda_t| <= friction * lambda_0
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "engine/state/body_arrays.hpp"
 
 namespace rigor::engine {
 
-inline constexpr int kMaxJointRows = 6;
+inline constexpr int kMaxJointRows = 6;  ///< of a Joint block
 
 template <class S>
 struct Row {
@@ -26,11 +32,18 @@ struct Row {
     typename S::Ang angA = zeroAng<S>(), angB = zeroAng<S>();
     typename S::Ang invIAngA = zeroAng<S>(), invIAngB = zeroAng<S>();  ///< world inverse inertia times ang
     Real bias = 0;                                                     ///< [m/s] or [rad/s]
+    Real softness = 0;                                                 ///< >= 0 [1/kg] or [1/(kg m^2)]
     Real impulse = 0;                                                  ///< accumulated, [N s] or [N m s]
-    Real invK = 0;  ///< effective mass 1 / (J M^-1 J^T) of this row alone
+    Real invK = 0;  ///< effective mass 1 / (J M^-1 J^T + softness) of this row alone
+    Real lower = -std::numeric_limits<Real>::infinity();  ///< of the impulse; read for Bounded blocks
+    Real upper = std::numeric_limits<Real>::infinity();
+    Real error = 0;  ///< C where the row was made: < 0 for overlap and violated limits [m] or [rad]
+    /// Bias and softness once the bodies have moved and the error needs no more velocity
+    /// (SolverStyle::relax).
+    Real relaxedBias = 0, relaxedSoftness = 0;
 };
 
-enum class BlockKind : std::uint8_t { Joint, Contact };
+enum class BlockKind : std::uint8_t { Joint, Bounded, Contact };
 
 template <class S>
 struct Block {
@@ -58,6 +71,8 @@ struct ConstraintRows {
     std::vector<Block<S>> blocks;
     std::vector<BlockMatrix<S>> matrices;
     void clear() { rows.clear(), blocks.clear(), matrices.clear(); }
+    /// Biases and softnesses become the relaxed ones.
+    void relax();
 };
 
 /// J v of a row.
@@ -85,6 +100,11 @@ template <class S>
 void completeRow(Row<S>& row, const Block<S>& block, const std::vector<typename S::Inertia>& invInertia) {
     row.invIAngA = invInertia[block.a] * row.angA;
     row.invIAngB = invInertia[block.b] * row.angB;
+}
+/// K = J M^-1 J^T + softness of one row alone; 0 where neither body can follow it.
+template <class S>
+typename S::Real rowK(const Row<S>& row, const Block<S>& block) {
+    return rowCoupling<S>(row, row, block) + row.softness;
 }
 /// Inverse of K of a joint block; directions that no body can follow (K singular) get no impulse.
 template <class S>

@@ -11,17 +11,15 @@ namespace rigor::engine {
 
 template <class S>
 void evaluateSlider(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
-    out.count = 0;
+    out.clear();
     const typename S::Vec rA = rotate(A.q, joint.anchorA), rB = rotate(B.q, joint.anchorB);
     const typename S::Vec d = (B.p - A.p) + (rB - rA);
     for (int i = 0; i < S::dim - 1; ++i) {
         const typename S::Vec t = rotate(A.q, i == 0 ? joint.perpA1 : joint.perpA2);
-        Row<S>& row = out.row[static_cast<std::size_t>(out.count)];
-        row = {};
+        Row<S>& row = out.add(t.dot(d));
         row.lin = t;
         row.angA = -cross(typename S::Vec(rA + d), t);
         row.angB = cross(rB, t);
-        out.error[static_cast<std::size_t>(out.count++)] = t.dot(d);
     }
     addOrientationRows<S>(joint, A, B, out);
 }

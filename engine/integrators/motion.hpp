@@ -39,6 +39,8 @@ class Motion {
     void move(BodyArrays<S>& bodies, Real h);
     /// The velocities of the last move().
     std::span<const Velocity<S>> used() const { return used_; }
+    /// Orientations before the last move(), by dense index.
+    std::span<const typename S::Rot> startRotations() const { return startRotations_; }
     /// After poses have changed for the last time, by move() of h and position correction.
     void finish(BodyArrays<S>& bodies, Real h);
 

@@ -9,7 +9,7 @@
 //     e n . u_0         impact: s <= 0, n . u_0 < -threshold; u_0 from before this step's forces, so that the
 //                       rebound is e times the approach and not e times (approach + g h)
 //     s / h             a gap wider than gapSlop, or an impact: the point may just close it in this step
-//     -beta s / h       overlap, where position correction works by velocities; else 0
+//     overlap           what the bias rule makes of it (Baumgarte, soft), else 0
 // A gap with e > 0 gets no rows where it is closing faster than the threshold, or is wider than gravity alone
 // closes in a step: closing it would take the speed that the impact has to reverse, or pass on a blow that
 // has not reached it. The bodies then meet with an overlap of at most one step's motion.
@@ -141,16 +141,44 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, CollideFunction<S
         contact.shapeA = a, contact.shapeB = b;
         contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
         contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
+        placePoints(bodies, contact);
         const auto sortKey = [](const Contact<S>& c) { return pairKey(c.shapeA, c.shapeB); };
         while (old != previous_.end() && sortKey(*old) < sortKey(contact)) ++old;
         if (old != previous_.end() && sortKey(*old) == sortKey(contact)) takeOver(bodies, *old, contact);
     }
 }
 
+/// One point for both bodies, or equal and opposite impulses would make a couple; against a body that takes
+/// no momentum the other's own surface, so that its arm does not depend on the overlap.
+template <class S>
+void ContactSet<S>::placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) const {
+    const std::uint32_t a = contact.bodyA, b = contact.bodyB;
+    for (int i = 0; i < contact.manifold.count; ++i) {
+        const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
+        Vec at = Real(0.5) * (where.pointA + where.pointB);
+        if (bodies.invMass[a] == 0) at = where.pointB;
+        if (bodies.invMass[b] == 0) at = where.pointA;
+        typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
+        point.rA = at - bodies.pose[a].p, point.rB = at - bodies.pose[b].p;
+        point.separation = where.separation;
+    }
+}
+
+template <class S>
+void ContactSet<S>::advance(std::span<const Velocity<S>> motion) {
+    for (Contact<S>& contact : contacts_) {
+        const Velocity<S>&A = motion[contact.bodyA], &B = motion[contact.bodyB];
+        for (int i = 0; i < contact.manifold.count; ++i) {
+            typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
+            const Vec moved = B.v + cross(B.w, point.rB) - A.v - cross(A.w, point.rA);
+            point.separation += contact.manifold.normal.dot(moved);
+        }
+    }
+}
+
 template <class S>
 void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step,
                             ConstraintRows<S>& rows) {
-    separations_.clear();
     for (Contact<S>& contact : contacts_)
         for (int i = 0; i < contact.manifold.count; ++i) addPointRows(bodies, step, contact, i, rows);
 }
@@ -159,7 +187,6 @@ template <class S>
 void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
                                  int index, ConstraintRows<S>& rows) {
     typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(index)];
-    const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(index)];
     const Vec& n = contact.manifold.normal;
     const std::uint32_t a = contact.bodyA, b = contact.bodyB;
 
@@ -171,13 +198,7 @@ void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<
     block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
     block.rows = static_cast<std::uint8_t>(block.friction > 0 ? 1 + S::tangents : 1);
 
-    // One point for both bodies, or equal and opposite impulses would make a couple; against a body that
-    // takes no momentum the other's own surface, so that its arm does not depend on the overlap.
-    Vec at = Real(0.5) * (where.pointA + where.pointB);
-    if (block.invMassA == 0) at = where.pointB;
-    if (block.invMassB == 0) at = where.pointA;
-    const Vec rA = at - bodies.pose[a].p, rB = at - bodies.pose[b].p;
-
+    const Vec &rA = point.rA, &rB = point.rB;
     const auto makeRow = [&](const Vec& direction) {
         Row<S> row;
         row.lin = direction;
@@ -189,7 +210,7 @@ void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<
     };
     Row<S> normal = makeRow(n);
     const Real approach = rowVelocity<S>(normal, bodies.velocity[a], bodies.velocity[b]);
-    const Real s = where.separation;
+    const Real s = point.separation;
     // Rounding of coordinates of order one metre: closer than this is touching.
     const Real touching = Real(64) * std::numeric_limits<Real>::epsilon();
     const bool bounces = contact.coefficients.restitution > 0 && approach < -step.restitutionThreshold;
@@ -201,12 +222,13 @@ void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<
         point.frictionImpulse.setZero();
         return;
     }
+    normal.error = s;
     if (bounces)
         normal.bias = contact.coefficients.restitution * approach;
     else if (s > (point.impact ? Real(0) : step.gapSlop))
         normal.bias = s / step.h;
-    else
-        normal.bias = step.biasFactor * std::min(Real(0), s + step.slop) / step.h;
+    normal.relaxedBias = normal.bias;
+    if (normal.bias == 0) pushApart(step, block, s, normal);
     normal.impulse = step.warmStart * point.normalImpulse;
     rows.rows.push_back(normal);
 
@@ -224,7 +246,21 @@ void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<
     }
     point.block = static_cast<std::uint32_t>(rows.blocks.size());
     rows.blocks.push_back(block);
-    separations_.push_back(s);
+}
+
+/// What the bias rule makes of overlap.
+template <class S>
+void ContactSet<S>::pushApart(const ContactStep<S>& step, const Block<S>& block, Real s, Row<S>& normal) {
+    const Real overlap = std::min(Real(0), s + step.slop);
+    if (!step.bias.soft) {
+        normal.bias = step.bias.share * overlap / step.h;
+        return;
+    }
+    if (s > 0) return;
+    const SoftTerms<Real> terms = softTerms(step.bias.contact, rowCoupling<S>(normal, normal, block), step.h);
+    normal.bias = std::max(terms.biasRate * overlap, -step.bias.fastestPush);
+    normal.softness = terms.gamma;
+    normal.invK = Real(1) / rowK<S>(normal, block);
 }
 
 template <class S>
@@ -238,6 +274,8 @@ void ContactSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
             point.frictionImpulse.setZero();
             for (std::uint32_t r = 1; r < block.rows; ++r)
                 point.frictionImpulse += rows.rows[block.first + r].impulse * rows.rows[block.first + r].lin;
+            point.normalTotal += point.normalImpulse;
+            point.frictionTotal += point.frictionImpulse;
         }
 }
 

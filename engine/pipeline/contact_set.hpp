@@ -7,10 +7,12 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/broadphase/broad_phase.hpp"
 #include "engine/constraints/row.hpp"
+#include "engine/constraints/soft.hpp"
 #include "engine/core/clone_ptr.hpp"
 #include "engine/narrowphase/manifold.hpp"
 #include "engine/state/world_def.hpp"
@@ -33,10 +35,14 @@ struct Contact {
     using Real = typename S::Real;
     static constexpr std::uint32_t kNoBlock = 0xffffffffu;
     struct Point {
-        Real normalImpulse = 0;                            ///< of the last step [N s], >= 0
+        Real normalImpulse = 0;                            ///< of the last (sub-)step [N s], >= 0
         typename S::Vec frictionImpulse = S::Vec::Zero();  ///< on B, world frame [N s]
-        std::uint32_t block = kNoBlock;                    ///< its rows in this step; kNoBlock: let through
-        bool impact = false;                               ///< hit, rather than rested, in this step
+        Real normalTotal = 0;                              ///< of all sub-steps of the last step [N s]
+        typename S::Vec frictionTotal = S::Vec::Zero();
+        Real separation = 0;     ///< now: found, and what the bodies' motion since has made of it [m]
+        typename S::Vec rA, rB;  ///< arms of the impulses, as found: world axes, from the centres of mass
+        std::uint32_t block = kNoBlock;  ///< its rows in this step; kNoBlock: let through
+        bool impact = false;             ///< hit, rather than rested, in this step
     };
     std::uint32_t shapeA = 0, shapeB = 0, bodyA = 0, bodyB = 0;  ///< dense indices
     PairCoefficients<S> coefficients;
@@ -47,11 +53,11 @@ struct Contact {
 /// What making contact rows needs to know of a step.
 template <class S>
 struct ContactStep {
-    typename S::Real h;                     ///< [s]
+    typename S::Real h;                     ///< of the (sub-)step [s]
     typename S::Real restitutionThreshold;  ///< [m/s]
     typename S::Real restingGap;            ///< what gravity may close in this step, generously [m]
     typename S::Real impactSpeed;           ///< faster approaches are impacts: not warm started from [m/s]
-    typename S::Real biasFactor;            ///< share of the overlap to remove by velocity; 0: none
+    BiasRule<typename S::Real> bias;        ///< what overlap does to the rows
     typename S::Real slop;                  ///< [m]
     typename S::Real gapSlop;               ///< gaps up to this count as closed [m]
     typename S::Real warmStart;             ///< factor on the last impulses; 0: none
@@ -86,20 +92,23 @@ class ContactSet {
     void findManifolds(const BodyArrays<S>& bodies, CollideFunction<S> collide, Real speculativeDistance);
     /// Appends the rows of all contacts. The bodies' velocities are those of the start of the step.
     void addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows);
+    /// Separations after the bodies have moved by `motion` (translation [m], rotation vector [rad]), to first
+    /// order: C += n . (dB + aB x rB - dA - aA x rA), exact for translation and for rolling spheres.
+    void advance(std::span<const Velocity<S>> motion);
     /// Reads the impulses of the solved rows.
     void storeImpulses(const ConstraintRows<S>& rows);
 
     const std::vector<ProxyPair>& proxyPairs() const { return proxyPairs_; }
     const std::vector<Contact<S>>& contacts() const { return contacts_; }
-    /// Separation of contact block i (in the order of the rows) when it was found [m].
-    const std::vector<Real>& separations() const { return separations_; }
     /// True where contacts between the two bodies are possible.
     bool mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b) const;
 
   private:
+    void placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) const;
     void takeOver(const BodyArrays<S>& bodies, const Contact<S>& old, Contact<S>& contact) const;
     void addPointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact, int index,
                       ConstraintRows<S>& rows);
+    static void pushApart(const ContactStep<S>& step, const Block<S>& block, Real s, Row<S>& normal);
 
     std::vector<ShapeRecord<S>> shapes_;
     std::uint32_t materialCount_ = 1;
@@ -114,7 +123,6 @@ class ContactSet {
     std::vector<std::uint8_t> movable_;
     bool boxesValid_ = false;
     std::vector<ProxyPair> proxyPairs_;
-    std::vector<Real> separations_;
 };
 
 /// Unit tangents that with n form a right-handed orthonormal frame; a function of n alone.

@@ -25,66 +25,117 @@ typename S::Real endShare(typename S::Real h, const typename S::Ang& w, const ty
 
 template <class S>
 void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step, ConstraintRows<S>& rows) {
-    startErrors_.resize(records_.size());
-    JointRows<S> made;
-    for (std::size_t j = 0; j < records_.size(); ++j) {
-        Record& record = records_[j];
+    for (Record& record : records_) {
         const std::uint32_t a = record.joint.a, b = record.joint.b;
-        record.evaluate(record.joint, bodies.pose[a], bodies.pose[b], made);
+        record.evaluate(record.joint, bodies.pose[a], bodies.pose[b], made_);
+        record.firstRow = static_cast<std::uint32_t>(rows.rows.size());
+        record.rows = static_cast<std::uint32_t>(made_.count);
+        record.held = static_cast<std::uint32_t>(made_.held);
+        record.block = static_cast<std::uint32_t>(rows.blocks.size());
         Block<S> block;
-        block.kind = BlockKind::Joint;
-        block.rows = static_cast<std::uint8_t>(made.count);
-        block.first = static_cast<std::uint32_t>(rows.rows.size());
         block.a = a, block.b = b;
         block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
-        block.matrix = static_cast<std::uint32_t>(rows.matrices.size());
-        for (std::size_t i = 0; i < static_cast<std::size_t>(made.count); ++i) {
-            Row<S> row = made.row[i];
-            completeRow<S>(row, block, bodies.invInertia);
-            row.impulse = step.warmStart * record.impulse[i];
-            row.bias = step.biasFactor * made.error[i] / step.h;
+        for (std::uint32_t i = 0; i < record.rows; ++i) {
+            if (i == 0 || i >= record.held) {
+                block.kind = i < record.held ? BlockKind::Joint : BlockKind::Bounded;
+                block.rows = static_cast<std::uint8_t>(i < record.held ? record.held : 1);
+                block.first = record.firstRow + i;
+                block.matrix = static_cast<std::uint32_t>(rows.matrices.size());
+                rows.blocks.push_back(block);
+            }
+            Row<S> row = made_.row[i];
+            addRow(bodies, step, made_.law[i], made_.error[i], block, row);
+            row.impulse = std::clamp(step.warmStart * record.impulse[i], row.lower, row.upper);
             rows.rows.push_back(row);
         }
-        startErrors_[j] = made.error;
-        invertBlock<S>(rows.rows.data() + block.first, block, rows.matrices.emplace_back());
-        record.block = static_cast<std::uint32_t>(rows.blocks.size());
-        rows.blocks.push_back(block);
+        if (record.held > 0)
+            invertBlock<S>(rows.rows.data() + record.firstRow, rows.blocks[record.block],
+                           rows.matrices.emplace_back());
     }
+    startBias_.resize(rows.rows.size());
+    for (std::size_t i = 0; i < startBias_.size(); ++i) startBias_[i] = rows.rows[i].bias;
+}
+
+/// Everything of a row but its place: products, bias, softness, bounds.
+template <class S>
+void JointSet<S>::addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, const RowLaw<S>& law,
+                         Real error, const Block<S>& block, Row<S>& row) const {
+    completeRow<S>(row, block, bodies.invInertia);
+    const Real K = rowCoupling<S>(row, row, block);
+    row.error = error;
+    row.bias = row.relaxedBias = row.softness = row.relaxedSoftness = 0;
+    switch (law.role) {
+        case RowRole::Motor:
+            row.bias = row.relaxedBias = -law.speed;
+            row.lower = -step.h * law.maxForce, row.upper = step.h * law.maxForce;
+            break;
+        case RowRole::Spring: {
+            const SoftTerms<Real> terms = law.softness.frequency > 0
+                                              ? softTerms(law.softness, K, step.h)
+                                              : springTerms(law.stiffness, law.damping, step.h);
+            row.bias = row.relaxedBias = terms.biasRate * error;
+            row.softness = row.relaxedSoftness = terms.gamma;
+            break;
+        }
+        case RowRole::Limit:
+            row.lower = 0;
+            if (error > 0) {
+                row.bias = row.relaxedBias = error / step.h;
+                break;
+            }
+            [[fallthrough]];
+        case RowRole::Hold:
+            if (step.bias.soft) {
+                const SoftTerms<Real> terms = softTerms(step.bias.joint, K, step.h);
+                row.bias = terms.biasRate * error;
+                row.softness = terms.gamma;
+            } else {
+                row.bias = step.bias.share * error / step.h;
+            }
+            break;
+    }
+    const Real whole = K + row.softness;
+    row.invK = whole > 0 ? Real(1) / whole : Real(0);
 }
 
 template <class S>
 void JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
-                               std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) const {
+                               std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) {
     if (!step.curved) return;
-    JointRows<S> end;
     const auto moved = [&](std::uint32_t i) -> Pose<S> {
         return {bodies.pose[i].p + step.h * velocities[i].v,
                 rotatedBy(bodies.pose[i].q, typename S::Ang(step.h * velocities[i].w))};
     };
-    for (std::size_t j = 0; j < records_.size(); ++j) {
-        const Record& record = records_[j];
+    for (const Record& record : records_) {
+        if (record.held == 0) continue;
         const Block<S>& block = rows.blocks[record.block];
         const auto shareOf = [&](std::uint32_t i, const typename S::Vec& anchor) {
             return endShare<S>(step.h, velocities[i].w, rotate(bodies.pose[i].q, anchor));
         };
         const Real share =
             std::min(shareOf(block.a, record.joint.anchorA), shareOf(block.b, record.joint.anchorB));
-        record.evaluate(record.joint, moved(block.a), moved(block.b), end);
-        for (std::size_t i = 0; i < block.rows; ++i) {
-            Row<S>& row = rows.rows[block.first + i];
-            const Real beyondLinear = (end.error[i] - startErrors_[j][i]) / step.h -
+        record.evaluate(record.joint, moved(block.a), moved(block.b), made_);
+        for (std::uint32_t i = 0; i < record.held; ++i) {
+            Row<S>& row = rows.rows[record.firstRow + i];
+            const Real beyondLinear = (made_.error[i] - row.error) / step.h -
                                       rowVelocity<S>(row, velocities[block.a], velocities[block.b]);
-            row.bias = share * beyondLinear + step.biasFactor * startErrors_[j][i] / step.h;
+            row.bias = share * beyondLinear + startBias_[record.firstRow + i];
         }
     }
 }
 
 template <class S>
 void JointSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
-    for (Record& record : records_) {
-        const Block<S>& block = rows.blocks[record.block];
-        for (std::size_t i = 0; i < block.rows; ++i) record.impulse[i] = rows.rows[block.first + i].impulse;
-    }
+    for (Record& record : records_)
+        for (std::uint32_t i = 0; i < record.rows; ++i) {
+            record.impulse[i] = rows.rows[record.firstRow + i].impulse;
+            record.total[i] += record.impulse[i];
+        }
+}
+
+template <class S>
+void JointSet<S>::clearTotals() {
+    for (Record& record : records_) record.total.fill(0);
 }
 
 template class JointSet<Space2f>;

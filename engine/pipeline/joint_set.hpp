@@ -15,10 +15,10 @@ namespace rigor::engine {
 /// What making joint rows needs to know of a step.
 template <class S>
 struct JointStep {
-    typename S::Real h;           ///< [s]
-    typename S::Real biasFactor;  ///< share of the error to remove by velocity; 0: none
-    typename S::Real warmStart;   ///< factor on the last impulses; 0: none
-    bool curved;                  ///< aim at the constraint at the end of the step
+    typename S::Real h;               ///< of the (sub-)step [s]
+    BiasRule<typename S::Real> bias;  ///< what position errors do to the rows
+    typename S::Real warmStart;       ///< factor on the last impulses; 0: none
+    bool curved;                      ///< aim at the constraint at the end of the step
 };
 
 template <class S>
@@ -28,27 +28,37 @@ class JointSet {
     struct Record {
         Joint<S> joint;
         EvaluateJoint<S> evaluate = nullptr;
-        std::array<Real, kMaxJointRows> impulse{};  ///< of the last step [N s] or [N m s]
-        std::uint32_t block = 0;                    ///< its rows in this step
+        std::array<Real, kMaxRowsPerJoint> impulse{};  ///< of the last (sub-)step [N s] or [N m s]
+        std::array<Real, kMaxRowsPerJoint> total{};    ///< of all sub-steps of the last step
+        std::uint32_t firstRow = 0;                    ///< its rows in this step follow each other
+        std::uint32_t rows = 0, held = 0;              ///< all, and those that hold (the first ones)
+        std::uint32_t block = 0;                       ///< of the rows that hold; each other row has its own
     };
 
     std::vector<Record>& records() { return records_; }
     const std::vector<Record>& records() const { return records_; }
 
     void addRows(const BodyArrays<S>& bodies, const JointStep<S>& step, ConstraintRows<S>& rows);
+    /// Reads the impulses of the solved rows.
     void storeImpulses(const ConstraintRows<S>& rows);
+    /// A new step: totals start at zero.
+    void clearTotals();
 
     /// Biases for the given velocities. A linear row lets the bodies leave the constraint along its tangent;
     /// here each row aims at C(end of the step) = C(start) instead:
-    ///     bias = (C(x + h v, exp(h w) q) - C(x, q)) / h - J v + beta C / h
+    ///     bias = (C(x + h v, exp(h w) q) - C(x, q)) / h - J v + what the bias rule makes of C
     /// With symplectic Euler this is SHAKE [RyckaertCiccottiBerendsen1977], which keeps the energy of a
     /// pendulum where the linear row loses a share (h w)^2 / 2 of the speed in every step.
     void updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
-                      std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) const;
+                      std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows);
 
   private:
+    void addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, const RowLaw<S>& law, Real error,
+                const Block<S>& block, Row<S>& row) const;
+
     std::vector<Record> records_;
-    std::vector<std::array<Real, kMaxJointRows>> startErrors_;
+    std::vector<Real> startBias_;  ///< of rows that hold, by row
+    JointRows<S> made_;
 };
 
 }  // namespace rigor::engine

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// One step of h:
-//     find contacts where the bodies are      broad phase, narrow phase
-//     make rows                               joints, contacts (approach speeds from before the forces)
-//     kick                                    v += h a; damping; gyroscopic term
-//     solve                                   impulses for the rows
-//     drift                                   x += h v, q := exp(h w) q; angular momentum to end velocity
-//     correct positions
+// One step of h: find contacts where the bodies are (broad phase, narrow phase); then, in each of the
+// sub-steps,
+//     rows         joints, contacts (approach speeds from before the forces)
+//     velocities   v += h a; damping; gyroscopic term
+//     solve        impulses for the rows
+//     move         x += h v, q := exp(h w) q
+//     relax        impulses again, without what position errors asked for     (where the choice wants it)
+//     correct      position correction; angular momentum to end velocity
+// Solvers that iterate on positions move first, are put right (`positions`), and solve velocities after that.
+#include <algorithm>
 #include <chrono>
 
 #include "engine/pipeline/world.hpp"
@@ -15,21 +18,34 @@
 namespace rigor::engine {
 namespace {
 
+/// Renews the biases of joints before an iteration, keeps its residual after it.
 template <class S>
-class JointBiases final : public BiasUpdate<S> {
+class StepMonitor final : public IterationMonitor<S> {
   public:
-    JointBiases(const JointSet<S>& joints, const BodyArrays<S>& bodies, const JointStep<S>& step,
-                ConstraintRows<S>& rows)
-        : joints_(joints), bodies_(bodies), step_(step), rows_(rows) {}
-    void updateBiases(std::span<const Velocity<S>> velocities) override {
+    using Real = typename S::Real;
+    StepMonitor(JointSet<S>& joints, const BodyArrays<S>& bodies, const JointStep<S>& step,
+                ConstraintRows<S>& rows, Real tolerance, std::vector<Real>& residuals)
+        : joints_(joints),
+          bodies_(bodies),
+          step_(step),
+          rows_(rows),
+          tolerance_(tolerance),
+          residuals_(residuals) {}
+    void before(std::span<const Velocity<S>> velocities) override {
         joints_.updateBiases(bodies_, step_, velocities, rows_);
+    }
+    bool after(std::span<const Velocity<S>>, Real change) override {
+        residuals_.push_back(change);
+        return change < tolerance_;
     }
 
   private:
-    const JointSet<S>& joints_;
+    JointSet<S>& joints_;
     const BodyArrays<S>& bodies_;
-    JointStep<S> step_;
+    const JointStep<S>& step_;
     ConstraintRows<S>& rows_;
+    Real tolerance_;
+    std::vector<Real>& residuals_;
 };
 
 class PhaseClock {
@@ -37,86 +53,204 @@ class PhaseClock {
     explicit PhaseClock(std::array<double, kPhases>& seconds) : seconds_(seconds) {}
     void end(Phase phase) {
         const auto now = std::chrono::steady_clock::now();
-        seconds_[static_cast<std::size_t>(phase)] = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
+        seconds_[static_cast<std::size_t>(phase)] += std::chrono::duration<double>(now - start_).count();
     }
 
   private:
     std::array<double, kPhases>& seconds_;
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace
 
 const char* phaseName(Phase phase) {
-    static constexpr const char* names[kPhases] = {"broad_phase", "narrow_phase", "rows",   "velocities",
-                                                   "solve",       "move",         "correct"};
+    static constexpr const char* names[kPhases] = {"broad_phase", "narrow_phase", "rows",
+                                                   "velocities",  "solve",        "move",
+                                                   "relax",       "positions",    "correct"};
     return names[static_cast<std::size_t>(phase)];
 }
 
+namespace {
+
+// What a sub-step consists of.
+constexpr std::array kMoveLast{Phase::Rows, Phase::Velocities, Phase::Solve,
+                               Phase::Move, Phase::Relax,      Phase::Correct};
+constexpr std::array kMoveFirst{Phase::Rows,      Phase::Velocities, Phase::Move,
+                                Phase::Positions, Phase::Solve,      Phase::Correct};
+static_assert(kMoveLast.size() == kMoveFirst.size());
+
+}  // namespace
+
 template <class S>
 const StepResult<S>& World<S>::step(Real h) {
+    beginStep(h);
+    while (stepping()) runPhase();
+    return result_;
+}
+
+template <class S>
+void World<S>::beginStep(Real h) {
+    if (stepping()) throw EngineError("step_in_progress", "the last step has phases left to run");
     if (!(h > 0) || !std::isfinite(h)) throw EngineError("time_step", "a step must be positive and finite");
     result_ = {};
+    residuals_.clear();
+    joints_.clearTotals();
+    cursor_ = {true, Phase::BroadPhase, 0, 0, h, h / Real(def_.substeps)};
+}
+
+template <class S>
+void World<S>::runPhase() {
+    if (!stepping()) throw EngineError("no_step", "no step has begun");
     PhaseClock clock(result_.seconds);
+    const Phase phase = cursor_.next;
+    switch (phase) {
+        case Phase::BroadPhase:
+            contacts_.findPairs(bodies_, *broadPhase_, def_.speculativeDistance);
+            break;
+        case Phase::NarrowPhase:
+            contacts_.findManifolds(bodies_, collide_, def_.speculativeDistance);
+            break;
+        case Phase::Rows:
+            makeRows();
+            break;
+        case Phase::Velocities:
+            motion_.kick(bodies_, def_.gravity, cursor_.substepSize);
+            break;
+        case Phase::Solve:
+            solveVelocities(firstStep() ? std::max(def_.firstStepIterations, def_.velocityIterations)
+                                        : def_.velocityIterations,
+                            false);
+            break;
+        case Phase::Move:
+            motion_.move(bodies_, cursor_.substepSize);
+            break;
+        case Phase::Relax:
+            relax();
+            break;
+        case Phase::Positions:
+            solvePositions();
+            break;
+        case Phase::Correct:
+            correct();
+            break;
+    }
+    clock.end(phase);
+    advanceCursor();
+}
 
-    contacts_.findPairs(bodies_, *broadPhase_, def_.speculativeDistance);
-    clock.end(Phase::BroadPhase);
-    contacts_.findManifolds(bodies_, collide_, def_.speculativeDistance);
-    clock.end(Phase::NarrowPhase);
+template <class S>
+void World<S>::advanceCursor() {
+    const auto& order = style_.positions ? kMoveFirst : kMoveLast;
+    if (cursor_.next == Phase::BroadPhase) {
+        cursor_.next = Phase::NarrowPhase;
+        return;
+    }
+    if (cursor_.next != Phase::NarrowPhase && ++cursor_.place == order.size()) {
+        cursor_.place = 0;
+        if (++cursor_.substep == def_.substeps) {
+            endStep();
+            return;
+        }
+    }
+    cursor_.next = order[cursor_.place];
+}
 
+template <class S>
+void World<S>::endStep() {
+    cursor_.active = false;
+    for (Wrench<S>& wrench : bodies_.wrench) wrench = {};
+    checkFinite();
+    lastStepSize_ = cursor_.substepSize;
+    ++stepCount_;
+    result_.pairs = contacts_.proxyPairs().size();
+    result_.contacts = static_cast<std::size_t>(
+        std::count_if(rows_.blocks.begin(), rows_.blocks.end(),
+                      [](const Block<S>& block) { return block.kind == BlockKind::Contact; }));
+    result_.rows = rows_.rows.size();
+    result_.iterations = static_cast<int>(residuals_.size());
+    result_.residuals = residuals_;
+}
+
+template <class S>
+void World<S>::makeRows() {
+    const Real h = cursor_.substepSize;
     Motion<S>::setInertia(bodies_);
     rows_.clear();
     const Real warmStart = def_.warmStarting && lastStepSize_ > 0 ? h / lastStepSize_ : Real(0);
-    const bool curved = def_.curvedJoints && motion_.movesWithSolvedVelocity();
-    const JointStep<S> jointStep{h, correction_->biasFactor(), warmStart, curved};
-    joints_.addRows(bodies_, jointStep, rows_);
+    const BiasRule<Real> bias = biasRule();
+    jointStep_ = {h, bias, warmStart, def_.curvedJoints && motion_.movesWithSolvedVelocity()};
+    joints_.addRows(bodies_, jointStep_, rows_);
     // Twice what gravity adds in a step: a resting contact never approaches that fast.
     const Real gravityStep = h * def_.gravity.norm();
     const Real impactSpeed = std::max(def_.restitutionThreshold, Real(2) * gravityStep);
     contacts_.addRows(bodies_,
-                      {h, def_.restitutionThreshold, Real(2) * h * gravityStep, impactSpeed,
-                       correction_->biasFactor(), def_.slop, def_.gapSlop, warmStart},
+                      {h, def_.restitutionThreshold, Real(2) * h * gravityStep, impactSpeed, bias, def_.slop,
+                       def_.gapSlop, warmStart},
                       rows_);
-    clock.end(Phase::Rows);
+}
 
-    motion_.kick(bodies_, def_.gravity, h);
-    clock.end(Phase::Velocities);
+template <class S>
+BiasRule<typename S::Real> World<S>::biasRule() const {
+    BiasRule<Real> rule = style_.bias ? *style_.bias : correction_->bias();
+    // A spring faster than a quarter of the step rate cannot be resolved [Catto2011].
+    const Real fastest = Real(0.25) / cursor_.substepSize;
+    rule.contact = {std::min(def_.contactFrequency, fastest), def_.contactDampingRatio};
+    rule.joint = {std::min(def_.jointFrequency, fastest), def_.jointDampingRatio};
+    return rule;
+}
 
-    JointBiases<S> biases(joints_, bodies_, jointStep, rows_);
-    const bool first = stepCount_ == 0;
+template <class S>
+void World<S>::solveVelocities(int iterations, bool warmStarted) {
     // A millionth of what gravity adds in a step, or the limit of the precision.
-    const Real converged = std::max(Real(1e-6) * gravityStep, std::numeric_limits<Real>::epsilon());
-    solver_->solve(
-        {rows_, bodies_.velocity, friction_, &biases,
-         first ? std::max(def_.firstStepIterations, def_.velocityIterations) : def_.velocityIterations,
-         first ? converged : Real(0)},
-        residuals_);
+    const Real h = cursor_.substepSize;
+    const Real converged =
+        std::max(Real(1e-6) * h * def_.gravity.norm(), std::numeric_limits<Real>::epsilon());
+    StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, firstStep() ? converged : Real(0),
+                           residuals_);
+    solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted});
+}
+
+template <class S>
+void World<S>::relax() {
+    const int iterations = style_.bias ? style_.relaxIterations : correction_->relaxIterations();
+    if (iterations == 0) return;
+    rows_.relax();
+    jointStep_.curved = false;
+    solveVelocities(iterations, true);
+}
+
+template <class S>
+void World<S>::solvePositions() {
+    const Real h = cursor_.substepSize;
+    StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, Real(0), residuals_);
+    StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h,
+                               std::numeric_limits<Real>::infinity(), positionScratch_);
+    solver_->solvePositions(positions,
+                            {rows_, bodies_.velocity, friction_, monitor, def_.positionIterations, h, true});
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (bodies_.invMass[i] == 0) continue;
+        bodies_.velocity[i].v = positionScratch_.motion[i].v / h;
+        bodies_.velocity[i].w = logMap(compose(bodies_.pose[i].q, inverse(motion_.startRotations()[i]))) / h;
+    }
+    jointStep_.curved = false;
+}
+
+template <class S>
+void World<S>::correct() {
     joints_.storeImpulses(rows_);
     contacts_.storeImpulses(rows_);
-    clock.end(Phase::Solve);
-
-    motion_.move(bodies_, h);
-    clock.end(Phase::Move);
-
-    // Slower than this a contact is as good as resting, and its overlap is corrected.
-    const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
-    StepPositions<S> positions(bodies_, joints_, contacts_, rows_, motion_.used(), h, separating,
-                               positionScratch_);
-    correction_->correct(positions, def_.positionIterations, def_.slop);
+    const Real h = cursor_.substepSize;
+    const bool more = cursor_.substep + 1 < def_.substeps;
+    if (!style_.ownsCorrection) {
+        // Slower than this a contact is as good as resting, and its overlap is corrected.
+        const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
+        StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, positionScratch_);
+        correction_->correct(positions, def_.positionIterations, def_.slop);
+    } else if (!style_.positions) {
+        StepPositions<S>(bodies_, joints_, rows_, motion_.used(), h, Real(0), positionScratch_);
+    }
     motion_.finish(bodies_, h);
-    bodies_.wrench.assign(bodies_.size(), {});
-    checkFinite();
-    clock.end(Phase::Correct);
-
-    lastStepSize_ = h;
-    ++stepCount_;
-    result_.pairs = contacts_.proxyPairs().size();
-    result_.contacts = contacts_.separations().size();
-    result_.rows = rows_.rows.size();
-    result_.iterations = static_cast<int>(residuals_.size());
-    result_.residuals = residuals_;
-    return result_;
+    if (more) contacts_.advance(positionScratch_.motion);
 }
 
 template <class S>
@@ -129,6 +263,8 @@ void World<S>::checkFinite() {
 
 #define RIGOR_INSTANTIATE(S)                            \
     template const StepResult<S>& World<S>::step(Real); \
+    template void World<S>::beginStep(Real);            \
+    template void World<S>::runPhase();                 \
     template void World<S>::checkFinite();
 RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)

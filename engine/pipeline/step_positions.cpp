@@ -6,10 +6,9 @@ namespace rigor::engine {
 
 template <class S>
 StepPositions<S>::StepPositions(BodyArrays<S>& bodies, const JointSet<S>& joints,
-                                const ContactSet<S>& contacts, const ConstraintRows<S>& rows,
-                                std::span<const Velocity<S>> used, Real h, Real separating,
-                                PositionScratch<S>& scratch)
-    : bodies_(bodies), joints_(joints), contacts_(contacts), rows_(rows), scratch_(scratch) {
+                                const ConstraintRows<S>& rows, std::span<const Velocity<S>> used, Real h,
+                                Real separating, PositionScratch<S>& scratch)
+    : bodies_(bodies), joints_(joints), rows_(rows), scratch_(scratch) {
     const std::size_t n = bodies.size();
     scratch.motion.resize(n);
     scratch.turn.assign(n, zeroAng<S>());
@@ -20,44 +19,46 @@ StepPositions<S>::StepPositions(BodyArrays<S>& bodies, const JointSet<S>& joints
         scratch.motion[i].w = h * used[i].w;
     }
     scratch.contacts.clear();
-    scratch.places.clear();
-    std::uint32_t place = 0;
     for (std::uint32_t i = 0; i < rows.blocks.size(); ++i) {
         const Block<S>& block = rows.blocks[i];
         if (block.kind != BlockKind::Contact) continue;
         const Real speed =
             rowVelocity<S>(rows.rows[block.first], bodies.velocity[block.a], bodies.velocity[block.b]);
-        if (speed <= separating) {
-            scratch.contacts.push_back(i);
-            scratch.places.push_back(place);
-        }
-        ++place;
+        if (speed <= separating) scratch.contacts.push_back(i);
     }
 }
 
 template <class S>
-void StepPositions<S>::evaluateJoint(std::size_t index, Block<S>& block, std::span<Row<S>> rows,
-                                     BlockVector<S>& error, BlockMatrix<S>& inverseK) const {
+void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) const {
     const typename JointSet<S>::Record& record = joints_.records()[index];
-    JointRows<S> made;
-    block = rows_.blocks[record.block];
-    record.evaluate(record.joint, bodies_.pose[block.a], bodies_.pose[block.b], made);
-    error.resize(made.count);
+    JointRows<S>& made = scratch_.made;
+    const std::uint32_t a = record.joint.a, b = record.joint.b;
+    record.evaluate(record.joint, bodies_.pose[a], bodies_.pose[b], made);
+    out.block.kind = BlockKind::Joint;
+    out.block.a = a, out.block.b = b;
+    out.block.invMassA = bodies_.invMass[a], out.block.invMassB = bodies_.invMass[b];
+    out.block.rows = static_cast<std::uint8_t>(made.held);
+    out.count = 0;
+    const auto turned = [&](std::uint32_t body, const typename S::Ang& ang) {
+        return bodies_.invMass[body] > 0
+                   ? typename S::Ang(worldInertia<S>(bodies_.pose[body].q, bodies_.invInertiaLocal[body]) *
+                                     ang)
+                   : zeroAng<S>();
+    };
     for (std::size_t i = 0; i < static_cast<std::size_t>(made.count); ++i) {
-        rows[i] = made.row[i];
-        rows[i].invIAngA =
-            bodies_.invMass[block.a] > 0
-                ? typename S::Ang(worldInertia<S>(bodies_.pose[block.a].q, bodies_.invInertiaLocal[block.a]) *
-                                  rows[i].angA)
-                : zeroAng<S>();
-        rows[i].invIAngB =
-            bodies_.invMass[block.b] > 0
-                ? typename S::Ang(worldInertia<S>(bodies_.pose[block.b].q, bodies_.invInertiaLocal[block.b]) *
-                                  rows[i].angB)
-                : zeroAng<S>();
-        error[static_cast<Eigen::Index>(i)] = made.error[i];
+        const RowRole role = made.law[i].role;
+        if (role != RowRole::Hold && role != RowRole::Limit) continue;
+        const auto place = static_cast<std::size_t>(out.count++);
+        Row<S>& row = out.row[place];
+        row = made.row[i];
+        row.error = made.error[i];
+        row.invIAngA = turned(a, row.angA), row.invIAngB = turned(b, row.angB);
+        row.softness = 0;
+        const Real K = rowK<S>(row, out.block);
+        row.invK = K > 0 ? Real(1) / K : Real(0);
+        out.unilateral[place] = role == RowRole::Limit;
     }
-    invertBlock<S>(rows.data(), block, inverseK);
+    if (made.held > 0) invertBlock<S>(out.row.data(), out.block, out.inverseK);
 }
 
 template <class S>

@@ -88,6 +88,14 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     require(def.gravity.allFinite(), "gravity", "gravity must be finite");
     require(def.velocityIterations >= 1, "velocity_iterations", "at least one velocity iteration");
     require(def.positionIterations >= 0, "position_iterations", "position iterations must not be negative");
+    require(def.substeps >= 1, "substeps", "at least one sub-step");
+    const auto spring = [](Real frequency, Real dampingRatio) {
+        return frequency > 0 && std::isfinite(frequency) && dampingRatio >= 0 && std::isfinite(dampingRatio);
+    };
+    require(spring(def.contactFrequency, def.contactDampingRatio), "contact_softness",
+            "contact frequency must be positive, its damping ratio not negative");
+    require(spring(def.jointFrequency, def.jointDampingRatio), "joint_softness",
+            "joint frequency must be positive, its damping ratio not negative");
     require(def.firstStepIterations >= 1, "first_step_iterations",
             "at least one iteration in the first step");
     require(def.restitutionThreshold >= 0 && std::isfinite(def.restitutionThreshold), "restitution_threshold",
@@ -102,6 +110,7 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     solver_ = findAlgorithm(solverTable<S>(), "solver", def.solver).make();
     correction_ =
         findAlgorithm(positionCorrectionTable<S>(), "position_correction", def.positionCorrection).make();
+    style_ = solver_->style();
     friction_ = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;
     collide_ = findNarrowPhase<S>(def.narrowPhase.c_str());
     if (!collide_)
@@ -306,15 +315,14 @@ void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
             out.push_back({bodies_.id[contact.bodyA], bodies_.id[contact.bodyB],
                            contacts_.shapes()[contact.shapeA].id, contacts_.shapes()[contact.shapeB].id,
                            where.pointA, where.pointB, contact.manifold.normal, where.separation,
-                           point.normalImpulse, point.frictionImpulse});
+                           point.normalTotal, point.frictionTotal});
         }
 }
 
 template <class S>
 std::span<const typename S::Real> World<S>::jointImpulses(JointId joint) const {
     const auto& record = joints_.records()[jointIds_.dense(joint)];
-    const std::size_t rows = rows_.blocks.size() > record.block ? rows_.blocks[record.block].rows : 0;
-    return {record.impulse.data(), rows};
+    return {record.total.data(), record.rows};
 }
 
 namespace {

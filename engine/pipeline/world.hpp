@@ -18,9 +18,19 @@
 
 namespace rigor::engine {
 
-/// Parts of a step that are timed, in the order they run.
-enum class Phase : std::uint8_t { BroadPhase, NarrowPhase, Rows, Velocities, Solve, Move, Correct };
-inline constexpr std::size_t kPhases = 7;
+/// Parts of a step (step.cpp); the first two run once, the others in every sub-step.
+enum class Phase : std::uint8_t {
+    BroadPhase,
+    NarrowPhase,
+    Rows,
+    Velocities,
+    Solve,
+    Move,
+    Relax,
+    Positions,
+    Correct
+};
+inline constexpr std::size_t kPhases = 9;
 const char* phaseName(Phase phase);  ///< "broad_phase", "narrow_phase", ...
 
 /// What happened in one step. Spans are valid until the next.
@@ -28,8 +38,8 @@ template <class S>
 struct StepResult {
     bool nonFinite = false;  ///< a velocity or pose has become NaN or infinite
     std::size_t pairs = 0, contacts = 0, rows = 0;
-    int iterations = 0;  ///< of the velocity solver
-    /// Largest velocity error removed from a block, per iteration [m/s or rad/s].
+    int iterations = 0;  ///< of the solver, in all sub-steps
+    /// Largest velocity error removed from a row or block, per iteration [m/s or rad/s].
     std::span<const typename S::Real> residuals;
     std::array<double, kPhases> seconds{};  ///< wall time per phase
 };
@@ -70,6 +80,13 @@ class World {
     void applyForce(BodyId body, const Vec& force, const Ang& torque);
     /// Advances by h [s], > 0.
     const StepResult<S>& step(Real h);
+    /// The same a phase at a time: beginStep(h), then runPhase() while stepping(). Between phases everything
+    /// may be read; bodies, shapes and joints may not be added or removed.
+    void beginStep(Real h);
+    bool stepping() const { return cursor_.active; }
+    Phase nextPhase() const { return cursor_.next; }
+    int substep() const { return cursor_.substep; }  ///< 0 .. def().substeps - 1
+    void runPhase();
 
     // --- reading
     std::size_t bodyCount() const { return bodies_.size() - 1; }
@@ -86,12 +103,32 @@ class World {
     const StepResult<S>& lastStep() const { return result_; }
     /// Replaces `out` by the contacts of the last step.
     void readContacts(std::vector<ContactView<S>>& out) const;
-    /// Impulses of a joint's rows in the last step.
+    /// The rows of the last sub-step, solved or not yet.
+    const ConstraintRows<S>& rows() const { return rows_; }
+    /// Impulses of a joint's rows in the last step, summed over its sub-steps [N s] or [N m s].
     std::span<const Real> jointImpulses(JointId joint) const;
     /// Of everything that decides the future.
     std::uint64_t stateHash() const;
 
   private:
+    /// Where in a step we are.
+    struct Cursor {
+        bool active = false;
+        Phase next = Phase::BroadPhase;
+        std::size_t place = 0;  ///< in the order of a sub-step
+        int substep = 0;
+        Real size = 0, substepSize = 0;  ///< [s]
+    };
+
+    void advanceCursor();
+    void endStep();
+    bool firstStep() const { return stepCount_ == 0 && cursor_.substep == 0; }
+    BiasRule<Real> biasRule() const;
+    void makeRows();
+    void solveVelocities(int iterations, bool warmStarted);
+    void relax();
+    void solvePositions();
+    void correct();
     void rebuildExclusions();
     void checkFinite();
     std::uint32_t bodyOrWorld(BodyId id) const { return id ? bodyIds_.dense(id) : 0; }
@@ -103,6 +140,7 @@ class World {
     ClonePtr<BroadPhase<S>> broadPhase_;
     ClonePtr<Solver<S>> solver_;
     ClonePtr<PositionCorrection<S>> correction_;
+    SolverStyle<S> style_;
 
     BodyArrays<S> bodies_;
     IdTable<BodyTag> bodyIds_;
@@ -114,6 +152,8 @@ class World {
     std::uint64_t stepCount_ = 0;
 
     // --- recomputed every step
+    Cursor cursor_;
+    JointStep<S> jointStep_{};
     ConstraintRows<S> rows_;
     PositionScratch<S> positionScratch_;
     std::vector<Real> residuals_;

@@ -14,7 +14,11 @@ class Baumgarte final : public PositionCorrection<S> {
     std::unique_ptr<PositionCorrection<S>> clone() const override {
         return std::make_unique<Baumgarte>(*this);
     }
-    typename S::Real biasFactor() const override { return typename S::Real(0.2); }
+    BiasRule<typename S::Real> bias() const override {
+        BiasRule<typename S::Real> rule;
+        rule.share = typename S::Real(0.2);
+        return rule;
+    }
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 //
 // Non-linear Gauss-Seidel on positions [Catto2009, "position correction"]: after the bodies have moved, each
 // iteration visits the constraints, evaluates C where the bodies are now, and moves them along M^-1 J^T:
-//     joint     lambda = -K^-1 C                                all of the error
+//     joint     lambda = -K^-1 C                                all of the error; limits where C < 0
 //     contact   lambda = max(0, -beta (C + slop)) / K           a share of it, so that coupled contacts
 //     settle
 // Velocities are not touched, so no energy enters through them (potential energy does: bodies are lifted
@@ -34,16 +34,20 @@ class Ngs final : public PositionCorrection<S> {
     static constexpr Real kShare = Real(0.2);        ///< beta of contacts
     static constexpr Real kLongestMove = Real(0.2);  ///< per contact and iteration [m]
 
-    static void correctJoints(PositionProblem<S>& problem) {
-        Block<S> block;
-        std::array<Row<S>, kMaxJointRows> rows;
-        BlockVector<S> error;
-        BlockMatrix<S> inverseK;
+    void correctJoints(PositionProblem<S>& problem) {
         for (std::size_t j = 0; j < problem.jointCount(); ++j) {
-            problem.evaluateJoint(j, block, rows, error, inverseK);
-            const BlockVector<S> lambda = -(inverseK * error);
-            for (int r = 0; r < block.rows; ++r)
-                problem.move(block, rows[static_cast<std::size_t>(r)], lambda[r]);
+            problem.evaluateJoint(j, joint_);
+            const int held = joint_.block.rows;
+            if (held > 0) {
+                BlockVector<S> error(held);
+                for (int r = 0; r < held; ++r) error[r] = joint_.row[static_cast<std::size_t>(r)].error;
+                const BlockVector<S> lambda = -(joint_.inverseK * error);
+                for (int r = 0; r < held; ++r)
+                    problem.move(joint_.block, joint_.row[static_cast<std::size_t>(r)], lambda[r]);
+            }
+            for (auto r = static_cast<std::size_t>(held); r < static_cast<std::size_t>(joint_.count); ++r)
+                if (joint_.row[r].error < 0)
+                    problem.move(joint_.block, joint_.row[r], -joint_.row[r].error * joint_.row[r].invK);
             problem.applyRotations();
         }
     }
@@ -56,6 +60,8 @@ class Ngs final : public PositionCorrection<S> {
             problem.move(problem.contactBlock(c), row, std::min(-kShare * error, kLongestMove) * row.invK);
         }
     }
+
+    JointPositions<S> joint_;
 };
 
 }  // namespace

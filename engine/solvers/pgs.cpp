@@ -34,31 +34,31 @@ class Pgs final : public Solver<S> {
 
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<Pgs>(*this); }
 
-    void solve(const SolverInput<S>& input, std::vector<Real>& residuals) override {
-        residuals.clear();
+    void solve(const SolverInput<S>& input) override {
         applyWarmStart<S>(input);
         findGroups(input.constraints.blocks);
         const std::size_t n = groups_.size() - 1;
         for (int i = 0; i < input.iterations; ++i) {
-            if (input.biases) input.biases->updateBiases(input.velocities);
-            Real residual = 0;
+            input.monitor.before(input.velocities);
+            Real change = 0;
             for (std::size_t k = 0; k < n; ++k) {
                 const std::size_t group = (i % 2 == 0) ? k : n - 1 - k;
-                residual = std::max(residual, solveGroup(input, groups_[group], groups_[group + 1]));
+                change = std::max(change, solveGroup(input, groups_[group], groups_[group + 1]));
             }
-            residuals.push_back(residual);
-            if (residual < input.tolerance) break;
+            if (input.monitor.after(input.velocities, change)) break;
         }
     }
 
   private:
+    static bool isJoint(const Block<S>& block) { return block.kind != BlockKind::Contact; }
+
     /// Consecutive contact blocks between the same two bodies form a group; so do all consecutive joints.
     void findGroups(const std::vector<Block<S>>& blocks) {
         groups_.clear();
         for (std::uint32_t i = 0; i < blocks.size(); ++i) {
-            const bool joins = i > 0 && blocks[i].kind == blocks[i - 1].kind &&
-                               (blocks[i].kind == BlockKind::Joint ||
-                                (blocks[i].a == blocks[i - 1].a && blocks[i].b == blocks[i - 1].b));
+            const bool joins =
+                i > 0 && isJoint(blocks[i]) == isJoint(blocks[i - 1]) &&
+                (isJoint(blocks[i]) || (blocks[i].a == blocks[i - 1].a && blocks[i].b == blocks[i - 1].b));
             if (!joins) groups_.push_back(i);
         }
         groups_.push_back(static_cast<std::uint32_t>(blocks.size()));
@@ -72,13 +72,10 @@ class Pgs final : public Solver<S> {
             Real largest = 0;
             for (std::uint32_t k = 0; k < last - first; ++k) {
                 // Joints forwards and backwards; contacts always forwards, which measurably calms stacks.
-                const bool backwards =
-                    sweep % 2 != 0 && input.constraints.blocks[first].kind == BlockKind::Joint;
+                const bool backwards = sweep % 2 != 0 && isJoint(input.constraints.blocks[first]);
                 const Block<S>& block = input.constraints.blocks[backwards ? last - 1 - k : first + k];
                 Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
-                largest =
-                    std::max(largest, block.kind == BlockKind::Contact ? solveContact(input, block, a, b)
-                                                                       : solveJoint(input, block, a, b));
+                largest = std::max(largest, solveBlock(input, block, a, b));
             }
             if (sweep == 0) found = largest;
             if (largest <= kInnerTolerance * found) break;
@@ -86,11 +83,36 @@ class Pgs final : public Solver<S> {
         return found;
     }
 
+    static Real solveBlock(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                           Velocity<S>& b) {
+        switch (block.kind) {
+            case BlockKind::Joint:
+                return solveJoint(input, block, a, b);
+            case BlockKind::Bounded:
+                return solveBounded(input, block, a, b);
+            case BlockKind::Contact:
+                break;
+        }
+        return solveContact(input, block, a, b);
+    }
+
+    static Real solveBounded(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                             Velocity<S>& b) {
+        Row<S>& row = input.constraints.rows[block.first];
+        const Real error = rowVelocity<S>(row, a, b) + row.bias + row.softness * row.impulse;
+        const Real accumulated = std::clamp(row.impulse - row.invK * error, row.lower, row.upper);
+        const Real step = accumulated - row.impulse;
+        row.impulse = accumulated;
+        applyRowImpulse<S>(row, block, step, a, b);
+        return row.invK > 0 ? std::abs(step) / row.invK : Real(0);
+    }
+
     static Real solveJoint(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
                            Velocity<S>& b) {
         Row<S>* rows = input.constraints.rows.data() + block.first;
         BlockVector<S> error(block.rows);
-        for (int i = 0; i < block.rows; ++i) error[i] = rowVelocity<S>(rows[i], a, b) + rows[i].bias;
+        for (int i = 0; i < block.rows; ++i)
+            error[i] = rowVelocity<S>(rows[i], a, b) + rows[i].bias + rows[i].softness * rows[i].impulse;
         const BlockVector<S> lambda = -(input.constraints.matrices[block.matrix] * error);
         for (int i = 0; i < block.rows; ++i) {
             rows[i].impulse += lambda[i];
@@ -103,7 +125,7 @@ class Pgs final : public Solver<S> {
                              Velocity<S>& b) {
         Row<S>* rows = input.constraints.rows.data() + block.first;
         Row<S>& normal = rows[0];
-        const Real error = rowVelocity<S>(normal, a, b) + normal.bias;
+        const Real error = rowVelocity<S>(normal, a, b) + normal.bias + normal.softness * normal.impulse;
         const Real accumulated = std::max(Real(0), normal.impulse - normal.invK * error);
         const Real step = accumulated - normal.impulse;
         normal.impulse = accumulated;

@@ -9,9 +9,23 @@
 #include <span>
 
 #include "engine/constraints/row.hpp"
+#include "engine/constraints/soft.hpp"
 #include "engine/core/table.hpp"
 
 namespace rigor::engine {
+
+inline constexpr int kMaxPositionRows = 18;  ///< of one joint
+
+/// The rows of one joint at the current poses: the held ones first, a block of their own, then limits.
+/// Motors and springs are no position constraints and are left out.
+template <class S>
+struct JointPositions {
+    Block<S> block;                                   ///< its bodies; rows = held rows
+    int count = 0;                                    ///< held rows and the others
+    std::array<Row<S>, kMaxPositionRows> row;         ///< error is C now; invK of the row alone
+    std::array<bool, kMaxPositionRows> unilateral{};  ///< a limit: only C < 0 is an error
+    BlockMatrix<S> inverseK;                          ///< of the held rows
+};
 
 /// The constraints as position correction sees them, after the bodies have moved.
 template <class S>
@@ -19,16 +33,16 @@ class PositionProblem {
   public:
     virtual ~PositionProblem() = default;
 
-    /// Number of joint blocks; evaluate() fills rows, error and K^-1 of one at the current poses.
     virtual std::size_t jointCount() const = 0;
-    virtual void evaluateJoint(std::size_t index, Block<S>& block, std::span<Row<S>> rows,
-                               BlockVector<S>& error, BlockMatrix<S>& inverseK) const = 0;
-    /// Normal rows of the contacts that may be corrected, and their separations now to first order in the
-    /// motion since the contact was found [m].
+    virtual void evaluateJoint(std::size_t index, JointPositions<S>& out) const = 0;
+    /// Contacts that may be corrected: their blocks, their normal rows (the tangent rows follow it in
+    /// memory), and their separations now to first order in the motion since their rows were made [m].
     virtual std::size_t contactCount() const = 0;
     virtual const Block<S>& contactBlock(std::size_t index) const = 0;
     virtual const Row<S>& contactRow(std::size_t index) const = 0;
     virtual typename S::Real separation(std::size_t index) const = 0;
+    /// J times the motion of a row's bodies since the rows were made [m] or [rad].
+    virtual typename S::Real moved(const Block<S>& block, const Row<S>& row) const = 0;
     /// Moves the bodies of a block by M^-1 J^T lambda, an impulse times a second [kg m].
     virtual void move(const Block<S>& block, const Row<S>& row, typename S::Real lambda) = 0;
     /// Makes the rotations of earlier moves visible to evaluateJoint.
@@ -40,8 +54,10 @@ class PositionCorrection {
   public:
     virtual ~PositionCorrection() = default;
     virtual std::unique_ptr<PositionCorrection> clone() const = 0;
-    /// Share of a position error that the velocity rows shall remove in one step (a bias velocity); 0: none.
-    virtual typename S::Real biasFactor() const { return 0; }
+    /// How position errors act on the velocity rows of the step; by default not at all.
+    virtual BiasRule<typename S::Real> bias() const { return {}; }
+    /// Iterations of the velocity solver after the bodies have moved, with relaxed biases.
+    virtual int relaxIterations() const { return 0; }
     /// Called after the bodies have moved.
     virtual void correct(PositionProblem<S>& problem, int iterations, typename S::Real slop) {
         (void)problem, (void)iterations, (void)slop;

@@ -5,11 +5,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/constraints/row.hpp"
+#include "engine/constraints/soft.hpp"
 #include "engine/core/table.hpp"
+#include "engine/solvers/position_correction.hpp"
 
 namespace rigor::engine {
 
@@ -24,22 +27,42 @@ using FrictionLaw = Eigen::Matrix<typename S::Real, 2, 1> (*)(
 template <class S>
 std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable();
 
-/// Lets the maker of the rows renew their biases for the velocities reached so far.
+/// Looks over a solver's shoulder, iteration by iteration.
 template <class S>
-class BiasUpdate {
+class IterationMonitor {
   public:
-    virtual ~BiasUpdate() = default;
-    virtual void updateBiases(std::span<const Velocity<S>> velocities) = 0;
+    virtual ~IterationMonitor() = default;
+    /// Lets the maker of the rows renew their biases for the velocities reached so far.
+    virtual void before(std::span<const Velocity<S>> velocities) = 0;
+    /// `change` is the largest velocity error [m/s or rad/s] that the iteration removed from a row or block.
+    /// True: good enough, stop.
+    virtual bool after(std::span<const Velocity<S>> velocities, typename S::Real change) = 0;
 };
 
 template <class S>
 struct SolverInput {
+    using Real = typename S::Real;
     ConstraintRows<S>& constraints;     ///< impulses hold the warm start, and the answer afterwards
     std::span<Velocity<S>> velocities;  ///< by dense body index; changed in place
     FrictionLaw<S> friction;
-    BiasUpdate<S>* biases = nullptr;  ///< called before each iteration; may be null
-    int iterations = 8;
-    typename S::Real tolerance = 0;  ///< ends early when an iteration's residual is below [m/s or rad/s]
+    IterationMonitor<S>& monitor;  ///< called around each iteration
+    int iterations = 8;            ///< at most
+    Real h = 0;                    ///< of this (sub-)step [s]
+    bool warmStarted = false;      ///< the velocities already contain the rows' impulses (relaxation)
+};
+
+/// What a solver asks of the step around it.
+template <class S>
+struct SolverStyle {
+    using Real = typename S::Real;
+    /// Iterates on positions: bodies move first, solvePositions() puts them right, velocities are what moved
+    /// them, and solve() is the velocity pass after that. Else solve() comes first and bodies move with it.
+    bool positions = false;
+    /// How position errors act on the rows, where the solver has its own way; else the position correction's.
+    std::optional<BiasRule<Real>> bias;
+    /// Iterations of solve() after the bodies have moved, with relaxed biases.
+    int relaxIterations = 0;
+    bool ownsCorrection = false;  ///< position correction after the step is not wanted
 };
 
 template <class S>
@@ -47,9 +70,13 @@ class Solver {
   public:
     virtual ~Solver() = default;
     virtual std::unique_ptr<Solver> clone() const = 0;
-    /// Replaces `residuals` by one value per iteration: the largest velocity error [m/s or rad/s] that the
-    /// iteration removed from a block. No allocation in a steady state.
-    virtual void solve(const SolverInput<S>& input, std::vector<typename S::Real>& residuals) = 0;
+    virtual SolverStyle<S> style() const { return {}; }
+    /// Changes impulses and velocities. No allocation in a steady state.
+    virtual void solve(const SolverInput<S>& input) = 0;
+    /// Only with style().positions: changes poses through `problem`.
+    virtual void solvePositions(PositionProblem<S>& problem, const SolverInput<S>& input) {
+        (void)problem, (void)input;
+    }
 };
 
 template <class S>
@@ -57,9 +84,10 @@ using SolverFactory = std::unique_ptr<Solver<S>> (*)();
 template <class S>
 std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable();
 
-/// Applies the impulses that the rows start with.
+/// Applies the impulses that the rows start with, unless the velocities contain them already.
 template <class S>
 void applyWarmStart(const SolverInput<S>& input) {
+    if (input.warmStarted) return;
     for (const Block<S>& block : input.constraints.blocks)
         for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
             const Row<S>& row = input.constraints.rows[i];

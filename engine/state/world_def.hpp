@@ -30,14 +30,19 @@ struct WorldDef {
     std::string positionCorrection = "ngs";
     std::string friction = "cone";
 
-    int velocityIterations = 8;  ///< >= 1
-    int positionIterations = 3;  ///< >= 0
+    int substeps = 1;            ///< equal parts a step is solved in, contacts found once, >= 1
+    int velocityIterations = 8;  ///< of each sub-step, >= 1
+    int positionIterations = 3;  ///< of each sub-step, >= 0
     /// Of the first step, which has no impulses to start from; it ends early when they have converged. >= 1
     int firstStepIterations = 400;
     bool warmStarting = true;  ///< start from the impulses of the last step
     /// Joint rows aim at the constraint at the end of the step instead of its linearisation at the start:
     /// pendulums keep their energy.
     bool curvedJoints = true;
+    /// Soft contacts and joints as damped springs, where the solver or the position correction wants them:
+    /// frequency [Hz], > 0, at most a quarter of the sub-step rate is used; damping ratio >= 0.
+    Real contactFrequency = 30, contactDampingRatio = 10;
+    Real jointFrequency = 60, jointDampingRatio = 2;
     Real restitutionThreshold = Real(0.01);  ///< slower approaches do not bounce [m/s], >= 0
     Real slop = Real(1e-5);                  ///< overlap that position correction leaves alone [m], >= 0
     /// A gap up to this counts as closed [m], >= 0: where position correction has lifted a corner, closing
