@@ -7,6 +7,7 @@
 #include "adapters/interface/types.hpp"
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "validation/collide/exchange.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace {
@@ -30,6 +31,7 @@ int runCommand(int argc, char** argv) {
     addValidate(app, action);
     addRun(app, action);
     addList(app, action);
+    addCollide(app, action);
     addCheck(app, action);
     addReport(app, action);
     try {
@@ -53,7 +55,8 @@ int main(int argc, char** argv) {
     try {
         // The program runs itself again for every case; these are not for people.
         if (argc > 1 && std::string_view(argv[1]).starts_with("__"))
-            return rigor::validation::childMain({argv + 1, argv + argc});
+            return rigor::validation::childMain({argv + 1, argv + argc},
+                                                {{"__collide", rigor::validation::collideChild}});
         return runCommand(argc, argv);
     } catch (const rigor::scenario::LoadError& error) {
         printProblems(error, false);

@@ -3,9 +3,7 @@
 //
 // The program as a user meets it: exit codes, messages, JSON, CSV.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -14,26 +12,12 @@
 #include <set>
 #include <sstream>
 
+#include "cli/tests/program.hpp"
+
 namespace {
 
-struct Result {
-    int code = -1;
-    std::string out;  ///< standard output and error together unless `only stdout` was asked for
-};
-
-Result rigor(const std::string& arguments, bool withErrors = true, const std::string& environment = "") {
-    const std::string command = environment + (environment.empty() ? "" : " ") +
-                                std::string(RIGOR_BINARY_DIR) + "/bin/rigor " + arguments +
-                                (withErrors ? " 2>&1" : " 2>/dev/null");
-    FILE* pipe = popen(command.c_str(), "r");
-    Result result;
-    std::array<char, 4096> buffer;
-    while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
-        result.out.append(buffer.data(), n);
-    const int status = pclose(pipe);
-    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return result;
-}
+using rigor::cli_test::Result;
+using rigor::cli_test::rigor;
 
 nlohmann::json rigorJson(const std::string& arguments) {
     const Result result = rigor(arguments, false);

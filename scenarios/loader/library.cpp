@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The library of scenarios and suites: <folder>/{2d,3d}/*.json and <folder>/suites/*.json.
+// The library of scenarios and suites: <folder>/{2d,3d}/*.json, and <folder>/{suites,collision}/*.json.
 #include <algorithm>
 #include <cstdlib>
 
+#include "scenarios/loader/collision_cases.hpp"
 #include "scenarios/loader/node.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "scenarios/loader/schema_check.hpp"
@@ -80,11 +81,17 @@ std::vector<LibraryEntry> listScenarios() {
 std::vector<LibraryEntry> listSuites() {
     return entriesOf({libraryFolder() / "suites"});
 }
+std::vector<LibraryEntry> listCollisionFiles() {
+    return entriesOf({libraryFolder() / "collision"});
+}
 fs::path findScenario(const std::string& nameOrPath) {
     return findEntry(listScenarios(), nameOrPath, "scenario");
 }
 fs::path findSuite(const std::string& nameOrPath) {
     return findEntry(listSuites(), nameOrPath, "suite");
+}
+fs::path findCollisionFile(const std::string& nameOrPath) {
+    return findEntry(listCollisionFiles(), nameOrPath, "collision");
 }
 
 Suite loadSuite(const fs::path& file) {

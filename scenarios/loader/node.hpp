@@ -76,6 +76,8 @@ class Node {
 // Parts of a scenario, one file each.
 struct MaterialNames;
 std::vector<Shape> readShapes(const Node& list, const Scenario& scenario, int defaultMaterial);
+/// One shape in the world, without a material; for collision queries.
+Shape readPosedShape(const Node& node);
 /// "orientation", "axis_angle_deg", "angle", "angle_deg" of an object; identity without any.
 Quat readOrientation(const Node& object);
 Body readBody(const Node& node, const Scenario& scenario);

@@ -179,6 +179,10 @@ std::vector<Shape> readShapes(const Node& list, const Scenario& scenario, int de
     return shapes;
 }
 
+Shape readPosedShape(const Node& node) {
+    return readShape(node, Scenario{}, 0);
+}
+
 int readMaterialName(const Node& node, const Scenario& scenario) {
     const std::string name = node.text();
     std::string known;

@@ -76,4 +76,9 @@ void checkSuiteSchema(const JsonDocument& document, const std::string& fileName)
     check(schema, document, fileName);
 }
 
+void checkCollisionSchema(const JsonDocument& document, const std::string& fileName) {
+    static const CompiledSchema schema(kCollisionSchema);
+    check(schema, document, fileName);
+}
+
 }  // namespace rigor::scenario

@@ -11,7 +11,8 @@ namespace rigor::scenario {
 /// Holds a document against scenarios/schema/scenario.schema.json (built into the program). Throws LoadError
 /// ("schema.violation").
 void checkScenarioSchema(const JsonDocument& document, const std::string& fileName);
-/// Likewise against suite.schema.json.
+/// Likewise against suite.schema.json and collision.schema.json.
 void checkSuiteSchema(const JsonDocument& document, const std::string& fileName);
+void checkCollisionSchema(const JsonDocument& document, const std::string& fileName);
 
 }  // namespace rigor::scenario

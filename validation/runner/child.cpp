@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The program runs itself again for everything that touches an engine: `__case`, `__audit` and `__describe`.
+// The program runs itself again for everything that touches an engine: `__case`, `__audit`, `__describe`,
+// and what other folders of validation/ add.
 #include "validation/runner/child.hpp"
 
 #include <unistd.h>
@@ -68,8 +69,10 @@ int caseChild(const std::filesystem::path& requestFile) {
     return 0;
 }
 
-int dispatch(const std::vector<std::string>& arguments) {
+int dispatch(const std::vector<std::string>& arguments, const ChildEntries& more) {
     const std::string what = arguments.empty() ? "" : arguments[0];
+    if (const auto it = more.find(what); it != more.end() && arguments.size() == 2)
+        return it->second(arguments[1]);
     if (what == "__case" && arguments.size() == 2) return caseChild(arguments[1]);
     if (what == "__audit" && arguments.size() == 2) return auditChild(arguments[1]);
     if (what == "__describe" && arguments.size() == 3) return describeChild(arguments[1], arguments[2]);
@@ -79,11 +82,11 @@ int dispatch(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-int childMain(const std::vector<std::string>& arguments) {
+int childMain(const std::vector<std::string>& arguments, const ChildEntries& more) {
     std::set_new_handler(onOutOfMemory);
     int code = 1;
     try {
-        code = dispatch(arguments);
+        code = dispatch(arguments, more);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
     }

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,8 +59,12 @@ results::Run runCases(const std::vector<CasePlan>& plan, const RunOptions& optio
                       const std::function<void(const Progress&)>& onProgress,
                       const std::atomic<bool>& interrupted);
 
-/// Entry point of the child: `rigor __case <request.json>`; writes its answer where the request says.
-int childMain(const std::vector<std::string>& arguments);
+/// What a child does for a request file; returns its exit code.
+using ChildEntries = std::map<std::string, std::function<int(const std::filesystem::path&)>>;
+
+/// Entry point of the child: `rigor __case <request.json>`; writes its answer where the request says. `more`:
+/// entries beside the runner's own, by their first argument ("__collide").
+int childMain(const std::vector<std::string>& arguments, const ChildEntries& more = {});
 
 /// Describes an engine by loading its module in a child process (`rigor __describe ENGINE`), as JSON with
 /// info, capabilities and options; `problem` in EngineDescription when that failed.

@@ -34,7 +34,8 @@ TEST(Tree, EveryFolderHasAReadme) {
     for (const char* folder :
          {"engine", "adapters", "scenarios", "validation", "reports", "cli", "adapters/rigor",
           "adapters/bullet", "adapters/box2d", "adapters/ode", "adapters/fcl", "adapters/conformance",
-          "validation/references", "validation/metrics", "validation/results", "validation/runner"})
+          "validation/references", "validation/metrics", "validation/results", "validation/runner",
+          "validation/collide"})
         EXPECT_TRUE(exists(std::string(folder) + "/README.md")) << folder;
 }
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "cli/command.hpp"
+#include "scenarios/loader/collision_cases.hpp"
+#include "validation/collide/print.hpp"
+
+namespace rigor::cli {
+namespace {
+
+struct Arguments {
+    std::vector<std::string> files;
+    std::string engines, out;
+    validation::CollideTolerance tolerance;
+    int jobs = 0;
+    bool suite = false, json = false, all = false, quiet = false;
+};
+
+std::atomic<bool> interrupted{false};
+extern "C" void onInterruptCollide(int) {
+    interrupted = true;
+}
+
+std::vector<scenario::CollisionFile> loadFiles(const Arguments& a) {
+    std::vector<scenario::CollisionFile> files;
+    if (a.suite)
+        for (const auto& entry : scenario::listCollisionFiles())
+            files.push_back(scenario::loadCollisionFile(entry.file));
+    for (const auto& name : a.files)
+        files.push_back(scenario::loadCollisionFile(scenario::findCollisionFile(name)));
+    if (files.empty()) throw std::invalid_argument("collide: name a file of cases, or give --suite");
+    return files;
+}
+
+std::vector<adapter::EngineSpec> chooseSpecs(const Arguments& a, int jobs) {
+    if (a.engines.empty()) return validation::allCollisionSpecs(ownBinary(), jobs);
+    auto specs = adapter::parseSpecList(a.engines);
+    for (const auto& spec : specs) validation::checkCollisionSpec(spec, ownBinary());
+    return specs;
+}
+
+int collide(const Arguments& a) {
+    const auto files = loadFiles(a);
+    validation::CollideOptions options;
+    options.binary = ownBinary(), options.tolerance = a.tolerance;
+    options.jobs = a.jobs > 0 ? a.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    const auto specs = chooseSpecs(a, options.jobs);
+    std::signal(SIGINT, onInterruptCollide);
+    const bool live = !a.quiet && isTerminal(STDERR_FILENO);
+    const auto run = validation::runCollide(
+        files, specs, options,
+        [live](std::int64_t done, std::int64_t total) {
+            if (live)
+                std::fprintf(stderr, "\r\033[K%lld/%lld answers", static_cast<long long>(done),
+                             static_cast<long long>(total));
+        },
+        interrupted);
+    if (live) std::fprintf(stderr, "\r\033[K");
+    if (!run.complete) return kInterrupted;
+    if (!a.out.empty())
+        for (const auto& file : validation::writeCollideFiles(run, a.out, ownCommandLine()))
+            if (!a.json) std::printf("%s\n", file.string().c_str());
+    if (a.json)
+        std::printf("%s\n", validation::collideJson(run)
+                                .dump(1, ' ', false, nlohmann::json::error_handler_t::replace)
+                                .c_str());
+    else
+        std::printf("%s", validation::collideText(run, a.all).c_str());
+    return validation::collideIsGreen(run) ? kOk : kRed;
+}
+
+}  // namespace
+
+void addCollide(CLI::App& app, Action& action) {
+    auto a = std::make_shared<Arguments>();
+    auto* command =
+        app.add_subcommand("collide", "Put collision queries to every engine and the exact oracle");
+    command->add_option(
+        "FILE", a->files,
+        "Files of cases (rigor_collision JSON, or one query per line), or names of the library");
+    command->add_flag("--suite", a->suite, "All case files of the library");
+    command->add_option(
+        "-e,--engines", a->engines,
+        "Specs, e.g. rigor:narrow_phase=gjk_epa,fcl (default: every engine, every algorithm)");
+    command->add_option("--out", a->out, "Folder for collide.json, collide.csv and summary.md");
+    command->add_option("-j,--jobs", a->jobs, "Children at a time (default: processors)")
+        ->check(CLI::Range(1, 1024));
+    command
+        ->add_option("--touch", a->tolerance.touch,
+                     "Distance from touching below which either verdict is right [m] (default 1e-9)")
+        ->check(CLI::Range(0.0, 1.0));
+    command
+        ->add_option("--relative", a->tolerance.relative,
+                     "Tolerance of depths and distances, relative to them (default 1e-6)")
+        ->check(CLI::Range(0.0, 1.0));
+    command
+        ->add_option("--angle", a->tolerance.angle,
+                     "Tolerance of normals, from the nearest minimiser [rad] (default 1e-6)")
+        ->check(CLI::Range(0.0, 3.2));
+    command->add_flag("--all", a->all, "Print every answer, not only the wrong ones of a large file");
+    command->add_flag("--json", a->json, "Print the full record as JSON");
+    command->add_flag("-q,--quiet", a->quiet, "No progress");
+    command->footer(
+        "Exit codes: 0 no answer of the in-house engine is wrong or missing and the oracle agrees with the "
+        "files,\n"
+        "            1 otherwise (other engines' errors are reported and do not count), 2 bad command line "
+        "or\n"
+        "            file, 130 interrupted.");
+    command->callback([a, &action] { action = [a] { return collide(*a); }; });
+}
+
+}  // namespace rigor::cli

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One engine asked case by case. Every answer is written before the next question, so that a library that
+// ends the process costs one answer; an alarm ends a query that hangs.
+#include <fcntl.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "adapters/interface/input_check.hpp"
+#include "validation/collide/exchange.hpp"
+#include "validation/runner/answer.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using adapter::CollisionAnswer;
+using adapter::ContactPoint;
+using nlohmann::json;
+using scenario::Vec3;
+
+void setAlarm(double seconds) {
+    itimerval timer{};
+    timer.it_value.tv_sec = static_cast<time_t>(seconds);
+    timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - std::floor(seconds)));
+    setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+/// The direction between the closest points of shapes that are apart.
+std::optional<Vec3> directionBetween(const CollisionAnswer& found) {
+    if (found.overlap || !found.witnessA || !found.witnessB) return std::nullopt;
+    const Vec3 gap = *found.witnessB - *found.witnessA;
+    if (!(norm(gap) > 0.0)) return std::nullopt;
+    return gap / norm(gap);
+}
+
+CollideAnswer fromEngine(const CollisionAnswer& found) {
+    CollideAnswer answer;
+    answer.answered = true, answer.overlap = found.overlap;
+    answer.signedDistance = found.signedDistance;
+    answer.witnessA = found.witnessA, answer.witnessB = found.witnessB;
+    answer.contacts = static_cast<int>(found.contacts.size());
+    answer.normal = directionBetween(found);
+    if (found.contacts.empty()) return answer;
+    const ContactPoint* deepest = &found.contacts.front();
+    for (const ContactPoint& c : found.contacts)
+        if (c.depth > deepest->depth) deepest = &c;
+    answer.normal = deepest->normal;
+    answer.witnessA = deepest->pointA, answer.witnessB = deepest->pointB;
+    if (!answer.signedDistance) answer.signedDistance = -deepest->depth;
+    return answer;
+}
+
+/// By the algorithm that the spec's narrow_phase names, where the engine has a choice.
+CollisionAnswer answerBy(const adapter::CollisionEngine& engine, const adapter::Settings& settings,
+                         const adapter::CollisionQuery& query) {
+    (void)settings;
+    return engine.collide(query);
+}
+
+CollideAnswer ask(const adapter::CollisionEngine& engine, const adapter::Settings& settings,
+                  const scenario::CollisionCase& c) {
+    adapter::CollisionQuery query;
+    query.a = {&c.a.geometry, c.a.pose};
+    query.b = {&c.b.geometry, c.b.pose};
+    query.dimension = c.dimension;
+    CollideAnswer answer;
+    if (!c.unsupported.empty()) {
+        answer.verdict = CollideVerdict::Unsupported, answer.message = c.unsupported;
+        return answer;
+    }
+    try {
+        adapter::checkQueryInput(query);
+        const auto start = std::chrono::steady_clock::now();
+        const CollisionAnswer found = answerBy(engine, settings, query);
+        const auto end = std::chrono::steady_clock::now();
+        answer = fromEngine(found);
+        answer.seconds = std::chrono::duration<double>(end - start).count();
+    } catch (const adapter::Unsupported& error) {
+        answer.verdict = CollideVerdict::Unsupported, answer.message = error.what();
+    } catch (const std::exception& error) {
+        answer.verdict = CollideVerdict::Error, answer.message = error.what();
+    }
+    return answer;
+}
+
+class LineWriter {
+  public:
+    explicit LineWriter(const std::string& file)
+        : file_(open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)), name_(file) {
+        if (file_ < 0) refuse();
+    }
+    ~LineWriter() { close(file_); }
+    LineWriter(const LineWriter&) = delete;
+    LineWriter& operator=(const LineWriter&) = delete;
+
+    void add(const json& value) {
+        const std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+        for (std::size_t at = 0; at < text.size();) {
+            const ssize_t n = write(file_, text.data() + at, text.size() - at);
+            if (n > 0)
+                at += static_cast<std::size_t>(n);
+            else if (errno != EINTR)
+                refuse();
+        }
+    }
+
+  private:
+    [[noreturn]] void refuse() const { throw std::runtime_error(name_ + ": " + std::strerror(errno)); }
+    int file_;
+    std::string name_;
+};
+
+json optional(const std::optional<double>& value) {
+    return value ? numberToJson(*value) : json(nullptr);
+}
+json optional(const std::optional<Vec3>& value) {
+    return value ? json{numberToJson(value->x), numberToJson(value->y), numberToJson(value->z)}
+                 : json(nullptr);
+}
+std::optional<double> optionalNumber(const json& j) {
+    return j.is_null() ? std::nullopt : std::optional(numberFromJson(j));
+}
+std::optional<Vec3> optionalVector(const json& j) {
+    if (j.is_null()) return std::nullopt;
+    return Vec3{numberFromJson(j.at(0)), numberFromJson(j.at(1)), numberFromJson(j.at(2))};
+}
+
+}  // namespace
+
+json answerToJson(const CollideAnswer& a) {
+    return {a.answered,
+            a.overlap,
+            optional(a.signedDistance),
+            optional(a.normal),
+            optional(a.witnessA),
+            optional(a.witnessB),
+            a.contacts,
+            numberToJson(a.seconds),
+            a.message,
+            static_cast<int>(a.verdict)};
+}
+
+CollideAnswer answerFromJson(const json& j) {
+    CollideAnswer a;
+    a.answered = j.at(0), a.overlap = j.at(1);
+    a.signedDistance = optionalNumber(j.at(2)), a.normal = optionalVector(j.at(3));
+    a.witnessA = optionalVector(j.at(4)), a.witnessB = optionalVector(j.at(5));
+    a.contacts = j.at(6), a.seconds = numberFromJson(j.at(7)), a.message = j.at(8);
+    a.verdict = static_cast<CollideVerdict>(j.at(9).get<int>());
+    return a;
+}
+
+int collideChild(const std::filesystem::path& requestFile) {
+    const auto request = readJsonFile(requestFile);
+    if (!request) throw std::runtime_error(requestFile.string() + ": no request");
+    const auto questions = readJsonFile(request->at("questions").get<std::string>());
+    if (!questions) throw std::runtime_error("the questions can not be read");
+    const adapter::EngineSpec spec = adapter::parseSpec(request->at("spec").get<std::string>());
+    const adapter::LoadedEngine engine = adapter::loadEngine(spec);
+    if (engine->collision() == nullptr)
+        throw adapter::BadInput("engine '" + spec.engine + "' has no collision queries");
+    const adapter::Settings settings = adapter::resolveSettings(spec, *engine);
+    const double limit = numberFromJson(request->at("seconds"));
+    const auto first = request->at("first").get<std::size_t>(), last = request->at("last").get<std::size_t>();
+    LineWriter out(request->at("answer").get<std::string>());
+    for (std::size_t i = first; i < last; ++i) {
+        const scenario::CollisionCase c = scenario::readCollisionCase(questions->at(i).get<std::string>());
+        setAlarm(limit);
+        const CollideAnswer answer = ask(*engine->collision(), settings, c);
+        setAlarm(0.0);
+        out.add(answerToJson(answer));
+    }
+    return 0;
+}
+
+}  // namespace rigor::validation

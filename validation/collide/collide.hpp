@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Collision queries put to every collision engine and to the exact oracle, and what the answers are worth.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/interface/registry.hpp"
+#include "scenarios/loader/collision_cases.hpp"
+
+namespace rigor::validation {
+
+/// What still counts as right.
+struct CollideTolerance {
+    double touch = 1e-9;  ///< shapes nearer to touching than this may be called either way [m]
+    double relative =
+        1e-6;             ///< of depth and distance, relative to their size; `touch` is allowed in any case
+    double angle = 1e-6;  ///< of the normal from the nearest minimiser [rad]
+};
+
+/// Judgement of one answer. Order: the first that applies.
+enum class CollideVerdict {
+    Ok,
+    WrongOverlap,  ///< says apart where they overlap, or the reverse
+    WrongDepth,    ///< depth or distance off by more than the tolerance
+    WrongNormal,   ///< not among the minimising directions
+    NoNormal,      ///< an overlap without any contact
+    Undecided,     ///< nobody knows the truth of this pair
+    Unsupported,   ///< the engine does not have the pair of shapes
+    Error,         ///< an exception
+    Crashed,
+    Timeout
+};
+const char* collideVerdictName(CollideVerdict verdict);  ///< "ok", "wrong overlap", ...
+/// The engine gave an answer that is wrong, or none where it should have.
+bool isFailure(CollideVerdict verdict);
+
+/// What is known of a case before any engine is asked.
+struct CollideTruth {
+    std::string source;  ///< "oracle", "file" (the oracle lacks the shapes), "none"
+    double signedDistance = 0.0;
+    std::vector<scenario::Vec3> normals;  ///< equally good, A to B; may be empty
+    bool continuum = false;               ///< infinitely many; `normals` holds samples
+    std::optional<scenario::Vec3> witnessA, witnessB;
+    double accuracy = 0.0, normalTolerance = 0.0;  ///< what the file's own value is good to
+    std::string conflict;  ///< where file and oracle disagree beyond the file's accuracy; "" when they agree
+};
+
+/// One engine's answer to one case.
+struct CollideAnswer {
+    CollideVerdict verdict = CollideVerdict::Undecided;
+    bool answered = false;
+    bool overlap = false;
+    std::optional<double> signedDistance;  ///< [m]; minus the depth where they overlap
+    std::optional<scenario::Vec3> normal;  ///< A to B: of the deepest contact, or between the witnesses
+    std::optional<scenario::Vec3> witnessA, witnessB;  ///< of the deepest contact or the closest points
+    int contacts = 0;
+    double seconds = 0.0;  ///< wall time of the call
+    std::string message;   ///< why there is no answer
+
+    std::optional<double> distanceError;  ///< |signedDistance - truth| [m]
+    std::optional<double> normalAngle;    ///< to the nearest minimiser [rad]
+    /// How much shallower than along its normal the shapes overlap (or farther apart they are) [m]: 0 for
+    /// every minimiser, even where they are a continuum.
+    std::optional<double> normalExcess;
+};
+
+struct CollideCase {
+    scenario::CollisionCase asked;
+    std::string file;
+    CollideTruth truth;
+    std::vector<CollideAnswer> answers;  ///< by spec
+};
+
+struct CollideSummary {
+    std::string spec;
+    int asked = 0, answered = 0, unsupported = 0, undecided = 0,
+        failed = 0;                       ///< failed: error, crash, timeout
+    int missed = 0, spurious = 0;         ///< wrong overlap verdicts, by kind
+    int wrongDepth = 0, wrongNormal = 0;  ///< cases; a case counts at the first thing that is wrong
+    std::optional<double> depthErrorMax, depthErrorMedian;  ///< over the overlapping [m]
+    std::optional<double> depthRelativeMax;                 ///< error / max(depth, touch)
+    std::optional<double> distanceErrorMax;                 ///< over the separated [m]
+    std::optional<double> normalAngleMax, normalExcessMax;
+    double microsecondsMedian = 0.0;
+};
+
+struct CollideRun {
+    std::vector<adapter::EngineSpec> specs;
+    CollideTolerance tolerance;
+    std::vector<CollideCase> cases;
+    std::vector<CollideSummary> summaries;  ///< by spec
+    bool complete = true;                   ///< false: interrupted
+};
+
+struct CollideOptions {
+    std::filesystem::path binary;  ///< this program, run again as `rigor __collide ...`
+    int jobs = 1;
+    CollideTolerance tolerance;
+    double secondsPerQuery = 5.0;  ///< a query that takes longer is killed
+};
+
+/// Every installed engine with collision queries, one spec for each of its algorithms.
+std::vector<adapter::EngineSpec> allCollisionSpecs(const std::filesystem::path& binary, int jobs);
+
+/// Throws BadInput for an engine that is not installed, has no collision queries, or not the keys and values
+/// of the spec.
+void checkCollisionSpec(const adapter::EngineSpec& spec, const std::filesystem::path& binary);
+
+/// Asks all specs and the oracle. `onProgress` gets (answered, total) from time to time.
+CollideRun runCollide(const std::vector<scenario::CollisionFile>& files,
+                      const std::vector<adapter::EngineSpec>& specs, const CollideOptions& options,
+                      const std::function<void(std::int64_t, std::int64_t)>& onProgress,
+                      const std::atomic<bool>& interrupted);
+
+/// The truth of one case: the oracle's where it has the shapes, else the file's.
+CollideTruth truthOf(const scenario::CollisionCase& c, const CollideTolerance& tolerance);
+/// Sets errors and verdict of an answer from the truth.
+void judgeAnswer(const scenario::CollisionCase& c, const CollideTruth& truth,
+                 const CollideTolerance& tolerance, CollideAnswer& answer);
+/// Tallies the answers of one spec.
+CollideSummary summarise(const CollideRun& run, std::size_t spec);
+
+/// 0 failures of the in-house engine; see the README for what counts.
+bool collideIsGreen(const CollideRun& run);
+
+}  // namespace rigor::validation

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Truth and judgement of collision answers.
+//
+//   overlap   wrong where sd < -touch is called apart or sd > touch is called overlapping
+//   depth     |found - sd| <= max(touch, relative |sd|) (+ the accuracy of a value that comes from the file)
+//   normal    angle to the nearest minimiser <= angle, or excess sd - sep(n) <= the tolerance of the depth
+//
+// sep(n) is the gap between the supporting planes along n [CameronCulley1986]: at most sd, and equal to it
+// for the minimising directions only. It judges ties and continua of directions without listing them.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "validation/collide/collide.hpp"
+#include "validation/oracle/oracle.hpp"
+#include "validation/runner/judge.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using scenario::CollisionCase;
+using scenario::Vec3;
+
+/// atan2 keeps small angles exact.
+double angleBetween(Vec3 a, Vec3 b) {
+    return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+
+double nearestAngle(Vec3 normal, const std::vector<Vec3>& minimisers) {
+    double best = std::numbers::pi;
+    for (const Vec3& n : minimisers) best = std::min(best, angleBetween(normal, n));
+    return best;
+}
+
+double allowedLength(const CollideTruth& truth, const CollideTolerance& tolerance) {
+    return std::max(tolerance.touch, tolerance.relative * std::abs(truth.signedDistance)) + truth.accuracy;
+}
+
+/// Largest coordinate or size: rounding of the files' own numbers.
+double roundingOf(const CollisionCase& c) {
+    return 1e-14 * std::max({1.0, norm(c.a.pose.position), norm(c.b.pose.position)});
+}
+
+bool normalIsRight(const CollideTruth& truth, const CollideTolerance& tolerance,
+                   const CollideAnswer& answer) {
+    if (answer.normalAngle && *answer.normalAngle <= tolerance.angle + truth.normalTolerance) return true;
+    return answer.normalExcess && *answer.normalExcess <= allowedLength(truth, tolerance);
+}
+
+CollideVerdict verdictOf(const CollideTruth& truth, const CollideTolerance& tolerance,
+                         const CollideAnswer& answer) {
+    if (truth.source == "none") return CollideVerdict::Undecided;
+    const double sd = truth.signedDistance, touch = tolerance.touch + truth.accuracy;
+    if ((sd < -touch && !answer.overlap) || (sd > touch && answer.overlap))
+        return CollideVerdict::WrongOverlap;
+    if (answer.distanceError && *answer.distanceError > allowedLength(truth, tolerance))
+        return CollideVerdict::WrongDepth;
+    if (sd >= -touch) return CollideVerdict::Ok;  // a normal is asked of overlaps only
+    if (!answer.normal) return CollideVerdict::NoNormal;
+    const bool judged = answer.normalAngle || answer.normalExcess;
+    return !judged || normalIsRight(truth, tolerance, answer) ? CollideVerdict::Ok
+                                                              : CollideVerdict::WrongNormal;
+}
+
+/// Largest and middle value of what was measured.
+struct Spread {
+    std::vector<double> values;
+    void add(const std::optional<double>& value) {
+        if (value) values.push_back(*value);
+    }
+    std::optional<double> max() const {
+        return values.empty() ? std::nullopt : std::optional(*std::max_element(values.begin(), values.end()));
+    }
+    std::optional<double> median() {
+        if (values.empty()) return std::nullopt;
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    }
+};
+
+}  // namespace
+
+const char* collideVerdictName(CollideVerdict verdict) {
+    constexpr const char* kNames[] = {"ok",        "wrong overlap", "wrong depth", "wrong normal",
+                                      "no normal", "undecided",     "unsupported", "error",
+                                      "crashed",   "timeout"};
+    return kNames[static_cast<std::size_t>(verdict)];
+}
+
+bool isFailure(CollideVerdict verdict) {
+    return verdict != CollideVerdict::Ok && verdict != CollideVerdict::Undecided &&
+           verdict != CollideVerdict::Unsupported;
+}
+
+CollideTruth truthOf(const CollisionCase& c, const CollideTolerance& tolerance) {
+    CollideTruth truth;
+    truth.source = "none";
+    const auto& expected = c.expected;
+    if (const auto exact = exactContact(c.a.geometry, c.a.pose, c.b.geometry, c.b.pose, c.dimension)) {
+        truth.source = "oracle";
+        truth.signedDistance = exact->signedDistance;
+        truth.normals = exact->normals, truth.continuum = exact->continuum;
+        truth.witnessA = exact->witnessA, truth.witnessB = exact->witnessB;
+        if (expected.signedDistance) {
+            const double off = std::abs(*expected.signedDistance - exact->signedDistance);
+            if (off > std::max(tolerance.touch, tolerance.relative * std::abs(exact->signedDistance)) +
+                          expected.accuracy + roundingOf(c))
+                truth.conflict = "the file says " + std::to_string(*expected.signedDistance) + " m";
+        }
+    } else if (expected.signedDistance) {
+        truth.source = "file";
+        truth.signedDistance = *expected.signedDistance;
+        truth.normals = expected.normals;
+        truth.accuracy = expected.accuracy, truth.normalTolerance = expected.normalTolerance;
+    }
+    return truth;
+}
+
+void judgeAnswer(const CollisionCase& c, const CollideTruth& truth, const CollideTolerance& tolerance,
+                 CollideAnswer& answer) {
+    if (!answer.answered) return;  // its verdict says why
+    if (truth.source != "none") {
+        if (answer.signedDistance)
+            answer.distanceError = std::abs(*answer.signedDistance - truth.signedDistance);
+        if (answer.normal && !truth.normals.empty())
+            answer.normalAngle = nearestAngle(*answer.normal, truth.normals);
+    }
+    if (truth.source == "oracle" && answer.normal) {
+        const auto along =
+            separationAlong(c.a.geometry, c.a.pose, c.b.geometry, c.b.pose, c.dimension, *answer.normal);
+        if (along) answer.normalExcess = std::max(0.0, truth.signedDistance - *along);
+    }
+    answer.verdict = verdictOf(truth, tolerance, answer);
+}
+
+CollideSummary summarise(const CollideRun& run, std::size_t spec) {
+    CollideSummary s;
+    s.spec = run.specs[spec].text();
+    Spread depth, relative, distance, angle, excess, time;
+    for (const CollideCase& c : run.cases) {
+        const CollideAnswer& answer = c.answers[spec];
+        ++s.asked;
+        if (answer.verdict == CollideVerdict::Unsupported) ++s.unsupported;
+        if (!answer.answered) {
+            s.failed += isFailure(answer.verdict) ? 1 : 0;
+            continue;
+        }
+        ++s.answered;
+        time.add(answer.seconds);
+        if (answer.verdict == CollideVerdict::Undecided) ++s.undecided;
+        if (answer.verdict == CollideVerdict::WrongOverlap) ++(answer.overlap ? s.spurious : s.missed);
+        if (answer.verdict == CollideVerdict::WrongDepth) ++s.wrongDepth;
+        if (answer.verdict == CollideVerdict::WrongNormal || answer.verdict == CollideVerdict::NoNormal)
+            ++s.wrongNormal;
+        const double sd = c.truth.signedDistance;
+        // Beside a wrong verdict the errors would say the same again, and hide those of the other cases.
+        if (c.truth.source == "none" || answer.verdict == CollideVerdict::WrongOverlap) continue;
+        if (sd < -run.tolerance.touch) {
+            depth.add(answer.distanceError);
+            if (answer.distanceError) relative.add(*answer.distanceError / -sd);
+            angle.add(answer.normalAngle), excess.add(answer.normalExcess);
+        } else {
+            distance.add(answer.distanceError);
+        }
+    }
+    s.depthErrorMax = depth.max(), s.depthErrorMedian = depth.median(), s.depthRelativeMax = relative.max();
+    s.distanceErrorMax = distance.max();
+    s.normalAngleMax = angle.max(), s.normalExcessMax = excess.max();
+    s.microsecondsMedian = 1e6 * time.median().value_or(0.0);
+    return s;
+}
+
+bool collideIsGreen(const CollideRun& run) {
+    for (const CollideCase& c : run.cases) {
+        if (!c.truth.conflict.empty()) return false;
+        for (std::size_t i = 0; i < run.specs.size(); ++i)
+            if (run.specs[i].engine == kInHouseEngine && isFailure(c.answers[i].verdict)) return false;
+    }
+    return true;
+}
+
+}  // namespace rigor::validation

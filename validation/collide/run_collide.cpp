@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The parent's side: the oracle on threads of this process, every engine in children that are asked a chunk
+// of cases each. A child that ends early has written its answers up to the case that ended it: that one is
+// recorded as crashed or timed out, and another child goes on behind it.
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "validation/collide/exchange.hpp"
+#include "validation/runner/answer.hpp"
+#include "validation/runner/describe.hpp"
+#include "validation/runner/process_pool.hpp"
+
+namespace rigor::validation {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t kChunk = 1000;      ///< cases per child
+constexpr std::size_t kMemoryMiB = 4096;  ///< per child
+constexpr double kChunkSeconds = 3600.0;  ///< the alarm of each query comes long before
+constexpr const char* kAlgorithmKey = "narrow_phase";
+
+/// Answers of a child, in the order of its cases; a half-written last line does not count.
+std::vector<CollideAnswer> readAnswers(const fs::path& file) {
+    std::vector<CollideAnswer> answers;
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);) {
+        const json value = json::parse(line, nullptr, false);
+        if (value.is_discarded()) break;
+        answers.push_back(answerFromJson(value));
+    }
+    return answers;
+}
+
+CollideAnswer lostAnswer(const ProcessResult& result) {
+    CollideAnswer answer;
+    const bool late = result.timedOut || (WIFSIGNALED(result.status) && WTERMSIG(result.status) == SIGALRM);
+    answer.verdict = late ? CollideVerdict::Timeout : CollideVerdict::Crashed;
+    answer.message = late ? "no answer within the time limit" : result.ending();
+    const auto end = result.outputTail.find_last_not_of(" \r\n");
+    if (!late && end != std::string::npos) {
+        const auto line = result.outputTail.rfind('\n', end);
+        answer.message +=
+            ": " + result.outputTail.substr(line == std::string::npos ? 0 : line + 1,
+                                            end - (line == std::string::npos ? 0 : line + 1) + 1);
+    }
+    return answer;
+}
+
+class Asking {
+  public:
+    Asking(CollideRun& run, const CollideOptions& options,
+           const std::function<void(std::int64_t, std::int64_t)>& tell)
+        : run_(run), options_(options), tell_(tell), pool_(std::max(1, options.jobs)) {
+        json questions = json::array();
+        for (const CollideCase& c : run_.cases) questions.push_back(c.asked.text);
+        writeJsonFile(questions_, questions);
+        total_ = static_cast<std::int64_t>(run_.cases.size() * run_.specs.size());
+    }
+
+    bool askAll(const std::atomic<bool>& interrupted) {
+        for (std::size_t spec = 0; spec < run_.specs.size(); ++spec)
+            for (std::size_t first = 0; first < run_.cases.size(); first += kChunk)
+                queue(spec, first, std::min(first + kChunk, run_.cases.size()));
+        return pool_.run(interrupted, [](const std::string&) {});
+    }
+
+  private:
+    void queue(std::size_t spec, std::size_t first, std::size_t last) {
+        if (first == last) return;
+        const std::string stem = "collide-" + std::to_string(next_++);
+        const fs::path request = scratch_.path() / (stem + ".json"),
+                       answer = scratch_.path() / (stem + ".jsonl");
+        const std::string name = run_.specs[spec].text();
+        writeJsonFile(request, {{"questions", questions_.string()},
+                                {"spec", name},
+                                {"first", first},
+                                {"last", last},
+                                {"seconds", options_.secondsPerQuery * timeLimitFactor()},
+                                {"answer", answer.string()}});
+        pool_.add({{options_.binary.string(), "__collide", request.string()},
+                   {kChunkSeconds, kMemoryMiB},
+                   name,
+                   [this, spec, first, last, answer](const ProcessResult& result) {
+                       ended(spec, first, last, readAnswers(answer), result);
+                   }});
+    }
+
+    void ended(std::size_t spec, std::size_t first, std::size_t last, std::vector<CollideAnswer> answers,
+               const ProcessResult& result) {
+        answers.resize(std::min(answers.size(), last - first));
+        for (CollideAnswer& answer : answers) put(spec, first++, std::move(answer));
+        if (first < last) {
+            put(spec, first++, lostAnswer(result));
+            // A child that never got to its first answer will not do better for the others.
+            const bool neverStarted = answers.empty() && result.exitedWith(1);
+            while (neverStarted && first < last) put(spec, first++, lostAnswer(result));
+            queue(spec, first, last);
+        }
+        if (tell_) tell_(done_, total_);
+    }
+
+    void put(std::size_t spec, std::size_t index, CollideAnswer answer) {
+        run_.cases[index].answers[spec] = std::move(answer);
+        ++done_;
+    }
+
+    CollideRun& run_;
+    const CollideOptions& options_;
+    const std::function<void(std::int64_t, std::int64_t)>& tell_;
+    ProcessPool pool_;
+    ScratchFolder scratch_;
+    fs::path questions_ = scratch_.path() / "questions.json";
+    int next_ = 0;
+    std::int64_t done_ = 0, total_ = 0;
+};
+
+/// Truth and judgement of every case: our own code, on threads, each case by one of them.
+void judgeAll(CollideRun& run, int jobs, const std::atomic<bool>& interrupted) {
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+        for (std::size_t i = next++; i < run.cases.size() && !interrupted; i = next++) {
+            CollideCase& c = run.cases[i];
+            c.truth.source = "none";
+            if (!c.asked.unsupported.empty()) continue;
+            c.truth = truthOf(c.asked, run.tolerance);
+            for (CollideAnswer& answer : c.answers) judgeAnswer(c.asked, c.truth, run.tolerance, answer);
+        }
+    };
+    std::vector<std::thread> others;
+    for (int i = 1; i < jobs; ++i) others.emplace_back(work);
+    work();
+    for (std::thread& thread : others) thread.join();
+}
+
+/// What resolveSettings asks of an engine, from its description: the library stays out of this process.
+class DescribedEngine final : public adapter::Engine {
+  public:
+    explicit DescribedEngine(const EngineDescription& d) : d_(d) {}
+    adapter::EngineInfo info() const override { return d_.info; }
+    adapter::Capabilities capabilities() const override { return d_.capabilities; }
+    std::vector<adapter::Option> options() const override { return d_.options; }
+
+  private:
+    const EngineDescription& d_;
+};
+
+}  // namespace
+
+std::vector<adapter::EngineSpec> allCollisionSpecs(const fs::path& binary, int jobs) {
+    std::vector<adapter::EngineSpec> specs;
+    for (const EngineDescription& d : describeEngines(adapter::availableEngines(), binary, jobs)) {
+        if (!d.problem.empty() || !d.capabilities.collision) continue;
+        const auto choice = std::find_if(d.options.begin(), d.options.end(),
+                                         [](const adapter::Option& o) { return o.key == kAlgorithmKey; });
+        if (choice == d.options.end() || choice->values.size() < 2) {
+            specs.push_back({d.info.name, {}});
+            continue;
+        }
+        for (const std::string& value : choice->values)
+            specs.push_back({d.info.name, {{kAlgorithmKey, value}}});
+    }
+    return specs;
+}
+
+void checkCollisionSpec(const adapter::EngineSpec& spec, const fs::path& binary) {
+    (void)adapter::moduleFor(spec);
+    const EngineDescription d = describeEngine(spec.text(), binary);
+    if (!d.problem.empty()) throw adapter::BadInput("engine " + spec.text() + ": " + d.problem);
+    if (!d.capabilities.collision)
+        throw adapter::BadInput("engine '" + spec.engine + "' has no collision queries");
+    const DescribedEngine described(d);
+    (void)adapter::resolveSettings(spec, described);
+}
+
+CollideRun runCollide(const std::vector<scenario::CollisionFile>& files,
+                      const std::vector<adapter::EngineSpec>& specs, const CollideOptions& options,
+                      const std::function<void(std::int64_t, std::int64_t)>& onProgress,
+                      const std::atomic<bool>& interrupted) {
+    CollideRun run;
+    run.specs = specs, run.tolerance = options.tolerance;
+    for (const auto& file : files)
+        for (const auto& c : file.cases)
+            run.cases.push_back({c, file.file.string(), {}, std::vector<CollideAnswer>(specs.size())});
+    run.complete = Asking(run, options, onProgress).askAll(interrupted);
+    judgeAll(run, std::max(1, options.jobs), interrupted);
+    run.complete = run.complete && !interrupted;
+    for (std::size_t i = 0; i < specs.size(); ++i) run.summaries.push_back(summarise(run, i));
+    return run;
+}
+
+}  // namespace rigor::validation

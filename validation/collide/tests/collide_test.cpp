@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Judgement of answers whose errors are known, and children that misbehave.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "validation/collide/print.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using scenario::Vec3;
+
+scenario::CollisionCase balls(double distance, double radiusA = 1.0, double radiusB = 0.5) {
+    scenario::CollisionCase c;
+    c.name = "balls";
+    c.a.geometry = scenario::Sphere{radiusA};
+    c.b.geometry = scenario::Sphere{radiusB};
+    c.b.pose.position = {distance, 0, 0};
+    return c;
+}
+
+scenario::CollisionCase boxes(Vec3 offset) {
+    scenario::CollisionCase c;
+    c.a.geometry = c.b.geometry = scenario::Box{{1, 1, 1}};
+    c.b.pose.position = offset;
+    return c;
+}
+
+CollideAnswer answer(double signedDistance, std::optional<Vec3> normal) {
+    CollideAnswer a;
+    a.answered = true, a.overlap = signedDistance < 0.0;
+    a.signedDistance = signedDistance, a.normal = normal;
+    return a;
+}
+
+CollideVerdict judged(const scenario::CollisionCase& c, CollideAnswer a) {
+    const CollideTolerance tolerance;
+    judgeAnswer(c, truthOf(c, tolerance), tolerance, a);
+    return a.verdict;
+}
+
+TEST(Judge, ExactAnswersAreRight) {
+    EXPECT_EQ(judged(balls(1.25), answer(-0.25, Vec3{1, 0, 0})), CollideVerdict::Ok);
+    EXPECT_EQ(judged(balls(3.5), answer(2.0, std::nullopt)), CollideVerdict::Ok);
+    EXPECT_EQ(judged(boxes({1.9, 0, 0}), answer(-0.1, Vec3{1, 0, 0})), CollideVerdict::Ok);
+}
+
+TEST(Judge, EachMistakeHasItsVerdict) {
+    EXPECT_EQ(judged(balls(1.25), answer(0.25, std::nullopt)), CollideVerdict::WrongOverlap);
+    EXPECT_EQ(judged(balls(3.5), answer(-0.1, Vec3{1, 0, 0})), CollideVerdict::WrongOverlap);
+    EXPECT_EQ(judged(balls(1.25), answer(-0.25 * (1 + 3e-6), Vec3{1, 0, 0})), CollideVerdict::WrongDepth);
+    EXPECT_EQ(judged(balls(1.25), answer(-0.25, Vec3{-1, 0, 0})), CollideVerdict::WrongNormal);
+    EXPECT_EQ(judged(balls(1.25), answer(-0.25, Vec3{std::cos(1e-2), std::sin(1e-2), 0})),
+              CollideVerdict::WrongNormal);
+    EXPECT_EQ(judged(balls(1.25), answer(-0.25, std::nullopt)), CollideVerdict::NoNormal);
+}
+
+TEST(Judge, ErrorsAreTheOnesThatWereMade) {
+    const auto c = balls(1.25);
+    const CollideTolerance tolerance;
+    CollideAnswer a = answer(-0.25 + 1e-4, Vec3{std::cos(1e-3), std::sin(1e-3), 0});
+    judgeAnswer(c, truthOf(c, tolerance), tolerance, a);
+    EXPECT_NEAR(a.distanceError.value(), 1e-4, 1e-15);
+    EXPECT_NEAR(a.normalAngle.value(), 1e-3, 1e-12);
+    // Along a direction turned by t, balls d apart overlap by rA + rB - d cos t: deeper by d (1 - cos t).
+    EXPECT_NEAR(a.normalExcess.value(), 1.25 * (1 - std::cos(1e-3)), 1e-12);
+}
+
+/// Within the tolerance of touching both verdicts are right; beyond it one is.
+TEST(Judge, TouchingMayBeCalledEitherWay) {
+    for (const double gap : {-0.5e-9, 0.0, 0.5e-9}) {
+        EXPECT_EQ(judged(boxes({2 + gap, 0, 0}), answer(-1e-12, Vec3{1, 0, 0})), CollideVerdict::Ok) << gap;
+        EXPECT_EQ(judged(boxes({2 + gap, 0, 0}), answer(1e-12, std::nullopt)), CollideVerdict::Ok) << gap;
+    }
+    EXPECT_EQ(judged(boxes({2 - 1e-8, 0, 0}), answer(1e-12, std::nullopt)), CollideVerdict::WrongOverlap);
+    EXPECT_EQ(judged(boxes({2 + 1e-8, 0, 0}), answer(-1e-12, Vec3{1, 0, 0})), CollideVerdict::WrongOverlap);
+}
+
+/// Every minimising direction is right: the second of a tie, any of a continuum.
+TEST(Judge, SetsOfNormals) {
+    EXPECT_EQ(judged(boxes({1.9, 1.9, 0}), answer(-0.1, Vec3{0, 1, 0})), CollideVerdict::Ok);
+    EXPECT_EQ(judged(boxes({1.9, 1.8, 0}), answer(-0.1, Vec3{0, 1, 0})), CollideVerdict::WrongNormal);
+    const Vec3 odd = Vec3{0.36, 0.48, 0.8};
+    EXPECT_EQ(judged(balls(0.0), answer(-1.5, odd)), CollideVerdict::Ok) << "concentric: every direction";
+}
+
+TEST(Judge, ShapesTheOracleLacksAreJudgedByTheFile) {
+    scenario::CollisionCase c;
+    c.a.geometry = scenario::Cylinder{1.0, 1.0};
+    c.b.geometry = scenario::Cylinder{1.0, 1.0};
+    c.b.pose.position = {0, 1.75, 0};
+    if (truthOf(c, {}).source == "oracle") GTEST_SKIP() << "the oracle has cylinders now";
+    EXPECT_EQ(judged(c, answer(-0.25, Vec3{0, 1, 0})), CollideVerdict::Undecided);
+    c.expected.signedDistance = -0.25, c.expected.normals = {{0, 1, 0}}, c.expected.accuracy = 1e-9;
+    EXPECT_EQ(judged(c, answer(-0.25, Vec3{0, 1, 0})), CollideVerdict::Ok);
+    EXPECT_EQ(judged(c, answer(-0.26, Vec3{0, 1, 0})), CollideVerdict::WrongDepth);
+    EXPECT_EQ(judged(c, answer(-0.25, Vec3{1, 0, 0})), CollideVerdict::WrongNormal);
+}
+
+TEST(Judge, AFileThatContradictsTheOracleIsSaid) {
+    auto c = balls(1.25);
+    c.expected.signedDistance = -0.25;
+    EXPECT_EQ(truthOf(c, {}).conflict, "");
+    c.expected.signedDistance = -0.26;
+    EXPECT_NE(truthOf(c, {}).conflict, "");
+}
+
+// -------------------------------------------------------------------------------------------- children
+
+scenario::CollisionFile fileOfBalls(const std::vector<double>& depths) {
+    scenario::CollisionFile file;
+    file.file = "balls.json";
+    for (const double depth : depths) {
+        std::ostringstream text;
+        text.precision(17);
+        text
+            << R"({"name": "d)" << file.cases.size()
+            << R"(", "dimension": 3, "a": {"sphere": {"radius": 3}}, "b": {"sphere": {"radius": 1}, "position": [)"
+            << 4.0 - depth << R"(, 0, 0]}})";
+        file.cases.push_back(scenario::readCollisionCase(text.str()));
+        file.cases.back().text = text.str();
+    }
+    return file;
+}
+
+CollideRun askDoubles(const std::vector<double>& depths, const char* engine, double seconds = 1.0) {
+    setenv("RIGOR_ADAPTER_PATH", (std::string(RIGOR_BINARY_DIR) + "/tests/doubles").c_str(), 1);
+    CollideOptions options;
+    options.binary = std::string(RIGOR_BINARY_DIR) + "/bin/rigor";
+    options.jobs = 2, options.secondsPerQuery = seconds;
+    const std::atomic<bool> never{false};
+    return runCollide({fileOfBalls(depths)}, {adapter::parseSpec(engine)}, options, {}, never);
+}
+
+std::vector<CollideVerdict> verdicts(const CollideRun& run) {
+    std::vector<CollideVerdict> list;
+    for (const CollideCase& c : run.cases) list.push_back(c.answers.front().verdict);
+    return list;
+}
+
+/// A query that kills its library costs that one answer; those before and behind it are there.
+TEST(Children, OneFatalQueryCostsOneAnswer) {
+    const auto run = askDoubles({0.1, 2.5, 0.2, 1.5, 0.3, 0.75, 0.4, -1.0}, "double_auditor_moody");
+    using V = CollideVerdict;
+    EXPECT_EQ(verdicts(run),
+              (std::vector<V>{V::Ok, V::Crashed, V::Ok, V::Crashed, V::Ok, V::Timeout, V::Ok, V::Ok}));
+    EXPECT_NE(run.cases[1].answers[0].message.find("SIGABRT"), std::string::npos);
+    EXPECT_NE(run.cases[3].answers[0].message.find("exit code 0"), std::string::npos);
+    EXPECT_EQ(run.summaries[0].failed, 3);
+    EXPECT_EQ(run.summaries[0].answered, 5);
+}
+
+TEST(Children, FaultyEnginesAreCaught) {
+    const std::vector<double> depths{0.1, 0.2};
+    EXPECT_EQ(verdicts(askDoubles(depths, "double_auditor"))[0], CollideVerdict::Ok);
+    EXPECT_EQ(verdicts(askDoubles(depths, "double_auditor_flipped"))[0], CollideVerdict::WrongNormal);
+    EXPECT_EQ(verdicts(askDoubles(depths, "double_auditor_deep"))[1], CollideVerdict::WrongDepth);
+    EXPECT_EQ(verdicts(askDoubles(depths, "double_auditor_blind"))[1], CollideVerdict::WrongOverlap);
+    EXPECT_EQ(verdicts(askDoubles({-0.1}, "double_auditor_anxious"))[0], CollideVerdict::WrongOverlap);
+    EXPECT_EQ(verdicts(askDoubles(depths, "double_auditor_abort"))[1], CollideVerdict::Crashed);
+}
+
+TEST(Children, ManyCasesComeBackInOrder) {
+    std::vector<double> depths;
+    for (int i = 0; i < 2500; ++i) depths.push_back(0.4 * (i + 1) / 2500.0);
+    const auto run = askDoubles(depths, "double_auditor");
+    for (std::size_t i = 0; i < depths.size(); ++i)
+        ASSERT_NEAR(run.cases[i].answers[0].signedDistance.value(), -depths[i], 1e-12) << i;
+    EXPECT_EQ(run.summaries[0].answered, 2500);
+    EXPECT_LT(run.summaries[0].depthErrorMax.value(), 1e-12);
+}
+
+TEST(Print, JsonHasRoundTripDigits) {
+    const auto run = askDoubles({1.0 / 3.0}, "double_auditor");
+    const auto json = nlohmann::json::parse(collideJson(run).dump());
+    const auto& c = json.at("cases").at(0);
+    EXPECT_EQ(c.at("answers").at(0).at("signed_distance").get<double>(),
+              run.cases[0].answers[0].signedDistance.value());
+    EXPECT_EQ(c.at("truth").at("source"), "oracle");
+    EXPECT_EQ(c.at("answers").at(0).at("verdict"), "ok");
+    EXPECT_EQ(json.at("summary").at(0).at("name"), "double_auditor");
+    EXPECT_NE(collideText(run, false).find("double_auditor"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rigor::validation
