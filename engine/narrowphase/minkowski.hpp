@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The Minkowski difference D = core A - core B as GJK, EPA and MPR see it: a support mapping in the frame of
+// A. A core is the shape without its rounding radius: a point for a ball, a segment for a capsule.
+//   support of D along d:  w = a - b,  a = support of A along d,  b = support of B along -d
+// D holds the origin iff the cores overlap; a facet of D with outward normal n is a way to part them by
+// moving B along n. Private to this folder.
+#pragma once
+
+#include "engine/narrowphase/detail.hpp"
+
+namespace rigor::engine {
+
+/// A support point of D and the points of the cores it comes from, frame of A.
+template <class S>
+struct DifferencePoint {
+    typename S::Vec w, a, b;
+};
+
+template <class S>
+typename S::Real roundingRadius(const Shape<S>& shape) {
+    if (const auto* s = std::get_if<Sphere<S>>(&shape)) return s->radius;
+    if (const auto* s = std::get_if<Capsule<S>>(&shape)) return s->radius;
+    return 0;
+}
+
+template <class S>
+typename S::Vec coreSupport(const Shape<S>& shape, const typename S::Vec& d) {
+    using V = typename S::Vec;
+    if (std::holds_alternative<Sphere<S>>(shape)) return V::Zero();
+    if (const auto* s = std::get_if<Capsule<S>>(&shape))
+        return V((d.y() < 0 ? -s->halfLength : s->halfLength) * V::UnitY());
+    return support<S>(shape, d);
+}
+
+template <class S>
+class Minkowski {
+  public:
+    using R = typename S::Real;
+    using V = typename S::Vec;
+
+    Minkowski(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb) : a_(a), b_(b) {
+        const Pose<S> X = relativePose<S>(Xa, Xb);
+        rotation_ = toMatrix(X.q);
+        translation_ = X.p;
+    }
+
+    DifferencePoint<S> point(const V& d) const {
+        DifferencePoint<S> p;
+        p.a = coreSupport<S>(a_, d);
+        p.b = rotation_ * coreSupport<S>(b_, V(-(rotation_.transpose() * d))) + translation_;
+        p.w = p.a - p.b;
+        return p;
+    }
+    /// B's frame in the frame of A.
+    const typename S::Mat& rotation() const { return rotation_; }
+    const V& translation() const { return translation_; }
+
+  private:
+    const Shape<S>& a_;
+    const Shape<S>& b_;
+    typename S::Mat rotation_;
+    V translation_;
+};
+
+/// Up to dim + 1 points of D with the weights of their point nearest to the origin; for EPA, of the facet.
+template <class S>
+struct Simplex {
+    std::array<DifferencePoint<S>, S::dim + 1> points;
+    std::array<typename S::Real, S::dim + 1> weights{};
+    int count = 0;
+
+    typename S::Vec onA() const {
+        typename S::Vec x = S::Vec::Zero();
+        for (int i = 0; i < count; ++i)
+            x += weights[static_cast<std::size_t>(i)] * points[static_cast<std::size_t>(i)].a;
+        return x;
+    }
+    typename S::Vec onB() const {
+        typename S::Vec x = S::Vec::Zero();
+        for (int i = 0; i < count; ++i)
+            x += weights[static_cast<std::size_t>(i)] * points[static_cast<std::size_t>(i)].b;
+        return x;
+    }
+};
+
+/// Drops the points that the nearest point to `target` does not need, sets the weights and returns the vector
+/// from target to the nearest point. With dim + 1 points left, target is inside and the vector zero.
+template <class S>
+typename S::Vec reduceSimplex(Simplex<S>& simplex, const typename S::Vec& target);
+
+template <class S>
+struct GjkResult {
+    Simplex<S> simplex;  ///< its weighted point is v
+    typename S::Vec v;   ///< the nearest point; zero where the origin is inside or on D
+    bool overlap = false;
+    bool converged = false;
+    int iterations = 0;
+};
+/// Point of D nearest to the origin.
+template <class S>
+GjkResult<S> gjk(const Minkowski<S>& D, const typename S::Vec& start);
+
+template <class S>
+struct EpaResult {
+    typename S::Vec normal;  ///< unit, outward of D, A to B
+    typename S::Real depth;  ///< support of D along the normal: >= the true depth, attained at the optimum
+    Simplex<S> simplex;      ///< its weighted point is depth * normal
+    bool flat = false;       ///< D has no volume: the simplex is not set
+    bool converged = false;
+    int iterations = 0;
+};
+/// The direction in which the support of D is least, D holding the origin or having it near its surface.
+template <class R>
+EpaResult<Space<R, 2>> epa(const Minkowski<Space<R, 2>>& D);
+template <class R>
+EpaResult<Space<R, 3>> epa(const Minkowski<Space<R, 3>>& D);
+
+}  // namespace rigor::engine
