@@ -43,9 +43,12 @@ class RigorEngine final : public Engine {
                    "soft joints: spring frequency, at most a quarter of the sub-step rate [Hz]"));
         options.push_back(number("joint_damping_ratio", 0, 1000, "2", "2", "soft joints: damping ratio"));
         options.push_back(
-            integer("velocity_iterations", 1, 100000, "8", "50", "iterations of the velocity solver"));
+            integer("velocity_iterations", 1, 100000, "50", "50", "most iterations of the velocity solver"));
+        options.push_back(number("velocity_tolerance", 0, 1, "1e-6", "1e-6",
+                                 "iterations end when one changes less than this share of the speed gravity "
+                                 "adds in a step; 0: never"));
         options.push_back(
-            integer("position_iterations", 0, 100000, "3", "10", "iterations of position correction"));
+            integer("position_iterations", 0, 100000, "10", "10", "iterations of position correction"));
         options.push_back(
             integer("first_step_iterations", 1, 100000, "400", "400",
                     "most velocity iterations of the first step, which has no impulses to start from"));

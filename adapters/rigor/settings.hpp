@@ -33,6 +33,7 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     def.jointFrequency = static_cast<R>(numberSetting(settings, "joint_frequency"));
     def.jointDampingRatio = static_cast<R>(numberSetting(settings, "joint_damping_ratio"));
     def.velocityIterations = integerSetting(settings, "velocity_iterations");
+    def.velocityTolerance = static_cast<R>(numberSetting(settings, "velocity_tolerance"));
     def.positionIterations = integerSetting(settings, "position_iterations");
     def.firstStepIterations = integerSetting(settings, "first_step_iterations");
     def.warmStarting = textSetting(settings, "warm_starting") == "on";

@@ -201,12 +201,12 @@ BiasRule<typename S::Real> World<S>::biasRule() const {
 
 template <class S>
 void World<S>::solveVelocities(int iterations, bool warmStarted) {
-    // A millionth of what gravity adds in a step, or the limit of the precision.
     const Real h = cursor_.substepSize;
     const Real converged =
-        std::max(Real(1e-6) * h * def_.gravity.norm(), std::numeric_limits<Real>::epsilon());
-    StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, firstStep() ? converged : Real(0),
-                           residuals_);
+        def_.velocityTolerance > 0
+            ? std::max(def_.velocityTolerance * h * def_.gravity.norm(), std::numeric_limits<Real>::epsilon())
+            : Real(0);
+    StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, converged, residuals_);
     solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted});
 }
 

@@ -88,6 +88,8 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     require(def.gravity.allFinite(), "gravity", "gravity must be finite");
     require(def.velocityIterations >= 1, "velocity_iterations", "at least one velocity iteration");
     require(def.positionIterations >= 0, "position_iterations", "position iterations must not be negative");
+    require(def.velocityTolerance >= 0 && std::isfinite(def.velocityTolerance), "velocity_tolerance",
+            "velocity tolerance must not be negative");
     require(def.substeps >= 1, "substeps", "at least one sub-step");
     const auto spring = [](Real frequency, Real dampingRatio) {
         return frequency > 0 && std::isfinite(frequency) && dampingRatio >= 0 && std::isfinite(dampingRatio);

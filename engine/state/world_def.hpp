@@ -30,12 +30,14 @@ struct WorldDef {
     std::string positionCorrection = "ngs";
     std::string friction = "cone";
 
-    int substeps = 1;            ///< equal parts a step is solved in, contacts found once, >= 1
-    int velocityIterations = 8;  ///< of each sub-step, >= 1
-    int positionIterations = 3;  ///< of each sub-step, >= 0
-    /// Of the first step, which has no impulses to start from; it ends early when they have converged. >= 1
-    int firstStepIterations = 400;
-    bool warmStarting = true;  ///< start from the impulses of the last step
+    int substeps = 1;             ///< equal parts a step is solved in, contacts found once, >= 1
+    int velocityIterations = 50;  ///< of each sub-step, at most, >= 1
+    int positionIterations = 10;  ///< of each sub-step, >= 0
+    /// Iterations end early when one changes less than this share of the speed that gravity adds in a
+    /// (sub-)step, or than the precision resolves; 0: never. >= 0
+    Real velocityTolerance = Real(1e-6);
+    int firstStepIterations = 400;  ///< of the first step, which has no impulses to start from, >= 1
+    bool warmStarting = true;       ///< start from the impulses of the last step
     /// Joint rows aim at the constraint at the end of the step instead of its linearisation at the start:
     /// pendulums keep their energy.
     bool curvedJoints = true;

@@ -84,8 +84,9 @@ TYPED_TEST(Worlds, ResidualsFallAndAreOnePerIteration) {
     World<S> world = busyWorld<S>();
     for (int i = 0; i < 200; ++i) world.step(typename S::Real(1.0 / 60));
     const StepResult<S>& result = world.lastStep();
-    ASSERT_EQ(result.residuals.size(), 8u);
-    EXPECT_EQ(result.iterations, 8);
+    ASSERT_GT(result.residuals.size(), 1u);
+    EXPECT_LE(result.residuals.size(), static_cast<std::size_t>(world.def().velocityIterations));
+    EXPECT_EQ(result.iterations, static_cast<int>(result.residuals.size()));
     EXPECT_LE(result.residuals.back(), result.residuals.front());
     EXPECT_FALSE(result.nonFinite);
     EXPECT_GE(result.rows, result.contacts);
