@@ -279,6 +279,40 @@ void ContactSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
         }
 }
 
+template <class S>
+void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events) {
+    const auto add = [&](EventKind kind, const Contact<S>& contact) {
+        Event<S>& event = events.emplace_back();
+        event.kind = kind;
+        event.bodyA = bodies.id[contact.bodyA], event.bodyB = bodies.id[contact.bodyB];
+        event.shapeA = shapes_[contact.shapeA].id, event.shapeB = shapes_[contact.shapeB].id;
+        if (kind == EventKind::ContactEnds) return;
+        event.normal = contact.manifold.normal;
+        event.depth = -std::numeric_limits<Real>::infinity();
+        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
+            event.depth = std::max(event.depth, -contact.manifold.points[i].separation);
+            event.impulse += contact.points[i].normalTotal;
+        }
+    };
+    const auto key = [](const Contact<S>& c) { return pairKey(c.shapeA, c.shapeB); };
+    auto old = previous_.begin();
+    const auto endOld = [&] {
+        if (old->touching) add(EventKind::ContactEnds, *old);
+        ++old;
+    };
+    for (Contact<S>& contact : contacts_) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+            contact.touching = contact.touching || contact.points[i].normalTotal > 0 ||
+                               contact.manifold.points[i].separation < 0;
+        while (old != previous_.end() && key(*old) < key(contact)) endOld();
+        bool before = false;
+        if (old != previous_.end() && key(*old) == key(contact)) before = old++->touching;
+        if (before != contact.touching)
+            add(before ? EventKind::ContactEnds : EventKind::ContactBegins, contact);
+    }
+    while (old != previous_.end()) endOld();
+}
+
 template class ContactSet<Space2f>;
 template class ContactSet<Space2d>;
 template class ContactSet<Space3f>;

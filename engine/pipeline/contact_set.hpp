@@ -15,6 +15,7 @@
 #include "engine/constraints/soft.hpp"
 #include "engine/core/clone_ptr.hpp"
 #include "engine/narrowphase/manifold.hpp"
+#include "engine/pipeline/events.hpp"
 #include "engine/state/world_def.hpp"
 
 namespace rigor::engine {
@@ -48,6 +49,7 @@ struct Contact {
     PairCoefficients<S> coefficients;
     Manifold<S> manifold;
     std::array<Point, S::maxManifoldPoints> points;
+    bool touching = false;  ///< at the end of the step: overlapped when found, or pushed in the step
 };
 
 /// What making contact rows needs to know of a step.
@@ -97,6 +99,9 @@ class ContactSet {
     void advance(std::span<const Velocity<S>> motion);
     /// Reads the impulses of the solved rows.
     void storeImpulses(const ConstraintRows<S>& rows);
+
+    /// Ends a step: appends what began and what ended.
+    void noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events);
 
     const std::vector<ProxyPair>& proxyPairs() const { return proxyPairs_; }
     const std::vector<Contact<S>>& contacts() const { return contacts_; }

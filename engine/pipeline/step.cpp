@@ -169,6 +169,9 @@ void World<S>::endStep() {
     result_.rows = rows_.rows.size();
     result_.iterations = static_cast<int>(residuals_.size());
     result_.residuals = residuals_;
+    events_.clear();
+    contacts_.noteEvents(bodies_, events_);
+    result_.events = events_;
 }
 
 template <class S>

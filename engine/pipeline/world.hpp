@@ -12,6 +12,7 @@
 
 #include "engine/integrators/motion.hpp"
 #include "engine/pipeline/contact_set.hpp"
+#include "engine/pipeline/events.hpp"
 #include "engine/pipeline/joint_set.hpp"
 #include "engine/pipeline/step_positions.hpp"
 #include "engine/state/world_def.hpp"
@@ -41,6 +42,7 @@ struct StepResult {
     int iterations = 0;  ///< of the solver, in all sub-steps
     /// Largest velocity error removed from a row or block, per iteration [m/s or rad/s].
     std::span<const typename S::Real> residuals;
+    std::span<const Event<S>> events;       ///< what began and ended, in the order of shapes
     std::array<double, kPhases> seconds{};  ///< wall time per phase
 };
 
@@ -157,6 +159,7 @@ class World {
     ConstraintRows<S> rows_;
     PositionScratch<S> positionScratch_;
     std::vector<Real> residuals_;
+    std::vector<Event<S>> events_;
     StepResult<S> result_;
 };
 
