@@ -120,6 +120,7 @@ TEST(IncludeRule, ThirdPartyHeadersStayInTheirRooms) {
     const std::vector<std::pair<std::regex, std::vector<std::string>>> rooms{
         {std::regex(R"(#include\s*<Eigen/)"),
          {"engine/math/", "engine/shapes/", "engine/narrowphase/", "adapters/fcl/"}},
+        {std::regex(R"(#include\s*<(oneapi/)?tbb/)"), {"engine/core/"}},
         {std::regex(R"(#include\s*<(bullet/|bt[A-Z]|Bullet|LinearMath))"), {"adapters/bullet/"}},
         {std::regex(R"(#include\s*<ode/)"), {"adapters/ode/"}},
         {std::regex(R"(#include\s*<box2d/)"), {"adapters/box2d/"}},

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/core/tasks.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace rigor::engine {
+
+/// An arena of its own keeps a world from borrowing threads that another one was given.
+struct Tasks::Arena {
+    explicit Arena(int threads) : arena(threads) {}
+    oneapi::tbb::task_arena arena;
+};
+
+Tasks::Tasks(int threads)
+    : threads_(threads), arena_(threads > 1 ? std::make_unique<Arena>(threads) : nullptr) {}
+Tasks::Tasks(const Tasks& other) : Tasks(other.threads_) {}
+Tasks& Tasks::operator=(const Tasks& other) {
+    if (this != &other) *this = Tasks(other);
+    return *this;
+}
+Tasks::Tasks(Tasks&&) noexcept = default;
+Tasks& Tasks::operator=(Tasks&&) noexcept = default;
+Tasks::~Tasks() = default;
+
+void Tasks::shared(std::size_t n, std::size_t grain,
+                   const std::function<void(std::size_t, std::size_t)>& work) const {
+    using Range = oneapi::tbb::blocked_range<std::size_t>;
+    arena_->arena.execute([&] {
+        oneapi::tbb::parallel_for(
+            Range(0, n, grain), [&](const Range& part) { work(part.begin(), part.end()); },
+            oneapi::tbb::simple_partitioner());
+    });
+}
+
+}  // namespace rigor::engine

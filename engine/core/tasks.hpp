@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Work shared among threads. Every index of a range is worked on by itself and writes to its own place, so
+// that results do not depend on the number of threads or on who did what.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace rigor::engine {
+
+/// A fixed number of threads to share work among. Copies have threads of their own.
+class Tasks {
+  public:
+    /// `threads` >= 1; 1 does everything in the calling thread, without allocation.
+    explicit Tasks(int threads = 1);
+    Tasks(const Tasks& other);
+    Tasks& operator=(const Tasks& other);
+    Tasks(Tasks&&) noexcept;
+    Tasks& operator=(Tasks&&) noexcept;
+    ~Tasks();
+
+    int threads() const { return threads_; }
+
+    /// Calls work(begin, end) for parts of [0, n) that together are all of it; parts hold at least `grain`
+    /// indices (the last may be smaller). An exception of `work` reaches the caller.
+    template <class Work>
+    void forRanges(std::size_t n, std::size_t grain, const Work& work) const {
+        if (threads_ == 1 || n <= grain) {
+            if (n > 0) work(std::size_t(0), n);
+            return;
+        }
+        shared(n, grain, std::cref(work));
+    }
+
+  private:
+    struct Arena;
+    void shared(std::size_t n, std::size_t grain,
+                const std::function<void(std::size_t, std::size_t)>& work) const;
+
+    int threads_ = 1;
+    std::unique_ptr<Arena> arena_;  ///< null for one thread
+};
+
+}  // namespace rigor::engine
