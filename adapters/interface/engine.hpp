@@ -60,7 +60,11 @@ class CollisionEngine {
   public:
     virtual ~CollisionEngine() = default;
 
-    /// Throws Unsupported for shape pairs the engine does not have.
+    /// Narrow phases to choose from by CollisionQuery::algorithm, the values of the option "narrow_phase"; empty
+    /// for an engine without a choice.
+    virtual std::vector<std::string> algorithms() const { return {}; }
+
+    /// Throws Unsupported for shape pairs the engine does not have, BadInput for an unknown algorithm.
     virtual CollisionAnswer collide(const CollisionQuery& query) const = 0;
 };
 
@@ -95,7 +99,7 @@ class Engine {
 };
 
 /// Raised with every change of this folder's headers or of scenarios/model that an adapter could notice.
-inline constexpr int kAdapterAbi = 1;
+inline constexpr int kAdapterAbi = 2;
 
 struct Module {
     int abi = 0;

@@ -144,6 +144,7 @@ struct CollisionQuery {
     PosedShape a, b;
     int dimension = 3;
     int maxContacts = 8;
+    std::string algorithm;  ///< one of CollisionEngine::algorithms(); empty: the engine's default
 };
 
 /// Answer to a query. Contacts have depth > 0 (or the engine's own tolerance); bodyA/bodyB are 0 and 1.

@@ -42,6 +42,33 @@ ClosestPoints<S> twoPlanes(const HalfSpace<S>& a, const Pose<S>& Xa) {
 }  // namespace
 
 template <class S>
+CoreContact<S> closestCores(const Minkowski<S>& D) {
+    const GjkResult<S> apart = gjk<S>(D, D.translation());
+    CoreContact<S> r;
+    r.iterations = apart.iterations;
+    r.converged = apart.converged;
+    r.onA = apart.simplex.onA();
+    r.onB = apart.simplex.onB();
+    if (!apart.overlap) {
+        r.distance = apart.v.norm();
+        r.normal = -apart.v / r.distance;
+        return r;
+    }
+    const EpaResult<S> inside = epa<typename S::Real>(D);
+    r.iterations += inside.iterations;
+    r.converged = inside.converged;
+    r.normal = inside.normal;
+    r.distance = -inside.depth;
+    if (inside.flat) {
+        if (r.normal.dot(D.translation()) < 0) r.normal = -r.normal;
+    } else {
+        r.onA = inside.simplex.onA();
+        r.onB = inside.simplex.onB();
+    }
+    return r;
+}
+
+template <class S>
 ClosestPoints<S> closestPoints(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb) {
     using R = typename S::Real;
     using V = typename S::Vec;
@@ -56,37 +83,20 @@ ClosestPoints<S> closestPoints(const Shape<S>& a, const Pose<S>& Xa, const Shape
         return r;
     }
 
-    const Minkowski<S> D(a, Xa, b, Xb);
-    const GjkResult<S> apart = gjk<S>(D, D.translation());
-    ClosestPoints<S> r;
-    r.iterations = apart.iterations;
-    r.converged = apart.converged;
-    V onA = apart.simplex.onA(), onB = apart.simplex.onB(), n;
-    R distance = apart.v.norm();
-    if (apart.overlap) {
-        const EpaResult<S> inside = epa<R>(D);
-        r.iterations += inside.iterations;
-        r.converged = inside.converged;
-        n = inside.normal;
-        distance = -inside.depth;
-        if (inside.flat) {
-            if (n.dot(D.translation()) < 0) n = -n;
-        } else {
-            onA = inside.simplex.onA();
-            onB = inside.simplex.onB();
-        }
-    } else {
-        n = -apart.v / distance;
-    }
+    const CoreContact<S> cores = closestCores<S>(Minkowski<S>(a, Xa, b, Xb));
     const R rA = roundingRadius<S>(a), rB = roundingRadius<S>(b);
-    r.distance = distance - rA - rB;
-    r.normal = rotate(Xa.q, n);
-    r.pointA = toWorld<S>(Xa, V(onA + rA * n));
-    r.pointB = toWorld<S>(Xa, V(onB - rB * n));
+    ClosestPoints<S> r;
+    r.distance = cores.distance - rA - rB;
+    r.normal = rotate(Xa.q, cores.normal);
+    r.pointA = toWorld<S>(Xa, V(cores.onA + rA * cores.normal));
+    r.pointB = toWorld<S>(Xa, V(cores.onB - rB * cores.normal));
+    r.iterations = cores.iterations;
+    r.converged = cores.converged;
     return r;
 }
 
-#define INSTANTIATE(S) \
+#define INSTANTIATE(S)                                         \
+    template CoreContact<S> closestCores(const Minkowski<S>&); \
     template ClosestPoints<S> closestPoints(const Shape<S>&, const Pose<S>&, const Shape<S>&, const Pose<S>&);
 INSTANTIATE(Space2f)
 INSTANTIATE(Space2d)

@@ -32,8 +32,18 @@ template <class S>
 using CollideFunction = void (*)(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
                                  typename S::Real speculativeDistance, Manifold<S>& out);
 
-/// A narrow phase by name: "sat" = closed forms where they exist, else separating axes with clipped face
-/// manifolds. Null when unknown.
+/// A narrow phase as an object, for those that are not in the table: WorldDef::customNarrowPhase. Called from
+/// one thread at a time, and with the same shapes and poses must answer the same.
+template <class S>
+class NarrowPhase {
+  public:
+    virtual ~NarrowPhase() = default;
+    /// The contract of CollideFunction.
+    virtual void collide(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
+                         typename S::Real speculativeDistance, Manifold<S>& out) const = 0;
+};
+
+/// A narrow phase by the names of narrowphases.def. Null when unknown.
 template <class S>
 CollideFunction<S> findNarrowPhase(const char* name);
 

@@ -90,6 +90,50 @@ struct Simplex {
 template <class S>
 typename S::Vec reduceSimplex(Simplex<S>& simplex, const typename S::Vec& target);
 
+/// What an algorithm found out about two cores, frame of A.
+template <class S>
+struct CoreContact {
+    typename S::Vec normal;         ///< unit, A to B
+    typename S::Real distance = 0;  ///< [m]; < 0: minus the depth
+    typename S::Vec onA, onB;       ///< on the cores; onB - onA = distance * normal
+    int iterations = 0;             ///< support points asked for
+    bool converged = false;
+};
+/// By GJK, and EPA where the cores overlap.
+template <class S>
+CoreContact<S> closestCores(const Minkowski<S>& D);
+
+/// Contact points along a known normal: the two faces (edges, segments) of the shapes that support it, one
+/// clipped to the other where they are nearly flat against each other, and always the deepest point. Fills
+/// `out` in the frame of A; `a` and `b` are the shapes of D.
+template <class R>
+void featureManifold(const Shape<Space<R, 2>>& a, const Shape<Space<R, 2>>& b,
+                     const Minkowski<Space<R, 2>>& D, const CoreContact<Space<R, 2>>& contact, R speculative,
+                     Manifold<Space<R, 2>>& out);
+template <class R>
+void featureManifold(const Shape<Space<R, 3>>& a, const Shape<Space<R, 3>>& b,
+                     const Minkowski<Space<R, 3>>& D, const CoreContact<Space<R, 3>>& contact, R speculative,
+                     Manifold<Space<R, 3>>& out);
+
+/// Cosine of the largest angle between the contact normal and a face's own for which the face takes part:
+/// 2.5 degrees.
+template <class R>
+inline constexpr R kFlatFeature = R(0.999);
+
+/// The deepest point of a contact where no other point is as deep: features that meet in a point have it
+/// alone.
+template <class S>
+void addDeepest(const CoreContact<S>& contact, typename S::Real rA, typename S::Real rB,
+                typename S::Real tolerance, Manifold<S>& out) {
+    using R = typename S::Real;
+    const R separation = contact.distance - rA - rB;
+    for (int i = 0; i < out.count; ++i)
+        if (out.points[static_cast<std::size_t>(i)].separation <= separation + tolerance) return;
+    if (out.count == S::maxManifoldPoints) --out.count;
+    addPoint<S>(out, contact.onA + rA * contact.normal, contact.onB - rB * contact.normal, separation,
+                crossingFeature(0, 1));
+}
+
 template <class S>
 struct GjkResult {
     Simplex<S> simplex;  ///< its weighted point is v

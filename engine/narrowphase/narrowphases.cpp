@@ -4,7 +4,25 @@
 
 #include <cstring>
 
+#include "engine/core/error.hpp"
+
 namespace rigor::engine {
+namespace {
+
+template <class S>
+class TableNarrowPhase final : public NarrowPhase<S> {
+  public:
+    explicit TableNarrowPhase(CollideFunction<S> function) : function_(function) {}
+    void collide(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
+                 typename S::Real speculativeDistance, Manifold<S>& out) const override {
+        function_(a, Xa, b, Xb, speculativeDistance, out);
+    }
+
+  private:
+    CollideFunction<S> function_;
+};
+
+}  // namespace
 
 std::span<const NarrowPhaseEntry> narrowPhases() {
     static constexpr NarrowPhaseEntry kTable[] = {
@@ -24,9 +42,23 @@ CollideFunction<S> findNarrowPhase(const char* name) {
     return nullptr;
 }
 
-template CollideFunction<Space2f> findNarrowPhase(const char*);
-template CollideFunction<Space2d> findNarrowPhase(const char*);
-template CollideFunction<Space3f> findNarrowPhase(const char*);
-template CollideFunction<Space3d> findNarrowPhase(const char*);
+template <class S>
+std::shared_ptr<const NarrowPhase<S>> makeNarrowPhase(const std::string& name) {
+    if (const CollideFunction<S> function = findNarrowPhase<S>(name.c_str()))
+        return std::make_shared<TableNarrowPhase<S>>(function);
+    std::string known;
+    for (const NarrowPhaseEntry& entry : narrowPhases())
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    throw EngineError("unknown_algorithm", "narrow_phase \"" + name + "\", known: " + known);
+}
+
+#define INSTANTIATE(S)                                        \
+    template CollideFunction<S> findNarrowPhase(const char*); \
+    template std::shared_ptr<const NarrowPhase<S>> makeNarrowPhase(const std::string&);
+INSTANTIATE(Space2f)
+INSTANTIATE(Space2d)
+INSTANTIATE(Space3f)
+INSTANTIATE(Space3d)
+#undef INSTANTIATE
 
 }  // namespace rigor::engine

@@ -4,7 +4,9 @@
 // The table of narrow phases (narrowphases.def).
 #pragma once
 
+#include <memory>
 #include <span>
+#include <string>
 
 #include "engine/narrowphase/manifold.hpp"
 
@@ -16,6 +18,10 @@ struct NarrowPhaseEntry {
 };
 /// Every narrow phase findNarrowPhase knows.
 std::span<const NarrowPhaseEntry> narrowPhases();
+
+/// The entry of that name as an object. Throws EngineError "unknown_algorithm" listing the names there are.
+template <class S>
+std::shared_ptr<const NarrowPhase<S>> makeNarrowPhase(const std::string& name);
 
 #define ALGORITHM(name, function, summary)                                                    \
     template <class S>                                                                        \

@@ -122,7 +122,7 @@ void ContactSet<S>::takeOver(const BodyArrays<S>& bodies, const Contact<S>& old,
 }
 
 template <class S>
-void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, CollideFunction<S> collide,
+void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
                                   Real speculativeDistance) {
     std::swap(contacts_, previous_);
     contacts_.clear();
@@ -132,8 +132,8 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, CollideFunction<S
         const bool ordered = shapes_[p.a].body < shapes_[p.b].body;
         const std::uint32_t a = ordered ? p.a : p.b, b = ordered ? p.b : p.a;
         Contact<S>& contact = contacts_.emplace_back();
-        collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b], speculativeDistance,
-                contact.manifold);
+        narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
+                            speculativeDistance, contact.manifold);
         if (contact.manifold.count == 0) {
             contacts_.pop_back();
             continue;

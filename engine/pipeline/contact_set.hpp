@@ -91,7 +91,8 @@ class ContactSet {
     /// Broad phase at the bodies' poses.
     void findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase, Real speculativeDistance);
     /// Narrow phase of the pairs; takes over the impulses of contacts that were there in the last step.
-    void findManifolds(const BodyArrays<S>& bodies, CollideFunction<S> collide, Real speculativeDistance);
+    void findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
+                       Real speculativeDistance);
     /// Appends the rows of all contacts. The bodies' velocities are those of the start of the step.
     void addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows);
     /// Separations after the bodies have moved by `motion` (translation [m], rotation vector [rad]), to first

@@ -108,7 +108,7 @@ void World<S>::runPhase() {
             contacts_.findPairs(bodies_, *broadPhase_, def_.speculativeDistance);
             break;
         case Phase::NarrowPhase:
-            contacts_.findManifolds(bodies_, collide_, def_.speculativeDistance);
+            contacts_.findManifolds(bodies_, *narrowPhase_, def_.speculativeDistance);
             break;
         case Phase::Rows:
             makeRows();

@@ -73,14 +73,6 @@ bool validShape(const Shape<S>& shape) {
     return std::get<Hull<S>>(shape).data != nullptr;
 }
 
-template <class S>
-std::string narrowPhaseNames() {
-    std::string names;
-    for (const NarrowPhaseEntry& entry : narrowPhases())
-        names += (names.empty() ? "" : ", ") + std::string(entry.name);
-    return names;
-}
-
 }  // namespace
 
 template <class S>
@@ -114,10 +106,7 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
         findAlgorithm(positionCorrectionTable<S>(), "position_correction", def.positionCorrection).make();
     style_ = solver_->style();
     friction_ = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;
-    collide_ = findNarrowPhase<S>(def.narrowPhase.c_str());
-    if (!collide_)
-        throw EngineError("unknown_algorithm",
-                          "narrow_phase \"" + def.narrowPhase + "\", known: " + narrowPhaseNames<S>());
+    narrowPhase_ = def.customNarrowPhase ? def.customNarrowPhase : makeNarrowPhase<S>(def.narrowPhase);
 
     // Body 0 is the world.
     bodies_.pose.emplace_back();

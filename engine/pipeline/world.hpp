@@ -137,7 +137,7 @@ class World {
 
     WorldDef<S> def_;
     Motion<S> motion_;
-    CollideFunction<S> collide_ = nullptr;
+    std::shared_ptr<const NarrowPhase<S>> narrowPhase_;
     FrictionLaw<S> friction_ = nullptr;
     ClonePtr<BroadPhase<S>> broadPhase_;
     ClonePtr<Solver<S>> solver_;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "engine/core/ids.hpp"
@@ -15,6 +16,9 @@
 #include "engine/state/body_arrays.hpp"
 
 namespace rigor::engine {
+
+template <class S>
+class NarrowPhase;  // narrowphase/manifold.hpp
 
 /// Settings of a world, constant after construction. Algorithms are named as in the tables of their folders.
 template <class S>
@@ -26,6 +30,8 @@ struct WorldDef {
     std::string rotation = "lie_midpoint";
     std::string broadPhase = "dynamic_aabb_tree";
     std::string narrowPhase = "sat";
+    /// In place of `narrowPhase` where set; shared by copies of the world.
+    std::shared_ptr<const NarrowPhase<S>> customNarrowPhase;
     std::string solver = "pgs";
     std::string positionCorrection = "ngs";
     std::string friction = "cone";

@@ -7,6 +7,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -61,8 +62,13 @@ CollideAnswer fromEngine(const CollisionAnswer& found) {
 /// By the algorithm that the spec's narrow_phase names, where the engine has a choice.
 CollisionAnswer answerBy(const adapter::CollisionEngine& engine, const adapter::Settings& settings,
                          const adapter::CollisionQuery& query) {
-    (void)settings;
-    return engine.collide(query);
+    const std::vector<std::string> known = engine.algorithms();
+    const auto chosen = settings.find("narrow_phase");
+    if (chosen == settings.end() || std::find(known.begin(), known.end(), chosen->second) == known.end())
+        return engine.collide(query);
+    adapter::CollisionQuery by = query;
+    by.algorithm = chosen->second;
+    return engine.collide(by);
 }
 
 CollideAnswer ask(const adapter::CollisionEngine& engine, const adapter::Settings& settings,

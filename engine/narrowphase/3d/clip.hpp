@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Sutherland-Hodgman clipping of one face to the prism that another sweeps along the contact normal, with the
+// lines every vertex lies on. Private to this folder.
+#pragma once
+
+#include "engine/narrowphase/3d/polytope.hpp"
+
+namespace rigor::engine {
+
+/// Faces with more vertices are thinned out evenly for clipping.
+inline constexpr int kFaceVertices = 64;
+inline constexpr int kRefSide = 1 << 16;  ///< line numbers from here on are sides of the reference prism
+/// Cosine of the largest angle between two faces (via n) that count as flat against each other: 2.5 degrees.
+template <class R>
+inline constexpr R kFlat = R(0.999);
+
+template <class R>
+struct FaceLoop {
+    std::array<Vec3<R>, kFaceVertices> at;  ///< frame of A
+    std::array<int, kFaceVertices> index;   ///< vertex of the polytope
+    int count = 0;
+    std::uint32_t edge(int i) const {
+        const auto k = static_cast<std::size_t>(i);
+        return edgeName(index[k], index[(k + 1) % static_cast<std::size_t>(count)]);
+    }
+};
+
+template <class R, class Place>
+void loadFace(const Polytope<R>& p, int face, Place place, FaceLoop<R>& loop) {
+    const HullFace<R>& f = p.faces[face];
+    loop.count = std::min(f.count, kFaceVertices);
+    for (int k = 0; k < loop.count; ++k) {
+        const int i = f.count <= kFaceVertices ? k : k * f.count / kFaceVertices;
+        loop.at[static_cast<std::size_t>(k)] = place(p.loopVertex(f, i));
+        loop.index[static_cast<std::size_t>(k)] = p.loops[f.first + i];
+    }
+}
+
+template <class R>
+struct ClipVertex {
+    Vec3<R> x;
+    R side;       ///< signed distance to the plane being clipped by
+    int in, out;  ///< line of the polygon before and after this vertex
+};
+template <class R>
+struct ClipPolygon {
+    std::array<ClipVertex<R>, 2 * kFaceVertices> v;
+    int count = 0;
+    void add(const ClipVertex<R>& c) {
+        if (count < 2 * kFaceVertices) v[static_cast<std::size_t>(count++)] = c;
+    }
+};
+
+/// Keeps what is below the plane m . (x - p) = 0; `line` numbers the plane.
+template <class R>
+void clip(const ClipPolygon<R>& from, const Vec3<R>& m, const Vec3<R>& p, int line, ClipPolygon<R>& to) {
+    to.count = 0;
+    for (int i = 0; i < from.count; ++i) {
+        ClipVertex<R> a = from.v[static_cast<std::size_t>(i)];
+        ClipVertex<R> b = from.v[static_cast<std::size_t>((i + 1) % from.count)];
+        a.side = m.dot(a.x - p);
+        b.side = m.dot(b.x - p);
+        if (a.side <= 0) {
+            if (b.side <= 0) {
+                to.add(b);
+                continue;
+            }
+            const Vec3<R> x = a.x + (a.side / (a.side - b.side)) * (b.x - a.x);
+            to.add({x, R(0), a.out, line});
+        } else if (b.side <= 0) {
+            const Vec3<R> x = b.x + (b.side / (b.side - a.side)) * (a.x - b.x);
+            to.add({x, R(0), line, a.out});
+            to.add(b);
+        }
+    }
+}
+
+template <class R>
+std::uint32_t featureOf(const ClipVertex<R>& c, const FaceLoop<R>& ref, const FaceLoop<R>& inc, bool refIsA) {
+    const bool inRef = c.in >= kRefSide, outRef = c.out >= kRefSide;
+    if (!inRef && !outRef) return vertexFeature(!refIsA, inc.index[static_cast<std::size_t>(c.out)]);
+    if (inRef && outRef) {
+        // Two sides of the prism meet at the vertex between them: the end of one, the start of the other.
+        const int a = c.in - kRefSide, b = c.out - kRefSide;
+        const int vertex = (a + 1) % ref.count == b ? b : a;
+        return vertexFeature(refIsA, ref.index[static_cast<std::size_t>(vertex)]);
+    }
+    const std::uint32_t edgeRef = ref.edge((inRef ? c.in : c.out) - kRefSide);
+    const std::uint32_t edgeInc = inc.edge(inRef ? c.out : c.in);
+    return refIsA ? crossingFeature(edgeRef, edgeInc) : crossingFeature(edgeInc, edgeRef);
+}
+
+/// The incident face (as a polygon) inside the prism of the reference face along `outward`, in one of the two
+/// buffers.
+template <class R>
+const ClipPolygon<R>& clipToPrism(const FaceLoop<R>& ref, const FaceLoop<R>& inc, const Vec3<R>& outward,
+                                  ClipPolygon<R> (&buffers)[2]) {
+    int now = 0;
+    for (int i = 0; i < inc.count; ++i)
+        buffers[0].add({inc.at[static_cast<std::size_t>(i)], R(0), (i + inc.count - 1) % inc.count, i});
+    for (int i = 0; i < ref.count && buffers[now].count > 0; ++i) {
+        const Vec3<R>& p = ref.at[static_cast<std::size_t>(i)];
+        const Vec3<R>& q = ref.at[static_cast<std::size_t>((i + 1) % ref.count)];
+        clip<R>(buffers[now], Vec3<R>((q - p).cross(outward)), p, kRefSide + i, buffers[1 - now]);
+        now = 1 - now;
+    }
+    return buffers[now];
+}
+
+template <class R>
+int deepestIndex(const Polytope<R>& p, const Vec3<R>& direction) {
+    int best = 0;
+    for (int i = 1; i < p.vertexCount; ++i)
+        if (p.vertices[i].dot(direction) > p.vertices[best].dot(direction)) best = i;
+    return best;
+}
+
+/// Of the faces that meet at the vertex furthest along `direction`, the one that faces it most. (The best of
+/// all faces need not hold that vertex: hulls can be sharp.)
+template <class R>
+int incidentFace(const Polytope<R>& p, const Vec3<R>& direction) {
+    const Vec3<R>& v = p.vertices[deepestIndex(p, direction)];
+    int best = 0;
+    R facing = -2;
+    for (int i = 0; i < p.faceCount; ++i) {
+        const HullFace<R>& f = p.faces[i];
+        if (f.offset - f.normal.dot(v) > kRounding<R> * p.size) continue;
+        if (const R c = f.normal.dot(direction); c > facing) facing = c, best = i;
+    }
+    return best;
+}
+
+}  // namespace rigor::engine

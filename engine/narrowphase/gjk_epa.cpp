@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The "gjk_epa" narrow phase: distance and normal of every pair of bounded convex shapes by GJK between their
+// cores, by EPA where the cores overlap (gjk.cpp, 2d/epa.cpp, 3d/epa.cpp); contact points by clipping the
+// features that support the normal (feature_manifold.cpp). Half-spaces are the closed forms of "sat".
+#include "engine/narrowphase/minkowski.hpp"
+#include "engine/narrowphase/narrowphases.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+void collideGjkEpa(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
+                   typename S::Real speculativeDistance, Manifold<S>& out) {
+    if (std::holds_alternative<HalfSpace<S>>(a) || std::holds_alternative<HalfSpace<S>>(b)) {
+        collideSat<S>(a, Xa, b, Xb, speculativeDistance, out);
+        return;
+    }
+    out.count = 0;
+    const Minkowski<S> D(a, Xa, b, Xb);
+    const CoreContact<S> contact = closestCores<S>(D);
+    if (contact.distance - roundingRadius<S>(a) - roundingRadius<S>(b) > speculativeDistance) return;
+    featureManifold<typename S::Real>(a, b, D, contact, speculativeDistance, out);
+    toWorldFrame<S>(out, Xa);
+}
+
+#define INSTANTIATE(S)                                                                               \
+    template void collideGjkEpa<S>(const Shape<S>&, const Pose<S>&, const Shape<S>&, const Pose<S>&, \
+                                   S::Real, Manifold<S>&);
+INSTANTIATE(Space2f)
+INSTANTIATE(Space2d)
+INSTANTIATE(Space3f)
+INSTANTIATE(Space3d)
+#undef INSTANTIATE
+
+}  // namespace rigor::engine
