@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Distance joint (rod without mass): C = |d| - L = 0 with d = xB + rB - xA - rA and u = d/|d|.
-//     C_dot = u . (vB - vA) + wB . (rB x u) - wA . (rA x u)
-// 1 row. Limit: where the anchors coincide the direction is taken as x.
+// Distance joint without mass: coordinate |d| with d = xB + rB - xA - rA and u = d/|d|.
+//     |d|_dot = u . (vB - vA) + wB . (rB x u) - wA . (rA x u)
+// Locked (usual) it is a rod, 1 row C = |d| - L = 0; with an upper limit a rope, C = L - |d| >= 0; with a
+// spring a spring. Limit: where the anchors coincide the direction is taken as x.
 #include "engine/constraints/joint.hpp"
 
 namespace rigor::engine {
@@ -17,10 +18,11 @@ void evaluateDistance(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B,
     const typename S::Vec u = distance > std::numeric_limits<typename S::Real>::min()
                                   ? typename S::Vec(d / distance)
                                   : typename S::Vec(S::Vec::Unit(0));
-    Row<S>& row = out.add(distance - joint.length);
+    Row<S>& row = out.coordinate(distance);
     row.lin = u;
     row.angA = -cross(rA, u);
     row.angB = cross(rB, u);
+    addAxisRows<S>(joint, out);
 }
 template void evaluateDistance<Space2f>(const Joint<Space2f>&, const Pose<Space2f>&, const Pose<Space2f>&,
                                         JointRows<Space2f>&);

@@ -4,8 +4,9 @@
 // Hinge: the rows of a ball joint, and (3D) an axis aA of A that stays parallel to aB of B. With t1, t2
 // normal to aA and fixed in A:
 //     C_i = t_i . aB      C_i_dot = (wB - wA) . (aB x t_i)
-// 5 rows (2D: 2). Limit: C_i also vanishes for opposite axes, which a joint never reaches from parallel ones
-// unless a step turns it by more than a right angle.
+// 5 rows (2D: 2). Coordinate: the angle about the axis, counted over turns. Limit: C_i also vanishes for
+// opposite axes, which a joint never reaches from parallel ones unless a step turns it by more than a right
+// angle.
 #include "engine/constraints/joint.hpp"
 
 namespace rigor::engine {
@@ -14,15 +15,10 @@ template <class S>
 void evaluateHinge(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
     out.clear();
     addAnchorRows<S>(joint, A, B, out);
-    if constexpr (S::dim == 3) {
-        const typename S::Vec aB = rotate(B.q, joint.axisB);
-        for (const typename S::Vec& local : {joint.perpA1, joint.perpA2}) {
-            const typename S::Vec t = rotate(A.q, local);
-            Row<S>& row = out.add(t.dot(aB));
-            row.angB = aB.cross(t);
-            row.angA = -row.angB;
-        }
-    }
+    addParallelRows<S>(joint, A, B, out);
+    if (!out.wantsCoordinates(joint)) return;
+    addTurnCoordinate<S>(joint, A, B, out);
+    addAxisRows<S>(joint, out);
 }
 template void evaluateHinge<Space2f>(const Joint<Space2f>&, const Pose<Space2f>&, const Pose<Space2f>&,
                                      JointRows<Space2f>&);

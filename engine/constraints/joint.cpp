@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Rows that several joints share, and the table of joints.
 #include "engine/constraints/joint.hpp"
 
 #include "engine/core/error.hpp"
 
 namespace rigor::engine {
 
-#define JOINT(type, name, evaluate, summary) \
-    template <class S>                       \
+#define JOINT(type, name, evaluate, axes2d, axes3d, summary) \
+    template <class S>                                       \
     void evaluate(const Joint<S>&, const Pose<S>&, const Pose<S>&, JointRows<S>&);
 #include "engine/constraints/joints.def"
 #undef JOINT
@@ -15,7 +17,8 @@ namespace rigor::engine {
 template <class S>
 std::span<const JointEntry<S>> jointTable() {
     static constexpr JointEntry<S> table[] = {
-#define JOINT(type, name, evaluate, summary) {JointType::type, #name, &evaluate<S>, summary},
+#define JOINT(type, name, evaluate, axes2d, axes3d, summary) \
+    {JointType::type, #name, &evaluate<S>, S::dim == 2 ? axes2d : axes3d, summary},
 #include "engine/constraints/joints.def"
 #undef JOINT
     };
@@ -23,9 +26,9 @@ std::span<const JointEntry<S>> jointTable() {
 }
 
 template <class S>
-EvaluateJoint<S> findJoint(JointType type) {
+const JointEntry<S>& findJoint(JointType type) {
     for (const JointEntry<S>& entry : jointTable<S>())
-        if (entry.type == type) return entry.evaluate;
+        if (entry.type == type) return entry;
     throw EngineError("unknown_joint", "no joint of type " + std::to_string(static_cast<int>(type)));
 }
 
@@ -60,43 +63,123 @@ void addOrientationRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& 
     }
 }
 
+// With t1, t2 normal to aA and fixed in A:  C_i = t_i . aB,  C_i_dot = (wB - wA) . (aB x t_i).
 template <class S>
-Joint<S> makeJoint(const JointDef<S>& def, const Pose<S>& A, const typename S::Vec& centerA, const Pose<S>& B,
-                   const typename S::Vec& centerB) {
-    using Real = typename S::Real;
-    if (!def.anchorA.allFinite() || !def.anchorB.allFinite())
-        throw EngineError("joint_anchor", "anchors of a joint must be finite");
-    const bool usesAxis = def.type == JointType::Slider || (def.type == JointType::Hinge && S::dim == 3);
-    const auto unit = [](const typename S::Vec& v) { return std::abs(v.norm() - Real(1)) < Real(1e-4); };
-    if (usesAxis && !(unit(def.axisA) && unit(def.axisB)))
-        throw EngineError("joint_axis", "axes of a joint must be unit vectors");
-    if (def.type == JointType::Distance && !(def.length > 0 && std::isfinite(def.length)))
-        throw EngineError("joint_length", "the length of a distance joint must be positive");
-    Joint<S> joint;
-    joint.type = def.type;
-    joint.collideConnected = def.collideConnected;
-    joint.anchorA = def.anchorA - centerA;
-    joint.anchorB = def.anchorB - centerB;
-    joint.axisA = usesAxis ? typename S::Vec(def.axisA.normalized()) : S::Vec::Unit(0);
-    joint.axisB = usesAxis ? typename S::Vec(def.axisB.normalized()) : S::Vec::Unit(0);
-    if constexpr (S::dim == 2) {
-        joint.perpA1 = joint.perpA2 = typename S::Vec(-joint.axisA.y(), joint.axisA.x());
+void addParallelRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
+    if constexpr (S::dim == 3) {
+        const typename S::Vec aB = rotate(B.q, joint.turnB);
+        for (const typename S::Vec& local : {joint.turnPerpA1, joint.turnPerpA2}) {
+            const typename S::Vec t = rotate(A.q, local);
+            Row<S>& row = out.add(t.dot(aB));
+            row.angB = aB.cross(t);
+            row.angA = -row.angB;
+        }
     } else {
-        joint.perpA1 = joint.axisA.unitOrthogonal();
-        joint.perpA2 = joint.axisA.cross(joint.perpA1);
+        (void)joint, (void)A, (void)B, (void)out;
     }
-    joint.relative = compose(inverse(A.q), B.q);
-    joint.length = def.length;
-    return joint;
+}
+
+namespace {
+
+// d = xB + rB - xA - rA,  (t . d)_dot = t . (vB - vA) + wB . (rB x t) - wA . ((rA + d) x t).
+template <class S>
+struct Travel {
+    typename S::Vec rA, rB, d;
+    Travel(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B)
+        : rA(rotate(A.q, joint.anchorA)), rB(rotate(B.q, joint.anchorB)), d((B.p - A.p) + (rB - rA)) {}
+    void direct(const typename S::Vec& t, Row<S>& row) const {
+        row.lin = t;
+        row.angA = -cross(typename S::Vec(rA + d), t);
+        row.angB = cross(rB, t);
+    }
+};
+
+}  // namespace
+
+template <class S>
+void addLineRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
+    const Travel<S> travel(joint, A, B);
+    for (int i = 0; i < S::dim - 1; ++i) {
+        const typename S::Vec t = rotate(A.q, i == 0 ? joint.perpA1 : joint.perpA2);
+        travel.direct(t, out.add(t.dot(travel.d)));
+    }
+}
+
+template <class S>
+void addTravelCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, const typename S::Vec& t,
+                         JointRows<S>& out) {
+    const Travel<S> travel(joint, A, B);
+    const typename S::Vec world = rotate(A.q, t);
+    travel.direct(world, out.coordinate(world.dot(travel.d)));
+}
+
+// 3D: from turnPerpA1 to turnPerpB1 about turnA, by atan2 and so as exact at pi as anywhere. Its rate is
+// aA . (wB - wA) while the axes are parallel.
+template <class S>
+void addTurnCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
+    const typename S::Real seen = joint.seen[static_cast<std::size_t>(out.axes)];
+    if constexpr (S::dim == 2) {
+        const typename S::Real angle = logMap(compose(B.q, inverse(compose(A.q, joint.relative))));
+        Row<S>& row = out.coordinate(unwrapped(angle, seen));
+        row.angA = -1;
+        row.angB = 1;
+    } else {
+        const typename S::Vec u = rotateInverse(A.q, rotate(B.q, joint.turnPerpB1));
+        Row<S>& row =
+            out.coordinate(unwrapped(std::atan2(joint.turnPerpA2.dot(u), joint.turnPerpA1.dot(u)), seen));
+        row.angB = rotate(A.q, joint.turnA);
+        row.angA = -row.angB;
+    }
+}
+
+template <class S>
+void addAxisRows(const Joint<S>& joint, JointRows<S>& out) {
+    using Real = typename S::Real;
+    const auto append = [&](Real C, const Row<S>& along, Real sign, const RowLaw<S>& law) {
+        Row<S>& row = out.add(C, law);
+        row.lin = sign * along.lin;
+        row.angA = sign * along.angA;
+        row.angB = sign * along.angB;
+    };
+    const auto n = static_cast<std::size_t>(out.axes);
+    for (std::size_t k = 0; k < n; ++k)
+        if (joint.axes[k].mode == AxisMode::Locked)
+            append(out.value[k] - joint.axes[k].lower, out.along[k], Real(1), {});
+    for (std::size_t k = 0; k < n; ++k) {
+        const JointAxis<Real>& axis = joint.axes[k];
+        const Row<S>& along = out.along[k];
+        const Real x = out.value[k];
+        RowLaw<S> law;
+        if (axis.mode == AxisMode::Limited) {
+            law.role = RowRole::Limit;
+            if (std::isfinite(axis.lower)) append(x - axis.lower, along, Real(1), law);
+            if (std::isfinite(axis.upper)) append(axis.upper - x, along, Real(-1), law);
+        }
+        if (axis.hasMotor()) {
+            law.role = RowRole::Motor;
+            law.speed = axis.motorSpeed, law.maxForce = axis.motorMaxForce;
+            append(Real(0), along, Real(1), law);
+        }
+        if (axis.hasSpring()) {
+            law.role = RowRole::Spring;
+            law.stiffness = axis.stiffness, law.damping = axis.damping;
+            law.softness = {axis.frequency, axis.dampingRatio};
+            append(x - axis.target, along, Real(1), law);
+        }
+    }
 }
 
 #define RIGOR_INSTANTIATE(S)                                                                             \
     template std::span<const JointEntry<S>> jointTable<S>();                                             \
-    template EvaluateJoint<S> findJoint<S>(JointType);                                                   \
+    template const JointEntry<S>& findJoint<S>(JointType);                                               \
     template void addAnchorRows<S>(const Joint<S>&, const Pose<S>&, const Pose<S>&, JointRows<S>&);      \
     template void addOrientationRows<S>(const Joint<S>&, const Pose<S>&, const Pose<S>&, JointRows<S>&); \
-    template Joint<S> makeJoint<S>(const JointDef<S>&, const Pose<S>&, const S::Vec&, const Pose<S>&,    \
-                                   const S::Vec&);
+    template void addParallelRows<S>(const Joint<S>&, const Pose<S>&, const Pose<S>&, JointRows<S>&);    \
+    template void addLineRows<S>(const Joint<S>&, const Pose<S>&, const Pose<S>&, JointRows<S>&);        \
+    template void addTravelCoordinate<S>(const Joint<S>&, const Pose<S>&, const Pose<S>&, const S::Vec&, \
+                                         JointRows<S>&);                                                 \
+    template void addTurnCoordinate<S>(const Joint<S>&, const Pose<S>&, const Pose<S>&, JointRows<S>&);  \
+    template void addAxisRows<S>(const Joint<S>&, JointRows<S>&);
 RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)

@@ -18,14 +18,26 @@ namespace rigor::engine {
 /// A joint in the frames of its bodies' centres of mass.
 template <class S>
 struct Joint {
+    using Real = typename S::Real;
+    using Vec = typename S::Vec;
     JointType type = JointType::Ball;
     std::uint32_t a = 0, b = 0;  ///< dense body indices
     bool collideConnected = false;
-    typename S::Vec anchorA, anchorB;  ///< from the centres of mass, body axes [m]
-    typename S::Vec axisA, axisB;      ///< unit, body axes
-    typename S::Vec perpA1, perpA2;    ///< with axisA an orthonormal frame of A (2D: perpA1 alone)
-    typename S::Rot relative;          ///< qA^-1 qB when the joint was made
-    typename S::Real length = 0;       ///< [m]
+    Vec anchorA, anchorB;  ///< from the centres of mass, body axes [m]
+    Vec axisA, axisB;      ///< unit, body axes
+    Vec perpA1, perpA2;    ///< with axisA an orthonormal frame of A (2D: perpA1 alone)
+    Vec turnA, turnB;      ///< the axis that B turns about: axisA and axisB, but for a wheel
+    Vec turnPerpA1, turnPerpA2;
+    Vec turnPerpB1;            ///< in B, parallel to turnPerpA1 at angle zero
+    typename S::Rot relative;  ///< qA^-1 qB when the joint was made
+    Real length = 0;           ///< [m]
+    int axisCount = 0;         ///< coordinates
+    bool driven = false;       ///< some coordinate is locked, limited, or has a motor or spring
+    std::array<JointAxis<Real>, kMaxJointAxes> axes;  ///< modes are resolved: none is Usual
+    /// Coordinates at the end of the last (sub-)step. Angles that count turns are the value nearest to this
+    /// one: they are right as long as no joint turns by half a turn or more in a (sub-)step.
+    std::array<Real, kMaxJointAxes> seen{};
+    Real breakForce = 0, breakTorque = 0;  ///< [N], [N m]; may be infinite
     JointId id;
 };
 
@@ -46,10 +58,11 @@ struct RowLaw {
     Softness<Real> softness;          ///< spring where frequency > 0: instead of stiffness and damping
 };
 
-inline constexpr int kMaxRowsPerJoint = 18;  ///< of all roles
+inline constexpr int kMaxRowsPerJoint = 24;  ///< of all roles: two limits, motor and spring per coordinate
 
 /// Directions and errors of a joint at given poses; rows that hold come first. Only lin, angA and angB of the
 /// rows are filled. The number and the roles of the rows do not depend on the poses.
+/// A joint adds the rows it always holds, names its coordinates with coordinate(), and calls addAxisRows.
 template <class S>
 struct JointRows {
     using Real = typename S::Real;
@@ -57,8 +70,22 @@ struct JointRows {
     std::array<Row<S>, kMaxRowsPerJoint> row;
     std::array<Real, kMaxRowsPerJoint> error;  ///< C, zero when satisfied [m] or [rad]
     std::array<RowLaw<S>, kMaxRowsPerJoint> law;
+    /// Coordinates are wanted even where no row needs them.
+    bool reading = false;
+    int axes = 0;
+    std::array<Real, kMaxJointAxes> value;    ///< of the coordinates [m] or [rad]
+    std::array<Row<S>, kMaxJointAxes> along;  ///< their rates are J v of these
 
-    void clear() { count = held = 0; }
+    void clear() { count = held = axes = 0; }
+    bool wantsCoordinates(const Joint<S>& joint) const { return reading || joint.driven; }
+    /// The next coordinate; the caller fills the row.
+    Row<S>& coordinate(Real x) {
+        const auto k = static_cast<std::size_t>(axes++);
+        value[k] = x;
+        along[k].lin.setZero();
+        along[k].angA = along[k].angB = zeroAng<S>();
+        return along[k];
+    }
     Row<S>& add(Real C, const RowLaw<S>& rowLaw = {}) {
         const auto i = static_cast<std::size_t>(count++);
         if (rowLaw.role == RowRole::Hold) held = count;
@@ -78,13 +105,14 @@ struct JointEntry {
     JointType type;
     const char* name;
     EvaluateJoint<S> evaluate;
+    int axes;  ///< coordinates in this dimension; -1: the joint does not exist in it
     const char* summary;
 };
 template <class S>
 std::span<const JointEntry<S>> jointTable();
-/// The joint's evaluation. Throws EngineError "unknown_joint".
+/// Throws EngineError "unknown_joint".
 template <class S>
-EvaluateJoint<S> findJoint(JointType type);
+const JointEntry<S>& findJoint(JointType type);
 
 /// Appends rows that hold the two anchors together (dim rows).
 template <class S>
@@ -92,11 +120,43 @@ void addAnchorRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, Jo
 /// Appends rows that hold the relative orientation (2D: 1 row, 3D: 3).
 template <class S>
 void addOrientationRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out);
+/// Appends rows that keep turnA and turnB parallel (2D: none, 3D: 2).
+template <class S>
+void addParallelRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out);
+/// Appends rows that keep B's anchor on the line through A's anchor along axisA (2D: 1 row, 3D: 2).
+template <class S>
+void addLineRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out);
+/// Adds the coordinate "travel of B's anchor along t", t a unit vector in A.
+template <class S>
+void addTravelCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, const typename S::Vec& t,
+                         JointRows<S>& out);
+/// Adds the coordinate "angle about turnA", counted over turns from joint.seen.
+template <class S>
+void addTurnCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out);
+/// Appends what the joint's axes ask of its coordinates: rows that hold, then limits, motors and springs.
+template <class S>
+void addAxisRows(const Joint<S>& joint, JointRows<S>& out);
+/// The value nearest to `seen` among angle + n turns [rad].
+template <class R>
+R unwrapped(R angle, R seen) {
+    constexpr R turn = R(6.283185307179586);
+    return angle + turn * std::round((seen - angle) / turn);
+}
 
-/// A joint from its definition; poses and centres of mass are those of its bodies now. Throws EngineError for
-/// non-finite values, axes that are not unit, lengths that are not positive.
+/// A joint from its definition; poses and centres of mass are those of its bodies now. Throws EngineError:
+///     joint_anchor, joint_axis, joint_length    non-finite anchors, axes not unit, length not positive
+///     joint_dimension                           no such joint in this dimension
+///     joint_axes                                something is asked of a coordinate that the joint lacks
+///     joint_limits, joint_motor, joint_spring   numbers out of range; motor or spring on a locked coordinate
+///     joint_break                               break force or torque not positive
 template <class S>
 Joint<S> makeJoint(const JointDef<S>& def, const Pose<S>& A, const typename S::Vec& centerA, const Pose<S>& B,
                    const typename S::Vec& centerB);
+/// Modes become definite (none is Usual), equal limits a lock. Throws joint_motor, joint_spring as above.
+template <class S>
+void resolveJointAxes(Joint<S>& joint);
+/// Throws as makeJoint for axes[k] of a joint of this type.
+template <class S>
+void checkJointAxis(JointType type, std::size_t k, const JointAxis<typename S::Real>& axis);
 
 }  // namespace rigor::engine

@@ -4,7 +4,7 @@
 // Slider: d = xB + rB - xA - rA may grow along the axis of A only, and there is no relative rotation. With t
 // normal to the axis and fixed in A:
 //     C = t . d      C_dot = t . (vB - vA) + wB . (rB x t) - wA . ((rA + d) x t)
-// 5 rows (2D: 2).
+// 5 rows (2D: 2). Coordinate: the travel aA . d.
 #include "engine/constraints/joint.hpp"
 
 namespace rigor::engine {
@@ -12,16 +12,11 @@ namespace rigor::engine {
 template <class S>
 void evaluateSlider(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
     out.clear();
-    const typename S::Vec rA = rotate(A.q, joint.anchorA), rB = rotate(B.q, joint.anchorB);
-    const typename S::Vec d = (B.p - A.p) + (rB - rA);
-    for (int i = 0; i < S::dim - 1; ++i) {
-        const typename S::Vec t = rotate(A.q, i == 0 ? joint.perpA1 : joint.perpA2);
-        Row<S>& row = out.add(t.dot(d));
-        row.lin = t;
-        row.angA = -cross(typename S::Vec(rA + d), t);
-        row.angB = cross(rB, t);
-    }
+    addLineRows<S>(joint, A, B, out);
     addOrientationRows<S>(joint, A, B, out);
+    if (!out.wantsCoordinates(joint)) return;
+    addTravelCoordinate<S>(joint, A, B, joint.axisA, out);
+    addAxisRows<S>(joint, out);
 }
 template void evaluateSlider<Space2f>(const Joint<Space2f>&, const Pose<Space2f>&, const Pose<Space2f>&,
                                       JointRows<Space2f>&);

@@ -32,6 +32,7 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
         record.rows = static_cast<std::uint32_t>(made_.count);
         record.held = static_cast<std::uint32_t>(made_.held);
         record.block = static_cast<std::uint32_t>(rows.blocks.size());
+        record.armB = rotate(bodies.pose[b].q, record.joint.anchorB);
         Block<S> block;
         block.a = a, block.b = b;
         block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
@@ -107,7 +108,7 @@ void JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& 
                 rotatedBy(bodies.pose[i].q, typename S::Ang(step.h * velocities[i].w))};
     };
     for (const Record& record : records_) {
-        if (record.held == 0) continue;
+        if (record.rows == 0) continue;
         const Block<S>& block = rows.blocks[record.block];
         const auto shareOf = [&](std::uint32_t i, const typename S::Vec& anchor) {
             return endShare<S>(step.h, velocities[i].w, rotate(bodies.pose[i].q, anchor));
@@ -115,7 +116,8 @@ void JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& 
         const Real share =
             std::min(shareOf(block.a, record.joint.anchorA), shareOf(block.b, record.joint.anchorB));
         record.evaluate(record.joint, moved(block.a), moved(block.b), made_);
-        for (std::uint32_t i = 0; i < record.held; ++i) {
+        for (std::uint32_t i = 0; i < record.rows; ++i) {
+            if (made_.law[i].role != RowRole::Hold && made_.law[i].role != RowRole::Limit) continue;
             Row<S>& row = rows.rows[record.firstRow + i];
             const Real beyondLinear = (made_.error[i] - row.error) / step.h -
                                       rowVelocity<S>(row, velocities[block.a], velocities[block.b]);
@@ -125,17 +127,50 @@ void JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& 
 }
 
 template <class S>
-void JointSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
-    for (Record& record : records_)
+void JointSet<S>::storeImpulses(const BodyArrays<S>& bodies, const ConstraintRows<S>& rows) {
+    for (Record& record : records_) {
+        Joint<S>& joint = record.joint;
+        typename S::Vec push = S::Vec::Zero();
+        typename S::Ang moment = zeroAng<S>();
         for (std::uint32_t i = 0; i < record.rows; ++i) {
-            record.impulse[i] = rows.rows[record.firstRow + i].impulse;
-            record.total[i] += record.impulse[i];
+            const Row<S>& row = rows.rows[record.firstRow + i];
+            record.impulse[i] = row.impulse;
+            record.total[i] += row.impulse;
+            push += row.impulse * row.lin;
+            moment += row.impulse * row.angB;
         }
+        record.push += push;
+        record.twist += moment - cross(record.armB, push);
+        if (joint.axisCount == 0) continue;
+        made_.reading = true;
+        record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made_);
+        made_.reading = false;
+        std::copy_n(made_.value.begin(), made_.axes, joint.seen.begin());
+    }
+}
+
+template <class S>
+int JointSet<S>::readCoordinates(const BodyArrays<S>& bodies, const Record& record,
+                                 std::array<Real, kMaxJointAxes>& value,
+                                 std::array<Real, kMaxJointAxes>& rate) const {
+    const Joint<S>& joint = record.joint;
+    JointRows<S> made;
+    made.reading = true;
+    record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(made.axes); ++k) {
+        value[k] = made.value[k];
+        rate[k] = rowVelocity<S>(made.along[k], bodies.velocity[joint.a], bodies.velocity[joint.b]);
+    }
+    return made.axes;
 }
 
 template <class S>
 void JointSet<S>::clearTotals() {
-    for (Record& record : records_) record.total.fill(0);
+    for (Record& record : records_) {
+        record.total.fill(0);
+        record.push.setZero();
+        record.twist = zeroAng<S>();
+    }
 }
 
 template class JointSet<Space2f>;

@@ -30,17 +30,24 @@ class JointSet {
         EvaluateJoint<S> evaluate = nullptr;
         std::array<Real, kMaxRowsPerJoint> impulse{};  ///< of the last (sub-)step [N s] or [N m s]
         std::array<Real, kMaxRowsPerJoint> total{};    ///< of all sub-steps of the last step
-        std::uint32_t firstRow = 0;                    ///< its rows in this step follow each other
-        std::uint32_t rows = 0, held = 0;              ///< all, and those that hold (the first ones)
-        std::uint32_t block = 0;                       ///< of the rows that hold; each other row has its own
+        /// Sum of J^T impulse over the last step: on B [N s], and its moment about B's anchor [N m s].
+        typename S::Vec push = S::Vec::Zero();
+        typename S::Ang twist = zeroAng<S>();
+        typename S::Vec armB = S::Vec::Zero();  ///< B's anchor from its centre when the rows were made [m]
+        std::uint32_t firstRow = 0;             ///< its rows in this step follow each other
+        std::uint32_t rows = 0, held = 0;       ///< all, and those that hold (the first ones)
+        std::uint32_t block = 0;                ///< of the rows that hold; each other row has its own
     };
 
     std::vector<Record>& records() { return records_; }
     const std::vector<Record>& records() const { return records_; }
 
     void addRows(const BodyArrays<S>& bodies, const JointStep<S>& step, ConstraintRows<S>& rows);
-    /// Reads the impulses of the solved rows.
-    void storeImpulses(const ConstraintRows<S>& rows);
+    /// Reads the impulses of the solved rows, and the coordinates where the bodies are now.
+    void storeImpulses(const BodyArrays<S>& bodies, const ConstraintRows<S>& rows);
+    /// Where a joint's coordinates are and how fast they change. Returns their number.
+    int readCoordinates(const BodyArrays<S>& bodies, const Record& record,
+                        std::array<Real, kMaxJointAxes>& value, std::array<Real, kMaxJointAxes>& rate) const;
     /// A new step: totals start at zero.
     void clearTotals();
 

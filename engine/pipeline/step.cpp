@@ -172,6 +172,7 @@ void World<S>::endStep() {
     events_.clear();
     contacts_.noteEvents(bodies_, events_);
     result_.events = events_;
+    breakJoints();
 }
 
 template <class S>
@@ -240,7 +241,7 @@ void World<S>::solvePositions() {
 
 template <class S>
 void World<S>::correct() {
-    joints_.storeImpulses(rows_);
+    joints_.storeImpulses(bodies_, rows_);
     contacts_.storeImpulses(rows_);
     const Real h = cursor_.substepSize;
     const bool more = cursor_.substep + 1 < def_.substeps;

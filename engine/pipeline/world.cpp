@@ -197,32 +197,6 @@ const PairCoefficients<S>& World<S>::pairCoefficients(std::uint32_t a, std::uint
     return contacts_.pair(a, b);
 }
 
-template <class S>
-JointId World<S>::addJoint(const JointDef<S>& def) {
-    const std::uint32_t a = bodyOrWorld(def.bodyA), b = bodyOrWorld(def.bodyB);
-    require(a != b, "joint_bodies", "a joint needs two bodies");
-    require(bodies_.invMass[a] > 0 || bodies_.invMass[b] > 0, "joint_bodies", "a joint needs a dynamic body");
-    typename JointSet<S>::Record record;
-    record.joint = makeJoint<S>(def, bodies_.pose[a], bodies_.constants[a].centerOfMass, bodies_.pose[b],
-                                bodies_.constants[b].centerOfMass);
-    record.joint.a = a, record.joint.b = b;
-    record.evaluate = findJoint<S>(def.type);
-    record.joint.id = jointIds_.add(static_cast<std::uint32_t>(joints_.records().size()));
-    joints_.records().push_back(record);
-    rebuildExclusions();
-    return record.joint.id;
-}
-
-template <class S>
-void World<S>::rebuildExclusions() {
-    std::vector<std::uint64_t>& excluded = contacts_.excluded();
-    excluded.clear();
-    for (const typename JointSet<S>::Record& record : joints_.records())
-        if (!record.joint.collideConnected)
-            excluded.push_back(ContactSet<S>::pairKey(record.joint.a, record.joint.b));
-    std::sort(excluded.begin(), excluded.end());
-}
-
 /// The last body takes the place of the removed one; likewise its shapes and joints.
 template <class S>
 void World<S>::removeBody(BodyId body) {
@@ -310,12 +284,6 @@ void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
         }
 }
 
-template <class S>
-std::span<const typename S::Real> World<S>::jointImpulses(JointId joint) const {
-    const auto& record = joints_.records()[jointIds_.dense(joint)];
-    return {record.total.data(), record.rows};
-}
-
 namespace {
 
 template <class Derived>
@@ -368,8 +336,10 @@ std::uint64_t World<S>::stateHash() const {
             hash.add(point.normalImpulse), hashField(hash, point.frictionImpulse), hash.add(point.impact);
         }
     }
-    for (const auto& record : joints_.records())
+    for (const auto& record : joints_.records()) {
         for (const Real impulse : record.impulse) hash.add(impulse);
+        for (const Real seen : record.joint.seen) hash.add(seen);
+    }
     return hash.value();
 }
 

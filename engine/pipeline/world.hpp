@@ -44,6 +44,7 @@ struct StepResult {
     std::span<const typename S::Real> residuals;
     std::span<const Event<S>> events;       ///< what began and ended, in the order of shapes
     std::array<double, kPhases> seconds{};  ///< wall time per phase
+    std::span<const JointId> broken;        ///< joints that broke in this step; they are gone
 };
 
 /// A contact point as the last step solved it. A is the body of lower dense index.
@@ -76,6 +77,7 @@ class World {
     /// Coefficients of two materials instead of sqrt(mu_a mu_b) and min(e_a, e_b).
     void setPair(std::uint32_t materialA, std::uint32_t materialB, const PairCoefficients<S>& coefficients);
     JointId addJoint(const JointDef<S>& def);
+    void removeJoint(JointId joint);
 
     // --- running
     /// Force [N] and torque [N m] at the centre of mass, world frame, during the next step. Adds up.
@@ -89,6 +91,21 @@ class World {
     Phase nextPhase() const { return cursor_.next; }
     int substep() const { return cursor_.substep; }  ///< 0 .. def().substeps - 1
     void runPhase();
+
+    // --- joints while running; coordinates are numbered as in JointDef. Throw EngineError as addJoint does.
+    bool contains(JointId joint) const { return jointIds_.contains(joint); }
+    int jointAxes(JointId joint) const { return joint_(joint).axisCount; }
+    Real jointCoordinate(JointId joint, int axis = 0) const;  ///< [m] or [rad], angles over turns
+    Real jointSpeed(JointId joint, int axis = 0) const;       ///< its rate [m/s] or [rad/s]
+    Vec jointForce(JointId joint) const;   ///< mean of the last step, of A on B at B's anchor [N]
+    Ang jointTorque(JointId joint) const;  ///< likewise, about B's anchor [N m]
+    /// Replaces the limits, motor and spring of a coordinate.
+    void setJointAxis(JointId joint, int axis, const JointAxis<Real>& control);
+    /// Motor of a coordinate: its speed [m/s] or [rad/s] and largest force or torque; 0: none.
+    void setJointMotor(JointId joint, int axis, Real speed, Real maxForce);
+    /// Where the spring of a coordinate pulls to [m] or [rad].
+    void setJointTarget(JointId joint, int axis, Real target);
+    const JointAxis<Real>& jointAxis(JointId joint, int axis = 0) const;
 
     // --- reading
     std::size_t bodyCount() const { return bodies_.size() - 1; }
@@ -132,6 +149,8 @@ class World {
     void solvePositions();
     void correct();
     void rebuildExclusions();
+    void breakJoints();
+    const Joint<S>& joint_(JointId joint) const { return joints_.records()[jointIds_.dense(joint)].joint; }
     void checkFinite();
     std::uint32_t bodyOrWorld(BodyId id) const { return id ? bodyIds_.dense(id) : 0; }
 
@@ -160,6 +179,7 @@ class World {
     PositionScratch<S> positionScratch_;
     std::vector<Real> residuals_;
     std::vector<Event<S>> events_;
+    std::vector<JointId> broken_;
     StepResult<S> result_;
 };
 

@@ -14,7 +14,7 @@
 
 namespace rigor::engine {
 
-inline constexpr int kMaxPositionRows = 18;  ///< of one joint
+inline constexpr int kMaxPositionRows = 24;  ///< of one joint
 
 /// The rows of one joint at the current poses: the held ones first, a block of their own, then limits.
 /// Motors and springs are no position constraints and are left out.

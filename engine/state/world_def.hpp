@@ -5,7 +5,9 @@
 // EngineError when they are used.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -98,19 +100,59 @@ struct PairCoefficients {
     typename S::Real restitution = 0;  ///< Newton, in [0, 1]
 };
 
-enum class JointType : std::uint8_t { Ball, Hinge, Slider, Fixed, Distance };
+enum class JointType : std::uint8_t { Ball, ConeTwist, Distance, Fixed, Hinge, SixDof, Slider, Wheel };
 
-/// Anchors and axes are in body frames; a null body is the world. Ball, hinge, slider and fixed joints hold
-/// the relative pose of the moment they are added as their zero.
+/// What a coordinate of a joint may do.
+enum class AxisMode : std::uint8_t {
+    Usual,  ///< the joint's own: locked for distance and six_dof, else free
+    Free,
+    Locked,   ///< stays at `lower` where that equals `upper`, else as it was when added (distance: `length`)
+    Limited,  ///< stays within [lower, upper]
+};
+
+/// Stops, motor and spring along one coordinate of a joint. Unit u is [m] or [rad].
+template <class R>
+struct JointAxis {
+    AxisMode mode = AxisMode::Usual;
+    R lower = -std::numeric_limits<R>::infinity();  ///< Limited: <= upper; infinite for one-sided limits [u]
+    R upper = std::numeric_limits<R>::infinity();
+    R motorSpeed = 0;     ///< the motor drives the coordinate's rate to this [u/s]
+    R motorMaxForce = 0;  ///< with at most this [N] or [N m]; 0: no motor
+    /// Spring to `target` [u]: by frequency [Hz] and damping ratio on the effective mass of the coordinate,
+    /// or by stiffness [N/m, N m/rad] and damping [N s/m, N m s/rad]. All zero: no spring.
+    R target = 0, frequency = 0, dampingRatio = 0, stiffness = 0, damping = 0;
+
+    bool hasMotor() const { return motorMaxForce > 0; }
+    bool hasSpring() const { return frequency > 0 || stiffness > 0 || damping > 0; }
+};
+inline constexpr std::size_t kMaxJointAxes = 6;
+
+/// Anchors and axes are in body frames; a null body is the world. Joints hold the relative pose of the moment
+/// they are added as their zero. axes[k] controls coordinate k of the joint:
+///     hinge       the angle about the axis, counted over turns                           1
+///     slider      the travel along the axis                                              1
+///     distance    the distance of the anchors: locked: rod; upper limit: rope; spring    1
+///     ball (3D)   the angle between the axes: `upper` is a cone's half angle, < pi       1
+///     cone_twist  0: the twist about the axis, over turns; 1: the angle between the axes as for ball    (3D)
+///     six_dof     3D: travel along the axis and two normals to it; twist; swing about the two normals
+///                 2D: travel along the axis and its normal; angle
+///     wheel       0: travel along the axis (suspension); 1: the angle about the spin axis, over turns
 template <class S>
 struct JointDef {
+    using Real = typename S::Real;
     JointType type = JointType::Ball;  ///< 2D: ball and hinge are the same
     BodyId bodyA, bodyB;
     typename S::Vec anchorA = S::Vec::Zero(), anchorB = S::Vec::Zero();  ///< [m]
-    typename S::Vec axisA = S::Vec::Unit(S::dim - 1);                    ///< unit; hinge (3D), slider
+    typename S::Vec axisA = S::Vec::Unit(S::dim - 1);                    ///< unit; not of fixed and distance
     typename S::Vec axisB = S::Vec::Unit(S::dim - 1);                    ///< the same direction in B
-    typename S::Real length = 0;                                         ///< distance joint: > 0 [m]
+    typename S::Vec spinAxisB = S::Vec::Unit(S::dim - 1);                ///< wheel (3D): what B spins about
+    Real length = 0;                                                     ///< distance joint: > 0 [m]
     bool collideConnected = false;
+    std::array<JointAxis<Real>, kMaxJointAxes> axes;
+    /// The joint is removed at the end of a step whose mean force [N] or torque about B's anchor [N m]
+    /// exceeded these, > 0.
+    Real breakForce = std::numeric_limits<Real>::infinity();
+    Real breakTorque = std::numeric_limits<Real>::infinity();
 };
 
 }  // namespace rigor::engine
