@@ -140,8 +140,8 @@ TYPED_TEST(JointAxes, HingeLimitStopsAndCarries) {
     EXPECT_NEAR(landed, t, 1.5 / 240);
     // Torque about the hinge: m g l cos(30 deg), by the stop; force: the weight.
     EXPECT_NEAR(spinOf<S>(one.world.jointTorque(one.joint)), 2 * kGravity * 0.5 * std::cos(kPi / 6),
-                tol<S>(1e-6, 5e-3));
-    EXPECT_NEAR(one.world.jointForce(one.joint)[1], 2 * kGravity, tol<S>(1e-6, 5e-3));
+                tol<S>(1e-6, 3e-2));
+    EXPECT_NEAR(one.world.jointForce(one.joint)[1], 2 * kGravity, tol<S>(1e-6, 3e-2));
 }
 
 TYPED_TEST(JointAxes, HingeLimitBeyondATurnIsMetAfterThatManyTurns) {
