@@ -4,7 +4,9 @@
 // Projected Gauss-Seidel on velocities, known as sequential impulses [Catto2005], [Catto2009].
 //
 // Each iteration visits the blocks and gives each the impulse that satisfies it alone:
-//     joint     lambda += -K^-1 (J v + bias)                          all rows of the block at once
+//     joints    lambda += -K^-1 (J v + bias)                          all equality blocks of a group at once,
+//                                                                     by a direct method (joint_system.hpp)
+//     bounded   lambda := clamp(lambda - (J v + bias) / K, lower, upper)
 //     contact   lambda_n := max(0, lambda_n - (J_n v + bias) / K_nn)  the accumulated impulse is clamped,
 //                                                                     not its increment
 //               lambda_t := friction law with limit mu lambda_n       both tangents at once
@@ -18,10 +20,15 @@
 //   before
 //     the tangents, so that friction has this sweep's limit.
 //
-// Cost: iterations * rows * (1..kInnerSweeps). Known limit: linear convergence, slow for large mass ratios.
+// Where too many joints meet for the direct method, or joints have bounded rows, the group is swept as
+// contacts are: bounded rows one by one and the equality blocks again after them.
+//
+// Cost: iterations * rows * (1..kInnerSweeps). Known limit: contacts converge linearly, slowly for large mass
+// ratios.
 #include <algorithm>
 #include <cmath>
 
+#include "engine/solvers/joint_system.hpp"
 #include "engine/solvers/solver.hpp"
 
 namespace rigor::engine {
@@ -37,6 +44,7 @@ class Pgs final : public Solver<S> {
     void solve(const SolverInput<S>& input) override {
         applyWarmStart<S>(input);
         findGroups(input.constraints.blocks);
+        factorJoints(input.constraints);
         const std::size_t n = groups_.size() - 1;
         for (int i = 0; i < input.iterations; ++i) {
             input.monitor.before(input.velocities);
@@ -64,8 +72,21 @@ class Pgs final : public Solver<S> {
         groups_.push_back(static_cast<std::uint32_t>(blocks.size()));
     }
 
+    /// All equality blocks are one system. One alone is solved by its own inverse.
+    void factorJoints(const ConstraintRows<S>& constraints) {
+        items_.clear(), joints_.clear();
+        for (std::uint32_t i = 0; i < constraints.blocks.size(); ++i) {
+            const Block<S>& block = constraints.blocks[i];
+            if (block.kind != BlockKind::Joint) continue;
+            joints_.push_back(i);
+            items_.push_back({&block, constraints.rows.data() + block.first});
+        }
+        direct_ = joints_.size() > 1 && system_.factor(items_);
+    }
+
     /// Returns the residual that the group had when it was visited.
-    static Real solveGroup(const SolverInput<S>& input, std::uint32_t first, std::uint32_t last) {
+    Real solveGroup(const SolverInput<S>& input, std::uint32_t first, std::uint32_t last) {
+        if (direct_ && isJoint(input.constraints.blocks[first])) return solveJoints(input, first, last);
         Real found = 0;
         const int sweeps = last - first > 1 ? kInnerSweeps : 1;
         for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -81,6 +102,53 @@ class Pgs final : public Solver<S> {
             if (largest <= kInnerTolerance * found) break;
         }
         return found;
+    }
+
+    /// The joints of one group: equality blocks by the factors, bounded rows between them one by one.
+    Real solveJoints(const SolverInput<S>& input, std::uint32_t first, std::uint32_t last) {
+        Real found = 0;
+        for (int sweep = 0; sweep < kInnerSweeps; ++sweep) {
+            Real largest = 0;
+            bool bounded = false;
+            for (std::uint32_t k = first; k < last; ++k) {
+                const Block<S>& block = input.constraints.blocks[k];
+                if (block.kind != BlockKind::Bounded) continue;
+                bounded = true;
+                largest = std::max(largest, solveBounded(input, block, input.velocities[block.a],
+                                                         input.velocities[block.b]));
+            }
+            largest = std::max(largest, solveEqualities(input));
+            if (sweep == 0) found = largest;
+            if (!bounded || largest <= kInnerTolerance * found) break;
+        }
+        return found;
+    }
+
+    /// Returns the largest residual there was.
+    Real solveEqualities(const SolverInput<S>& input) {
+        Real largest = 0;
+        for (std::size_t k = 0; k < joints_.size(); ++k) {
+            const Block<S>& block = input.constraints.blocks[joints_[k]];
+            const Row<S>* rows = input.constraints.rows.data() + block.first;
+            const Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
+            BlockVector<S>& right = system_.at(k);
+            for (int i = 0; i < block.rows; ++i)
+                right[i] =
+                    -(rowVelocity<S>(rows[i], a, b) + rows[i].bias + rows[i].softness * rows[i].impulse);
+            largest = std::max(largest, right.cwiseAbs().maxCoeff());
+        }
+        system_.solve();
+        for (std::size_t k = 0; k < joints_.size(); ++k) {
+            const Block<S>& block = input.constraints.blocks[joints_[k]];
+            Row<S>* rows = input.constraints.rows.data() + block.first;
+            const BlockVector<S>& lambda = system_.at(k);
+            for (int i = 0; i < block.rows; ++i) {
+                rows[i].impulse += lambda[i];
+                applyRowImpulse<S>(rows[i], block, lambda[i], input.velocities[block.a],
+                                   input.velocities[block.b]);
+            }
+        }
+        return largest;
     }
 
     static Real solveBlock(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
@@ -159,6 +227,10 @@ class Pgs final : public Solver<S> {
     static constexpr int kInnerSweeps = 10;              ///< at most, per visit of a group
     static constexpr Real kInnerTolerance = Real(0.01);  ///< of the first sweep's residual
     std::vector<std::uint32_t> groups_;
+    std::vector<std::uint32_t> joints_;  ///< equality blocks
+    std::vector<typename JointSystem<S>::Item> items_;
+    JointSystem<S> system_;
+    bool direct_ = false;  ///< the factors are those of this solve
 };
 
 }  // namespace

@@ -137,7 +137,7 @@ TYPED_TEST(JointTable, EveryJointConservesMomentumAndHolds) {
             }
         }
         const auto after = pair.momentum();
-        for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(after[k], before[k], tol<S>(1e-12, 2e-5)) << k;
+        for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(after[k], before[k], tol<S>(1e-12, 1e-4)) << k;
         EXPECT_LT(worst, tol<S>(1e-6, 1e-5));
         EXPECT_LT(beyond, tol<S>(2e-4, 3e-4));
     }
