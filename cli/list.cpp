@@ -8,6 +8,7 @@
 #include "cli/command.hpp"
 #include "engine/pipeline/algorithms.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "scenarios/loader/study.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/references/reference.hpp"
 #include "validation/runner/runner.hpp"
@@ -90,6 +91,18 @@ Json suites() {
     return list;
 }
 
+Json studies() {
+    Json list = Json::array();
+    for (const auto& entry : scenario::listStudies()) {
+        const auto study = scenario::loadStudy(entry.file);
+        Json parts = Json::array();
+        for (const auto& part : study.parts) parts.push_back(part.name);
+        list.push_back(
+            {{"name", study.name}, {"title", study.title}, {"parts", parts}, {"file", entry.file.string()}});
+    }
+    return list;
+}
+
 Json algorithms() {
     Json list = Json::array();
     for (const auto& family : engine::algorithmFamilies())
@@ -134,6 +147,7 @@ const std::vector<Listing>& listings() {
          {"name", "version", "precision", "title", "problem"}},
         {"scenarios", "Scenarios of the library", scenarios, {"name", "dimension", "reference", "title"}},
         {"suites", "Suites of scenarios", suites, {"name", "title"}},
+        {"studies", "Studies: choices side by side", studies, {"name", "title"}},
         {"algorithms",
          "Choices at every stage of the in-house engine's step",
          algorithms,

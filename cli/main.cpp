@@ -31,6 +31,7 @@ int runCommand(int argc, char** argv) {
     addValidate(app, action);
     addRun(app, action);
     addList(app, action);
+    addStudy(app, action);
     addCollide(app, action);
     addCheck(app, action);
     addReport(app, action);

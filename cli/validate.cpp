@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
-#include <ctime>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
+#include "cli/run_folder.hpp"
 #include "reports/report.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/results/store.hpp"
@@ -110,67 +110,6 @@ std::vector<adapter::EngineSpec> chooseEngines(const Arguments& arguments, const
     return specs;
 }
 
-/// runs/<suite>-<UTC time>, or the latest of them to resume.
-fs::path chooseDirectory(const Arguments& arguments, const std::string& title) {
-    if (!arguments.out.empty()) return arguments.out;
-    const fs::path runs = "runs";
-    if (arguments.resume) {
-        if (!fs::exists(runs / "latest"))
-            throw std::invalid_argument("--resume: there is no runs/latest; name the run with --out");
-        return fs::canonical(runs / "latest");
-    }
-    const std::time_t now = std::time(nullptr);
-    std::tm utc{};
-    gmtime_r(&now, &utc);
-    char stamp[32];
-    std::strftime(stamp, sizeof stamp, "%Y%m%d-%H%M%S", &utc);
-    std::string name = title;
-    for (char& c : name)
-        if (c == ' ' || c == '/') c = '+';
-    std::error_code ignored;
-    fs::create_directories(runs, ignored);
-    const fs::path directory = runs / (name.substr(0, 60) + "-" + stamp);
-    fs::remove(runs / "latest", ignored);
-    fs::create_directory_symlink(directory.filename(), runs / "latest", ignored);
-    return directory;
-}
-
-/// A folder that can hold this run: said before anything runs.
-void prepareDirectory(const fs::path& directory, bool resume) {
-    const bool holdsRun = fs::exists(directory / "results.sqlite");
-    if (resume && !holdsRun)
-        throw std::invalid_argument("--resume: '" + directory.string() + "' holds no run");
-    if (!resume && holdsRun)
-        throw std::invalid_argument("--out: '" + directory.string() +
-                                    "' holds a run already; add --resume or choose another folder");
-    std::error_code error;
-    fs::create_directories(directory, error);
-    if (!error && access(directory.c_str(), W_OK) != 0)
-        error = std::error_code(errno, std::generic_category());
-    if (error)
-        throw std::invalid_argument("--out: cannot write '" + directory.string() + "': " + error.message());
-}
-
-/// Resuming with other scenarios or engines would drop finished cases: that is refused. Other time steps or a
-/// changed file are not.
-void checkResumed(const fs::path& directory, const std::vector<validation::CasePlan>& plan) {
-    results::Run stored;
-    try {
-        stored = results::readRun(directory);
-    } catch (const std::exception&) {
-        return;  // killed before anything was stored; the runner judges the rest
-    }
-    for (const auto& row : stored.cases) {
-        const bool planned = std::any_of(plan.begin(), plan.end(), [&](const auto& c) {
-            return c.scenario.name == row.scenario && c.spec.text() == row.spec;
-        });
-        if (!planned)
-            throw std::invalid_argument(
-                "--resume: '" + directory.string() + "' holds " + row.scenario + " on " + row.spec +
-                ", which this command does not ask for; it was started by: " + stored.command);
-    }
-}
-
 nlohmann::ordered_json caseJson(const results::CaseRow& c) {
     nlohmann::ordered_json metrics = nlohmann::ordered_json::array();
     for (const auto& m : c.metrics) {
@@ -210,8 +149,8 @@ void printResult(const results::Run& run, const fs::path& directory, bool json) 
 
 /// What the run that is resumed was asked for.
 std::vector<std::string> resumedWhat(const Arguments& arguments) {
-    const fs::path directory = chooseDirectory(arguments, "");
-    prepareDirectory(directory, true);
+    const fs::path directory = chooseRunFolder(arguments.out, arguments.resume, "");
+    prepareRunFolder(directory, true);
     std::istringstream words(results::readRun(directory).suite);
     return {std::istream_iterator<std::string>(words), {}};
 }
@@ -227,8 +166,8 @@ int validate(const Arguments& given) {
     for (const auto& text : arguments.timeSteps) timeSteps.push_back(parseTimeStep(text));
 
     validation::RunOptions options;
-    options.directory = chooseDirectory(arguments, selection.title);
-    prepareDirectory(options.directory, arguments.resume);
+    options.directory = chooseRunFolder(arguments.out, arguments.resume, selection.title);
+    prepareRunFolder(options.directory, arguments.resume);
     options.binary = ownBinary();
     options.jobs = arguments.jobs > 0 ? arguments.jobs : 1;
     options.resume = arguments.resume;

@@ -75,6 +75,7 @@ struct ReadBack {
 
 /// Work counters of the last step; -1 where the engine does not tell.
 struct StepCounters {
+    std::int64_t pairTests = -1;  ///< box tests of the broad phase
     std::int64_t pairs = -1, contacts = -1, islands = -1, solverIterations = -1;
     double residual = -1.0;                      ///< of the velocity solver, engine's own measure
     std::map<std::string, double> phaseSeconds;  ///< wall time by phase name, where the engine measures it

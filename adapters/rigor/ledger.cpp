@@ -55,6 +55,8 @@ std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings
     add("damping", "velocity kept per second", "velocity kept per second, exact over a step");
     add("sleeping", "off", "off");
     add("velocity_clamp", "none", "none");
+    if (text("fault") != "none")
+        add("fault", "none", text("fault"), Realisation::Unsupported, "a deliberate mistake was asked for");
     add("continuous_collision", "off", "off");
     return lines;
 }

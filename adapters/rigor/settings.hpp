@@ -27,6 +27,7 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     def.solver = textSetting(settings, "solver");
     def.positionCorrection = textSetting(settings, "position_correction");
     def.friction = textSetting(settings, "friction");
+    def.fault = textSetting(settings, "fault");
     def.substeps = integerSetting(settings, "substeps");
     def.contactFrequency = static_cast<R>(numberSetting(settings, "contact_frequency"));
     def.contactDampingRatio = static_cast<R>(numberSetting(settings, "contact_damping_ratio"));

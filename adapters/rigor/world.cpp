@@ -175,6 +175,7 @@ class RigorWorld final : public World {
     StepCounters counters() const override {
         const engine::StepResult<S>& last = world_.lastStep();
         StepCounters c;
+        c.pairTests = static_cast<std::int64_t>(last.pairTests);
         c.pairs = static_cast<std::int64_t>(last.pairs);
         c.contacts = static_cast<std::int64_t>(last.contacts);
         c.solverIterations = last.iterations;

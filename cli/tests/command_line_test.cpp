@@ -50,7 +50,8 @@ TEST(CommandLine, ListsEnginesWithVersionAndPrecision) {
 }
 
 TEST(CommandLine, EveryListIsAnArrayOfNamedObjects) {
-    for (const char* what : {"engines", "scenarios", "suites", "algorithms", "metrics", "references"}) {
+    for (const char* what :
+         {"engines", "scenarios", "suites", "studies", "algorithms", "metrics", "references"}) {
         const auto list = rigorJson(std::string("list ") + what + " --json");
         ASSERT_TRUE(list.is_array()) << what;
         EXPECT_FALSE(list.empty()) << what;

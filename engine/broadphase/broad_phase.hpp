@@ -36,11 +36,22 @@ class BroadPhase {
     /// Forgets everything: the next update starts afresh.
     virtual void reset() = 0;
 
+    /// Box tests so far, whatever their outcome: what updates cost, without a clock.
+    std::size_t tests() const { return tests_; }
+
     /// Boxes reaching further than this from the origin are handled outside any spatial structure [m].
     static constexpr typename S::Real kUnbounded = typename S::Real(1e18);
     static bool unbounded(const Aabb<S>& box) {
         return !((box.min.array() > -kUnbounded).all() && (box.max.array() < kUnbounded).all());
     }
+
+  protected:
+    /// Whether two boxes overlap, counted.
+    bool overlap(const Aabb<S>& a, const Aabb<S>& b) const {
+        ++tests_;
+        return a.overlaps(b);
+    }
+    mutable std::size_t tests_ = 0;
 };
 
 template <class S>

@@ -18,7 +18,7 @@ class BruteForce final : public BroadPhase<S> {
         const auto n = static_cast<std::uint32_t>(boxes.size());
         for (std::uint32_t i = 0; i < n; ++i)
             for (std::uint32_t j = i + 1; j < n; ++j)
-                if ((movable[i] || movable[j]) && boxes[i].overlaps(boxes[j])) pairs.push_back({i, j});
+                if ((movable[i] || movable[j]) && this->overlap(boxes[i], boxes[j])) pairs.push_back({i, j});
     }
 };
 

@@ -86,9 +86,9 @@ class Tree {
         if (parent != kNil) refit(parent);
     }
 
-    /// Calls visit(leaf) for each leaf whose fat box overlaps `box`.
+    /// Calls visit(leaf) for each leaf whose fat box overlaps `box`; adds the boxes it looked at to `tests`.
     template <class Visit>
-    void query(const Box& box, std::vector<std::uint32_t>& stack, Visit visit) const {
+    void query(const Box& box, std::vector<std::uint32_t>& stack, std::size_t& tests, Visit visit) const {
         if (root_ == kNil) return;
         stack.clear();
         stack.push_back(root_);
@@ -96,6 +96,7 @@ class Tree {
             const std::uint32_t i = stack.back();
             stack.pop_back();
             const Node& node = nodes_[i];
+            ++tests;
             if (!node.box.overlaps(box)) continue;
             if (node.child[0] == kNil) {
                 visit(i);
@@ -244,7 +245,7 @@ class DynamicAabbTree final : public BroadPhase<S> {
         newPairs_.clear();
         for (const std::uint32_t i : touched_) {
             if (where_[i] != Where::InTree) continue;
-            tree_.query(tree_.box(i), stack_, [&](std::uint32_t j) {
+            tree_.query(tree_.box(i), stack_, this->tests_, [&](std::uint32_t j) {
                 if (j == i || (touchedFlag_[j] && j < i) || !(movable[i] || movable[j])) return;
                 newPairs_.push_back({std::min(i, j), std::max(i, j)});
             });
@@ -269,12 +270,12 @@ class DynamicAabbTree final : public BroadPhase<S> {
                 std::vector<ProxyPair>& pairs) const {
         pairs.clear();
         for (const ProxyPair& p : fatPairs_)
-            if (boxes[p.a].overlaps(boxes[p.b])) pairs.push_back(p);
+            if (this->overlap(boxes[p.a], boxes[p.b])) pairs.push_back(p);
         if (outside_.empty()) return;
         for (const std::uint32_t i : outside_)
             for (std::uint32_t j = 0; j < boxes.size(); ++j) {
                 if (j == i || (where_[j] == Where::Outside && j < i) || !(movable[i] || movable[j])) continue;
-                if (boxes[i].overlaps(boxes[j])) pairs.push_back({std::min(i, j), std::max(i, j)});
+                if (this->overlap(boxes[i], boxes[j])) pairs.push_back({std::min(i, j), std::max(i, j)});
             }
         std::sort(pairs.begin(), pairs.end());
     }

@@ -218,11 +218,12 @@ class Octree final : public BroadPhase<S> {
             const Cell& cell = cells_[stack_.back()];
             stack_.pop_back();
             for (std::uint32_t j = cell.first; j != kNil; j = proxies_[j].next)
-                if ((cell.level < depth || j > i) && (movable[i] || movable[j]) && box.overlaps(boxes[j]))
+                if ((cell.level < depth || j > i) && (movable[i] || movable[j]) &&
+                    this->overlap(box, boxes[j]))
                     pairs.push_back(orderedPair(i, j));
             if (cell.level == depth) continue;
             for (const std::uint32_t child : cell.child)
-                if (child != kNil && cells_[child].content.overlaps(box)) stack_.push_back(child);
+                if (child != kNil && this->overlap(cells_[child].content, box)) stack_.push_back(child);
         }
     }
 
@@ -231,7 +232,7 @@ class Octree final : public BroadPhase<S> {
         for (const std::uint32_t i : outside_)
             for (std::uint32_t j = 0; j < boxes.size(); ++j) {
                 const bool twice = proxies_[j].cell == kNil && j <= i;
-                if (!twice && (movable[i] || movable[j]) && boxes[i].overlaps(boxes[j]))
+                if (!twice && (movable[i] || movable[j]) && this->overlap(boxes[i], boxes[j]))
                     pairs.push_back(orderedPair(i, j));
             }
     }

@@ -87,7 +87,8 @@ class SweepAndPrune final : public BroadPhase<S> {
             const Box& box = boxes[i];
             for (std::size_t l = k + 1; l < intervals_.size() && intervals_[l].lo <= hi; ++l) {
                 const std::uint32_t j = intervals_[l].proxy;
-                if ((movable[i] || movable[j]) && box.overlaps(boxes[j])) pairs.push_back(orderedPair(i, j));
+                if ((movable[i] || movable[j]) && this->overlap(box, boxes[j]))
+                    pairs.push_back(orderedPair(i, j));
             }
         }
         std::sort(pairs.begin(), pairs.end());

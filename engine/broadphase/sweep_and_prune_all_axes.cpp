@@ -109,8 +109,8 @@ class SweepAndPruneAllAxes final : public BroadPhase<S> {
         const std::uint32_t i = point.proxy(), j = other.proxy();
         if (!(movable[i] || movable[j])) return;
         if (!point.isMax()) {
-            if (boxes[i].overlaps(boxes[j])) begun_.push_back(orderedPair(i, j));
-        } else if (previous_[i].overlaps(previous_[j])) {
+            if (this->overlap(boxes[i], boxes[j])) begun_.push_back(orderedPair(i, j));
+        } else if (this->overlap(previous_[i], previous_[j])) {
             ended_.push_back(orderedPair(i, j));
         }
     }
@@ -167,7 +167,7 @@ class SweepAndPruneAllAxes final : public BroadPhase<S> {
                 continue;
             }
             for (const std::uint32_t j : open_)
-                if ((movable[i] || movable[j]) && boxes[i].overlaps(boxes[j]))
+                if ((movable[i] || movable[j]) && this->overlap(boxes[i], boxes[j]))
                     overlapping_.push_back(orderedPair(i, j));
             placeInOpen_[i] = static_cast<std::uint32_t>(open_.size());
             open_.push_back(i);

@@ -142,8 +142,8 @@ class UniformGrid final : public BroadPhase<S> {
             const auto& [cell, i] = entries_[e];
             for (std::uint32_t f = e + 1; f < bucketStart_[bucket + 1]; ++f) {
                 const std::uint32_t j = entries_[f].proxy;
-                if (boxes[i].overlaps(boxes[j]) && (movable[i] || movable[j]) && entries_[f].cell == cell &&
-                    reportsHere(boxes[i], boxes[j], cell))
+                if (this->overlap(boxes[i], boxes[j]) && (movable[i] || movable[j]) &&
+                    entries_[f].cell == cell && reportsHere(boxes[i], boxes[j], cell))
                     pairs.push_back(orderedPair(i, j));
             }
         }
@@ -153,7 +153,7 @@ class UniformGrid final : public BroadPhase<S> {
                       std::vector<ProxyPair>& pairs) const {
         const Box& box = boxes[i];
         const auto test = [&](std::uint32_t j) {
-            if (j != i && (movable[i] || movable[j]) && box.overlaps(boxes[j]))
+            if (j != i && (movable[i] || movable[j]) && this->overlap(box, boxes[j]))
                 pairs.push_back(orderedPair(i, j));
         };
         for (const std::uint32_t j : large_)
@@ -167,7 +167,7 @@ class UniformGrid final : public BroadPhase<S> {
         forCells(box, [&](const Cell& cell) {
             const std::size_t bucket = bucketOf(cell);
             for (std::uint32_t e = bucketStart_[bucket]; e < bucketStart_[bucket + 1]; ++e)
-                if (entries_[e].cell == cell && box.overlaps(boxes[entries_[e].proxy]) &&
+                if (entries_[e].cell == cell && this->overlap(box, boxes[entries_[e].proxy]) &&
                     reportsHere(box, boxes[entries_[e].proxy], cell))
                     test(entries_[e].proxy);
         });

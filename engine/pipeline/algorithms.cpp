@@ -3,6 +3,7 @@
 #include "engine/pipeline/algorithms.hpp"
 
 #include "engine/broadphase/broad_phase.hpp"
+#include "engine/faults/fault.hpp"
 #include "engine/integrators/integrator.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
 #include "engine/solvers/position_correction.hpp"
@@ -34,6 +35,7 @@ std::vector<AlgorithmFamily> algorithmFamilies() {
         family("friction", "the friction law of one contact point", def.friction, frictionTable<S>()),
         family("position_correction", "what removes overlap and joint drift", def.positionCorrection,
                positionCorrectionTable<S>()),
+        family("fault", "deliberate mistakes, for study", def.fault, faultTable<S>()),
     };
 }
 

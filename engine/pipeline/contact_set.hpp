@@ -14,6 +14,7 @@
 #include "engine/constraints/row.hpp"
 #include "engine/constraints/soft.hpp"
 #include "engine/core/clone_ptr.hpp"
+#include "engine/faults/fault.hpp"
 #include "engine/narrowphase/manifold.hpp"
 #include "engine/pipeline/events.hpp"
 #include "engine/state/world_def.hpp"
@@ -103,6 +104,11 @@ class ContactSet {
 
     /// Ends a step: appends what began and what ended.
     void noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events);
+
+    /// Lets a fault at what findManifolds and addRows have made.
+    void spoilPairs(const Fault<S>& fault) { fault.pairs(movable_, proxyPairs_); }
+    void spoilManifolds(const BodyArrays<S>& bodies, const Fault<S>& fault, std::uint64_t step);
+    void spoilRows(const BodyArrays<S>& bodies, const Fault<S>& fault, ConstraintRows<S>& rows);
 
     const std::vector<ProxyPair>& proxyPairs() const { return proxyPairs_; }
     const std::vector<Contact<S>>& contacts() const { return contacts_; }

@@ -105,7 +105,9 @@ void World<S>::runPhase() {
     const Phase phase = cursor_.next;
     switch (phase) {
         case Phase::BroadPhase:
+            result_.pairTests = broadPhase_->tests();
             contacts_.findPairs(bodies_, *broadPhase_, def_.speculativeDistance);
+            result_.pairTests = broadPhase_->tests() - result_.pairTests;
             break;
         case Phase::NarrowPhase:
             contacts_.findManifolds(bodies_, *narrowPhase_, def_.speculativeDistance);
@@ -134,6 +136,7 @@ void World<S>::runPhase() {
             correct();
             break;
     }
+    if (fault_ != nullptr) spoil(phase);
     clock.end(phase);
     advanceCursor();
 }

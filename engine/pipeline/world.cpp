@@ -105,6 +105,7 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     correction_ =
         findAlgorithm(positionCorrectionTable<S>(), "position_correction", def.positionCorrection).make();
     style_ = solver_->style();
+    fault_ = findAlgorithm(faultTable<S>(), "fault", def.fault).make();
     friction_ = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;
     narrowPhase_ = def.customNarrowPhase ? def.customNarrowPhase : makeNarrowPhase<S>(def.narrowPhase);
 

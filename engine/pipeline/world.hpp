@@ -37,7 +37,8 @@ const char* phaseName(Phase phase);  ///< "broad_phase", "narrow_phase", ...
 /// What happened in one step. Spans are valid until the next.
 template <class S>
 struct StepResult {
-    bool nonFinite = false;  ///< a velocity or pose has become NaN or infinite
+    bool nonFinite = false;     ///< a velocity or pose has become NaN or infinite
+    std::size_t pairTests = 0;  ///< boxes that the broad phase compared
     std::size_t pairs = 0, contacts = 0, rows = 0;
     int iterations = 0;  ///< of the solver, in all sub-steps
     /// Largest velocity error removed from a row or block, per iteration [m/s or rad/s].
@@ -148,6 +149,7 @@ class World {
     void relax();
     void solvePositions();
     void correct();
+    void spoil(Phase phase);
     void rebuildExclusions();
     void breakJoints();
     const Joint<S>& joint_(JointId joint) const { return joints_.records()[jointIds_.dense(joint)].joint; }
@@ -162,6 +164,7 @@ class World {
     ClonePtr<Solver<S>> solver_;
     ClonePtr<PositionCorrection<S>> correction_;
     SolverStyle<S> style_;
+    const Fault<S>* fault_ = nullptr;
 
     BodyArrays<S> bodies_;
     IdTable<BodyTag> bodyIds_;

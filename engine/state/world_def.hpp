@@ -37,6 +37,7 @@ struct WorldDef {
     std::string solver = "pgs";
     std::string positionCorrection = "ngs";
     std::string friction = "cone";
+    std::string fault = "none";  ///< a deliberate mistake, for study (engine/faults)
 
     int substeps = 1;             ///< equal parts a step is solved in, contacts found once, >= 1
     int velocityIterations = 50;  ///< of each sub-step, at most, >= 1

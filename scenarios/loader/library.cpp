@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The library of scenarios and suites: <folder>/{2d,3d}/*.json, and <folder>/{suites,collision}/*.json.
+// The library of scenarios and suites: <folder>/{2d,3d}/*.json, and
+// <folder>/{suites,collision,studies}/*.json.
 #include <algorithm>
 #include <cstdlib>
 
@@ -9,6 +10,7 @@
 #include "scenarios/loader/node.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "scenarios/loader/schema_check.hpp"
+#include "scenarios/loader/study.hpp"
 
 namespace rigor::scenario {
 namespace {
@@ -84,6 +86,9 @@ std::vector<LibraryEntry> listSuites() {
 std::vector<LibraryEntry> listCollisionFiles() {
     return entriesOf({libraryFolder() / "collision"});
 }
+std::vector<LibraryEntry> listStudies() {
+    return entriesOf({libraryFolder() / "studies"});
+}
 fs::path findScenario(const std::string& nameOrPath) {
     return findEntry(listScenarios(), nameOrPath, "scenario");
 }
@@ -92,6 +97,9 @@ fs::path findSuite(const std::string& nameOrPath) {
 }
 fs::path findCollisionFile(const std::string& nameOrPath) {
     return findEntry(listCollisionFiles(), nameOrPath, "collision");
+}
+fs::path findStudy(const std::string& nameOrPath) {
+    return findEntry(listStudies(), nameOrPath, "study");
 }
 
 Suite loadSuite(const fs::path& file) {

@@ -81,4 +81,9 @@ void checkCollisionSchema(const JsonDocument& document, const std::string& fileN
     check(schema, document, fileName);
 }
 
+void checkStudySchema(const JsonDocument& document, const std::string& fileName) {
+    static const CompiledSchema schema(kStudySchema);
+    check(schema, document, fileName);
+}
+
 }  // namespace rigor::scenario

@@ -11,8 +11,9 @@ namespace rigor::scenario {
 /// Holds a document against scenarios/schema/scenario.schema.json (built into the program). Throws LoadError
 /// ("schema.violation").
 void checkScenarioSchema(const JsonDocument& document, const std::string& fileName);
-/// Likewise against suite.schema.json and collision.schema.json.
+/// Likewise against suite.schema.json, collision.schema.json and study.schema.json.
 void checkSuiteSchema(const JsonDocument& document, const std::string& fileName);
 void checkCollisionSchema(const JsonDocument& document, const std::string& fileName);
+void checkStudySchema(const JsonDocument& document, const std::string& fileName);
 
 }  // namespace rigor::scenario

@@ -86,6 +86,7 @@ WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec
         row.outcome = results::Outcome::NonFinite;
         row.reason = run.nonFinite;
     }
+    row.metrics.insert(row.metrics.end(), run.costs.begin(), run.costs.end());
     judgeCase(row, scenario);
     row.peakMemoryKiB = peakMemoryKiB();
     row.wallSeconds = since(started);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "validation/runner/cost.hpp"
 #include "validation/runner/forces.hpp"
 #include "validation/runner/hash.hpp"
 
@@ -44,6 +45,7 @@ class Stopwatch {
         const auto end = std::chrono::steady_clock::now();
         steps_.push_back(std::chrono::duration<double>(end - begin).count());
         const adapter::StepCounters counters = world.counters();
+        costs_.add(counters);
         for (const auto& [phase, seconds] : counters.phaseSeconds) phases_[phase].push_back(seconds);
         if (counters.contacts >= 0) contacts_ += static_cast<double>(counters.contacts), ++counted_;
     }
@@ -55,12 +57,15 @@ class Stopwatch {
         return rows;
     }
 
+    std::vector<results::MetricRow> costs() const { return costs_.rows(); }
+
   private:
     static double recordedContacts(const Trajectory& t) {
         double sum = 0.0;
         for (const auto& frame : t.contacts) sum += static_cast<double>(frame.size());
         return t.frames() > 1 ? sum / static_cast<double>(t.frames() - 1) : 0.0;
     }
+    CostMeter costs_;
     std::vector<double> steps_;
     std::map<std::string, std::vector<double>> phases_;
     double contacts_ = 0.0;
@@ -146,6 +151,7 @@ Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, 
         run.nonFinite = firstNonFinite(scenario, states, static_cast<double>(run.steps) * dt);
     run.stateHash = hashOf(states);
     run.timings = watch.rows(t);
+    run.costs = watch.costs();
     return run;
 }
 

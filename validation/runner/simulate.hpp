@@ -21,6 +21,7 @@ struct Simulation {
     std::string nonFinite;                    ///< what was not finite and when; "" when all was
     std::string stateHash;                    ///< FNV-1a over the bits of the last states
     std::vector<results::TimingRow> timings;  ///< "step" and the engine's phases
+    std::vector<results::MetricRow> costs;    ///< what the engine's counters say, kind "cost"
 };
 
 /// Number of steps of a case: the duration rounded to whole steps, at least one.

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "cli/run_folder.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <ctime>
+#include <stdexcept>
+
+#include "validation/results/store.hpp"
+
+namespace rigor::cli {
+
+namespace fs = std::filesystem;
+
+fs::path chooseRunFolder(const std::string& out, bool resume, const std::string& title) {
+    if (!out.empty()) return out;
+    const fs::path runs = "runs";
+    if (resume) {
+        if (!fs::exists(runs / "latest"))
+            throw std::invalid_argument("--resume: there is no runs/latest; name the run with --out");
+        return fs::canonical(runs / "latest");
+    }
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char stamp[32];
+    std::strftime(stamp, sizeof stamp, "%Y%m%d-%H%M%S", &utc);
+    std::string name = title;
+    for (char& c : name)
+        if (c == ' ' || c == '/') c = '+';
+    std::error_code ignored;
+    fs::create_directories(runs, ignored);
+    const fs::path directory = runs / (name.substr(0, 60) + "-" + stamp);
+    fs::remove(runs / "latest", ignored);
+    fs::create_directory_symlink(directory.filename(), runs / "latest", ignored);
+    return directory;
+}
+
+void prepareRunFolder(const fs::path& directory, bool resume) {
+    const bool holdsRun = fs::exists(directory / "results.sqlite");
+    if (resume && !holdsRun)
+        throw std::invalid_argument("--resume: '" + directory.string() + "' holds no run");
+    if (!resume && holdsRun)
+        throw std::invalid_argument("--out: '" + directory.string() +
+                                    "' holds a run already; add --resume or choose another folder");
+    std::error_code error;
+    fs::create_directories(directory, error);
+    if (!error && access(directory.c_str(), W_OK) != 0)
+        error = std::error_code(errno, std::generic_category());
+    if (error)
+        throw std::invalid_argument("--out: cannot write '" + directory.string() + "': " + error.message());
+}
+
+void checkResumed(const fs::path& directory, const std::vector<validation::CasePlan>& plan) {
+    results::Run stored;
+    try {
+        stored = results::readRun(directory);
+    } catch (const std::exception&) {
+        return;  // killed before anything was stored; the runner judges the rest
+    }
+    for (const auto& row : stored.cases) {
+        const bool planned = std::any_of(plan.begin(), plan.end(), [&](const auto& c) {
+            return c.scenario.name == row.scenario && c.spec.text() == row.spec;
+        });
+        if (!planned)
+            throw std::invalid_argument(
+                "--resume: '" + directory.string() + "' holds " + row.scenario + " on " + row.spec +
+                ", which this command does not ask for; it was started by: " + stored.command);
+    }
+}
+
+}  // namespace rigor::cli

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/progress.hpp"
+#include "cli/run_folder.hpp"
+#include "reports/report.hpp"
+#include "validation/studies/print.hpp"
+
+namespace rigor::cli {
+namespace {
+
+struct Arguments {
+    std::string study, out;
+    std::vector<std::string> parts;
+    int jobs = 1;
+    bool resume = false, audit = false, json = false, quiet = false;
+};
+
+std::atomic<bool> interrupted{false};
+extern "C" void onInterruptStudy(int) {
+    interrupted = true;
+}
+
+scenario::Study chosenParts(scenario::Study study, const std::vector<std::string>& names) {
+    if (names.empty()) return study;
+    std::string known;
+    for (const auto& part : study.parts) known += (known.empty() ? "" : ", ") + part.name;
+    std::vector<scenario::StudyPart> parts;
+    for (const auto& name : names) {
+        const auto it = std::find_if(study.parts.begin(), study.parts.end(),
+                                     [&](const auto& p) { return p.name == name; });
+        if (it == study.parts.end())
+            throw std::invalid_argument("--part: found '" + name + "', expected one of " + known);
+        parts.push_back(*it);
+    }
+    study.parts = std::move(parts);
+    return study;
+}
+
+int runStudy(const Arguments& a) {
+    const auto study = chosenParts(scenario::loadStudy(scenario::findStudy(a.study)), a.parts);
+    const auto plan =
+        validation::planStudy(study, [](const std::string& name, const std::vector<std::string>& set) {
+            return loadWithReference(name, set, false);
+        });
+
+    validation::RunOptions options;
+    options.directory = chooseRunFolder(a.out, a.resume, study.name);
+    prepareRunFolder(options.directory, a.resume);
+    options.binary = ownBinary(), options.jobs = a.jobs, options.resume = a.resume;
+    options.audit = a.audit, options.suite = study.name, options.command = ownCommandLine();
+    if (options.resume) checkResumed(options.directory, plan.cases);
+    std::signal(SIGINT, onInterruptStudy);
+    std::signal(SIGTERM, onInterruptStudy);
+    ProgressLine line(a.quiet);
+    const auto run = validation::runCases(
+        plan.cases, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
+    line.finish();
+    if (interrupted) {
+        std::fprintf(stderr, "Interrupted: %zu of %zu cases are stored. Go on with --resume --out %s\n",
+                     run.cases.size(), plan.cases.size(), options.directory.c_str());
+        return kInterrupted;
+    }
+    const auto result = validation::evaluateStudy(plan, run);
+    validation::writeStudyFiles(result, options.directory, options.command);
+    report::writeReports(options.directory);
+    if (a.json) {
+        auto out = validation::studyJson(result);
+        out["run"] = options.directory.string();
+        std::printf("%s\n", out.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+    } else {
+        std::printf("%sTables: %s  Report: %s\n", validation::studyText(result).c_str(),
+                    (options.directory / "study.md").c_str(), (options.directory / "index.html").c_str());
+    }
+    return validation::studyIsGreen(result) ? kOk : kRed;
+}
+
+}  // namespace
+
+void addStudy(CLI::App& app, Action& action) {
+    auto a = std::make_shared<Arguments>();
+    auto* command = app.add_subcommand("study", "Run a grid of choices and show them side by side");
+    command->add_option("STUDY", a->study, "Study file, or a name of `rigor list studies`")->required();
+    command->add_option("--part", a->parts, "Only these parts")->delimiter(',');
+    command->add_option("--out", a->out, "Run folder (default: runs/<study>-<time>)");
+    command->add_option("-j,--jobs", a->jobs, "Cases at a time (default 1: timings are taken alone)")
+        ->check(CLI::Range(1, 1024));
+    command->add_flag("--resume", a->resume, "Go on with an interrupted run (--out, or the latest)");
+    command->add_flag("--audit", a->audit, "Also the contact audit of `validate`");
+    command->add_flag("--json", a->json, "Print the tables as JSON");
+    command->add_flag("-q,--quiet", a->quiet, "No progress");
+    command->footer(
+        "Exit codes: 0 every symptom is shown by its fault and cured by its cure, and every run that is not "
+        "a fault\n"
+        "            ended well, 1 otherwise, 2 bad command line or file, 130 interrupted.");
+    command->callback([a, &action] { action = [a] { return runStudy(*a); }; });
+}
+
+}  // namespace rigor::cli

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Where a fault (engine/faults) gets at a step. Not called without one.
+#include "engine/pipeline/world.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+void ContactSet<S>::spoilManifolds(const BodyArrays<S>& bodies, const Fault<S>& fault, std::uint64_t step) {
+    for (Contact<S>& contact : contacts_) {
+        fault.manifold(shapes_[contact.shapeA].shape, shapePoses_[contact.shapeA],
+                       shapes_[contact.shapeB].shape, shapePoses_[contact.shapeB], step, contact.manifold);
+        placePoints(bodies, contact);
+    }
+}
+
+template <class S>
+void ContactSet<S>::spoilRows(const BodyArrays<S>& bodies, const Fault<S>& fault, ConstraintRows<S>& rows) {
+    for (Contact<S>& contact : contacts_)
+        for (int i = 0; i < contact.manifold.count; ++i) {
+            const typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
+            if (point.block == Contact<S>::kNoBlock) continue;
+            Block<S>& block = rows.blocks[point.block];
+            Row<S>* first = rows.rows.data() + block.first;
+            ContactRows<S> spoiled{block,
+                                   {first, block.rows},
+                                   contact.coefficients.restitution,
+                                   rowVelocity<S>(*first, bodies.velocity[block.a], bodies.velocity[block.b]),
+                                   point.separation};
+            fault.contact(spoiled);
+        }
+}
+
+template <class S>
+void World<S>::spoil(Phase phase) {
+    switch (phase) {
+        case Phase::BroadPhase:
+            contacts_.spoilPairs(*fault_);
+            break;
+        case Phase::NarrowPhase:
+            contacts_.spoilManifolds(bodies_, *fault_, stepCount_);
+            break;
+        case Phase::Velocities:
+            contacts_.spoilRows(bodies_, *fault_, rows_);
+            break;
+        case Phase::Solve:
+            fault_->solved(bodies_, rows_);
+            break;
+        case Phase::Move:
+            fault_->moved(bodies_, motion_.startRotations(), cursor_.substepSize);
+            if (fault_->movesStatics()) contacts_.structureChanged(false);
+            break;
+        default:
+            break;
+    }
+}
+
+#define RIGOR_INSTANTIATE(S)                                                                           \
+    template void ContactSet<S>::spoilManifolds(const BodyArrays<S>&, const Fault<S>&, std::uint64_t); \
+    template void ContactSet<S>::spoilRows(const BodyArrays<S>&, const Fault<S>&, ConstraintRows<S>&); \
+    template void World<S>::spoil(Phase);
+RIGOR_INSTANTIATE(Space2f)
+RIGOR_INSTANTIATE(Space2d)
+RIGOR_INSTANTIATE(Space3f)
+RIGOR_INSTANTIATE(Space3d)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "scenarios/loader/study.hpp"
+
+#include <algorithm>
+
+#include "scenarios/loader/node.hpp"
+#include "scenarios/loader/overrides.hpp"
+#include "scenarios/loader/schema_check.hpp"
+
+namespace rigor::scenario {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string valueText(const Json& value) {
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// {"key": [value, ...]}: each value as the text that stands behind KEY=.
+std::vector<std::pair<std::string, std::vector<std::string>>> readGrid(const Node& node) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> grid;
+    for (const auto& [key, list] : node.members()) {
+        std::vector<std::string> values;
+        for (const Node& item : list.items()) values.push_back(valueText(item.json()));
+        if (list.json().is_array() && values.empty()) list.problem("value.range", "at least one value");
+        grid.emplace_back(key, std::move(values));
+    }
+    return grid;
+}
+
+StudyVariant readVariant(const Node& node) {
+    StudyVariant variant;
+    if (node.json().is_string()) {
+        variant.name = variant.engine = node.text();
+        return variant;
+    }
+    if (!node.isObject({"name", "engine"})) return variant;
+    if (const auto n = node.require("name")) variant.name = n->text();
+    if (const auto n = node.require("engine")) variant.engine = n->text();
+    return variant;
+}
+
+StudySymptom readSymptom(const Node& node, const StudyPart& part) {
+    StudySymptom symptom;
+    if (!node.isObject({"fault", "cure", "metric", "growth", "fault_at_least", "cure_at_most"}))
+        return symptom;
+    const auto variantName = [&](const char* key) {
+        const auto n = node.require(key);
+        if (!n) return std::string();
+        const std::string name = n->text();
+        const bool known = std::any_of(part.variants.begin(), part.variants.end(),
+                                       [&](const StudyVariant& v) { return v.name == name; });
+        if (!known) n->problem("study.unknown_variant", "the name of a variant of this part");
+        return name;
+    };
+    symptom.fault = variantName("fault"), symptom.cure = variantName("cure");
+    if (const auto n = node.require("metric")) symptom.metric = n->text();
+    if (const auto n = node.find("growth")) symptom.growth = n->boolean();
+    if (const auto n = node.require("fault_at_least")) symptom.faultAtLeast = n->number(-1e15, 1e15);
+    if (const auto n = node.require("cure_at_most")) symptom.cureAtMost = n->number(-1e15, 1e15);
+    if (node.has("fault_at_least") && node.has("cure_at_most") &&
+        !(symptom.cureAtMost < symptom.faultAtLeast))
+        node.problem("study.symptom", "cure_at_most not below fault_at_least",
+                     "a gap between fault and cure");
+    return symptom;
+}
+
+StudyPart readPart(const Node& node) {
+    StudyPart part;
+    if (!node.isObject({"name", "title", "description", "scenarios", "set", "parameters", "options",
+                        "variants", "dt", "metrics", "symptom"}))
+        return part;
+    if (const auto n = node.require("name")) part.name = n->name();
+    if (const auto n = node.find("title")) part.title = n->text();
+    if (const auto n = node.find("description")) part.description = n->text();
+    if (const auto n = node.require("scenarios")) part.scenarios = n->texts();
+    if (const auto n = node.find("set")) part.overrides = n->texts();
+    if (const auto n = node.find("parameters")) part.parameters = readGrid(*n);
+    if (const auto n = node.find("options")) part.options = readGrid(*n);
+    if (const auto n = node.require("variants"))
+        for (const Node& item : n->items()) {
+            StudyVariant variant = readVariant(item);
+            for (const StudyVariant& other : part.variants)
+                if (other.name == variant.name)
+                    item.problem("study.duplicate", "the name '" + variant.name + "' a second time",
+                                 "each variant once");
+            part.variants.push_back(std::move(variant));
+        }
+    if (const auto n = node.find("dt"))
+        for (const Node& item : n->items()) part.timeSteps.push_back(item.number(1e-7, 1.0));
+    if (const auto n = node.require("metrics")) part.metrics = n->texts();
+    if (const auto n = node.find("symptom")) {
+        part.symptom = readSymptom(*n, part);
+        if (std::find(part.metrics.begin(), part.metrics.end(), part.symptom->metric) == part.metrics.end())
+            part.metrics.insert(part.metrics.begin(), part.symptom->metric);
+    }
+    return part;
+}
+
+}  // namespace
+
+Study loadStudy(const fs::path& file) {
+    const JsonDocument document = parseDocument(readTextFile(file), file.string());
+    ReadContext context{file.string(), &document, {}, 3};
+    const Node root(document.value, "", context);
+    Study study;
+    study.file = file;
+    root.isObject({"rigor_study", "name", "title", "description", "parts"});
+    if (document.value.is_object()) {
+        if (const auto n = root.require("rigor_study")) n->integer(1, 1);
+        if (const auto n = root.require("name")) study.name = n->name();
+        if (const auto n = root.find("title")) study.title = n->text();
+        if (const auto n = root.find("description")) study.description = n->text();
+        if (const auto list = root.require("parts"))
+            for (const Node& item : list->items()) {
+                StudyPart part = readPart(item);
+                for (const StudyPart& other : study.parts)
+                    if (!part.name.empty() && other.name == part.name)
+                        item.problem("study.duplicate", "the name '" + part.name + "' a second time",
+                                     "each part once");
+                study.parts.push_back(std::move(part));
+            }
+    }
+    if (!context.problems.empty()) throw LoadError(std::move(context.problems));
+    checkStudySchema(document, file.string());
+    for (StudyPart& part : study.parts)
+        for (std::string& name : part.scenarios)
+            if (const fs::path beside = file.parent_path() / name;
+                name.ends_with(".json") && fs::exists(beside))
+                name = beside.string();
+    return study;
+}
+
+}  // namespace rigor::scenario

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Study files: named ways of running side by side. A part of a study is a grid of scenarios, parameters, time
+// steps and variants; a part may state a symptom: what one variant must show and another must not.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenarios/loader/loader.hpp"
+
+namespace rigor::scenario {
+
+/// A way of running: an engine spec under a name of its own.
+struct StudyVariant {
+    std::string name, engine;
+};
+
+/// A fault that one variant shows and another cures, judged by a measured value.
+struct StudySymptom {
+    std::string fault, cure;  ///< names of variants
+    std::string metric;
+    bool growth = false;  ///< judge the exponent p of metric ~ (number of bodies)^p over the part's scenarios
+    double faultAtLeast = 0.0, cureAtMost = 0.0;
+};
+
+struct StudyPart {
+    std::string name, title, description;
+    std::vector<std::string> scenarios;  ///< names or files; relative to the study's own file
+    std::vector<std::string> overrides;  ///< KEY=VALUE for every scenario
+    /// Scenario keys and their values: every combination is run.
+    std::vector<std::pair<std::string, std::vector<std::string>>> parameters;
+    /// Spec keys and their values: every combination is run with every variant.
+    std::vector<std::pair<std::string, std::vector<std::string>>> options;
+    std::vector<StudyVariant> variants;
+    std::vector<double> timeSteps;     ///< empty: the first of each scenario
+    std::vector<std::string> metrics;  ///< columns; "name" or "name:subject"
+    std::optional<StudySymptom> symptom;
+};
+
+struct Study {
+    std::filesystem::path file;
+    std::string name, title, description;
+    std::vector<StudyPart> parts;
+};
+
+/// Throws LoadError.
+Study loadStudy(const std::filesystem::path& file);
+
+/// The files of <library>/studies, sorted by name.
+std::vector<LibraryEntry> listStudies();
+/// A name of the library or a path to a file. Throws LoadError ("study.not_found").
+std::filesystem::path findStudy(const std::string& nameOrPath);
+
+}  // namespace rigor::scenario

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Studies: from a study file to cases for the runner, and from stored cases to tables side by side and
+// verdicts on symptoms.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenarios/loader/study.hpp"
+#include "validation/runner/runner.hpp"
+
+namespace rigor::validation {
+
+/// One line of a study's table: a case and where in the grid it stands.
+struct StudyRow {
+    std::size_t part = 0;
+    std::string scenario;                                         ///< name as run: unique for its values
+    std::string base;                                             ///< as the file names it
+    std::vector<std::pair<std::string, std::string>> parameters;  ///< scenario and spec keys of this place
+    std::string variant, spec, caseId;
+    double dt = 0.0;
+    int bodies = 0;  ///< of the scenario that move
+};
+
+struct StudyPlan {
+    scenario::Study study;
+    std::vector<StudyRow> rows;
+    std::vector<CasePlan> cases;  ///< each once, also where several rows show it
+};
+
+using ScenarioLoader = std::function<scenario::LoadedScenario(const std::string& nameOrFile,
+                                                              const std::vector<std::string>& overrides)>;
+
+/// Lays out the grid. A spec without a preset runs in the preset `default`. Throws LoadError and BadInput.
+StudyPlan planStudy(const scenario::Study& study, const ScenarioLoader& load);
+
+struct StudyValue {
+    std::optional<double> value;
+    std::string unit;
+};
+
+struct StudyResultRow {
+    StudyRow row;
+    results::Outcome outcome = results::Outcome::Completed;
+    bool ran = false;  ///< false: interrupted before its case
+    std::string reason;
+    std::vector<StudyValue> values;  ///< by metric of the part
+};
+
+/// What became of a symptom.
+struct SymptomVerdict {
+    std::size_t part = 0;
+    double fault = 0.0,
+           cure = 0.0;  ///< values or exponents; infinite for a run that did not survive, NaN: none
+    bool shown = false, cured = false;
+    std::vector<std::string> switched;  ///< settings in which the two differ: "solver: single_pass -> pgs"
+};
+
+struct StudyResult {
+    scenario::Study study;
+    std::vector<StudyResultRow> rows;
+    std::vector<SymptomVerdict> symptoms;
+};
+
+/// Reads the rows' values from the cases of a run.
+StudyResult evaluateStudy(const StudyPlan& plan, const results::Run& run);
+
+/// A metric of a case: "name", "name:subject", or "time.PHASE" (median wall time of a phase of the step).
+StudyValue studyValue(const results::CaseRow& row, const std::string& metric);
+
+/// False when a symptom is not shown or not cured, or a case crashed, hung, failed to run or gave numbers
+/// that are not finite, unless it is the fault of a symptom.
+bool studyIsGreen(const StudyResult& result);
+
+}  // namespace rigor::validation
