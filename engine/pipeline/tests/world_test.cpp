@@ -211,6 +211,7 @@ TEST(Algorithms, TablesAreSortedAndEveryEntryMakesAWorldThatFalls) {
             }
             EXPECT_FALSE(algorithm.summary.empty());
             hasDefault = hasDefault || algorithm.name == family.defaultChoice;
+            if (family.name == "fault") continue;  // engine/faults/tests asserts what each breaks
             WorldDef<Space3d> def = earth<Space3d>();
             std::string* field = family.name == "broad_phase"           ? &def.broadPhase
                                  : family.name == "narrow_phase"        ? &def.narrowPhase
