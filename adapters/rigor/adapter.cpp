@@ -63,6 +63,12 @@ class RigorEngine final : public Engine {
             number("gap_slop", 0, 1, "5e-4", "5e-4", "gaps of resting contacts that count as closed [m]"));
         options.push_back(number("speculative_distance", 0, 1, "1e-3", "1e-3",
                                  "contacts are found up to this separation [m]"));
+        options.push_back(number("sleep_linear_velocity", 0, 100, "0.01", "0.01",
+                                 "sleeping=islands: bodies slower than this are at rest [m/s]"));
+        options.push_back(number("sleep_angular_velocity", 0, 100, "0.02", "0.02",
+                                 "sleeping=islands: and turning slower than this [rad/s]"));
+        options.push_back(number("time_to_sleep", 0, 1e6, "0.5", "0.5",
+                                 "sleeping=islands: how long all of an island must have been at rest [s]"));
         options.push_back(
             choice("precision", {"f32", "f64"}, "f64", "f64", "number type of state and computation"));
         return options;

@@ -53,11 +53,20 @@ std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings
             Realisation::Exact);
     }
     add("damping", "velocity kept per second", "velocity kept per second, exact over a step");
-    add("sleeping", "off", "off");
+    const bool sleeps = text("sleeping") != "off";
+    add("sleeping", "off",
+        sleeps ? text("sleeping") + ", below " + text("sleep_linear_velocity") + " m/s and " +
+                     text("sleep_angular_velocity") + " rad/s for " + text("time_to_sleep") + " s"
+               : "off",
+        sleeps ? Realisation::Approximate : Realisation::Exact, sleeps ? "slow bodies are stopped" : "");
     add("velocity_clamp", "none", "none");
     if (text("fault") != "none")
         add("fault", "none", text("fault"), Realisation::Unsupported, "a deliberate mistake was asked for");
-    add("continuous_collision", "off", "off");
+    const std::string ccd = text("continuous_collision");
+    const bool speculative = ccd == "speculative";
+    const std::string told = ccd == "none" ? "off" : ccd;
+    add("continuous_collision", told, told, speculative ? Realisation::Approximate : Realisation::Exact,
+        speculative ? "what an impact of a fast body leaves of its step is lost" : "");
     return lines;
 }
 

@@ -28,6 +28,11 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     def.positionCorrection = textSetting(settings, "position_correction");
     def.friction = textSetting(settings, "friction");
     def.fault = textSetting(settings, "fault");
+    def.continuousCollision = textSetting(settings, "continuous_collision");
+    def.sleeping = textSetting(settings, "sleeping");
+    def.sleepLinearVelocity = static_cast<R>(numberSetting(settings, "sleep_linear_velocity"));
+    def.sleepAngularVelocity = static_cast<R>(numberSetting(settings, "sleep_angular_velocity"));
+    def.timeToSleep = static_cast<R>(numberSetting(settings, "time_to_sleep"));
     def.substeps = integerSetting(settings, "substeps");
     def.contactFrequency = static_cast<R>(numberSetting(settings, "contact_frequency"));
     def.contactDampingRatio = static_cast<R>(numberSetting(settings, "contact_damping_ratio"));

@@ -23,6 +23,8 @@ template <class S>
 void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, typename S::Real h) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies.constants[i].type == BodyType::Static) continue;
+        // Not even the rounding of a rotation by nothing.
+        if (i < bodies.asleep.size() && bodies.asleep[i]) continue;
         bodies.pose[i].p += h * velocities[i].v;
         bodies.pose[i].q = rotatedBy(bodies.pose[i].q, typename S::Ang(h * velocities[i].w));
     }

@@ -52,6 +52,23 @@ void Motion<S>::finish(BodyArrays<S>& bodies, Real h) {
     }
 }
 
+template <class S>
+void Motion<S>::interrupt(BodyArrays<S>& bodies, std::size_t i) {
+    if (!rotation_.finish) return;
+    Ang& w = bodies.velocity[i].w;
+    w = rotation_.finish(bodies.constants[i], startRotations_[i], bodies.pose[i].q, kicked_[i], predicted_[i],
+                         w);
+}
+
+template <class S>
+void Motion<S>::resume(BodyArrays<S>& bodies, std::size_t i, Real rest) {
+    if (!rotation_.finish) return;
+    Ang& w = bodies.velocity[i].w;
+    startRotations_[i] = bodies.pose[i].q;
+    kicked_[i] = w;
+    w = predicted_[i] = rotation_.predict(bodies.constants[i], bodies.pose[i].q, w, rest);
+}
+
 template class Motion<Space2f>;
 template class Motion<Space2d>;
 template class Motion<Space3f>;

@@ -44,6 +44,15 @@ class Motion {
     /// After poses have changed for the last time, by move() of h and position correction.
     void finish(BodyArrays<S>& bodies, Real h);
 
+    // --- a body that collides on its way
+    /// Between move() and finish(): the body's angular velocity where it is now, part of the way.
+    void interrupt(BodyArrays<S>& bodies, std::size_t i);
+    /// After its velocity has changed: `rest` [s] of the way are still to go, which the caller does with the
+    /// velocity it finds then; finish() is for that rest.
+    void resume(BodyArrays<S>& bodies, std::size_t i, Real rest);
+    /// used() as it would be for the way that the body has taken in the end.
+    void replaceUsed(std::size_t i, const Velocity<S>& velocity) { used_[i] = velocity; }
+
   private:
     Integrator<S> integrator_{};
     RotationScheme<S> rotation_{};

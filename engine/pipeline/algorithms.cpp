@@ -3,9 +3,11 @@
 #include "engine/pipeline/algorithms.hpp"
 
 #include "engine/broadphase/broad_phase.hpp"
+#include "engine/ccd/continuous_collision.hpp"
 #include "engine/faults/fault.hpp"
 #include "engine/integrators/integrator.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
+#include "engine/sleeping/sleeping.hpp"
 #include "engine/solvers/position_correction.hpp"
 #include "engine/solvers/solver.hpp"
 #include "engine/state/world_def.hpp"
@@ -36,6 +38,9 @@ std::vector<AlgorithmFamily> algorithmFamilies() {
         family("position_correction", "what removes overlap and joint drift", def.positionCorrection,
                positionCorrectionTable<S>()),
         family("fault", "deliberate mistakes, for study", def.fault, faultTable<S>()),
+        family("continuous_collision", "what keeps fast bodies from passing through thin ones",
+               def.continuousCollision, continuousCollisionTable<S>()),
+        family("sleeping", "whether bodies at rest are left out", def.sleeping, sleepingTable<S>()),
     };
 }
 

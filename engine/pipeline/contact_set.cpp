@@ -72,7 +72,7 @@ bool ContactSet<S>::mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std
 
 template <class S>
 void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase,
-                              Real speculativeDistance) {
+                              Real speculativeDistance, const ContinuousCollision<S>& ccd) {
     const std::size_t n = shapes_.size();
     shapePoses_.resize(n);
     boxes_.resize(n);
@@ -86,9 +86,21 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
         boxes_[i] = boundingBox<S>(record.shape, shapePoses_[i]);
         movable_[i] = bodies.constants[record.body].type == BodyType::Dynamic;
         if (movable_[i]) boxes_[i].min -= margin, boxes_[i].max += margin;
+        if (!isStatic && ccd.looksAhead()) ccd.growBox(static_cast<std::uint32_t>(i), boxes_[i]);
     }
     boxesValid_ = true;
     broadPhase.update(boxes_, movable_, proxyPairs_);
+}
+
+/// Both bodies at rest and at least one of them asleep: walls, and bodies asleep, do not move.
+template <class S>
+bool ContactSet<S>::isAsleep(const BodyArrays<S>& bodies, const Contact<S>& contact) {
+    const auto still = [&](std::uint32_t i) {
+        return bodies.asleep[i] || bodies.constants[i].type == BodyType::Static ||
+               (bodies.constants[i].type == BodyType::Kinematic && bodies.velocity[i].v.isZero(0) &&
+                dotAng(bodies.velocity[i].w, bodies.velocity[i].w) == Real(0));
+    };
+    return still(contact.bodyA) && still(contact.bodyB);
 }
 
 /// By feature; points whose feature is new (a face that has become the other body's reference) take the
@@ -123,7 +135,7 @@ void ContactSet<S>::takeOver(const BodyArrays<S>& bodies, const Contact<S>& old,
 
 template <class S>
 void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
-                                  Real speculativeDistance) {
+                                  Real speculativeDistance, const ContinuousCollision<S>& ccd) {
     std::swap(contacts_, previous_);
     contacts_.clear();
     auto old = previous_.begin();
@@ -131,20 +143,26 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
         if (!mayCollide(bodies, shapes_[p.a].body, shapes_[p.b].body)) continue;
         const bool ordered = shapes_[p.a].body < shapes_[p.b].body;
         const std::uint32_t a = ordered ? p.a : p.b, b = ordered ? p.b : p.a;
+        const auto sortKey = [](const Contact<S>& c) { return pairKey(c.shapeA, c.shapeB); };
+        while (old != previous_.end() && sortKey(*old) < pairKey(a, b)) ++old;
+        const bool before = old != previous_.end() && sortKey(*old) == pairKey(a, b);
+        if (before && isAsleep(bodies, *old)) {
+            contacts_.push_back(*old);
+            continue;
+        }
         Contact<S>& contact = contacts_.emplace_back();
         narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
                             speculativeDistance, contact.manifold);
+        contact.shapeA = a, contact.shapeB = b;
+        contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
+        placePoints(bodies, contact);
+        if (ccd.looksAhead()) ccd.findAhead(contact, bodies, *this, narrowPhase);
         if (contact.manifold.count == 0) {
             contacts_.pop_back();
             continue;
         }
-        contact.shapeA = a, contact.shapeB = b;
-        contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
         contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
-        placePoints(bodies, contact);
-        const auto sortKey = [](const Contact<S>& c) { return pairKey(c.shapeA, c.shapeB); };
-        while (old != previous_.end() && sortKey(*old) < sortKey(contact)) ++old;
-        if (old != previous_.end() && sortKey(*old) == sortKey(contact)) takeOver(bodies, *old, contact);
+        if (before) takeOver(bodies, *old, contact);
     }
 }
 
@@ -179,8 +197,13 @@ void ContactSet<S>::advance(std::span<const Velocity<S>> motion) {
 template <class S>
 void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step,
                             ConstraintRows<S>& rows) {
-    for (Contact<S>& contact : contacts_)
-        for (int i = 0; i < contact.manifold.count; ++i) addPointRows(bodies, step, contact, i, rows);
+    for (Contact<S>& contact : contacts_) {
+        contact.asleep = isAsleep(bodies, contact);
+        for (int i = 0; i < contact.manifold.count; ++i) {
+            contact.points[static_cast<std::size_t>(i)].block = Contact<S>::kNoBlock;
+            if (!contact.asleep) addPointRows(bodies, step, contact, i, rows);
+        }
+    }
 }
 
 template <class S>
@@ -216,14 +239,16 @@ void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<
     const bool bounces = contact.coefficients.restitution > 0 && approach < -step.restitutionThreshold;
     point.impact = approach < -step.impactSpeed;
     point.block = Contact<S>::kNoBlock;
+    point.rebound =
+        contact.ahead && bounces && s > touching ? contact.coefficients.restitution * approach : Real(0);
     const bool mayBounce = contact.coefficients.restitution > 0 && s > std::max(touching, step.restingGap);
-    if ((bounces && s > touching) || mayBounce) {
+    if (!contact.ahead && ((bounces && s > touching) || mayBounce)) {
         point.normalImpulse = 0;
         point.frictionImpulse.setZero();
         return;
     }
     normal.error = s;
-    if (bounces)
+    if (bounces && point.rebound == 0)
         normal.bias = contact.coefficients.restitution * approach;
     else if (s > (point.impact ? Real(0) : step.gapSlop))
         normal.bias = s / step.h;
@@ -261,6 +286,32 @@ void ContactSet<S>::pushApart(const ContactStep<S>& step, const Block<S>& block,
     normal.bias = std::max(terms.biasRate * overlap, -step.bias.fastestPush);
     normal.softness = terms.gamma;
     normal.invK = Real(1) / rowK<S>(normal, block);
+}
+
+template <class S>
+bool ContactSet<S>::bounceAhead(ConstraintRows<S>& rows) const {
+    bool any = false;
+    for (const Contact<S>& contact : contacts_)
+        for (int i = 0; contact.ahead && i < contact.manifold.count; ++i) {
+            const auto& point = contact.points[static_cast<std::size_t>(i)];
+            if (point.rebound == 0 || point.block == Contact<S>::kNoBlock) continue;
+            Row<S>& normal = rows.rows[rows.blocks[point.block].first];
+            if (!(normal.impulse > 0)) continue;
+            normal.relaxedBias = point.rebound;
+            any = true;
+        }
+    return any;
+}
+
+template <class S>
+bool ContactSet<S>::hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const {
+    const std::uint64_t key = pairKey(shapeA, shapeB);
+    const auto found = std::lower_bound(
+        contacts_.begin(), contacts_.end(), key,
+        [](const Contact<S>& c, std::uint64_t k) { return pairKey(c.shapeA, c.shapeB) < k; });
+    if (found == contacts_.end() || pairKey(found->shapeA, found->shapeB) != key) return false;
+    return std::any_of(found->points.begin(), found->points.begin() + found->manifold.count,
+                       [](const auto& point) { return point.block != Contact<S>::kNoBlock; });
 }
 
 template <class S>

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/broadphase/broad_phase.hpp"
+#include "engine/ccd/continuous_collision.hpp"
 #include "engine/constraints/row.hpp"
 #include "engine/constraints/soft.hpp"
 #include "engine/core/clone_ptr.hpp"
@@ -29,6 +30,7 @@ struct ShapeRecord {
     std::uint32_t body = 0;  ///< dense index
     std::uint32_t material = 0;
     ShapeId id;
+    typename S::Real reach = 0, inner = 0;  ///< coreReach, innerRadius (ccd/moving_shape.hpp) [m]
 };
 
 /// Two shapes that touch or nearly do. A is the body of lower index.
@@ -45,9 +47,12 @@ struct Contact {
         typename S::Vec rA, rB;  ///< arms of the impulses, as found: world axes, from the centres of mass
         std::uint32_t block = kNoBlock;  ///< its rows in this step; kNoBlock: let through
         bool impact = false;             ///< hit, rather than rested, in this step
+        Real rebound = 0;  ///< bias of the normal row once an impact ahead has taken place, < 0 [m/s]
     };
     std::uint32_t shapeA = 0, shapeB = 0, bodyA = 0, bodyB = 0;  ///< dense indices
     PairCoefficients<S> coefficients;
+    bool asleep = false;  ///< neither body takes impulses: it stays as it was, without rows
+    bool ahead = false;   ///< fast for their sizes: must not be let through, however far apart they are
     Manifold<S> manifold;
     std::array<Point, S::maxManifoldPoints> points;
     bool touching = false;  ///< at the end of the step: overlapped when found, or pushed in the step
@@ -89,16 +94,20 @@ class ContactSet {
     /// After shapes or bodies were added or removed: contacts are forgotten where dense indices changed.
     void structureChanged(bool indicesChanged);
 
-    /// Broad phase at the bodies' poses.
-    void findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase, Real speculativeDistance);
+    /// Broad phase at the bodies' poses, and on their way ahead if `ccd` wants that.
+    void findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase, Real speculativeDistance,
+                   const ContinuousCollision<S>& ccd);
     /// Narrow phase of the pairs; takes over the impulses of contacts that were there in the last step.
     void findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
-                       Real speculativeDistance);
+                       Real speculativeDistance, const ContinuousCollision<S>& ccd);
     /// Appends the rows of all contacts. The bodies' velocities are those of the start of the step.
     void addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows);
     /// Separations after the bodies have moved by `motion` (translation [m], rotation vector [rad]), to first
     /// order: C += n . (dB + aB x rB - dA - aA x rA), exact for translation and for rolling spheres.
     void advance(std::span<const Velocity<S>> motion);
+    /// After the rows are solved: the points that an impact ahead has reached get their rebound as relaxed
+    /// bias. True: there are some.
+    bool bounceAhead(ConstraintRows<S>& rows) const;
     /// Reads the impulses of the solved rows.
     void storeImpulses(const ConstraintRows<S>& rows);
 
@@ -112,10 +121,13 @@ class ContactSet {
 
     const std::vector<ProxyPair>& proxyPairs() const { return proxyPairs_; }
     const std::vector<Contact<S>>& contacts() const { return contacts_; }
+    /// True where the contact of two shapes (bodies in order) has rows in this step.
+    bool hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const;
     /// True where contacts between the two bodies are possible.
     bool mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b) const;
 
   private:
+    static bool isAsleep(const BodyArrays<S>& bodies, const Contact<S>& contact);
     void placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) const;
     void takeOver(const BodyArrays<S>& bodies, const Contact<S>& old, Contact<S>& contact) const;
     void addPointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact, int index,

@@ -27,8 +27,12 @@ template <class S>
 void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step, ConstraintRows<S>& rows) {
     for (Record& record : records_) {
         const std::uint32_t a = record.joint.a, b = record.joint.b;
-        record.evaluate(record.joint, bodies.pose[a], bodies.pose[b], made_);
         record.firstRow = static_cast<std::uint32_t>(rows.rows.size());
+        if (bodies.invMass[a] == 0 && bodies.invMass[b] == 0) {  // asleep
+            record.rows = record.held = 0;
+            continue;
+        }
+        record.evaluate(record.joint, bodies.pose[a], bodies.pose[b], made_);
         record.rows = static_cast<std::uint32_t>(made_.count);
         record.held = static_cast<std::uint32_t>(made_.held);
         record.block = static_cast<std::uint32_t>(rows.blocks.size());

@@ -7,6 +7,7 @@
 //     velocities   v += h a; damping; gyroscopic term
 //     solve        impulses for the rows
 //     move         x += h v, q := exp(h w) q
+//     impacts      fast bodies back to where they collide, and on from there  (where the choice wants it)
 //     relax        impulses again, without what position errors asked for     (where the choice wants it)
 //     correct      position correction; angular momentum to end velocity
 // Solvers that iterate on positions move first, are put right (`positions`), and solve velocities after that.
@@ -64,19 +65,19 @@ class PhaseClock {
 }  // namespace
 
 const char* phaseName(Phase phase) {
-    static constexpr const char* names[kPhases] = {"broad_phase", "narrow_phase", "rows",
-                                                   "velocities",  "solve",        "move",
-                                                   "relax",       "positions",    "correct"};
+    static constexpr const char* names[kPhases] = {"broad_phase", "narrow_phase", "rows",    "velocities",
+                                                   "solve",       "move",         "impacts", "relax",
+                                                   "positions",   "correct"};
     return names[static_cast<std::size_t>(phase)];
 }
 
 namespace {
 
 // What a sub-step consists of.
-constexpr std::array kMoveLast{Phase::Rows, Phase::Velocities, Phase::Solve,
-                               Phase::Move, Phase::Relax,      Phase::Correct};
-constexpr std::array kMoveFirst{Phase::Rows,      Phase::Velocities, Phase::Move,
-                                Phase::Positions, Phase::Solve,      Phase::Correct};
+constexpr std::array kMoveLast{Phase::Rows,    Phase::Velocities, Phase::Solve,  Phase::Move,
+                               Phase::Impacts, Phase::Relax,      Phase::Correct};
+constexpr std::array kMoveFirst{Phase::Rows,  Phase::Velocities, Phase::Move,   Phase::Positions,
+                                Phase::Solve, Phase::Impacts,    Phase::Correct};
 static_assert(kMoveLast.size() == kMoveFirst.size());
 
 }  // namespace
@@ -94,6 +95,7 @@ void World<S>::beginStep(Real h) {
     if (!(h > 0) || !std::isfinite(h)) throw EngineError("time_step", "a step must be positive and finite");
     result_ = {};
     residuals_.clear();
+    impacts_.clear();
     joints_.clearTotals();
     cursor_ = {true, Phase::BroadPhase, 0, 0, h, h / Real(def_.substeps)};
 }
@@ -105,18 +107,21 @@ void World<S>::runPhase() {
     const Phase phase = cursor_.next;
     switch (phase) {
         case Phase::BroadPhase:
+            ccd_->predict(bodies_, contacts_, def_.gravity, cursor_.size);
             result_.pairTests = broadPhase_->tests();
-            contacts_.findPairs(bodies_, *broadPhase_, def_.speculativeDistance);
+            contacts_.findPairs(bodies_, *broadPhase_, def_.speculativeDistance, *ccd_);
             result_.pairTests = broadPhase_->tests() - result_.pairTests;
             break;
         case Phase::NarrowPhase:
-            contacts_.findManifolds(bodies_, *narrowPhase_, def_.speculativeDistance);
+            contacts_.findManifolds(bodies_, *narrowPhase_, def_.speculativeDistance, *ccd_);
+            findIslands();
+            if (sleeping_.wake) sleeping_.wake(sleepStep());
             break;
         case Phase::Rows:
             makeRows();
             break;
         case Phase::Velocities:
-            motion_.kick(bodies_, def_.gravity, cursor_.substepSize);
+            kick();
             break;
         case Phase::Solve:
             solveVelocities(firstStep() ? std::max(def_.firstStepIterations, def_.velocityIterations)
@@ -125,6 +130,9 @@ void World<S>::runPhase() {
             break;
         case Phase::Move:
             motion_.move(bodies_, cursor_.substepSize);
+            break;
+        case Phase::Impacts:
+            resolveImpacts();
             break;
         case Phase::Relax:
             relax();
@@ -162,6 +170,7 @@ template <class S>
 void World<S>::endStep() {
     cursor_.active = false;
     for (Wrench<S>& wrench : bodies_.wrench) wrench = {};
+    if (sleeping_.rest) sleeping_.rest(sleepStep());
     checkFinite();
     lastStepSize_ = cursor_.substepSize;
     ++stepCount_;
@@ -176,6 +185,24 @@ void World<S>::endStep() {
     contacts_.noteEvents(bodies_, events_);
     result_.events = events_;
     breakJoints();
+    result_.impacts = impacts_;
+    result_.sleeping = static_cast<std::size_t>(std::count(bodies_.asleep.begin(), bodies_.asleep.end(), 1));
+}
+
+template <class S>
+void World<S>::kick() {
+    ccd_->remember(bodies_);
+    motion_.kick(bodies_, def_.gravity, cursor_.substepSize);
+    ccd_->rememberKick(bodies_);
+}
+
+template <class S>
+void World<S>::resolveImpacts() {
+    const Real h = cursor_.substepSize;
+    const bool inTime = ccd_->resolve({bodies_, contacts_, motion_, *narrowPhase_, friction_,
+                                       def_.restitutionThreshold, h, static_cast<Real>(cursor_.substep) * h},
+                                      impacts_);
+    result_.impactsCut = result_.impactsCut || !inTime;
 }
 
 template <class S>
@@ -219,7 +246,8 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
 
 template <class S>
 void World<S>::relax() {
-    const int iterations = style_.bias ? style_.relaxIterations : correction_->relaxIterations();
+    int iterations = style_.bias ? style_.relaxIterations : correction_->relaxIterations();
+    if (contacts_.bounceAhead(rows_)) iterations = std::max(iterations, def_.velocityIterations);
     if (iterations == 0) return;
     rows_.relax();
     jointStep_.curved = false;

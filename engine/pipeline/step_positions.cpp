@@ -33,6 +33,9 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
     const typename JointSet<S>::Record& record = joints_.records()[index];
     JointRows<S>& made = scratch_.made;
     const std::uint32_t a = record.joint.a, b = record.joint.b;
+    out.block.rows = 0;
+    out.count = 0;
+    if (bodies_.invMass[a] == 0 && bodies_.invMass[b] == 0) return;  // asleep
     record.evaluate(record.joint, bodies_.pose[a], bodies_.pose[b], made);
     out.block.kind = BlockKind::Joint;
     out.block.a = a, out.block.b = b;

@@ -104,6 +104,13 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     solver_ = findAlgorithm(solverTable<S>(), "solver", def.solver).make();
     correction_ =
         findAlgorithm(positionCorrectionTable<S>(), "position_correction", def.positionCorrection).make();
+    ccd_ =
+        findAlgorithm(continuousCollisionTable<S>(), "continuous_collision", def.continuousCollision).make();
+    sleeping_ = findAlgorithm(sleepingTable<S>(), "sleeping", def.sleeping).make();
+    const auto threshold = [](Real x) { return x >= 0 && std::isfinite(x); };
+    require(threshold(def.sleepLinearVelocity) && threshold(def.sleepAngularVelocity), "sleep_velocity",
+            "sleep velocities must not be negative");
+    require(threshold(def.timeToSleep), "time_to_sleep", "the time to sleep must not be negative");
     style_ = solver_->style();
     fault_ = findAlgorithm(faultTable<S>(), "fault", def.fault).make();
     friction_ = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;
@@ -113,6 +120,8 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     bodies_.pose.emplace_back();
     bodies_.velocity.emplace_back();
     bodies_.wrench.emplace_back();
+    bodies_.asleep.push_back(0);
+    bodies_.stillTime.push_back(0);
     bodies_.constants.emplace_back();
     bodies_.constants[0].collides = false;
     bodies_.invMass.push_back(0);
@@ -143,6 +152,8 @@ BodyId World<S>::addBody(const BodyDef<S>& def) {
     bodies_.velocity.push_back(def.type == BodyType::Static ? Velocity<S>{}
                                                             : Velocity<S>{def.velocity, def.angularVelocity});
     bodies_.wrench.emplace_back();
+    bodies_.asleep.push_back(0);
+    bodies_.stillTime.push_back(0);
     bodies_.constants.push_back(constants);
     bodies_.invMass.push_back(dynamic ? Real(1) / def.mass : Real(0));
     bodies_.invInertiaLocal.push_back(dynamic ? inverseInertia<S>(constants.inertia) : zeroInertia<S>());
@@ -166,8 +177,14 @@ ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
     record.local = {def.pose.p - bodies_.constants[dense].centerOfMass, normalizedRot(def.pose.q)};
     record.body = dense;
     record.material = def.material;
+    record.reach = coreReach<S>(record.shape, record.local);
+    record.inner = innerRadius<S>(record.shape);
     record.id = shapeIds_.add(static_cast<std::uint32_t>(contacts_.shapes().size()));
     contacts_.shapes().push_back(record);
+    if (sleeping_.wake && bodies_.constants[dense].type != BodyType::Dynamic)
+        // It may stand in the way of any of them.
+        for (std::uint32_t i = 0; i < bodies_.size(); ++i) wakeBody(bodies_, i);
+    wakeIslandOf(dense);
     contacts_.structureChanged(false);
     return record.id;
 }
@@ -203,11 +220,13 @@ template <class S>
 void World<S>::removeBody(BodyId body) {
     const std::uint32_t gone = bodyIds_.dense(body);
     const auto last = static_cast<std::uint32_t>(bodies_.size() - 1);
+    wakeNeighboursOf(gone);
     const auto fill = [gone](auto& array) {
         array[gone] = array.back();
         array.pop_back();
     };
     fill(bodies_.pose), fill(bodies_.velocity), fill(bodies_.wrench), fill(bodies_.constants);
+    fill(bodies_.asleep), fill(bodies_.stillTime);
     fill(bodies_.invMass), fill(bodies_.invInertiaLocal), fill(bodies_.invInertia), fill(bodies_.id);
     bodyIds_.remove(body);
     if (gone != last) bodyIds_.move(bodies_.id[gone], gone);
@@ -244,12 +263,15 @@ void World<S>::removeBody(BodyId body) {
     rebuildExclusions();
     contacts_.structureChanged(true);
     broadPhase_->reset();
+    findIslands();
 }
 
 template <class S>
 void World<S>::applyForce(BodyId body, const Vec& force, const Ang& torque) {
     require(force.allFinite() && finiteAng(torque), "force", "forces must be finite");
-    Wrench<S>& wrench = bodies_.wrench[bodyIds_.dense(body)];
+    const std::uint32_t i = bodyIds_.dense(body);
+    if (!force.isZero(0) || dotAng(torque, torque) > Real(0)) wakeIslandOf(i);
+    Wrench<S>& wrench = bodies_.wrench[i];
     wrench.force += force;
     wrench.torque += torque;
 }
@@ -259,6 +281,7 @@ void World<S>::setVelocity(BodyId body, const Vec& velocity, const Ang& angularV
     require(velocity.allFinite() && finiteAng(angularVelocity), "body_velocity", "velocities must be finite");
     const std::uint32_t i = bodyIds_.dense(body);
     require(bodies_.constants[i].type != BodyType::Static, "static_body", "a static body has no velocity");
+    wakeIslandOf(i);
     bodies_.velocity[i] = {velocity, angularVelocity};
 }
 
@@ -277,7 +300,7 @@ void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
         for (int i = 0; i < contact.manifold.count; ++i) {
             const auto& point = contact.points[static_cast<std::size_t>(i)];
             const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
-            if (point.block == Contact<S>::kNoBlock) continue;
+            if (point.block == Contact<S>::kNoBlock && !contact.asleep) continue;
             out.push_back({bodies_.id[contact.bodyA], bodies_.id[contact.bodyB],
                            contacts_.shapes()[contact.shapeA].id, contacts_.shapes()[contact.shapeB].id,
                            where.pointA, where.pointB, contact.manifold.normal, where.separation,
@@ -298,6 +321,9 @@ void hashField(Hasher& hash, const Eigen::Quaternion<R>& q) {
 template <class R>
 void hashField(Hasher& hash, const Rot2<R>& q) {
     hash.add(q.c), hash.add(q.s);
+}
+void hashField(Hasher& hash, std::uint8_t v) {
+    hash.add(v);
 }
 void hashField(Hasher& hash, float v) {
     hash.add(v);

@@ -15,6 +15,7 @@
 #include "engine/pipeline/events.hpp"
 #include "engine/pipeline/joint_set.hpp"
 #include "engine/pipeline/step_positions.hpp"
+#include "engine/sleeping/sleeping.hpp"
 #include "engine/state/world_def.hpp"
 
 namespace rigor::engine {
@@ -27,11 +28,12 @@ enum class Phase : std::uint8_t {
     Velocities,
     Solve,
     Move,
+    Impacts,
     Relax,
     Positions,
     Correct
 };
-inline constexpr std::size_t kPhases = 9;
+inline constexpr std::size_t kPhases = 10;
 const char* phaseName(Phase phase);  ///< "broad_phase", "narrow_phase", ...
 
 /// What happened in one step. Spans are valid until the next.
@@ -41,6 +43,10 @@ struct StepResult {
     std::size_t pairTests = 0;  ///< boxes that the broad phase compared
     std::size_t pairs = 0, contacts = 0, rows = 0;
     int iterations = 0;  ///< of the solver, in all sub-steps
+    /// Collisions that continuous_collision = conservative_advancement has put at their time, in its order.
+    std::span<const ImpactEvent<S>> impacts;
+    std::size_t sleeping = 0;  ///< bodies asleep at the end of the step
+    bool impactsCut = false;   ///< a body had too many of them and lost the rest of its time
     /// Largest velocity error removed from a row or block, per iteration [m/s or rad/s].
     std::span<const typename S::Real> residuals;
     std::span<const Event<S>> events;       ///< what began and ended, in the order of shapes
@@ -127,6 +133,9 @@ class World {
     const ConstraintRows<S>& rows() const { return rows_; }
     /// Impulses of a joint's rows in the last step, summed over its sub-steps [N s] or [N m s].
     std::span<const Real> jointImpulses(JointId joint) const;
+    /// Of the contacts and joints of the last step, between dynamic bodies, asleep or not.
+    const Islands& islands() const { return islands_; }
+    bool isAsleep(BodyId body) const { return bodies_.asleep[bodyIds_.dense(body)]; }
     /// Of everything that decides the future.
     std::uint64_t stateHash() const;
 
@@ -147,6 +156,12 @@ class World {
     void makeRows();
     void solveVelocities(int iterations, bool warmStarted);
     void relax();
+    void kick();
+    void findIslands();
+    SleepStep<S> sleepStep();
+    void wakeIslandOf(std::uint32_t body);
+    void wakeNeighboursOf(std::uint32_t body);
+    void resolveImpacts();
     void solvePositions();
     void correct();
     void spoil(Phase phase);
@@ -163,6 +178,8 @@ class World {
     ClonePtr<BroadPhase<S>> broadPhase_;
     ClonePtr<Solver<S>> solver_;
     ClonePtr<PositionCorrection<S>> correction_;
+    ClonePtr<ContinuousCollision<S>> ccd_;
+    SleepingScheme<S> sleeping_;
     SolverStyle<S> style_;
     const Fault<S>* fault_ = nullptr;
 
@@ -180,9 +197,12 @@ class World {
     JointStep<S> jointStep_{};
     ConstraintRows<S> rows_;
     PositionScratch<S> positionScratch_;
+    Islands islands_;
+    std::vector<std::uint8_t> islandMarks_;
     std::vector<Real> residuals_;
     std::vector<Event<S>> events_;
     std::vector<JointId> broken_;
+    std::vector<ImpactEvent<S>> impacts_;
     StepResult<S> result_;
 };
 

@@ -24,6 +24,7 @@ template <class S>
 JointId World<S>::addJoint(const JointDef<S>& def) {
     const std::uint32_t a = bodyOrWorld(def.bodyA), b = bodyOrWorld(def.bodyB);
     require(a != b, "joint_bodies", "a joint needs two bodies");
+    wakeIslandOf(a), wakeIslandOf(b);
     require(bodies_.invMass[a] > 0 || bodies_.invMass[b] > 0, "joint_bodies", "a joint needs a dynamic body");
     typename JointSet<S>::Record record;
     record.joint = makeJoint<S>(def, bodies_.pose[a], bodies_.constants[a].centerOfMass, bodies_.pose[b],
@@ -41,6 +42,7 @@ void World<S>::removeJoint(JointId joint) {
     require(!stepping(), "step_in_progress", "joints cannot be removed between the phases of a step");
     auto& records = joints_.records();
     const std::uint32_t gone = jointIds_.dense(joint);
+    wakeIslandOf(records[gone].joint.a), wakeIslandOf(records[gone].joint.b);
     jointIds_.remove(joint);
     records.erase(records.begin() + gone);
     for (std::uint32_t i = gone; i < records.size(); ++i) jointIds_.move(records[i].joint.id, i);
@@ -117,6 +119,7 @@ void World<S>::setJointAxis(JointId joint, int axis, const JointAxis<Real>& cont
                           static_cast<int>(std::isfinite(a.upper)), static_cast<int>(a.hasMotor()),
                           static_cast<int>(a.hasSpring())};
     };
+    wakeIslandOf(changed.a), wakeIslandOf(changed.b);
     if (rows(changed) != rows(record.joint)) record.impulse.fill(0);
     record.joint = changed;
 }

@@ -49,10 +49,12 @@ struct BodyArrays {
     // --- state (state_fields.def)
     std::vector<Pose<S>> pose;  ///< origin at the centre of mass, axes of the body frame
     std::vector<Velocity<S>> velocity;
-    std::vector<Wrench<S>> wrench;  ///< acts during the next step, then cleared
+    std::vector<Wrench<S>> wrench;            ///< acts during the next step, then cleared
+    std::vector<std::uint8_t> asleep;         ///< 1: left out of the step (sleep.hpp)
+    std::vector<typename S::Real> stillTime;  ///< how long at rest, where bodies may sleep [s]
     // --- constant
     std::vector<BodyConstants<S>> constants;
-    std::vector<typename S::Real> invMass;             ///< [1/kg]; 0 unless dynamic
+    std::vector<typename S::Real> invMass;             ///< [1/kg]; 0 unless dynamic and awake
     std::vector<typename S::Inertia> invInertiaLocal;  ///< body axes; 0 unless dynamic
     std::vector<BodyId> id;
     // --- recomputed every step

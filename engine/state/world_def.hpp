@@ -38,6 +38,8 @@ struct WorldDef {
     std::string positionCorrection = "ngs";
     std::string friction = "cone";
     std::string fault = "none";  ///< a deliberate mistake, for study (engine/faults)
+    std::string continuousCollision = "none";
+    std::string sleeping = "off";
 
     int substeps = 1;             ///< equal parts a step is solved in, contacts found once, >= 1
     int velocityIterations = 50;  ///< of each sub-step, at most, >= 1
@@ -54,6 +56,9 @@ struct WorldDef {
     /// frequency [Hz], > 0, at most a quarter of the sub-step rate is used; damping ratio >= 0.
     Real contactFrequency = 30, contactDampingRatio = 10;
     Real jointFrequency = 60, jointDampingRatio = 2;
+    /// Where bodies may sleep: an island whose bodies have all been slower than this [m/s], [rad/s] for
+    /// timeToSleep [s] does. >= 0
+    Real sleepLinearVelocity = Real(0.01), sleepAngularVelocity = Real(0.02), timeToSleep = Real(0.5);
     Real restitutionThreshold = Real(0.01);  ///< slower approaches do not bounce [m/s], >= 0
     Real slop = Real(1e-5);                  ///< overlap that position correction leaves alone [m], >= 0
     /// A gap up to this counts as closed [m], >= 0: where position correction has lifted a corner, closing

@@ -41,11 +41,11 @@ TYPED_TEST(Explain, PhasesOneAtATimeAreTheWholeStep) {
             seen.push_back(phased.nextPhase());
             phased.runPhase();
         }
-        ASSERT_EQ(seen.size(), 2u + 2u * 6u);
+        ASSERT_EQ(seen.size(), 2u + 2u * 7u);
         EXPECT_EQ(seen[0], Phase::BroadPhase);
         EXPECT_EQ(seen[1], Phase::NarrowPhase);
         EXPECT_EQ(seen[2], Phase::Rows);
-        EXPECT_EQ(seen[8], Phase::Rows);
+        EXPECT_EQ(seen[9], Phase::Rows);
         ASSERT_EQ(whole.stateHash(), phased.stateHash());
     }
 }

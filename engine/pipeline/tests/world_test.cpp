@@ -213,14 +213,16 @@ TEST(Algorithms, TablesAreSortedAndEveryEntryMakesAWorldThatFalls) {
             hasDefault = hasDefault || algorithm.name == family.defaultChoice;
             if (family.name == "fault") continue;  // engine/faults/tests asserts what each breaks
             WorldDef<Space3d> def = earth<Space3d>();
-            std::string* field = family.name == "broad_phase"           ? &def.broadPhase
-                                 : family.name == "narrow_phase"        ? &def.narrowPhase
-                                 : family.name == "integrator"          ? &def.integrator
-                                 : family.name == "rotation"            ? &def.rotation
-                                 : family.name == "solver"              ? &def.solver
-                                 : family.name == "friction"            ? &def.friction
-                                 : family.name == "position_correction" ? &def.positionCorrection
-                                                                        : nullptr;
+            std::string* field = family.name == "broad_phase"            ? &def.broadPhase
+                                 : family.name == "narrow_phase"         ? &def.narrowPhase
+                                 : family.name == "integrator"           ? &def.integrator
+                                 : family.name == "rotation"             ? &def.rotation
+                                 : family.name == "solver"               ? &def.solver
+                                 : family.name == "friction"             ? &def.friction
+                                 : family.name == "position_correction"  ? &def.positionCorrection
+                                 : family.name == "continuous_collision" ? &def.continuousCollision
+                                 : family.name == "sleeping"             ? &def.sleeping
+                                                                         : nullptr;
             ASSERT_NE(field, nullptr) << family.name;
             *field = algorithm.name;
             World<Space3d> world = busyWorld<Space3d>(def);

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/ccd/impact.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace rigor::engine {
+namespace {
+
+template <class S>
+class UntilConverged final : public IterationMonitor<S> {
+  public:
+    using Real = typename S::Real;
+    explicit UntilConverged(Real tolerance) : tolerance_(tolerance) {}
+    void before(std::span<const Velocity<S>>) override {}
+    bool after(std::span<const Velocity<S>>, Real change) override { return change <= tolerance_; }
+
+  private:
+    Real tolerance_;
+};
+
+template <class R, int N>
+auto tangentsOf(const Eigen::Matrix<R, N, 1>& n) {
+    using Vec = Eigen::Matrix<R, N, 1>;
+    if constexpr (N == 2) {
+        return std::array<Vec, 1>{Vec(-n.y(), n.x())};
+    } else {
+        const Vec axis = std::abs(n.x()) < R(0.7) ? Vec::Unit(0) : Vec::Unit(1);
+        const Vec t = axis.cross(n).normalized();
+        return std::array<Vec, 2>{t, Vec(n.cross(t))};
+    }
+}
+
+}  // namespace
+
+template <class S>
+ImpactSolver<S>::ImpactSolver() : solver_(findAlgorithm(solverTable<S>(), "solver", "pgs").make()) {}
+
+template <class S>
+void ImpactSolver<S>::begin(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b,
+                            const Manifold<S>& manifold, const PairCoefficients<S>& coefficients) {
+    using Vec = typename S::Vec;
+    rows_.clear();
+    restitution_ = coefficients.restitution;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
+        // One point for both bodies: equal and opposite impulses make no couple.
+        const Vec at = Real(0.5) * (manifold.points[i].pointA + manifold.points[i].pointB);
+        const Vec rA = at - bodies.pose[a].p, rB = at - bodies.pose[b].p;
+        Block<S> block;
+        block.kind = BlockKind::Contact;
+        block.first = static_cast<std::uint32_t>(rows_.rows.size());
+        block.a = a, block.b = b;
+        block.friction = coefficients.friction;
+        block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
+        const auto addRow = [&](const Vec& direction) {
+            Row<S> row;
+            row.lin = direction;
+            row.angA = -cross(rA, direction);
+            row.angB = cross(rB, direction);
+            completeRow<S>(row, block, bodies.invInertia);
+            row.invK = Real(1) / rowK<S>(row, block);
+            rows_.rows.push_back(row);
+        };
+        addRow(manifold.normal);
+        block.rows = 1;
+        if (block.friction > 0) {
+            for (const Vec& t : tangentsOf(manifold.normal)) addRow(t), ++block.rows;
+            const Row<S>* t = rows_.rows.data() + block.first + 1;
+            block.k11 = rowCoupling<S>(t[0], t[0], block);
+            block.k12 = S::tangents > 1 ? rowCoupling<S>(t[0], t[S::tangents - 1], block) : Real(0);
+            block.k22 =
+                S::tangents > 1 ? rowCoupling<S>(t[S::tangents - 1], t[S::tangents - 1], block) : Real(1);
+        }
+        rows_.blocks.push_back(block);
+    }
+}
+
+template <class S>
+typename S::Real ImpactSolver<S>::solve(BodyArrays<S>& bodies, FrictionLaw<S> friction, Real threshold,
+                                        bool bounce) {
+    Real fastest = 0;
+    for (const Block<S>& block : rows_.blocks) {
+        Row<S>& normal = rows_.rows[block.first];
+        for (std::uint32_t r = 0; r < block.rows; ++r) rows_.rows[block.first + r].impulse = 0;
+        const Real approach = rowVelocity<S>(normal, bodies.velocity[block.a], bodies.velocity[block.b]);
+        normal.bias = bounce && approach < -threshold ? restitution_ * approach : Real(0);
+        fastest = std::max(fastest, std::abs(approach));
+    }
+    // Rounding of the speeds involved.
+    UntilConverged<S> monitor(Real(4) * std::numeric_limits<Real>::epsilon() * fastest);
+    constexpr int kIterations = 100;  // four points of a box: 30 to double precision
+    solver_->solve({rows_, bodies.velocity, friction, monitor, kIterations, Real(0), false});
+    Real sum = 0;
+    for (const Block<S>& block : rows_.blocks) sum += rows_.rows[block.first].impulse;
+    return sum;
+}
+
+template class ImpactSolver<Space2f>;
+template class ImpactSolver<Space2d>;
+template class ImpactSolver<Space3f>;
+template class ImpactSolver<Space3d>;
+
+}  // namespace rigor::engine

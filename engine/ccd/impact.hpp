@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The collision of two bodies at one instant.
+#pragma once
+
+#include "engine/core/clone_ptr.hpp"
+#include "engine/narrowphase/manifold.hpp"
+#include "engine/solvers/solver.hpp"
+#include "engine/state/world_def.hpp"
+
+namespace rigor::engine {
+
+/// Impulses at the points of one manifold by sequential impulses, whatever the world's solver: Newton's
+/// restitution e on the normal velocities u_0 from before, n . u >= -e n . u_0 (impulse > 0 only with
+/// equality), and the world's friction law. Other contacts and joints of the bodies are not asked.
+template <class S>
+class ImpactSolver {
+  public:
+    using Real = typename S::Real;
+    ImpactSolver();
+
+    /// The points of `manifold` become rows. bodies.invInertia is that of the instant.
+    void begin(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b, const Manifold<S>& manifold,
+               const PairCoefficients<S>& coefficients);
+    /// Changes the velocities of both bodies. Approaches slower than `threshold` do not bounce; `bounce`
+    /// false: none does. Returns the sum of the normal impulses [N s].
+    Real solve(BodyArrays<S>& bodies, FrictionLaw<S> friction, Real threshold, bool bounce);
+
+  private:
+    ClonePtr<Solver<S>> solver_;
+    ConstraintRows<S> rows_;
+    Real restitution_ = 0;
+};
+
+}  // namespace rigor::engine

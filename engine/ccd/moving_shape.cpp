@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/ccd/moving_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "engine/shapes/hull.hpp"
+
+namespace rigor::engine {
+namespace {
+
+/// Distance from the mean of the vertices to the nearest face.
+template <class R>
+R hullInnerRadius(const HullData<Space<R, 2>>& hull) {
+    R inner = std::numeric_limits<R>::max();
+    for (std::size_t i = 0; i < hull.normals.size(); ++i)
+        inner = std::min(inner, hull.normals[i].dot(hull.vertices[i] - hull.center));
+    return inner;
+}
+template <class R>
+R hullInnerRadius(const HullData<Space<R, 3>>& hull) {
+    R inner = std::numeric_limits<R>::max();
+    for (const HullFace<R>& face : hull.faces)
+        inner = std::min(inner, face.offset - face.normal.dot(hull.center));
+    return inner;
+}
+
+}  // namespace
+
+template <class S>
+typename S::Real innerRadius(const Shape<S>& shape) {
+    using Real = typename S::Real;
+    return std::visit(
+        [&](const auto& s) -> Real {
+            using Kind = std::decay_t<decltype(s)>;
+            if constexpr (std::is_same_v<Kind, Sphere<S>> || std::is_same_v<Kind, Capsule<S>>) {
+                return s.radius;
+            } else if constexpr (std::is_same_v<Kind, Box<S>>) {
+                return s.halfExtents.minCoeff();
+            } else if constexpr (std::is_same_v<Kind, HalfSpace<S>>) {
+                return std::numeric_limits<Real>::max();
+            } else if constexpr (std::is_same_v<Kind, Hull<S>>) {
+                return hullInnerRadius(*s.data);
+            } else {
+                // Cylinders and cones: 0.4 of the shortest half edge of the box around is less than their
+                // inscribed balls have down to cones of aspect 1:1.5, and the right order beyond.
+                const Aabb<S> box = boundingBox<S>(shape, {});
+                return Real(0.4) * Real(0.5) * (box.max - box.min).minCoeff();
+            }
+        },
+        shape);
+}
+
+template <class S>
+typename S::Real coreReach(const Shape<S>& shape, const Pose<S>& local) {
+    using Real = typename S::Real;
+    using Vec = typename S::Vec;
+    return std::visit(
+        [&](const auto& s) -> Real {
+            using Kind = std::decay_t<decltype(s)>;
+            if constexpr (std::is_same_v<Kind, Sphere<S>>) {
+                return local.p.norm();
+            } else if constexpr (std::is_same_v<Kind, Capsule<S>>) {
+                const Vec end = rotate(local.q, Vec(s.halfLength * Vec::Unit(1)));
+                return std::max((local.p + end).norm(), (local.p - end).norm());
+            } else if constexpr (std::is_same_v<Kind, HalfSpace<S>>) {
+                return 0;  // static
+            } else if constexpr (std::is_same_v<Kind, Hull<S>>) {
+                Real reach = 0;
+                for (const Vec& v : s.data->vertices) reach = std::max(reach, toWorld<S>(local, v).norm());
+                return reach;
+            } else {
+                const Aabb<S> box = boundingBox<S>(shape, {});
+                const Vec furthest = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs());
+                return local.p.norm() + furthest.norm();
+            }
+        },
+        shape);
+}
+
+template <class S>
+bool mayPassUnseen(const MovingShape<S>& a, const MovingShape<S>& b, typename S::Real t) {
+    using Real = typename S::Real;
+    const Real turning = std::sqrt(dotAng(a.velocity.w, a.velocity.w)) * a.reach +
+                         std::sqrt(dotAng(b.velocity.w, b.velocity.w)) * b.reach;
+    const Real motion = t * ((b.velocity.v - a.velocity.v).norm() + turning);
+    return motion > Real(0.5) * a.inner + Real(0.5) * b.inner;
+}
+
+template <class S>
+Aabb<S> sweptBox(const MovingShape<S>& shape, typename S::Real t) {
+    using Real = typename S::Real;
+    using Vec = typename S::Vec;
+    Aabb<S> box = boundingBox<S>(*shape.shape, shape.at(0));
+    const Real turn =
+        std::min(t * std::sqrt(dotAng(shape.velocity.w, shape.velocity.w)), Real(2)) * shape.reach;
+    const Vec d = t * shape.velocity.v;
+    box.min += d.cwiseMin(Real(0)) - Vec::Constant(turn);
+    box.max += d.cwiseMax(Real(0)) + Vec::Constant(turn);
+    return box;
+}
+
+#define RIGOR_INSTANTIATE(S)                                                               \
+    template S::Real innerRadius<S>(const Shape<S>&);                                      \
+    template S::Real coreReach<S>(const Shape<S>&, const Pose<S>&);                        \
+    template bool mayPassUnseen<S>(const MovingShape<S>&, const MovingShape<S>&, S::Real); \
+    template Aabb<S> sweptBox<S>(const MovingShape<S>&, S::Real);
+RIGOR_INSTANTIATE(Space2f)
+RIGOR_INSTANTIATE(Space2d)
+RIGOR_INSTANTIATE(Space3f)
+RIGOR_INSTANTIATE(Space3d)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine

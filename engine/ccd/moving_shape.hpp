@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A shape on a body that moves with constant velocity and angular velocity, and the two sizes of it that
+// decide how far it may move unseen.
+#pragma once
+
+#include "engine/math/rotation.hpp"
+#include "engine/math/space.hpp"
+#include "engine/shapes/shape.hpp"
+#include "engine/state/body_arrays.hpp"
+
+namespace rigor::engine {
+
+/// A ball of this radius fits into the shape (rounded down where there is no closed form) [m]; the largest
+/// number there is for half-spaces, which nothing passes through.
+template <class S>
+typename S::Real innerRadius(const Shape<S>& shape);
+
+/// How far the shape's core reaches from a point at `local.p` beyond its frame's origin, i.e. from the
+/// body's centre of mass [m]. The core is the shape without its rounding radius: the turning of a ball about
+/// its own centre moves nothing.
+template <class S>
+typename S::Real coreReach(const Shape<S>& shape, const Pose<S>& local);
+
+/// Pose after t [s] of a body that starts at X.
+template <class S>
+Pose<S> movedPose(const Pose<S>& X, const Velocity<S>& velocity, typename S::Real t) {
+    return {X.p + t * velocity.v, rotatedBy(X.q, typename S::Ang(t * velocity.w))};
+}
+
+template <class S>
+struct MovingShape {
+    const Shape<S>* shape = nullptr;
+    Pose<S> local;               ///< in the frame at the body's centre of mass
+    Pose<S> body;                ///< of that frame, at time 0
+    Velocity<S> velocity;        ///< constant
+    typename S::Real reach = 0;  ///< coreReach [m]
+    typename S::Real inner = 0;  ///< innerRadius [m]
+    Pose<S> at(typename S::Real t) const { return compose<S>(movedPose<S>(body, velocity, t), local); }
+    /// Bound on the path of any of its points over t [m].
+    typename S::Real motion(typename S::Real t) const {
+        return t * (velocity.v.norm() + std::sqrt(dotAng(velocity.w, velocity.w)) * reach);
+    }
+};
+
+/// The constant velocity that leads from `start` to `end` in h [s]. The rotation is the one by h * used,
+/// which may be more than half a turn, and what else has turned the body since.
+template <class S>
+Velocity<S> straightVelocity(const Pose<S>& start, const Pose<S>& end, const Velocity<S>& used,
+                             typename S::Real h) {
+    const auto rest = compose(end.q, inverse(rotatedBy(start.q, typename S::Ang(h * used.w))));
+    return {(end.p - start.p) / h, used.w + logMap(rest) / h};
+}
+
+/// Both may cross each other within t [s] without an overlap ever being seen at its ends: what they move
+/// relative to each other is more than half of what they are thick together.
+template <class S>
+bool mayPassUnseen(const MovingShape<S>& a, const MovingShape<S>& b, typename S::Real t);
+
+/// Contains the shape during [0, t].
+template <class S>
+Aabb<S> sweptBox(const MovingShape<S>& shape, typename S::Real t);
+
+}  // namespace rigor::engine

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/ccd/continuous_collision.hpp"
+
+namespace rigor::engine {
+
+#define ALGORITHM(name, factory, summary) \
+    template <class S>                    \
+    std::unique_ptr<ContinuousCollision<S>> factory();
+#include "engine/ccd/continuous_collisions.def"
+#undef ALGORITHM
+
+template <class S>
+std::span<const AlgorithmEntry<ContinuousCollisionFactory<S>>> continuousCollisionTable() {
+    static constexpr AlgorithmEntry<ContinuousCollisionFactory<S>> table[] = {
+#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#include "engine/ccd/continuous_collisions.def"
+#undef ALGORITHM
+    };
+    return table;
+}
+template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space2f>>> continuousCollisionTable();
+template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space2d>>> continuousCollisionTable();
+template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space3f>>> continuousCollisionTable();
+template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space3d>>> continuousCollisionTable();
+
+}  // namespace rigor::engine

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Islands: dynamic bodies that contacts and joints connect, directly or through others. What happens in one
+// does not reach another within the step.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/core/ids.hpp"
+
+namespace rigor::engine {
+
+/// Disjoint sets by union-find [Tarjan1975]: the root of a set is its lowest index, paths are halved on the
+/// way up. begin, join per contact and joint, finish. O((bodies + joins) log bodies), no allocation once the
+/// number of bodies has stopped growing.
+class Islands {
+  public:
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    /// Bodies 0..n-1, each alone.
+    void begin(std::uint32_t n);
+    void join(std::uint32_t a, std::uint32_t b);
+    /// Numbers the islands of the bodies with member[i] != 0, by their lowest body.
+    void finish(std::span<const std::uint8_t> member, std::span<const BodyId> ids);
+
+    std::size_t count() const { return starts_.size() - 1; }
+    /// Of island k, in ascending dense order.
+    std::span<const std::uint32_t> members(std::size_t k) const {
+        return {members_.data() + starts_[k], starts_[k + 1] - starts_[k]};
+    }
+    std::span<const BodyId> bodies(std::size_t k) const {
+        return {ids_.data() + starts_[k], starts_[k + 1] - starts_[k]};
+    }
+    /// Of a body by dense index; kNone for bodies that are in none.
+    std::uint32_t islandOf(std::uint32_t body) const { return body < island_.size() ? island_[body] : kNone; }
+
+  private:
+    std::uint32_t rootOf(std::uint32_t i);
+
+    std::vector<std::uint32_t> parent_, island_;
+    std::vector<std::uint32_t> starts_ = {0}, members_;
+    std::vector<BodyId> ids_;
+};
+
+}  // namespace rigor::engine

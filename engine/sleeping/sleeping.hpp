@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Whether bodies that have come to rest are left out of the step: the family `sleeping`.
+//
+// A body asleep stays exactly where it is: no forces, no rows, no motion; its contacts are kept as they were.
+// To everyone else it looks like a body that takes no momentum. It wakes with its whole island.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/core/table.hpp"
+#include "engine/sleeping/islands.hpp"
+#include "engine/state/sleep.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+class ContactSet;
+
+template <class S>
+struct SleepStep {
+    using Real = typename S::Real;
+    BodyArrays<S>& bodies;
+    const ContactSet<S>& contacts;
+    const Islands& islands;             ///< of the contacts and joints of this step
+    std::vector<std::uint8_t>& marked;  ///< scratch, by island
+    Real h;                             ///< of the whole step [s]
+    Real linearVelocity;                ///< slower is at rest [m/s]
+    Real angularVelocity;               ///< slower is at rest [rad/s]
+    Real timeToSleep;                   ///< how long all of an island must have been at rest [s]
+};
+
+template <class S>
+struct SleepingScheme {
+    /// When contacts are known, before rows are made: who wakes. Null: nobody ever sleeps.
+    void (*wake)(const SleepStep<S>& step) = nullptr;
+    /// At the end of the step: who falls asleep.
+    void (*rest)(const SleepStep<S>& step) = nullptr;
+};
+template <class S>
+using SleepingFactory = SleepingScheme<S> (*)();
+template <class S>
+std::span<const AlgorithmEntry<SleepingFactory<S>>> sleepingTable();
+
+}  // namespace rigor::engine
