@@ -30,9 +30,6 @@ constexpr Deviation kDeviations[] = {
     {"fcl", "", "", 0, "box_capsule_side_gap", 1e-4, "libccd's distance iteration stops at 1e-6"},
     {"fcl", "", "", 0, "box_capsule_end_gap", 1e-4, "libccd's distance iteration stops at 1e-6"},
     {"fcl", "", "", 0, "hull_ball_gap", 5e-4, "libccd's distance iteration stops at 1e-6"},
-    {"rigor", "", "", 0, "box_box_distance_told", 1.0, "SAT tells no distance of polytopes that are apart"},
-    {"rigor", "", "", 0, "hull_hull_distance_told", 1.0, "SAT tells no distance of polytopes that are apart"},
-    {"rigor", "", "", 0, "box_hull_distance_told", 1.0, "SAT tells no distance of polytopes that are apart"},
 };
 
 struct Use {

@@ -3,7 +3,10 @@
 //
 // The in-house engine as an adapter: who it is, what it can do, and every choice it offers. Algorithm names
 // come from the engine's own tables.
+#include <algorithm>
+
 #include "adapters/interface/options.hpp"
+#include "adapters/rigor/foreign_narrow_phase.hpp"
 #include "adapters/rigor/parts.hpp"
 #include "adapters/rigor/settings.hpp"
 #include "engine/constraints/joint.hpp"
@@ -28,6 +31,9 @@ class RigorEngine final : public Engine {
         for (const engine::AlgorithmFamily& family : engine::algorithmFamilies()) {
             std::vector<std::string> names;
             for (const engine::AlgorithmInfo& algorithm : family.algorithms) names.push_back(algorithm.name);
+            if (family.name == "narrow_phase")
+                names.insert(names.end(), foreignNarrowPhases().begin(), foreignNarrowPhases().end());
+            std::sort(names.begin(), names.end());
             options.push_back(choice(family.name.c_str(), names, family.defaultChoice.c_str(),
                                      family.defaultChoice.c_str(), family.summary.c_str()));
         }
@@ -97,9 +103,7 @@ Capabilities rigorCapabilities() {
     for (const engine::JointEntry<engine::Space3d>& joint : engine::jointTable<engine::Space3d>())
         c.joints.push_back(joint.name);
     c.contactImpulses = true;
-    // Separated polytopes get no distance from the separating axis; see collision.cpp.
-    // Separating axes only bound the distance of polytopes that are apart; it is told where it is exact.
-    c.signedDistance = false;
+    c.signedDistance = true;
     c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
     return c;
 }

@@ -1,35 +1,57 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Collision queries by the in-house narrow phase, in double precision.
-//
-// Signed distance: exact for every overlapping pair, and for separated pairs with a ball, capsule or
-// half-space. The separating axis of two separated polytopes only bounds their distance from below: there
-// the answer is left empty.
+// Collision queries by the in-house narrow phases, in double precision. Contacts are those of the algorithm
+// asked for. The signed distance of overlapping shapes is its depth; shapes that are apart have the distance
+// and points of closestPoints, exact for every pair.
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
+#include <mutex>
 
 #include "adapters/interface/input_check.hpp"
 #include "adapters/rigor/convert_shape.hpp"
+#include "adapters/rigor/foreign_narrow_phase.hpp"
 #include "adapters/rigor/parts.hpp"
-#include "engine/narrowphase/manifold.hpp"
+#include "engine/core/error.hpp"
+#include "engine/narrowphase/distance.hpp"
+#include "engine/narrowphase/narrowphases.hpp"
 
 namespace rigor::adapter {
 namespace {
 
-bool isPolytope(const Geometry& g) {
-    return std::holds_alternative<scenario::Box>(g) || std::holds_alternative<scenario::ConvexHull>(g);
+template <class S>
+std::shared_ptr<const engine::NarrowPhase<S>> narrowPhaseOf(const std::string& name) {
+    if (isForeignNarrowPhase(name)) {
+        if constexpr (S::dim == 3)
+            return makeForeignNarrowPhase<S>(name);
+        else
+            throw Unsupported("narrow_phase=" + name + " is 3D only");
+    }
+    return engine::makeNarrowPhase<S>(name);
+}
+
+/// Closest points of shapes that are apart. False where there is no distance (two half-spaces).
+template <class S>
+bool answerDistance(const engine::Shape<S>& a, const engine::Pose<S>& Xa, const engine::Shape<S>& b,
+                    const engine::Pose<S>& Xb, CollisionAnswer& answer) {
+    const engine::ClosestPoints<S> found = engine::closestPoints<S>(a, Xa, b, Xb);
+    if (!std::isfinite(found.distance) || found.distance == std::numeric_limits<double>::lowest())
+        return false;
+    // The algorithm has found no overlap: below rounding the two may differ.
+    answer.signedDistance = std::max(0.0, found.distance);
+    answer.witnessA = fromEngineVec(found.pointA);
+    answer.witnessB = fromEngineVec(found.pointB);
+    return true;
 }
 
 template <class S>
-CollisionAnswer collideIn(const CollisionQuery& query) {
+CollisionAnswer collideIn(const CollisionQuery& query, const engine::NarrowPhase<S>& narrowPhase) {
     const engine::Shape<S> a = toEngineShape<S>(*query.a.geometry), b = toEngineShape<S>(*query.b.geometry);
     const engine::Pose<S> Xa = toEnginePose<S>(query.a.pose), Xb = toEnginePose<S>(query.b.pose);
-    const bool bound = isPolytope(*query.a.geometry) && isPolytope(*query.b.geometry);
-    // With an unbounded speculative distance separated pairs are answered too.
-    const double reach = bound ? 0.0 : std::numeric_limits<double>::max();
     engine::Manifold<S> manifold;
-    engine::findNarrowPhase<S>("sat")(a, Xa, b, Xb, reach, manifold);
+    narrowPhase.collide(a, Xa, b, Xb, 0.0, manifold);
 
     CollisionAnswer answer;
     std::vector<ContactPoint> points;
@@ -51,6 +73,8 @@ CollisionAnswer collideIn(const CollisionQuery& query) {
         answer.signedDistance = -points.front().depth;
         answer.witnessA = points.front().pointA;
         answer.witnessB = points.front().pointB;
+    } else {
+        answerDistance<S>(a, Xa, b, Xb, answer);
     }
     for (const ContactPoint& c : points)
         if (c.depth >= 0 && static_cast<int>(answer.contacts.size()) < query.maxContacts)
@@ -60,10 +84,41 @@ CollisionAnswer collideIn(const CollisionQuery& query) {
 
 class RigorCollision final : public CollisionEngine {
   public:
+    std::vector<std::string> algorithms() const override {
+        std::vector<std::string> names = foreignNarrowPhases();
+        for (const engine::NarrowPhaseEntry& entry : engine::narrowPhases()) names.push_back(entry.name);
+        std::sort(names.begin(), names.end());
+        return names;
+    }
     CollisionAnswer collide(const CollisionQuery& query) const override {
         checkQueryInput(query);
-        return query.dimension == 2 ? collideIn<engine::Space2d>(query) : collideIn<engine::Space3d>(query);
+        const std::string name = query.algorithm.empty() ? "sat" : query.algorithm;
+        try {
+            if (query.dimension == 2) return collideIn<engine::Space2d>(query, *planar_.get(name));
+            return collideIn<engine::Space3d>(query, *spatial_.get(name));
+        } catch (const engine::EngineError& error) {
+            throw BadInput(error.what());
+        }
     }
+
+  private:
+    /// Narrow phases by name, made when first asked for: another engine's module is loaded once.
+    template <class S>
+    class Made {
+      public:
+        std::shared_ptr<const engine::NarrowPhase<S>> get(const std::string& name) const {
+            const std::lock_guard lock(mutex_);
+            auto& entry = made_[name];
+            if (!entry) entry = narrowPhaseOf<S>(name);
+            return entry;
+        }
+
+      private:
+        mutable std::mutex mutex_;
+        mutable std::map<std::string, std::shared_ptr<const engine::NarrowPhase<S>>> made_;
+    };
+    Made<engine::Space2d> planar_;
+    Made<engine::Space3d> spatial_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "adapters/interface/types.hpp"
 #include "adapters/rigor/convert_shape.hpp"
+#include "adapters/rigor/foreign_narrow_phase.hpp"
 #include "engine/state/world_def.hpp"
 
 namespace rigor::adapter {
@@ -24,6 +25,13 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     def.rotation = textSetting(settings, "rotation");
     def.broadPhase = textSetting(settings, "broad_phase");
     def.narrowPhase = textSetting(settings, "narrow_phase");
+    def.manifold = textSetting(settings, "manifold");
+    if (isForeignNarrowPhase(def.narrowPhase)) {
+        if constexpr (S::dim == 3)
+            def.customNarrowPhase = makeForeignNarrowPhase<S>(def.narrowPhase);
+        else
+            throw Unsupported("narrow_phase=" + def.narrowPhase + " is 3D only");
+    }
     def.solver = textSetting(settings, "solver");
     def.positionCorrection = textSetting(settings, "position_correction");
     def.friction = textSetting(settings, "friction");

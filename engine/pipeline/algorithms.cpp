@@ -6,6 +6,7 @@
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/faults/fault.hpp"
 #include "engine/integrators/integrator.hpp"
+#include "engine/narrowphase/manifolds.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
 #include "engine/sleeping/sleeping.hpp"
 #include "engine/solvers/position_correction.hpp"
@@ -30,6 +31,7 @@ std::vector<AlgorithmFamily> algorithmFamilies() {
     return {
         family("broad_phase", "which bounding boxes overlap", def.broadPhase, broadPhaseTable<S>()),
         family("narrow_phase", "where two shapes touch", def.narrowPhase, narrowPhases()),
+        family("manifold", "which of the touching points the solver gets", def.manifold, manifoldTable<S>()),
         family("integrator", "how velocities move bodies", def.integrator, integratorTable<S>()),
         family("rotation", "gyroscopic term; bodies turn by the exponential map", def.rotation,
                rotationTable<S>()),

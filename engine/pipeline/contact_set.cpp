@@ -135,7 +135,8 @@ void ContactSet<S>::takeOver(const BodyArrays<S>& bodies, const Contact<S>& old,
 
 template <class S>
 void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
-                                  Real speculativeDistance, const ContinuousCollision<S>& ccd) {
+                                  ManifoldFunction<S> makeManifold, Real speculativeDistance,
+                                  const ContinuousCollision<S>& ccd) {
     std::swap(contacts_, previous_);
     contacts_.clear();
     auto old = previous_.begin();
@@ -155,6 +156,13 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
                             speculativeDistance, contact.manifold);
         contact.shapeA = a, contact.shapeB = b;
         contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
+        if (contact.manifold.count > 0) {
+            if (before) contact.cache = old->cache;
+            const Real size =
+                std::min((boxes_[a].max - boxes_[a].min).norm(), (boxes_[b].max - boxes_[b].min).norm());
+            makeManifold({shapePoses_[a], shapePoses_[b], size, speculativeDistance}, contact.cache,
+                         contact.manifold);
+        }
         placePoints(bodies, contact);
         if (ccd.looksAhead()) ccd.findAhead(contact, bodies, *this, narrowPhase);
         if (contact.manifold.count == 0) {

@@ -16,7 +16,7 @@
 #include "engine/constraints/soft.hpp"
 #include "engine/core/clone_ptr.hpp"
 #include "engine/faults/fault.hpp"
-#include "engine/narrowphase/manifold.hpp"
+#include "engine/narrowphase/manifolds.hpp"
 #include "engine/pipeline/events.hpp"
 #include "engine/state/world_def.hpp"
 
@@ -54,6 +54,7 @@ struct Contact {
     bool asleep = false;  ///< neither body takes impulses: it stays as it was, without rows
     bool ahead = false;   ///< fast for their sizes: must not be let through, however far apart they are
     Manifold<S> manifold;
+    ManifoldCache<S> cache;  ///< of the manifold choice
     std::array<Point, S::maxManifoldPoints> points;
     bool touching = false;  ///< at the end of the step: overlapped when found, or pushed in the step
 };
@@ -99,7 +100,8 @@ class ContactSet {
                    const ContinuousCollision<S>& ccd);
     /// Narrow phase of the pairs; takes over the impulses of contacts that were there in the last step.
     void findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
-                       Real speculativeDistance, const ContinuousCollision<S>& ccd);
+                       ManifoldFunction<S> makeManifold, Real speculativeDistance,
+                       const ContinuousCollision<S>& ccd);
     /// Appends the rows of all contacts. The bodies' velocities are those of the start of the step.
     void addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows);
     /// Separations after the bodies have moved by `motion` (translation [m], rotation vector [rad]), to first

@@ -113,7 +113,7 @@ void World<S>::runPhase() {
             result_.pairTests = broadPhase_->tests() - result_.pairTests;
             break;
         case Phase::NarrowPhase:
-            contacts_.findManifolds(bodies_, *narrowPhase_, def_.speculativeDistance, *ccd_);
+            contacts_.findManifolds(bodies_, *narrowPhase_, makeManifold_, def_.speculativeDistance, *ccd_);
             findIslands();
             if (sleeping_.wake) sleeping_.wake(sleepStep());
             break;

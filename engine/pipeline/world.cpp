@@ -115,6 +115,7 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     fault_ = findAlgorithm(faultTable<S>(), "fault", def.fault).make();
     friction_ = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;
     narrowPhase_ = def.customNarrowPhase ? def.customNarrowPhase : makeNarrowPhase<S>(def.narrowPhase);
+    makeManifold_ = findAlgorithm(manifoldTable<S>(), "manifold", def.manifold).make;
 
     // Body 0 is the world.
     bodies_.pose.emplace_back();

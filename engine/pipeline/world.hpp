@@ -174,6 +174,7 @@ class World {
     WorldDef<S> def_;
     Motion<S> motion_;
     std::shared_ptr<const NarrowPhase<S>> narrowPhase_;
+    ManifoldFunction<S> makeManifold_ = nullptr;
     FrictionLaw<S> friction_ = nullptr;
     ClonePtr<BroadPhase<S>> broadPhase_;
     ClonePtr<Solver<S>> solver_;

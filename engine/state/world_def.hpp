@@ -34,6 +34,7 @@ struct WorldDef {
     std::string narrowPhase = "sat";
     /// In place of `narrowPhase` where set; shared by copies of the world.
     std::shared_ptr<const NarrowPhase<S>> customNarrowPhase;
+    std::string manifold = "clipped";
     std::string solver = "pgs";
     std::string positionCorrection = "ngs";
     std::string friction = "cone";

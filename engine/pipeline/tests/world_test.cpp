@@ -215,6 +215,7 @@ TEST(Algorithms, TablesAreSortedAndEveryEntryMakesAWorldThatFalls) {
             WorldDef<Space3d> def = earth<Space3d>();
             std::string* field = family.name == "broad_phase"            ? &def.broadPhase
                                  : family.name == "narrow_phase"         ? &def.narrowPhase
+                                 : family.name == "manifold"             ? &def.manifold
                                  : family.name == "integrator"           ? &def.integrator
                                  : family.name == "rotation"             ? &def.rotation
                                  : family.name == "solver"               ? &def.solver

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The deepest point alone: what a first engine does with the answer of GJK, EPA or SAT. Enough for balls; a
+// box at rest has nothing to keep it from tipping about its point, which jumps from corner to corner. Of
+// equally deep points the first.
+#include "engine/narrowphase/manifolds.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+void manifoldDeepest(const ManifoldPair<S>&, ManifoldCache<S>&, Manifold<S>& manifold) {
+    int deepest = 0;
+    for (int i = 1; i < manifold.count; ++i)
+        if (manifold.points[static_cast<std::size_t>(i)].separation <
+            manifold.points[static_cast<std::size_t>(deepest)].separation)
+            deepest = i;
+    manifold.points[0] = manifold.points[static_cast<std::size_t>(deepest)];
+    manifold.count = 1;
+}
+
+RIGOR_INSTANTIATE_MANIFOLD(manifoldDeepest);
+
+}  // namespace rigor::engine
