@@ -32,7 +32,7 @@ class RigorEngine final : public Engine {
             std::vector<std::string> names;
             for (const engine::AlgorithmInfo& algorithm : family.algorithms) names.push_back(algorithm.name);
             if (family.name == "narrow_phase")
-                names.insert(names.end(), foreignNarrowPhases().begin(), foreignNarrowPhases().end());
+                for (const std::string& foreign : foreignNarrowPhases()) names.push_back(foreign);
             std::sort(names.begin(), names.end());
             options.push_back(choice(family.name.c_str(), names, family.defaultChoice.c_str(),
                                      family.defaultChoice.c_str(), family.summary.c_str()));

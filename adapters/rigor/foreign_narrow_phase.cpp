@@ -17,6 +17,8 @@
 namespace rigor::adapter {
 namespace {
 
+constexpr const char* kForeign[] = {"bullet", "fcl"};
+
 /// Contacts asked for before the reduction.
 constexpr int kMostContacts = 16;
 /// Cosine of the largest angle to the deepest contact's normal, 8 degrees: a manifold has one normal.
@@ -104,19 +106,21 @@ class ForeignNarrowPhase final : public engine::NarrowPhase<S> {
 
 }  // namespace
 
-const std::vector<std::string>& foreignNarrowPhases() {
-    static const std::vector<std::string> names{"bullet", "fcl"};
+std::vector<std::string> foreignNarrowPhases() {
+    const std::vector<std::string> installed = availableEngines();
+    std::vector<std::string> names;
+    for (const char* name : kForeign)
+        if (std::find(installed.begin(), installed.end(), name) != installed.end()) names.emplace_back(name);
     return names;
 }
 
 bool isForeignNarrowPhase(const std::string& name) {
-    const std::vector<std::string>& names = foreignNarrowPhases();
-    return std::find(names.begin(), names.end(), name) != names.end();
+    return std::find(std::begin(kForeign), std::end(kForeign), name) != std::end(kForeign);
 }
 
 template <class S>
 std::shared_ptr<const engine::NarrowPhase<S>> makeForeignNarrowPhase(const std::string& name) {
-    const std::vector<std::string> installed = availableEngines();
+    const std::vector<std::string> installed = foreignNarrowPhases();
     if (std::find(installed.begin(), installed.end(), name) == installed.end())
         throw BadInput("narrow_phase=" + name + ": the adapter '" + name + "' is not installed");
     LoadedEngine loaded = loadEngine(parseSpec(name));

@@ -12,8 +12,9 @@
 
 namespace rigor::adapter {
 
-/// Names of the engines that can be asked; each is the name of its adapter.
-const std::vector<std::string>& foreignNarrowPhases();
+/// Names of the engines that can be asked and are installed, sorted; each is the name of its adapter.
+std::vector<std::string> foreignNarrowPhases();
+/// Installed or not.
 bool isForeignNarrowPhase(const std::string& name);
 
 /// Loads the adapter of that name and wraps its collision queries; 3D only. Throws BadInput when its module

@@ -43,9 +43,15 @@ ClosestPoints<S> twoPlanes(const HalfSpace<S>& a, const Pose<S>& Xa) {
 
 template <class S>
 CoreContact<S> closestCores(const Minkowski<S>& D) {
-    const GjkResult<S> apart = gjk<S>(D, D.translation());
+    GjkResult<S> apart = gjk<S>(D, D.translation());
     CoreContact<S> r;
     r.iterations = apart.iterations;
+    if (!apart.converged) {
+        // Once in 10^4 pairs of parallel faces rounding keeps a stale simplex: start afresh where it stood.
+        const GjkResult<S> again = gjk<S>(D, typename S::Vec(-apart.v));
+        r.iterations += again.iterations;
+        if (again.converged) apart = again;
+    }
     r.converged = apart.converged;
     r.onA = apart.simplex.onA();
     r.onB = apart.simplex.onB();

@@ -157,7 +157,8 @@ class DescribedEngine final : public adapter::Engine {
 
 std::vector<adapter::EngineSpec> allCollisionSpecs(const fs::path& binary, int jobs) {
     std::vector<adapter::EngineSpec> specs;
-    for (const EngineDescription& d : describeEngines(adapter::availableEngines(), binary, jobs)) {
+    const std::vector<std::string> engines = adapter::availableEngines();
+    for (const EngineDescription& d : describeEngines(engines, binary, jobs)) {
         if (!d.problem.empty() || !d.capabilities.collision) continue;
         const auto choice = std::find_if(d.options.begin(), d.options.end(),
                                          [](const adapter::Option& o) { return o.key == kAlgorithmKey; });
@@ -165,8 +166,10 @@ std::vector<adapter::EngineSpec> allCollisionSpecs(const fs::path& binary, int j
             specs.push_back({d.info.name, {}});
             continue;
         }
+        // Another engine's narrow phase is asked as that engine.
         for (const std::string& value : choice->values)
-            specs.push_back({d.info.name, {{kAlgorithmKey, value}}});
+            if (std::find(engines.begin(), engines.end(), value) == engines.end())
+                specs.push_back({d.info.name, {{kAlgorithmKey, value}}});
     }
     return specs;
 }

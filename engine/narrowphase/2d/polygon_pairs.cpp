@@ -137,6 +137,24 @@ void emitPoint(const Reference<R>& c, const Vec2<R>& n, const Vec2<R>& onInc, R 
     addPoint<Space<R, 2>>(out, c.refIsA ? pRef : pInc, c.refIsA ? pInc : pRef, separation, feature);
 }
 
+/// Where the clipped points miss the separation of the axis (thin polygons that cross, their normals rounded)
+/// the incident vertex that has it is put back.
+template <class R>
+void restoreDeepest(const Reference<R>& c, int edge, R separation, R tolerance, Manifold<Space<R, 2>>& out) {
+    for (int i = 0; i < out.count; ++i) {
+        const R s = out.points[static_cast<std::size_t>(i)].separation;
+        if (s + c.ref.radius + c.inc.radius <= separation + R(4) * tolerance) return;
+    }
+    const Vec2<R> n = c.ref.normals[edge], v0 = c.ref.vertices[edge];
+    const auto height = [&](int i) { return R(n.dot(toWorld<Space<R, 2>>(c.X, c.inc.vertices[i]) - v0)); };
+    int deepest = 0;
+    for (int i = 1; i < c.inc.count; ++i)
+        if (height(i) < height(deepest)) deepest = i;
+    if (out.count == 2) --out.count;
+    emitPoint<R>(c, n, toWorld<Space<R, 2>>(c.X, c.inc.vertices[deepest]), height(deepest),
+                 vertexFeature(!c.refIsA, deepest), out);
+}
+
 /// The incident edge clipped to the strip over the reference edge. Fills `out` in the frame of the reference.
 template <class R>
 void clipEdges(const Reference<R>& c, int edge, Manifold<Space<R, 2>>& out) {
@@ -202,13 +220,11 @@ void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Pol
         }
         if (!touching) refIsA = closest.vertexOnB, edge = closest.edge;
     }
-    if (refIsA) {
-        clipEdges<R>({a, b, XAB, true, speculative}, edge, out);
-        toWorldFrame<S>(out, Xa);
-    } else {
-        clipEdges<R>({b, a, XBA, false, speculative}, edge, out);
-        toWorldFrame<S>(out, Xb);
-    }
+    const Reference<R> c =
+        refIsA ? Reference<R>{a, b, XAB, true, speculative} : Reference<R>{b, a, XBA, false, speculative};
+    clipEdges<R>(c, edge, out);
+    if (separation < -tolerance && !apart) restoreDeepest<R>(c, edge, separation, tolerance, out);
+    toWorldFrame<S>(out, refIsA ? Xa : Xb);
 }
 
 }  // namespace
