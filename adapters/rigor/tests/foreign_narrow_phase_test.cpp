@@ -56,7 +56,7 @@ TEST(RigorCollision, EveryAlgorithmTellsDepthAndDistance) {
 
 class ForeignNarrowPhase : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Engines, ForeignNarrowPhase, testing::Values("bullet", "fcl"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& tested) { return std::string(tested.param); });
 
 TEST_P(ForeignNarrowPhase, HoldsAStackThatTheInHouseSolverSolves) {
     const std::string name = GetParam(), key = std::string("narrow_phase=") + name;
