@@ -73,9 +73,9 @@ TEST_P(ForeignNarrowPhase, HoldsAStackThatTheInHouseSolverSolves) {
     Simulation run(s, 1.0 / 240, key);
     run.seconds(1.5);
     // Contacts are told of overlaps only, and EPA of none below 1e-7 m.
-    EXPECT_NEAR(run.state(lower).pose.position.y, 0.5, 2e-3);
-    EXPECT_NEAR(run.state(upper).pose.position.y, 1.5, 4e-3);
-    EXPECT_NEAR(run.state(ball).pose.position.y, 0.3, 2e-3);
+    EXPECT_NEAR(run.state(lower).position.y, 0.5, 2e-3);
+    EXPECT_NEAR(run.state(upper).position.y, 1.5, 4e-3);
+    EXPECT_NEAR(run.state(ball).position.y, 0.3, 2e-3);
     EXPECT_LT(norm(run.state(upper).velocity), 0.05);
     EXPECT_GE(run.contacts().size(), 3u);
 }
