@@ -6,6 +6,8 @@
 // ones.
 #include "adapters/box2d/joints.hpp"
 
+#include <algorithm>
+
 namespace rigor::box2d {
 namespace {
 
@@ -31,6 +33,11 @@ Def common(const Ends& ends) {
     return def;
 }
 
+/// A bound in Box2D's units; what is no bound in the format is far away.
+float toBound(double x, double scale) {
+    return static_cast<float>(std::clamp(scale * x, -1e6, 1e6));
+}
+
 }  // namespace
 
 void addJoint(b2World& world, const Joint& joint, const JointEnd& a, const JointEnd& b, double scale) {
@@ -46,6 +53,13 @@ void addJoint(b2World& world, const Joint& joint, const JointEnd& a, const Joint
         case JointType::Hinge: {
             auto def = common<b2RevoluteJointDef>(ends);
             def.referenceAngle = ends.referenceAngle;
+            const scenario::JointAxis& axis = joint.axes[0];
+            def.enableLimit = axis.mode == scenario::AxisMode::Limited;
+            if (def.enableLimit)
+                def.lowerAngle = toBound(axis.lower, 1.0), def.upperAngle = toBound(axis.upper, 1.0);
+            def.enableMotor = axis.hasMotor();
+            def.motorSpeed = static_cast<float>(axis.motorSpeed);
+            def.maxMotorTorque = static_cast<float>(scale * scale * axis.motorMaxForce);
             world.CreateJoint(&def);
             return;
         }
@@ -53,6 +67,14 @@ void addJoint(b2World& world, const Joint& joint, const JointEnd& a, const Joint
             auto def = common<b2PrismaticJointDef>(ends);
             def.referenceAngle = ends.referenceAngle;
             def.localAxisA = toBox2d(joint.axisA, 1.0);
+            const scenario::JointAxis& axis = joint.axes[0];
+            def.enableLimit = axis.mode == scenario::AxisMode::Limited;
+            if (def.enableLimit)
+                def.lowerTranslation = toBound(axis.lower, scale),
+                def.upperTranslation = toBound(axis.upper, scale);
+            def.enableMotor = axis.hasMotor();
+            def.motorSpeed = static_cast<float>(scale * axis.motorSpeed);
+            def.maxMotorForce = static_cast<float>(scale * axis.motorMaxForce);
             world.CreateJoint(&def);
             return;
         }
@@ -71,7 +93,13 @@ void addJoint(b2World& world, const Joint& joint, const JointEnd& a, const Joint
             world.CreateJoint(&def);
             return;
         }
+        case JointType::ConeTwist:
+        case JointType::SixDof:
+        case JointType::Wheel:
+            break;
     }
+    throw adapter::Unsupported(std::string("box2d has no joint '") + jointName(joint.type) + "' (joint '" +
+                               joint.name + "')");
 }
 
 }  // namespace rigor::box2d

@@ -65,9 +65,13 @@ std::unique_ptr<btTypedConstraint> buildJoint(const Joint& joint, const JointEnd
             return std::make_unique<btFixedConstraint>(*a.body, *b.body, frames.inA, frames.inB);
         }
         case JointType::Distance:
+        case JointType::ConeTwist:
+        case JointType::SixDof:
+        case JointType::Wheel:
             break;
     }
-    throw adapter::Unsupported("bullet has no joint 'distance' (joint '" + joint.name + "')");
+    throw adapter::Unsupported(std::string("bullet has no joint '") + jointName(joint.type) + "' (joint '" +
+                               joint.name + "')");
 }
 
 }  // namespace rigor::bullet

@@ -151,6 +151,80 @@ TEST_P(Joints, ARodKeepsItsLength) {
     within("rod_angle", std::abs(std::atan2(p.x, -p.y) - pendulumAngle(kPi / 2, 9.81 / length, 0.5)), 2e-2);
 }
 
+/// A torque of 1 N m turns a body of 0.5 kg m^2 against its stop; then it rests there.
+TEST_P(Joints, AHingeStopsAtItsLimits) {
+    if (!hasJoint("hinge.limit")) GTEST_SKIP() << "no hinge limits";
+    for (const double side : {1.0, -1.0}) {
+        Scenario s = scene();
+        const int b = addBody(s, block({0.2, 0.1, 0.1}), {1, 1, 0}, 2.0, {0.5, 0.5, 0.5});
+        Joint joint = jointOf(JointType::Hinge, scenario::kNone, b, {1, 1, 0}, {});
+        joint.axisA = joint.axisB = Vec3{0, 0, 1};
+        joint.axes[0].mode = scenario::AxisMode::Limited;
+        joint.axes[0].lower = -0.4, joint.axes[0].upper = 0.7;
+        s.joints.push_back(joint);
+        auto world = build(s, kStep);
+        double furthest = 0.0;
+        const auto angle = [&] {
+            const Quat q = stateOf(*world, s, b).orientation;
+            return 2.0 * std::atan2(q.z, q.w);
+        };
+        for (int i = 0; i < 960; ++i) {
+            world->applyForce(b, {}, {0, 0, side});
+            world->step();
+            furthest = std::max(furthest, side * angle());
+        }
+        const double stop = side > 0 ? 0.7 : 0.4;
+        within("hinge_limit_beyond", furthest - stop, 1e-2);
+        within("hinge_limit_rest", std::abs(side * angle() - stop), 2e-2);
+        within("hinge_limit_speed", norm(stateOf(*world, s, b).angularVelocity), 2e-2);
+    }
+}
+
+/// Against no load a motor reaches its speed at its torque over the inertia, in its sense; overloaded it
+/// yields.
+TEST_P(Joints, AHingeMotorTurnsAtItsSpeedWithItsTorque) {
+    if (!hasJoint("hinge.motor")) GTEST_SKIP() << "no hinge motors";
+    for (const double load : {0.0, -1.5}) {
+        Scenario s = scene();
+        const int b = addBody(s, block({0.2, 0.1, 0.1}), {1, 1, 0}, 2.0, {0.5, 0.5, 0.5});
+        Joint joint = jointOf(JointType::Hinge, scenario::kNone, b, {1, 1, 0}, {});
+        joint.axisA = joint.axisB = Vec3{0, 0, 1};
+        joint.axes[0].motorSpeed = 2.0, joint.axes[0].motorMaxForce = 1.0;
+        s.joints.push_back(joint);
+        auto world = build(s, kStep);
+        for (int i = 0; i < 240; ++i) {
+            world->applyForce(b, {}, {0, 0, load});
+            world->step();
+        }
+        // After 0.5 s: 1 N m / 0.5 kg m^2 gives 1 rad/s; with the load -0.5 N m / 0.5 kg m^2.
+        within("hinge_motor_start",
+               std::abs(stateOf(*world, s, b).angularVelocity.z - (load == 0.0 ? 1.0 : -0.5)), 2e-2);
+        if (load != 0.0) continue;
+        for (int i = 0; i < 480; ++i) world->step();
+        within("hinge_motor_speed", std::abs(stateOf(*world, s, b).angularVelocity.z - 2.0), 1e-2);
+    }
+}
+
+TEST_P(Joints, ASliderStopsAtItsLimitsAndIsDrivenByItsMotor) {
+    if (!hasJoint("slider.limit") || !hasJoint("slider.motor")) GTEST_SKIP() << "no slider limits and motors";
+    Scenario s = scene();
+    const int b = addBody(s, block({0.2, 0.1, 0.1}), {}, 2.0, {0.05, 0.05, 0.05});
+    Joint joint = jointOf(JointType::Slider, scenario::kNone, b, {}, {});
+    joint.axisA = joint.axisB = is2d() ? Vec3{0.6, 0.8, 0} : Vec3{2, 3, 6} / 7.0;
+    joint.axes[0].mode = scenario::AxisMode::Limited;
+    joint.axes[0].lower = -0.2, joint.axes[0].upper = 0.5;
+    joint.axes[0].motorSpeed = 1.0, joint.axes[0].motorMaxForce = 4.0;
+    s.joints.push_back(joint);
+    auto world = build(s, kStep);
+    for (int i = 0; i < 120; ++i) world->step();
+    // 4 N / 2 kg for 0.25 s.
+    within("slider_motor_start", std::abs(dot(stateOf(*world, s, b).velocity, joint.axisA) - 0.5), 1e-2);
+    for (int i = 0; i < 120; ++i) world->step();
+    within("slider_motor_speed", std::abs(dot(stateOf(*world, s, b).velocity, joint.axisA) - 1.0), 1e-2);
+    for (int i = 0; i < 480; ++i) world->step();
+    within("slider_limit", std::abs(dot(stateOf(*world, s, b).position, joint.axisA) - 0.5), 1e-2);
+}
+
 TEST_P(Joints, TwoFreeBodiesOnAJointKeepTheirMomentum) {
     for (const auto& [type, name] :
          {std::pair{JointType::Ball, "ball"}, {JointType::Hinge, "hinge"}, {JointType::Fixed, "fixed"}}) {

@@ -60,8 +60,8 @@ class CollisionEngine {
   public:
     virtual ~CollisionEngine() = default;
 
-    /// Narrow phases to choose from by CollisionQuery::algorithm, the values of the option "narrow_phase"; empty
-    /// for an engine without a choice.
+    /// Narrow phases to choose from by CollisionQuery::algorithm, the values of the option "narrow_phase";
+    /// empty for an engine without a choice.
     virtual std::vector<std::string> algorithms() const { return {}; }
 
     /// Throws Unsupported for shape pairs the engine does not have, BadInput for an unknown algorithm.
@@ -99,7 +99,7 @@ class Engine {
 };
 
 /// Raised with every change of this folder's headers or of scenarios/model that an adapter could notice.
-inline constexpr int kAdapterAbi = 2;
+inline constexpr int kAdapterAbi = 3;
 
 struct Module {
     int abi = 0;

@@ -162,6 +162,18 @@ void checkJoint(const scenario::Joint& joint, const Scenario& scenario) {
         if (!isFinite(axis) || std::abs(norm(axis) - 1.0) > 1e-6)
             refuse(where + ".axis", "expected a unit vector");
     if (joint.type == scenario::JointType::Distance) checkPositive(where + ".length", joint.length);
+    for (const scenario::JointAxis& axis : joint.axes) {
+        for (const double x : {axis.lower, axis.upper, axis.motorSpeed, axis.motorMaxForce, axis.target,
+                               axis.frequency, axis.dampingRatio, axis.stiffness, axis.damping})
+            if (!std::isfinite(x)) refuse(where + ".axes", "expected finite numbers");
+        if (axis.mode == scenario::AxisMode::Limited && !(axis.lower <= axis.upper))
+            refuse(where + ".limits", "expected lower <= upper");
+        if (axis.motorMaxForce < 0.0 || axis.frequency < 0.0 || axis.dampingRatio < 0.0 ||
+            axis.stiffness < 0.0 || axis.damping < 0.0)
+            refuse(where + ".axes", "expected motors and springs that are not negative");
+    }
+    checkPositive(where + ".break_force", joint.breakForce);
+    checkPositive(where + ".break_torque", joint.breakTorque);
 }
 
 struct CheckForce {
@@ -251,6 +263,11 @@ void checkSupported(const Scenario& scenario, const Capabilities& capabilities, 
     for (const auto& joint : scenario.joints)
         if (!contains(capabilities.joints, jointName(joint.type)))
             lacks(std::string("joint '") + jointName(joint.type) + "' (joint '" + joint.name + "')");
+    for (const auto& joint : scenario.joints)
+        for (const std::string& feature : joint.features()) {
+            const std::string name = std::string(jointName(joint.type)) + "." + feature;
+            if (!contains(capabilities.joints, name)) lacks("'" + name + "' (joint '" + joint.name + "')");
+        }
 }
 
 }  // namespace rigor::adapter

@@ -92,7 +92,9 @@ struct Capabilities {
     bool planar = false;          ///< runs 2D scenarios in the plane of a 3D world
     std::vector<std::string>
         shapes;  ///< geometry names of 3D ("sphere", ...) and 2D ("circle", "polygon", ...)
-    std::vector<std::string> joints;  ///< "ball", "hinge", ...
+    /// "ball", "hinge", ...; what they may have besides: "hinge.limit", "slider.motor", "distance.spring",
+    /// "fixed.break", ...
+    std::vector<std::string> joints;
     bool contactImpulses = false;
     bool signedDistance = false;  ///< CollisionEngine answers for separated shapes too
     bool kinematicBodies = false, damping = false, gravityScale = false, centerOfMassOffset = false;

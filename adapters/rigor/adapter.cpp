@@ -93,6 +93,15 @@ std::unique_ptr<Engine> makeRigor() {
     return std::make_unique<RigorEngine>();
 }
 
+/// Everything that has a coordinate can be limited and sprung; only cones cannot be driven.
+void addJointCapabilities(const std::string& name, bool moves, std::vector<std::string>& joints) {
+    joints.push_back(name);
+    joints.push_back(name + ".break");
+    if (!moves) return;
+    for (const char* feature : {".limit", ".spring"}) joints.push_back(name + feature);
+    if (name != "ball") joints.push_back(name + ".motor");
+}
+
 }  // namespace
 
 Capabilities rigorCapabilities() {
@@ -101,7 +110,7 @@ Capabilities rigorCapabilities() {
     c.dimensions = {2, 3};
     c.shapes = {"sphere", "circle", "box", "capsule", "hull", "polygon", "half_space", "half_plane"};
     for (const engine::JointEntry<engine::Space3d>& joint : engine::jointTable<engine::Space3d>())
-        c.joints.push_back(joint.name);
+        addJointCapabilities(joint.name, joint.axes > 0, c.joints);
     c.contactImpulses = true;
     c.signedDistance = true;
     c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;

@@ -89,10 +89,49 @@ engine::JointType toEngineJoint(scenario::JointType type) {
             return engine::JointType::Slider;
         case scenario::JointType::Fixed:
             return engine::JointType::Fixed;
+        case scenario::JointType::ConeTwist:
+            return engine::JointType::ConeTwist;
+        case scenario::JointType::SixDof:
+            return engine::JointType::SixDof;
+        case scenario::JointType::Wheel:
+            return engine::JointType::Wheel;
         case scenario::JointType::Distance:
             break;
     }
     return engine::JointType::Distance;
+}
+engine::AxisMode toEngineMode(scenario::AxisMode mode) {
+    switch (mode) {
+        case scenario::AxisMode::Free:
+            return engine::AxisMode::Free;
+        case scenario::AxisMode::Locked:
+            return engine::AxisMode::Locked;
+        case scenario::AxisMode::Limited:
+            return engine::AxisMode::Limited;
+        case scenario::AxisMode::Usual:
+            break;
+    }
+    return engine::AxisMode::Usual;
+}
+/// A bound of the format; beyond 1e299 there is none.
+template <class R>
+R toEngineBound(double x) {
+    if (std::abs(x) < 1e299) return static_cast<R>(x);
+    return x < 0 ? -std::numeric_limits<R>::infinity() : std::numeric_limits<R>::infinity();
+}
+template <class R>
+engine::JointAxis<R> toEngineAxis(const scenario::JointAxis& axis) {
+    engine::JointAxis<R> result;
+    result.mode = toEngineMode(axis.mode);
+    result.lower = toEngineBound<R>(axis.lower), result.upper = toEngineBound<R>(axis.upper);
+    result.motorSpeed = static_cast<R>(axis.motorSpeed);
+    result.motorMaxForce = static_cast<R>(axis.motorMaxForce);
+    result.target = static_cast<R>(axis.target);
+    result.frequency = static_cast<R>(axis.frequency);
+    result.dampingRatio = static_cast<R>(axis.dampingRatio);
+    result.stiffness = static_cast<R>(axis.stiffness);
+    result.damping = static_cast<R>(axis.damping);
+    return result;
 }
 
 template <class S>
@@ -254,7 +293,11 @@ class RigorWorld final : public World {
         def.anchorA = toEngineVec<S>(joint.anchorA), def.anchorB = toEngineVec<S>(joint.anchorB);
         def.axisA = toEngineVec<S>(joint.axisA), def.axisB = toEngineVec<S>(joint.axisB);
         def.length = static_cast<R>(joint.length);
+        def.normalA = toEngineVec<S>(joint.normalA), def.spinAxisB = toEngineVec<S>(joint.spinAxisB);
         def.collideConnected = joint.collideConnected;
+        for (std::size_t k = 0; k < joint.axes.size(); ++k) def.axes[k] = toEngineAxis<R>(joint.axes[k]);
+        def.breakForce = toEngineBound<R>(joint.breakForce);
+        def.breakTorque = toEngineBound<R>(joint.breakTorque);
         world_.addJoint(def);
     }
 

@@ -57,6 +57,8 @@ void makeFrames(const JointDef<S>& def, bool ownAxis, Joint<S>& joint) {
         joint.turnA = joint.turnB = joint.turnPerpA1 = joint.turnPerpA2 = joint.turnPerpB1 = Vec::Zero();
     } else {
         joint.perpA1 = joint.axisA.unitOrthogonal();
+        const Vec normal = def.normalA - def.normalA.dot(joint.axisA) * joint.axisA;
+        if (def.type == JointType::SixDof && normal.norm() > 0) joint.perpA1 = normal.normalized();
         joint.perpA2 = joint.axisA.cross(joint.perpA1);
         joint.turnA = joint.axisA, joint.turnB = joint.axisB;
         joint.turnPerpA1 = joint.perpA1, joint.turnPerpA2 = joint.perpA2;
@@ -140,6 +142,7 @@ Joint<S> makeJoint(const JointDef<S>& def, const Pose<S>& A, const typename S::V
             "axes of a joint must be unit vectors");
     require(!(def.type == JointType::Wheel && S::dim == 3) || unit(def.spinAxisB), "joint_axis",
             "the spin axis of a wheel must be a unit vector");
+    require(def.normalA.allFinite(), "joint_axis", "axes of a joint must be finite");
     require(def.type != JointType::Distance || (def.length > 0 && std::isfinite(def.length)), "joint_length",
             "the length of a distance joint must be positive");
     require(def.breakForce > 0 && def.breakTorque > 0, "joint_break",

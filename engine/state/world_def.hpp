@@ -153,7 +153,8 @@ struct JointDef {
     typename S::Vec axisA = S::Vec::Unit(S::dim - 1);                    ///< unit; not of fixed and distance
     typename S::Vec axisB = S::Vec::Unit(S::dim - 1);                    ///< the same direction in B
     typename S::Vec spinAxisB = S::Vec::Unit(S::dim - 1);                ///< wheel (3D): what B spins about
-    Real length = 0;                                                     ///< distance joint: > 0 [m]
+    typename S::Vec normalA = S::Vec::Zero();  ///< six_dof (3D): t1 is this made normal to axisA; zero: any
+    Real length = 0;                           ///< distance joint: > 0 [m]
     bool collideConnected = false;
     std::array<JointAxis<Real>, kMaxJointAxes> axes;
     /// The joint is removed at the end of a step whose mean force [N] or torque about B's anchor [N m]

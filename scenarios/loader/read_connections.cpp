@@ -15,10 +15,9 @@ Pose poseOf(const Scenario& scenario, int body) {
 }
 
 JointType readJointType(const Node& node) {
-    for (const JointType type :
-         {JointType::Ball, JointType::Hinge, JointType::Slider, JointType::Fixed, JointType::Distance})
+    for (const JointType type : kJointTypes)
         if (node.text() == jointName(type)) return type;
-    node.problem("joint.type", "one of ball, hinge, slider, fixed, distance");
+    node.problem("joint.type", "one of ball, hinge, slider, fixed, distance, cone_twist, six_dof, wheel");
     return JointType::Ball;
 }
 
@@ -43,7 +42,8 @@ void readAnchors(const Node& node, const Scenario& scenario, Joint& joint) {
     if (joint.type == JointType::Distance) {
         joint.length = gap;
         if (const auto length = node.find("length")) joint.length = length->positive();
-        if (std::abs(gap - joint.length) > 1e-9 * (1.0 + joint.length) || joint.length <= 0.0)
+        const bool rod = joint.axes[0].mode == AxisMode::Usual || joint.axes[0].mode == AxisMode::Locked;
+        if ((rod && std::abs(gap - joint.length) > 1e-9 * (1.0 + joint.length)) || joint.length <= 0.0)
             node.problem("joint.length", "anchors " + std::to_string(gap) + " m apart",
                          "anchors one rod length (> 0) apart at the start");
     } else if (node.has("length")) {
@@ -52,8 +52,11 @@ void readAnchors(const Node& node, const Scenario& scenario, Joint& joint) {
 }
 
 void readAxis(const Node& node, const Scenario& scenario, Joint& joint) {
-    const bool needed =
-        joint.type == JointType::Slider || (joint.type == JointType::Hinge && node.dimension() == 3);
+    const bool solid = node.dimension() == 3;
+    const bool cone = joint.type == JointType::Ball && joint.axes[0].mode != AxisMode::Usual;
+    const bool needed = joint.type == JointType::Slider || joint.type == JointType::Wheel ||
+                        joint.type == JointType::SixDof || joint.type == JointType::ConeTwist || cone ||
+                        (joint.type == JointType::Hinge && solid);
     const auto axis = node.find("axis");
     if (axis && !needed) axis->problem("joint.axis", "none: this joint has no axis of its own");
     if (!needed) return;
@@ -64,6 +67,110 @@ void readAxis(const Node& node, const Scenario& scenario, Joint& joint) {
     const Vec3 world = axis->unitVector();
     joint.axisA = rotateInverse(poseOf(scenario, joint.bodyA).orientation, world);
     joint.axisB = rotateInverse(poseOf(scenario, joint.bodyB).orientation, world);
+    const auto second = [&](const char* key, JointType type) -> std::optional<Vec3> {
+        if (joint.type != type || !solid) return std::nullopt;
+        if (const auto n = node.find(key)) return n->unitVector();
+        node.problem("schema.missing_key", std::string("no key '") + key + "'",
+                     "a second world direction of the joint");
+        return std::nullopt;
+    };
+    if (const auto normal = second("normal", JointType::SixDof)) {
+        if (std::abs(dot(*normal, world)) > 1e-6)
+            node["normal"].problem("joint.axis", "a direction normal to the axis");
+        joint.normalA = rotateInverse(poseOf(scenario, joint.bodyA).orientation, *normal);
+    }
+    if (const auto spin = second("spin_axis", JointType::Wheel))
+        joint.spinAxisB = rotateInverse(poseOf(scenario, joint.bodyB).orientation, *spin);
+}
+
+bool isAngle(const std::string& axis) {
+    return axis == "angle" || axis.starts_with("twist") || axis.starts_with("swing");
+}
+
+void readLimits(const Node& node, JointAxis& axis) {
+    axis.mode = AxisMode::Limited;
+    const auto ends = node.items();
+    if (ends.size() != 2) {
+        node.problem("joint.limits", "[lower, upper]; null: none on that side");
+        return;
+    }
+    if (!ends[0].json().is_null()) axis.lower = ends[0].number(-1e6, 1e6);
+    if (!ends[1].json().is_null()) axis.upper = ends[1].number(-1e6, 1e6);
+    if (!(axis.lower <= axis.upper)) node.problem("joint.limits", "lower <= upper");
+}
+
+void readMotor(const Node& node, bool angle, JointAxis& axis) {
+    const char* most = angle ? "max_torque" : "max_force";
+    node.isObject({"speed", most});
+    if (const auto n = node.require("speed")) axis.motorSpeed = n->number(-1e6, 1e6);
+    if (const auto n = node.require(most)) axis.motorMaxForce = n->positive();
+}
+
+void readJointSpring(const Node& node, JointAxis& axis) {
+    node.isObject({"frequency", "damping_ratio", "stiffness", "damping", "target"});
+    if (node.has("frequency") == node.has("stiffness"))
+        node.problem("joint.spring", "frequency (and damping_ratio), or stiffness (and damping)");
+    if (node.has(node.has("frequency") ? "damping" : "damping_ratio"))
+        node.problem("joint.spring", "damping_ratio with frequency, damping with stiffness");
+    if (const auto n = node.find("frequency")) axis.frequency = n->positive();
+    if (const auto n = node.find("damping_ratio")) axis.dampingRatio = n->number(0.0, 1e6);
+    if (const auto n = node.find("stiffness")) axis.stiffness = n->positive();
+    if (const auto n = node.find("damping")) axis.damping = n->number(0.0, 1e12);
+    if (const auto n = node.find("target")) axis.target = n->number(-1e6, 1e6);
+}
+
+/// "limits", "motor", "spring" of an object: the joint itself, or one of its "axes".
+void readControl(const Node& node, const std::string& name, const Joint& joint, JointAxis& axis) {
+    if (const auto n = node.find("limits")) readLimits(*n, axis);
+    if (const auto n = node.find("motor")) readMotor(*n, isAngle(name), axis);
+    if (const auto n = node.find("spring")) readJointSpring(*n, axis);
+    // Where something drives it, a coordinate is no longer locked by itself.
+    if (axis.mode == AxisMode::Usual && (axis.hasMotor() || axis.hasSpring())) axis.mode = AxisMode::Free;
+    if (axis.mode == AxisMode::Limited && axis.lower == axis.upper && (axis.hasMotor() || axis.hasSpring()))
+        node.problem("joint.limits", "lower < upper where there is a motor or spring");
+    const bool cone =
+        joint.type == JointType::Ball || (joint.type == JointType::ConeTwist && name == "swing");
+    if (cone && axis.hasMotor()) node["motor"].problem("joint.motor", "none: a cone has no motor");
+    if (cone && axis.target != 0.0) node["spring"].problem("joint.spring", "no target: it pulls to zero");
+    if (cone && axis.mode == AxisMode::Limited &&
+        !(axis.upper > 0.0 && axis.upper < 3.14159 && axis.lower <= 0.0))
+        node["limits"].problem("joint.limits", "[null, half angle of the cone in (0, pi)]");
+    if (joint.type == JointType::Distance && axis.mode == AxisMode::Limited && !(axis.upper > 0.0))
+        node["limits"].problem("joint.limits", "a longest distance > 0");
+}
+
+void readAxes(const Node& node, Joint& joint) {
+    const int dimension = node.dimension();
+    const bool single = jointAxisName(joint.type, dimension, 0) && !jointAxisName(joint.type, dimension, 1) &&
+                        joint.type != JointType::Ball;
+    for (const char* key : {"limits", "motor", "spring"})
+        if (node.has(key) && !single)
+            node[key].problem("joint.axes", "none here: name the coordinate in 'axes', if the joint has any");
+    if (single) readControl(node, jointAxisName(joint.type, dimension, 0), joint, joint.axes[0]);
+    const auto axes = node.find("axes");
+    if (!axes) return;
+    std::string known;
+    for (std::size_t k = 0; const char* name = jointAxisName(joint.type, dimension, k); ++k)
+        known += (known.empty() ? "" : ", ") + std::string(name);
+    for (const auto& [name, control] : axes->members()) {
+        std::size_t k = 0;
+        const char* axis = nullptr;
+        while ((axis = jointAxisName(joint.type, dimension, k)) && name != axis) ++k;
+        if (!axis) {
+            control.problem("joint.axes", "coordinate '" + name + "'",
+                            known.empty() ? "none: this joint has no coordinates" : "one of " + known);
+            continue;
+        }
+        if (control.json().is_string()) {
+            const std::string mode = control.text();
+            if (joint.type != JointType::SixDof || (mode != "free" && mode != "locked"))
+                control.problem("joint.axes", "an object, or of six_dof free or locked");
+            joint.axes[k].mode = mode == "free" ? AxisMode::Free : AxisMode::Locked;
+            continue;
+        }
+        control.isObject({"limits", "motor", "spring"});
+        readControl(control, name, joint, joint.axes[k]);
+    }
 }
 
 bool isDynamic(const Scenario& scenario, int body) {
@@ -117,8 +224,9 @@ Force readDrag(const Node& node, const Scenario& scenario) {
 
 void readJoints(const Node& list, Scenario& scenario) {
     for (const Node& node : list.items()) {
-        node.isObject({"name", "type", "a", "b", "anchor", "anchor_a", "anchor_b", "axis", "length",
-                       "collide_connected"});
+        node.isObject({"name", "type", "a", "b", "anchor", "anchor_a", "anchor_b", "axis", "normal",
+                       "spin_axis", "length", "limits", "motor", "spring", "axes", "break_force",
+                       "break_torque", "collide_connected"});
         Joint joint;
         const auto name = node.require("name"), type = node.require("type"), a = node.require("a"),
                    b = node.require("b");
@@ -130,6 +238,8 @@ void readJoints(const Node& list, Scenario& scenario) {
         joint.type = readJointType(*type);
         if (joint.type == JointType::Ball && node.dimension() == 2)
             type->problem("joint.type", "hinge: a ball joint in the plane is one");
+        if (joint.type == JointType::ConeTwist && node.dimension() == 2)
+            type->problem("joint.type", "hinge: a cone-twist joint in the plane is one");
         joint.bodyA = readBodyName(*a, scenario, true);
         joint.bodyB = readBodyName(*b, scenario, false);
         if (node.context().problems.size() > clean) continue;  // the rest would only repeat it
@@ -137,8 +247,14 @@ void readJoints(const Node& list, Scenario& scenario) {
             node.problem("joint.bodies", "a body joined to itself", "two bodies, or \"world\" as a");
         if (!isDynamic(scenario, joint.bodyA) && !isDynamic(scenario, joint.bodyB))
             node.problem("joint.bodies", "no dynamic body", "at least one dynamic body");
+        // First: what a distance joint may do says whether its anchors must be one length apart.
+        readAxes(node, joint);
         readAnchors(node, scenario, joint);
+        if (joint.type == JointType::Distance && joint.axes[0].hasSpring() && !node["spring"].has("target"))
+            joint.axes[0].target = joint.length;
         readAxis(node, scenario, joint);
+        if (const auto n = node.find("break_force")) joint.breakForce = n->positive();
+        if (const auto n = node.find("break_torque")) joint.breakTorque = n->positive();
         if (const auto n = node.find("collide_connected")) joint.collideConnected = n->boolean();
         scenario.joints.push_back(joint);
     }

@@ -27,8 +27,60 @@ const char* jointName(JointType type) {
             return "fixed";
         case JointType::Distance:
             return "distance";
+        case JointType::ConeTwist:
+            return "cone_twist";
+        case JointType::SixDof:
+            return "six_dof";
+        case JointType::Wheel:
+            return "wheel";
     }
     return "?";
+}
+
+const char* jointAxisName(JointType type, int dimension, std::size_t k) {
+    using Names = std::vector<const char*>;
+    static const Names none, angle{"angle"}, travel{"travel"}, length{"length"}, swing{"swing"},
+        cone{"twist", "swing"}, wheel{"travel", "angle"}, three{"x", "y", "angle"},
+        six{"x", "y", "z", "twist", "swing_y", "swing_z"};
+    const auto of = [&]() -> const Names& {
+        switch (type) {
+            case JointType::Hinge:
+                return angle;
+            case JointType::Slider:
+                return travel;
+            case JointType::Distance:
+                return length;
+            case JointType::Ball:
+                return dimension == 3 ? swing : none;
+            case JointType::ConeTwist:
+                return cone;
+            case JointType::Wheel:
+                return wheel;
+            case JointType::SixDof:
+                return dimension == 3 ? six : three;
+            case JointType::Fixed:
+                break;
+        }
+        return none;
+    };
+    const Names& names = of();
+    return k < names.size() ? names[k] : nullptr;
+}
+
+std::vector<std::string> Joint::features() const {
+    bool limit = false, motor = false, spring = false;
+    for (const JointAxis& axis : axes) {
+        // A rod that is no rod any more is a rope; what six_dof leaves free or locks is its type.
+        limit = limit || axis.mode == AxisMode::Limited;
+        motor = motor || axis.hasMotor();
+        spring = spring || axis.hasSpring();
+    }
+    std::vector<std::string> asked;
+    if (limit) asked.push_back("limit");
+    if (motor) asked.push_back("motor");
+    if (spring) asked.push_back("spring");
+    if (breakForce < 1e299 || breakTorque < 1e299) asked.push_back("break");
+    return asked;
 }
 
 PairCoefficients pairCoefficients(const Scenario& scenario, int materialA, int materialB) {

@@ -5,6 +5,7 @@
 // Conventions: right-handed axes; two-dimensional scenarios lie in the x-y plane, z = 0, rotations about +z.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -118,11 +119,41 @@ struct Body {
 };
 
 // ---------------------------------------------------------------------------------------------- joints
-enum class JointType { Ball, Hinge, Slider, Fixed, Distance };
+enum class JointType { Ball, Hinge, Slider, Fixed, Distance, ConeTwist, SixDof, Wheel };
+inline constexpr JointType kJointTypes[] = {JointType::Ball,   JointType::Hinge,    JointType::Slider,
+                                            JointType::Fixed,  JointType::Distance, JointType::ConeTwist,
+                                            JointType::SixDof, JointType::Wheel};
 const char* jointName(JointType type);
 
+enum class AxisMode {
+    Usual,  ///< the joint's own: locked for distance and six_dof, else free
+    Free,
+    Locked,
+    Limited,  ///< within [lower, upper]
+};
+/// Stops, motor and spring along one coordinate of a joint; u is [m] or [rad].
+struct JointAxis {
+    AxisMode mode = AxisMode::Usual;
+    double lower = -1e300, upper = 1e300;  ///< Limited; beyond 1e299: none [u]
+    double motorSpeed = 0.0;               ///< [u/s]
+    double motorMaxForce = 0.0;            ///< [N] or [N m]; 0: no motor
+    double target = 0.0;                   ///< of the spring [u]
+    double frequency = 0.0;  ///< of the spring, undamped, on the coordinate's effective mass [Hz]
+    double dampingRatio = 0.0;
+    double stiffness = 0.0, damping = 0.0;  ///< or these [N/m, N s/m] or [N m/rad, N m s/rad]
+
+    bool hasMotor() const { return motorMaxForce > 0.0; }
+    bool hasSpring() const { return frequency > 0.0 || stiffness > 0.0 || damping > 0.0; }
+};
+inline constexpr std::size_t kMaxJointAxes = 6;
+/// Name of coordinate k in files: hinge "angle", slider "travel", distance "length", ball (3D) "swing",
+/// cone_twist "twist" and "swing", wheel "travel" and "angle", six_dof "x", "y", "z", "twist", "swing_y",
+/// "swing_z" (2D: "x", "y", "angle"). Null where the joint has no such coordinate.
+const char* jointAxisName(JointType type, int dimension, std::size_t k);
+
 /// A constraint between two bodies. Anchors coincide at the initial poses except for Distance. In 2D a hinge
-/// turns about +z (axis ignored), a slider slides along `axis`.
+/// turns about +z (axis ignored), a slider slides along `axis`. Coordinates are zero at the initial poses
+/// (distance: the distance of the anchors) and grow when B turns or moves along the axis against A.
 struct Joint {
     std::string name;
     JointType type = JointType::Ball;
@@ -134,6 +165,14 @@ struct Joint {
     Vec3 axisB{0.0, 0.0, 1.0};  ///< the same world direction initially; B's body frame
     double length = 0.0;        ///< distance joint: rod length between the anchors [m], > 0
     bool collideConnected = false;
+    Vec3 normalA{1.0, 0.0, 0.0};    ///< six_dof: unit, its y axis, normal to axisA; A's body frame
+    Vec3 spinAxisB{0.0, 0.0, 1.0};  ///< wheel (3D): unit; B's body frame
+    std::array<JointAxis, kMaxJointAxes> axes;
+    double breakForce = 1e300;   ///< a step's mean force above this breaks the joint [N]; beyond 1e299: never
+    double breakTorque = 1e300;  ///< likewise its torque about B's anchor [N m]
+
+    /// "limit", "motor", "spring", "break": what it asks for beyond its type.
+    std::vector<std::string> features() const;
 };
 
 // ---------------------------------------------------------------------------------------------- forces

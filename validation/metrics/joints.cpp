@@ -24,8 +24,19 @@ std::optional<double> anchorError(const MetricInput& input, const Joint& joint, 
     const Pose a = poseOf(input, frame, joint.bodyA), b = poseOf(input, frame, joint.bodyB);
     const Vec3 gap = b * joint.anchorB - a * joint.anchorA;
     switch (joint.type) {
-        case JointType::Distance:
+        case JointType::Distance: {
+            const JointAxis& length = joint.axes[0];
+            if (length.mode == AxisMode::Limited)
+                return std::max({0.0, norm(gap) - length.upper, length.lower - norm(gap)});
+            if (length.mode == AxisMode::Free) return std::nullopt;
             return std::abs(norm(gap) - joint.length);
+        }
+        case JointType::SixDof:
+            for (std::size_t k = 0; k < (input.scenario.dimension == 3 ? 3u : 2u); ++k)
+                if (joint.axes[k].mode != AxisMode::Usual && joint.axes[k].mode != AxisMode::Locked)
+                    return std::nullopt;
+            break;
+        case JointType::Wheel:
         case JointType::Slider: {
             const Vec3 axis = rotate(a.orientation, joint.axisA);
             return norm(gap - dot(gap, axis) * axis);
@@ -33,6 +44,7 @@ std::optional<double> anchorError(const MetricInput& input, const Joint& joint, 
         case JointType::Ball:
         case JointType::Hinge:
         case JointType::Fixed:
+        case JointType::ConeTwist:
             break;
     }
     return norm(gap);

@@ -22,8 +22,15 @@ Vec3 axisOf(const Scenario& scenario, const scenario::Joint& joint) {
     return unit(rotate(scenario.bodies[static_cast<std::size_t>(joint.bodyA)].pose.orientation, joint.axisA));
 }
 
+void requirePassive(const scenario::Joint& joint) {
+    for (const std::string& feature : joint.features())
+        require(false,
+                "joint '" + joint.name + "' has a " + feature + ", which this reference does not know");
+}
+
 FixedJoint fixedJoint(const Scenario& scenario, int index, int body) {
     const auto& joint = scenario.joints[static_cast<std::size_t>(index)];
+    requirePassive(joint);
     require(joint.bodyA == body || joint.bodyB == body,
             "joint '" + joint.name + "' does not hold " + bodyTitle(scenario, body));
     const int other = joint.bodyA == body ? joint.bodyB : joint.bodyA;

@@ -8,6 +8,9 @@
 
 namespace rigor::validation {
 
+/// Throws where the joint has limits, a motor or a spring, or may break.
+void requirePassive(const scenario::Joint& joint);
+
 struct FixedJoint {
     const scenario::Joint* joint = nullptr;
     Vec3 anchor;  ///< world [m]

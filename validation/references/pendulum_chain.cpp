@@ -157,6 +157,7 @@ class PendulumChain : public Reference {
                     bodyTitle(scenario_, order[i]) + " is not joined to the link before it");
             require(found->type == scenario::JointType::Hinge || found->type == scenario::JointType::Ball,
                     "joint '" + found->name + "' is neither a hinge nor a ball joint");
+            requirePassive(*found);
             requireUndisturbed(scenario_, order[i], {.joints = true});
             joints_.push_back(found);
         }

@@ -110,7 +110,7 @@ const Spoiled kSpoiled[] = {
     {"UnknownJointBody", R"("b": "block")", R"("b": "blok")",
      R"(bad.json:17: /joints/0/b: found string "blok", expected the name of a body of the file [body.unknown])"},
     {"UnknownJointType", R"("type": "hinge")", R"("type": "weld")",
-     R"(bad.json:17: /joints/0/type: found string "weld", expected one of ball, hinge, slider, fixed, distance [joint.type])"},
+     R"(bad.json:17: /joints/0/type: found string "weld", expected one of ball, hinge, slider, fixed, distance, cone_twist, six_dof, wheel [joint.type])"},
     {"HingeWithoutAxis", R"(, "axis": [0, 0, 1])", R"()",
      R"(bad.json:17: /joints/0: found no key 'axis', expected the world direction of the joint's axis [schema.missing_key])"},
     {"ZeroAxis", R"("axis": [0, 0, 1])", R"("axis": [0, 0, 0])",
