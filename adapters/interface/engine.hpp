@@ -26,6 +26,17 @@ class World {
     /// the next step only. Calls accumulate.
     virtual void applyForce(int body, const Vec3& force, const Vec3& torque) = 0;
 
+    /// Whether the world evaluates the scenario's force elements itself, so that nobody applies them: only an
+    /// engine that looks at forces more than once in a step needs to.
+    virtual bool evaluatesForces() const { return false; }
+
+    /// Changes linear [N s] and angular [N m s] momentum of a dynamic body at once. False: the engine leaves
+    /// that to a force during the next step.
+    virtual bool applyImpulse(int body, const Vec3& impulse, const Vec3& angularImpulse) {
+        (void)body, (void)impulse, (void)angularImpulse;
+        return false;
+    }
+
     /// Advances by exactly one fixed step.
     virtual void step() = 0;
 

@@ -27,8 +27,16 @@ const char* schemeName(Scheme s) {
             return "symplectic_euler";
         case Scheme::ExplicitEuler:
             return "explicit_euler";
+        case Scheme::VelocityVerlet:
+            return "velocity_verlet";
+        case Scheme::RungeKutta4:
+            return "rk4";
     }
     return "?";
+}
+
+bool isEuler(Scheme s) {
+    return s == Scheme::SymplecticEuler || s == Scheme::ExplicitEuler;
 }
 
 const std::string& textSetting(const Settings& settings, const std::string& key) {

@@ -82,8 +82,11 @@ struct StepCounters {
 };
 
 /// Free-flight scheme of an engine, so that scheme-exact references know what an ideal run of it would give.
-enum class Scheme { Unknown, SymplecticEuler, ExplicitEuler };
+/// Forces are evaluated at the start of the step (Euler), at its start and end (Verlet: at the end with the
+/// velocity v0 + h a0), or at the classical four stages.
+enum class Scheme { Unknown, SymplecticEuler, ExplicitEuler, VelocityVerlet, RungeKutta4 };
 const char* schemeName(Scheme s);
+bool isEuler(Scheme s);  ///< one evaluation per step, at its start
 
 /// What an engine can do. Names are those of the scenario format.
 struct Capabilities {

@@ -16,12 +16,23 @@ std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings
         single ? "single precision was asked for" : "");
     add("integrator", text("integrator"), text("integrator"));
     if (scenario.dimension == 3) {
-        const bool kept = text("rotation") == "lie_midpoint";
-        add("gyroscopic_term", "angular momentum kept without torque", text("rotation"),
+        const std::string& rotation = text("rotation");
+        const bool rk4 = text("integrator") == "rk4" && rotation != "none";
+        const bool kept = rk4 || rotation == "lie_midpoint" || rotation == "moser_veselov";
+        add("gyroscopic_term", "angular momentum kept without torque",
+            rk4 ? "part of the equations that rk4 integrates" : rotation,
             kept ? Realisation::Exact : Realisation::Approximate,
             kept ? ""
                  : "angular momentum changes by the order of the scheme, or altogether without the term");
     }
+    add("orientation_update", "exponential_map", text("orientation_update"),
+        text("orientation_update") == "exponential_map" ? Realisation::Exact : Realisation::Approximate,
+        text("orientation_update") == "exponential_map" ? "" : "turns by 2 atan(h w / 2) instead of h w");
+    if (!scenario.forces.empty())
+        add("forces", "functions of time and state",
+            text("integrator") == "rk4"               ? "evaluated at the four stages of every step"
+            : text("integrator") == "velocity_verlet" ? "evaluated at the start and the end of every step"
+                                                      : "evaluated at the start of every step");
     add("solver", text("solver"),
         text("solver") + ", " + text("velocity_iterations") + " velocity and " + text("position_iterations") +
             " position iterations, up to " + text("first_step_iterations") + " in the first step");
@@ -47,7 +58,7 @@ std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings
         correction == "baumgarte" ? Realisation::Approximate : Realisation::Exact,
         correction == "baumgarte" ? "the velocities that remove overlap stay in the bodies" : "");
     if (!scenario.joints.empty()) {
-        const bool curved = text("curved_joints") == "on" && text("integrator") != "explicit_euler";
+        const bool curved = text("curved_joints") == "on" && text("integrator") == "symplectic_euler";
         add("joints", "rigid",
             curved ? "rigid, solved at the end of the step" : "rigid, linearised at the start",
             Realisation::Exact);

@@ -23,6 +23,7 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     def.gravity = toEngineVec<S>(scenario.gravity);
     def.integrator = textSetting(settings, "integrator");
     def.rotation = textSetting(settings, "rotation");
+    def.orientationUpdate = textSetting(settings, "orientation_update");
     def.broadPhase = textSetting(settings, "broad_phase");
     def.narrowPhase = textSetting(settings, "narrow_phase");
     def.manifold = textSetting(settings, "manifold");

@@ -148,11 +148,21 @@ class RigorWorld final : public World {
         addMaterials();
         for (const scenario::Body& body : scenario.bodies) addBody(body);
         for (const scenario::Joint& joint : scenario.joints) addJoint(joint);
+        for (const scenario::Force& force : scenario.forces)
+            std::visit([this](const auto& f) { addForce(f); }, force);
     }
 
     void applyForce(int body, const Vec3& force, const Vec3& torque) override {
         if (scenario_.bodies[static_cast<std::size_t>(body)].type != scenario::BodyType::Dynamic) return;
         world_.applyForce(id(body), toEngineVec<S>(force), toEngineAng<S>(torque));
+    }
+    bool evaluatesForces() const override { return true; }
+    /// Single-stage integrators take an impulse as every engine does, as a force during one step; to the
+    /// others such a force would be an average over the step.
+    bool applyImpulse(int body, const Vec3& impulse, const Vec3& angularImpulse) override {
+        if (isEuler()) return false;
+        world_.applyImpulse(id(body), toEngineVec<S>(impulse), toEngineAng<S>(angularImpulse));
+        return true;
     }
     void step() override { world_.step(dt_); }
 
@@ -226,14 +236,25 @@ class RigorWorld final : public World {
 
     Scheme scheme() const override {
         const std::string& name = world_.def().integrator;
+        if (world_.def().substeps != 1) return Scheme::Unknown;  // another step than the one reported
         if (name == "symplectic_euler") return Scheme::SymplecticEuler;
         if (name == "explicit_euler") return Scheme::ExplicitEuler;
+        if (name == "velocity_verlet") return Scheme::VelocityVerlet;
+        if (name == "rk4") return Scheme::RungeKutta4;
         return Scheme::Unknown;
     }
 
   private:
     engine::BodyId id(int body) const {
         return body == scenario::kNone ? engine::BodyId{} : bodies_[static_cast<std::size_t>(body)];
+    }
+    bool isEuler() const {
+        const std::string& name = world_.def().integrator;
+        return name == "symplectic_euler" || name == "explicit_euler";
+    }
+    bool isDynamic(int body) const {
+        return body != scenario::kNone &&
+               scenario_.bodies[static_cast<std::size_t>(body)].type == scenario::BodyType::Dynamic;
     }
     /// The engine's material 0 is its own.
     static std::uint32_t material(int index) { return static_cast<std::uint32_t>(index + 1); }
@@ -299,6 +320,29 @@ class RigorWorld final : public World {
         def.breakForce = toEngineBound<R>(joint.breakForce);
         def.breakTorque = toEngineBound<R>(joint.breakTorque);
         world_.addJoint(def);
+    }
+
+    // Forces on bodies that no force moves are for pictures only.
+    void addForce(const scenario::ConstantForce& f) {
+        if (!isDynamic(f.body)) return;
+        engine::ConstantForce<S> def;
+        def.body = id(f.body);
+        def.force = toEngineVec<S>(f.force), def.torque = toEngineAng<S>(f.torque);
+        def.start = f.start, def.end = f.end;
+        world_.addForce(def);
+    }
+    void addForce(const scenario::SpringForce& f) {
+        if (!isDynamic(f.bodyA) && !isDynamic(f.bodyB)) return;
+        engine::LinearSpring<S> def;
+        def.bodyA = id(f.bodyA), def.bodyB = id(f.bodyB);
+        def.anchorA = toEngineVec<S>(f.anchorA), def.anchorB = toEngineVec<S>(f.anchorB);
+        def.stiffness = static_cast<R>(f.stiffness), def.damping = static_cast<R>(f.damping);
+        def.restLength = static_cast<R>(f.restLength);
+        world_.addForce(def);
+    }
+    void addForce(const scenario::DragForce& f) {
+        if (isDynamic(f.body))
+            world_.addForce(engine::LinearDrag<S>{id(f.body), static_cast<R>(f.coefficient)});
     }
 
     Scenario scenario_;

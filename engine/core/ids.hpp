@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "engine/core/check.hpp"
@@ -23,6 +24,7 @@ struct Id {
 using BodyId = Id<struct BodyTag>;
 using ShapeId = Id<struct ShapeTag>;
 using JointId = Id<struct JointTag>;
+using ForceId = Id<struct ForceTag>;
 
 /// Handle -> dense index. The order of the free list is part of the state: two copies give out equal handles.
 template <class Tag>
@@ -63,7 +65,34 @@ class IdTable {
         freeHead_ = id.index;
     }
 
+    /// Shows `archive` everything there is to the table (state/archive.hpp); Table may be const.
+    template <class Archive, class Table>
+    static void visit(Archive& archive, Table& table) {
+        table.visitSlots([&](auto& slots, auto& freeHead) {
+            const std::size_t count = archive.size(slots.size());
+            if constexpr (!std::is_const_v<Table>) slots.resize(count);
+            for (auto& slot : slots)
+                archive.scalar(slot.dense), archive.scalar(slot.generation), archive.scalar(slot.alive);
+            archive.scalar(freeHead);
+        });
+    }
+    /// False for what only damaged bytes can make of a table.
+    bool sound() const {
+        if (slots_.empty() || freeHead_ >= slots_.size()) return false;
+        for (const Slot& slot : slots_)
+            if (!slot.alive && slot.dense >= slots_.size()) return false;
+        return true;
+    }
+
   private:
+    template <class F>
+    void visitSlots(F f) {
+        f(slots_, freeHead_);
+    }
+    template <class F>
+    void visitSlots(F f) const {
+        f(slots_, freeHead_);
+    }
     struct Slot {
         std::uint32_t dense = 0;  ///< alive: dense index; free: next free slot
         std::uint32_t generation = 0;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What every integrator uses: damping solved exactly over a step, and motion at constant velocity along the
-// exponential map.
+// What every integrator uses: damping solved exactly over a step, and motion at constant velocity.
 #include <cmath>
 
 #include "engine/integrators/integrator.hpp"
@@ -20,18 +19,22 @@ template DampedStep<float> dampedStep(float, float);
 template DampedStep<double> dampedStep(double, double);
 
 template <class S>
-void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, typename S::Real h) {
+void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, typename S::Real h,
+              TurnRotation<S> turn) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies.constants[i].type == BodyType::Static) continue;
         // Not even the rounding of a rotation by nothing.
         if (i < bodies.asleep.size() && bodies.asleep[i]) continue;
         bodies.pose[i].p += h * velocities[i].v;
-        bodies.pose[i].q = rotatedBy(bodies.pose[i].q, typename S::Ang(h * velocities[i].w));
+        bodies.pose[i].q = turn(bodies.pose[i].q, typename S::Ang(h * velocities[i].w));
     }
 }
-template void moveWith<Space2f>(BodyArrays<Space2f>&, std::span<const Velocity<Space2f>>, float);
-template void moveWith<Space2d>(BodyArrays<Space2d>&, std::span<const Velocity<Space2d>>, double);
-template void moveWith<Space3f>(BodyArrays<Space3f>&, std::span<const Velocity<Space3f>>, float);
-template void moveWith<Space3d>(BodyArrays<Space3d>&, std::span<const Velocity<Space3d>>, double);
+#define RIGOR_INSTANTIATE(S) \
+    template void moveWith<S>(BodyArrays<S>&, std::span<const Velocity<S>>, S::Real, TurnRotation<S>);
+RIGOR_INSTANTIATE(Space2f)
+RIGOR_INSTANTIATE(Space2d)
+RIGOR_INSTANTIATE(Space3f)
+RIGOR_INSTANTIATE(Space3d)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -22,24 +22,40 @@ struct DampedStep {
 template <class R>
 DampedStep<R> dampedStep(R keptPerSecond, R h);
 
+/// q turned by the rotation vector v [rad], world frame: the orientation update.
+template <class S>
+using TurnRotation = typename S::Rot (*)(const typename S::Rot& q, const typename S::Ang& v);
+template <class S>
+using OrientationFactory = TurnRotation<S> (*)();
+template <class S>
+std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable();
+
 /// Linear and rotational motion over one step. `start` are the velocities before the step, the arrays hold
 /// those after it. Moves the poses and writes to `used` the velocities that moved them.
 template <class S>
 using MoveBodies = void (*)(BodyArrays<S>& bodies, std::span<const Velocity<S>> start,
-                            std::span<Velocity<S>> used, typename S::Real h);
+                            std::span<Velocity<S>> used, typename S::Real h, TurnRotation<S> turn);
+template <class S>
+class FreeFlow;
+/// Integrators that look at the forces more than once in a step: advances `flow` by h.
+template <class S>
+using AdvanceFlow = void (*)(FreeFlow<S>& flow, double begin, typename S::Real h);
+/// An integrator has either `move` or `advance`.
 template <class S>
 struct Integrator {
     MoveBodies<S> move = nullptr;
     bool movesWithSolvedVelocity = true;  ///< constraints of this step already act on this step's motion
+    AdvanceFlow<S> advance = nullptr;
 };
 template <class S>
 using IntegratorFactory = Integrator<S> (*)();
 template <class S>
 std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable();
 
-/// p += h v, q := exp(h w) q for every body that may move.
+/// p += h v, q := turn(q, h w) for every body that may move.
 template <class S>
-void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, typename S::Real h);
+void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, typename S::Real h,
+              TurnRotation<S> turn);
 
 /// The gyroscopic term of one body. 2D: nothing to do.
 template <class S>
@@ -53,6 +69,7 @@ struct RotationScheme {
     typename S::Ang (*finish)(const BodyConstants<S>& body, const typename S::Rot& q0,
                               const typename S::Rot& q1, const typename S::Ang& w,
                               const typename S::Ang& predicted, const typename S::Ang& solved);
+    bool gyroscopic = true;  ///< false: the law of motion has no gyroscopic term
 };
 template <class S>
 using RotationFactory = RotationScheme<S> (*)();

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/integrators/motion.hpp"
 
+#include <cmath>
+
 namespace rigor::engine {
 
 template <class S>
@@ -12,23 +14,36 @@ void Motion<S>::setInertia(BodyArrays<S>& bodies) {
 }
 
 template <class S>
-void Motion<S>::kick(BodyArrays<S>& bodies, const Vec& gravity, Real h) {
+void Motion<S>::kick(BodyArrays<S>& bodies, const Load<S>& load, Real h) {
     const std::size_t n = bodies.size();
     start_.assign(bodies.velocity.begin(), bodies.velocity.end());
+    startRotations_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) startRotations_[i] = bodies.pose[i].q;
+    if (!integrator_.advance) return kickOnce(bodies, load, h);
+    flow_.begin(bodies, load, rotation_, turn_);
+    flow_.advance(integrator_.advance, h);
+    for (std::size_t i = 0; i < n; ++i)
+        if (bodies.invMass[i] > 0) bodies.velocity[i] = flow_.velocity[i];
+}
+
+template <class S>
+void Motion<S>::kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h) {
+    const std::size_t n = bodies.size();
+    wrench_.assign(bodies.wrench.begin(), bodies.wrench.end());
+    if (load.forces)
+        load.forces->evaluate(
+            {load.time, load.time + static_cast<double>(h), bodies.pose, bodies.velocity, wrench_});
     kicked_.resize(n);
     predicted_.resize(n);
-    startRotations_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
-        startRotations_[i] = bodies.pose[i].q;
         if (bodies.invMass[i] == 0) continue;
         const BodyConstants<S>& body = bodies.constants[i];
         const DampedStep<Real> linear = dampedStep(body.linearVelocityKept, h);
         const DampedStep<Real> angular = dampedStep(body.angularVelocityKept, h);
         Velocity<S>& velocity = bodies.velocity[i];
-        const Wrench<S>& wrench = bodies.wrench[i];
-        const Vec acceleration = body.gravityScale * gravity + bodies.invMass[i] * wrench.force;
+        const Vec acceleration = body.gravityScale * load.gravity + bodies.invMass[i] * wrench_[i].force;
         velocity.v = linear.kept * velocity.v + linear.kick * acceleration;
-        kicked_[i] = angular.kept * velocity.w + angular.kick * Ang(bodies.invInertia[i] * wrench.torque);
+        kicked_[i] = angular.kept * velocity.w + angular.kick * Ang(bodies.invInertia[i] * wrench_[i].torque);
         predicted_[i] = rotation_.predict(body, bodies.pose[i].q, kicked_[i], h);
         velocity.w = predicted_[i];
     }
@@ -37,13 +52,53 @@ void Motion<S>::kick(BodyArrays<S>& bodies, const Vec& gravity, Real h) {
 template <class S>
 void Motion<S>::move(BodyArrays<S>& bodies, Real h) {
     used_.resize(bodies.size());
-    integrator_.move(bodies, start_, used_, h);
+    if (integrator_.advance)
+        moveAlongFlow(bodies, h);
+    else
+        integrator_.move(bodies, start_, used_, h, turn_);
+}
+
+namespace {
+
+/// The share of a constraint's change d of a velocity, squared norm dd, that moves the body (motion.hpp);
+/// ff: squared norm of what forces changed.
+template <class R>
+R movingShare(R dd, R ff) {
+    return ff >= dd ? R(0.5) : R(1) - R(0.5) * std::sqrt(ff / dd);
+}
+
+}  // namespace
+
+template <class S>
+void Motion<S>::moveAlongFlow(BodyArrays<S>& bodies, Real h) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        used_[i] = {};
+        if (bodies.constants[i].type == BodyType::Static) continue;
+        Pose<S>& X = bodies.pose[i];
+        used_[i] = {(flow_.pose[i].p - X.p) / h, flow_.turn[i] / h};
+        X = flow_.pose[i];
+        const Velocity<S>&solved = bodies.velocity[i], free = flow_.velocity[i], before = start_[i];
+        const Vec dv = solved.v - free.v, fv = free.v - before.v;
+        const Ang dw = solved.w - free.w, fw = free.w - before.w;
+        const Real dv2 = dv.squaredNorm(), dw2 = dotAng(dw, dw);
+        if (dv2 > 0) {
+            const Vec moving = movingShare(dv2, fv.squaredNorm()) * dv;
+            X.p += h * moving;
+            used_[i].v += moving;
+        }
+        if (dw2 > 0) {
+            const Ang moving = movingShare(dw2, dotAng(fw, fw)) * dw;
+            X.q = turn_(X.q, Ang(h * moving));
+            used_[i].w += moving;
+        }
+    }
 }
 
 template <class S>
 void Motion<S>::finish(BodyArrays<S>& bodies, Real h) {
     (void)h;
-    if (!rotation_.finish) return;
+    // The velocities of a free flow are those of the end already.
+    if (!rotation_.finish || integrator_.advance) return;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies.invMass[i] == 0) continue;
         Ang& w = bodies.velocity[i].w;
@@ -54,7 +109,7 @@ void Motion<S>::finish(BodyArrays<S>& bodies, Real h) {
 
 template <class S>
 void Motion<S>::interrupt(BodyArrays<S>& bodies, std::size_t i) {
-    if (!rotation_.finish) return;
+    if (!rotation_.finish || integrator_.advance) return;
     Ang& w = bodies.velocity[i].w;
     w = rotation_.finish(bodies.constants[i], startRotations_[i], bodies.pose[i].q, kicked_[i], predicted_[i],
                          w);
@@ -62,7 +117,7 @@ void Motion<S>::interrupt(BodyArrays<S>& bodies, std::size_t i) {
 
 template <class S>
 void Motion<S>::resume(BodyArrays<S>& bodies, std::size_t i, Real rest) {
-    if (!rotation_.finish) return;
+    if (!rotation_.finish || integrator_.advance) return;
     Ang& w = bodies.velocity[i].w;
     startRotations_[i] = bodies.pose[i].q;
     kicked_[i] = w;

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/free_flow.hpp"
 
 namespace rigor::engine {
 
@@ -24,8 +24,8 @@ class Motion {
     using Ang = typename S::Ang;
 
     Motion() = default;
-    Motion(const Integrator<S>& integrator, const RotationScheme<S>& rotation)
-        : integrator_(integrator), rotation_(rotation) {}
+    Motion(const Integrator<S>& integrator, const RotationScheme<S>& rotation, TurnRotation<S> turn)
+        : integrator_(integrator), rotation_(rotation), turn_(turn) {}
 
     /// Constraints of a step already act on the motion of that step.
     bool movesWithSolvedVelocity() const { return integrator_.movesWithSolvedVelocity; }
@@ -34,7 +34,7 @@ class Motion {
     static void setInertia(BodyArrays<S>& bodies);
 
     /// Velocities after h [s] of forces alone. Wrenches are read, not cleared: they last all sub-steps.
-    void kick(BodyArrays<S>& bodies, const Vec& gravity, Real h);
+    void kick(BodyArrays<S>& bodies, const Load<S>& load, Real h);
     /// Moves every body over h.
     void move(BodyArrays<S>& bodies, Real h);
     /// The velocities of the last move().
@@ -54,14 +54,20 @@ class Motion {
     void replaceUsed(std::size_t i, const Velocity<S>& velocity) { used_[i] = velocity; }
 
   private:
+    void kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h);
+    void moveAlongFlow(BodyArrays<S>& bodies, Real h);
+
     Integrator<S> integrator_{};
     RotationScheme<S> rotation_{};
+    TurnRotation<S> turn_ = nullptr;
     // --- recomputed every sub-step
     std::vector<Velocity<S>> start_;  ///< before kick()
     std::vector<Velocity<S>> used_;
     std::vector<Ang> kicked_;     ///< with forces, without the gyroscopic term
     std::vector<Ang> predicted_;  ///< with the gyroscopic term, before constraints
     std::vector<typename S::Rot> startRotations_;
+    std::vector<Wrench<S>> wrench_;
+    FreeFlow<S> flow_;
 };
 
 }  // namespace rigor::engine

@@ -16,7 +16,7 @@
 // hence linear convergence with a factor of order (h |W|)^2).
 #include <limits>
 
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/angular_momentum.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -58,32 +58,11 @@ typename S::Ang predict(const BodyConstants<S>& body, const typename S::Rot& q, 
     }
 }
 
-template <class S>
-typename S::Ang finish(const BodyConstants<S>& body, const typename S::Rot& q0, const typename S::Rot& q1,
-                       const typename S::Ang& w, const typename S::Ang& predicted,
-                       const typename S::Ang& solved) {
-    if constexpr (S::dim == 2) {
-        (void)body, (void)q0, (void)q1, (void)w, (void)predicted;
-        return solved;
-    } else {
-        using Vec = typename S::Vec;
-        using Real = typename S::Real;
-        // L = I(q0) (w + what the constraints changed)
-        const Vec kept = rotateInverse(q0, Vec(w + (solved - predicted)));
-        const Vec Pi = body.inertia * kept;
-        if (kept.cross(Pi).norm() <= Real(4) * std::numeric_limits<Real>::epsilon() * kept.norm() * Pi.norm())
-            return w + (solved - predicted);
-        const Vec L = rotate(q0, Pi);
-        const Vec local = inverseInertia<S>(body.inertia) * rotateInverse(q1, L);
-        return rotate(q1, local);
-    }
-}
-
 }  // namespace
 
 template <class S>
 RotationScheme<S> rotationLieMidpoint() {
-    return {&predict<S>, &finish<S>};
+    return {&predict<S>, &keepAngularMomentum<S>};
 }
 template RotationScheme<Space2f> rotationLieMidpoint<Space2f>();
 template RotationScheme<Space2d> rotationLieMidpoint<Space2d>();

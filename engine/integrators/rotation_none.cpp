@@ -18,7 +18,7 @@ typename S::Ang keep(const BodyConstants<S>&, const typename S::Rot&, const type
 
 template <class S>
 RotationScheme<S> rotationNone() {
-    return {&keep<S>, nullptr};
+    return {&keep<S>, nullptr, false};
 }
 template RotationScheme<Space2f> rotationNone<Space2f>();
 template RotationScheme<Space2d> rotationNone<Space2d>();

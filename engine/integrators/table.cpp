@@ -14,6 +14,11 @@ namespace rigor::engine {
     RotationScheme<S> factory();
 #include "engine/integrators/rotations.def"
 #undef ALGORITHM
+#define ALGORITHM(name, factory, summary) \
+    template <class S>                    \
+    TurnRotation<S> factory();
+#include "engine/integrators/orientation_updates.def"
+#undef ALGORITHM
 
 template <class S>
 std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable() {
@@ -34,9 +39,20 @@ std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable() {
     return table;
 }
 
+template <class S>
+std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable() {
+    static constexpr AlgorithmEntry<OrientationFactory<S>> table[] = {
+#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#include "engine/integrators/orientation_updates.def"
+#undef ALGORITHM
+    };
+    return table;
+}
+
 #define RIGOR_INSTANTIATE(S)                                                             \
     template std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable<S>(); \
-    template std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable<S>();
+    template std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable<S>();     \
+    template std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable<S>();
 RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)

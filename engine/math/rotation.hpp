@@ -31,6 +31,7 @@ Rot2<R> expMap(R v) {
     R x = v;
     int halvings = 0;
     while (x * x > R(1.0 / 16) && halvings < 64) x *= R(0.5), ++halvings;
+    if (x * x > R(1.0 / 16)) return {};  // beyond what can be counted
     R c, s;
     cosSinc(x * x, c, s);
     s *= x;
@@ -47,6 +48,7 @@ Eigen::Quaternion<R> expMap(const Eigen::Matrix<R, 3, 1>& v) {
     Eigen::Matrix<R, 3, 1> u = R(0.5) * v;
     int halvings = 0;
     while (u.squaredNorm() > R(1.0 / 16) && halvings < 64) u *= R(0.5), ++halvings;
+    if (u.squaredNorm() > R(1.0 / 16)) return Eigen::Quaternion<R>::Identity();  // beyond what can be counted
     R c, s;
     cosSinc(u.squaredNorm(), c, s);
     u *= s;
@@ -70,6 +72,29 @@ Eigen::Matrix<R, 3, 1> logMap(const Eigen::Quaternion<R>& q) {
     const R w = std::abs(q.w());
     if (s < R(1e-6)) return (R(2) / w) * u;
     return (R(2) * std::atan2(s, w) / s) * u;
+}
+
+/// The rotation vector of q, of angle at most pi, without libm: q is rooted until the arc sine of its half
+/// angle is a short series. Accurate to a few units in the last place.
+template <class R>
+Eigen::Matrix<R, 3, 1> rotationVector(const Eigen::Quaternion<R>& q) {
+    const R sign = q.w() < R(0) ? R(-1) : R(1);
+    const R length = q.vec().norm();
+    if (!(length > R(0))) return Eigen::Matrix<R, 3, 1>::Zero();
+    const R norm = std::sqrt(q.w() * q.w() + length * length);
+    R c = std::abs(q.w()) / norm, s = length / norm, factor = R(2);
+    while (s > R(0.0625)) {  // half of the half angle
+        c = std::sqrt(R(0.5) * (R(1) + c));
+        s = s / (R(2) * c);
+        factor *= R(2);
+    }
+    // arcsin(s) = sum of (2k)! / (4^k k!^2 (2k + 1)) s^(2k + 1); s^2 <= 1/64: what is left out is below
+    // 2e-18.
+    const R x = s * s;
+    R series = R(0);
+    for (const double a : {231.0 / 13312, 63.0 / 2816, 35.0 / 1152, 5.0 / 112, 3.0 / 40, 1.0 / 6, 1.0})
+        series = series * x + R(a);
+    return (sign * factor * s * series / length) * q.vec();
 }
 
 template <class R>

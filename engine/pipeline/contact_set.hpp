@@ -123,6 +123,7 @@ class ContactSet {
 
     const std::vector<ProxyPair>& proxyPairs() const { return proxyPairs_; }
     const std::vector<Contact<S>>& contacts() const { return contacts_; }
+    std::vector<Contact<S>>& contacts() { return contacts_; }
     /// True where the contact of two shapes (bodies in order) has rows in this step.
     bool hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const;
     /// True where contacts between the two bodies are possible.

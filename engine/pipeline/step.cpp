@@ -93,6 +93,10 @@ template <class S>
 void World<S>::beginStep(Real h) {
     if (stepping()) throw EngineError("step_in_progress", "the last step has phases left to run");
     if (!(h > 0) || !std::isfinite(h)) throw EngineError("time_step", "a step must be positive and finite");
+    for (const auto& record : forces_.records())  // a force that starts or ends wakes what it acts on
+        if (const auto* force = std::get_if<ConstantForce<S>>(&record.def))
+            for (const double edge : {force->start, force->end})
+                if (edge >= time_ && edge < time_ + static_cast<double>(h)) wakeIslandOf(record.place.b);
     result_ = {};
     residuals_.clear();
     impacts_.clear();
@@ -172,6 +176,7 @@ void World<S>::endStep() {
     for (Wrench<S>& wrench : bodies_.wrench) wrench = {};
     if (sleeping_.rest) sleeping_.rest(sleepStep());
     checkFinite();
+    time_ += static_cast<double>(cursor_.size);
     lastStepSize_ = cursor_.substepSize;
     ++stepCount_;
     result_.pairs = contacts_.proxyPairs().size();
@@ -192,7 +197,7 @@ void World<S>::endStep() {
 template <class S>
 void World<S>::kick() {
     ccd_->remember(bodies_);
-    motion_.kick(bodies_, def_.gravity, cursor_.substepSize);
+    motion_.kick(bodies_, load(), cursor_.substepSize);
     ccd_->rememberKick(bodies_);
 }
 
@@ -203,6 +208,11 @@ void World<S>::resolveImpacts() {
                                        def_.restitutionThreshold, h, static_cast<Real>(cursor_.substep) * h},
                                       impacts_);
     result_.impactsCut = result_.impactsCut || !inTime;
+}
+
+template <class S>
+Load<S> World<S>::load() const {
+    return {def_.gravity, &forces_, time_ + cursor_.substep * static_cast<double>(cursor_.substepSize)};
 }
 
 template <class S>
@@ -264,8 +274,15 @@ void World<S>::solvePositions() {
                             {rows_, bodies_.velocity, friction_, monitor, def_.positionIterations, h, true});
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         if (bodies_.invMass[i] == 0) continue;
-        bodies_.velocity[i].v = positionScratch_.motion[i].v / h;
-        bodies_.velocity[i].w = logMap(compose(bodies_.pose[i].q, inverse(motion_.startRotations()[i]))) / h;
+        Velocity<S>& velocity = bodies_.velocity[i];
+        const Vec v = positionScratch_.motion[i].v / h;
+        const Ang w = logMap(compose(bodies_.pose[i].q, inverse(motion_.startRotations()[i]))) / h;
+        if (motion_.movesWithSolvedVelocity()) {
+            velocity = {v, w};
+        } else {  // the end velocity is not the one that moved the body: what positions changed comes on top
+            velocity.v += v - motion_.used()[i].v;
+            velocity.w += w - motion_.used()[i].w;
+        }
     }
     jointStep_.curved = false;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include "engine/math/decompositions.hpp"
 
-#include "engine/core/hash.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
 
 namespace rigor::engine {
@@ -98,8 +97,10 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     require(def.gapSlop >= 0 && std::isfinite(def.gapSlop), "gap_slop", "gap slop must not be negative");
     require(def.speculativeDistance >= 0 && std::isfinite(def.speculativeDistance), "speculative_distance",
             "speculative distance must not be negative");
-    motion_ = {findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make(),
-               findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make()};
+    motion_ = {
+        findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make(),
+        findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make(),
+        findAlgorithm(orientationUpdateTable<S>(), "orientation_update", def.orientationUpdate).make()};
     broadPhase_ = findAlgorithm(broadPhaseTable<S>(), "broad_phase", def.broadPhase).make();
     solver_ = findAlgorithm(solverTable<S>(), "solver", def.solver).make();
     correction_ =
@@ -261,6 +262,7 @@ void World<S>::removeBody(BodyId body) {
         ++kept;
     }
     joints.resize(kept);
+    forces_.bodyRemoved(gone, last);
     rebuildExclusions();
     contacts_.structureChanged(true);
     broadPhase_->reset();
@@ -275,6 +277,30 @@ void World<S>::applyForce(BodyId body, const Vec& force, const Ang& torque) {
     Wrench<S>& wrench = bodies_.wrench[i];
     wrench.force += force;
     wrench.torque += torque;
+}
+
+template <class S>
+ForceId World<S>::addForce(const ForceDef<S>& def) {
+    const ForceId id = forces_.add(def, bodies_, bodyIds_);
+    wakeIslandOf(forces_.place(id).a), wakeIslandOf(forces_.place(id).b);
+    return id;
+}
+
+template <class S>
+void World<S>::removeForce(ForceId force) {
+    wakeIslandOf(forces_.place(force).a), wakeIslandOf(forces_.place(force).b);
+    forces_.remove(force);
+}
+
+template <class S>
+void World<S>::applyImpulse(BodyId body, const Vec& impulse, const Ang& angularImpulse) {
+    require(impulse.allFinite() && finiteAng(angularImpulse), "impulse", "impulses must be finite");
+    const std::uint32_t i = bodyIds_.dense(body);
+    require(bodies_.constants[i].type == BodyType::Dynamic, "impulse", "an impulse needs a dynamic body");
+    wakeIslandOf(i);
+    bodies_.velocity[i].v += bodies_.invMass[i] * impulse;
+    bodies_.velocity[i].w +=
+        Ang(worldInertia<S>(bodies_.pose[i].q, bodies_.invInertiaLocal[i]) * angularImpulse);
 }
 
 template <class S>
@@ -307,68 +333,6 @@ void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
                            where.pointA, where.pointB, contact.manifold.normal, where.separation,
                            point.normalTotal, point.frictionTotal});
         }
-}
-
-namespace {
-
-template <class Derived>
-void hashField(Hasher& hash, const Eigen::MatrixBase<Derived>& m) {
-    for (Eigen::Index i = 0; i < m.size(); ++i) hash.add(m(i));
-}
-template <class R>
-void hashField(Hasher& hash, const Eigen::Quaternion<R>& q) {
-    hashField(hash, q.coeffs());
-}
-template <class R>
-void hashField(Hasher& hash, const Rot2<R>& q) {
-    hash.add(q.c), hash.add(q.s);
-}
-void hashField(Hasher& hash, std::uint8_t v) {
-    hash.add(v);
-}
-void hashField(Hasher& hash, float v) {
-    hash.add(v);
-}
-void hashField(Hasher& hash, double v) {
-    hash.add(v);
-}
-template <class S>
-void hashField(Hasher& hash, const Pose<S>& X) {
-    hashField(hash, X.p), hashField(hash, X.q);
-}
-template <class S>
-void hashField(Hasher& hash, const Velocity<S>& v) {
-    hashField(hash, v.v), hashField(hash, v.w);
-}
-template <class S>
-void hashField(Hasher& hash, const Wrench<S>& f) {
-    hashField(hash, f.force), hashField(hash, f.torque);
-}
-
-}  // namespace
-
-template <class S>
-std::uint64_t World<S>::stateHash() const {
-    Hasher hash;
-    hash.add(stepCount_);
-    hash.add(lastStepSize_);
-#define FIELD(name) \
-    for (const auto& value : bodies_.name) hashField(hash, value);
-#include "engine/state/state_fields.def"
-#undef FIELD
-    for (const Contact<S>& contact : contacts_.contacts()) {
-        hash.add(contact.shapeA), hash.add(contact.shapeB);
-        for (int i = 0; i < contact.manifold.count; ++i) {
-            const auto& point = contact.points[static_cast<std::size_t>(i)];
-            hash.add(contact.manifold.points[static_cast<std::size_t>(i)].feature);
-            hash.add(point.normalImpulse), hashField(hash, point.frictionImpulse), hash.add(point.impact);
-        }
-    }
-    for (const auto& record : joints_.records()) {
-        for (const Real impulse : record.impulse) hash.add(impulse);
-        for (const Real seen : record.joint.seen) hash.add(seen);
-    }
-    return hash.value();
 }
 
 template class World<Space2f>;

@@ -77,7 +77,7 @@ class World {
 
     // --- building. Each throws EngineError for values out of range.
     BodyId addBody(const BodyDef<S>& def);
-    /// Removes the body with its shapes and joints.
+    /// Removes the body with its shapes, joints and forces.
     void removeBody(BodyId body);
     ShapeId addShape(BodyId body, const ShapeDef<S>& def);
     std::uint32_t addMaterial(Real friction, Real restitution);
@@ -85,10 +85,15 @@ class World {
     void setPair(std::uint32_t materialA, std::uint32_t materialB, const PairCoefficients<S>& coefficients);
     JointId addJoint(const JointDef<S>& def);
     void removeJoint(JointId joint);
+    /// A force that the integrator evaluates itself, at each of its stages.
+    ForceId addForce(const ForceDef<S>& def);
+    void removeForce(ForceId force);
 
     // --- running
     /// Force [N] and torque [N m] at the centre of mass, world frame, during the next step. Adds up.
     void applyForce(BodyId body, const Vec& force, const Ang& torque);
+    /// Changes linear and angular momentum at once [N s], [N m s].
+    void applyImpulse(BodyId body, const Vec& impulse, const Ang& angularImpulse);
     /// Advances by h [s], > 0.
     const StepResult<S>& step(Real h);
     /// The same a phase at a time: beginStep(h), then runPhase() while stepping(). Between phases everything
@@ -117,7 +122,9 @@ class World {
     // --- reading
     std::size_t bodyCount() const { return bodies_.size() - 1; }
     bool contains(BodyId body) const { return bodyIds_.contains(body); }
-    Pose<S> pose(BodyId body) const;  ///< of the body frame
+    bool contains(ForceId force) const { return forces_.contains(force); }
+    double time() const { return time_; }  ///< the sum of all steps [s]
+    Pose<S> pose(BodyId body) const;       ///< of the body frame
     Vec velocity(BodyId body) const {
         return bodies_.velocity[bodyIds_.dense(body)].v;
     }  ///< of the centre of mass
@@ -136,8 +143,17 @@ class World {
     /// Of the contacts and joints of the last step, between dynamic bodies, asleep or not.
     const Islands& islands() const { return islands_; }
     bool isAsleep(BodyId body) const { return bodies_.asleep[bodyIds_.dense(body)]; }
-    /// Of everything that decides the future.
+    /// Of everything that decides the future (state/state_fields.def).
     std::uint64_t stateHash() const;
+
+    // --- saving and going on
+    /// Replaces `bytes` by the state. Restored into a world that was built alike it has the same future, bit
+    /// for bit. Throws EngineError "step_in_progress" between the phases of a step.
+    void saveSnapshot(std::vector<unsigned char>& bytes) const;
+    /// Throws EngineError "snapshot_format" (not a snapshot, or of another version), "snapshot_corrupt",
+    /// "snapshot_world" (another dimension, precision, or other bodies, shapes, joints, forces), and leaves
+    /// the world as it is.
+    void restoreSnapshot(std::span<const unsigned char> bytes);
 
   private:
     /// Where in a step we are.
@@ -153,6 +169,7 @@ class World {
     void endStep();
     bool firstStep() const { return stepCount_ == 0 && cursor_.substep == 0; }
     BiasRule<Real> biasRule() const;
+    Load<S> load() const;
     void makeRows();
     void solveVelocities(int iterations, bool warmStarted);
     void relax();
@@ -169,6 +186,10 @@ class World {
     void breakJoints();
     const Joint<S>& joint_(JointId joint) const { return joints_.records()[jointIds_.dense(joint)].joint; }
     void checkFinite();
+    template <class A, class W>
+    static void visitState(A& archive, W& world);
+    std::uint64_t structureHash() const;
+    void checkRestored(std::size_t bodyCount) const;
     std::uint32_t bodyOrWorld(BodyId id) const { return id ? bodyIds_.dense(id) : 0; }
 
     WorldDef<S> def_;
@@ -190,6 +211,8 @@ class World {
     IdTable<JointTag> jointIds_;
     ContactSet<S> contacts_;
     JointSet<S> joints_;
+    ForceSet<S> forces_;
+    double time_ = 0;  ///< [s]
     Real lastStepSize_ = 0;
     std::uint64_t stepCount_ = 0;
 

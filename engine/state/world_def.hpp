@@ -30,6 +30,7 @@ struct WorldDef {
 
     std::string integrator = "symplectic_euler";
     std::string rotation = "lie_midpoint";
+    std::string orientationUpdate = "exponential_map";
     std::string broadPhase = "dynamic_aabb_tree";
     std::string narrowPhase = "sat";
     /// In place of `narrowPhase` where set; shared by copies of the world.

@@ -91,7 +91,9 @@ class FreeFlight : public Reference {
             a += push.acceleration;
         }
         const double t = static_cast<double>(step) * dt;
-        const double shift = scheme == adapter::Scheme::SymplecticEuler ? dt : -dt;
+        const double shift = scheme == adapter::Scheme::SymplecticEuler ? dt
+                             : adapter::isEuler(scheme)                 ? -dt
+                                                                        : 0.0;
         const Vec3 com = flight.com + t * flight.velocity + (0.5 * t * (t + shift)) * a;
         PartialState state = stateOf(*flight.body, com, flight.velocity + t * a);
         if (flight.body->angularVelocity == Vec3{}) {

@@ -4,10 +4,10 @@
 // Flight with linear drag, by a drag force (F = -c v) or by damping (v = v0 kept^t, so rate -ln(kept)).
 //   kappa = c/m - ln(kept), vinf = a/kappa, v = vinf + (v0 - vinf) e^(-kappa t),
 //   x = x0 + vinf t + (v0 - vinf)(1 - e^(-kappa t))/kappa; likewise w = w0 e^(-kappa_w t) about a fixed axis.
-// Scheme-exact for the drag force alone, evaluated at the start of the step: v(n+1) = v(n)(1 - kappa h) + a
-// h. Damping has no scheme-exact value: engines differ in where they put the factor. Source: Stokes 1851;
-// Goldstein, Poole, Safko 2002, chapter 1. Assumes: no contact, joint, other force; spin about a principal
-// axis when the spin is damped.
+// Scheme-exact for the drag force alone: v(n+1) - vinf = (v(n) - vinf) q, q = 1 - kappa h in Euler's schemes,
+// with further terms of the exponential series in those of higher order. Damping has no scheme-exact value:
+// engines differ in where they put the factor. Source: Stokes 1851; Goldstein, Poole, Safko 2002, chapter 1.
+// Assumes: no contact, joint, other force; spin about a principal axis when the spin is damped.
 #include <cmath>
 
 #include "validation/references/rotation.hpp"
@@ -64,14 +64,21 @@ class LinearDrag : public Reference {
         const Damped& d = find(body);
         if (scheme == adapter::Scheme::Unknown || d.rate != d.dragRate) return std::nullopt;
         const auto n = static_cast<double>(step);
-        const double factor = 1.0 - d.dragRate * dt;
+        const double z = d.dragRate * dt;
+        // What a step makes of v - vinf: the exponential series up to the order of the scheme.
+        double factor = 1.0 - z;
+        if (scheme == adapter::Scheme::VelocityVerlet) factor += z * z / 2;
+        if (scheme == adapter::Scheme::RungeKutta4) factor += z * z / 2 - z * z * z / 6 + z * z * z * z / 24;
         Vec3 velocity, com;
         if (d.dragRate * dt == 0.0) {
-            const double t = n * dt, shift = scheme == adapter::Scheme::SymplecticEuler ? dt : -dt;
+            const double t = n * dt, shift = scheme == adapter::Scheme::SymplecticEuler ? dt
+                                             : adapter::isEuler(scheme)                 ? -dt
+                                                                                        : 0.0;
             velocity = d.velocity + t * d.acceleration;
             com = d.com + t * d.velocity + (0.5 * t * (t + shift)) * d.acceleration;
         } else {
-            // v(k) = vinf + (v0 - vinf) q^k: the sums of v(1..n) or v(0..n-1) are geometric.
+            // v(k) = vinf + (v0 - vinf) q^k: the sums of v(1..n) or v(0..n-1) are geometric. The others move
+            // by h (1 - q)/z (v - vinf) beyond h vinf, whose sum is the same with another last factor.
             const Vec3 limit = d.acceleration / d.dragRate, excess = d.velocity - limit;
             const double power = std::pow(factor, n), sum = (1.0 - power) / (d.dragRate * dt);
             velocity = limit + power * excess;

@@ -103,7 +103,7 @@ PartialState RollingBall::exact(double t) const {
 
 std::optional<PartialState> RollingBall::schemeExact(std::size_t step, double dt,
                                                      adapter::Scheme scheme) const {
-    if (scheme == adapter::Scheme::Unknown) return std::nullopt;
+    if (!adapter::isEuler(scheme)) return std::nullopt;
     const auto slip = steps_.at(pull_, friction_, slip0_, step, dt, scheme);
     const double t = static_cast<double>(step) * dt;
     State s = fromSlip({slip.displacement, slip.velocity}, t);

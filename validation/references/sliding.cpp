@@ -66,7 +66,7 @@ PartialState SlidingBody::exact(double t) const {
 
 std::optional<PartialState> SlidingBody::schemeExact(std::size_t step, double dt,
                                                      adapter::Scheme scheme) const {
-    if (scheme == adapter::Scheme::Unknown) return std::nullopt;
+    if (!adapter::isEuler(scheme)) return std::nullopt;
     const auto s = steps_.at(pull_, mu_ * load_, body_->velocity, step, dt, scheme);
     return stateOf(*body_, com_ + s.displacement, body_->pose.orientation, s.velocity, {});
 }

@@ -4,7 +4,7 @@
 // A body on springs and dampers along one line, with drag, constant force and gravity along it:
 //   m x'' + c x' + k (x - xe) = 0, gamma = c/(2 m), w0^2 = k/m, s^2 = w0^2 - gamma^2:
 //   x - xe = e^(-gamma t) [A cos(s t) + B sin(s t)/s], cosh and sinh when overdamped, 1 and t when critical.
-// Scheme-exact: forces taken at the start of the step, so the step is a linear map, raised to the power n.
+// Scheme-exact: the step is a linear map, raised to the power n.
 // Source: Landau and Lifshitz, Mechanics, 1976, section 25; Hairer, Lubich, Wanner 2006, I.1.
 // Assumes: springs from the world or a static body to the centre of mass, everything along one line, no spin;
 // the springs keep their side of their anchors. A spring of rest length zero and no damper acts the same in
@@ -76,10 +76,7 @@ class SpringOscillator : public Reference {
     std::optional<PartialState> schemeExact(int, std::size_t step, double dt,
                                             adapter::Scheme scheme) const override {
         if (scheme == adapter::Scheme::Unknown) return std::nullopt;
-        const double k = dt * stiffness_ / mass_, c = dt * damping_ / mass_;
-        Affine map{1.0, dt, -k, 1.0 - c};
-        if (scheme == adapter::Scheme::SymplecticEuler) map = {1.0 - dt * k, dt * (1.0 - c), -k, 1.0 - c};
-        const Affine all = power(map, step);
+        const Affine all = power(oneStep(dt, scheme), step);
         return stateAt(all.a, all.b, all.c, all.d);
     }
 
@@ -142,6 +139,27 @@ class SpringOscillator : public Reference {
                 require(dot(x - anchor, com_ - anchor) > 0.0,
                         bodyTitle(scenario_, index_) + " passes through the anchor of its spring");
         }
+    }
+
+    /// The step of a scheme as a linear map of (x - xe, v).
+    Affine oneStep(double dt, adapter::Scheme scheme) const {
+        const double k = dt * stiffness_ / mass_, c = dt * damping_ / mass_;
+        if (scheme == adapter::Scheme::ExplicitEuler) return {1.0, dt, -k, 1.0 - c};
+        if (scheme == adapter::Scheme::SymplecticEuler) return {1.0 - dt * k, dt * (1.0 - c), -k, 1.0 - c};
+        if (scheme == adapter::Scheme::VelocityVerlet) {
+            // x1 = x + h v + h^2/2 a(x, v), v1 = v + h/2 (a(x, v) + a(x1, v + h a(x, v)))
+            const double x1 = 1.0 - 0.5 * dt * k, x1v = dt * (1.0 - 0.5 * c);
+            return {x1, x1v, -0.5 * (k + k * x1 - c * k), 1.0 - 0.5 * (c + k * x1v + c * (1.0 - c))};
+        }
+        // Runge-Kutta of order 4 on a linear equation: the exponential series up to the fourth power.
+        const Affine z{0.0, dt, -k, -c};
+        Affine sum{}, term{};
+        for (const double n : {1.0, 2.0, 3.0, 4.0}) {
+            term = term * z;
+            term = {term.a / n, term.b / n, term.c / n, term.d / n};
+            sum = {sum.a + term.a, sum.b + term.b, sum.c + term.c, sum.d + term.d};
+        }
+        return sum;
     }
 
     /// x - xe = p (x0 - xe) + q v0, v = dp (x0 - xe) + dq v0.

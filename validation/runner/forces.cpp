@@ -68,7 +68,8 @@ void apply(const Step& step, const scenario::DragForce& f) {
 
 }  // namespace
 
-bool forcesNeedStates(const Scenario& scenario) {
+bool forcesNeedStates(const Scenario& scenario, const adapter::World& world) {
+    if (world.evaluatesForces()) return false;
     return std::any_of(scenario.forces.begin(), scenario.forces.end(), [](const scenario::Force& f) {
         return !std::holds_alternative<scenario::ConstantForce>(f);
     });
@@ -78,14 +79,17 @@ void applyForces(const Scenario& scenario, std::size_t step, double dt, std::spa
                  adapter::World& world) {
     const double begin = static_cast<double>(step) * dt;
     const Step now{scenario, begin, dt, states, world};
-    for (const scenario::Force& force : scenario.forces)
-        std::visit([&](const auto& f) { apply(now, f); }, force);
+    if (!world.evaluatesForces())
+        for (const scenario::Force& force : scenario.forces)
+            std::visit([&](const auto& f) { apply(now, f); }, force);
     // The first step that starts at or after the event; 1e-9 of a step takes the rounding out of step * dt.
     const double slack = 1e-9 * dt;
     for (const scenario::Event& event : scenario.events) {
         const bool due = event.time <= begin + slack;
         const bool wasDue = step > 0 && event.time <= begin - dt + slack;
-        if (due && !wasDue) now.push(event.body, event.impulse / dt, event.angularImpulse / dt);
+        if (!due || wasDue || now.body(event.body).type != scenario::BodyType::Dynamic) continue;
+        if (!world.applyImpulse(event.body, event.impulse, event.angularImpulse))
+            now.push(event.body, event.impulse / dt, event.angularImpulse / dt);
     }
 }
 

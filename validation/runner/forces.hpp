@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The scenario's forces and events, computed by the harness, one implementation for all engines: from the
-// engine's own states at the start of each step, constant during that step.
+// engine's own states at the start of each step, constant during that step. Worlds that evaluate the forces
+// themselves get the events alone.
 #pragma once
 
 #include <cstddef>
@@ -17,6 +18,6 @@ void applyForces(const scenario::Scenario& scenario, std::size_t step, double dt
                  std::span<const adapter::BodyState> states, adapter::World& world);
 
 /// Whether applyForces needs states.
-bool forcesNeedStates(const scenario::Scenario& scenario);
+bool forcesNeedStates(const scenario::Scenario& scenario, const adapter::World& world);
 
 }  // namespace rigor::validation

@@ -130,7 +130,7 @@ Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, 
     if (options.onStep) options.onStep(0.0, states, {});
     run.nonFinite = firstNonFinite(scenario, states, 0.0);
 
-    const bool needsStates = forcesNeedStates(scenario);
+    const bool needsStates = forcesNeedStates(scenario, world);
     const bool everyStep = needsStates || static_cast<bool>(options.onStep);
     Stopwatch watch;
     for (std::size_t step = 0; step < total && run.nonFinite.empty(); ++step) {

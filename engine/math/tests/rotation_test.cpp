@@ -33,7 +33,14 @@ TEST(ExpMap, AgreesWithAxisAngleInSpaceAndLogInvertsIt) {
         ASSERT_NEAR((q.coeffs() - expected.coeffs()).norm(), 0, 2e-15);
         const Eigen::Vector3d back = logMap(q);
         ASSERT_NEAR((back - angle * axis).norm(), 0, 1e-13) << angle;
+        const Eigen::Vector3d vector = rotationVector(q);
+        ASSERT_NEAR((vector - angle * axis).norm() / angle, 0, 2e-15) << angle;
+        const Eigen::Quaterniond opposite(-q.w(), -q.x(), -q.y(), -q.z());  // the same rotation
+        ASSERT_EQ(rotationVector(opposite), vector);
+        const Eigen::Vector3f single = rotationVector(Eigen::Quaternionf(q.cast<float>()));
+        ASSERT_NEAR((single.cast<double>() - angle * axis).norm() / angle, 0, 1e-6) << angle;
     }
+    EXPECT_EQ(rotationVector(Eigen::Quaterniond::Identity()), Eigen::Vector3d(0, 0, 0));
 }
 
 TEST(WorldInertia, TurnsWithTheBody) {

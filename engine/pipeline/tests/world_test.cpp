@@ -65,10 +65,15 @@ TYPED_TEST(Worlds, BroadPhasesGiveTheSameWorld) {
 TYPED_TEST(Worlds, SteadyStepDoesNotAllocate) {
     using S = TypeParam;
     for (const auto& family : algorithmFamilies()) {
-        if (family.name != "broad_phase" && family.name != "position_correction") continue;
+        if (family.name != "broad_phase" && family.name != "position_correction" &&
+            family.name != "integrator" && family.name != "rotation")
+            continue;
         for (const AlgorithmInfo& choice : family.algorithms) {
             WorldDef<S> def = earth<S>();
-            (family.name == "broad_phase" ? def.broadPhase : def.positionCorrection) = choice.name;
+            (family.name == "broad_phase"  ? def.broadPhase
+             : family.name == "integrator" ? def.integrator
+             : family.name == "rotation"   ? def.rotation
+                                           : def.positionCorrection) = choice.name;
             World<S> world = busyWorld<S>(def);
             for (int i = 0; i < 400; ++i) world.step(typename S::Real(1.0 / 60));
             const long before = allocationCount();
@@ -218,6 +223,7 @@ TEST(Algorithms, TablesAreSortedAndEveryEntryMakesAWorldThatFalls) {
                                  : family.name == "manifold"             ? &def.manifold
                                  : family.name == "integrator"           ? &def.integrator
                                  : family.name == "rotation"             ? &def.rotation
+                                 : family.name == "orientation_update"   ? &def.orientationUpdate
                                  : family.name == "solver"               ? &def.solver
                                  : family.name == "friction"             ? &def.friction
                                  : family.name == "position_correction"  ? &def.positionCorrection

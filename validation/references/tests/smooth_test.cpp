@@ -414,6 +414,50 @@ TEST(PendulumChain, KeepsItsEnergyAndItsJoints) {
     }
 }
 
+/// One step of a scheme of several stages, by hand.
+template <class F>
+void stepOf(Scheme scheme, const F& acceleration, double h, Vec3& x, Vec3& v) {
+    if (scheme == Scheme::VelocityVerlet) {
+        const Vec3 a0 = acceleration(x, v);
+        x += h * v + (0.5 * h * h) * a0;
+        v += (0.5 * h) * (a0 + acceleration(x, v + h * a0));
+        return;
+    }
+    const Vec3 v1 = v, a1 = acceleration(x, v1);
+    const Vec3 v2 = v + (0.5 * h) * a1, a2 = acceleration(x + (0.5 * h) * v1, v2);
+    const Vec3 v3 = v + (0.5 * h) * a2, a3 = acceleration(x + (0.5 * h) * v2, v3);
+    const Vec3 v4 = v + h * a3, a4 = acceleration(x + h * v3, v4);
+    x += (h / 6) * (v1 + 2.0 * v2 + 2.0 * v3 + v4);
+    v += (h / 6) * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+}
+
+TEST(HigherSchemes, AreSteppedByHand) {
+    Scenario flight = emptyScene(3, {0.5, -9, 1}, 2);
+    addBall(flight, "ball", 0.1, 2, 0.4, {0, 0, 10}, {3, 1, 5});
+    setReference(flight, "free_flight");
+    Scenario drag = flight;
+    drag.forces.push_back(DragForce{0, 0.9});
+    setReference(drag, "linear_drag");
+    Scenario spring = flight;
+    spring.gravity = spring.bodies[0].velocity = {};
+    spring.bodies[0].velocity = {0, 0, 1.5};
+    spring.forces.push_back(SpringForce{kNone, 0, {}, {}, 50, 1.7, 9.0});
+    setReference(spring, "spring_oscillator");
+    for (const Scheme scheme : {Scheme::VelocityVerlet, Scheme::RungeKutta4})
+        for (const Scenario* s : {&flight, &drag, &spring}) {
+            const auto reference = makeReference(*s);
+            Vec3 x = s->bodies[0].pose.position, v = s->bodies[0].velocity;
+            const auto acceleration = [&](Vec3 at, Vec3 speed) {
+                if (s == &flight) return s->gravity;
+                if (s == &drag) return s->gravity - 0.45 * speed;
+                return Vec3{0, 0, -25.0 * (at.z - 9.0) - 0.85 * speed.z};
+            };
+            for (int k = 0; k < 60; ++k) stepOf(scheme, acceleration, 0.02, x, v);
+            expectVec(*reference->schemeExact(0, 60, 0.02, scheme)->position, x, 1e-11);
+            expectVec(*reference->schemeExact(0, 60, 0.02, scheme)->velocity, v, 1e-11);
+        }
+}
+
 TEST(SpringOscillator, CatalogueSchemeAndRegimes) {
     Scenario s = emptyScene(3, {0, 0, 0}, 2);
     addBall(s, "mass", 0.05, 1, 0.4, {1.1, 0, 0});

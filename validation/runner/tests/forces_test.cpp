@@ -109,8 +109,39 @@ TEST(Forces, DragOpposesTheVelocity) {
     std::vector<BodyState> states(2);
     states[1].velocity = {4, 0, -8};
     expectNear(weigh(s, 0, 0.01, states).force[1], {-1, 0, 2});
-    EXPECT_TRUE(forcesNeedStates(s));
-    EXPECT_FALSE(forcesNeedStates(twoBodies()));
+    EXPECT_TRUE(forcesNeedStates(s, ScalesWorld(2)));
+    EXPECT_FALSE(forcesNeedStates(twoBodies(), ScalesWorld(2)));
+}
+
+/// A world that evaluates forces itself, and takes impulses as such.
+class OwnForcesWorld final : public ScalesWorld {
+  public:
+    using ScalesWorld::ScalesWorld;
+    bool evaluatesForces() const override { return true; }
+    bool applyImpulse(int body, const Vec3& impulse, const Vec3& angularImpulse) override {
+        linear[static_cast<std::size_t>(body)] += impulse,
+            angular[static_cast<std::size_t>(body)] += angularImpulse;
+        return true;
+    }
+    std::vector<Vec3> linear = std::vector<Vec3>(2), angular = std::vector<Vec3>(2);
+};
+
+TEST(Forces, WorldsThatEvaluateThemGetTheEventsAlone) {
+    scenario::Scenario s = twoBodies();
+    s.forces = {scenario::DragForce{1, 0.25}, scenario::ConstantForce{0, {1, 2, 3}, {}, 0, 1}};
+    s.events = {scenario::Event{0.05, 1, {1, 2, 3}, {4, 5, 6}}};
+    std::vector<BodyState> states(2);
+    states[1].velocity = {4, 0, -8};
+    OwnForcesWorld world(2);
+    EXPECT_FALSE(forcesNeedStates(s, world));
+    for (std::size_t step = 0; step < 10; ++step) applyForces(s, step, 0.02, states, world);
+    for (const std::size_t body : {0, 1}) {
+        EXPECT_EQ(world.force[body], Vec3{});
+        EXPECT_EQ(world.torque[body], Vec3{});
+    }
+    EXPECT_EQ(world.linear[1], (Vec3{1, 2, 3}));
+    EXPECT_EQ(world.angular[1], (Vec3{4, 5, 6}));
+    EXPECT_EQ(world.linear[0], Vec3{});
 }
 
 /// Exactly once, in the first step that starts at or after the event, whatever rounding step * dt suffers.

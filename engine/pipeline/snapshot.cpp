@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The state of a world as a hash, as bytes, and back (state/state_fields.def).
+//
+// Bytes: "RIGORSNP", version, a word that tells the byte order, dimension, size of a number, a hash of the
+// world's structure, the fields, and a hash (FNV-1a, 64 bits) of all bytes before it. The structure is what
+// the world was told when it was built: bodies, shapes and joints with their constants. Settings are not part
+// of it: restored into a world of other settings the state goes on under those.
+//
+// Spatial structures of the broad phase are not stored: which pairs it finds, and in which order, does not
+// depend on its history (broad_phase.hpp), so it starts afresh.
+#include <algorithm>
+
+#include "engine/pipeline/world.hpp"
+#include "engine/state/archive.hpp"
+
+namespace rigor::engine {
+namespace {
+
+constexpr char kMagic[8] = {'R', 'I', 'G', 'O', 'R', 'S', 'N', 'P'};
+constexpr std::uint32_t kVersion = 1;  ///< raised with every change of state_fields.def
+constexpr std::uint32_t kByteOrder = 0x01020304;
+
+struct Header {
+    std::uint32_t version = kVersion, byteOrder = kByteOrder;
+    std::uint8_t dimension = 0, realSize = 0;
+    std::uint64_t structure = 0;
+    std::vector<JointId> joints;  ///< those that are left: joints may have broken since the world was built
+};
+template <class A, class H>
+void visitHeader(A& archive, H& header) {
+    archive.scalar(header.version), archive.scalar(header.byteOrder);
+    archive.scalar(header.dimension), archive.scalar(header.realSize);
+    archive.scalar(header.structure);
+    visitValue(archive, header.joints);
+}
+
+std::uint64_t checksum(std::span<const unsigned char> bytes) {
+    Hasher hash;
+    hash.bytes(bytes.data(), bytes.size());
+    return hash.value();
+}
+
+template <class A, class C>
+void visitContact(A& archive, C& contact) {
+#define CONTACT_FIELD(member) visitValue(archive, contact.member);
+#include "engine/state/state_fields.def"
+    const int count = contact.manifold.count;
+    ByteReader::require(count >= 0 && count <= static_cast<int>(contact.points.size()),
+                        "a manifold of too many points");
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        auto& where = contact.manifold.points[i];
+        auto& point = contact.points[i];
+#define MANIFOLD_POINT_FIELD(member) visitValue(archive, where.member);
+#define CONTACT_POINT_FIELD(member) visitValue(archive, point.member);
+#include "engine/state/state_fields.def"
+    }
+}
+
+}  // namespace
+
+template <class S>
+template <class A, class W>
+void World<S>::visitState(A& archive, W& world) {
+    auto& bodies = world.bodies_;
+#define WORLD_FIELD(member) visitValue(archive, world.member);
+#define BODY_FIELD(member) visitValue(archive, bodies.member);
+#include "engine/state/state_fields.def"
+    for (auto& shape : world.contacts_.shapes()) {
+#define SHAPE_FIELD(member) visitValue(archive, shape.member);
+#include "engine/state/state_fields.def"
+    }
+    for (auto& record : world.joints_.records()) {
+#define JOINT_FIELD(member) visitValue(archive, record.member);
+#include "engine/state/state_fields.def"
+    }
+    ForceSet<S>::visitIds(archive, world.forces_);
+    auto& contacts = world.contacts_.contacts();
+    const std::size_t count = archive.size(contacts.size());
+    if constexpr (!std::is_const_v<W>) contacts.resize(count);
+    for (auto& contact : contacts) visitContact(archive, contact);
+}
+
+/// What the world was told when it was built.
+template <class S>
+std::uint64_t World<S>::structureHash() const {
+    HashArchive hash;
+    hash.size(bodies_.size());
+    for (const BodyConstants<S>& body : bodies_.constants) {
+        hash.scalar(body.type), hash.scalar(body.collides), hash.scalar(body.mass);
+        visitValue(hash, body.inertia), visitValue(hash, body.centerOfMass);
+        hash.scalar(body.gravityScale);
+        hash.scalar(body.linearVelocityKept), hash.scalar(body.angularVelocityKept);
+    }
+    hash.size(contacts_.shapes().size());
+    for (const ShapeRecord<S>& shape : contacts_.shapes()) {
+        hash.scalar(shape.body), hash.scalar(shape.material), visitValue(hash, shape.local);
+        hash.size(shape.shape.index());
+        const Aabb<S> box = boundingBox<S>(shape.shape, Pose<S>{});
+        visitValue(hash, box.min), visitValue(hash, box.max);
+    }
+    hash.size(joints_.records().size());
+    for (const auto& record : joints_.records()) {
+        const Joint<S>& joint = record.joint;
+        hash.scalar(joint.type), hash.scalar(joint.a), hash.scalar(joint.b);
+        visitValue(hash, joint.anchorA), visitValue(hash, joint.anchorB);
+        hash.scalar(joint.length);
+    }
+    hash.size(forces_.size());
+    for (const auto& record : forces_.records()) {
+        hash.size(record.def.index()), hash.scalar(record.place.a), hash.scalar(record.place.b);
+        visitValue(hash, record.place.armA), visitValue(hash, record.place.armB);
+    }
+    return hash.value();
+}
+
+template <class S>
+std::uint64_t World<S>::stateHash() const {
+    HashArchive hash;
+    visitState(hash, *this);
+    return hash.value();
+}
+
+template <class S>
+void World<S>::saveSnapshot(std::vector<unsigned char>& bytes) const {
+    if (stepping()) throw EngineError("step_in_progress", "a snapshot is of the time between steps");
+    bytes.assign(std::begin(kMagic), std::end(kMagic));
+    ByteWriter writer(bytes);
+    Header header;
+    header.dimension = S::dim, header.realSize = sizeof(Real), header.structure = structureHash();
+    for (const auto& record : joints_.records()) header.joints.push_back(record.joint.id);
+    visitHeader(writer, header);
+    visitState(writer, *this);
+    writer.scalar(checksum(bytes));
+}
+
+template <class S>
+void World<S>::restoreSnapshot(std::span<const unsigned char> bytes) {
+    if (stepping()) throw EngineError("step_in_progress", "a snapshot is restored between steps");
+    constexpr std::size_t kEnds = sizeof kMagic + sizeof(std::uint64_t);
+    if (bytes.size() < kEnds || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
+        throw EngineError("snapshot_format", "not a snapshot");
+    std::uint64_t stored = 0;
+    const auto body = bytes.first(bytes.size() - sizeof stored);
+    std::memcpy(&stored, bytes.data() + body.size(), sizeof stored);
+    ByteReader::require(stored == checksum(body), "the bytes are not those that were saved");
+    ByteReader reader(body.subspan(sizeof kMagic));
+    Header header;
+    visitHeader(reader, header);
+    if (header.version != kVersion || header.byteOrder != kByteOrder)
+        throw EngineError("snapshot_format", "of another version or machine");
+    World next(*this);  // this world stays as it is if anything below throws
+    for (const auto& record : joints_.records())
+        if (std::find(header.joints.begin(), header.joints.end(), record.joint.id) == header.joints.end())
+            next.removeJoint(record.joint.id);
+    if (header.dimension != S::dim || header.realSize != sizeof(Real) ||
+        header.structure != next.structureHash())
+        throw EngineError("snapshot_world", "of a world with other bodies, shapes, joints or forces");
+    visitState(reader, next);
+    reader.end();
+    next.checkRestored(bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {  // what follows from being asleep
+        const BodyConstants<S>& constants = next.bodies_.constants[i];
+        const bool awake = constants.type == BodyType::Dynamic && !next.bodies_.asleep[i];
+        next.bodies_.invMass[i] = awake ? Real(1) / constants.mass : Real(0);
+        next.bodies_.invInertia[i] = zeroInertia<S>();
+    }
+    next.contacts_.structureChanged(false);
+    next.broadPhase_->reset();
+    next.result_ = {};
+    *this = std::move(next);
+}
+
+/// Indices within their arrays, handles that lead back to what they name.
+template <class S>
+void World<S>::checkRestored(std::size_t bodyCount) const {
+    const auto require = &ByteReader::require;
+    require(bodies_.id.size() == bodyCount && bodies_.pose.size() == bodyCount &&
+                bodies_.velocity.size() == bodyCount && bodies_.wrench.size() == bodyCount &&
+                bodies_.asleep.size() == bodyCount && bodies_.stillTime.size() == bodyCount,
+            "another number of bodies");
+    for (std::size_t i = 1; i < bodyCount; ++i)
+        require(bodyIds_.contains(bodies_.id[i]) && bodyIds_.dense(bodies_.id[i]) == i,
+                "a body without a name");
+    const auto& shapes = contacts_.shapes();
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+        require(shapeIds_.contains(shapes[i].id) && shapeIds_.dense(shapes[i].id) == i,
+                "a shape without a name");
+    const auto& joints = joints_.records();
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        require(jointIds_.contains(joints[i].joint.id) && jointIds_.dense(joints[i].joint.id) == i &&
+                    joints[i].rows <= joints[i].total.size(),
+                "a joint without a name");
+    for (const Contact<S>& contact : contacts_.contacts())
+        require(contact.shapeA < shapes.size() && contact.shapeB < shapes.size() &&
+                    contact.bodyA == shapes[contact.shapeA].body &&
+                    contact.bodyB == shapes[contact.shapeB].body,
+                "a contact of shapes that are not there");
+}
+
+#define RIGOR_INSTANTIATE(S)                                                 \
+    template std::uint64_t World<S>::stateHash() const;                      \
+    template void World<S>::saveSnapshot(std::vector<unsigned char>&) const; \
+    template void World<S>::restoreSnapshot(std::span<const unsigned char>);
+RIGOR_INSTANTIATE(Space2f)
+RIGOR_INSTANTIATE(Space2d)
+RIGOR_INSTANTIATE(Space3f)
+RIGOR_INSTANTIATE(Space3d)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine
