@@ -251,7 +251,7 @@ void World<S>::resolveImpacts() {
         solveVelocities(std::max(def_.firstStepIterations, def_.velocityIterations), false);
     });
     jointStep_.curved = curved;
-    joints_.storeImpulses(rows_);
+    joints_.storeImpulses(bodies_, rows_);
     contacts_.storeImpulses(rows_);
     for (std::size_t i = 0; i < warmStart_.size(); ++i) rows_.rows[i].impulse = warmStart_[i];
 }
