@@ -46,7 +46,7 @@ void readMaterials(const Node& root, Scenario& s) {
     const auto coefficients = [](const Node& n, auto& target) {
         if (const auto f = n.find("friction")) target.friction = f->number(0.0, 1e6);
         if (const auto e = n.find("restitution")) target.restitution = e->number(0.0, 1.0);
-        if (const auto s = n.find("static_friction")) target.staticFriction = s->number(target.friction, 1e6);
+        if (const auto k = n.find("static_friction")) target.staticFriction = k->number(target.friction, 1e6);
     };
     if (const auto list = root.find("materials"))
         for (const auto& [name, node] : list->members()) {
