@@ -234,12 +234,12 @@ void World<S>::makeRows() {
                       {h, def_.restitutionThreshold, Real(2) * h * gravityStep, impactSpeed, bias, def_.slop,
                        def_.gapSlop, warmStart, restitution_->bounces()},
                       rows_);
-    if (restitution_->solvesImpacts()) resolveImpacts();
+    if (restitution_->solvesImpacts()) solveImpacts();
 }
 
 /// Impacts by themselves, before the forces of the step.
 template <class S>
-void World<S>::resolveImpacts() {
+void World<S>::solveImpacts() {
     if (std::none_of(rows_.blocks.begin(), rows_.blocks.end(),
                      [](const Block<S>& block) { return block.restitution > 0; }))
         return;

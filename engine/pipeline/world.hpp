@@ -179,7 +179,7 @@ class World {
     SleepStep<S> sleepStep();
     void wakeIslandOf(std::uint32_t body);
     void wakeNeighboursOf(std::uint32_t body);
-    void resolveImpacts();
+    void solveImpacts();
     void solvePositions();
     void correct();
     void spoil(Phase phase);
