@@ -210,15 +210,19 @@ void checkScenarioInput(const Scenario& scenario, double dt) {
     if (scenario.dimension != 2 && scenario.dimension != 3) refuse("dimension", "expected 2 or 3");
     checkFinite("gravity", scenario.gravity);
     checkPositive("duration", scenario.duration);
-    const auto coefficients = [](const std::string& where, double friction, double restitution) {
+    const auto coefficients = [](const std::string& where, double friction, double restitution,
+                                 double sticking) {
+        if (!(sticking == 0.0 || (std::isfinite(sticking) && sticking >= friction)))
+            refuse(where + ".static_friction", "expected 0 or a value not below the friction");
         if (!(std::isfinite(friction) && friction >= 0.0))
             refuse(where + ".friction", "expected a value >= 0");
         if (!(restitution >= 0.0 && restitution <= 1.0))
             refuse(where + ".restitution", "expected a value in [0, 1]");
     };
     for (const auto& m : scenario.materials)
-        coefficients("material '" + m.name + "'", m.friction, m.restitution);
-    for (const auto& p : scenario.pairs) coefficients("material pair", p.friction, p.restitution);
+        coefficients("material '" + m.name + "'", m.friction, m.restitution, m.staticFriction);
+    for (const auto& p : scenario.pairs)
+        coefficients("material pair", p.friction, p.restitution, p.staticFriction);
     for (const auto& body : scenario.bodies) checkBody(body, scenario);
     for (const auto& joint : scenario.joints) checkJoint(joint, scenario);
     for (const auto& force : scenario.forces) std::visit(CheckForce{scenario}, force);
@@ -246,6 +250,12 @@ void checkSupported(const Scenario& scenario, const Capabilities& capabilities, 
     const bool native = std::find(dims.begin(), dims.end(), scenario.dimension) != dims.end();
     if (!native && !(scenario.dimension == 2 && capabilities.planar))
         lacks(std::to_string(scenario.dimension) + "D dynamics");
+    if (!capabilities.staticFriction) {
+        const auto sticks = [](const auto& m) { return m.staticFriction > m.friction; };
+        if (std::any_of(scenario.materials.begin(), scenario.materials.end(), sticks) ||
+            std::any_of(scenario.pairs.begin(), scenario.pairs.end(), sticks))
+            lacks("static friction apart from that of sliding");
+    }
     for (const auto& body : scenario.bodies) {
         const std::string of = " (body '" + body.name + "')";
         for (const auto& shape : body.shapes) {

@@ -101,6 +101,7 @@ struct Capabilities {
     bool contactImpulses = false;
     bool signedDistance = false;  ///< CollisionEngine answers for separated shapes too
     bool kinematicBodies = false, damping = false, gravityScale = false, centerOfMassOffset = false;
+    bool staticFriction = false;  ///< contacts that stick up to a coefficient above that of sliding
 };
 
 /// One key of an engine spec.

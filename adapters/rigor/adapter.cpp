@@ -58,6 +58,12 @@ class RigorEngine final : public Engine {
         options.push_back(
             integer("first_step_iterations", 1, 100000, "400", "400",
                     "most velocity iterations of the first step, which has no impulses to start from"));
+        options.push_back(number("residual_tolerance", 0, 1, "1e-10", "1e-10",
+                                 "nsgs, dantzig, lemke: natural map at which they are done [m/s]"));
+        options.push_back(choice("measure_residuals", {"off", "on"}, "off", "off",
+                                 "report the natural map after each iteration instead of its change"));
+        options.push_back(integer("pyramid_directions", 2, 64, "4", "4",
+                                  "lemke: directions of its friction pyramid, even"));
         options.push_back(
             choice("warm_starting", {"off", "on"}, "on", "on", "start from the impulses of the last step"));
         options.push_back(choice("curved_joints", {"off", "on"}, "on", "on",
@@ -113,7 +119,7 @@ Capabilities rigorCapabilities() {
         addJointCapabilities(joint.name, joint.axes > 0, c.joints);
     c.contactImpulses = true;
     c.signedDistance = true;
-    c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
+    c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = c.staticFriction = true;
     return c;
 }
 

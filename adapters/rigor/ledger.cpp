@@ -37,11 +37,25 @@ std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings
         text("solver") + ", " + text("velocity_iterations") + " velocity and " + text("position_iterations") +
             " position iterations, up to " + text("first_step_iterations") + " in the first step");
     add("warm_starting", text("warm_starting"), text("warm_starting"));
-    const bool cone = text("friction") == "cone" || scenario.dimension == 2;
-    add("friction_law", "coulomb cone, pair coefficient", text("friction"),
-        cone ? Realisation::Exact : Realisation::Approximate,
-        cone ? "" : "up to sqrt(2) times the friction diagonal to the tangents");
-    add("friction_pair", "pair table", "pair table");
+    // Some solvers have a friction law of their own.
+    std::string law = text("friction");
+    if (text("solver") == "nsgs") law = "cone";
+    if (text("solver") == "dantzig") law = "pyramid";
+    if (text("solver") == "lemke") law = text("pyramid_directions") + " directions inside the cone";
+    const bool cone = law == "cone" || scenario.dimension == 2;
+    std::string reason = law == "pyramid" ? "up to sqrt(2) times the friction diagonal to the tangents"
+                                          : "friction weaker and askew between the directions";
+    if (law == "none") reason = "friction is off";
+    add("friction_law", "coulomb cone, pair coefficient", law,
+        cone ? Realisation::Exact : Realisation::Approximate, cone ? "" : reason);
+    const std::string rules = text("friction_combine") + ", " + text("restitution_combine");
+    const bool table = rules == "geometric_mean, min";
+    add("friction_pair", "pair table", table ? "pair table" : "pair table; pairs it does not name: " + rules,
+        table ? Realisation::Exact : Realisation::Approximate,
+        table ? "" : "another combine rule was asked for");
+    if (text("restitution") != "newton")
+        add("restitution_law", "newton", text("restitution"), Realisation::Approximate,
+            "another law of impact was asked for");
     const double threshold = numberSetting(settings, "restitution_threshold");
     const bool late = bounces && threshold > 0;
     add("restitution", "pair coefficient, no threshold",

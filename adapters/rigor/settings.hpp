@@ -42,6 +42,12 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     def.sleepLinearVelocity = static_cast<R>(numberSetting(settings, "sleep_linear_velocity"));
     def.sleepAngularVelocity = static_cast<R>(numberSetting(settings, "sleep_angular_velocity"));
     def.timeToSleep = static_cast<R>(numberSetting(settings, "time_to_sleep"));
+    def.restitution = textSetting(settings, "restitution");
+    def.frictionCombine = textSetting(settings, "friction_combine");
+    def.restitutionCombine = textSetting(settings, "restitution_combine");
+    def.residualTolerance = static_cast<R>(numberSetting(settings, "residual_tolerance"));
+    def.measureResiduals = textSetting(settings, "measure_residuals") == "on";
+    def.pyramidDirections = integerSetting(settings, "pyramid_directions");
     def.substeps = integerSetting(settings, "substeps");
     def.contactFrequency = static_cast<R>(numberSetting(settings, "contact_frequency"));
     def.contactDampingRatio = static_cast<R>(numberSetting(settings, "contact_damping_ratio"));

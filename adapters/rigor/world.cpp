@@ -265,15 +265,27 @@ class RigorWorld final : public World {
                 fromEngineAng(world_.angularVelocity(id(body)))};
     }
 
+    /// The scenario's pair table, in which pairs that it does not name have sqrt(mu_a mu_b) and min(e_a,
+    /// e_b). Where another combine rule is asked for, those pairs are left to the engine.
     void addMaterials() {
+        const bool ownRule = textSetting(settings_, "friction_combine") != "geometric_mean" ||
+                             textSetting(settings_, "restitution_combine") != "min";
+        const auto named = [&](int a, int b) {
+            return std::any_of(scenario_.pairs.begin(), scenario_.pairs.end(), [=](const auto& pair) {
+                return std::minmax(pair.a, pair.b) == std::minmax(a, b);
+            });
+        };
         const int count = static_cast<int>(scenario_.materials.size());
         for (const scenario::Material& m : scenario_.materials)
-            world_.addMaterial(static_cast<R>(m.friction), static_cast<R>(m.restitution));
+            world_.addMaterial(static_cast<R>(m.friction), static_cast<R>(m.restitution),
+                               static_cast<R>(m.staticFriction));
         for (int a = 0; a < count; ++a)
             for (int b = a; b < count; ++b) {
+                if (ownRule && !named(a, b)) continue;
                 const scenario::PairCoefficients& c = pairs_.coefficients(a, b);
                 world_.setPair(material(a), material(b),
-                               {static_cast<R>(c.friction), static_cast<R>(c.restitution)});
+                               {static_cast<R>(c.friction), static_cast<R>(c.restitution),
+                                static_cast<R>(c.staticFriction)});
             }
     }
 

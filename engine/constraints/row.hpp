@@ -12,7 +12,8 @@
 //     Joint    1..6 unbounded rows that one joint holds, K = J M^-1 J^T
 //     Bounded  1 row with bounds or softness: a limit, a motor, a spring
 //     Contact  row 0: 0 <= lambda _|_ J v + bias + softness lambda >= 0;
-//              rows 1..: friction, |lambda_t| <= friction * lambda_0
+//              rows 1..: friction, |lambda_t| <= friction * (lambda_0 + appliedNormal); sticks up to
+//              staticFriction instead where that is more
 #pragma once
 
 #include <cstdint>
@@ -52,7 +53,10 @@ struct Block {
     std::uint8_t rows = 0;
     std::uint32_t first = 0;     ///< its rows are first .. first + rows - 1
     std::uint32_t a = 0, b = 0;  ///< dense body indices
-    Real friction = 0;           ///< contact: Coulomb coefficient
+    Real friction = 0;           ///< contact: Coulomb coefficient of sliding
+    Real staticFriction = 0;     ///< contact: sticks up to this; read where above friction
+    Real restitution = 0;        ///< contact: coefficient where it bounces in this step
+    Real appliedNormal = 0;      ///< contact: normal impulse on top of row 0's that friction may lean on
     Real invMassA = 0, invMassB = 0;
     Real k11 = 0, k12 = 0, k22 = 0;  ///< contact: K of the friction rows
     std::uint32_t matrix = 0;        ///< joint: index of its inverse K

@@ -9,7 +9,9 @@
 #include "engine/narrowphase/manifolds.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
 #include "engine/sleeping/sleeping.hpp"
+#include "engine/solvers/combine_rules.hpp"
 #include "engine/solvers/position_correction.hpp"
+#include "engine/solvers/restitution.hpp"
 #include "engine/solvers/solver.hpp"
 #include "engine/state/world_def.hpp"
 
@@ -38,6 +40,11 @@ std::vector<AlgorithmFamily> algorithmFamilies() {
                orientationUpdateTable<S>()),
         family("solver", "impulses of contacts and joints", def.solver, solverTable<S>()),
         family("friction", "the friction law of one contact point", def.friction, frictionTable<S>()),
+        family("restitution", "what a contact does that is hit", def.restitution, restitutionTable<S>()),
+        family("friction_combine", "friction of two materials whose pair has none of its own",
+               def.frictionCombine, combineTable<S::Real>()),
+        family("restitution_combine", "restitution of two materials whose pair has none of its own",
+               def.restitutionCombine, combineTable<S::Real>()),
         family("position_correction", "what removes overlap and joint drift", def.positionCorrection,
                positionCorrectionTable<S>()),
         family("fault", "deliberate mistakes, for study", def.fault, faultTable<S>()),

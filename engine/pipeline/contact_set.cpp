@@ -33,18 +33,27 @@ std::array<typename S::Vec, S::tangents> tangentBasis(const typename S::Vec& n) 
 }
 
 template <class S>
-std::uint32_t ContactSet<S>::addMaterial(Real friction, Real restitution) {
+PairCoefficients<S> ContactSet<S>::combine(const PairCoefficients<S>& a, const PairCoefficients<S>& b) const {
+    PairCoefficients<S> both{combineFriction_(a.friction, b.friction),
+                             combineRestitution_(a.restitution, b.restitution), Real(0)};
+    if (a.staticFriction > 0 || b.staticFriction > 0)
+        both.staticFriction = std::max(
+            both.friction,
+            combineFriction_(std::max(a.friction, a.staticFriction), std::max(b.friction, b.staticFriction)));
+    return both;
+}
+
+template <class S>
+std::uint32_t ContactSet<S>::addMaterial(const PairCoefficients<S>& own) {
     const std::uint32_t added = materialCount_++;
-    materials_.push_back({friction, restitution});
+    materials_.push_back(own);
     std::vector<PairCoefficients<S>> table(materialCount_ * materialCount_);
     for (std::uint32_t a = 0; a < materialCount_; ++a)
         for (std::uint32_t b = 0; b < materialCount_; ++b) {
             if (a < added && b < added)
                 table[a * materialCount_ + b] = pairs_[a * added + b];
             else
-                table[a * materialCount_ + b] = {
-                    std::sqrt(materials_[a].friction * materials_[b].friction),
-                    std::min(materials_[a].restitution, materials_[b].restitution)};
+                table[a * materialCount_ + b] = combine(materials_[a], materials_[b]);
         }
     pairs_ = std::move(table);
     return added;
@@ -226,8 +235,10 @@ void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<
     block.first = static_cast<std::uint32_t>(rows.rows.size());
     block.a = a, block.b = b;
     block.friction = contact.coefficients.friction;
+    block.staticFriction = contact.coefficients.staticFriction;
     block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
-    block.rows = static_cast<std::uint8_t>(block.friction > 0 ? 1 + S::tangents : 1);
+    block.rows =
+        static_cast<std::uint8_t>(std::max(block.friction, block.staticFriction) > 0 ? 1 + S::tangents : 1);
 
     const Vec &rA = point.rA, &rB = point.rB;
     const auto makeRow = [&](const Vec& direction) {
@@ -244,20 +255,22 @@ void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<
     const Real s = point.separation;
     // Rounding of coordinates of order one metre: closer than this is touching.
     const Real touching = Real(64) * std::numeric_limits<Real>::epsilon();
-    const bool bounces = contact.coefficients.restitution > 0 && approach < -step.restitutionThreshold;
+    const Real restitution = step.bounces ? contact.coefficients.restitution : Real(0);
+    const bool bounces = restitution > 0 && approach < -step.restitutionThreshold;
     point.impact = approach < -step.impactSpeed;
     point.block = Contact<S>::kNoBlock;
-    point.rebound =
-        contact.ahead && bounces && s > touching ? contact.coefficients.restitution * approach : Real(0);
-    const bool mayBounce = contact.coefficients.restitution > 0 && s > std::max(touching, step.restingGap);
+    point.rebound = contact.ahead && bounces && s > touching ? restitution * approach : Real(0);
+    const bool mayBounce = restitution > 0 && s > std::max(touching, step.restingGap);
     if (!contact.ahead && ((bounces && s > touching) || mayBounce)) {
         point.normalImpulse = 0;
         point.frictionImpulse.setZero();
         return;
     }
     normal.error = s;
+    // A bounce that is still ahead is continuous collision's.
+    block.restitution = bounces && point.rebound == 0 ? restitution : Real(0);
     if (bounces && point.rebound == 0)
-        normal.bias = contact.coefficients.restitution * approach;
+        normal.bias = restitution * approach;
     else if (s > (point.impact ? Real(0) : step.gapSlop))
         normal.bias = s / step.h;
     normal.relaxedBias = normal.bias;
@@ -372,6 +385,10 @@ void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>
     while (old != previous_.end()) endOld();
 }
 
+template std::array<Space2f::Vec, Space2f::tangents> tangentBasis<Space2f>(const Space2f::Vec&);
+template std::array<Space2d::Vec, Space2d::tangents> tangentBasis<Space2d>(const Space2d::Vec&);
+template std::array<Space3f::Vec, Space3f::tangents> tangentBasis<Space3f>(const Space3f::Vec&);
+template std::array<Space3d::Vec, Space3d::tangents> tangentBasis<Space3d>(const Space3d::Vec&);
 template class ContactSet<Space2f>;
 template class ContactSet<Space2d>;
 template class ContactSet<Space3f>;

@@ -18,6 +18,7 @@
 #include "engine/faults/fault.hpp"
 #include "engine/narrowphase/manifolds.hpp"
 #include "engine/pipeline/events.hpp"
+#include "engine/solvers/combine_rules.hpp"
 #include "engine/state/world_def.hpp"
 
 namespace rigor::engine {
@@ -70,6 +71,7 @@ struct ContactStep {
     typename S::Real slop;                  ///< [m]
     typename S::Real gapSlop;               ///< gaps up to this count as closed [m]
     typename S::Real warmStart;             ///< factor on the last impulses; 0: none
+    bool bounces = true;                    ///< false: restitution is off
 };
 
 template <class S>
@@ -78,7 +80,10 @@ class ContactSet {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
 
-    std::uint32_t addMaterial(Real friction, Real restitution);
+    void setCombineRules(CombineRule<Real> friction, CombineRule<Real> restitution) {
+        combineFriction_ = friction, combineRestitution_ = restitution;
+    }
+    std::uint32_t addMaterial(const PairCoefficients<S>& own);
     void setPair(std::uint32_t a, std::uint32_t b, const PairCoefficients<S>& coefficients);
     const PairCoefficients<S>& pair(std::uint32_t a, std::uint32_t b) const {
         return pairs_[a * materialCount_ + b];
@@ -138,6 +143,9 @@ class ContactSet {
     static void pushApart(const ContactStep<S>& step, const Block<S>& block, Real s, Row<S>& normal);
 
     std::vector<ShapeRecord<S>> shapes_;
+    PairCoefficients<S> combine(const PairCoefficients<S>& a, const PairCoefficients<S>& b) const;
+
+    CombineRule<Real> combineFriction_ = nullptr, combineRestitution_ = nullptr;
     std::uint32_t materialCount_ = 1;
     std::vector<PairCoefficients<S>> materials_ = std::vector<PairCoefficients<S>>(1);
     std::vector<PairCoefficients<S>> pairs_ = std::vector<PairCoefficients<S>>(1);

@@ -15,6 +15,7 @@
 #include <chrono>
 
 #include "engine/pipeline/world.hpp"
+#include "engine/solvers/natural_map.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -25,18 +26,27 @@ class StepMonitor final : public IterationMonitor<S> {
   public:
     using Real = typename S::Real;
     StepMonitor(JointSet<S>& joints, const BodyArrays<S>& bodies, const JointStep<S>& step,
-                ConstraintRows<S>& rows, Real tolerance, std::vector<Real>& residuals)
+                ConstraintRows<S>& rows, Real tolerance, bool measure, const IterationObserver<S>& observer,
+                std::vector<Real>& residuals)
         : joints_(joints),
           bodies_(bodies),
           step_(step),
           rows_(rows),
           tolerance_(tolerance),
+          measure_(measure),
+          observer_(observer),
           residuals_(residuals) {}
     void before(std::span<const Velocity<S>> velocities) override {
         joints_.updateBiases(bodies_, step_, velocities, rows_);
     }
-    bool after(std::span<const Velocity<S>>, Real change) override {
-        residuals_.push_back(change);
+    bool after(std::span<const Velocity<S>> velocities, Real change) override {
+        Real residual = change;
+        if (measure_) {
+            before(velocities);
+            residual = naturalMapResidual<S>(rows_, velocities);
+        }
+        residuals_.push_back(residual);
+        if (observer_) observer_(static_cast<int>(residuals_.size()) - 1, rows_, residual);
         return change < tolerance_;
     }
 
@@ -46,6 +56,8 @@ class StepMonitor final : public IterationMonitor<S> {
     const JointStep<S>& step_;
     ConstraintRows<S>& rows_;
     Real tolerance_;
+    bool measure_;
+    const IterationObserver<S>& observer_;
     std::vector<Real>& residuals_;
 };
 
@@ -185,6 +197,7 @@ void World<S>::endStep() {
                       [](const Block<S>& block) { return block.kind == BlockKind::Contact; }));
     result_.rows = rows_.rows.size();
     result_.iterations = static_cast<int>(residuals_.size());
+    result_.measure = def_.measureResiduals ? ResidualMeasure::NaturalMap : ResidualMeasure::Change;
     result_.residuals = residuals_;
     events_.clear();
     contacts_.noteEvents(bodies_, events_);
@@ -229,8 +242,28 @@ void World<S>::makeRows() {
     const Real impactSpeed = std::max(def_.restitutionThreshold, Real(2) * gravityStep);
     contacts_.addRows(bodies_,
                       {h, def_.restitutionThreshold, Real(2) * h * gravityStep, impactSpeed, bias, def_.slop,
-                       def_.gapSlop, warmStart},
+                       def_.gapSlop, warmStart, restitution_->bounces()},
                       rows_);
+    if (restitution_->solvesImpacts()) solveImpacts();
+}
+
+/// Impacts by themselves, before the forces of the step.
+template <class S>
+void World<S>::solveImpacts() {
+    if (std::none_of(rows_.blocks.begin(), rows_.blocks.end(),
+                     [](const Block<S>& block) { return block.restitution > 0; }))
+        return;
+    warmStart_.clear();
+    for (const Row<S>& row : rows_.rows) warmStart_.push_back(row.impulse);
+    const bool curved = std::exchange(jointStep_.curved, false);
+    // Like a first step, an impact has no impulses to start from.
+    restitution_->impact(rows_, bodies_.velocity, [this] {
+        solveVelocities(std::max(def_.firstStepIterations, def_.velocityIterations), false);
+    });
+    jointStep_.curved = curved;
+    joints_.storeImpulses(bodies_, rows_);
+    contacts_.storeImpulses(rows_);
+    for (std::size_t i = 0; i < warmStart_.size(); ++i) rows_.rows[i].impulse = warmStart_[i];
 }
 
 template <class S>
@@ -250,8 +283,11 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
         def_.velocityTolerance > 0
             ? std::max(def_.velocityTolerance * h * def_.gravity.norm(), std::numeric_limits<Real>::epsilon())
             : Real(0);
-    StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, converged, residuals_);
-    solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted});
+    StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, converged, def_.measureResiduals, observer_,
+                           residuals_);
+    solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted,
+                    def_.residualTolerance, def_.pyramidDirections});
+    result_.solverGaveUp = result_.solverGaveUp || solver_->gaveUp();
 }
 
 template <class S>
@@ -267,7 +303,8 @@ void World<S>::relax() {
 template <class S>
 void World<S>::solvePositions() {
     const Real h = cursor_.substepSize;
-    StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, Real(0), residuals_);
+    StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, Real(0), def_.measureResiduals, observer_,
+                           residuals_);
     StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h,
                                std::numeric_limits<Real>::infinity(), positionScratch_);
     solver_->solvePositions(positions,

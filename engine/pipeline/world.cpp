@@ -58,6 +58,16 @@ void checkBody(const BodyDef<S>& def) {
             "inertia of a dynamic body must be symmetric and positive definite");
 }
 
+template <class S>
+void checkCoefficients(const PairCoefficients<S>& c) {
+    require(c.friction >= 0 && std::isfinite(c.friction), "material_friction",
+            "friction must not be negative");
+    require(c.restitution >= 0 && c.restitution <= 1, "material_restitution",
+            "restitution must be in [0, 1]");
+    require(c.staticFriction == 0 || (c.staticFriction >= c.friction && std::isfinite(c.staticFriction)),
+            "material_static_friction", "static friction must be 0 (the same) or at least the friction");
+}
+
 /// Sizes finite and positive, normals unit.
 template <class S>
 bool validShape(const Shape<S>& shape) {
@@ -97,6 +107,10 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     require(def.gapSlop >= 0 && std::isfinite(def.gapSlop), "gap_slop", "gap slop must not be negative");
     require(def.speculativeDistance >= 0 && std::isfinite(def.speculativeDistance), "speculative_distance",
             "speculative distance must not be negative");
+    require(def.residualTolerance >= 0 && std::isfinite(def.residualTolerance), "residual_tolerance",
+            "residual tolerance must not be negative");
+    require(def.pyramidDirections >= 2 && def.pyramidDirections <= 64 && def.pyramidDirections % 2 == 0,
+            "pyramid_directions", "pyramid directions must be even and in 2..64");
     motion_ = {
         findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make(),
         findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make(),
@@ -112,8 +126,14 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     require(threshold(def.sleepLinearVelocity) && threshold(def.sleepAngularVelocity), "sleep_velocity",
             "sleep velocities must not be negative");
     require(threshold(def.timeToSleep), "time_to_sleep", "the time to sleep must not be negative");
+    restitution_ = findAlgorithm(restitutionTable<S>(), "restitution", def.restitution).make();
+    contacts_.setCombineRules(
+        findAlgorithm(combineTable<Real>(), "friction_combine", def.frictionCombine).make,
+        findAlgorithm(combineTable<Real>(), "restitution_combine", def.restitutionCombine).make);
     style_ = solver_->style();
     fault_ = findAlgorithm(faultTable<S>(), "fault", def.fault).make();
+    require(!style_.positions || !restitution_->solvesImpacts(), "restitution_solver",
+            "this restitution needs a solver of velocities");
     friction_ = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;
     narrowPhase_ = def.customNarrowPhase ? def.customNarrowPhase : makeNarrowPhase<S>(def.narrowPhase);
     makeManifold_ = findAlgorithm(manifoldTable<S>(), "manifold", def.manifold).make;
@@ -192,10 +212,10 @@ ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
 }
 
 template <class S>
-std::uint32_t World<S>::addMaterial(Real friction, Real restitution) {
-    require(friction >= 0 && std::isfinite(friction), "material_friction", "friction must not be negative");
-    require(restitution >= 0 && restitution <= 1, "material_restitution", "restitution must be in [0, 1]");
-    return contacts_.addMaterial(friction, restitution);
+std::uint32_t World<S>::addMaterial(Real friction, Real restitution, Real staticFriction) {
+    const PairCoefficients<S> own{friction, restitution, staticFriction};
+    checkCoefficients<S>(own);
+    return contacts_.addMaterial(own);
 }
 
 template <class S>
@@ -203,10 +223,7 @@ void World<S>::setPair(std::uint32_t materialA, std::uint32_t materialB,
                        const PairCoefficients<S>& coefficients) {
     require(materialA < contacts_.materialCount() && materialB < contacts_.materialCount(), "pair_material",
             "unknown material");
-    require(coefficients.friction >= 0 && std::isfinite(coefficients.friction), "material_friction",
-            "friction must not be negative");
-    require(coefficients.restitution >= 0 && coefficients.restitution <= 1, "material_restitution",
-            "restitution must be in [0, 1]");
+    checkCoefficients<S>(coefficients);
     contacts_.setPair(materialA, materialB, coefficients);
 }
 

@@ -7,7 +7,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/integrators/motion.hpp"
@@ -16,6 +18,7 @@
 #include "engine/pipeline/joint_set.hpp"
 #include "engine/pipeline/step_positions.hpp"
 #include "engine/sleeping/sleeping.hpp"
+#include "engine/solvers/restitution.hpp"
 #include "engine/state/world_def.hpp"
 
 namespace rigor::engine {
@@ -36,6 +39,15 @@ enum class Phase : std::uint8_t {
 inline constexpr std::size_t kPhases = 10;
 const char* phaseName(Phase phase);  ///< "broad_phase", "narrow_phase", ...
 
+enum class ResidualMeasure : std::uint8_t {
+    Change,     ///< largest velocity error that the iteration removed from a row or block
+    NaturalMap  ///< how far all rows are from their laws after it (solvers/natural_map.hpp)
+};
+/// Called after each iteration of the velocity solver with its number in the step, the rows (impulses so far)
+/// and its residual as in StepResult.
+template <class S>
+using IterationObserver = std::function<void(int, const ConstraintRows<S>&, typename S::Real)>;
+
 /// What happened in one step. Spans are valid until the next.
 template <class S>
 struct StepResult {
@@ -47,9 +59,11 @@ struct StepResult {
     std::span<const ImpactEvent<S>> impacts;
     std::size_t sleeping = 0;  ///< bodies asleep at the end of the step
     bool impactsCut = false;   ///< a body had too many of them and lost the rest of its time
-    /// Largest velocity error removed from a row or block, per iteration [m/s or rad/s].
+    /// What `residuals` holds, one per iteration [m/s or rad/s].
+    ResidualMeasure measure = ResidualMeasure::Change;
     std::span<const typename S::Real> residuals;
     std::span<const Event<S>> events;       ///< what began and ended, in the order of shapes
+    bool solverGaveUp = false;  ///< a solver did not reach what it promises and left the best it had
     std::array<double, kPhases> seconds{};  ///< wall time per phase
     std::span<const JointId> broken;        ///< joints that broke in this step; they are gone
 };
@@ -80,8 +94,9 @@ class World {
     /// Removes the body with its shapes, joints and forces.
     void removeBody(BodyId body);
     ShapeId addShape(BodyId body, const ShapeDef<S>& def);
-    std::uint32_t addMaterial(Real friction, Real restitution);
-    /// Coefficients of two materials instead of sqrt(mu_a mu_b) and min(e_a, e_b).
+    std::uint32_t addMaterial(Real friction, Real restitution, Real staticFriction = 0);
+    /// Coefficients of two materials instead of what WorldDef's combine rules make of them (by default
+    /// sqrt(mu_a mu_b) and min(e_a, e_b)).
     void setPair(std::uint32_t materialA, std::uint32_t materialB, const PairCoefficients<S>& coefficients);
     JointId addJoint(const JointDef<S>& def);
     void removeJoint(JointId joint);
@@ -103,6 +118,8 @@ class World {
     Phase nextPhase() const { return cursor_.next; }
     int substep() const { return cursor_.substep; }  ///< 0 .. def().substeps - 1
     void runPhase();
+    /// Watches the solver from now on; null: nobody. Copies of the world are watched by the same observer.
+    void observeIterations(IterationObserver<S> observer) { observer_ = std::move(observer); }
 
     // --- joints while running; coordinates are numbered as in JointDef. Throw EngineError as addJoint does.
     bool contains(JointId joint) const { return jointIds_.contains(joint); }
@@ -172,13 +189,14 @@ class World {
     Load<S> load() const;
     void makeRows();
     void solveVelocities(int iterations, bool warmStarted);
+    void resolveImpacts();
     void relax();
     void kick();
     void findIslands();
     SleepStep<S> sleepStep();
     void wakeIslandOf(std::uint32_t body);
     void wakeNeighboursOf(std::uint32_t body);
-    void resolveImpacts();
+    void solveImpacts();
     void solvePositions();
     void correct();
     void spoil(Phase phase);
@@ -202,6 +220,7 @@ class World {
     ClonePtr<PositionCorrection<S>> correction_;
     ClonePtr<ContinuousCollision<S>> ccd_;
     SleepingScheme<S> sleeping_;
+    ClonePtr<Restitution<S>> restitution_;
     SolverStyle<S> style_;
     const Fault<S>* fault_ = nullptr;
 
@@ -223,10 +242,11 @@ class World {
     PositionScratch<S> positionScratch_;
     Islands islands_;
     std::vector<std::uint8_t> islandMarks_;
-    std::vector<Real> residuals_;
+    std::vector<Real> residuals_, warmStart_;
     std::vector<Event<S>> events_;
     std::vector<JointId> broken_;
     std::vector<ImpactEvent<S>> impacts_;
+    IterationObserver<S> observer_;
     StepResult<S> result_;
 };
 

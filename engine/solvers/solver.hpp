@@ -4,6 +4,8 @@
 // A solver finds impulses for blocks of rows. It never knows joints or shapes.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -49,6 +51,8 @@ struct SolverInput {
     int iterations = 8;            ///< at most
     Real h = 0;                    ///< of this (sub-)step [s]
     bool warmStarted = false;      ///< the velocities already contain the rows' impulses (relaxation)
+    Real residualTolerance = 0;    ///< natural map at which solvers that iterate on it may stop [m/s]
+    int pyramidDirections = 4;     ///< generators of the polyhedral friction cone, even (lemke)
 };
 
 /// What a solver asks of the step around it.
@@ -73,6 +77,8 @@ class Solver {
     virtual SolverStyle<S> style() const { return {}; }
     /// Changes impulses and velocities. No allocation in a steady state.
     virtual void solve(const SolverInput<S>& input) = 0;
+    /// The last solve() did not reach what it promises and left the best it had.
+    virtual bool gaveUp() const { return false; }
     /// Only with style().positions: changes poses through `problem`.
     virtual void solvePositions(PositionProblem<S>& problem, const SolverInput<S>& input) {
         (void)problem, (void)input;
@@ -83,6 +89,32 @@ template <class S>
 using SolverFactory = std::unique_ptr<Solver<S>> (*)();
 template <class S>
 std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable();
+
+/// Friction of a contact: the law with the limit of sliding, or its answer with the limit of sticking where
+/// that is inside the limit. `impulse` is the tangents' accumulated impulse, `velocity` what it has led to.
+template <class S>
+Eigen::Matrix<typename S::Real, 2, 1> contactFriction(FrictionLaw<S> law, const Block<S>& block,
+                                                      const Eigen::Matrix<typename S::Real, 2, 1>& impulse,
+                                                      const Eigen::Matrix<typename S::Real, 2, 1>& velocity,
+                                                      typename S::Real normalImpulse) {
+    using Real = typename S::Real;
+    const Real pressed = normalImpulse + block.appliedNormal;
+    if (block.staticFriction > block.friction) {
+        const Eigen::Matrix<Real, 2, 1> stuck =
+            law(block.k11, block.k12, block.k22, impulse, velocity, block.staticFriction * pressed);
+        const Real slip1 =
+            velocity[0] + block.k11 * (stuck[0] - impulse[0]) + block.k12 * (stuck[1] - impulse[1]);
+        const Real slip2 =
+            velocity[1] + block.k12 * (stuck[0] - impulse[0]) + block.k22 * (stuck[1] - impulse[1]);
+        // Rounding of velocities of the size that friction has to stop.
+        const Real still =
+            Real(64) * std::numeric_limits<Real>::epsilon() *
+            (std::abs(velocity[0]) + std::abs(velocity[1]) +
+             (block.k11 + block.k22) * (std::abs(impulse[0]) + std::abs(impulse[1]) + pressed));
+        if (std::abs(slip1) <= still && std::abs(slip2) <= still) return stuck;
+    }
+    return law(block.k11, block.k12, block.k22, impulse, velocity, block.friction * pressed);
+}
 
 /// Applies the impulses that the rows start with, unless the velocities contain them already.
 template <class S>

@@ -42,6 +42,9 @@ struct WorldDef {
     std::string fault = "none";  ///< a deliberate mistake, for study (engine/faults)
     std::string continuousCollision = "none";
     std::string sleeping = "off";
+    std::string restitution = "newton";
+    /// Of two materials whose pair has no coefficients of its own (World::setPair).
+    std::string frictionCombine = "geometric_mean", restitutionCombine = "min";
 
     int substeps = 1;             ///< equal parts a step is solved in, contacts found once, >= 1
     int velocityIterations = 50;  ///< of each sub-step, at most, >= 1
@@ -50,7 +53,13 @@ struct WorldDef {
     /// (sub-)step, or than the precision resolves; 0: never. >= 0
     Real velocityTolerance = Real(1e-6);
     int firstStepIterations = 400;  ///< of the first step, which has no impulses to start from, >= 1
-    bool warmStarting = true;       ///< start from the impulses of the last step
+    /// Solvers that promise a residual (nsgs, dantzig, lemke): the natural map (solvers/natural_map.hpp) at
+    /// which they are done [m/s], >= 0; single precision stops at what it resolves.
+    Real residualTolerance = Real(1e-10);
+    /// Residuals of the step are the natural map instead of the change an iteration made; costs a pass each.
+    bool measureResiduals = false;
+    int pyramidDirections = 4;  ///< lemke: generators of its friction cone, even, 2..64
+    bool warmStarting = true;   ///< start from the impulses of the last step
     /// Joint rows aim at the constraint at the end of the step instead of its linearisation at the start:
     /// pendulums keep their energy.
     bool curvedJoints = true;
@@ -105,7 +114,9 @@ struct ShapeDef {
 template <class S>
 struct PairCoefficients {
     typename S::Real friction = 0;     ///< Coulomb, >= 0
-    typename S::Real restitution = 0;  ///< Newton, in [0, 1]
+    typename S::Real restitution = 0;  ///< in [0, 1]
+    /// Contacts stick up to this and slide at `friction`; 0: at `friction` too. Else >= friction.
+    typename S::Real staticFriction = 0;
 };
 
 enum class JointType : std::uint8_t { Ball, ConeTwist, Distance, Fixed, Hinge, SixDof, Slider, Wheel };

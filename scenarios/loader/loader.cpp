@@ -46,10 +46,11 @@ void readMaterials(const Node& root, Scenario& s) {
     const auto coefficients = [](const Node& n, auto& target) {
         if (const auto f = n.find("friction")) target.friction = f->number(0.0, 1e6);
         if (const auto e = n.find("restitution")) target.restitution = e->number(0.0, 1.0);
+        if (const auto k = n.find("static_friction")) target.staticFriction = k->number(target.friction, 1e6);
     };
     if (const auto list = root.find("materials"))
         for (const auto& [name, node] : list->members()) {
-            node.isObject({"friction", "restitution", "density"});
+            node.isObject({"friction", "static_friction", "restitution", "density"});
             Material material;
             material.name = name;
             coefficients(node, material);
@@ -58,7 +59,7 @@ void readMaterials(const Node& root, Scenario& s) {
         }
     if (const auto list = root.find("pairs"))
         for (const Node& node : list->items()) {
-            node.isObject({"a", "b", "friction", "restitution"});
+            node.isObject({"a", "b", "friction", "static_friction", "restitution"});
             MaterialPair pair;
             if (const auto n = node.require("a")) pair.a = readMaterialName(*n, s);
             if (const auto n = node.require("b")) pair.b = readMaterialName(*n, s);

@@ -86,10 +86,15 @@ std::vector<std::string> Joint::features() const {
 PairCoefficients pairCoefficients(const Scenario& scenario, int materialA, int materialB) {
     for (const MaterialPair& pair : scenario.pairs)
         if ((pair.a == materialA && pair.b == materialB) || (pair.a == materialB && pair.b == materialA))
-            return {pair.friction, pair.restitution};
+            return {pair.friction, pair.restitution, pair.staticFriction};
     const Material& a = scenario.materials[static_cast<std::size_t>(materialA)];
     const Material& b = scenario.materials[static_cast<std::size_t>(materialB)];
-    return {std::sqrt(a.friction * b.friction), std::min(a.restitution, b.restitution)};
+    const double friction = std::sqrt(a.friction * b.friction);
+    double sticking = 0.0;
+    if (a.staticFriction > 0.0 || b.staticFriction > 0.0)
+        sticking = std::max(friction, std::sqrt(std::max(a.friction, a.staticFriction) *
+                                                std::max(b.friction, b.staticFriction)));
+    return {friction, std::min(a.restitution, b.restitution), sticking};
 }
 
 int findBody(const Scenario& scenario, const std::string& name) {

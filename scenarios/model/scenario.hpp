@@ -76,9 +76,10 @@ struct Shape {
 // -------------------------------------------------------------------------------------------- materials
 struct Material {
     std::string name;
-    double friction = 0.0;     ///< Coulomb coefficient, >= 0
-    double restitution = 0.0;  ///< Newton's coefficient, in [0, 1]
-    double density = 1000.0;   ///< [kg/m^3] (2D: [kg/m^2]); used when a body gives no mass
+    double friction = 0.0;        ///< Coulomb coefficient, >= 0
+    double restitution = 0.0;     ///< Newton's coefficient, in [0, 1]
+    double density = 1000.0;      ///< [kg/m^3] (2D: [kg/m^2]); used when a body gives no mass
+    double staticFriction = 0.0;  ///< contacts stick up to this; 0: up to friction; else >= friction
 };
 
 /// Coefficients that replace the combination rule for one unordered pair of materials.
@@ -86,12 +87,14 @@ struct MaterialPair {
     int a = 0, b = 0;  ///< indices into Scenario::materials
     double friction = 0.0;
     double restitution = 0.0;
+    double staticFriction = 0.0;
 };
 
 /// What two touching surfaces share. Every adapter makes its engine use exactly these.
 struct PairCoefficients {
     double friction = 0.0;
     double restitution = 0.0;
+    double staticFriction = 0.0;  ///< 0: the same as friction
 };
 
 // ---------------------------------------------------------------------------------------------- bodies

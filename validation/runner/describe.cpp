@@ -51,7 +51,8 @@ json capabilitiesToJson(const adapter::Capabilities& c) {
             {"kinematic_bodies", c.kinematicBodies},
             {"damping", c.damping},
             {"gravity_scale", c.gravityScale},
-            {"center_of_mass_offset", c.centerOfMassOffset}};
+            {"center_of_mass_offset", c.centerOfMassOffset},
+            {"static_friction", c.staticFriction}};
 }
 
 adapter::Capabilities capabilitiesFromJson(const json& j) {
@@ -64,6 +65,7 @@ adapter::Capabilities capabilitiesFromJson(const json& j) {
     c.contactImpulses = j.at("contact_impulses"), c.signedDistance = j.at("signed_distance");
     c.kinematicBodies = j.at("kinematic_bodies"), c.damping = j.at("damping");
     c.gravityScale = j.at("gravity_scale"), c.centerOfMassOffset = j.at("center_of_mass_offset");
+    c.staticFriction = j.at("static_friction");
     return c;
 }
 

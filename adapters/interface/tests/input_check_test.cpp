@@ -94,6 +94,8 @@ const std::vector<Fault>& faults() {
          }},
         {"material out of range", "material", [](Scenario& s) { s.bodies[1].shapes[0].material = 3; }},
         {"negative friction", "friction", [](Scenario& s) { s.materials[0].friction = -0.1; }},
+        {"static below kinetic friction", "static_friction",
+         [](Scenario& s) { s.materials[0].friction = 0.5, s.materials[0].staticFriction = 0.4; }},
         {"restitution above one", "restitution", [](Scenario& s) { s.materials[0].restitution = 1.1; }},
         {"joint to a body that is not there", "joint", [](Scenario& s) { s.joints[0].bodyB = 7; }},
         {"joint to itself", "itself", [](Scenario& s) { s.joints[0].bodyA = 1; }},
@@ -159,6 +161,8 @@ TEST(Supported, TheFirstThingMissingIsNamed) {
             EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
         }
     };
+    refuses("static friction",
+            [](Scenario& s) { s.materials[0].staticFriction = s.materials[0].friction + 1; });
     refuses("capsule", [](Scenario& s) { s.bodies[1].shapes[0].geometry = Capsule{0.1, 0.2}; });
     refuses("hinge", [](Scenario& s) { s.joints[0].type = JointType::Hinge; });
     refuses("2D", [](Scenario& s) { s.dimension = 2; });

@@ -31,6 +31,11 @@ TEST(PairCoefficients, RuleThenTable) {
         EXPECT_DOUBLE_EQ(pairCoefficients(s, a, b).restitution, 0.05);
     }
     EXPECT_DOUBLE_EQ(pairCoefficients(s, 1, 1).friction, 0.9);
+    EXPECT_EQ(pairCoefficients(s, 0, 1).staticFriction, 0) << "the same as friction";
+    s.pairs.clear();
+    s.materials[1].staticFriction = 1.6;
+    EXPECT_DOUBLE_EQ(pairCoefficients(s, 0, 1).staticFriction, std::sqrt(0.4 * 1.6));
+    EXPECT_EQ(pairCoefficients(s, 0, 0).staticFriction, 0);
 }
 
 TEST(FindBody, ByName) {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// All rows of a step as one problem, for solvers that look at them together:
+//     w = W lambda + q,   W = J M^-1 J^T + diag(softness),   q = J v_0 + bias
+// with v_0 the velocities without the rows' impulses. W is the Delassus operator: symmetric, positive
+// semi-definite; singular where rows are redundant (a box on four corners). Rows stand in the order of the
+// world. In double precision whatever the space: pivoting in single loses its last digit after some hundred
+// rows.
+// Cost: memory n^2; time the sum over bodies of (rows of the body)^2.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/solvers/solver.hpp"
+
+namespace rigor::engine {
+
+/// What a row's impulse may be.
+enum class RowKind : std::uint8_t {
+    Free,     ///< w = 0
+    Bounded,  ///< lower <= lambda <= upper
+    Normal,   ///< 0 <= lambda _|_ w >= 0
+    Tangent   ///< friction, see AssembledContact
+};
+struct AssembledContact {
+    std::size_t normal = 0;  ///< row; its tangents follow
+    std::size_t tangents = 0;
+    double mu = 0, muStatic = 0;  ///< muStatic >= mu
+    double applied = 0;           ///< on top of the normal's impulse in the limit of friction
+};
+
+class AssembledProblem {
+  public:
+    std::size_t n = 0;
+    std::vector<double> W;  ///< n x n, row by row; a row that no body can follow has a 1 on the diagonal
+    std::vector<double> q, lambda;
+    std::vector<double> lower, upper;  ///< of Bounded rows; infinite for Free, [0, inf) for Normal
+    std::vector<RowKind> kind;
+    std::vector<AssembledContact> contacts;
+
+    /// Everything but q and lambda.
+    template <class S>
+    void assemble(const ConstraintRows<S>& rows, std::size_t bodies);
+    /// q and lambda from the biases, velocities and impulses of now.
+    template <class S>
+    void readVelocities(const ConstraintRows<S>& rows, std::span<const Velocity<S>> velocities);
+    /// Sets the rows' impulses, and the velocities with them. Returns the largest change of a row's velocity
+    /// that its own impulse makes.
+    template <class S>
+    double apply(const SolverInput<S>& input, const std::vector<double>& impulses) const;
+
+    double at(std::size_t i, std::size_t j) const { return W[i * n + j]; }
+
+  private:
+    std::vector<std::uint32_t> start_, entry_;  ///< rows by body; entry = 2 row + side
+    std::vector<double> invMass_;               ///< by body
+};
+
+}  // namespace rigor::engine
