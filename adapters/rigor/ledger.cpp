@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "adapters/rigor/settings.hpp"
+#include "engine/solvers/solver.hpp"
 
 namespace rigor::adapter {
+namespace {
+
+engine::SolverStyle<engine::Space3d> solverStyle(const std::string& name) {
+    using S = engine::Space3d;
+    return engine::findAlgorithm(engine::solverTable<S>(), "solver", name).make()->style();
+}
+
+}  // namespace
 
 std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings& settings, bool bounces) {
     std::vector<LedgerEntry> lines;
@@ -22,9 +31,16 @@ std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings
             kept ? ""
                  : "angular momentum changes by the order of the scheme, or altogether without the term");
     }
-    add("solver", text("solver"),
-        text("solver") + ", " + text("velocity_iterations") + " velocity and " + text("position_iterations") +
-            " position iterations, up to " + text("first_step_iterations") + " in the first step");
+    const engine::SolverStyle<engine::Space3d> style = solverStyle(text("solver"));
+    const auto orOwn = [&](const char* key, int own) {
+        const int asked = integerSetting(settings, key);
+        return std::to_string(asked > 0 ? asked : own);
+    };
+    std::string solver = text("solver") + ", " + orOwn("substeps", style.substeps) + " sub-steps, " +
+                         orOwn("velocity_iterations", style.iterations.value_or(50)) + " iterations";
+    if (!style.iterations) solver += ", up to " + text("first_step_iterations") + " in the first step";
+    if (!style.ownsCorrection) solver += ", " + text("position_iterations") + " position iterations";
+    add("solver", text("solver"), solver);
     add("warm_starting", text("warm_starting"), text("warm_starting"));
     const bool cone = text("friction") == "cone" || scenario.dimension == 2;
     add("friction_law", "coulomb cone, pair coefficient", text("friction"),
@@ -42,10 +58,13 @@ std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings
         Realisation::Approximate,
         "an inelastic impact takes place at the end of the step that would close the gap, up to that far "
         "early");
-    const std::string correction = text("position_correction");
-    add("position_correction", "no change of velocity", correction + ", slop " + text("slop") + " m",
-        correction == "baumgarte" ? Realisation::Approximate : Realisation::Exact,
-        correction == "baumgarte" ? "the velocities that remove overlap stay in the bodies" : "");
+    const std::string correction = style.ownsCorrection
+                                       ? "the solver's own"
+                                       : text("position_correction") + ", slop " + text("slop") + " m";
+    const bool keeps = !style.ownsCorrection && text("position_correction") == "baumgarte";
+    add("position_correction", "no change of velocity", correction,
+        keeps ? Realisation::Approximate : Realisation::Exact,
+        keeps ? "the velocities that remove overlap stay in the bodies" : "");
     if (!scenario.joints.empty()) {
         const bool curved = text("curved_joints") == "on" && text("integrator") != "explicit_euler";
         add("joints", "rigid",

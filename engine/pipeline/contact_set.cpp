@@ -245,6 +245,8 @@ void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<
     // Rounding of coordinates of order one metre: closer than this is touching.
     const Real touching = Real(64) * std::numeric_limits<Real>::epsilon();
     const bool bounces = contact.coefficients.restitution > 0 && approach < -step.restitutionThreshold;
+    // The blow of an impact in the last sub-step is not what the contact carries from now on.
+    if (point.impact) point.normalImpulse = 0, point.frictionImpulse.setZero();
     point.impact = approach < -step.impactSpeed;
     point.block = Contact<S>::kNoBlock;
     point.rebound =

@@ -97,7 +97,7 @@ void World<S>::beginStep(Real h) {
     residuals_.clear();
     impacts_.clear();
     joints_.clearTotals();
-    cursor_ = {true, Phase::BroadPhase, 0, 0, h, h / Real(def_.substeps)};
+    cursor_ = {true, Phase::BroadPhase, 0, 0, h, h / Real(substeps())};
 }
 
 template <class S>
@@ -124,8 +124,9 @@ void World<S>::runPhase() {
             kick();
             break;
         case Phase::Solve:
-            solveVelocities(firstStep() ? std::max(def_.firstStepIterations, def_.velocityIterations)
-                                        : def_.velocityIterations,
+            solveVelocities(firstStep() && !style_.iterations
+                                ? std::max(def_.firstStepIterations, velocityIterations())
+                                : velocityIterations(),
                             false);
             break;
         case Phase::Move:
@@ -158,7 +159,7 @@ void World<S>::advanceCursor() {
     }
     if (cursor_.next != Phase::NarrowPhase && ++cursor_.place == order.size()) {
         cursor_.place = 0;
-        if (++cursor_.substep == def_.substeps) {
+        if (++cursor_.substep == substeps()) {
             endStep();
             return;
         }
@@ -172,7 +173,6 @@ void World<S>::endStep() {
     for (Wrench<S>& wrench : bodies_.wrench) wrench = {};
     if (sleeping_.rest) sleeping_.rest(sleepStep());
     checkFinite();
-    lastStepSize_ = cursor_.substepSize;
     ++stepCount_;
     result_.pairs = contacts_.proxyPairs().size();
     result_.contacts = static_cast<std::size_t>(
@@ -246,8 +246,9 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
 
 template <class S>
 void World<S>::relax() {
-    int iterations = style_.bias ? style_.relaxIterations : correction_->relaxIterations();
-    if (contacts_.bounceAhead(rows_)) iterations = std::max(iterations, def_.velocityIterations);
+    int iterations =
+        style_.bias ? style_.relaxIterations : std::min(correction_->relaxIterations(), velocityIterations());
+    if (contacts_.bounceAhead(rows_)) iterations = std::max(iterations, velocityIterations());
     if (iterations == 0) return;
     rows_.relax();
     jointStep_.curved = false;
@@ -260,14 +261,20 @@ void World<S>::solvePositions() {
     StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, Real(0), residuals_);
     StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h,
                                std::numeric_limits<Real>::infinity(), positionScratch_);
+    jointStep_.curved = false;
     solver_->solvePositions(positions,
-                            {rows_, bodies_.velocity, friction_, monitor, def_.positionIterations, h, true});
+                            {rows_, bodies_.velocity, friction_, monitor, velocityIterations(), h, true});
+    // Velocities get what has moved the bodies beyond them: with symplectic Euler the result is (x - x0) / h,
+    // and a body that nothing has moved keeps its velocity to the bit.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         if (bodies_.invMass[i] == 0) continue;
-        bodies_.velocity[i].v = positionScratch_.motion[i].v / h;
-        bodies_.velocity[i].w = logMap(compose(bodies_.pose[i].q, inverse(motion_.startRotations()[i]))) / h;
+        const Velocity<S>&used = motion_.used()[i], &moved = positionScratch_.motion[i];
+        bodies_.velocity[i].v += (moved.v - h * used.v) / h;
+        const Ang turned = moved.w - Ang(h * used.w);
+        if (dotAng(turned, turned) == Real(0)) continue;
+        const Ang whole = logMap(compose(bodies_.pose[i].q, inverse(motion_.startRotations()[i])));
+        bodies_.velocity[i].w += whole / h - used.w;
     }
-    jointStep_.curved = false;
 }
 
 template <class S>
@@ -275,7 +282,7 @@ void World<S>::correct() {
     joints_.storeImpulses(bodies_, rows_);
     contacts_.storeImpulses(rows_);
     const Real h = cursor_.substepSize;
-    const bool more = cursor_.substep + 1 < def_.substeps;
+    const bool more = cursor_.substep + 1 < substeps();
     if (!style_.ownsCorrection) {
         // Slower than this a contact is as good as resting, and its overlap is corrected.
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
@@ -286,6 +293,7 @@ void World<S>::correct() {
     }
     motion_.finish(bodies_, h);
     if (more) contacts_.advance(positionScratch_.motion);
+    lastStepSize_ = h;
 }
 
 template <class S>
