@@ -20,9 +20,9 @@
 //   - friction is limited by the normal impulse of this pass alone, which for resting contacts is what
 //     is left of g h after the neighbours' impulses: stacks slide apart.
 // It is exact where nothing couples: one contact or joint row per body and step, so for a ball that bounces
-// or a point on a rod it cannot be told from the others. Measured (tests/solver_scene_test.cpp): a stack of
-// five boxes loses more than a centimetre in ten seconds without position correction where the others lose
-// less than a millimetre.
+// it cannot be told from the others. Measured (pipeline/tests/solver_test.cpp): a stack of five boxes
+// collapses whatever corrects its positions; a box slides on a slope that holds it; a pendulum on two rows
+// loses most of its energy.
 #include "engine/solvers/row_kernels.hpp"
 
 namespace rigor::engine {
