@@ -37,8 +37,9 @@ class RigorEngine final : public Engine {
             options.push_back(choice(family.name.c_str(), names, family.defaultChoice.c_str(),
                                      family.defaultChoice.c_str(), family.summary.c_str()));
         }
-        options.push_back(integer("substeps", 1, 1000, "1", "1",
-                                  "equal parts that a step is solved in; contacts are found once"));
+        options.push_back(integer("substeps", 0, 1000, "0", "0",
+                                  "equal parts that a step is solved in; contacts are found once; 0: the "
+                                  "solver's own number, 1 for most"));
         options.push_back(
             number("contact_frequency", 1e-3, 1e6, "30", "30",
                    "soft contacts: spring frequency, at most a quarter of the sub-step rate [Hz]"));
@@ -48,8 +49,9 @@ class RigorEngine final : public Engine {
             number("joint_frequency", 1e-3, 1e6, "60", "60",
                    "soft joints: spring frequency, at most a quarter of the sub-step rate [Hz]"));
         options.push_back(number("joint_damping_ratio", 0, 1000, "2", "2", "soft joints: damping ratio"));
-        options.push_back(
-            integer("velocity_iterations", 1, 100000, "50", "50", "most iterations of the velocity solver"));
+        options.push_back(integer(
+            "velocity_iterations", 0, 100000, "0", "50",
+            "most iterations of the solver in each sub-step; 0: the solver's own number, 50 for most"));
         options.push_back(number("velocity_tolerance", 0, 1, "1e-6", "1e-6",
                                  "iterations end when one changes less than this share of the speed gravity "
                                  "adds in a step; 0: never"));

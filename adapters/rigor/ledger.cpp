@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "adapters/rigor/settings.hpp"
+#include "engine/solvers/solver.hpp"
 
 namespace rigor::adapter {
+namespace {
+
+engine::SolverStyle<engine::Space3d> solverStyle(const std::string& name) {
+    using S = engine::Space3d;
+    return engine::findAlgorithm(engine::solverTable<S>(), "solver", name).make()->style();
+}
+
+}  // namespace
 
 std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings& settings, bool bounces) {
     std::vector<LedgerEntry> lines;
@@ -33,9 +42,16 @@ std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings
             text("integrator") == "rk4"               ? "evaluated at the four stages of every step"
             : text("integrator") == "velocity_verlet" ? "evaluated at the start and the end of every step"
                                                       : "evaluated at the start of every step");
-    add("solver", text("solver"),
-        text("solver") + ", " + text("velocity_iterations") + " velocity and " + text("position_iterations") +
-            " position iterations, up to " + text("first_step_iterations") + " in the first step");
+    const engine::SolverStyle<engine::Space3d> style = solverStyle(text("solver"));
+    const auto orOwn = [&](const char* key, int own) {
+        const int asked = integerSetting(settings, key);
+        return std::to_string(asked > 0 ? asked : own);
+    };
+    std::string solver = text("solver") + ", " + orOwn("substeps", style.substeps) + " sub-steps, " +
+                         orOwn("velocity_iterations", style.iterations.value_or(50)) + " iterations";
+    if (!style.iterations) solver += ", up to " + text("first_step_iterations") + " in the first step";
+    if (!style.ownsCorrection) solver += ", " + text("position_iterations") + " position iterations";
+    add("solver", text("solver"), solver);
     add("warm_starting", text("warm_starting"), text("warm_starting"));
     // Some solvers have a friction law of their own.
     std::string law = text("friction");
@@ -67,10 +83,13 @@ std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings
         Realisation::Approximate,
         "an inelastic impact takes place at the end of the step that would close the gap, up to that far "
         "early");
-    const std::string correction = text("position_correction");
-    add("position_correction", "no change of velocity", correction + ", slop " + text("slop") + " m",
-        correction == "baumgarte" ? Realisation::Approximate : Realisation::Exact,
-        correction == "baumgarte" ? "the velocities that remove overlap stay in the bodies" : "");
+    const std::string correction = style.ownsCorrection
+                                       ? "the solver's own"
+                                       : text("position_correction") + ", slop " + text("slop") + " m";
+    const bool keeps = !style.ownsCorrection && text("position_correction") == "baumgarte";
+    add("position_correction", "no change of velocity", correction,
+        keeps ? Realisation::Approximate : Realisation::Exact,
+        keeps ? "the velocities that remove overlap stay in the bodies" : "");
     if (!scenario.joints.empty()) {
         const bool curved = text("curved_joints") == "on" && text("integrator") == "symplectic_euler";
         add("joints", "rigid",

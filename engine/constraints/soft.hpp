@@ -50,4 +50,12 @@ struct BiasRule {
     R fastestPush = 3;  ///< soft contacts: largest velocity that overlap asks for [m/s]
 };
 
+/// Position errors as damped springs; the world fills in frequencies and damping ratios.
+template <class R>
+BiasRule<R> softBiasRule() {
+    BiasRule<R> rule;
+    rule.soft = true;
+    return rule;
+}
+
 }  // namespace rigor::engine

@@ -257,6 +257,8 @@ void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<
     const Real touching = Real(64) * std::numeric_limits<Real>::epsilon();
     const Real restitution = step.bounces ? contact.coefficients.restitution : Real(0);
     const bool bounces = restitution > 0 && approach < -step.restitutionThreshold;
+    // The blow of an impact in the last sub-step is not what the contact carries from now on.
+    if (point.impact) point.normalImpulse = 0, point.frictionImpulse.setZero();
     point.impact = approach < -step.impactSpeed;
     point.block = Contact<S>::kNoBlock;
     point.rebound = contact.ahead && bounces && s > touching ? restitution * approach : Real(0);

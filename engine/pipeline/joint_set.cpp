@@ -125,7 +125,8 @@ void JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& 
             Row<S>& row = rows.rows[record.firstRow + i];
             const Real beyondLinear = (made_.error[i] - row.error) / step.h -
                                       rowVelocity<S>(row, velocities[block.a], velocities[block.b]);
-            row.bias = share * beyondLinear + startBias_[record.firstRow + i];
+            row.relaxedBias = share * beyondLinear;
+            row.bias = row.relaxedBias + startBias_[record.firstRow + i];
         }
     }
 }

@@ -113,7 +113,7 @@ void World<S>::beginStep(Real h) {
     residuals_.clear();
     impacts_.clear();
     joints_.clearTotals();
-    cursor_ = {true, Phase::BroadPhase, 0, 0, h, h / Real(def_.substeps)};
+    cursor_ = {true, Phase::BroadPhase, 0, 0, h, h / Real(substeps())};
 }
 
 template <class S>
@@ -140,8 +140,9 @@ void World<S>::runPhase() {
             kick();
             break;
         case Phase::Solve:
-            solveVelocities(firstStep() ? std::max(def_.firstStepIterations, def_.velocityIterations)
-                                        : def_.velocityIterations,
+            solveVelocities(firstStep() && !style_.iterations
+                                ? std::max(def_.firstStepIterations, velocityIterations())
+                                : velocityIterations(),
                             false);
             break;
         case Phase::Move:
@@ -174,7 +175,7 @@ void World<S>::advanceCursor() {
     }
     if (cursor_.next != Phase::NarrowPhase && ++cursor_.place == order.size()) {
         cursor_.place = 0;
-        if (++cursor_.substep == def_.substeps) {
+        if (++cursor_.substep == substeps()) {
             endStep();
             return;
         }
@@ -189,7 +190,6 @@ void World<S>::endStep() {
     if (sleeping_.rest) sleeping_.rest(sleepStep());
     checkFinite();
     time_ += static_cast<double>(cursor_.size);
-    lastStepSize_ = cursor_.substepSize;
     ++stepCount_;
     result_.pairs = contacts_.proxyPairs().size();
     result_.contacts = static_cast<std::size_t>(
@@ -292,8 +292,9 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
 
 template <class S>
 void World<S>::relax() {
-    int iterations = style_.bias ? style_.relaxIterations : correction_->relaxIterations();
-    if (contacts_.bounceAhead(rows_)) iterations = std::max(iterations, def_.velocityIterations);
+    int iterations =
+        style_.bias ? style_.relaxIterations : std::min(correction_->relaxIterations(), velocityIterations());
+    if (contacts_.bounceAhead(rows_)) iterations = std::max(iterations, velocityIterations());
     if (iterations == 0) return;
     rows_.relax();
     jointStep_.curved = false;
@@ -307,21 +308,20 @@ void World<S>::solvePositions() {
                            residuals_);
     StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h,
                                std::numeric_limits<Real>::infinity(), positionScratch_);
+    jointStep_.curved = false;
     solver_->solvePositions(positions,
-                            {rows_, bodies_.velocity, friction_, monitor, def_.positionIterations, h, true});
+                            {rows_, bodies_.velocity, friction_, monitor, velocityIterations(), h, true});
+    // Velocities get what has moved the bodies beyond them: with symplectic Euler the result is (x - x0) / h,
+    // and a body that nothing has moved keeps its velocity to the bit.
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         if (bodies_.invMass[i] == 0) continue;
-        Velocity<S>& velocity = bodies_.velocity[i];
-        const Vec v = positionScratch_.motion[i].v / h;
-        const Ang w = logMap(compose(bodies_.pose[i].q, inverse(motion_.startRotations()[i]))) / h;
-        if (motion_.movesWithSolvedVelocity()) {
-            velocity = {v, w};
-        } else {  // the end velocity is not the one that moved the body: what positions changed comes on top
-            velocity.v += v - motion_.used()[i].v;
-            velocity.w += w - motion_.used()[i].w;
-        }
+        const Velocity<S>&used = motion_.used()[i], &moved = positionScratch_.motion[i];
+        bodies_.velocity[i].v += (moved.v - h * used.v) / h;
+        const Ang turned = moved.w - Ang(h * used.w);
+        if (dotAng(turned, turned) == Real(0)) continue;
+        const Ang whole = logMap(compose(bodies_.pose[i].q, inverse(motion_.startRotations()[i])));
+        bodies_.velocity[i].w += whole / h - used.w;
     }
-    jointStep_.curved = false;
 }
 
 template <class S>
@@ -329,7 +329,7 @@ void World<S>::correct() {
     joints_.storeImpulses(bodies_, rows_);
     contacts_.storeImpulses(rows_);
     const Real h = cursor_.substepSize;
-    const bool more = cursor_.substep + 1 < def_.substeps;
+    const bool more = cursor_.substep + 1 < substeps();
     if (!style_.ownsCorrection) {
         // Slower than this a contact is as good as resting, and its overlap is corrected.
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
@@ -340,6 +340,7 @@ void World<S>::correct() {
     }
     motion_.finish(bodies_, h);
     if (more) contacts_.advance(positionScratch_.motion);
+    lastStepSize_ = h;
 }
 
 template <class S>

@@ -60,6 +60,7 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
         const Real K = rowK<S>(row, out.block);
         row.invK = K > 0 ? Real(1) / K : Real(0);
         out.unilateral[place] = role == RowRole::Limit;
+        out.velocityRow[place] = record.firstRow + static_cast<std::uint32_t>(i);
     }
     if (made.held > 0) invertBlock<S>(out.row.data(), out.block, out.inverseK);
 }

@@ -87,11 +87,11 @@ bool validShape(const Shape<S>& shape) {
 template <class S>
 World<S>::World(const WorldDef<S>& def) : def_(def) {
     require(def.gravity.allFinite(), "gravity", "gravity must be finite");
-    require(def.velocityIterations >= 1, "velocity_iterations", "at least one velocity iteration");
+    require(def.velocityIterations >= 0, "velocity_iterations", "velocity iterations must not be negative");
     require(def.positionIterations >= 0, "position_iterations", "position iterations must not be negative");
     require(def.velocityTolerance >= 0 && std::isfinite(def.velocityTolerance), "velocity_tolerance",
             "velocity tolerance must not be negative");
-    require(def.substeps >= 1, "substeps", "at least one sub-step");
+    require(def.substeps >= 0, "substeps", "sub-steps must not be negative");
     const auto spring = [](Real frequency, Real dampingRatio) {
         return frequency > 0 && std::isfinite(frequency) && dampingRatio >= 0 && std::isfinite(dampingRatio);
     };

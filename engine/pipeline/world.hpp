@@ -116,7 +116,7 @@ class World {
     void beginStep(Real h);
     bool stepping() const { return cursor_.active; }
     Phase nextPhase() const { return cursor_.next; }
-    int substep() const { return cursor_.substep; }  ///< 0 .. def().substeps - 1
+    int substep() const { return cursor_.substep; }  ///< 0 .. substeps() - 1
     void runPhase();
     /// Watches the solver from now on; null: nobody. Copies of the world are watched by the same observer.
     void observeIterations(IterationObserver<S> observer) { observer_ = std::move(observer); }
@@ -150,6 +150,11 @@ class World {
     void setVelocity(BodyId body, const Vec& velocity, const Ang& angularVelocity);
     const PairCoefficients<S>& pairCoefficients(std::uint32_t a, std::uint32_t b) const;
     const WorldDef<S>& def() const { return def_; }
+    /// Sub-steps of a step, and most iterations of each: the settings, or the solver's own.
+    int substeps() const { return def_.substeps > 0 ? def_.substeps : style_.substeps; }
+    int velocityIterations() const {
+        return def_.velocityIterations > 0 ? def_.velocityIterations : style_.iterations.value_or(50);
+    }
     const StepResult<S>& lastStep() const { return result_; }
     /// Replaces `out` by the contacts of the last step.
     void readContacts(std::vector<ContactView<S>>& out) const;

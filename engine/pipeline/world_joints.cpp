@@ -79,14 +79,14 @@ template <class S>
 typename S::Vec World<S>::jointForce(JointId joint) const {
     const auto& record = joints_.records()[jointIds_.dense(joint)];
     if (stepCount_ == 0) return Vec::Zero();
-    return record.push / (lastStepSize_ * Real(def_.substeps));
+    return record.push / (lastStepSize_ * Real(substeps()));
 }
 
 template <class S>
 typename S::Ang World<S>::jointTorque(JointId joint) const {
     const auto& record = joints_.records()[jointIds_.dense(joint)];
     if (stepCount_ == 0) return zeroAng<S>();
-    return record.twist / (lastStepSize_ * Real(def_.substeps));
+    return record.twist / (lastStepSize_ * Real(substeps()));
 }
 
 template <class S>

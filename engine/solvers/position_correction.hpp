@@ -20,11 +20,12 @@ inline constexpr int kMaxPositionRows = 24;  ///< of one joint
 /// Motors and springs are no position constraints and are left out.
 template <class S>
 struct JointPositions {
-    Block<S> block;                                   ///< its bodies; rows = held rows
-    int count = 0;                                    ///< held rows and the others
-    std::array<Row<S>, kMaxPositionRows> row;         ///< error is C now; invK of the row alone
-    std::array<bool, kMaxPositionRows> unilateral{};  ///< a limit: only C < 0 is an error
-    BlockMatrix<S> inverseK;                          ///< of the held rows
+    Block<S> block;                                             ///< its bodies; rows = held rows
+    int count = 0;                                              ///< held rows and the others
+    std::array<Row<S>, kMaxPositionRows> row;                   ///< error is C now; invK of the row alone
+    std::array<bool, kMaxPositionRows> unilateral{};            ///< a limit: only C < 0 is an error
+    std::array<std::uint32_t, kMaxPositionRows> velocityRow{};  ///< the same row among those of the step
+    BlockMatrix<S> inverseK;                                    ///< of the held rows
 };
 
 /// The constraints as position correction sees them, after the bodies have moved.
@@ -56,7 +57,8 @@ class PositionCorrection {
     virtual std::unique_ptr<PositionCorrection> clone() const = 0;
     /// How position errors act on the velocity rows of the step; by default not at all.
     virtual BiasRule<typename S::Real> bias() const { return {}; }
-    /// Iterations of the velocity solver after the bodies have moved, with relaxed biases.
+    /// Iterations of the velocity solver after the bodies have moved, with relaxed biases; at most as many as
+    /// it has before.
     virtual int relaxIterations() const { return 0; }
     /// Called after the bodies have moved.
     virtual void correct(PositionProblem<S>& problem, int iterations, typename S::Real slop) {

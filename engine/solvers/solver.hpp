@@ -59,6 +59,10 @@ struct SolverInput {
 template <class S>
 struct SolverStyle {
     using Real = typename S::Real;
+    int substeps = 1;  ///< where the world does not say (WorldDef::substeps 0)
+    /// Of each sub-step, where the world does not say (WorldDef::velocityIterations 0). A solver with a
+    /// number of its own has no longer first step.
+    std::optional<int> iterations;
     /// Iterates on positions: bodies move first, solvePositions() puts them right, velocities are what moved
     /// them, and solve() is the velocity pass after that. Else solve() comes first and bodies move with it.
     bool positions = false;

@@ -36,7 +36,7 @@ struct WorldDef {
     /// In place of `narrowPhase` where set; shared by copies of the world.
     std::shared_ptr<const NarrowPhase<S>> customNarrowPhase;
     std::string manifold = "clipped";
-    std::string solver = "pgs";
+    std::string solver = "block";
     std::string positionCorrection = "ngs";
     std::string friction = "cone";
     std::string fault = "none";  ///< a deliberate mistake, for study (engine/faults)
@@ -46,8 +46,12 @@ struct WorldDef {
     /// Of two materials whose pair has no coefficients of its own (World::setPair).
     std::string frictionCombine = "geometric_mean", restitutionCombine = "min";
 
-    int substeps = 1;             ///< equal parts a step is solved in, contacts found once, >= 1
-    int velocityIterations = 50;  ///< of each sub-step, at most, >= 1
+    /// Equal parts a step is solved in, contacts found once, >= 0. 0: the solver's own number, which is 1
+    /// except for solvers that are made of sub-steps (tgs_soft, xpbd).
+    int substeps = 0;
+    /// Of each sub-step, at most, >= 0. 0: the solver's own number, which is 50 except for solvers that are
+    /// made of sub-steps, or of a single pass.
+    int velocityIterations = 0;
     int positionIterations = 10;  ///< of each sub-step, >= 0
     /// Iterations end early when one changes less than this share of the speed that gravity adds in a
     /// (sub-)step, or than the precision resolves; 0: never. >= 0

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Projected Gauss-Seidel with soft contacts and joints, the "PGS soft" of [Catto2024]: pgs.cpp on rows whose
+// position errors are damped springs [Catto2011],
+//     J v + (omega / a) C + gamma lambda = 0,   a = 2 zeta + h omega,   gamma = K / (h omega a)
+// (soft.hpp) with the frequencies and damping ratios of the world (contact_frequency, joint_frequency, ...).
+// The springs take the place of position correction; there is no relaxation after the step, so the velocity
+// that pushes bodies apart stays in them, as with Baumgarte's method, but bounded by the spring's rate.
+//
+// Cost: that of pgs. Known limits: the spring's frequency is at most a quarter of the step rate, 15 Hz at 60
+// Hz. A load is carried by an overlap in proportion to it: 1 mm under a box of 1 m, 35 mm in sum in a stack of
+// five of them, 0.3 m under a load of 100 times the mass; joints stretch by millimetres and lose energy.
+#include "engine/solvers/row_kernels.hpp"
+
+namespace rigor::engine {
+namespace {
+
+template <class S>
+class PgsSoft final : public Solver<S> {
+  public:
+    std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<PgsSoft>(*this); }
+
+    SolverStyle<S> style() const override {
+        SolverStyle<S> style;
+        style.bias = softBiasRule<typename S::Real>();
+        style.ownsCorrection = true;
+        return style;
+    }
+
+    void solve(const SolverInput<S>& input) override { solveRowByRow(input, ContactOrder::FrictionFirst); }
+};
+
+}  // namespace
+
+template <class S>
+std::unique_ptr<Solver<S>> makePgsSoft() {
+    return std::make_unique<PgsSoft<S>>();
+}
+RIGOR_INSTANTIATE_FACTORY(makePgsSoft, Solver);
+
+}  // namespace rigor::engine

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What iterative solvers do with one row or block, given the velocities that the others have led to. Each
+// kernel finds the impulse that satisfies its equation alone, applies the increment to the velocities, adds
+// it to the accumulated impulse, and returns the velocity error it has removed [m/s or rad/s]:
+//     joint     lambda += -K^-1 (J v + bias + softness lambda)
+//     bounded   lambda := clamp(lambda - (J v + bias + softness lambda) / K, lower, upper)
+//     normal    lambda_n := max(0, lambda_n - (J_n v + bias + softness lambda_n) / K_nn)
+//     friction  lambda_t := friction law with limit mu lambda_n, both tangents at once
+// It is the accumulated impulse that is clamped, not its increment [Catto2005].
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/solvers/solver.hpp"
+
+namespace rigor::engine {
+
+/// J v + bias + softness lambda: zero where an unbounded row is satisfied.
+template <class S>
+typename S::Real rowError(const Row<S>& row, const Velocity<S>& a, const Velocity<S>& b) {
+    return rowVelocity<S>(row, a, b) + row.bias + row.softness * row.impulse;
+}
+
+template <class S>
+typename S::Real solveBoundedRow(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                                 Velocity<S>& b) {
+    using Real = typename S::Real;
+    Row<S>& row = input.constraints.rows[block.first];
+    const Real error = rowError<S>(row, a, b);
+    const Real accumulated = std::clamp(row.impulse - row.invK * error, row.lower, row.upper);
+    const Real step = accumulated - row.impulse;
+    row.impulse = accumulated;
+    applyRowImpulse<S>(row, block, step, a, b);
+    return row.invK > 0 ? std::abs(step) / row.invK : Real(0);
+}
+
+/// All rows of a joint at once.
+template <class S>
+typename S::Real solveJointBlock(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                                 Velocity<S>& b) {
+    Row<S>* rows = input.constraints.rows.data() + block.first;
+    BlockVector<S> error(block.rows);
+    for (int i = 0; i < block.rows; ++i) error[i] = rowError<S>(rows[i], a, b);
+    const BlockVector<S> lambda = -(input.constraints.matrices[block.matrix] * error);
+    for (int i = 0; i < block.rows; ++i) {
+        rows[i].impulse += lambda[i];
+        applyRowImpulse<S>(rows[i], block, lambda[i], a, b);
+    }
+    return error.cwiseAbs().maxCoeff();
+}
+
+/// The rows of a joint one after the other.
+template <class S>
+typename S::Real solveJointRows(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                                Velocity<S>& b) {
+    using Real = typename S::Real;
+    Real residual = 0;
+    for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
+        Row<S>& row = input.constraints.rows[i];
+        const Real step = -row.invK * rowError<S>(row, a, b);
+        row.impulse += step;
+        applyRowImpulse<S>(row, block, step, a, b);
+        if (row.invK > 0) residual = std::max(residual, std::abs(step) / row.invK);
+    }
+    return residual;
+}
+
+template <class S>
+typename S::Real solveNormal(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                             Velocity<S>& b) {
+    using Real = typename S::Real;
+    Row<S>& normal = input.constraints.rows[block.first];
+    const Real error = rowError<S>(normal, a, b);
+    const Real accumulated = std::max(Real(0), normal.impulse - normal.invK * error);
+    const Real step = accumulated - normal.impulse;
+    normal.impulse = accumulated;
+    applyRowImpulse<S>(normal, block, step, a, b);
+    return std::abs(step) / normal.invK;
+}
+
+template <class S>
+typename S::Real solveFriction(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                               Velocity<S>& b) {
+    using Real = typename S::Real;
+    using Vec2 = Eigen::Matrix<Real, 2, 1>;
+    if (block.rows < 2) return 0;
+    Row<S>* rows = input.constraints.rows.data() + block.first;
+    constexpr int tangents = S::tangents;
+    Vec2 impulse = Vec2::Zero(), velocity = Vec2::Zero();
+    for (int i = 0; i < tangents; ++i) {
+        impulse[i] = rows[1 + i].impulse;
+        velocity[i] = rowVelocity<S>(rows[1 + i], a, b);
+    }
+    const Vec2 next =
+        input.friction(block.k11, block.k12, block.k22, impulse, velocity, block.friction * rows[0].impulse);
+    Real residual = 0;
+    for (int i = 0; i < tangents; ++i) {
+        const Real step = next[i] - impulse[i];
+        rows[1 + i].impulse = next[i];
+        applyRowImpulse<S>(rows[1 + i], block, step, a, b);
+        residual = std::max(residual, std::abs(step) / rows[1 + i].invK);
+    }
+    return residual;
+}
+
+/// Which impulses of contacts have the last word.
+enum class ContactOrder : std::uint8_t {
+    FrictionFirst,  ///< contact by contact, its normal
+    FrictionLast,   ///< after everything else, the friction of all contacts
+};
+
+/// Projected Gauss-Seidel: iterations over all rows, one after the other.
+template <class S>
+void solveRowByRow(const SolverInput<S>& input, ContactOrder order) {
+    using Real = typename S::Real;
+    applyWarmStart<S>(input);
+    const std::vector<Block<S>>& blocks = input.constraints.blocks;
+    const auto solve = [&input](auto kernel, const Block<S>& block) -> Real {
+        return kernel(input, block, input.velocities[block.a], input.velocities[block.b]);
+    };
+    for (int i = 0; i < input.iterations; ++i) {
+        input.monitor.before(input.velocities);
+        Real change = 0;
+        for (const Block<S>& block : blocks) {
+            if (block.kind == BlockKind::Joint) {
+                change = std::max(change, solve(solveJointRows<S>, block));
+            } else if (block.kind == BlockKind::Bounded) {
+                change = std::max(change, solve(solveBoundedRow<S>, block));
+            } else {
+                if (order == ContactOrder::FrictionFirst)
+                    change = std::max(change, solve(solveFriction<S>, block));
+                change = std::max(change, solve(solveNormal<S>, block));
+            }
+        }
+        if (order == ContactOrder::FrictionLast)
+            for (const Block<S>& block : blocks)
+                if (block.kind == BlockKind::Contact)
+                    change = std::max(change, solve(solveFriction<S>, block));
+        if (input.monitor.after(input.velocities, change)) break;
+    }
+}
+
+}  // namespace rigor::engine
