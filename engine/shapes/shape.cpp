@@ -47,6 +47,24 @@ typename S::Vec supportOf(const Hull<S>& s, const typename S::Vec& d) {
     return v[best];
 }
 
+/// The rim point of the cap that d looks at; straight along the axis any will do.
+template <class S>
+typename S::Vec rimPoint(typename S::Real radius, typename S::Real y, const typename S::Vec& d) {
+    const typename S::Real across = std::hypot(d.x(), d.z());
+    if (!(across > 0)) return {radius, y, 0};
+    const typename S::Real k = radius / across;
+    return {k * d.x(), y, k * d.z()};
+}
+template <class S>
+typename S::Vec supportOf(const Cylinder<S>& s, const typename S::Vec& d) {
+    return rimPoint<S>(s.radius, d.y() < 0 ? -s.halfLength : s.halfLength, d);
+}
+template <class S>
+typename S::Vec supportOf(const Cone<S>& s, const typename S::Vec& d) {
+    if (typename S::Real(2) * s.halfLength * d.y() > s.radius * std::hypot(d.x(), d.z())) return {0, s.halfLength, 0};
+    return rimPoint<S>(s.radius, -s.halfLength, d);
+}
+
 template <class S>
 Aabb<S> boxOf(const Sphere<S>& s, const Pose<S>& X) {
     const typename S::Vec r = S::Vec::Constant(s.radius);
@@ -63,6 +81,24 @@ Aabb<S> boxOf(const Capsule<S>& s, const Pose<S>& X) {
     const typename S::Vec axis = rotate(X.q, typename S::Vec(s.halfLength * S::Vec::UnitY()));
     const typename S::Vec r = axis.cwiseAbs() + S::Vec::Constant(s.radius);
     return {X.p - r, X.p + r};
+}
+/// Half extents of a disc of unit radius around the unit vector `axis`: sqrt(1 - axis_i^2).
+template <class S>
+typename S::Vec discExtents(const typename S::Vec& axis) {
+    return {std::hypot(axis.y(), axis.z()), std::hypot(axis.z(), axis.x()), std::hypot(axis.x(), axis.y())};
+}
+template <class S>
+Aabb<S> boxOf(const Cylinder<S>& s, const Pose<S>& X) {
+    const typename S::Vec axis = rotate(X.q, typename S::Vec(S::Vec::UnitY()));
+    const typename S::Vec r = s.halfLength * axis.cwiseAbs() + s.radius * discExtents<S>(axis);
+    return {X.p - r, X.p + r};
+}
+template <class S>
+Aabb<S> boxOf(const Cone<S>& s, const Pose<S>& X) {
+    using Vec = typename S::Vec;
+    const Vec axis = rotate(X.q, Vec(Vec::UnitY())), apex = s.halfLength * axis;
+    const Vec r = s.radius * discExtents<S>(axis);
+    return {X.p + apex.cwiseMin(Vec(-apex - r)), X.p + apex.cwiseMax(Vec(-apex + r))};
 }
 /// Unbounded but along an axis that the normal is exactly parallel to.
 template <class S>

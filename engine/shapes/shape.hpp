@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Convex shapes of the engine, one type per kind over the Space trait. A shape frame has its origin at the
-// shape's centre (hull: at the origin of the points given).
+// Shapes of the engine, one type per kind over the Space trait; ShapeTypes says which kinds a dimension has. A
+// shape frame has its origin at the shape's centre (hull: at the origin of the points given).
 #pragma once
 
 #include <cstdint>
@@ -46,8 +46,36 @@ struct Hull {
     std::shared_ptr<const HullData<S>> data;
 };
 
+/// Solid cylinder along local y, 3D only; radius, halfLength > 0 [m].
 template <class S>
-using Shape = std::variant<Sphere<S>, Box<S>, Capsule<S>, HalfSpace<S>, Hull<S>>;
+struct Cylinder {
+    typename S::Real radius, halfLength;
+};
+/// Solid cone along local y, 3D only: apex at +halfLength, base disc of `radius` at -halfLength; both > 0 [m].
+template <class S>
+struct Cone {
+    typename S::Real radius, halfLength;
+};
+
+/// The kinds of shape that a dimension has.
+template <class S>
+struct ShapeTypes;
+template <class R>
+struct ShapeTypes<Space<R, 2>> {
+    using S = Space<R, 2>;
+    using Variant = std::variant<Sphere<S>, Box<S>, Capsule<S>, HalfSpace<S>, Hull<S>>;
+};
+template <class R>
+struct ShapeTypes<Space<R, 3>> {
+    using S = Space<R, 3>;
+    using Variant = std::variant<Sphere<S>, Box<S>, Capsule<S>, HalfSpace<S>, Hull<S>, Cylinder<S>, Cone<S>>;
+};
+template <class S>
+using Shape = typename ShapeTypes<S>::Variant;
+
+/// Has the dimension this kind?
+template <class S, class Kind>
+inline constexpr bool kHasKind = requires(const Shape<S>& shape) { std::get_if<Kind>(&shape); };
 
 /// Hull of the points; interior and duplicate points are dropped. Throws std::invalid_argument for fewer than
 /// dim + 1 points or points without volume.
