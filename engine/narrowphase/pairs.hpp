@@ -42,6 +42,11 @@ RIGOR_PAIR(Hull, HalfSpace)
 RIGOR_PAIRS(2)
 RIGOR_PAIRS(3)
 #undef RIGOR_PAIRS
+RIGOR_PAIR(2, Sphere, Segment)
+RIGOR_PAIR(2, Box, Segment)
+RIGOR_PAIR(2, Capsule, Segment)
+RIGOR_PAIR(2, Hull, Segment)
+RIGOR_PAIR(3, Sphere, Triangle)
 RIGOR_PAIR(3, Sphere, Cylinder)
 RIGOR_PAIR(3, Sphere, Cone)
 RIGOR_PAIR(3, Cylinder, HalfSpace)
@@ -53,5 +58,17 @@ RIGOR_PAIR(3, Cone, HalfSpace)
 template <class R>
 void collideFeatures(const Shape<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Shape<Space<R, 3>>& b,
                      const Pose<Space<R, 3>>& Xb, R speculative, Manifold<Space<R, 3>>& out);
+
+/// Contact points of a convex shape with a piece of a surface along the piece's normal: what of the shape's
+/// supporting feature is over the piece. `front`: on the side of the normal. A is the piece; X poses the shape
+/// in its frame, in which `out` is filled.
+template <class R>
+void collideAlong(const Segment<Space<R, 2>>& piece, bool front, const Shape<Space<R, 2>>& convex,
+                  const Pose<Space<R, 2>>& X, typename Space<R, 2>::Real speculative,
+                  Manifold<Space<R, 2>>& out);
+template <class R>
+void collideAlong(const Triangle<Space<R, 3>>& piece, bool front, const Shape<Space<R, 3>>& convex,
+                  const Pose<Space<R, 3>>& X, typename Space<R, 3>::Real speculative,
+                  Manifold<Space<R, 3>>& out);
 
 }  // namespace rigor::engine

@@ -9,6 +9,7 @@
 #include "engine/narrowphase/detail.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
 #include "engine/narrowphase/pairs.hpp"
+#include "engine/narrowphase/surface_contact.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -27,8 +28,13 @@ void collideKinds(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const
                   typename S::Real speculative, Manifold<S>& out) {
     using A = std::variant_alternative_t<IndexA, Shape<S>>;
     using B = std::variant_alternative_t<IndexB, Shape<S>>;
-    if constexpr (std::is_same_v<A, HalfSpace<S>> && std::is_same_v<B, HalfSpace<S>>) {
-        // Both are static and unbounded: no contact is asked for.
+    if constexpr (kStaticOnly<A> && kStaticOnly<B>) {
+        // Both stand still: no contact is asked for.
+    } else if constexpr (kComposite<A>) {
+        collideDeepestPiece<S>(&collideSat<S>, a, Xa, b, Xb, speculative, out);
+    } else if constexpr (kComposite<B>) {
+        collideDeepestPiece<S>(&collideSat<S>, b, Xb, a, Xa, speculative, out);
+        flip(out);
     } else if constexpr (kHasPair<S, A, B>) {
         collidePair(*std::get_if<A>(&a), Xa, *std::get_if<B>(&b), Xb, speculative, out);
     } else if constexpr (kHasPair<S, B, A>) {

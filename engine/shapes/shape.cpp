@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/shapes/hull.hpp"
+#include "engine/shapes/surface.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -66,6 +67,38 @@ typename S::Vec supportOf(const Cone<S>& s, const typename S::Vec& d) {
 }
 
 template <class S>
+typename S::Vec supportOf(const Segment<S>& s, const typename S::Vec& d) {
+    return s.b.dot(d) > s.a.dot(d) ? s.b : s.a;
+}
+template <class S>
+typename S::Vec supportOf(const Triangle<S>& s, const typename S::Vec& d) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (s.v[i].dot(d) > s.v[best].dot(d)) best = i;
+    return s.v[best];
+}
+/// The vertex of a surface furthest along d.
+template <class S, class Data>
+typename S::Vec furthest(const Data& data, std::uint32_t vertices, const typename S::Vec& d) {
+    std::uint32_t best = 0;
+    for (std::uint32_t i = 1; i < vertices; ++i)
+        if (data.point(i).dot(d) > data.point(best).dot(d)) best = i;
+    return data.point(best);
+}
+template <class S>
+typename S::Vec supportOf(const Chain<S>& s, const typename S::Vec& d) {
+    return furthest<S>(*s.data, static_cast<std::uint32_t>(s.data->vertices.size()), d);
+}
+template <class S>
+typename S::Vec supportOf(const TriangleMesh<S>& s, const typename S::Vec& d) {
+    return furthest<S>(*s.data, static_cast<std::uint32_t>(s.data->vertices.size()), d);
+}
+template <class S>
+typename S::Vec supportOf(const HeightField<S>& s, const typename S::Vec& d) {
+    return furthest<S>(*s.data, static_cast<std::uint32_t>(s.data->heights.size()), d);
+}
+
+template <class S>
 Aabb<S> boxOf(const Sphere<S>& s, const Pose<S>& X) {
     const typename S::Vec r = S::Vec::Constant(s.radius);
     return {X.p - r, X.p + r};
@@ -114,19 +147,67 @@ Aabb<S> boxOf(const HalfSpace<S>& s, const Pose<S>& X) {
     }
     return box;
 }
-template <class S>
-Aabb<S> boxOf(const Hull<S>& s, const Pose<S>& X) {
+/// Around `count` points, posed.
+template <class S, class Point>
+Aabb<S> boxAround(std::size_t count, Point point, const Pose<S>& X) {
     const typename S::Mat m = toMatrix(X.q);
     Aabb<S> box;
-    bool first = true;
-    for (const typename S::Vec& v : s.data->vertices) {
-        const typename S::Vec p = m * v;
-        box.min = first ? p : typename S::Vec(box.min.cwiseMin(p));
-        box.max = first ? p : typename S::Vec(box.max.cwiseMax(p));
-        first = false;
+    for (std::size_t i = 0; i < count; ++i) {
+        const typename S::Vec p = m * point(i);
+        box.min = i == 0 ? p : typename S::Vec(box.min.cwiseMin(p));
+        box.max = i == 0 ? p : typename S::Vec(box.max.cwiseMax(p));
     }
     return {box.min + X.p, box.max + X.p};
 }
+template <class S>
+Aabb<S> boxOf(const Hull<S>& s, const Pose<S>& X) {
+    const auto& v = s.data->vertices;
+    return boxAround<S>(v.size(), [&](std::size_t i) -> const typename S::Vec& { return v[i]; }, X);
+}
+template <class S>
+Aabb<S> boxOf(const Segment<S>& s, const Pose<S>& X) {
+    return boxAround<S>(2, [&](std::size_t i) { return i == 0 ? s.a : s.b; }, X);
+}
+template <class S>
+Aabb<S> boxOf(const Triangle<S>& s, const Pose<S>& X) {
+    return boxAround<S>(3, [&](std::size_t i) { return s.v[i]; }, X);
+}
+template <class S>
+Aabb<S> boxOf(const Chain<S>& s, const Pose<S>& X) {
+    const auto& v = s.data->vertices;
+    return boxAround<S>(v.size(), [&](std::size_t i) { return v[i]; }, X);
+}
+template <class S>
+Aabb<S> boxOf(const TriangleMesh<S>& s, const Pose<S>& X) {
+    const auto& v = s.data->vertices;
+    return boxAround<S>(v.size(), [&](std::size_t i) { return v[i]; }, X);
+}
+/// Every vertex, and its foot on the floor of the field.
+template <class S>
+Aabb<S> boxOf(const HeightField<S>& s, const Pose<S>& X) {
+    const auto& d = *s.data;
+    const auto point = [&](std::size_t i) {
+        typename S::Vec p = d.point(static_cast<std::uint32_t>(i / 2));
+        if (i % 2 == 1) p.y() = d.lowest - d.thickness;
+        return p;
+    };
+    return boxAround<S>(2 * d.heights.size(), point, X);
+}
+
+struct NameOf {
+    template <class S> const char* operator()(const Sphere<S>&) const { return "sphere"; }
+    template <class S> const char* operator()(const Box<S>&) const { return "box"; }
+    template <class S> const char* operator()(const Capsule<S>&) const { return "capsule"; }
+    template <class S> const char* operator()(const HalfSpace<S>&) const { return "half_space"; }
+    template <class S> const char* operator()(const Hull<S>&) const { return "hull"; }
+    template <class S> const char* operator()(const Cylinder<S>&) const { return "cylinder"; }
+    template <class S> const char* operator()(const Cone<S>&) const { return "cone"; }
+    template <class S> const char* operator()(const Segment<S>&) const { return "segment"; }
+    template <class S> const char* operator()(const Triangle<S>&) const { return "triangle"; }
+    template <class S> const char* operator()(const Chain<S>&) const { return "chain"; }
+    template <class S> const char* operator()(const TriangleMesh<S>&) const { return "triangle_mesh"; }
+    template <class S> const char* operator()(const HeightField<S>&) const { return "height_field"; }
+};
 
 }  // namespace
 
@@ -145,7 +226,13 @@ typename S::Vec support(const Shape<S>& shape, const typename S::Vec& direction)
     return std::visit([&](const auto& s) { return supportOf<S>(s, direction); }, shape);
 }
 
+template <class S>
+const char* shapeName(const Shape<S>& shape) {
+    return std::visit(NameOf{}, shape);
+}
+
 #define INSTANTIATE(S)                                                \
+    template const char* shapeName<S>(const Shape<S>&);               \
     template Hull<S> makeHull<S>(std::span<const typename S::Vec>);   \
     template Aabb<S> boundingBox<S>(const Shape<S>&, const Pose<S>&); \
     template S::Vec support<S>(const Shape<S>&, const S::Vec&);

@@ -89,7 +89,7 @@ void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, Feature<
         if (const R r = x.x() * d.x() + x.z() * d.z(); nearest < 0 || r > reach) reach = r, nearest = out.count;
         out.add(x, firstName + turn % 16);
     }
-    if (radius * across > reach + std::max(R(1e-6), kRounding<R>) * radius)
+    if (radius * across > reach + std::max(R(1e-8), kRounding<R>) * radius)
         out.at[static_cast<std::size_t>(nearest)] =
             Vec3<R>(radius * d.x() / across, y, radius * d.z() / across);
     out.normal = {0, outward, 0};
@@ -123,12 +123,42 @@ void featureOf(const Cone<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
     if (rise > -lying) out.add(apex, 33);
 }
 
+/// Either side is its face; else a side or a corner.
+template <class R>
+void featureOf(const Triangle<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
+    const Vec3<R> n = (s.v[1] - s.v[0]).cross(s.v[2] - s.v[0]).normalized();
+    if (const R c = n.dot(d); std::abs(c) > kFeatureFlat<R>) {
+        for (int i = 0; i < 3; ++i) {
+            const int k = c > 0 ? i : 2 - i;
+            out.add(s.v[static_cast<std::size_t>(k)], k);
+        }
+        out.normal = c > 0 ? n : Vec3<R>(-n);
+        return;
+    }
+    std::size_t top = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (s.v[i].dot(d) > s.v[top].dot(d)) top = i;
+    std::size_t end = top;
+    R slope = kFeatureSlope<R>;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (i == top) continue;
+        const Vec3<R> along = s.v[i] - s.v[top];
+        if (const R c = std::abs(along.dot(d)) / along.norm(); c < slope) slope = c, end = i;
+    }
+    out.add(s.v[std::min(top, end)], static_cast<int>(std::min(top, end)));
+    if (end != top) out.add(s.v[std::max(top, end)], static_cast<int>(std::max(top, end)));
+}
+
 }  // namespace
 
 template <class R>
 void supportingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, Feature<R>& out) {
     out.count = 0;
-    std::visit([&](const auto& s) { featureOf<R>(s, d, out); }, shape);
+    std::visit(
+        [&]<class Kind>(const Kind& s) {
+            if constexpr (!kComposite<Kind>) featureOf<R>(s, d, out);
+        },
+        shape);
 }
 
 template void supportingFeature<float>(const Shape<Space3f>&, const Vec3<float>&, Feature<float>&);

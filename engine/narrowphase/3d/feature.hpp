@@ -32,7 +32,7 @@ inline constexpr R kFeatureFlat = R(0.999);
 template <class R>
 inline constexpr R kFeatureSlope = R(0.0447);
 
-/// `d` is unit, in the frame of the shape. Half-spaces have no features: count = 0.
+/// `d` is unit, in the frame of the shape. Half-spaces and composites have no features: count = 0.
 template <class R>
 void supportingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, Feature<R>& out);
 

@@ -161,7 +161,7 @@ void clipFeatures(const Meeting<R>& m, const Feature<R>& ref, const Feature<R>& 
         if (const R h = height(polygon[i].x); h <= m.speculative)
             near[static_cast<std::size_t>(found++)] = i, lowest = std::min(lowest, h);
     const auto at = [&](int k) -> const ClipVertex<R>& { return polygon[near[static_cast<std::size_t>(k)]]; };
-    const R noise = std::max(R(1e-6), kRounding<R>) * (ref.at[1] - ref.at[0]).norm();
+    const R noise = std::max(R(1e-8), kRounding<R>) * (ref.at[1] - ref.at[0]).norm();
     reducePoints<S3<R>>(
         found, outward,
         [&](int k) { return steadyHeight<R>([&](int i) { return height(at(i).x); }, lowest, noise, k); },
@@ -251,6 +251,36 @@ void collideFeatures(const Shape<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, c
     toWorldFrame<S>(out, Xa);
 }
 
+template <class R>
+void collideAlong(const Triangle<Space<R, 3>>& piece, bool front, const Shape<Space<R, 3>>& convex,
+                  const Pose<Space<R, 3>>& X, typename Space<R, 3>::Real speculative,
+                  Manifold<Space<R, 3>>& out) {
+    using S = Space<R, 3>;
+    const Vec3<R> up = (piece.v[1] - piece.v[0]).cross(piece.v[2] - piece.v[0]).normalized();
+    const Vec3<R> n = front ? up : Vec3<R>(-up);
+    const Shape<S> triangle = piece;
+    const Meeting<R> m{triangle, convex, X, n, R(0), Vec3<R>::Zero(), Vec3<R>::Zero(), R(0), speculative};
+    Feature<R> fa, fb;
+    featuresAlong(m, fa, fb);
+    out.count = 0;
+    out.normal = n;
+    if (fb.count >= 2) {
+        clipFeatures(m, fa, fb, true, out);
+    } else if (fb.count == 1) {
+        const Vec3<R>& x = fb.at[0];
+        for (std::size_t i = 0; i < 3; ++i)
+            if ((fa.at[(i + 1) % 3] - fa.at[i]).cross(n).dot(x - fa.at[i]) > 0) return;
+        const R s = n.dot(x - fa.at[0]);
+        if (s <= speculative) addPoint<S>(out, x - s * n, x, s, vertexFeature(false, fb.index[0]));
+    }
+}
+
+#define ALONG(S)                                                                                           \
+    template void collideAlong<S::Real>(const Triangle<S>&, bool, const Shape<S>&, const Pose<S>&, S::Real, \
+                                        Manifold<S>&);
+ALONG(Space3f)
+ALONG(Space3d)
+#undef ALONG
 template void collideFeatures<float>(const Shape<Space3f>&, const Pose<Space3f>&, const Shape<Space3f>&,
                                      const Pose<Space3f>&, float, Manifold<Space3f>&);
 template void collideFeatures<double>(const Shape<Space3d>&, const Pose<Space3d>&, const Shape<Space3d>&,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Closed forms of cylinder and cone (axis local y) against ball and half-space.
+// Closed forms of cylinder and cone (axis local y) against ball and half-space, and of a ball against a triangle.
 //
 //   ball: in the half-plane (rho, y) through the axis and the ball's centre the solid is a convex polygon, the
 //     rectangle 0..r x -h..h or the triangle (0, h), (r, -h), (0, -h); its nearest point, or for a centre
@@ -105,8 +105,8 @@ void addRim(R radius, R y, R outward, const Vec3<R>& down, std::uint32_t firstId
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < 4; ++i)
         if (fixed[i].dot(down) > fixed[nearest].dot(down)) nearest = i;
-    // 1e-6 of the radius: far above the noise of a resting body, far below what its weight could tell.
-    const bool moved = lowest.dot(down) > fixed[nearest].dot(down) + std::max(R(1e-6), kRounding<R>) * radius;
+    // 1e-8 of the radius: above the noise of a resting body, far below what its weight could tell.
+    const bool moved = lowest.dot(down) > fixed[nearest].dot(down) + std::max(R(1e-8), kRounding<R>) * radius;
     for (std::size_t i = 0; i < 4; ++i)
         out.add(moved && i == nearest ? lowest : fixed[i], firstId + static_cast<std::uint32_t>(i));
 }
@@ -150,7 +150,49 @@ void roundAgainstPlane(const Round& a, const Pose<Space<R, 3>>& Xa, const HalfSp
                     emit);
 }
 
+/// Point of a triangle nearest to x: over the face its foot, else the nearest point of the sides.
+template <class R>
+Vec3<R> nearestOnTriangle(const Triangle<Space<R, 3>>& t, const Vec3<R>& n, const Vec3<R>& x, bool& overFace) {
+    overFace = true;
+    Vec3<R> best = Vec3<R>::Zero();
+    R least = std::numeric_limits<R>::max();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3<R>& v = t.v[i];
+        const Vec3<R> e = t.v[(i + 1) % 3] - v;
+        overFace = overFace && n.cross(e).dot(x - v) >= 0;
+        const Vec3<R> p = v + std::clamp(e.dot(x - v) / e.squaredNorm(), R(0), R(1)) * e;
+        if (const R d = (x - p).squaredNorm(); d < least) least = d, best = p;
+    }
+    return overFace ? Vec3<R>(x - n.dot(x - t.v[0]) * n) : best;
+}
+
 }  // namespace
+
+/// Over the face the normal is the face's own: exact however thin the gap, and the same on either side.
+template <class R>
+void collidePair(const Sphere<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Triangle<Space<R, 3>>& b,
+                 const Pose<Space<R, 3>>& Xb, typename Space<R, 3>::Real speculative,
+                 Manifold<Space<R, 3>>& out) {
+    using S = Space<R, 3>;
+    const Vec3<R> c = rotateInverse<R>(Xb.q, Xa.p - Xb.p);
+    const Vec3<R> n = (b.v[1] - b.v[0]).cross(b.v[2] - b.v[0]).normalized();
+    bool overFace = false;
+    const Vec3<R> p = nearestOnTriangle<R>(b, n, c, overFace);
+    const R height = n.dot(c - b.v[0]);
+    const Vec3<R> up = height < 0 ? Vec3<R>(-n) : n;
+    if (overFace) {
+        if (std::abs(height) - a.radius > speculative) return;
+        out.normal = -up;
+        addPoint<S>(out, c - a.radius * up, p, std::abs(height) - a.radius, 0);
+    } else {
+        roundedPoint<S>(c, a.radius, p, R(0), Vec3<R>(-up), speculative, 0, out);
+    }
+    toWorldFrame<S>(out, Xb);
+}
+template void collidePair<float>(const Sphere<Space3f>&, const Pose<Space3f>&, const Triangle<Space3f>&,
+                                 const Pose<Space3f>&, float, Manifold<Space3f>&);
+template void collidePair<double>(const Sphere<Space3d>&, const Pose<Space3d>&, const Triangle<Space3d>&,
+                                  const Pose<Space3d>&, double, Manifold<Space3d>&);
 
 #define PAIR(Round)                                                                                           \
     template <class R>                                                                                        \

@@ -41,8 +41,8 @@ TYPED_TEST_SUITE(Distance, Spaces);
 TYPED_TEST(Distance, UpperAndLowerBoundMeet) {
     using S = TypeParam;
     int apart = 0, overlapping = 0;
-    for (int ka = 0; ka < Kind::Count; ++ka)
-        for (int kb = 0; kb < Kind::Count; ++kb) {
+    for (int ka = 0; ka < kKinds<S>; ++ka)
+        for (int kb = 0; kb < kKinds<S>; ++kb) {
             if (ka == Kind::HalfSpace && kb == Kind::HalfSpace) continue;
             SCOPED_TRACE("kinds " + std::to_string(ka) + " and " + std::to_string(kb));
             Random<S> random{std::mt19937(static_cast<unsigned>(10 * ka + kb))};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -76,9 +77,12 @@ struct Random {
     }
 };
 
+/// Indices of Shape that tests name; the others are told by kKinds alone.
 struct Kind {
-    enum { Sphere, Box, Capsule, HalfSpace, Hull, Count };
+    enum { Sphere, Box, Capsule, HalfSpace, Hull };
 };
+template <class S>
+inline constexpr int kKinds = static_cast<int>(std::variant_size_v<Shape<S>>);
 
 /// One shape of each kind, by Shape index.
 template <class S>
@@ -93,13 +97,23 @@ Shape<S> shapeOfKind(int kind) {
             return Capsule<S>{R(0.25), R(0.5)};
         case Kind::HalfSpace:
             return HalfSpace<S>{vec<S>(0, 1, 0), R(0)};
-        default: {
+        case Kind::Hull: {
             Random<S> random{std::mt19937(77)};
             std::vector<typename S::Vec> points;
             for (int i = 0; i < 12; ++i)
                 points.push_back(static_cast<R>(random.uniform(0.4, 0.8)) * random.direction());
             return makeHull<S>(points);
         }
+        default:
+            break;
+    }
+    if constexpr (S::dim == 3) {
+        const Shape<S> more[] = {Cylinder<S>{R(0.4), R(0.5)}, Cone<S>{R(0.5), R(0.6)}};
+        static_assert(std::size(more) + 5 == std::variant_size_v<Shape<S>>, "a kind without an example");
+        return more[kind - 5];
+    } else {
+        static_assert(std::variant_size_v<Shape<S>> == 5, "a kind without an example");
+        throw std::logic_error("no such kind");
     }
 }
 

@@ -18,8 +18,8 @@ class Pairs : public testing::Test {
     /// `visit(a, Xa, b, Xb)` for random overlapping and nearly touching poses of every pair of kinds.
     template <class Visit>
     void forEachPair(int perPair, Visit visit) {
-        for (int ka = 0; ka < Kind::Count; ++ka)
-            for (int kb = 0; kb < Kind::Count; ++kb) {
+        for (int ka = 0; ka < kKinds<S>; ++ka)
+            for (int kb = 0; kb < kKinds<S>; ++kb) {
                 if (ka == Kind::HalfSpace && kb == Kind::HalfSpace) continue;
                 SCOPED_TRACE("kinds " + std::to_string(ka) + " and " + std::to_string(kb));
                 Random<S> random{std::mt19937(static_cast<unsigned>(10 * ka + kb))};
@@ -161,8 +161,8 @@ TYPED_TEST(Pairs, FarFromTheOriginIsTheSame) {
 /// Shapes with one centre: any direction may be right, none may be undefined.
 TYPED_TEST(Pairs, ConcentricShapesHaveAUnitNormal) {
     using S = TypeParam;
-    for (int ka = 0; ka < Kind::Count; ++ka)
-        for (int kb = 0; kb < Kind::Count; ++kb) {
+    for (int ka = 0; ka < kKinds<S>; ++ka)
+        for (int kb = 0; kb < kKinds<S>; ++kb) {
             if (ka == Kind::HalfSpace || kb == Kind::HalfSpace) continue;
             SCOPED_TRACE("kinds " + std::to_string(ka) + " and " + std::to_string(kb));
             const Shape<S> a = shapeOfKind<S>(ka), b = shapeOfKind<S>(kb);

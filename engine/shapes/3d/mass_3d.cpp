@@ -61,10 +61,6 @@ Moments moments(const Cone<Space<R, 3>>& s) {
     return {volume, V(0, -0.5 * h, 0), diagonal(across, 0.3 * volume * r * r, across)};
 }
 template <class R>
-Moments moments(const HalfSpace<Space<R, 3>>&) {
-    throw std::invalid_argument("a half-space has no mass");
-}
-template <class R>
 Moments moments(const Hull<Space<R, 3>>& s) {
     const auto& hull = *s.data;
     const V origin = hull.vertices[0].template cast<double>();
@@ -95,7 +91,14 @@ Moments moments(const Hull<Space<R, 3>>& s) {
 
 template <class R>
 MassProperties<Space<R, 3>> massOf(const Shape<Space<R, 3>>& shape, R density) {
-    const Moments m = std::visit([](const auto& s) { return moments<R>(s); }, shape);
+    const Moments m = std::visit(
+        []<class Kind>(const Kind& s) -> Moments {
+            if constexpr (kStaticOnly<Kind>)
+                throw std::invalid_argument("half-spaces and surfaces have no mass");
+            else
+                return moments<R>(s);
+        },
+        shape);
     const double rho = density;
     return {static_cast<R>(rho * m.volume), m.center.cast<R>(), (rho * m.inertia).cast<R>()};
 }
