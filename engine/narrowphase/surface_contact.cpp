@@ -124,8 +124,8 @@ bool isSurfaceNormal(const Data& data, std::uint32_t piece, const typename S::Ve
     return all;
 }
 
-template <class S, class Data>
-void collideWith(CollideFunction<S> collide, const Data& data, std::uint32_t index, const Pose<S>& Xs,
+template <class S, class Collide, class Data>
+void collideWith(Collide collide, const Data& data, std::uint32_t index, const Pose<S>& Xs,
                  const Shape<S>& convex, const Pose<S>& Xc, typename S::Real speculative, Manifold<S>& out) {
     using R = typename S::Real;
     using V = typename S::Vec;
@@ -156,10 +156,14 @@ void collideWith(CollideFunction<S> collide, const Data& data, std::uint32_t ind
 }  // namespace
 
 template <class S>
-void collidePiece(CollideFunction<S> collide, const Shape<S>& surface, std::uint32_t piece,
+void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t piece,
                   const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
                   typename S::Real speculative, Manifold<S>& out) {
     out.count = 0;
+    const auto collide = [&](const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
+                             typename S::Real distance, Manifold<S>& m) {
+        narrowPhase.collide(a, Xa, b, Xb, distance, m);
+    };
     withSurface<S>(surface, [&](const auto& data) {
         collideWith<S>(collide, data, piece, Xsurface, convex, Xconvex, speculative, out);
     });
@@ -189,6 +193,11 @@ void collideDeepestPiece(CollideFunction<S> collide, const Shape<S>& surface, co
 }
 
 template <class S>
+void flipManifold(Manifold<S>& manifold) {
+    flip(manifold);
+}
+
+template <class S>
 Aabb<S> boxOnSurface(const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
                      typename S::Real margin) {
     Aabb<S> box = boundingBox<S>(convex, relativePose<S>(Xsurface, Xconvex));
@@ -198,10 +207,11 @@ Aabb<S> boxOnSurface(const Pose<S>& Xsurface, const Shape<S>& convex, const Pose
 }
 
 #define INSTANTIATE(S)                                                                                       \
-    template void collidePiece<S>(CollideFunction<S>, const Shape<S>&, std::uint32_t, const Pose<S>&,        \
+    template void collidePiece<S>(const NarrowPhase<S>&, const Shape<S>&, std::uint32_t, const Pose<S>&,     \
                                   const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);                   \
     template void collideDeepestPiece<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&,                \
                                          const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);            \
+    template void flipManifold<S>(Manifold<S>&);                                                             \
     template Aabb<S> boxOnSurface<S>(const Pose<S>&, const Shape<S>&, const Pose<S>&, S::Real);
 INSTANTIATE(Space2f)
 INSTANTIATE(Space2d)

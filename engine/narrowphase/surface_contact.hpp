@@ -10,10 +10,10 @@
 
 namespace rigor::engine {
 
-/// Fills `out` (A = surface) for one piece of the surface and a posed convex shape. `collide` finds contacts
+/// Fills `out` (A = surface) for one piece of the surface and a posed convex shape. `narrowPhase` finds contacts
 /// of the piece as a Segment or Triangle. Inner edges do not catch: see surface_contact.cpp.
 template <class S>
-void collidePiece(CollideFunction<S> collide, const Shape<S>& surface, std::uint32_t piece,
+void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t piece,
                   const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
                   typename S::Real speculative, Manifold<S>& out);
 
@@ -22,6 +22,10 @@ template <class S>
 void collideDeepestPiece(CollideFunction<S> collide, const Shape<S>& surface, const Pose<S>& Xsurface,
                          const Shape<S>& convex, const Pose<S>& Xconvex, typename S::Real speculative,
                          Manifold<S>& out);
+
+/// The manifold of (A, B) from that of (B, A).
+template <class S>
+void flipManifold(Manifold<S>& manifold);
 
 /// Box of the convex shape in the frame of the surface, grown by `margin` [m]: where to look for pieces.
 template <class S>

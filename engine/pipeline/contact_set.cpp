@@ -18,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/narrowphase/surface_contact.hpp"
+
 namespace rigor::engine {
 
 template <class S>
@@ -126,26 +128,61 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
                                   Real speculativeDistance) {
     std::swap(contacts_, previous_);
     contacts_.clear();
-    auto old = previous_.begin();
+    auto old = previous_.cbegin();
     for (const ProxyPair& p : proxyPairs_) {
         if (!mayCollide(bodies, shapes_[p.a].body, shapes_[p.b].body)) continue;
         const bool ordered = shapes_[p.a].body < shapes_[p.b].body;
         const std::uint32_t a = ordered ? p.a : p.b, b = ordered ? p.b : p.a;
-        Contact<S>& contact = contacts_.emplace_back();
-        narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
-                            speculativeDistance, contact.manifold);
-        if (contact.manifold.count == 0) {
-            contacts_.pop_back();
+        const bool surfaceA = isComposite<S>(shapes_[a].shape);
+        if (!surfaceA && !isComposite<S>(shapes_[b].shape)) {
+            Contact<S>& contact = contacts_.emplace_back();
+            narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
+                                speculativeDistance, contact.manifold);
+            keepLast(bodies, a, b, kNone, old);
             continue;
         }
-        contact.shapeA = a, contact.shapeB = b;
-        contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
-        contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
-        placePoints(bodies, contact);
-        const auto sortKey = [](const Contact<S>& c) { return pairKey(c.shapeA, c.shapeB); };
-        while (old != previous_.end() && sortKey(*old) < sortKey(contact)) ++old;
-        if (old != previous_.end() && sortKey(*old) == sortKey(contact)) takeOver(bodies, *old, contact);
+        const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
+        findPieces(surface, other, speculativeDistance);
+        for (const std::uint32_t piece : pieces_) {
+            Contact<S>& contact = contacts_.emplace_back();
+            collidePiece<S>(narrowPhase, shapes_[surface].shape, piece, shapePoses_[surface], shapes_[other].shape,
+                            shapePoses_[other], speculativeDistance, contact.manifold);
+            if (!surfaceA) flipManifold(contact.manifold);
+            keepLast(bodies, a, b, piece, old);
+        }
     }
+}
+
+/// Pieces of a chain, mesh or height field near another shape, in ascending order.
+template <class S>
+void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other, Real speculativeDistance) {
+    pieces_.clear();
+    const Aabb<S> box = boxOnSurface<S>(shapePoses_[surface], shapes_[other].shape, shapePoses_[other],
+                                        speculativeDistance);
+    withSurface<S>(shapes_[surface].shape, [&](const auto& data) {
+        data.query(box, [&](std::uint32_t piece) { pieces_.push_back(piece); });
+    });
+    std::sort(pieces_.begin(), pieces_.end());
+}
+
+/// Completes the contact just added, or drops it where nothing touches.
+template <class S>
+void ContactSet<S>::keepLast(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b, std::uint32_t piece,
+                             typename std::vector<Contact<S>>::const_iterator& old) {
+    Contact<S>& contact = contacts_.back();
+    if (contact.manifold.count == 0) {
+        contacts_.pop_back();
+        return;
+    }
+    contact.shapeA = a, contact.shapeB = b, contact.piece = piece;
+    contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
+    contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
+    placePoints(bodies, contact);
+    const auto sortKey = [](const Contact<S>& c) {
+        return std::pair(pairKey(c.shapeA, c.shapeB), c.piece);
+    };
+    while (old != previous_.end() && sortKey(*old) < sortKey(contact)) ++old;
+    if (old != previous_.end() && sortKey(*old) == sortKey(contact)) takeOver(bodies, *old, contact);
 }
 
 /// One point for both bodies, or equal and opposite impulses would make a couple; against a body that takes

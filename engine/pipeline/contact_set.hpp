@@ -47,6 +47,7 @@ struct Contact {
         bool impact = false;             ///< hit, rather than rested, in this step
     };
     std::uint32_t shapeA = 0, shapeB = 0, bodyA = 0, bodyB = 0;  ///< dense indices
+    std::uint32_t piece = 0xffffffffu;  ///< segment or triangle of the chain, mesh or field; none of others
     PairCoefficients<S> coefficients;
     Manifold<S> manifold;
     std::array<Point, S::maxManifoldPoints> points;
@@ -116,6 +117,9 @@ class ContactSet {
     bool mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b) const;
 
   private:
+    void findPieces(std::uint32_t surface, std::uint32_t other, Real speculativeDistance);
+    void keepLast(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b, std::uint32_t piece,
+                  typename std::vector<Contact<S>>::const_iterator& old);
     void placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) const;
     void takeOver(const BodyArrays<S>& bodies, const Contact<S>& old, Contact<S>& contact) const;
     void addPointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact, int index,
@@ -128,7 +132,8 @@ class ContactSet {
     std::vector<PairCoefficients<S>> pairs_ = std::vector<PairCoefficients<S>>(1);
     std::vector<std::uint64_t> excluded_;
 
-    std::vector<Contact<S>> contacts_, previous_;  ///< sorted by shape pair
+    std::vector<Contact<S>> contacts_, previous_;  ///< sorted by shape pair and piece
+    std::vector<std::uint32_t> pieces_;
 
     std::vector<Pose<S>> shapePoses_;
     std::vector<Aabb<S>> boxes_;

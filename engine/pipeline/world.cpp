@@ -7,6 +7,7 @@
 
 #include "engine/core/hash.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
+#include "engine/shapes/surface.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -346,6 +347,7 @@ std::uint64_t World<S>::stateHash() const {
 #undef FIELD
     for (const Contact<S>& contact : contacts_.contacts()) {
         hash.add(contact.shapeA), hash.add(contact.shapeB);
+        if (contact.piece != kNone) hash.add(contact.piece);
         for (int i = 0; i < contact.manifold.count; ++i) {
             const auto& point = contact.points[static_cast<std::size_t>(i)];
             hash.add(contact.manifold.points[static_cast<std::size_t>(i)].feature);

@@ -69,7 +69,7 @@ void featureOf(const Hull<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
 
 /// Sixteen vertices fixed in the body, on the rim of the disc at height y; counter-clockwise seen from
 /// `outward` = +-1 times y. The rim's own extreme point along d takes the place of the nearest of them once it
-/// is further out by more than the noise of a resting body.
+/// is further out by more than kRimNoise.
 template <class R>
 void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, Feature<R>& out) {
     static constexpr std::array<double, 4> kCos{1.0, 0.92387953251128675613, 0.70710678118654752440,
@@ -89,7 +89,7 @@ void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, Feature<
         if (const R r = x.x() * d.x() + x.z() * d.z(); nearest < 0 || r > reach) reach = r, nearest = out.count;
         out.add(x, firstName + turn % 16);
     }
-    if (radius * across > reach + std::max(R(1e-8), kRounding<R>) * radius)
+    if (radius * across > reach + std::max(kRimNoise<R>, kRounding<R>) * radius)
         out.at[static_cast<std::size_t>(nearest)] =
             Vec3<R>(radius * d.x() / across, y, radius * d.z() / across);
     out.normal = {0, outward, 0};

@@ -32,6 +32,13 @@ inline constexpr R kFeatureFlat = R(0.999);
 template <class R>
 inline constexpr R kFeatureSlope = R(0.0447);
 
+/// Points on the rim of a disc.
+inline constexpr int kRimPoints = 16;
+/// Relative to the radius: depths this close are equal. Resting bodies rock by the slop of position correction
+/// (1e-5 m); below that another choice of the four points of a cap changes nothing but which they are.
+template <class R>
+inline constexpr R kRimNoise = R(4e-6);
+
 /// `d` is unit, in the frame of the shape. Half-spaces and composites have no features: count = 0.
 template <class R>
 void supportingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, Feature<R>& out);

@@ -13,7 +13,7 @@
 //   4. the deepest point is kept: where clipping lost it the closest points are put in.
 // Sources: [Bergen2003], [Ericson2005, ch. 5.3, 8.3].
 //
-// Limits: a disc is clipped as an inscribed polygon of 16 sides (its lowest point is exact); overlapping curved
+// Limits: a disc is clipped as an inscribed polygon of 16 sides (its lowest point is good to kRimNoise); overlapping curved
 // sides have a normal as good as EPA's. Cost: that of closestPoints and O(n m) of the features.
 #include "engine/narrowphase/3d/feature.hpp"
 #include "engine/narrowphase/distance.hpp"
@@ -134,6 +134,15 @@ R steadyHeight(Height height, R lowest, R noise, int i) {
     return h <= lowest + noise ? lowest : h;
 }
 
+/// A disc's points all are as deep where it lies flat. Which of them count as deepest must not hang on the
+/// rocking of a resting body: another choice in every step has no impulses to start from.
+template <class R>
+R selectionNoise(const Meeting<R>& m, const Feature<R>& ref, const Feature<R>& inc) {
+    const bool discs = ref.count == kRimPoints || inc.count == kRimPoints;
+    const R size = std::min((ref.at[1] - ref.at[0]).norm(), (inc.at[1] - inc.at[0]).norm());
+    return discs ? std::max(R(2) * kRimNoise<R> * size, m.tolerance) : m.tolerance;
+}
+
 /// A face against a face or a segment.
 template <class R>
 void clipFeatures(const Meeting<R>& m, const Feature<R>& ref, const Feature<R>& inc, bool refIsA,
@@ -161,7 +170,7 @@ void clipFeatures(const Meeting<R>& m, const Feature<R>& ref, const Feature<R>& 
         if (const R h = height(polygon[i].x); h <= m.speculative)
             near[static_cast<std::size_t>(found++)] = i, lowest = std::min(lowest, h);
     const auto at = [&](int k) -> const ClipVertex<R>& { return polygon[near[static_cast<std::size_t>(k)]]; };
-    const R noise = std::max(R(1e-8), kRounding<R>) * (ref.at[1] - ref.at[0]).norm();
+    const R noise = selectionNoise(m, ref, inc);
     reducePoints<S3<R>>(
         found, outward,
         [&](int k) { return steadyHeight<R>([&](int i) { return height(at(i).x); }, lowest, noise, k); },
@@ -204,7 +213,10 @@ void keepDeepest(const Meeting<R>& m, const Feature<R>& fa, const Feature<R>& fb
     R least = std::numeric_limits<R>::max();
     for (int i = 0; i < out.count; ++i)
         least = std::min(least, out.points[static_cast<std::size_t>(i)].separation);
-    if (out.count > 0 && least <= m.separation + R(4) * m.tolerance) return;
+    const R noise = fa.count > 2 && fb.count > 1   ? selectionNoise(m, fa, fb)
+                    : fb.count > 2 && fa.count > 1 ? selectionNoise(m, fb, fa)
+                                                   : m.tolerance;
+    if (out.count > 0 && least <= m.separation + R(4) * noise) return;
     if (out.count == S3<R>::maxManifoldPoints) --out.count;
     const bool vertexOnA = fa.count == 1, vertexOnB = fb.count == 1;
     const std::uint32_t feature = vertexOnB   ? vertexFeature(false, fb.index[0])

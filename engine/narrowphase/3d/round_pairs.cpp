@@ -10,7 +10,7 @@
 //     r u, u = -n_xz / |n_xz|. A rim that lies nearly flat on the plane gets four points: fixed in the body,
 //     the nearest of them moved to the lowest point once that is lower by more than rounding. A standing
 //     cylinder so keeps its four points from step to step, and a tilted one rolls on its lowest point.
-#include "engine/narrowphase/detail.hpp"
+#include "engine/narrowphase/3d/feature.hpp"
 #include "engine/narrowphase/pairs.hpp"
 
 namespace rigor::engine {
@@ -105,8 +105,7 @@ void addRim(R radius, R y, R outward, const Vec3<R>& down, std::uint32_t firstId
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < 4; ++i)
         if (fixed[i].dot(down) > fixed[nearest].dot(down)) nearest = i;
-    // 1e-8 of the radius: above the noise of a resting body, far below what its weight could tell.
-    const bool moved = lowest.dot(down) > fixed[nearest].dot(down) + std::max(R(1e-8), kRounding<R>) * radius;
+    const bool moved = lowest.dot(down) > fixed[nearest].dot(down) + std::max(kRimNoise<R>, kRounding<R>) * radius;
     for (std::size_t i = 0; i < 4; ++i)
         out.add(moved && i == nearest ? lowest : fixed[i], firstId + static_cast<std::uint32_t>(i));
 }

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "engine/narrowphase/manifold.hpp"
+#include "engine/shapes/surface.hpp"
 
 namespace rigor::engine::test {
 
@@ -84,6 +84,24 @@ struct Kind {
 template <class S>
 inline constexpr int kKinds = static_cast<int>(std::variant_size_v<Shape<S>>);
 
+/// Two slopes of a roof, as a mesh of four triangles.
+template <class S>
+Shape<S> roof() {
+    const typename S::Vec v[] = {vec<S>(-0.8, 0, -0.8), vec<S>(0, 0.3, -0.8), vec<S>(0.8, 0, -0.8),
+                                 vec<S>(-0.8, 0, 0.8),  vec<S>(0, 0.3, 0.8),  vec<S>(0.8, 0, 0.8)};
+    const std::array<std::uint32_t, 3> t[] = {{0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}};
+    return makeTriangleMesh<S>(v, t);
+}
+/// A grid of bumps.
+template <class S>
+Shape<S> bumps() {
+    using R = typename S::Real;
+    std::vector<R> heights;
+    for (int k = 0; k < 5; ++k)
+        for (int i = 0; i < 6; ++i) heights.push_back(R(0.1) * static_cast<R>((3 * i + 2 * k) % 4) - R(0.2));
+    return makeHeightField<S>(6, 5, R(0.4), R(0.4), heights, R(1));
+}
+
 /// One shape of each kind, by Shape index.
 template <class S>
 Shape<S> shapeOfKind(int kind) {
@@ -107,14 +125,33 @@ Shape<S> shapeOfKind(int kind) {
         default:
             break;
     }
+    constexpr std::size_t known = 5;
     if constexpr (S::dim == 3) {
-        const Shape<S> more[] = {Cylinder<S>{R(0.4), R(0.5)}, Cone<S>{R(0.5), R(0.6)}};
-        static_assert(std::size(more) + 5 == std::variant_size_v<Shape<S>>, "a kind without an example");
-        return more[kind - 5];
+        const Shape<S> more[] = {
+            Cylinder<S>{R(0.4), R(0.5)}, Cone<S>{R(0.5), R(0.6)},
+            Triangle<S>{{vec<S>(-0.6, -0.1, -0.5), vec<S>(0.7, 0, -0.3), vec<S>(0, 0.2, 0.7)}}, roof<S>(),
+            bumps<S>()};
+        static_assert(std::size(more) + known == std::variant_size_v<Shape<S>>, "a kind without an example");
+        return more[static_cast<std::size_t>(kind) - known];
     } else {
-        static_assert(std::variant_size_v<Shape<S>> == 5, "a kind without an example");
-        throw std::logic_error("no such kind");
+        const typename S::Vec points[] = {vec<S>(-0.7, 0.2), vec<S>(-0.2, -0.1), vec<S>(0.3, 0), vec<S>(0.6, 0.4)};
+        const Shape<S> more[] = {Segment<S>{vec<S>(-0.6, -0.2), vec<S>(0.7, 0.3)}, makeChain<S>(points, false)};
+        static_assert(std::size(more) + known == std::variant_size_v<Shape<S>>, "a kind without an example");
+        return more[static_cast<std::size_t>(kind) - known];
     }
+}
+
+/// Do the tables of convex pairs ask about these two? Static shapes never meet; composites are no convex shape
+/// (surface_contact_test.cpp).
+template <class S>
+bool isConvexPair(const Shape<S>& a, const Shape<S>& b) {
+    return !(isStaticOnly<S>(a) && isStaticOnly<S>(b)) && !isComposite<S>(a) && !isComposite<S>(b);
+}
+/// Curved sides: what an iteration finds of them is good to about the root of the rounding at worst.
+template <class S>
+bool isRound(const Shape<S>& s) {
+    const std::string name = shapeName<S>(s);
+    return name == "cylinder" || name == "cone";
 }
 
 template <class S>
