@@ -193,6 +193,22 @@ void collideDeepestPiece(CollideFunction<S> collide, const Shape<S>& surface, co
 }
 
 template <class S>
+bool collideSurfaces(CollideFunction<S> collide, const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b,
+                     const Pose<S>& Xb, typename S::Real speculative, Manifold<S>& out) {
+    if (isStaticOnly<S>(a) && isStaticOnly<S>(b)) {
+        out.count = 0;
+    } else if (isComposite<S>(a)) {
+        collideDeepestPiece<S>(collide, a, Xa, b, Xb, speculative, out);
+    } else if (isComposite<S>(b)) {
+        collideDeepestPiece<S>(collide, b, Xb, a, Xa, speculative, out);
+        flip(out);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+template <class S>
 void flipManifold(Manifold<S>& manifold) {
     flip(manifold);
 }
@@ -211,6 +227,8 @@ Aabb<S> boxOnSurface(const Pose<S>& Xsurface, const Shape<S>& convex, const Pose
                                   const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);                   \
     template void collideDeepestPiece<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&,                \
                                          const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);            \
+    template bool collideSurfaces<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&, const Shape<S>&,   \
+                                     const Pose<S>&, S::Real, Manifold<S>&);                                 \
     template void flipManifold<S>(Manifold<S>&);                                                             \
     template Aabb<S> boxOnSurface<S>(const Pose<S>&, const Shape<S>&, const Pose<S>&, S::Real);
 INSTANTIATE(Space2f)

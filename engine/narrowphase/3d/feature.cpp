@@ -9,14 +9,14 @@ template <class R>
 using S3 = Space<R, 3>;
 
 template <class R>
-void featureOf(const Sphere<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
+void featureOf(const Sphere<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     out.add(s.radius * d, 0);
 }
 template <class R>
-void featureOf(const HalfSpace<S3<R>>&, const Vec3<R>&, Feature<R>&) {}
+void featureOf(const HalfSpace<S3<R>>&, const Vec3<R>&, SupportFeature<R>&) {}
 
 template <class R>
-void featureOf(const Capsule<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
+void featureOf(const Capsule<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     const Vec3<R> end(0, s.halfLength, 0), out1 = s.radius * d;
     const bool lying = std::abs(d.y()) < kFeatureSlope<R>;
     if (lying || d.y() < 0) out.add(out1 - end, 0);
@@ -25,13 +25,13 @@ void featureOf(const Capsule<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
 
 /// The face that looks along d; else the edge at the extreme vertex that is most nearly perpendicular to d.
 template <class R>
-void polytopeFeature(const Polytope<R>& p, const Vec3<R>& d, Feature<R>& out) {
+void polytopeFeature(const Polytope<R>& p, const Vec3<R>& d, SupportFeature<R>& out) {
     int face = 0, vertex = 0;
     for (int i = 1; i < p.faceCount; ++i)
         if (p.faces[i].normal.dot(d) > p.faces[face].normal.dot(d)) face = i;
     const HullFace<R>& f = p.faces[face];
     if (f.normal.dot(d) > kFeatureFlat<R>) {
-        const int n = std::min(f.count, Feature<R>::kMost);
+        const int n = std::min(f.count, SupportFeature<R>::kMost);
         for (int k = 0; k < n; ++k) {
             const int i = f.count <= n ? k : k * f.count / n;
             out.add(p.loopVertex(f, i), p.loops[f.first + i]);
@@ -57,12 +57,12 @@ void polytopeFeature(const Polytope<R>& p, const Vec3<R>& d, Feature<R>& out) {
     out.add(p.vertices[p.edges[best].v1], p.edges[best].v1);
 }
 template <class R>
-void featureOf(const Box<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
+void featureOf(const Box<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     BoxStorage<R> store;
     polytopeFeature(polytopeOf<R>(s, store), d, out);
 }
 template <class R>
-void featureOf(const Hull<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
+void featureOf(const Hull<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     BoxStorage<R> unused;
     polytopeFeature(polytopeOf<R>(s, unused), d, out);
 }
@@ -71,7 +71,7 @@ void featureOf(const Hull<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
 /// `outward` = +-1 times y. The rim's own extreme point along d takes the place of the nearest of them once it
 /// is further out by more than kRimNoise.
 template <class R>
-void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, Feature<R>& out) {
+void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, SupportFeature<R>& out) {
     static constexpr std::array<double, 4> kCos{1.0, 0.92387953251128675613, 0.70710678118654752440,
                                                 0.38268343236508977173};
     const auto cosine = [](int k) {  // of k pi / 8
@@ -96,7 +96,7 @@ void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, Feature<
 }
 
 template <class R>
-void featureOf(const Cylinder<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
+void featureOf(const Cylinder<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     if (std::abs(d.y()) > kFeatureFlat<R>) {
         const R up = d.y() < 0 ? R(-1) : R(1);
         addDisc<R>(s.radius, up * s.halfLength, up, d, up < 0 ? 0 : 16, out);
@@ -109,7 +109,7 @@ void featureOf(const Cylinder<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
 }
 
 template <class R>
-void featureOf(const Cone<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
+void featureOf(const Cone<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     if (d.y() < -kFeatureFlat<R>) {
         addDisc<R>(s.radius, -s.halfLength, R(-1), d, 0, out);
         return;
@@ -125,7 +125,7 @@ void featureOf(const Cone<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
 
 /// Either side is its face; else a side or a corner.
 template <class R>
-void featureOf(const Triangle<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
+void featureOf(const Triangle<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     const Vec3<R> n = (s.v[1] - s.v[0]).cross(s.v[2] - s.v[0]).normalized();
     if (const R c = n.dot(d); std::abs(c) > kFeatureFlat<R>) {
         for (int i = 0; i < 3; ++i) {
@@ -152,7 +152,7 @@ void featureOf(const Triangle<S3<R>>& s, const Vec3<R>& d, Feature<R>& out) {
 }  // namespace
 
 template <class R>
-void supportingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, Feature<R>& out) {
+void supportingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, SupportFeature<R>& out) {
     out.count = 0;
     std::visit(
         [&]<class Kind>(const Kind& s) {
@@ -161,7 +161,7 @@ void supportingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, Featur
         shape);
 }
 
-template void supportingFeature<float>(const Shape<Space3f>&, const Vec3<float>&, Feature<float>&);
-template void supportingFeature<double>(const Shape<Space3d>&, const Vec3<double>&, Feature<double>&);
+template void supportingFeature<float>(const Shape<Space3f>&, const Vec3<float>&, SupportFeature<float>&);
+template void supportingFeature<double>(const Shape<Space3d>&, const Vec3<double>&, SupportFeature<double>&);
 
 }  // namespace rigor::engine

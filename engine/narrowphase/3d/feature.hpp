@@ -12,7 +12,7 @@ namespace rigor::engine {
 
 /// 1 vertex, 2: segment, more: convex face, counter-clockwise seen from outside.
 template <class R>
-struct Feature {
+struct SupportFeature {
     static constexpr int kMost = 64;  ///< larger faces are thinned out evenly
     std::array<Vec3<R>, kMost> at;
     std::array<int, kMost> index;  ///< names of the vertices, unique in the shape
@@ -41,6 +41,6 @@ inline constexpr R kRimNoise = R(4e-6);
 
 /// `d` is unit, in the frame of the shape. Half-spaces and composites have no features: count = 0.
 template <class R>
-void supportingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, Feature<R>& out);
+void supportingFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& d, SupportFeature<R>& out);
 
 }  // namespace rigor::engine

@@ -46,7 +46,7 @@ R separationAlong(const Meeting<R>& m, const Vec3<R>& n) {
 }
 
 template <class R>
-void featuresAlong(const Meeting<R>& m, Feature<R>& fa, Feature<R>& fb) {
+void featuresAlong(const Meeting<R>& m, SupportFeature<R>& fa, SupportFeature<R>& fb) {
     supportingFeature<R>(m.a, m.normal, fa);
     supportingFeature<R>(m.b, rotateInverse<R>(m.X.q, Vec3<R>(-m.normal)), fb);
     for (int i = 0; i < fb.count; ++i) {
@@ -58,7 +58,7 @@ void featuresAlong(const Meeting<R>& m, Feature<R>& fa, Feature<R>& fb) {
 
 /// Step 2. True when the normal changed.
 template <class R>
-bool preferFaceNormal(Meeting<R>& m, const Feature<R>& fa, const Feature<R>& fb) {
+bool preferFaceNormal(Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb) {
     Vec3<R> best = m.normal;
     R most = m.separation - m.tolerance;
     const auto consider = [&](const Vec3<R>& n) {
@@ -82,10 +82,10 @@ struct ClipVertex {
 };
 template <class R>
 struct ClipPolygon {
-    std::array<ClipVertex<R>, 2 * Feature<R>::kMost> v;
+    std::array<ClipVertex<R>, 2 * SupportFeature<R>::kMost> v;
     int count = 0;
     void add(const ClipVertex<R>& c) {
-        if (count < 2 * Feature<R>::kMost) v[static_cast<std::size_t>(count++)] = c;
+        if (count < 2 * SupportFeature<R>::kMost) v[static_cast<std::size_t>(count++)] = c;
     }
     const ClipVertex<R>& operator[](int i) const { return v[static_cast<std::size_t>(i)]; }
 };
@@ -111,8 +111,8 @@ void clip(const ClipPolygon<R>& from, bool closed, const Vec3<R>& m, const Vec3<
 }
 
 template <class R>
-std::uint32_t clipFeature(const ClipVertex<R>& c, const Feature<R>& ref, const Feature<R>& inc, bool refIsA) {
-    const auto edge = [](const Feature<R>& f, int i) {
+std::uint32_t clipFeature(const ClipVertex<R>& c, const SupportFeature<R>& ref, const SupportFeature<R>& inc, bool refIsA) {
+    const auto edge = [](const SupportFeature<R>& f, int i) {
         const auto k = static_cast<std::size_t>(i);
         return edgeName(f.index[k], f.index[(k + 1) % static_cast<std::size_t>(f.count)]);
     };
@@ -137,7 +137,7 @@ R steadyHeight(Height height, R lowest, R noise, int i) {
 /// A disc's points all are as deep where it lies flat. Which of them count as deepest must not hang on the
 /// rocking of a resting body: another choice in every step has no impulses to start from.
 template <class R>
-R selectionNoise(const Meeting<R>& m, const Feature<R>& ref, const Feature<R>& inc) {
+R selectionNoise(const Meeting<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc) {
     const bool discs = ref.count == kRimPoints || inc.count == kRimPoints;
     const R size = std::min((ref.at[1] - ref.at[0]).norm(), (inc.at[1] - inc.at[0]).norm());
     return discs ? std::max(R(2) * kRimNoise<R> * size, m.tolerance) : m.tolerance;
@@ -145,7 +145,7 @@ R selectionNoise(const Meeting<R>& m, const Feature<R>& ref, const Feature<R>& i
 
 /// A face against a face or a segment.
 template <class R>
-void clipFeatures(const Meeting<R>& m, const Feature<R>& ref, const Feature<R>& inc, bool refIsA,
+void clipFeatures(const Meeting<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc, bool refIsA,
                   Manifold<S3<R>>& out) {
     const Vec3<R> outward = refIsA ? m.normal : Vec3<R>(-m.normal);
     ClipPolygon<R> buffers[2];
@@ -163,7 +163,7 @@ void clipFeatures(const Meeting<R>& m, const Feature<R>& ref, const Feature<R>& 
     const ClipPolygon<R>& polygon = buffers[now];
     const R slope = R(1) / ref.normal.dot(outward);
     const auto height = [&](const Vec3<R>& x) { return R(ref.normal.dot(x - ref.at[0]) * slope); };
-    std::array<int, 2 * Feature<R>::kMost> near;
+    std::array<int, 2 * SupportFeature<R>::kMost> near;
     int found = 0;
     R lowest = std::numeric_limits<R>::max();
     for (int i = 0; i < polygon.count; ++i)
@@ -189,7 +189,7 @@ inline constexpr R kSideBySide = R(0.05);
 
 /// The ends of the common stretch of two segments; nothing where they cross.
 template <class R>
-void alongSegments(const Meeting<R>& m, const Feature<R>& fa, const Feature<R>& fb, Manifold<S3<R>>& out) {
+void alongSegments(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb, Manifold<S3<R>>& out) {
     const Vec3<R> d = fa.at[1] - fa.at[0], e = fb.at[1] - fb.at[0];
     const R dd = d.squaredNorm(), de = d.dot(e);
     if (!(d.cross(e).squaredNorm() <= kSideBySide<R> * kSideBySide<R> * dd * e.squaredNorm())) return;
@@ -209,7 +209,7 @@ void alongSegments(const Meeting<R>& m, const Feature<R>& fa, const Feature<R>& 
 
 /// Step 4.
 template <class R>
-void keepDeepest(const Meeting<R>& m, const Feature<R>& fa, const Feature<R>& fb, Manifold<S3<R>>& out) {
+void keepDeepest(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb, Manifold<S3<R>>& out) {
     R least = std::numeric_limits<R>::max();
     for (int i = 0; i < out.count; ++i)
         least = std::min(least, out.points[static_cast<std::size_t>(i)].separation);
@@ -248,7 +248,7 @@ void collideFeatures(const Shape<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, c
                  closest.pointB,
                  axisTolerance(size, closest.distance),
                  speculative};
-    Feature<R> fa, fb;
+    SupportFeature<R> fa, fb;
     featuresAlong(m, fa, fb);
     if (preferFaceNormal(m, fa, fb)) featuresAlong(m, fa, fb);
     out.normal = m.normal;
@@ -272,7 +272,7 @@ void collideAlong(const Triangle<Space<R, 3>>& piece, bool front, const Shape<Sp
     const Vec3<R> n = front ? up : Vec3<R>(-up);
     const Shape<S> triangle = piece;
     const Meeting<R> m{triangle, convex, X, n, R(0), Vec3<R>::Zero(), Vec3<R>::Zero(), R(0), speculative};
-    Feature<R> fa, fb;
+    SupportFeature<R> fa, fb;
     featuresAlong(m, fa, fb);
     out.count = 0;
     out.normal = n;
