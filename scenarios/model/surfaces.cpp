@@ -8,8 +8,9 @@
 namespace rigor::scenario {
 namespace {
 
-bool isFinite(const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+bool allFinite(const std::vector<Vec3>& points) {
+    return std::all_of(points.begin(), points.end(),
+                       [](const Vec3& v) { return std::isfinite(v.x + v.y + v.z); });
 }
 double sizeOf(const std::vector<Vec3>& points) {
     double size = 0.0;
@@ -31,7 +32,7 @@ bool isStaticOnly(const Geometry& geometry) {
 std::string surfaceProblem(const Chain& chain) {
     const std::size_t n = chain.vertices.size();
     if (n < (chain.loop ? 3u : 2u)) return chain.loop ? "a loop needs three vertices" : "a chain needs two vertices";
-    if (!std::all_of(chain.vertices.begin(), chain.vertices.end(), isFinite)) return "a vertex is not finite";
+    if (!allFinite(chain.vertices)) return "a vertex is not finite";
     const double least = kSame * sizeOf(chain.vertices);
     for (std::size_t i = 0; i + (chain.loop ? 0 : 1) < n; ++i)
         if (!(norm(chain.vertices[(i + 1) % n] - chain.vertices[i]) > least))
@@ -41,7 +42,7 @@ std::string surfaceProblem(const Chain& chain) {
 
 std::string surfaceProblem(const TriangleMesh& mesh) {
     if (mesh.triangles.empty()) return "a mesh needs a triangle";
-    if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), isFinite)) return "a vertex is not finite";
+    if (!allFinite(mesh.vertices)) return "a vertex is not finite";
     const double least = kSame * sizeOf(mesh.vertices);
     const int n = static_cast<int>(mesh.vertices.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
