@@ -64,7 +64,8 @@ struct ToGeometry {
     }
     template <class Other>
     std::shared_ptr<fcl::CollisionGeometryd> operator()(const Other& other) {
-        throw adapter::Unsupported(std::string("fcl has no shape '") + scenario::geometryName(other, 3) + "'");
+        throw adapter::Unsupported(std::string("fcl has no shape '") + scenario::geometryName(other, 3) +
+                                   "'");
     }
 };
 

@@ -87,8 +87,9 @@ Capabilities rigorCapabilities() {
     Capabilities c;
     c.dynamics = c.collision = c.broadPhase = true;
     c.dimensions = {2, 3};
-    c.shapes = {"sphere",  "circle",     "box",        "capsule", "cylinder", "cone",          "hull",
-                "polygon", "half_space", "half_plane", "segment", "chain",    "triangle_mesh", "height_field"};
+    c.shapes = {"sphere",  "circle", "box",           "capsule",     "cylinder",
+                "cone",    "hull",   "polygon",       "half_space",  "half_plane",
+                "segment", "chain",  "triangle_mesh", "height_field"};
     for (const engine::JointEntry<engine::Space3d>& joint : engine::jointTable<engine::Space3d>())
         c.joints.push_back(joint.name);
     c.contactImpulses = true;

@@ -60,8 +60,8 @@ void collideFeatures(const Shape<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, c
                      const Pose<Space<R, 3>>& Xb, R speculative, Manifold<Space<R, 3>>& out);
 
 /// Contact points of a convex shape with a piece of a surface along the piece's normal: what of the shape's
-/// supporting feature is over the piece. `front`: on the side of the normal. A is the piece; X poses the shape
-/// in its frame, in which `out` is filled.
+/// supporting feature is over the piece. `front`: on the side of the normal. A is the piece; X poses the
+/// shape in its frame, in which `out` is filled.
 template <class R>
 void collideAlong(const Segment<Space<R, 2>>& piece, bool front, const Shape<Space<R, 2>>& convex,
                   const Pose<Space<R, 2>>& X, typename Space<R, 2>::Real speculative,

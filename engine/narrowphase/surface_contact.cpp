@@ -3,20 +3,21 @@
 //
 // A convex shape on a piece (segment, triangle) of a surface, without the bumps of inner edges.
 //
-// Taken by itself a piece has edges that its surface has not: a box that slides over two triangles of one floor
-// would meet the side of the second. With m the piece's normal on the side of the shape's middle:
+// Taken by itself a piece has edges that its surface has not: a box that slides over two triangles of one
+// floor would meet the side of the second. With m the piece's normal on the side of the shape's middle:
 //
-//   1. Face first. Contact points along m: the shape's supporting feature clipped to the prism over the piece.
-//      If the shape's lowest point, depth s, is over the piece and no side of the piece is nearer than |s|, no
-//      other way out is shorter: for a way u at angle theta to m, the disc of radius |s| in the piece around
-//      the foot gives the separation |s| (sin theta + cos theta) >= |s|.
+//   1. Face first. Contact points along m: the shape's supporting feature clipped to the prism over the
+//   piece.
+//      If the shape's lowest point, depth s, is over the piece and no side of the piece is nearer than |s|,
+//      no other way out is shorter: for a way u at angle theta to m, the disc of radius |s| in the piece
+//      around the foot gives the separation |s| (sin theta + cos theta) >= |s|.
 //   2. Else the piece alone, with its normal n. It is kept where the surface near the touching vertex v lies
-//      behind the plane of contact,  n . (w - v) <= 0  for the vertices w beside the piece's touching side, or
-//      around its touching corner: only there n is a normal of the surface.
+//      behind the plane of contact,  n . (w - v) <= 0  for the vertices w beside the piece's touching side,
+//      or around its touching corner: only there n is a normal of the surface.
 //   3. Else the contact along m, if any: what is left belongs to a neighbour.
 // The condition of 2 is that of the normal cones of a polyhedron [Ericson2005, ch. 12.4 for the pieces' own
-// Voronoi regions]; it holds on both sides of a two-sided surface. A field that is solid below has m up, and a
-// shape with its middle under the surface is pushed along m.
+// Voronoi regions]; it holds on both sides of a two-sided surface. A field that is solid below has m up, and
+// a shape with its middle under the surface is pushed along m.
 //
 // Cost: that of a contact with each piece near; step 1 alone for most of them. Limits: pieces are met one by
 // one, so that a shape larger than many pieces has many contacts.
@@ -75,7 +76,8 @@ struct Placed {
 
 /// Step 1: is the contact along m the shortest way out? `out` in the frame of the surface.
 template <class S, class Piece>
-bool faceIsShortest(const Piece& piece, const typename S::Vec& n, typename S::Real s, const Manifold<S>& out) {
+bool faceIsShortest(const Piece& piece, const typename S::Vec& n, typename S::Real s,
+                    const Manifold<S>& out) {
     using R = typename S::Real;
     if (out.count == 0) return false;
     typename S::Vec foot = S::Vec::Zero();
@@ -161,9 +163,8 @@ void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, st
                   typename S::Real speculative, Manifold<S>& out) {
     out.count = 0;
     const auto collide = [&](const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
-                             typename S::Real distance, Manifold<S>& m) {
-        narrowPhase.collide(a, Xa, b, Xb, distance, m);
-    };
+                             typename S::Real distance,
+                             Manifold<S>& m) { narrowPhase.collide(a, Xa, b, Xb, distance, m); };
     withSurface<S>(surface, [&](const auto& data) {
         collideWith<S>(collide, data, piece, Xsurface, convex, Xconvex, speculative, out);
     });
@@ -222,14 +223,14 @@ Aabb<S> boxOnSurface(const Pose<S>& Xsurface, const Shape<S>& convex, const Pose
     return box;
 }
 
-#define INSTANTIATE(S)                                                                                       \
-    template void collidePiece<S>(const NarrowPhase<S>&, const Shape<S>&, std::uint32_t, const Pose<S>&,     \
-                                  const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);                   \
-    template void collideDeepestPiece<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&,                \
-                                         const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);            \
-    template bool collideSurfaces<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&, const Shape<S>&,   \
-                                     const Pose<S>&, S::Real, Manifold<S>&);                                 \
-    template void flipManifold<S>(Manifold<S>&);                                                             \
+#define INSTANTIATE(S)                                                                                     \
+    template void collidePiece<S>(const NarrowPhase<S>&, const Shape<S>&, std::uint32_t, const Pose<S>&,   \
+                                  const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);                 \
+    template void collideDeepestPiece<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&,              \
+                                         const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);          \
+    template bool collideSurfaces<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&, const Shape<S>&, \
+                                     const Pose<S>&, S::Real, Manifold<S>&);                               \
+    template void flipManifold<S>(Manifold<S>&);                                                           \
     template Aabb<S> boxOnSurface<S>(const Pose<S>&, const Shape<S>&, const Pose<S>&, S::Real);
 INSTANTIATE(Space2f)
 INSTANTIATE(Space2d)

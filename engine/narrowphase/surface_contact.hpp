@@ -10,8 +10,8 @@
 
 namespace rigor::engine {
 
-/// Fills `out` (A = surface) for one piece of the surface and a posed convex shape. `narrowPhase` finds contacts
-/// of the piece as a Segment or Triangle. Inner edges do not catch: see surface_contact.cpp.
+/// Fills `out` (A = surface) for one piece of the surface and a posed convex shape. `narrowPhase` finds
+/// contacts of the piece as a Segment or Triangle. Inner edges do not catch: see surface_contact.cpp.
 template <class S>
 void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t piece,
                   const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
@@ -23,8 +23,8 @@ void collideDeepestPiece(CollideFunction<S> collide, const Shape<S>& surface, co
                          const Shape<S>& convex, const Pose<S>& Xconvex, typename S::Real speculative,
                          Manifold<S>& out);
 
-/// For narrow phases that are asked about any two shapes: true where one is a chain, mesh or field (`out` then
-/// is that of its deepest piece) or neither can move (`out` is empty).
+/// For narrow phases that are asked about any two shapes: true where one is a chain, mesh or field (`out`
+/// then is that of its deepest piece) or neither can move (`out` is empty).
 template <class S>
 bool collideSurfaces(CollideFunction<S> collide, const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b,
                      const Pose<S>& Xb, typename S::Real speculative, Manifold<S>& out);

@@ -145,8 +145,8 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
         findPieces(surface, other, speculativeDistance);
         for (const std::uint32_t piece : pieces_) {
             Contact<S>& contact = contacts_.emplace_back();
-            collidePiece<S>(narrowPhase, shapes_[surface].shape, piece, shapePoses_[surface], shapes_[other].shape,
-                            shapePoses_[other], speculativeDistance, contact.manifold);
+            collidePiece<S>(narrowPhase, shapes_[surface].shape, piece, shapePoses_[surface],
+                            shapes_[other].shape, shapePoses_[other], speculativeDistance, contact.manifold);
             if (!surfaceA) flipManifold(contact.manifold);
             keepLast(bodies, a, b, piece, old);
         }
@@ -157,8 +157,8 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
 template <class S>
 void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other, Real speculativeDistance) {
     pieces_.clear();
-    const Aabb<S> box = boxOnSurface<S>(shapePoses_[surface], shapes_[other].shape, shapePoses_[other],
-                                        speculativeDistance);
+    const Aabb<S> box =
+        boxOnSurface<S>(shapePoses_[surface], shapes_[other].shape, shapePoses_[other], speculativeDistance);
     withSurface<S>(shapes_[surface].shape, [&](const auto& data) {
         data.query(box, [&](std::uint32_t piece) { pieces_.push_back(piece); });
     });
@@ -167,8 +167,8 @@ void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other, Real 
 
 /// Completes the contact just added, or drops it where nothing touches.
 template <class S>
-void ContactSet<S>::keepLast(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b, std::uint32_t piece,
-                             typename std::vector<Contact<S>>::const_iterator& old) {
+void ContactSet<S>::keepLast(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b,
+                             std::uint32_t piece, typename std::vector<Contact<S>>::const_iterator& old) {
     Contact<S>& contact = contacts_.back();
     if (contact.manifold.count == 0) {
         contacts_.pop_back();
@@ -178,9 +178,7 @@ void ContactSet<S>::keepLast(const BodyArrays<S>& bodies, std::uint32_t a, std::
     contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
     contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
     placePoints(bodies, contact);
-    const auto sortKey = [](const Contact<S>& c) {
-        return std::pair(pairKey(c.shapeA, c.shapeB), c.piece);
-    };
+    const auto sortKey = [](const Contact<S>& c) { return std::pair(pairKey(c.shapeA, c.shapeB), c.piece); };
     while (old != previous_.end() && sortKey(*old) < sortKey(contact)) ++old;
     if (old != previous_.end() && sortKey(*old) == sortKey(contact)) takeOver(bodies, *old, contact);
 }

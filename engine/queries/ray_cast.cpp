@@ -195,7 +195,8 @@ void meet(const Ray<S>& ray, const Cone<S>& s, Found<S>& found) {
         if ((o + t * d).squaredNorm() <= s.radius * s.radius) found.consider(t, -V::UnitY());
     }
     R t0 = 0, t1 = 0;
-    if (!roots<R>(d.squaredNorm() - k * k * ray.d.y() * ray.d.y(), o.dot(d) + k * k * below * ray.d.y(), c, t0, t1))
+    if (!roots<R>(d.squaredNorm() - k * k * ray.d.y() * ray.d.y(), o.dot(d) + k * k * below * ray.d.y(), c,
+                  t0, t1))
         return;
     for (const R t : {t0, t1}) {
         const V x = ray.at(t);
@@ -274,7 +275,7 @@ bool castRay(const Shape<S>& shape, const Pose<S>& X, const typename S::Vec& ori
     return true;
 }
 
-#define INSTANTIATE(S)                                                                                  \
+#define INSTANTIATE(S) \
     template bool castRay<S>(const Shape<S>&, const Pose<S>&, const S::Vec&, const S::Vec&, RayHit<S>&);
 INSTANTIATE(Space2f)
 INSTANTIATE(Space2d)

@@ -6,8 +6,8 @@
 //   t := t + d / (n . T).
 // The shapes' supporting planes across n cannot meet earlier, so that no step goes too far; n . T <= 0 means
 // that those planes never meet, and so neither do the shapes. Ends when d is below the rounding of the
-// coordinates. Cost: one closestPoints per step; polytopes take a few steps, curved sides gain several digits a
-// step unless they graze. Limit: kMostSteps; a hit then is flagged, its fraction too early.
+// coordinates. Cost: one closestPoints per step; polytopes take a few steps, curved sides gain several digits
+// a step unless they graze. Limit: kMostSteps; a hit then is flagged, its fraction too early.
 #include "engine/queries/shape_cast.hpp"
 
 #include "engine/narrowphase/distance.hpp"
@@ -53,8 +53,8 @@ CastResult<S> castConvex(const Shape<S>& a, const Pose<S>& Xa, const typename S:
     return result;
 }
 
-#define INSTANTIATE(S)                                                                                           \
-    template CastResult<S> castConvex<S>(const Shape<S>&, const Pose<S>&, const S::Vec&, const Shape<S>&,        \
+#define INSTANTIATE(S)                                                                                    \
+    template CastResult<S> castConvex<S>(const Shape<S>&, const Pose<S>&, const S::Vec&, const Shape<S>&, \
                                          const Pose<S>&, S::Real);
 INSTANTIATE(Space2f)
 INSTANTIATE(Space2d)

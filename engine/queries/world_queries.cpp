@@ -100,7 +100,8 @@ std::optional<WorldRayHit<S>> WorldQueries<S>::castRay(const Vec& origin, const 
               RayHit<S> hit;
               const Entry& entry = entries_[i];
               if (!engine::castRay<S>(entry.record->shape, entry.X, origin, translation, hit)) return;
-              if (best && (hit.fraction > best->fraction || (hit.fraction == best->fraction && i > first))) return;
+              if (best && (hit.fraction > best->fraction || (hit.fraction == best->fraction && i > first)))
+                  return;
               best = {ref(i, hit.piece), hit.fraction, hit.point, hit.normal, hit.startsInside};
               first = i;
               limit = hit.fraction;
@@ -118,7 +119,8 @@ std::vector<WorldRayHit<S>> WorldQueries<S>::castRayAll(const Vec& origin, const
               RayHit<S> hit;
               const Entry& entry = entries_[i];
               if (engine::castRay<S>(entry.record->shape, entry.X, origin, translation, hit))
-                  found.push_back({i, {ref(i, hit.piece), hit.fraction, hit.point, hit.normal, hit.startsInside}});
+                  found.push_back(
+                      {i, {ref(i, hit.piece), hit.fraction, hit.point, hit.normal, hit.startsInside}});
           });
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
         return a.second.fraction < b.second.fraction ||
@@ -131,7 +133,8 @@ std::vector<WorldRayHit<S>> WorldQueries<S>::castRayAll(const Vec& origin, const
 
 template <class S>
 std::optional<ShapeCastHit<S>> WorldQueries<S>::castShape(const Shape<S>& shape, const Pose<S>& X,
-                                                          const Vec& translation, const Filter& filter) const {
+                                                          const Vec& translation,
+                                                          const Filter& filter) const {
     requireConvex<S>(shape, X);
     requireRay<S>(X.p, translation);
     std::optional<ShapeCastHit<S>> best;
@@ -147,21 +150,23 @@ std::optional<ShapeCastHit<S>> WorldQueries<S>::castShape(const Shape<S>& shape,
         most = r.fraction;
     };
     const Aabb<S> way = swept<S>(boundingBox<S>(shape, X), translation);
-    visit([&](const Aabb<S>& box) { return way.overlaps(box); }, filter, [&](std::uint32_t i) {
-        const Entry& entry = entries_[i];
-        if (!isComposite<S>(entry.record->shape)) {
-            consider(i, kNone, castConvex<S>(shape, X, translation, entry.record->shape, entry.X, most));
-            return;
-        }
-        const Vec local = rotateInverse<Real>(entry.X.q, translation);
-        const Aabb<S> near = swept<S>(boxOnSurface<S>(entry.X, shape, X, Real(0)), local);
-        withSurface<S>(entry.record->shape, [&](const auto& data) {
-            data.query(near, [&](std::uint32_t piece) {
-                const Shape<S> part = data.piece(piece);
-                consider(i, piece, castConvex<S>(shape, X, translation, part, entry.X, most));
-            });
-        });
-    });
+    visit([&](const Aabb<S>& box) { return way.overlaps(box); }, filter,
+          [&](std::uint32_t i) {
+              const Entry& entry = entries_[i];
+              if (!isComposite<S>(entry.record->shape)) {
+                  consider(i, kNone,
+                           castConvex<S>(shape, X, translation, entry.record->shape, entry.X, most));
+                  return;
+              }
+              const Vec local = rotateInverse<Real>(entry.X.q, translation);
+              const Aabb<S> near = swept<S>(boxOnSurface<S>(entry.X, shape, X, Real(0)), local);
+              withSurface<S>(entry.record->shape, [&](const auto& data) {
+                  data.query(near, [&](std::uint32_t piece) {
+                      const Shape<S> part = data.piece(piece);
+                      consider(i, piece, castConvex<S>(shape, X, translation, part, entry.X, most));
+                  });
+              });
+          });
     return best;
 }
 
@@ -171,21 +176,24 @@ std::vector<ShapeRef> WorldQueries<S>::overlapping(const Shape<S>& shape, const 
     requireConvex<S>(shape, X);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
     const Aabb<S> own = boundingBox<S>(shape, X);
-    visit([&](const Aabb<S>& box) { return own.overlaps(box); }, filter, [&](std::uint32_t i) {
-        const Entry& entry = entries_[i];
-        if (!isComposite<S>(entry.record->shape)) {
-            if (closestPoints<S>(shape, X, entry.record->shape, entry.X).distance <= 0) found.push_back({i, kNone});
-            return;
-        }
-        std::uint32_t piece = kNone;
-        withSurface<S>(entry.record->shape, [&](const auto& data) {
-            data.query(boxOnSurface<S>(entry.X, shape, X, Real(0)), [&](std::uint32_t k) {
-                const Shape<S> part = data.piece(k);
-                if (k < piece && closestPoints<S>(shape, X, part, entry.X).distance <= 0) piece = k;
-            });
-        });
-        if (piece != kNone || underField<S>(entry.record->shape, entry.X, shape, X)) found.push_back({i, piece});
-    });
+    visit([&](const Aabb<S>& box) { return own.overlaps(box); }, filter,
+          [&](std::uint32_t i) {
+              const Entry& entry = entries_[i];
+              if (!isComposite<S>(entry.record->shape)) {
+                  if (closestPoints<S>(shape, X, entry.record->shape, entry.X).distance <= 0)
+                      found.push_back({i, kNone});
+                  return;
+              }
+              std::uint32_t piece = kNone;
+              withSurface<S>(entry.record->shape, [&](const auto& data) {
+                  data.query(boxOnSurface<S>(entry.X, shape, X, Real(0)), [&](std::uint32_t k) {
+                      const Shape<S> part = data.piece(k);
+                      if (k < piece && closestPoints<S>(shape, X, part, entry.X).distance <= 0) piece = k;
+                  });
+              });
+              if (piece != kNone || underField<S>(entry.record->shape, entry.X, shape, X))
+                  found.push_back({i, piece});
+          });
     std::sort(found.begin(), found.end());
     std::vector<ShapeRef> refs;
     for (const auto& [i, piece] : found) refs.push_back(ref(i, piece));
@@ -195,7 +203,8 @@ std::vector<ShapeRef> WorldQueries<S>::overlapping(const Shape<S>& shape, const 
 template <class S>
 std::vector<ShapeRef> WorldQueries<S>::inBox(const Aabb<S>& box, const Filter& filter) const {
     std::vector<std::uint32_t> found;
-    visit([&](const Aabb<S>& b) { return b.overlaps(box); }, filter, [&](std::uint32_t i) { found.push_back(i); });
+    visit([&](const Aabb<S>& b) { return b.overlaps(box); }, filter,
+          [&](std::uint32_t i) { found.push_back(i); });
     std::sort(found.begin(), found.end());
     std::vector<ShapeRef> refs;
     for (const std::uint32_t i : found) refs.push_back(ref(i, kNone));
@@ -220,22 +229,24 @@ std::optional<NearestHit<S>> WorldQueries<S>::nearest(const Shape<S>& shape, con
         most = std::max(Real(0), c.distance);  // overlapping shapes all have boxes at gap 0
     };
     const Aabb<S> own = boundingBox<S>(shape, X);
-    visit([&](const Aabb<S>& box) { return gap<S>(own, box) <= most; }, filter, [&](std::uint32_t i) {
-        const Entry& entry = entries_[i];
-        if (!isComposite<S>(entry.record->shape)) {
-            consider(i, kNone, entry.record->shape);
-            return;
-        }
-        withSurface<S>(entry.record->shape, [&](const auto& data) {
-            data.query(boxOnSurface<S>(entry.X, shape, X, most),
-                       [&](std::uint32_t piece) { consider(i, piece, Shape<S>(data.piece(piece))); });
-        });
-    });
+    visit([&](const Aabb<S>& box) { return gap<S>(own, box) <= most; }, filter,
+          [&](std::uint32_t i) {
+              const Entry& entry = entries_[i];
+              if (!isComposite<S>(entry.record->shape)) {
+                  consider(i, kNone, entry.record->shape);
+                  return;
+              }
+              withSurface<S>(entry.record->shape, [&](const auto& data) {
+                  data.query(boxOnSurface<S>(entry.X, shape, X, most),
+                             [&](std::uint32_t piece) { consider(i, piece, Shape<S>(data.piece(piece))); });
+              });
+          });
     return best;
 }
 
 template <class S>
-std::optional<NearestHit<S>> WorldQueries<S>::nearest(const Vec& point, Real most, const Filter& filter) const {
+std::optional<NearestHit<S>> WorldQueries<S>::nearest(const Vec& point, Real most,
+                                                      const Filter& filter) const {
     Pose<S> X;
     X.p = point;
     return nearest(Shape<S>(Sphere<S>{Real(0)}), X, most, filter);

@@ -31,8 +31,8 @@ struct ShapeRef {
 
 template <class S>
 struct WorldRayHit : ShapeRef {
-    typename S::Real fraction = 0;      ///< of the translation, in [0, 1]
-    typename S::Vec point, normal;      ///< world frame; normal out of the shape, unit
+    typename S::Real fraction = 0;  ///< of the translation, in [0, 1]
+    typename S::Vec point, normal;  ///< world frame; normal out of the shape, unit
     bool startsInside = false;
 };
 
@@ -48,8 +48,9 @@ struct ShapeCastHit : ShapeRef {
 /// Closest points; signed distance.
 template <class S>
 struct NearestHit : ShapeRef {
-    typename S::Real distance = 0;           ///< [m]; < 0: overlap (of a surface: with its nearest piece)
-    typename S::Vec point, onShape, normal;  ///< on what was asked about, on the world's shape; first to second
+    typename S::Real distance = 0;  ///< [m]; < 0: overlap (of a surface: with its nearest piece)
+    typename S::Vec point, onShape,
+        normal;  ///< on what was asked about, on the world's shape; first to second
 };
 
 template <class S>
@@ -63,19 +64,21 @@ class WorldQueries {
     /// `world` must outlive this and not change meanwhile.
     explicit WorldQueries(const World<S>& world);
 
-    /// Nearest hit of x = origin + t translation, 0 <= t <= 1. Throws EngineError "query_ray" for numbers that
-    /// are not finite and for a translation of zero.
+    /// Nearest hit of x = origin + t translation, 0 <= t <= 1. Throws EngineError "query_ray" for numbers
+    /// that are not finite and for a translation of zero.
     std::optional<WorldRayHit<S>> castRay(const Vec& origin, const Vec& translation,
                                           const Filter& filter = {}) const;
     /// One hit for every shape that the ray meets, nearest first.
     std::vector<WorldRayHit<S>> castRayAll(const Vec& origin, const Vec& translation,
                                            const Filter& filter = {}) const;
-    /// Where `shape` touches first on its way from X along `translation`. Throws EngineError "query_shape" for
-    /// half-spaces, chains, meshes and fields (also below), "query_ray" as above.
+    /// Where `shape` touches first on its way from X along `translation`. Throws EngineError "query_shape"
+    /// for half-spaces, chains, meshes and fields (also below), "query_ray" as above.
     std::optional<ShapeCastHit<S>> castShape(const Shape<S>& shape, const Pose<S>& X, const Vec& translation,
                                              const Filter& filter = {}) const;
-    /// Shapes that overlap or touch the posed shape, in the order they were added; of a surface the first piece.
-    std::vector<ShapeRef> overlapping(const Shape<S>& shape, const Pose<S>& X, const Filter& filter = {}) const;
+    /// Shapes that overlap or touch the posed shape, in the order they were added; of a surface the first
+    /// piece.
+    std::vector<ShapeRef> overlapping(const Shape<S>& shape, const Pose<S>& X,
+                                      const Filter& filter = {}) const;
     /// Shapes whose bounding box meets the box.
     std::vector<ShapeRef> inBox(const Aabb<S>& box, const Filter& filter = {}) const;
     /// The nearest shape, if any within `most` [m] >= 0; overlapping ones count as the nearer the deeper.
@@ -97,7 +100,8 @@ class WorldQueries {
 
     std::vector<Entry> entries_;
     std::vector<Aabb<S>> boxes_;
-    std::vector<std::uint32_t> inTree_, outside_;  ///< entries with bounded boxes, in the tree's order; others
+    std::vector<std::uint32_t> inTree_,
+        outside_;  ///< entries with bounded boxes, in the tree's order; others
     StaticTree<S> tree_;
 };
 

@@ -62,7 +62,8 @@ typename S::Vec supportOf(const Cylinder<S>& s, const typename S::Vec& d) {
 }
 template <class S>
 typename S::Vec supportOf(const Cone<S>& s, const typename S::Vec& d) {
-    if (typename S::Real(2) * s.halfLength * d.y() > s.radius * std::hypot(d.x(), d.z())) return {0, s.halfLength, 0};
+    if (typename S::Real(2) * s.halfLength * d.y() > s.radius * std::hypot(d.x(), d.z()))
+        return {0, s.halfLength, 0};
     return rimPoint<S>(s.radius, -s.halfLength, d);
 }
 
@@ -162,25 +163,30 @@ Aabb<S> boxAround(std::size_t count, Point point, const Pose<S>& X) {
 template <class S>
 Aabb<S> boxOf(const Hull<S>& s, const Pose<S>& X) {
     const auto& v = s.data->vertices;
-    return boxAround<S>(v.size(), [&](std::size_t i) -> const typename S::Vec& { return v[i]; }, X);
+    return boxAround<S>(
+        v.size(), [&](std::size_t i) -> const typename S::Vec& { return v[i]; }, X);
 }
 template <class S>
 Aabb<S> boxOf(const Segment<S>& s, const Pose<S>& X) {
-    return boxAround<S>(2, [&](std::size_t i) { return i == 0 ? s.a : s.b; }, X);
+    return boxAround<S>(
+        2, [&](std::size_t i) { return i == 0 ? s.a : s.b; }, X);
 }
 template <class S>
 Aabb<S> boxOf(const Triangle<S>& s, const Pose<S>& X) {
-    return boxAround<S>(3, [&](std::size_t i) { return s.v[i]; }, X);
+    return boxAround<S>(
+        3, [&](std::size_t i) { return s.v[i]; }, X);
 }
 template <class S>
 Aabb<S> boxOf(const Chain<S>& s, const Pose<S>& X) {
     const auto& v = s.data->vertices;
-    return boxAround<S>(v.size(), [&](std::size_t i) { return v[i]; }, X);
+    return boxAround<S>(
+        v.size(), [&](std::size_t i) { return v[i]; }, X);
 }
 template <class S>
 Aabb<S> boxOf(const TriangleMesh<S>& s, const Pose<S>& X) {
     const auto& v = s.data->vertices;
-    return boxAround<S>(v.size(), [&](std::size_t i) { return v[i]; }, X);
+    return boxAround<S>(
+        v.size(), [&](std::size_t i) { return v[i]; }, X);
 }
 /// Every vertex, and its foot on the floor of the field.
 template <class S>
@@ -195,18 +201,54 @@ Aabb<S> boxOf(const HeightField<S>& s, const Pose<S>& X) {
 }
 
 struct NameOf {
-    template <class S> const char* operator()(const Sphere<S>&) const { return "sphere"; }
-    template <class S> const char* operator()(const Box<S>&) const { return "box"; }
-    template <class S> const char* operator()(const Capsule<S>&) const { return "capsule"; }
-    template <class S> const char* operator()(const HalfSpace<S>&) const { return "half_space"; }
-    template <class S> const char* operator()(const Hull<S>&) const { return "hull"; }
-    template <class S> const char* operator()(const Cylinder<S>&) const { return "cylinder"; }
-    template <class S> const char* operator()(const Cone<S>&) const { return "cone"; }
-    template <class S> const char* operator()(const Segment<S>&) const { return "segment"; }
-    template <class S> const char* operator()(const Triangle<S>&) const { return "triangle"; }
-    template <class S> const char* operator()(const Chain<S>&) const { return "chain"; }
-    template <class S> const char* operator()(const TriangleMesh<S>&) const { return "triangle_mesh"; }
-    template <class S> const char* operator()(const HeightField<S>&) const { return "height_field"; }
+    template <class S>
+    const char* operator()(const Sphere<S>&) const {
+        return "sphere";
+    }
+    template <class S>
+    const char* operator()(const Box<S>&) const {
+        return "box";
+    }
+    template <class S>
+    const char* operator()(const Capsule<S>&) const {
+        return "capsule";
+    }
+    template <class S>
+    const char* operator()(const HalfSpace<S>&) const {
+        return "half_space";
+    }
+    template <class S>
+    const char* operator()(const Hull<S>&) const {
+        return "hull";
+    }
+    template <class S>
+    const char* operator()(const Cylinder<S>&) const {
+        return "cylinder";
+    }
+    template <class S>
+    const char* operator()(const Cone<S>&) const {
+        return "cone";
+    }
+    template <class S>
+    const char* operator()(const Segment<S>&) const {
+        return "segment";
+    }
+    template <class S>
+    const char* operator()(const Triangle<S>&) const {
+        return "triangle";
+    }
+    template <class S>
+    const char* operator()(const Chain<S>&) const {
+        return "chain";
+    }
+    template <class S>
+    const char* operator()(const TriangleMesh<S>&) const {
+        return "triangle_mesh";
+    }
+    template <class S>
+    const char* operator()(const HeightField<S>&) const {
+        return "height_field";
+    }
 };
 
 }  // namespace

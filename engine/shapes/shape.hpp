@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Shapes of the engine, one type per kind over the Space trait; ShapeTypes says which kinds a dimension has. A
-// shape frame has its origin at the shape's centre (hull: at the origin of the points given).
+// Shapes of the engine, one type per kind over the Space trait; ShapeTypes says which kinds a dimension has.
+// A shape frame has its origin at the shape's centre (hull: at the origin of the points given).
 #pragma once
 
 #include <array>
@@ -52,7 +52,8 @@ template <class S>
 struct Cylinder {
     typename S::Real radius, halfLength;
 };
-/// Solid cone along local y, 3D only: apex at +halfLength, base disc of `radius` at -halfLength; both > 0 [m].
+/// Solid cone along local y, 3D only: apex at +halfLength, base disc of `radius` at -halfLength; both > 0
+/// [m].
 template <class S>
 struct Cone {
     typename S::Real radius, halfLength;
@@ -100,8 +101,7 @@ struct ShapeTypes;
 template <class R>
 struct ShapeTypes<Space<R, 2>> {
     using S = Space<R, 2>;
-    using Variant =
-        std::variant<Sphere<S>, Box<S>, Capsule<S>, HalfSpace<S>, Hull<S>, Segment<S>, Chain<S>>;
+    using Variant = std::variant<Sphere<S>, Box<S>, Capsule<S>, HalfSpace<S>, Hull<S>, Segment<S>, Chain<S>>;
 };
 template <class R>
 struct ShapeTypes<Space<R, 3>> {

@@ -6,7 +6,8 @@
 //
 // All three have the same members, so that code is written once over them:
 //   pieceCount(); corners(piece): vertex numbers; point(vertex); piece(i): the Segment or Triangle;
-//   across(piece, side): the vertex beyond side `side` (from corner `side` to the next) of the piece, kNone at
+//   across(piece, side): the vertex beyond side `side` (from corner `side` to the next) of the piece, kNone
+//   at
 //     an open border; in 2D side 0, 1 is the end at corner 0, 1 and the answer the vertex beyond it;
 //   ring(vertex, visit): the vertices that share an edge with it (2D: the chain's next ones);
 //   query(box, visit), ray(o, d, limit, visit): pieces near; frame of the shape.
@@ -27,8 +28,8 @@ template <class S>
 Chain<S> makeChain(std::span<const typename S::Vec> vertices, bool loop);
 
 /// Open meshes are fine; an edge of more than two triangles counts as open. Throws EngineError
-/// "mesh_vertices" (not finite), "mesh_triangles" (none, or unknown vertices) and "mesh_degenerate" (a triangle
-/// whose height over its longest side is below the rounding of its size).
+/// "mesh_vertices" (not finite), "mesh_triangles" (none, or unknown vertices) and "mesh_degenerate" (a
+/// triangle whose height over its longest side is below the rounding of its size).
 template <class S>
 TriangleMesh<S> makeTriangleMesh(std::span<const typename S::Vec> vertices,
                                  std::span<const std::array<std::uint32_t, 3>> triangles);
@@ -49,9 +50,7 @@ struct ChainData {
     bool loop = false;
     StaticTree<S> tree;
 
-    std::uint32_t pieceCount() const {
-        return static_cast<std::uint32_t>(vertices.size() - (loop ? 0 : 1));
-    }
+    std::uint32_t pieceCount() const { return static_cast<std::uint32_t>(vertices.size() - (loop ? 0 : 1)); }
     std::array<std::uint32_t, 2> corners(std::uint32_t i) const { return {i, next(i)}; }
     const Vec& point(std::uint32_t v) const { return vertices[v]; }
     Segment<S> piece(std::uint32_t i) const { return {vertices[i], vertices[next(i)]}; }
@@ -97,7 +96,9 @@ struct MeshData {
         const auto& t = triangles[i];
         return {{vertices[t[0]], vertices[t[1]], vertices[t[2]]}};
     }
-    std::uint32_t across(std::uint32_t i, int side) const { return beyond[i][static_cast<std::size_t>(side)]; }
+    std::uint32_t across(std::uint32_t i, int side) const {
+        return beyond[i][static_cast<std::size_t>(side)];
+    }
     template <class Visit>
     void ring(std::uint32_t v, Visit visit) const {
         for (std::uint32_t k = ringStart[v]; k < ringStart[v + 1]; ++k) visit(rings[k]);
@@ -143,7 +144,8 @@ struct HeightFieldData {
     void ring(std::uint32_t v, Visit visit) const {
         const int i = static_cast<int>(v) % columns, k = static_cast<int>(v) / columns;
         // The six neighbours that the diagonals leave.
-        constexpr std::array<std::array<int, 2>, 6> kStep{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {1, -1}, {-1, 1}}};
+        constexpr std::array<std::array<int, 2>, 6> kStep{
+            {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {1, -1}, {-1, 1}}};
         for (const auto& s : kStep)
             if (i + s[0] >= 0 && i + s[0] < columns && k + s[1] >= 0 && k + s[1] < rows)
                 visit(static_cast<std::uint32_t>((k + s[1]) * columns + i + s[0]));
@@ -152,9 +154,11 @@ struct HeightFieldData {
     template <class Visit>
     void query(const Aabb<S>& box, Visit visit) const {
         if (box.min.y() > highest || box.max.y() < lowest - thickness) return;
-        const int i0 = cellOf(box.min.x() + halfX(), dx, columns), i1 = cellOf(box.max.x() + halfX(), dx, columns);
+        const int i0 = cellOf(box.min.x() + halfX(), dx, columns),
+                  i1 = cellOf(box.max.x() + halfX(), dx, columns);
         const int k0 = cellOf(box.min.z() + halfZ(), dz, rows), k1 = cellOf(box.max.z() + halfZ(), dz, rows);
-        if (box.max.x() < -halfX() || box.min.x() > halfX() || box.max.z() < -halfZ() || box.min.z() > halfZ())
+        if (box.max.x() < -halfX() || box.min.x() > halfX() || box.max.z() < -halfZ() ||
+            box.min.z() > halfZ())
             return;
         for (int k = k0; k <= k1; ++k)
             for (int i = i0; i <= i1; ++i) visitCell(i, k, box.min.y(), visit);
@@ -191,7 +195,8 @@ struct HeightFieldData {
 
   private:
     static int cellOf(Real x, Real spacing, int vertices) {
-        return static_cast<int>(std::clamp(std::floor(x / spacing), Real(0), static_cast<Real>(vertices - 2)));
+        return static_cast<int>(
+            std::clamp(std::floor(x / spacing), Real(0), static_cast<Real>(vertices - 2)));
     }
     template <class Visit>
     void visitCell(int i, int k, Real from, Visit visit) const {

@@ -133,7 +133,8 @@ Geometry readHeightField(const Node& node) {
             const std::vector<Node> heights = row.items();
             if (field.rows++ == 0) field.columns = static_cast<int>(heights.size());
             if (static_cast<int>(heights.size()) != field.columns)
-                row.problem("value.range", "as many heights as the first row has, " + std::to_string(field.columns));
+                row.problem("value.range",
+                            "as many heights as the first row has, " + std::to_string(field.columns));
             for (const Node& height : heights) field.heights.push_back(height.number(-1e9, 1e9));
         }
     if (const auto thickness = node.find("thickness")) field.thickness = thickness->positive();
@@ -170,9 +171,11 @@ std::string kindNames(int dimension) {
 
 Shape readShape(const Node& node, const Scenario& scenario, int defaultMaterial) {
     Shape shape;
-    node.isObject({"sphere", "circle", "box", "capsule", "cylinder", "cone", "hull", "polygon", "half_space",
-                   "half_plane", "segment", "chain", "triangle_mesh", "height_field", "material", "position", "orientation", "axis_angle_deg", "angle",
-                   "angle_deg"});
+    node.isObject({"sphere",        "circle",         "box",      "capsule",
+                   "cylinder",      "cone",           "hull",     "polygon",
+                   "half_space",    "half_plane",     "segment",  "chain",
+                   "triangle_mesh", "height_field",   "material", "position",
+                   "orientation",   "axis_angle_deg", "angle",    "angle_deg"});
     const Kind* found = nullptr;
     for (const Kind& kind : kKinds) {
         if (!node.has(kind.key)) continue;

@@ -61,8 +61,8 @@ struct Segment {
     Vec3 a, b;
 };
 
-/// 2D only, static bodies only: two-sided segments from vertex to vertex [m], at least 2; with `loop` also from
-/// the last to the first, at least 3. Inner vertices do not catch what slides over them.
+/// 2D only, static bodies only: two-sided segments from vertex to vertex [m], at least 2; with `loop` also
+/// from the last to the first, at least 3. Inner vertices do not catch what slides over them.
 struct Chain {
     std::vector<Vec3> vertices;
     bool loop = false;

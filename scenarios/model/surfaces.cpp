@@ -31,12 +31,14 @@ bool isStaticOnly(const Geometry& geometry) {
 
 std::string surfaceProblem(const Chain& chain) {
     const std::size_t n = chain.vertices.size();
-    if (n < (chain.loop ? 3u : 2u)) return chain.loop ? "a loop needs three vertices" : "a chain needs two vertices";
+    if (n < (chain.loop ? 3u : 2u))
+        return chain.loop ? "a loop needs three vertices" : "a chain needs two vertices";
     if (!allFinite(chain.vertices)) return "a vertex is not finite";
     const double least = kSame * sizeOf(chain.vertices);
     for (std::size_t i = 0; i + (chain.loop ? 0 : 1) < n; ++i)
         if (!(norm(chain.vertices[(i + 1) % n] - chain.vertices[i]) > least))
-            return "vertices " + std::to_string(i) + " and " + std::to_string((i + 1) % n) + " are at one place";
+            return "vertices " + std::to_string(i) + " and " + std::to_string((i + 1) % n) +
+                   " are at one place";
     return {};
 }
 
@@ -49,7 +51,9 @@ std::string surfaceProblem(const TriangleMesh& mesh) {
         for (const int v : mesh.triangles[i])
             if (v < 0 || v >= n)
                 return "triangle " + std::to_string(i) + " has no vertex " + std::to_string(v);
-        const auto at = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(mesh.triangles[i][k])]; };
+        const auto at = [&](std::size_t k) {
+            return mesh.vertices[static_cast<std::size_t>(mesh.triangles[i][k])];
+        };
         const Vec3 a = at(1) - at(0), b = at(2) - at(0);
         const double longest = std::max({norm(a), norm(b), norm(b - a)});
         if (!(longest > 0.0) || !(norm(cross(a, b)) / longest > least))
@@ -60,9 +64,10 @@ std::string surfaceProblem(const TriangleMesh& mesh) {
 
 std::string surfaceProblem(const HeightField& field) {
     if (field.columns < 2 || field.rows < 2) return "a height field needs two rows and two columns";
-    if (field.heights.size() != static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows))
-        return std::to_string(field.heights.size()) + " heights for " + std::to_string(field.rows) + " rows of " +
-               std::to_string(field.columns);
+    if (field.heights.size() !=
+        static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows))
+        return std::to_string(field.heights.size()) + " heights for " + std::to_string(field.rows) +
+               " rows of " + std::to_string(field.columns);
     if (!(field.spacingX > 0.0) || !(field.spacingZ > 0.0) || !std::isfinite(field.spacingX * field.spacingZ))
         return "the spacing must be positive";
     if (!(field.thickness > 0.0) || !std::isfinite(field.thickness)) return "the thickness must be positive";

@@ -326,7 +326,7 @@ PAIR(Box, Segment)
 PAIR(Capsule, Segment)
 PAIR(Hull, Segment)
 #undef PAIR
-#define INSTANTIATE(S)                                                                                     \
+#define INSTANTIATE(S)                                                                                      \
     template void collidePair<S::Real>(const Sphere<S>&, const Pose<S>&, const Segment<S>&, const Pose<S>&, \
                                        S::Real, Manifold<S>&);                                              \
     template void collideAlong<S::Real>(const Segment<S>&, bool, const Shape<S>&, const Pose<S>&, S::Real,  \

@@ -68,8 +68,8 @@ void featureOf(const Hull<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
 }
 
 /// Sixteen vertices fixed in the body, on the rim of the disc at height y; counter-clockwise seen from
-/// `outward` = +-1 times y. The rim's own extreme point along d takes the place of the nearest of them once it
-/// is further out by more than kRimNoise.
+/// `outward` = +-1 times y. The rim's own extreme point along d takes the place of the nearest of them once
+/// it is further out by more than kRimNoise.
 template <class R>
 void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, SupportFeature<R>& out) {
     static constexpr std::array<double, 4> kCos{1.0, 0.92387953251128675613, 0.70710678118654752440,
@@ -86,7 +86,8 @@ void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, SupportF
     for (int k = 0; k < 16; ++k) {
         const int turn = outward < 0 ? k : 16 - k;  // x to z is clockwise seen from +y
         const Vec3<R> x(radius * cosine(turn), y, radius * cosine(turn + 12));
-        if (const R r = x.x() * d.x() + x.z() * d.z(); nearest < 0 || r > reach) reach = r, nearest = out.count;
+        if (const R r = x.x() * d.x() + x.z() * d.z(); nearest < 0 || r > reach)
+            reach = r, nearest = out.count;
         out.add(x, firstName + turn % 16);
     }
     if (radius * across > reach + std::max(kRimNoise<R>, kRounding<R>) * radius)
@@ -116,8 +117,9 @@ void featureOf(const Cone<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     }
     const R across = std::hypot(d.x(), d.z());
     const Vec3<R> apex(0, s.halfLength, 0);
-    const Vec3<R> rim = across > 0 ? Vec3<R>(s.radius * d.x() / across, -s.halfLength, s.radius * d.z() / across)
-                                   : Vec3<R>(s.radius, -s.halfLength, 0);
+    const Vec3<R> rim = across > 0
+                            ? Vec3<R>(s.radius * d.x() / across, -s.halfLength, s.radius * d.z() / across)
+                            : Vec3<R>(s.radius, -s.halfLength, 0);
     const R rise = (apex - rim).dot(d), lying = kFeatureSlope<R> * (apex - rim).norm();
     if (rise < lying) out.add(rim, 32);
     if (rise > -lying) out.add(apex, 33);

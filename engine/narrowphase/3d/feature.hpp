@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The supporting feature of a convex shape along a direction d: the vertex, segment or face that lies within
-// 2.5 degrees of the plane perpendicular to d at the shape's extreme point. Round sides give their line, discs
-// an inscribed polygon that holds the rim's own extreme point. Private to this folder.
+// 2.5 degrees of the plane perpendicular to d at the shape's extreme point. Round sides give their line,
+// discs an inscribed polygon that holds the rim's own extreme point. Private to this folder.
 #pragma once
 
 #include "engine/narrowphase/3d/polytope.hpp"
@@ -25,8 +25,8 @@ struct SupportFeature {
     }
 };
 
-/// Cosine of the largest angle between d and the normal of a face that counts as supporting, and the sine that
-/// goes with it for segments: 2.5 degrees.
+/// Cosine of the largest angle between d and the normal of a face that counts as supporting, and the sine
+/// that goes with it for segments: 2.5 degrees.
 template <class R>
 inline constexpr R kFeatureFlat = R(0.999);
 template <class R>
@@ -34,8 +34,9 @@ inline constexpr R kFeatureSlope = R(0.0447);
 
 /// Points on the rim of a disc.
 inline constexpr int kRimPoints = 16;
-/// Relative to the radius: depths this close are equal. Resting bodies rock by the slop of position correction
-/// (1e-5 m); below that another choice of the four points of a cap changes nothing but which they are.
+/// Relative to the radius: depths this close are equal. Resting bodies rock by the slop of position
+/// correction (1e-5 m); below that another choice of the four points of a cap changes nothing but which they
+/// are.
 template <class R>
 inline constexpr R kRimNoise = R(4e-6);
 

@@ -13,8 +13,9 @@
 //   4. the deepest point is kept: where clipping lost it the closest points are put in.
 // Sources: [Bergen2003], [Ericson2005, ch. 5.3, 8.3].
 //
-// Limits: a disc is clipped as an inscribed polygon of 16 sides (its lowest point is good to kRimNoise); overlapping curved
-// sides have a normal as good as EPA's. Cost: that of closestPoints and O(n m) of the features.
+// Limits: a disc is clipped as an inscribed polygon of 16 sides (its lowest point is good to kRimNoise);
+// overlapping curved sides have a normal as good as EPA's. Cost: that of closestPoints and O(n m) of the
+// features.
 #include "engine/narrowphase/3d/feature.hpp"
 #include "engine/narrowphase/distance.hpp"
 #include "engine/narrowphase/pairs.hpp"
@@ -111,7 +112,8 @@ void clip(const ClipPolygon<R>& from, bool closed, const Vec3<R>& m, const Vec3<
 }
 
 template <class R>
-std::uint32_t clipFeature(const ClipVertex<R>& c, const SupportFeature<R>& ref, const SupportFeature<R>& inc, bool refIsA) {
+std::uint32_t clipFeature(const ClipVertex<R>& c, const SupportFeature<R>& ref, const SupportFeature<R>& inc,
+                          bool refIsA) {
     const auto edge = [](const SupportFeature<R>& f, int i) {
         const auto k = static_cast<std::size_t>(i);
         return edgeName(f.index[k], f.index[(k + 1) % static_cast<std::size_t>(f.count)]);
@@ -145,8 +147,8 @@ R selectionNoise(const Meeting<R>& m, const SupportFeature<R>& ref, const Suppor
 
 /// A face against a face or a segment.
 template <class R>
-void clipFeatures(const Meeting<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc, bool refIsA,
-                  Manifold<S3<R>>& out) {
+void clipFeatures(const Meeting<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc,
+                  bool refIsA, Manifold<S3<R>>& out) {
     const Vec3<R> outward = refIsA ? m.normal : Vec3<R>(-m.normal);
     ClipPolygon<R> buffers[2];
     int now = 0;
@@ -179,7 +181,8 @@ void clipFeatures(const Meeting<R>& m, const SupportFeature<R>& ref, const Suppo
             const ClipVertex<R>& c = at(k);
             const R h = height(c.x);
             const Vec3<R> onRef = c.x - h * outward;
-            addPoint<S3<R>>(out, refIsA ? onRef : c.x, refIsA ? c.x : onRef, h, clipFeature(c, ref, inc, refIsA));
+            addPoint<S3<R>>(out, refIsA ? onRef : c.x, refIsA ? c.x : onRef, h,
+                            clipFeature(c, ref, inc, refIsA));
         });
 }
 
@@ -189,7 +192,8 @@ inline constexpr R kSideBySide = R(0.05);
 
 /// The ends of the common stretch of two segments; nothing where they cross.
 template <class R>
-void alongSegments(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb, Manifold<S3<R>>& out) {
+void alongSegments(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
+                   Manifold<S3<R>>& out) {
     const Vec3<R> d = fa.at[1] - fa.at[0], e = fb.at[1] - fb.at[0];
     const R dd = d.squaredNorm(), de = d.dot(e);
     if (!(d.cross(e).squaredNorm() <= kSideBySide<R> * kSideBySide<R> * dd * e.squaredNorm())) return;
@@ -203,13 +207,15 @@ void alongSegments(const Meeting<R>& m, const SupportFeature<R>& fa, const Suppo
         if (s > m.speculative) continue;
         const bool endOfA = t == R(0) || t == R(1);
         const auto end = static_cast<std::size_t>((endOfA ? t : u) > R(0.5) ? 1 : 0);
-        addPoint<S3<R>>(out, p, p + s * m.normal, s, vertexFeature(endOfA, endOfA ? fa.index[end] : fb.index[end]));
+        addPoint<S3<R>>(out, p, p + s * m.normal, s,
+                        vertexFeature(endOfA, endOfA ? fa.index[end] : fb.index[end]));
     }
 }
 
 /// Step 4.
 template <class R>
-void keepDeepest(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb, Manifold<S3<R>>& out) {
+void keepDeepest(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
+                 Manifold<S3<R>>& out) {
     R least = std::numeric_limits<R>::max();
     for (int i = 0; i < out.count; ++i)
         least = std::min(least, out.points[static_cast<std::size_t>(i)].separation);
@@ -219,10 +225,10 @@ void keepDeepest(const Meeting<R>& m, const SupportFeature<R>& fa, const Support
     if (out.count > 0 && least <= m.separation + R(4) * noise) return;
     if (out.count == S3<R>::maxManifoldPoints) --out.count;
     const bool vertexOnA = fa.count == 1, vertexOnB = fb.count == 1;
-    const std::uint32_t feature = vertexOnB   ? vertexFeature(false, fb.index[0])
-                                  : vertexOnA ? vertexFeature(true, fa.index[0])
-                                              : crossingFeature(edgeName(fa.index[0], fa.index[1]),
-                                                                edgeName(fb.index[0], fb.index[1]));
+    const std::uint32_t feature =
+        vertexOnB   ? vertexFeature(false, fb.index[0])
+        : vertexOnA ? vertexFeature(true, fa.index[0])
+                    : crossingFeature(edgeName(fa.index[0], fa.index[1]), edgeName(fb.index[0], fb.index[1]));
     // Both points on one line along the normal.
     const Vec3<R> middle = R(0.5) * (m.pointA + m.pointB), half = R(0.5) * m.separation * m.normal;
     addPoint<S3<R>>(out, middle - half, middle + half, m.separation, feature);
@@ -287,7 +293,7 @@ void collideAlong(const Triangle<Space<R, 3>>& piece, bool front, const Shape<Sp
     }
 }
 
-#define ALONG(S)                                                                                           \
+#define ALONG(S)                                                                                            \
     template void collideAlong<S::Real>(const Triangle<S>&, bool, const Shape<S>&, const Pose<S>&, S::Real, \
                                         Manifold<S>&);
 ALONG(Space3f)

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Closed forms of cylinder and cone (axis local y) against ball and half-space, and of a ball against a triangle.
+// Closed forms of cylinder and cone (axis local y) against ball and half-space, and of a ball against a
+// triangle.
 //
-//   ball: in the half-plane (rho, y) through the axis and the ball's centre the solid is a convex polygon, the
+//   ball: in the half-plane (rho, y) through the axis and the ball's centre the solid is a convex polygon,
+//   the
 //     rectangle 0..r x -h..h or the triangle (0, h), (r, -h), (0, -h); its nearest point, or for a centre
 //     inside the least way out, is the contact.
 //   half-space: the extreme points along -n are on the rims (and the apex). Each rim's lowest point is
@@ -69,8 +71,8 @@ void ballAgainst(const Sphere<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, cons
     if (separation > speculative) return;
     const V n = nearest.normal.x() * radial + nearest.normal.y() * V::UnitY();
     out.normal = -n;
-    addPoint<S>(out, c - a.radius * n, nearest.point.x() * radial + nearest.point.y() * V::UnitY(), separation,
-                0);
+    addPoint<S>(out, c - a.radius * n, nearest.point.x() * radial + nearest.point.y() * V::UnitY(),
+                separation, 0);
     toWorldFrame<S>(out, Xb);
 }
 
@@ -105,7 +107,8 @@ void addRim(R radius, R y, R outward, const Vec3<R>& down, std::uint32_t firstId
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < 4; ++i)
         if (fixed[i].dot(down) > fixed[nearest].dot(down)) nearest = i;
-    const bool moved = lowest.dot(down) > fixed[nearest].dot(down) + std::max(kRimNoise<R>, kRounding<R>) * radius;
+    const bool moved =
+        lowest.dot(down) > fixed[nearest].dot(down) + std::max(kRimNoise<R>, kRounding<R>) * radius;
     for (std::size_t i = 0; i < 4; ++i)
         out.add(moved && i == nearest ? lowest : fixed[i], firstId + static_cast<std::uint32_t>(i));
 }
@@ -139,19 +142,23 @@ void roundAgainstPlane(const Round& a, const Pose<Space<R, 3>>& Xa, const HalfSp
         if (height + local.dot(all.at[i]) <= speculative) near.add(all.at[i], all.id[i]);
     if (near.count == 0) return;
     out.normal = -n;
-    const auto separation = [&](int i) { return R(height + local.dot(near.at[static_cast<std::size_t>(i)])); };
+    const auto separation = [&](int i) {
+        return R(height + local.dot(near.at[static_cast<std::size_t>(i)]));
+    };
     const auto emit = [&](int i) {
         const V x = toWorld<S>(Xa, near.at[static_cast<std::size_t>(i)]);
         const R s = separation(i);
-        addPoint<S>(out, x, x - s * n, s, vertexFeature(true, static_cast<int>(near.id[static_cast<std::size_t>(i)])));
+        addPoint<S>(out, x, x - s * n, s,
+                    vertexFeature(true, static_cast<int>(near.id[static_cast<std::size_t>(i)])));
     };
-    reducePoints<S>(near.count, local, separation, [&](int i) { return near.at[static_cast<std::size_t>(i)]; },
-                    emit);
+    reducePoints<S>(
+        near.count, local, separation, [&](int i) { return near.at[static_cast<std::size_t>(i)]; }, emit);
 }
 
 /// Point of a triangle nearest to x: over the face its foot, else the nearest point of the sides.
 template <class R>
-Vec3<R> nearestOnTriangle(const Triangle<Space<R, 3>>& t, const Vec3<R>& n, const Vec3<R>& x, bool& overFace) {
+Vec3<R> nearestOnTriangle(const Triangle<Space<R, 3>>& t, const Vec3<R>& n, const Vec3<R>& x,
+                          bool& overFace) {
     overFace = true;
     Vec3<R> best = Vec3<R>::Zero();
     R least = std::numeric_limits<R>::max();
@@ -193,27 +200,28 @@ template void collidePair<float>(const Sphere<Space3f>&, const Pose<Space3f>&, c
 template void collidePair<double>(const Sphere<Space3d>&, const Pose<Space3d>&, const Triangle<Space3d>&,
                                   const Pose<Space3d>&, double, Manifold<Space3d>&);
 
-#define PAIR(Round)                                                                                           \
-    template <class R>                                                                                        \
-    void collidePair(const Sphere<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Round<Space<R, 3>>& b,  \
-                     const Pose<Space<R, 3>>& Xb, typename Space<R, 3>::Real speculative,                     \
-                     Manifold<Space<R, 3>>& out) {                                                            \
-        ballAgainst<R>(a, Xa, b, Xb, speculative, out);                                                       \
-    }                                                                                                         \
-    template <class R>                                                                                        \
-    void collidePair(const Round<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa,                                \
-                     const HalfSpace<Space<R, 3>>& b, const Pose<Space<R, 3>>& Xb,                            \
-                     typename Space<R, 3>::Real speculative, Manifold<Space<R, 3>>& out) {                    \
-        roundAgainstPlane<R>(a, Xa, b, Xb, speculative, out);                                                 \
-    }                                                                                                         \
-    template void collidePair<float>(const Sphere<Space3f>&, const Pose<Space3f>&, const Round<Space3f>&,     \
-                                     const Pose<Space3f>&, float, Manifold<Space3f>&);                        \
-    template void collidePair<double>(const Sphere<Space3d>&, const Pose<Space3d>&, const Round<Space3d>&,    \
-                                      const Pose<Space3d>&, double, Manifold<Space3d>&);                      \
-    template void collidePair<float>(const Round<Space3f>&, const Pose<Space3f>&, const HalfSpace<Space3f>&,  \
-                                     const Pose<Space3f>&, float, Manifold<Space3f>&);                        \
-    template void collidePair<double>(const Round<Space3d>&, const Pose<Space3d>&, const HalfSpace<Space3d>&, \
-                                      const Pose<Space3d>&, double, Manifold<Space3d>&);
+#define PAIR(Round)                                                                                          \
+    template <class R>                                                                                       \
+    void collidePair(const Sphere<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Round<Space<R, 3>>& b, \
+                     const Pose<Space<R, 3>>& Xb, typename Space<R, 3>::Real speculative,                    \
+                     Manifold<Space<R, 3>>& out) {                                                           \
+        ballAgainst<R>(a, Xa, b, Xb, speculative, out);                                                      \
+    }                                                                                                        \
+    template <class R>                                                                                       \
+    void collidePair(const Round<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa,                               \
+                     const HalfSpace<Space<R, 3>>& b, const Pose<Space<R, 3>>& Xb,                           \
+                     typename Space<R, 3>::Real speculative, Manifold<Space<R, 3>>& out) {                   \
+        roundAgainstPlane<R>(a, Xa, b, Xb, speculative, out);                                                \
+    }                                                                                                        \
+    template void collidePair<float>(const Sphere<Space3f>&, const Pose<Space3f>&, const Round<Space3f>&,    \
+                                     const Pose<Space3f>&, float, Manifold<Space3f>&);                       \
+    template void collidePair<double>(const Sphere<Space3d>&, const Pose<Space3d>&, const Round<Space3d>&,   \
+                                      const Pose<Space3d>&, double, Manifold<Space3d>&);                     \
+    template void collidePair<float>(const Round<Space3f>&, const Pose<Space3f>&, const HalfSpace<Space3f>&, \
+                                     const Pose<Space3f>&, float, Manifold<Space3f>&);                       \
+    template void collidePair<double>(const Round<Space3d>&, const Pose<Space3d>&,                           \
+                                      const HalfSpace<Space3d>&, const Pose<Space3d>&, double,               \
+                                      Manifold<Space3d>&);
 PAIR(Cylinder)
 PAIR(Cone)
 #undef PAIR

@@ -139,15 +139,17 @@ Shape<S> shapeOfKind(int kind) {
         static_assert(std::size(more) + known == std::variant_size_v<Shape<S>>, "a kind without an example");
         return more[static_cast<std::size_t>(kind) - known];
     } else {
-        const typename S::Vec points[] = {vec<S>(-0.7, 0.2), vec<S>(-0.2, -0.1), vec<S>(0.3, 0), vec<S>(0.6, 0.4)};
-        const Shape<S> more[] = {Segment<S>{vec<S>(-0.6, -0.2), vec<S>(0.7, 0.3)}, makeChain<S>(points, false)};
+        const typename S::Vec points[] = {vec<S>(-0.7, 0.2), vec<S>(-0.2, -0.1), vec<S>(0.3, 0),
+                                          vec<S>(0.6, 0.4)};
+        const Shape<S> more[] = {Segment<S>{vec<S>(-0.6, -0.2), vec<S>(0.7, 0.3)},
+                                 makeChain<S>(points, false)};
         static_assert(std::size(more) + known == std::variant_size_v<Shape<S>>, "a kind without an example");
         return more[static_cast<std::size_t>(kind) - known];
     }
 }
 
-/// Do the tables of convex pairs ask about these two? Static shapes never meet; composites are no convex shape
-/// (surface_contact_test.cpp).
+/// Do the tables of convex pairs ask about these two? Static shapes never meet; composites are no convex
+/// shape (surface_contact_test.cpp).
 template <class S>
 bool isConvexPair(const Shape<S>& a, const Shape<S>& b) {
     return !(isStaticOnly<S>(a) && isStaticOnly<S>(b)) && !isComposite<S>(a) && !isComposite<S>(b);
@@ -157,8 +159,9 @@ bool isRound(const Shape<S>& s) {
     const std::string name = shapeName<S>(s);
     return name == "cylinder" || name == "cone";
 }
-/// What curved sides cost: points of a cap are good to 4e-6 of its radius (kRimNoise); a ball near the axis of
-/// a cylinder has all directions as ways out, which an iteration over support points meets to 1e-4. 0 without.
+/// What curved sides cost: points of a cap are good to 4e-6 of its radius (kRimNoise); a ball near the axis
+/// of a cylinder has all directions as ways out, which an iteration over support points meets to 1e-4. 0
+/// without.
 template <class S>
 double curvedTolerance(const Shape<S>& a, const Shape<S>& b) {
     if (!isRound<S>(a) && !isRound<S>(b)) return 0;

@@ -25,7 +25,8 @@ class Round : public testing::Test {
     static Pose<S> at(double x, double y, double z = 0, double angle = 0, double tilt = 0) {
         return pose<S>(vec<S>(x, y, z), turn<S>(angle, tilt));
     }
-    static void expectContact(const Manifold<S>& m, const typename S::Vec& normal, double separation, int count) {
+    static void expectContact(const Manifold<S>& m, const typename S::Vec& normal, double separation,
+                              int count) {
         ASSERT_EQ(m.count, count);
         EXPECT_LE((m.normal - normal).norm(), tol<S>(1e-12, 3e-6));
         EXPECT_NEAR(leastSeparation(m), separation, tol<S>(1e-12, 2e-6));
@@ -37,7 +38,8 @@ class Round : public testing::Test {
             const typename S::Vec d = vec<S>(std::cos(k * kPi / 8), 0, std::sin(k * kPi / 8));
             double furthest = -1e9;
             for (int i = 0; i < m.count; ++i)
-                furthest = std::max(furthest, static_cast<double>(d.dot(m.points[static_cast<std::size_t>(i)].pointA)));
+                furthest = std::max(furthest,
+                                    static_cast<double>(d.dot(m.points[static_cast<std::size_t>(i)].pointA)));
             least = std::min(least, furthest);
         }
         return least;
@@ -84,7 +86,9 @@ TYPED_TEST(Round, LyingCylinderHasItsLine) {
     EXPECT_NEAR(leastSeparation(m), d - 1, tol<S>(1e-12, 4e-6));
     EXPECT_NEAR(std::abs(m.points[0].pointA.y() - m.points[1].pointA.y()), 1.5, 1e-5);
     // Crossed: one point.
-    EXPECT_EQ(collide<S>(this->cylinder, this->at(0, 0), this->cylinder, this->at(0.1, 0.2, 0.95, kPi / 2)).count, 1);
+    EXPECT_EQ(
+        collide<S>(this->cylinder, this->at(0, 0), this->cylinder, this->at(0.1, 0.2, 0.95, kPi / 2)).count,
+        1);
 }
 
 TYPED_TEST(Round, ConeOnItsSideHasItsLineAndOnItsApexAPoint) {
@@ -99,8 +103,10 @@ TYPED_TEST(Round, ConeOnItsSideHasItsLineAndOnItsApexAPoint) {
         this->expectContact(m, up, -0.01, 2);
         EXPECT_NEAR((m.points[0].pointA - m.points[1].pointA).norm(), std::hypot(2, 0.5), 1e-5);
     }
-    this->expectContact(collide<S>(this->floor, this->at(0, 0), this->cone, this->at(0, 0.98, 0, kPi)), up, -0.02, 1);
-    this->expectContact(collide<S>(this->table, this->at(0, -1), this->cone, this->at(0, 0.98, 0, kPi)), up, -0.02, 1);
+    this->expectContact(collide<S>(this->floor, this->at(0, 0), this->cone, this->at(0, 0.98, 0, kPi)), up,
+                        -0.02, 1);
+    this->expectContact(collide<S>(this->table, this->at(0, -1), this->cone, this->at(0, 0.98, 0, kPi)), up,
+                        -0.02, 1);
 }
 
 /// The lowest rim point of a tilted cylinder is exact, whichever way it tilts.
@@ -132,7 +138,8 @@ TYPED_TEST(Round, BallAgainstASweptSurface) {
     using S = TypeParam;
     Random<S> random{std::mt19937(9)};
     for (int i = 0; i < 200; ++i) {
-        const double x = random.uniform(-1.2, 1.2), y = random.uniform(-1.7, 1.7), angle = random.uniform(-3, 3);
+        const double x = random.uniform(-1.2, 1.2), y = random.uniform(-1.7, 1.7),
+                     angle = random.uniform(-3, 3);
         const auto c = vec<S>(x * std::cos(angle), y, x * std::sin(angle));
         const double rho = std::abs(x);
         for (const bool cone : {false, true}) {
@@ -140,12 +147,13 @@ TYPED_TEST(Round, BallAgainstASweptSurface) {
             const int n = 20000;
             for (int k = 0; k <= n; ++k) {
                 const double t = static_cast<double>(k) / n, sideR = cone ? 0.5 * (1 - t) : 0.5;
-                nearest = std::min({nearest, std::hypot(rho - sideR, y - (2 * t - 1)), std::hypot(rho - 0.5 * t, y + 1),
+                nearest = std::min({nearest, std::hypot(rho - sideR, y - (2 * t - 1)),
+                                    std::hypot(rho - 0.5 * t, y + 1),
                                     cone ? 1e9 : std::hypot(rho - 0.5 * t, y - 1)});
             }
             const bool inside = std::abs(y) < 1 && rho < (cone ? 0.25 * (1 - y) : 0.5);
-            const auto m = collide<S>(cone ? this->cone : this->cylinder, this->at(0, 0), this->ball,
-                                      pose<S>(c), 10.0);
+            const auto m =
+                collide<S>(cone ? this->cone : this->cylinder, this->at(0, 0), this->ball, pose<S>(c), 10.0);
             ASSERT_EQ(m.count, 1);
             EXPECT_NEAR(m.points[0].separation, (inside ? -nearest : nearest) - 0.5, 2e-4);
             const auto back = c - m.normal * (m.points[0].separation + typename S::Real(0.5));

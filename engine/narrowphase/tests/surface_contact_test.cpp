@@ -78,7 +78,8 @@ TYPED_TEST(Surface, FlatPiecesAreAHalfSpace) {
             if (isStaticOnly<S>(convex)) continue;
             SCOPED_TRACE(std::string(shapeName<S>(convex)) + " on " + shapeName<S>(surface));
             for (int i = 0; i < 60; ++i) {
-                Pose<S> X = pose<S>(vec<S>(random.uniform(-1, 1), 0, random.uniform(-1, 1)), random.rotation());
+                Pose<S> X =
+                    pose<S>(vec<S>(random.uniform(-1, 1), 0, random.uniform(-1, 1)), random.rotation());
                 if (i % 3 == 0) X.q = turn<S>(0);
                 if (i % 3 == 1) X.q = turn<S>(std::numbers::pi / 2);
                 const double depth = i % 2 ? 1e-3 : random.uniform(-0.01, 0.02);
@@ -164,8 +165,8 @@ TYPED_TEST(Surface, SidesAreTold) {
     for (const Shape<S>& surface : flatSurfaces<S>()) {
         const bool solid = std::string(shapeName<S>(surface)) == "height_field";
         Manifold<S> m;
-        collideDeepestPiece<S>(findNarrowPhase<S>("sat"), surface, Pose<S>{}, ball, pose<S>(vec<S>(0.1, -0.4, 0.1)),
-                               0, m);
+        collideDeepestPiece<S>(findNarrowPhase<S>("sat"), surface, Pose<S>{}, ball,
+                               pose<S>(vec<S>(0.1, -0.4, 0.1)), 0, m);
         ASSERT_EQ(m.count, 1);
         EXPECT_LE((m.normal - vec<S>(0, solid ? 1 : -1)).norm(), tol<S>(1e-12, 1e-6));
         EXPECT_NEAR(leastSeparation(m), solid ? -0.9 : -0.1, tol<S>(1e-12, 1e-6));
@@ -185,7 +186,8 @@ TYPED_TEST(Surface, RigidMotionAndOrder) {
             if (isStaticOnly<S>(convex)) continue;
             SCOPED_TRACE(std::string(shapeName<S>(convex)) + " on " + shapeName<S>(surface));
             for (int i = 0; i < 30; ++i) {
-                const Pose<S> X = pose<S>(typename S::Vec(random.direction() * typename S::Real(0.6)), random.rotation());
+                const Pose<S> X =
+                    pose<S>(typename S::Vec(random.direction() * typename S::Real(0.6)), random.rotation());
                 const Pose<S> by = pose<S>(vec<S>(3, -2, 1), random.rotation());
                 const Manifold<S> m = collide<S>(surface, Pose<S>{}, convex, X);
                 const Manifold<S> moved = collide<S>(surface, by, convex, compose<S>(by, X));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Cylinders and cones at rest and rolling; bodies on chains, meshes and height fields: no bumps at inner edges,
-// rest in hollows, and what is refused.
+// Cylinders and cones at rest and rolling; bodies on chains, meshes and height fields: no bumps at inner
+// edges, rest in hollows, and what is refused.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -112,10 +112,12 @@ TEST(RoundShapes, StandAndLieStill) {
                 def.type = BodyType::Static;
                 def.pose.p.y() = -1;
                 const BodyId id = world.addBody(def);
-                const Shape<S> top = ground == "box" ? Shape<S>(Box<S>{{2, 1, 2}}) : Shape<S>(Cylinder<S>{2, 1});
+                const Shape<S> top =
+                    ground == "box" ? Shape<S>(Box<S>{{2, 1, 2}}) : Shape<S>(Cylinder<S>{2, 1});
                 attach<S>(world, id, top, material);
             }
-            const auto body = addSolid<S>(world, c.shape, {0.1, c.height - 1e-5, 0.05}, turned<S>(c.angle), 1, material);
+            const auto body =
+                addSolid<S>(world, c.shape, {0.1, c.height - 1e-5, 0.05}, turned<S>(c.angle), 1, material);
             const Eigen::Vector3d start = world.pose(body).p;
             const double before = energyOf(world, {body});
             for (int i = 0; i < 600; ++i) world.step(1.0 / 60);
@@ -155,7 +157,8 @@ TEST(RoundShapes, LyingCylinderRolls) {
             addSurface<S>(world, flatFloors<S>()[0], material);
         else
             addGround<S>(world, material);
-        const auto body = addSolid<S>(world, Cylinder<S>{0.25, 0.3}, {-1, 0.25, 0}, lying, 1, material, {1.5, 0, 0});
+        const auto body =
+            addSolid<S>(world, Cylinder<S>{0.25, 0.3}, {-1, 0.25, 0}, lying, 1, material, {1.5, 0, 0});
         for (int i = 0; i < 480; ++i) world.step(1.0 / 240);
         EXPECT_NEAR(world.velocity(body).x(), 1.0, 5e-3) << onMesh;
         EXPECT_NEAR(world.angularVelocity(body).z(), -4.0, 2e-2);
@@ -183,8 +186,8 @@ TYPED_TEST(OnSurfaces, BoxSlidesOverInnerEdges) {
             addGround<S>(world, material);
         typename S::Vec half = S::Vec::Constant(R(0.25));
         half.y() = R(0.1);
-        const auto body = addSolid<S>(world, Box<S>{half}, at<S>(-1, 0.1), Pose<S>::identityRot(), 2, material,
-                                      at<S>(4, 0));
+        const auto body = addSolid<S>(world, Box<S>{half}, at<S>(-1, 0.1), Pose<S>::identityRot(), 2,
+                                      material, at<S>(4, 0));
         double highest = 0, tilt = 0;
         for (int i = 0; i < 480; ++i) {
             world.step(R(1) / 240);
@@ -219,7 +222,8 @@ TYPED_TEST(OnSurfaces, BallKeepsItsSpeed) {
             world.step(R(1) / 240);
             EXPECT_NEAR(static_cast<double>(world.velocity(body)[1]), 0, tol<S>(1e-4, 5e-3));
         }
-        EXPECT_NEAR(static_cast<double>(world.velocity(body)[0]), 3, tol<S>(1e-9, 1e-4)) << shapeName<S>(surface);
+        EXPECT_NEAR(static_cast<double>(world.velocity(body)[0]), 3, tol<S>(1e-9, 1e-4))
+            << shapeName<S>(surface);
         EXPECT_NEAR(static_cast<double>(world.pose(body).p[1]), 0.2, 2e-5 + 1e-5);
     }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Rays against every kind of shape. Oracle: walking along the ray by the distance to the shape (sphere tracing
-// with closestPoints), which shares nothing with the closed forms; for composites, the nearest of all pieces.
+// Rays against every kind of shape. Oracle: walking along the ray by the distance to the shape (sphere
+// tracing with closestPoints), which shares nothing with the closed forms; for composites, the nearest of all
+// pieces.
 #include "engine/queries/ray_cast.hpp"
 
 #include <gtest/gtest.h>
@@ -112,7 +113,8 @@ TYPED_TEST(Rays, CompositesAreTheNearestOfTheirPieces) {
                 const bool met = castRay<S>(shape, X, o, d, hit);
                 R best = 2;
                 for (std::uint32_t k = 0; k < data.pieceCount(); ++k)
-                    if (castRay<S>(Shape<S>(data.piece(k)), X, o, d, one)) best = std::min(best, one.fraction);
+                    if (castRay<S>(Shape<S>(data.piece(k)), X, o, d, one))
+                        best = std::min(best, one.fraction);
                 ASSERT_EQ(met, best <= 1);
                 if (!met) continue;
                 ++hits;

@@ -75,7 +75,8 @@ TYPED_TEST(Questions, RaysFindTheNearest) {
     Random<S> random{std::mt19937(40)};
     int hits = 0;
     for (int n = 0; n < 200; ++n) {
-        const typename S::Vec o = R(5) * random.direction(), d = R(random.uniform(1, 10)) * random.direction();
+        const typename S::Vec o = R(5) * random.direction(),
+                              d = R(random.uniform(1, 10)) * random.direction();
         R best = 2;
         std::size_t met = 0;
         for (const ShapeRecord<S>& record : this->world.shapes()) {
@@ -177,7 +178,8 @@ TYPED_TEST(Questions, ShapeCastsStopAtTheFirstTouch) {
         EXPECT_TRUE(hit->converged);
         EXPECT_NEAR(gapAt(hit->fraction), 0, tol<S>(2e-12, 2e-3)) << n;
         EXPECT_LE(hit->normal.dot(-d), 0) << "moving into it";
-        for (int k = 0; k < 20; ++k) EXPECT_GT(gapAt(hit->fraction * R(k) / R(20)), -tol<S>(1e-12, 1e-5)) << n;
+        for (int k = 0; k < 20; ++k)
+            EXPECT_GT(gapAt(hit->fraction * R(k) / R(20)), -tol<S>(1e-12, 1e-5)) << n;
     }
     EXPECT_GT(hits, 20);
     EXPECT_GT(misses, 0);
@@ -188,7 +190,8 @@ TYPED_TEST(Questions, KnownTouches) {
     using S = TypeParam;
     using R = typename S::Real;
     const double eps = tol<S>(1e-13, 1e-6);
-    const Shape<S> ball = Sphere<S>{R(0.1)}, box = Box<S>{S::Vec::Constant(R(0.5))}, wall = Box<S>{vec<S>(0.0005, 1, 1)};
+    const Shape<S> ball = Sphere<S>{R(0.1)}, box = Box<S>{S::Vec::Constant(R(0.5))},
+                   wall = Box<S>{vec<S>(0.0005, 1, 1)};
     const Pose<S> here;
     // 500 m/s for a 60th of a second at a wall of a millimetre: (x - 0.1 - 0.0005) / (500 / 60).
     auto r = castConvex<S>(ball, pose<S>(vec<S>(-4, 0.2)), vec<S>(500.0 / 60, 0), wall, here, R(1));

@@ -23,7 +23,8 @@ Chain<S> makeChain(std::span<const typename S::Vec> vertices, bool loop) {
         const Segment<S> s = data->piece(i);
         // 64 roundings of the coordinates: nearer points give a segment without a direction.
         if (!((s.b - s.a).norm() > R(64) * std::numeric_limits<R>::epsilon() * size))
-            throw EngineError("chain_vertices", "vertices " + std::to_string(i) + " and the next are the same");
+            throw EngineError("chain_vertices",
+                              "vertices " + std::to_string(i) + " and the next are the same");
         boxes.push_back({s.a.cwiseMin(s.b), s.a.cwiseMax(s.b)});
     }
     data->tree.build(boxes);

@@ -66,8 +66,8 @@ TriangleMesh<S> makeTriangleMesh(std::span<const typename S::Vec> vertices,
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         for (const std::uint32_t v : triangles[i])
             if (v >= vertices.size())
-                throw EngineError("mesh_triangles", "triangle " + std::to_string(i) + " has no vertex " +
-                                                        std::to_string(v));
+                throw EngineError("mesh_triangles",
+                                  "triangle " + std::to_string(i) + " has no vertex " + std::to_string(v));
         const Triangle<S> t = data->piece(i);
         R longest = 0, size = 0;
         for (const auto& v : t.v) size = std::max(size, v.cwiseAbs().maxCoeff());
@@ -126,11 +126,11 @@ Shape<S> pieceOf(const Shape<S>& shape, std::uint32_t piece) {
     return shape;
 }
 
-#define INSTANTIATE(S)                                                                                       \
+#define INSTANTIATE(S)                                                                                      \
     template TriangleMesh<S> makeTriangleMesh(std::span<const S::Vec>,                                      \
                                               std::span<const std::array<std::uint32_t, 3>>);               \
     template HeightField<S> makeHeightField(int, int, S::Real, S::Real, std::span<const S::Real>, S::Real); \
-    template struct HeightFieldData<S>;                                                                      \
+    template struct HeightFieldData<S>;                                                                     \
     template Shape<S> pieceOf<S>(const Shape<S>&, std::uint32_t);
 INSTANTIATE(Space3f)
 INSTANTIATE(Space3d)

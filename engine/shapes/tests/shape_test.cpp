@@ -84,7 +84,8 @@ std::vector<Shape<S>> solids() {
     std::size_t solid = 0;  // every kind with a volume is in the list
     [&]<std::size_t... I>(std::index_sequence<I...>) {
         ((solid += !kStaticOnly<std::variant_alternative_t<I, Shape<S>>>), ...);
-    }(std::make_index_sequence<std::variant_size_v<Shape<S>>>());
+    }
+    (std::make_index_sequence<std::variant_size_v<Shape<S>>>());
     EXPECT_EQ(all.size(), solid);
     return all;
 }
@@ -286,8 +287,8 @@ TEST(RoundMass, MatchesAnIntegralOverDiscs) {
             axial += w * pi * s * s * s * s / 2;
             across += w * pi * s * s * (s * s / 4 + y * y);
         }
-        const Shape<Space3d> shape = cone ? Shape<Space3d>(Cone<Space3d>{r, h})
-                                          : Shape<Space3d>(Cylinder<Space3d>{r, h});
+        const Shape<Space3d> shape =
+            cone ? Shape<Space3d>(Cone<Space3d>{r, h}) : Shape<Space3d>(Cylinder<Space3d>{r, h});
         const auto m = massProperties<Space3d>(shape, 1.0);
         const double y = first / volume;
         EXPECT_NEAR(m.mass, volume, 1e-9);

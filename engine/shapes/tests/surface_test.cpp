@@ -104,11 +104,13 @@ void expectNeighbours(const Data& data) {
     for (std::uint32_t i = 0; i < data.pieceCount(); ++i)
         for (int side = 0; side < 3; ++side) {
             const auto c = data.corners(i);
-            const std::uint32_t a = c[static_cast<std::size_t>(side)], b = c[static_cast<std::size_t>((side + 1) % 3)];
+            const std::uint32_t a = c[static_cast<std::size_t>(side)],
+                                b = c[static_cast<std::size_t>((side + 1) % 3)];
             std::uint32_t beyond = kNone;
             for (std::uint32_t j = 0; j < data.pieceCount(); ++j) {
                 const auto other = data.corners(j);
-                if (j == i || !std::count(other.begin(), other.end(), a) || !std::count(other.begin(), other.end(), b))
+                if (j == i || !std::count(other.begin(), other.end(), a) ||
+                    !std::count(other.begin(), other.end(), b))
                     continue;
                 for (const std::uint32_t v : other)
                     if (v != a && v != b) beyond = v;
@@ -152,7 +154,8 @@ TYPED_TEST(Surfaces3d, BadInputIsRefused) {
     using T = std::array<std::uint32_t, 3>;
     const V v[] = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {2, 0, 0}};
     const V bad[] = {{0, 0, 0}, {1, std::numeric_limits<R>::quiet_NaN(), 0}, {0, 0, 1}};
-    const T good[] = {{0, 2, 1}}, unknown[] = {{0, 2, 4}}, flat[] = {{0, 2, 1}, {0, 1, 3}}, same[] = {{0, 1, 1}};
+    const T good[] = {{0, 2, 1}}, unknown[] = {{0, 2, 4}}, flat[] = {{0, 2, 1}, {0, 1, 3}},
+            same[] = {{0, 1, 1}};
     EXPECT_EQ(errorOf([&] { makeTriangleMesh<S>(v, good); }), "none");
     EXPECT_EQ(errorOf([&] { makeTriangleMesh<S>(bad, good); }), "mesh_vertices");
     EXPECT_EQ(errorOf([&] { makeTriangleMesh<S>(v, {}); }), "mesh_triangles");
