@@ -42,9 +42,9 @@ struct Extent {
     }
     double operator()(const Segment& s) const { return std::max(norm(s.a), norm(s.b)); }
     double operator()(const HalfSpace&) const { return 0.0; }
-    template <class Solid>
-    double operator()(const Solid&) const {
-        throw Unsupported("box2d has no such shape");
+    template <class Other>
+    double operator()(const Other& other) const {
+        throw Unsupported(std::string("box2d has no shape '") + scenario::geometryName(other, 2) + "'");
     }
 };
 

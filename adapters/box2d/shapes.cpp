@@ -85,9 +85,9 @@ struct Builder {
         shapes.push_back(std::move(edge));
         return shapes;
     }
-    template <class Solid>
-    Shapes operator()(const Solid&) const {
-        throw Unsupported("box2d has no such shape");
+    template <class Other>
+    Shapes operator()(const Other& other) const {
+        throw Unsupported(std::string("box2d has no shape '") + scenario::geometryName(other, 2) + "'");
     }
 
   private:

@@ -49,7 +49,7 @@ Geometry lifted(const Geometry& geometry, double halfDepth) {
     try {
         solid = adapter::planarGeometry(geometry);
     } catch (const std::invalid_argument&) {
-        throw Unsupported("bullet has no shape 'segment'");
+        throw Unsupported(std::string("bullet has no shape '") + scenario::geometryName(geometry, 2) + "'");
     }
     if (auto* box = std::get_if<scenario::Box>(&solid)) box->halfExtents.z = halfDepth;
     if (auto* hull = std::get_if<scenario::ConvexHull>(&solid))

@@ -74,8 +74,9 @@ struct Builder {
         const Vec3 onPlane = center + (h.offset - dot(h.normal, center)) * h.normal;
         return {std::move(box), {onPlane - kHalfSpaceDepth * h.normal, fromYTo(h.normal)}};
     }
-    BuiltShape operator()(const scenario::Segment&) const {
-        throw Unsupported("bullet has no shape 'segment'");
+    template <class Other>
+    BuiltShape operator()(const Other& other) const {
+        throw Unsupported(std::string("bullet has no shape '") + scenario::geometryName(other, 3) + "'");
     }
 
   private:

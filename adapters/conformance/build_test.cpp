@@ -152,16 +152,24 @@ TEST_P(Build, StepsRepeatBitForBitAndWorldsDoNotMeet) {
 }
 
 TEST_P(Build, WhatTheEngineLacksIsRefusedByName) {
-    const std::pair<const char*, Geometry> shapes[] = {{is2d() ? "circle" : "sphere", Sphere{0.5}},
-                                                       {"box", block({0.5, 0.5, 0.5})},
-                                                       {"capsule", Capsule{0.2, 0.3}},
-                                                       {"cylinder", Cylinder{0.2, 0.3}},
-                                                       {"cone", Cone{0.2, 0.3}},
-                                                       {is2d() ? "half_plane" : "half_space", HalfSpace{}},
-                                                       {"segment", Segment{{-1, 0, 0}, {1, 0, 0}}}};
+    using scenario::Chain, scenario::HeightField;
+    const scenario::TriangleMesh mesh{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}, {{0, 1, 2}}};
+    const std::pair<const char*, Geometry> shapes[] = {
+        {is2d() ? "circle" : "sphere", Sphere{0.5}},
+        {"box", block({0.5, 0.5, 0.5})},
+        {"capsule", Capsule{0.2, 0.3}},
+        {"cylinder", Cylinder{0.2, 0.3}},
+        {"cone", Cone{0.2, 0.3}},
+        {is2d() ? "half_plane" : "half_space", HalfSpace{}},
+        {"segment", Segment{{-1, 0, 0}, {1, 0, 0}}},
+        {"chain", Chain{{{-1, 0, 0}, {0, 0, 0}, {1, 1, 0}}, false}},
+        {"triangle_mesh", mesh},
+        {"height_field", HeightField{2, 2, 1, 1, {0, 0, 0, 1}, 1}}};
     for (const auto& [name, geometry] : shapes) {
-        const bool only3d = std::string(name) == "cylinder" || std::string(name) == "cone";
-        if ((is2d() && only3d) || (!is2d() && std::string(name) == "segment")) continue;
+        const std::string kind = name;
+        const bool only3d =
+            kind == "cylinder" || kind == "cone" || kind == "triangle_mesh" || kind == "height_field";
+        if (is2d() ? only3d : kind == "segment" || kind == "chain") continue;
         SCOPED_TRACE(name);
         Scenario s = scene();
         addStatic(s, geometry);

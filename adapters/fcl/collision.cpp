@@ -160,7 +160,9 @@ void bringIntoPlane(std::vector<ContactPoint>& contacts) {
 
 Geometry solidOf(const Geometry& geometry, int dimension) {
     if (dimension == 3) return geometry;
-    if (is<scenario::Segment>(geometry)) throw adapter::Unsupported("fcl has no shape 'segment'");
+    if (is<scenario::Segment>(geometry) || is<scenario::Chain>(geometry))
+        throw adapter::Unsupported(std::string("fcl has no shape '") + scenario::geometryName(geometry, 2) +
+                                   "'");
     return adapter::planarGeometry(geometry);
 }
 

@@ -62,8 +62,10 @@ struct ToGeometry {
     std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::HalfSpace& h) {
         return std::make_shared<fcl::Halfspaced>(toFcl(h.normal), h.offset);
     }
-    std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Segment&) {
-        throw adapter::Unsupported("fcl has no shape 'segment'");
+    template <class Other>
+    std::shared_ptr<fcl::CollisionGeometryd> operator()(const Other& other) {
+        throw adapter::Unsupported(std::string("fcl has no shape '") + scenario::geometryName(other, 3) +
+                                   "'");
     }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "adapters/interface/input_check.hpp"
+#include "scenarios/model/surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +95,11 @@ struct CheckGeometry {
         checkFinite(where + ".b", s.b);
         if (norm(s.b - s.a) <= 0.0) refuse(where, "expected two different points");
     }
+    template <class Surface>
+    requires requires(Surface s) { scenario::surfaceProblem(s); }
+    void operator()(const Surface& s) const {
+        if (const std::string problem = scenario::surfaceProblem(s); !problem.empty()) refuse(where, problem);
+    }
 };
 
 /// All leading minors positive: the tensor is symmetric positive definite.
@@ -138,10 +144,8 @@ void checkBody(const Body& body, const Scenario& scenario) {
         if (body.shapes[i].material < 0 ||
             body.shapes[i].material >= static_cast<int>(scenario.materials.size()))
             refuse(at + ".material", "index out of range");
-        const bool unbounded = std::holds_alternative<scenario::HalfSpace>(body.shapes[i].geometry) ||
-                               std::holds_alternative<scenario::Segment>(body.shapes[i].geometry);
-        if (unbounded && body.type != BodyType::Static)
-            refuse(at, "half-spaces and segments belong to static bodies");
+        if (scenario::isStaticOnly(body.shapes[i].geometry) && body.type != BodyType::Static)
+            refuse(at, "half-spaces, segments and surfaces belong to static bodies");
     }
 }
 

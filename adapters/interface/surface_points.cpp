@@ -37,8 +37,10 @@ struct PointDistance {
     std::optional<double> operator()(const scenario::HalfSpace& h) const {
         return dot(h.normal, p) - h.offset;
     }
-    std::optional<double> operator()(const scenario::ConvexHull&) const { return std::nullopt; }
-    std::optional<double> operator()(const scenario::Segment&) const { return std::nullopt; }
+    template <class Other>
+    std::optional<double> operator()(const Other&) const {
+        return std::nullopt;  // no simple distance
+    }
 };
 
 std::optional<double> distanceTo(const PosedShape& shape, const Vec3& point) {

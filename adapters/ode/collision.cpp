@@ -14,8 +14,10 @@ namespace {
 
 adapter::Geometry solidOf(const adapter::Geometry& geometry, int dimension) {
     if (dimension == 3) return geometry;
-    if (std::holds_alternative<scenario::Segment>(geometry))
-        throw adapter::Unsupported("ode has no shape 'segment'");
+    if (std::holds_alternative<scenario::Segment>(geometry) ||
+        std::holds_alternative<scenario::Chain>(geometry))
+        throw adapter::Unsupported(std::string("ode has no shape '") + scenario::geometryName(geometry, 2) +
+                                   "'");
     return adapter::planarGeometry(geometry);
 }
 

@@ -116,7 +116,9 @@ Capabilities rigorCapabilities() {
     Capabilities c;
     c.dynamics = c.collision = c.broadPhase = true;
     c.dimensions = {2, 3};
-    c.shapes = {"sphere", "circle", "box", "capsule", "hull", "polygon", "half_space", "half_plane"};
+    c.shapes = {"sphere",  "circle", "box",           "capsule",     "cylinder",
+                "cone",    "hull",   "polygon",       "half_space",  "half_plane",
+                "segment", "chain",  "triangle_mesh", "height_field"};
     for (const engine::JointEntry<engine::Space3d>& joint : engine::jointTable<engine::Space3d>())
         addJointCapabilities(joint.name, joint.axes > 0, c.joints);
     c.contactImpulses = true;

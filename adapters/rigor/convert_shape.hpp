@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "adapters/interface/types.hpp"
-#include "engine/shapes/shape.hpp"
+#include "engine/shapes/surface.hpp"
 
 namespace rigor::adapter {
 
@@ -48,7 +48,47 @@ engine::Pose<S> toEnginePose(const Pose& pose) {
     return result;
 }
 
-/// Throws Unsupported for cylinder, cone and segment.
+template <class S>
+std::vector<typename S::Vec> toEngineVecs(const std::vector<Vec3>& points) {
+    std::vector<typename S::Vec> result;
+    for (const Vec3& v : points) result.push_back(toEngineVec<S>(v));
+    return result;
+}
+
+template <class R>
+engine::Shape<engine::Space<R, 2>> toPlaneShape(const Geometry& geometry) {
+    using S = engine::Space<R, 2>;
+    if (const auto* s = std::get_if<scenario::Segment>(&geometry))
+        return engine::Segment<S>{toEngineVec<S>(s->a), toEngineVec<S>(s->b)};
+    if (const auto* s = std::get_if<scenario::Chain>(&geometry))
+        return engine::makeChain<S>(toEngineVecs<S>(s->vertices), s->loop);
+    throw Unsupported(std::string("rigor has no shape ") + scenario::geometryName(geometry, 2) + " in 2D");
+}
+
+template <class R>
+engine::Shape<engine::Space<R, 3>> toSpaceShape(const Geometry& geometry) {
+    using S = engine::Space<R, 3>;
+    if (const auto* s = std::get_if<scenario::Cylinder>(&geometry))
+        return engine::Cylinder<S>{static_cast<R>(s->radius), static_cast<R>(s->halfLength)};
+    if (const auto* s = std::get_if<scenario::Cone>(&geometry))
+        return engine::Cone<S>{static_cast<R>(s->radius), static_cast<R>(s->halfLength)};
+    if (const auto* s = std::get_if<scenario::TriangleMesh>(&geometry)) {
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        for (const std::array<int, 3>& t : s->triangles)
+            triangles.push_back({static_cast<std::uint32_t>(t[0]), static_cast<std::uint32_t>(t[1]),
+                                 static_cast<std::uint32_t>(t[2])});
+        return engine::makeTriangleMesh<S>(toEngineVecs<S>(s->vertices), triangles);
+    }
+    if (const auto* s = std::get_if<scenario::HeightField>(&geometry)) {
+        std::vector<R> heights;
+        for (const double h : s->heights) heights.push_back(static_cast<R>(h));
+        return engine::makeHeightField<S>(s->columns, s->rows, static_cast<R>(s->spacingX),
+                                          static_cast<R>(s->spacingZ), heights, static_cast<R>(s->thickness));
+    }
+    throw Unsupported(std::string("rigor has no shape ") + scenario::geometryName(geometry, 3) + " in 3D");
+}
+
+/// Throws Unsupported for shapes of the other dimension.
 template <class S>
 engine::Shape<S> toEngineShape(const Geometry& geometry) {
     using R = typename S::Real;
@@ -61,11 +101,12 @@ engine::Shape<S> toEngineShape(const Geometry& geometry) {
     if (const auto* s = std::get_if<scenario::HalfSpace>(&geometry))
         return engine::HalfSpace<S>{toEngineVec<S>(s->normal), static_cast<R>(s->offset)};
     if (const auto* s = std::get_if<scenario::ConvexHull>(&geometry)) {
-        std::vector<typename S::Vec> points;
-        for (const Vec3& v : s->vertices) points.push_back(toEngineVec<S>(v));
-        return engine::makeHull<S>(points);
+        return engine::makeHull<S>(toEngineVecs<S>(s->vertices));
     }
-    throw Unsupported(std::string("rigor has no shape ") + scenario::geometryName(geometry, S::dim));
+    if constexpr (S::dim == 2)
+        return toPlaneShape<R>(geometry);
+    else
+        return toSpaceShape<R>(geometry);
 }
 
 }  // namespace rigor::adapter

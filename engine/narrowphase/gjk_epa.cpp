@@ -6,12 +6,14 @@
 // features that support the normal (feature_manifold.cpp). Half-spaces are the closed forms of "sat".
 #include "engine/narrowphase/minkowski.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
+#include "engine/narrowphase/surface_contact.hpp"
 
 namespace rigor::engine {
 
 template <class S>
 void collideGjkEpa(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
                    typename S::Real speculativeDistance, Manifold<S>& out) {
+    if (collideSurfaces<S>(&collideGjkEpa<S>, a, Xa, b, Xb, speculativeDistance, out)) return;
     if (std::holds_alternative<HalfSpace<S>>(a) || std::holds_alternative<HalfSpace<S>>(b)) {
         collideSat<S>(a, Xa, b, Xb, speculativeDistance, out);
         return;

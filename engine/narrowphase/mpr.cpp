@@ -18,6 +18,7 @@
 #include "engine/narrowphase/mpr.hpp"
 
 #include "engine/narrowphase/narrowphases.hpp"
+#include "engine/narrowphase/surface_contact.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -120,6 +121,7 @@ template <class S>
 void collideMpr(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
                 typename S::Real speculativeDistance, Manifold<S>& out) {
     using R = typename S::Real;
+    if (collideSurfaces<S>(&collideMpr<S>, a, Xa, b, Xb, speculativeDistance, out)) return;
     if (std::holds_alternative<HalfSpace<S>>(a) || std::holds_alternative<HalfSpace<S>>(b)) {
         collideSat<S>(a, Xa, b, Xb, speculativeDistance, out);
         return;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// One overload per pair of kinds, each in one order only; sat.cpp swaps the others. All have the contract of
-// CollideFunction with out.count = 0 on entry. Private to this folder.
+// One overload per pair of kinds, each in one order only; sat.cpp swaps the others, and hands pairs that have
+// none to collideFeatures. All have the contract of CollideFunction with out.count = 0 on entry. Private to
+// this folder.
 #pragma once
 
 #include "engine/narrowphase/manifold.hpp"
@@ -41,6 +42,33 @@ RIGOR_PAIR(Hull, HalfSpace)
 RIGOR_PAIRS(2)
 RIGOR_PAIRS(3)
 #undef RIGOR_PAIRS
+RIGOR_PAIR(2, Sphere, Segment)
+RIGOR_PAIR(2, Box, Segment)
+RIGOR_PAIR(2, Capsule, Segment)
+RIGOR_PAIR(2, Hull, Segment)
+RIGOR_PAIR(3, Sphere, Triangle)
+RIGOR_PAIR(3, Sphere, Cylinder)
+RIGOR_PAIR(3, Sphere, Cone)
+RIGOR_PAIR(3, Cylinder, HalfSpace)
+RIGOR_PAIR(3, Cone, HalfSpace)
 #undef RIGOR_PAIR
+
+/// Any two convex shapes: the contact normal of the closest points, the points where supporting features meet
+/// (3d/feature_pairs.cpp).
+template <class R>
+void collideFeatures(const Shape<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Shape<Space<R, 3>>& b,
+                     const Pose<Space<R, 3>>& Xb, R speculative, Manifold<Space<R, 3>>& out);
+
+/// Contact points of a convex shape with a piece of a surface along the piece's normal: what of the shape's
+/// supporting feature is over the piece. `front`: on the side of the normal. A is the piece; X poses the
+/// shape in its frame, in which `out` is filled.
+template <class R>
+void collideAlong(const Segment<Space<R, 2>>& piece, bool front, const Shape<Space<R, 2>>& convex,
+                  const Pose<Space<R, 2>>& X, typename Space<R, 2>::Real speculative,
+                  Manifold<Space<R, 2>>& out);
+template <class R>
+void collideAlong(const Triangle<Space<R, 3>>& piece, bool front, const Shape<Space<R, 3>>& convex,
+                  const Pose<Space<R, 3>>& X, typename Space<R, 3>::Real speculative,
+                  Manifold<Space<R, 3>>& out);
 
 }  // namespace rigor::engine

@@ -9,6 +9,7 @@
 #include "engine/narrowphase/detail.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
 #include "engine/narrowphase/pairs.hpp"
+#include "engine/narrowphase/surface_contact.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -16,25 +17,31 @@ namespace {
 template <class S>
 inline constexpr std::size_t kKinds = std::variant_size_v<Shape<S>>;
 
-/// Pairs are written with the kind of lower order first; two kinds of one order never meet.
-template <class S>
-constexpr int order(std::size_t kind) {
-    constexpr std::array<int, 5> kOrder{0, 1, 2, 4, 3};  // sphere, box, capsule, half-space, hull
-    static_assert(kOrder.size() == kKinds<S>);
-    return kOrder[kind];
-}
-inline constexpr std::size_t kHalfSpaceKind = 3;
+/// Is there a function for kinds A and B in this order?
+template <class S, class A, class B>
+inline constexpr bool kHasPair = requires(const A& a, const B& b, const Pose<S>& X, Manifold<S>& out) {
+    collidePair(a, X, b, X, typename S::Real(0), out);
+};
 
-template <class S, std::size_t A, std::size_t B>
+template <class S, std::size_t IndexA, std::size_t IndexB>
 void collideKinds(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
                   typename S::Real speculative, Manifold<S>& out) {
-    if constexpr (A == kHalfSpaceKind && B == kHalfSpaceKind) {
-        // Both are static and unbounded: no contact is asked for.
-    } else if constexpr (order<S>(A) <= order<S>(B)) {
+    using A = std::variant_alternative_t<IndexA, Shape<S>>;
+    using B = std::variant_alternative_t<IndexB, Shape<S>>;
+    if constexpr (kStaticOnly<A> && kStaticOnly<B>) {
+        // Both stand still: no contact is asked for.
+    } else if constexpr (kComposite<A>) {
+        collideDeepestPiece<S>(&collideSat<S>, a, Xa, b, Xb, speculative, out);
+    } else if constexpr (kComposite<B>) {
+        collideDeepestPiece<S>(&collideSat<S>, b, Xb, a, Xa, speculative, out);
+        flip(out);
+    } else if constexpr (kHasPair<S, A, B>) {
         collidePair(*std::get_if<A>(&a), Xa, *std::get_if<B>(&b), Xb, speculative, out);
-    } else {
+    } else if constexpr (kHasPair<S, B, A>) {
         collidePair(*std::get_if<B>(&b), Xb, *std::get_if<A>(&a), Xa, speculative, out);
         flip(out);
+    } else {
+        collideFeatures(a, Xa, b, Xb, speculative, out);
     }
 }
 

@@ -18,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/narrowphase/surface_contact.hpp"
+
 namespace rigor::engine {
 
 template <class S>
@@ -148,39 +150,78 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
                                   const ContinuousCollision<S>& ccd) {
     std::swap(contacts_, previous_);
     contacts_.clear();
-    auto old = previous_.begin();
+    Search search{bodies, narrowPhase, makeManifold, speculativeDistance, ccd, previous_.cbegin()};
     for (const ProxyPair& p : proxyPairs_) {
         if (!mayCollide(bodies, shapes_[p.a].body, shapes_[p.b].body)) continue;
         const bool ordered = shapes_[p.a].body < shapes_[p.b].body;
         const std::uint32_t a = ordered ? p.a : p.b, b = ordered ? p.b : p.a;
-        const auto sortKey = [](const Contact<S>& c) { return pairKey(c.shapeA, c.shapeB); };
-        while (old != previous_.end() && sortKey(*old) < pairKey(a, b)) ++old;
-        const bool before = old != previous_.end() && sortKey(*old) == pairKey(a, b);
-        if (before && isAsleep(bodies, *old)) {
-            contacts_.push_back(*old);
+        const bool surfaceA = isComposite<S>(shapes_[a].shape);
+        if (!surfaceA && !isComposite<S>(shapes_[b].shape)) {
+            addContact(search, a, b, kNone, [&](Manifold<S>& manifold) {
+                narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
+                                    speculativeDistance, manifold);
+            });
             continue;
         }
-        Contact<S>& contact = contacts_.emplace_back();
-        narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
-                            speculativeDistance, contact.manifold);
-        contact.shapeA = a, contact.shapeB = b;
-        contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
-        if (contact.manifold.count > 0) {
-            if (before) contact.cache = old->cache;
-            const Real size =
-                std::min((boxes_[a].max - boxes_[a].min).norm(), (boxes_[b].max - boxes_[b].min).norm());
-            makeManifold({shapePoses_[a], shapePoses_[b], size, speculativeDistance}, contact.cache,
-                         contact.manifold);
-        }
-        placePoints(bodies, contact);
-        if (ccd.looksAhead()) ccd.findAhead(contact, bodies, *this, narrowPhase);
-        if (contact.manifold.count == 0) {
-            contacts_.pop_back();
-            continue;
-        }
-        contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
-        if (before) takeOver(bodies, *old, contact);
+        const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
+        findPieces(surface, other, speculativeDistance);
+        for (const std::uint32_t piece : pieces_)
+            addContact(search, a, b, piece, [&](Manifold<S>& manifold) {
+                collidePiece<S>(narrowPhase, shapes_[surface].shape, piece, shapePoses_[surface],
+                                shapes_[other].shape, shapePoses_[other], speculativeDistance, manifold);
+                if (!surfaceA) flipManifold(manifold);
+            });
     }
+}
+
+/// The contact of two shapes, or of one and a piece of the other, if there is one.
+template <class S>
+template <class Collide>
+void ContactSet<S>::addContact(Search& search, std::uint32_t a, std::uint32_t b, std::uint32_t piece,
+                               const Collide& collide) {
+    const BodyArrays<S>& bodies = search.bodies;
+    const auto sortKey = [](const Contact<S>& c) { return std::pair(pairKey(c.shapeA, c.shapeB), c.piece); };
+    const auto key = std::pair(pairKey(a, b), piece);
+    auto& old = search.old;
+    while (old != previous_.cend() && sortKey(*old) < key) ++old;
+    const bool before = old != previous_.cend() && sortKey(*old) == key;
+    if (before && isAsleep(bodies, *old)) {
+        contacts_.push_back(*old);
+        return;
+    }
+    Contact<S>& contact = contacts_.emplace_back();
+    collide(contact.manifold);
+    contact.shapeA = a, contact.shapeB = b, contact.piece = piece;
+    contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
+    if (contact.manifold.count > 0) {
+        if (before) contact.cache = old->cache;
+        const Real size =
+            std::min((boxes_[a].max - boxes_[a].min).norm(), (boxes_[b].max - boxes_[b].min).norm());
+        search.makeManifold({shapePoses_[a], shapePoses_[b], size, search.speculativeDistance}, contact.cache,
+                            contact.manifold);
+    }
+    placePoints(bodies, contact);
+    // Pieces of a chain, mesh or field are found where they are, not ahead.
+    if (piece == kNone && search.ccd.looksAhead())
+        search.ccd.findAhead(contact, bodies, *this, search.narrowPhase);
+    if (contact.manifold.count == 0) {
+        contacts_.pop_back();
+        return;
+    }
+    contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
+    if (before) takeOver(bodies, *old, contact);
+}
+
+/// Pieces of a chain, mesh or height field near another shape, in ascending order.
+template <class S>
+void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other, Real speculativeDistance) {
+    pieces_.clear();
+    const Aabb<S> box =
+        boxOnSurface<S>(shapePoses_[surface], shapes_[other].shape, shapePoses_[other], speculativeDistance);
+    withSurface<S>(shapes_[surface].shape, [&](const auto& data) {
+        data.query(box, [&](std::uint32_t piece) { pieces_.push_back(piece); });
+    });
+    std::sort(pieces_.begin(), pieces_.end());
 }
 
 /// One point for both bodies, or equal and opposite impulses would make a couple; against a body that takes
@@ -368,7 +409,7 @@ void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>
             event.impulse += contact.points[i].normalTotal;
         }
     };
-    const auto key = [](const Contact<S>& c) { return pairKey(c.shapeA, c.shapeB); };
+    const auto key = [](const Contact<S>& c) { return std::pair(pairKey(c.shapeA, c.shapeB), c.piece); };
     auto old = previous_.begin();
     const auto endOld = [&] {
         if (old->touching) add(EventKind::ContactEnds, *old);

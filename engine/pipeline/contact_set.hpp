@@ -51,6 +51,7 @@ struct Contact {
         Real rebound = 0;  ///< bias of the normal row once an impact ahead has taken place, < 0 [m/s]
     };
     std::uint32_t shapeA = 0, shapeB = 0, bodyA = 0, bodyB = 0;  ///< dense indices
+    std::uint32_t piece = 0xffffffffu;  ///< segment or triangle of the chain, mesh or field; none of others
     PairCoefficients<S> coefficients;
     bool asleep = false;  ///< neither body takes impulses: it stays as it was, without rows
     bool ahead = false;   ///< fast for their sizes: must not be let through, however far apart they are
@@ -136,6 +137,19 @@ class ContactSet {
 
   private:
     static bool isAsleep(const BodyArrays<S>& bodies, const Contact<S>& contact);
+    void findPieces(std::uint32_t surface, std::uint32_t other, Real speculativeDistance);
+    /// What finding the manifolds of a step needs to know; `old` walks along the contacts of the last step.
+    struct Search {
+        const BodyArrays<S>& bodies;
+        const NarrowPhase<S>& narrowPhase;
+        ManifoldFunction<S> makeManifold;
+        Real speculativeDistance;
+        const ContinuousCollision<S>& ccd;
+        typename std::vector<Contact<S>>::const_iterator old;
+    };
+    template <class Collide>
+    void addContact(Search& search, std::uint32_t a, std::uint32_t b, std::uint32_t piece,
+                    const Collide& collide);
     void placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) const;
     void takeOver(const BodyArrays<S>& bodies, const Contact<S>& old, Contact<S>& contact) const;
     void addPointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact, int index,
@@ -151,7 +165,8 @@ class ContactSet {
     std::vector<PairCoefficients<S>> pairs_ = std::vector<PairCoefficients<S>>(1);
     std::vector<std::uint64_t> excluded_;
 
-    std::vector<Contact<S>> contacts_, previous_;  ///< sorted by shape pair
+    std::vector<Contact<S>> contacts_, previous_;  ///< sorted by shape pair and piece
+    std::vector<std::uint32_t> pieces_;
 
     std::vector<Pose<S>> shapePoses_;
     std::vector<Aabb<S>> boxes_;

@@ -6,6 +6,7 @@
 #include "engine/math/decompositions.hpp"
 
 #include "engine/narrowphase/narrowphases.hpp"
+#include "engine/shapes/surface.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -79,6 +80,19 @@ bool validShape(const Shape<S>& shape) {
         return s->halfExtents.allFinite() && s->halfExtents.minCoeff() > 0;
     if (const auto* s = std::get_if<HalfSpace<S>>(&shape))
         return std::isfinite(s->offset) && std::abs(s->normal.norm() - R(1)) < R(1e-4);
+    if constexpr (S::dim == 3) {
+        if (const auto* s = std::get_if<Cylinder<S>>(&shape)) return size(s->radius) && size(s->halfLength);
+        if (const auto* s = std::get_if<Cone<S>>(&shape)) return size(s->radius) && size(s->halfLength);
+        if (const auto* s = std::get_if<Triangle<S>>(&shape))
+            return s->v[0].allFinite() && s->v[1].allFinite() && s->v[2].allFinite() &&
+                   size((s->v[1] - s->v[0]).cross(s->v[2] - s->v[0]).norm());
+        if (const auto* s = std::get_if<TriangleMesh<S>>(&shape)) return s->data != nullptr;
+        if (const auto* s = std::get_if<HeightField<S>>(&shape)) return s->data != nullptr;
+    } else {
+        if (const auto* s = std::get_if<Segment<S>>(&shape))
+            return s->a.allFinite() && s->b.allFinite() && size((s->b - s->a).norm());
+        if (const auto* s = std::get_if<Chain<S>>(&shape)) return s->data != nullptr;
+    }
     return std::get<Hull<S>>(shape).data != nullptr;
 }
 
@@ -191,9 +205,11 @@ ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
     require(validShape<S>(def.shape), "shape_size",
             "sizes must be positive and finite, normals unit vectors");
     require(def.material < contacts_.materialCount(), "shape_material", "unknown material");
-    require(
-        !std::holds_alternative<HalfSpace<S>>(def.shape) || bodies_.constants[dense].type == BodyType::Static,
-        "half_space_body", "a half-space needs a static body");
+    const bool isStatic = bodies_.constants[dense].type == BodyType::Static;
+    require(!std::holds_alternative<HalfSpace<S>>(def.shape) || isStatic, "half_space_body",
+            "a half-space needs a static body");
+    require(!isStaticOnly<S>(def.shape) || isStatic, "surface_body",
+            "segments, chains, triangles, meshes and height fields need a static body");
     ShapeRecord<S> record;
     record.shape = def.shape;
     record.local = {def.pose.p - bodies_.constants[dense].centerOfMass, normalizedRot(def.pose.q)};

@@ -104,6 +104,13 @@ class World {
     ForceId addForce(const ForceDef<S>& def);
     void removeForce(ForceId force);
 
+    /// All shapes, in the order of their dense indices; those of removed bodies are gone.
+    std::span<const ShapeRecord<S>> shapes() const { return contacts_.shapes(); }
+    Pose<S> shapePose(const ShapeRecord<S>& shape) const {
+        return compose<S>(bodies_.pose[shape.body], shape.local);
+    }  ///< now, world frame
+    BodyId bodyOf(const ShapeRecord<S>& shape) const { return bodies_.id[shape.body]; }
+
     // --- running
     /// Force [N] and torque [N m] at the centre of mass, world frame, during the next step. Adds up.
     void applyForce(BodyId body, const Vec& force, const Ang& torque);

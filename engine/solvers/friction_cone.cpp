@@ -30,6 +30,8 @@ Eigen::Matrix<R, 2, 1> frictionCone(R k11, R k12, R k22, const Eigen::Matrix<R, 
     constexpr int kMaxNewton = 20;  // 4 suffice; the bound only ends a loop on non-finite input
     for (int i = 0; i < kMaxNewton; ++i) {
         const R a = k11 + alpha, d = k22 + alpha, determinant = a * d - k12 * k12;
+        // A limit too small for the precision: with alpha beyond all bounds lambda opposes b.
+        if (!std::isfinite(determinant)) return -b * (limit / b.norm());
         lambda = Vec2((k12 * b[1] - d * b[0]) / determinant, (k12 * b[0] - a * b[1]) / determinant);
         const R length2 = lambda.squaredNorm();
         if (i == 0 && length2 <= limit2) return lambda;  // sticks

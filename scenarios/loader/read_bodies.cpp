@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "scenarios/loader/node.hpp"
+#include "scenarios/model/surfaces.hpp"
 
 namespace rigor::scenario {
 namespace {
@@ -99,7 +100,7 @@ void checkStaticShapes(const Node& node, const Body& body) {
     if (body.type == BodyType::Static) return;
     for (std::size_t i = 0; i < body.shapes.size(); ++i) {
         const Geometry& g = body.shapes[i].geometry;
-        if (std::holds_alternative<HalfSpace>(g) || std::holds_alternative<Segment>(g))
+        if (isStaticOnly(g))
             node["shapes"][i].problem(
                 "shape.static", std::string("a ") + geometryName(g, node.dimension()) + " on a moving body",
                 "a solid shape, or \"type\": \"static\"");

@@ -5,6 +5,7 @@
 
 #include "scenarios/loader/node.hpp"
 #include "scenarios/model/hull.hpp"
+#include "scenarios/model/surfaces.hpp"
 
 namespace rigor::scenario {
 namespace {
@@ -78,6 +79,68 @@ Geometry readSegment(const Node& node) {
     return segment;
 }
 
+/// The value stays where it is wrong: nothing half-loads, and the other mistakes of the file are found too.
+template <class Surface>
+Geometry checked(const Node& node, std::size_t problemsBefore, Surface surface) {
+    if (node.context().problems.size() == problemsBefore)
+        if (const std::string problem = surfaceProblem(surface); !problem.empty())
+            node.problem("shape.degenerate", problem, "a proper surface");
+    return surface;
+}
+
+Geometry readChain(const Node& node) {
+    const auto before = node.context().problems.size();
+    node.isObject({"vertices", "loop"});
+    Chain chain;
+    if (const auto list = node.require("vertices"))
+        for (const Node& point : list->items()) chain.vertices.push_back(point.vector());
+    if (const auto loop = node.find("loop")) chain.loop = loop->boolean();
+    return checked(node, before, chain);
+}
+
+Geometry readMesh(const Node& node) {
+    const auto before = node.context().problems.size();
+    node.isObject({"vertices", "triangles"});
+    TriangleMesh mesh;
+    if (const auto list = node.require("vertices"))
+        for (const Node& point : list->items()) mesh.vertices.push_back(point.vector());
+    const int most = static_cast<int>(mesh.vertices.size()) - 1;
+    if (const auto list = node.require("triangles"))
+        for (const Node& triangle : list->items()) {
+            const std::vector<Node> corners = triangle.items();
+            if (corners.size() != 3) {
+                triangle.problem("value.range", "three vertex indices");
+                continue;
+            }
+            mesh.triangles.push_back({corners[0].integer(0, std::max(most, 0)),
+                                      corners[1].integer(0, std::max(most, 0)),
+                                      corners[2].integer(0, std::max(most, 0))});
+        }
+    return checked(node, before, mesh);
+}
+
+/// Rows of heights: as many columns in each.
+Geometry readHeightField(const Node& node) {
+    const auto before = node.context().problems.size();
+    node.isObject({"spacing", "heights", "thickness"});
+    HeightField field;
+    if (const auto spacing = node.require("spacing")) {
+        const std::vector<double> s = spacing->numbers(2);
+        field.spacingX = s[0], field.spacingZ = s[1];
+    }
+    if (const auto list = node.require("heights"))
+        for (const Node& row : list->items()) {
+            const std::vector<Node> heights = row.items();
+            if (field.rows++ == 0) field.columns = static_cast<int>(heights.size());
+            if (static_cast<int>(heights.size()) != field.columns)
+                row.problem("value.range",
+                            "as many heights as the first row has, " + std::to_string(field.columns));
+            for (const Node& height : heights) field.heights.push_back(height.number(-1e9, 1e9));
+        }
+    if (const auto thickness = node.find("thickness")) field.thickness = thickness->positive();
+    return checked(node, before, field);
+}
+
 struct Kind {
     const char* key;
     int dimension;  ///< 0: both
@@ -93,7 +156,10 @@ constexpr Kind kKinds[] = {{"sphere", 3, readSphere},
                            {"polygon", 2, readHull},
                            {"half_space", 3, readHalfSpace},
                            {"half_plane", 2, readHalfSpace},
-                           {"segment", 2, readSegment}};
+                           {"segment", 2, readSegment},
+                           {"chain", 2, readChain},
+                           {"triangle_mesh", 3, readMesh},
+                           {"height_field", 3, readHeightField}};
 
 std::string kindNames(int dimension) {
     std::string names;
@@ -105,9 +171,11 @@ std::string kindNames(int dimension) {
 
 Shape readShape(const Node& node, const Scenario& scenario, int defaultMaterial) {
     Shape shape;
-    node.isObject({"sphere", "circle", "box", "capsule", "cylinder", "cone", "hull", "polygon", "half_space",
-                   "half_plane", "segment", "material", "position", "orientation", "axis_angle_deg", "angle",
-                   "angle_deg"});
+    node.isObject({"sphere",        "circle",         "box",      "capsule",
+                   "cylinder",      "cone",           "hull",     "polygon",
+                   "half_space",    "half_plane",     "segment",  "chain",
+                   "triangle_mesh", "height_field",   "material", "position",
+                   "orientation",   "axis_angle_deg", "angle",    "angle_deg"});
     const Kind* found = nullptr;
     for (const Kind& kind : kKinds) {
         if (!node.has(kind.key)) continue;

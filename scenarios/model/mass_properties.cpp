@@ -148,6 +148,10 @@ struct OfShape {
         throw std::invalid_argument("a half-space has no mass");
     }
     MassProperties operator()(const Segment&) const { throw std::invalid_argument("a segment has no mass"); }
+    template <class Surface>
+    MassProperties operator()(const Surface&) const {
+        throw std::invalid_argument("chains, meshes and height fields have no mass");
+    }
 };
 
 }  // namespace

@@ -61,10 +61,33 @@ struct Segment {
     Vec3 a, b;
 };
 
-using Geometry = std::variant<Sphere, Box, Capsule, Cylinder, Cone, ConvexHull, HalfSpace, Segment>;
+/// 2D only, static bodies only: two-sided segments from vertex to vertex [m], at least 2; with `loop` also
+/// from the last to the first, at least 3. Inner vertices do not catch what slides over them.
+struct Chain {
+    std::vector<Vec3> vertices;
+    bool loop = false;
+};
+/// 3D only, static bodies only: two-sided triangles over shared vertices [m]; may be open.
+struct TriangleMesh {
+    std::vector<Vec3> vertices;
+    std::vector<std::array<int, 3>> triangles;  ///< indices of vertices
+};
+/// 3D only, static bodies only: heights along local y over a grid in x and z centred on the origin, vertex
+/// (column i, row k) at height heights[k columns + i]; every cell is two triangles, split from (i + 1, k) to
+/// (i, k + 1). Solid below the surface, down to `thickness` under its lowest point.
+struct HeightField {
+    int columns = 0, rows = 0;              ///< vertices along x and z, >= 2
+    double spacingX = 0.0, spacingZ = 0.0;  ///< [m], > 0
+    std::vector<double> heights;            ///< [m]
+    double thickness = 1.0;                 ///< [m], > 0
+};
+
+using Geometry = std::variant<Sphere, Box, Capsule, Cylinder, Cone, ConvexHull, HalfSpace, Segment, Chain,
+                              TriangleMesh, HeightField>;
 
 /// Names used in files, capabilities and reports, by Geometry index: "sphere" ("circle" in 2D), "box",
-/// "capsule", "cylinder", "cone", "hull" ("polygon" in 2D), "half_space" ("half_plane" in 2D), "segment".
+/// "capsule", "cylinder", "cone", "hull" ("polygon" in 2D), "half_space" ("half_plane" in 2D), "segment",
+/// "chain", "triangle_mesh", "height_field".
 const char* geometryName(const Geometry& geometry, int dimension);
 
 struct Shape {
@@ -270,7 +293,7 @@ bool mayCollide(const Scenario& scenario, int bodyA, int bodyB);
 
 /// Mass, centre of mass and inertia from the shapes, each of the density of its material [kg/m^3] (2D:
 /// [kg/m^2]). `dimension` 2 takes areas. Throws std::invalid_argument for shapes without volume (half-space,
-/// segment).
+/// segment, chain, mesh, height field).
 MassProperties massPropertiesFromShapes(const std::vector<Shape>& shapes,
                                         const std::vector<Material>& materials, int dimension);
 

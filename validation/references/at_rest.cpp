@@ -67,7 +67,10 @@ class AtRest : public Reference {
             std::holds_alternative<scenario::ConvexHull>(ground.shapes[0].geometry) ||
             std::holds_alternative<scenario::Capsule>(ground.shapes[0].geometry) ||
             std::holds_alternative<scenario::Cone>(ground.shapes[0].geometry) ||
-            std::holds_alternative<scenario::Sphere>(ground.shapes[0].geometry))
+            std::holds_alternative<scenario::Sphere>(ground.shapes[0].geometry) ||
+            std::holds_alternative<scenario::Chain>(ground.shapes[0].geometry) ||
+            std::holds_alternative<scenario::TriangleMesh>(ground.shapes[0].geometry) ||
+            std::holds_alternative<scenario::HeightField>(ground.shapes[0].geometry))
             return;
         const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
         if (body.linearVelocityKept != 1.0 || body.angularVelocityKept != 1.0 || !scenario_.forces.empty())

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scenarios/model/surfaces.hpp"
 #include "validation/references/parts.hpp"
 
 namespace rigor::validation {
@@ -63,6 +64,9 @@ struct ToPoints {
     PointShape operator()(const ConvexHull& h) const { return {h.vertices, 0.0}; }
     PointShape operator()(const HalfSpace&) const { return {}; }
     PointShape operator()(const Segment& s) const { return {{s.a, s.b}, 0.0}; }
+    PointShape operator()(const Chain& s) const { return {scenario::surfaceVertices(s), 0.0}; }
+    PointShape operator()(const TriangleMesh& s) const { return {scenario::surfaceVertices(s), 0.0}; }
+    PointShape operator()(const HeightField& s) const { return {scenario::surfaceVertices(s), 0.0}; }
 };
 
 Plane facePlane(const Pose& pose, Vec3 localNormal, double localOffset) {
@@ -102,6 +106,17 @@ Plane segmentPlane(const Pose& pose, const Segment& segment, Vec3 from) {
     if (dot(plane.normal, from - a) < 0.0) plane.normal = -plane.normal;
     plane.offset = dot(plane.normal, a);
     plane.edges.push_back({along, dot(along, 0.5 * (a + b)), 0.5 * norm(b - a)});
+    return plane;
+}
+
+/// A height field that is one flat floor.
+Plane fieldPlane(const Pose& pose, const HeightField& field, const std::string& who) {
+    for (const double h : field.heights)
+        require(h == field.heights[0], who + " is a height field that is not flat");
+    Plane plane = facePlane(pose, {0, 1, 0}, field.heights[0]);
+    const Vec3 x = rotate(pose.orientation, {1, 0, 0}), z = rotate(pose.orientation, {0, 0, 1});
+    plane.edges.push_back({x, dot(x, pose.position), 0.5 * (field.columns - 1) * field.spacingX});
+    plane.edges.push_back({z, dot(z, pose.position), 0.5 * (field.rows - 1) * field.spacingZ});
     return plane;
 }
 
@@ -175,8 +190,10 @@ Plane planeOf(const Scenario& scenario, int floor, Vec3 from) {
         plane = cylinderPlane(pose, *cylinder, from);
     } else if (const auto* segment = std::get_if<Segment>(&shape.geometry)) {
         plane = segmentPlane(pose, *segment, from);
+    } else if (const auto* field = std::get_if<HeightField>(&shape.geometry)) {
+        plane = fieldPlane(pose, *field, who);
     } else {
-        violated(who + " must be a half-space, a box, a cylinder or a segment");
+        violated(who + " must be a half-space, a box, a cylinder, a segment or a flat height field");
     }
     require(plane.holds(from), "the body starts beyond the edge of " + who);
     plane.material = shape.material;

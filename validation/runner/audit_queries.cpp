@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "scenarios/model/surfaces.hpp"
 #include "validation/oracle/oracle.hpp"
 #include "validation/results/trajectory_file.hpp"
 #include "validation/runner/audit.hpp"
@@ -46,6 +47,12 @@ Ball ballAround(const scenario::Geometry& geometry) {
         }
         Ball operator()(const scenario::Segment& s) const {
             return {0.5 * (s.a + s.b), 0.5 * norm(s.b - s.a)};
+        }
+        template <class Surface>
+        Ball operator()(const Surface& s) const {
+            Ball ball;
+            for (const Vec3& v : scenario::surfaceVertices(s)) ball.radius = std::max(ball.radius, norm(v));
+            return ball;
         }
     };
     return std::visit(Visitor{}, geometry);

@@ -49,6 +49,9 @@ void loadFeature(const Shape<Space<R, 2>>& shape, const Vec2<R>& local, Place pl
         const Vec2<R> half = capsule->halfLength * Vec2<R>::UnitY();
         f.at = {place(Vec2<R>(-half)), place(half)};
         f.count = 2;
+    } else if (const auto* segment = std::get_if<Segment<S>>(&shape)) {
+        f.at = {place(segment->a), place(segment->b)};
+        f.count = 2;
     }
 }
 

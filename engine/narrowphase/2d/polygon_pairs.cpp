@@ -4,7 +4,8 @@
 // Convex polygons and capsules of the plane against each other: separating axes over edge normals, then the
 // incident edge clipped to the reference edge [Ericson2005, ch. 5.2; Gregorius2013].
 //
-// A capsule is a polygon of two vertices (both edge normals of its segment) with a rounding radius. For
+// A capsule is a polygon of two vertices (both edge normals of its segment) with a rounding radius, a segment
+// one without. For
 // overlapping cores the edge normals are all facet normals of the Minkowski difference, so the best of them
 // is the exact penetration. For separated cores with a rounding radius the closest pair of features gives
 // the exact distance and normal; it always has a vertex. Sharp polygons apart keep the best edge normal: a
@@ -49,6 +50,17 @@ template <class R>
 Polygon<R> view(const Hull<Space<R, 2>>& s, Storage<R>&) {
     const auto& d = *s.data;
     return {d.vertices.data(), d.normals.data(), static_cast<int>(d.vertices.size()), R(0)};
+}
+
+/// Both sides of a segment are edges of it.
+template <class R>
+Polygon<R> view(const Segment<Space<R, 2>>& s, Storage<R>& store) {
+    const Vec2<R> d = (s.b - s.a).normalized();
+    store.vertices[0] = s.a;
+    store.vertices[1] = s.b;
+    store.normals[0] = {d.y(), -d.x()};
+    store.normals[1] = {-d.y(), d.x()};
+    return {store.vertices.data(), store.normals.data(), 2, R(0)};
 }
 
 template <class R>
@@ -258,6 +270,56 @@ void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, cons
     toWorldFrame<S>(out, Xb);
 }
 
+/// The nearest point of the segment; a centre on it leaves along the normal.
+template <class R>
+void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, const Segment<Space<R, 2>>& b,
+                 const Pose<Space<R, 2>>& Xb, typename Space<R, 2>::Real speculative,
+                 Manifold<Space<R, 2>>& out) {
+    using S = Space<R, 2>;
+    const Vec2<R> c = rotateInverse<R>(Xb.q, Xa.p - Xb.p), e = b.b - b.a;
+    const R t = std::clamp(e.dot(c - b.a) / e.squaredNorm(), R(0), R(1));
+    roundedPoint<S>(c, a.radius, b.a + t * e, R(0), anyPerpendicular<R>(e), speculative, 0, out);
+    toWorldFrame<S>(out, Xb);
+}
+
+template <class R>
+void collideAlong(const Segment<Space<R, 2>>& piece, bool front, const Shape<Space<R, 2>>& convex,
+                  const Pose<Space<R, 2>>& X, typename Space<R, 2>::Real speculative,
+                  Manifold<Space<R, 2>>& out) {
+    using S = Space<R, 2>;
+    out.count = 0;
+    Storage<R> store, storeConvex;
+    const Polygon<R> ref = view<R>(piece, store);
+    const int edge = front ? 1 : 0;
+    out.normal = ref.normals[edge];
+    const Vec2<R> along = (piece.b - piece.a).normalized();
+    const R length = (piece.b - piece.a).norm();
+    const auto inside = [&](const Vec2<R>& x) {
+        const R t = along.dot(x - piece.a);
+        return t >= 0 && t <= length;
+    };
+    if (const auto* ball = std::get_if<Sphere<S>>(&convex)) {
+        const R s = out.normal.dot(X.p - piece.a) - ball->radius;
+        const Vec2<R> x = X.p - ball->radius * out.normal;
+        if (s <= speculative && inside(x)) addPoint<S>(out, x - s * out.normal, x, s, 0);
+        return;
+    }
+    std::visit(
+        [&]<class Kind>(const Kind& s) {
+            if constexpr (!std::is_same_v<Kind, Sphere<S>> && !kStaticOnly<Kind>)
+                clipEdges<R>({ref, view<R>(s, storeConvex), X, true, speculative}, edge, out);
+        },
+        convex);
+    // A corner beside the segment is not over it.
+    int kept = 0;
+    for (int i = 0; i < out.count; ++i) {
+        const ManifoldPoint<S>& p = out.points[static_cast<std::size_t>(i)];
+        const R slack = kRounding<R> * length, t = along.dot(p.pointB - piece.a);
+        if (t >= -slack && t <= length + slack) out.points[static_cast<std::size_t>(kept++)] = p;
+    }
+    out.count = kept;
+}
+
 #define PAIR(A, B)                                                                                  \
     template <class R>                                                                              \
     void collidePair(const A<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, const B<Space<R, 2>>& b, \
@@ -276,7 +338,18 @@ PAIR(Capsule, Hull)
 PAIR(Box, Box)
 PAIR(Box, Hull)
 PAIR(Hull, Hull)
+PAIR(Box, Segment)
+PAIR(Capsule, Segment)
+PAIR(Hull, Segment)
 #undef PAIR
+#define INSTANTIATE(S)                                                                                      \
+    template void collidePair<S::Real>(const Sphere<S>&, const Pose<S>&, const Segment<S>&, const Pose<S>&, \
+                                       S::Real, Manifold<S>&);                                              \
+    template void collideAlong<S::Real>(const Segment<S>&, bool, const Shape<S>&, const Pose<S>&, S::Real,  \
+                                        Manifold<S>&);
+INSTANTIATE(Space2f)
+INSTANTIATE(Space2d)
+#undef INSTANTIATE
 template void collidePair<float>(const Sphere<Space2f>&, const Pose<Space2f>&, const Hull<Space2f>&,
                                  const Pose<Space2f>&, float, Manifold<Space2f>&);
 template void collidePair<double>(const Sphere<Space2d>&, const Pose<Space2d>&, const Hull<Space2d>&,

@@ -2,11 +2,12 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Contact points along a normal n that GJK, EPA or MPR found. Of each shape the feature that supports n: a
-// face of a box or hull, the segment of a capsule, a point of a ball. The one most nearly perpendicular to n
-// is the reference; the other is clipped to the prism that it sweeps along n (Sutherland-Hodgman), with
-// separations measured along n. Two segments side by side share a stretch of both. Where nothing is flat
-// against n there is one point, the closest pair.
+// face of a box or hull, the segment of a capsule, a point of a ball, what feature.hpp tells of others. The
+// one most nearly perpendicular to n is the reference; the other is clipped to the prism that it sweeps along
+// n (Sutherland-Hodgman), with separations measured along n. Two segments side by side share a stretch of
+// both. Where nothing is flat against n there is one point, the closest pair.
 #include "engine/narrowphase/3d/clip.hpp"
+#include "engine/narrowphase/3d/feature.hpp"
 #include "engine/narrowphase/minkowski.hpp"
 
 namespace rigor::engine {
@@ -40,6 +41,15 @@ void loadFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& local, Place pl
         f.loop.index[0] = 0;
         f.loop.index[1] = 1;
         f.loop.count = 2;
+    } else if (!std::holds_alternative<Sphere<S>>(shape)) {
+        SupportFeature<R> found;
+        supportingFeature<R>(shape, local, found);
+        for (f.loop.count = 0; f.loop.count < found.count; ++f.loop.count) {
+            const auto k = static_cast<std::size_t>(f.loop.count);
+            f.loop.at[k] = place(found.at[k]);
+            f.loop.index[k] = found.index[k];
+        }
+        if (found.count > 2) f.normal = turn(found.normal);
     }
 }
 

@@ -21,8 +21,8 @@ TYPED_TEST(Allocation, NoneInAnyPair) {
     Random<S> random{std::mt19937(3)};
     long counted = 0;
     int touching = 0;
-    for (int ka = 0; ka < Kind::Count; ++ka)
-        for (int kb = 0; kb < Kind::Count; ++kb) {
+    for (int ka = 0; ka < kKinds<S>; ++ka)
+        for (int kb = 0; kb < kKinds<S>; ++kb) {
             const Shape<S> a = shapeOfKind<S>(ka), b = shapeOfKind<S>(kb);
             for (int i = 0; i < 20; ++i) {
                 const Pose<S> Xa = pose<S>(vec<S>(0, 0, 0), random.rotation());

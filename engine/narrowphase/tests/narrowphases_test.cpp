@@ -24,12 +24,12 @@ class NarrowPhases : public testing::Test {
     /// `visit(a, Xa, b, Xb)` for every pair of kinds in `perPair` random poses.
     template <class Visit>
     static void forEachPair(int perPair, Visit visit) {
-        for (int ka = 0; ka < Kind::Count; ++ka)
-            for (int kb = 0; kb < Kind::Count; ++kb) {
-                if (ka == Kind::HalfSpace && kb == Kind::HalfSpace) continue;
-                SCOPED_TRACE("kinds " + std::to_string(ka) + " and " + std::to_string(kb));
-                Random<S> random{std::mt19937(static_cast<unsigned>(10 * ka + kb))};
+        for (int ka = 0; ka < kKinds<S>; ++ka)
+            for (int kb = 0; kb < kKinds<S>; ++kb) {
                 const Shape<S> a = shapeOfKind<S>(ka), b = shapeOfKind<S>(kb);
+                if (!isConvexPair<S>(a, b)) continue;
+                SCOPED_TRACE(std::string(shapeName<S>(a)) + " and " + shapeName<S>(b));
+                Random<S> random{std::mt19937(static_cast<unsigned>(10 * ka + kb))};
                 for (int i = 0; i < perPair; ++i) {
                     const auto far = static_cast<typename S::Real>(random.uniform(0, 1.3));
                     const typename S::Vec p = vec<S>(0.5, -0.2, 0.3);
@@ -50,13 +50,14 @@ TYPED_TEST_SUITE(NarrowPhases, Spaces);
 TYPED_TEST(NarrowPhases, AgreeWithTheClosestPoints) {
     using S = TypeParam;
     // mpr's curved portals end within rounding of the surface, their points and normals at its square root.
-    const double eps = tol<S>(2e-14, 8e-6), root = tol<S>(2e-7, 5e-3);
+    const double sharp = tol<S>(2e-14, 8e-6), root = tol<S>(2e-7, 5e-3);
     for (const NarrowPhaseEntry& entry : narrowPhases()) {
         SCOPED_TRACE(entry.name);
         const bool exact = std::string(entry.name) != "mpr";
         const auto function = findNarrowPhase<S>(entry.name);
         int compared = 0, tooDeep = 0;
         this->forEachPair(30, [&](const auto& a, const auto& Xa, const auto& b, const auto& Xb) {
+            const double eps = std::max(sharp, curvedTolerance<S>(a, b));
             const ClosestPoints<S> truth = closestPoints<S>(a, Xa, b, Xb);
             const auto d = static_cast<double>(truth.distance);
             Manifold<S> m;
@@ -73,8 +74,8 @@ TYPED_TEST(NarrowPhases, AgreeWithTheClosestPoints) {
                 names.insert(p.feature);
                 const typename S::Vec gap = p.pointB - p.pointA;
                 EXPECT_LE(static_cast<double>((gap - p.separation * m.normal).norm()), eps);
-                EXPECT_LE(this->outside(p.pointA, a, Xa), exact ? eps : root);
-                EXPECT_LE(this->outside(p.pointB, b, Xb), exact ? eps : root);
+                EXPECT_LE(this->outside(p.pointA, a, Xa), exact ? eps : std::max(root, 5 * eps));
+                EXPECT_LE(this->outside(p.pointB, b, Xb), exact ? eps : std::max(root, 5 * eps));
             }
             EXPECT_EQ(names.size(), static_cast<std::size_t>(m.count));
             const double found = leastSeparation(m);

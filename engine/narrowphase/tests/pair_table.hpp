@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/narrowphase/manifold.hpp"
+#include "engine/shapes/surface.hpp"
 
 namespace rigor::engine::test {
 
@@ -59,6 +60,11 @@ Shape<S> boxHull(const typename S::Vec& half) {
 }
 
 template <class S>
+double tol(double forDouble, double forFloat) {
+    return sizeof(typename S::Real) == 4 ? forFloat : forDouble;
+}
+
+template <class S>
 struct Random {
     using R = typename S::Real;
     std::mt19937 generator;
@@ -76,9 +82,30 @@ struct Random {
     }
 };
 
+/// Indices of Shape that tests name; the others are told by kKinds alone.
 struct Kind {
-    enum { Sphere, Box, Capsule, HalfSpace, Hull, Count };
+    enum { Sphere, Box, Capsule, HalfSpace, Hull };
 };
+template <class S>
+inline constexpr int kKinds = static_cast<int>(std::variant_size_v<Shape<S>>);
+
+/// Two slopes of a roof, as a mesh of four triangles.
+template <class S>
+Shape<S> roof() {
+    const typename S::Vec v[] = {vec<S>(-0.8, 0, -0.8), vec<S>(0, 0.3, -0.8), vec<S>(0.8, 0, -0.8),
+                                 vec<S>(-0.8, 0, 0.8),  vec<S>(0, 0.3, 0.8),  vec<S>(0.8, 0, 0.8)};
+    const std::array<std::uint32_t, 3> t[] = {{0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}};
+    return makeTriangleMesh<S>(v, t);
+}
+/// A grid of bumps.
+template <class S>
+Shape<S> bumps() {
+    using R = typename S::Real;
+    std::vector<R> heights;
+    for (int k = 0; k < 5; ++k)
+        for (int i = 0; i < 6; ++i) heights.push_back(R(0.1) * static_cast<R>((3 * i + 2 * k) % 4) - R(0.2));
+    return makeHeightField<S>(6, 5, R(0.4), R(0.4), heights, R(1));
+}
 
 /// One shape of each kind, by Shape index.
 template <class S>
@@ -93,14 +120,53 @@ Shape<S> shapeOfKind(int kind) {
             return Capsule<S>{R(0.25), R(0.5)};
         case Kind::HalfSpace:
             return HalfSpace<S>{vec<S>(0, 1, 0), R(0)};
-        default: {
+        case Kind::Hull: {
             Random<S> random{std::mt19937(77)};
             std::vector<typename S::Vec> points;
             for (int i = 0; i < 12; ++i)
                 points.push_back(static_cast<R>(random.uniform(0.4, 0.8)) * random.direction());
             return makeHull<S>(points);
         }
+        default:
+            break;
     }
+    constexpr std::size_t known = 5;
+    if constexpr (S::dim == 3) {
+        const Shape<S> more[] = {
+            Cylinder<S>{R(0.4), R(0.5)}, Cone<S>{R(0.5), R(0.6)},
+            Triangle<S>{{vec<S>(-0.6, -0.1, -0.5), vec<S>(0.7, 0, -0.3), vec<S>(0, 0.2, 0.7)}}, roof<S>(),
+            bumps<S>()};
+        static_assert(std::size(more) + known == std::variant_size_v<Shape<S>>, "a kind without an example");
+        return more[static_cast<std::size_t>(kind) - known];
+    } else {
+        const typename S::Vec points[] = {vec<S>(-0.7, 0.2), vec<S>(-0.2, -0.1), vec<S>(0.3, 0),
+                                          vec<S>(0.6, 0.4)};
+        const Shape<S> more[] = {Segment<S>{vec<S>(-0.6, -0.2), vec<S>(0.7, 0.3)},
+                                 makeChain<S>(points, false)};
+        static_assert(std::size(more) + known == std::variant_size_v<Shape<S>>, "a kind without an example");
+        return more[static_cast<std::size_t>(kind) - known];
+    }
+}
+
+/// Do the tables of convex pairs ask about these two? Static shapes never meet; composites are no convex
+/// shape (surface_contact_test.cpp).
+template <class S>
+bool isConvexPair(const Shape<S>& a, const Shape<S>& b) {
+    return !(isStaticOnly<S>(a) && isStaticOnly<S>(b)) && !isComposite<S>(a) && !isComposite<S>(b);
+}
+template <class S>
+bool isRound(const Shape<S>& s) {
+    const std::string name = shapeName<S>(s);
+    return name == "cylinder" || name == "cone";
+}
+/// What curved sides cost: points of a cap are good to 4e-6 of its radius (kRimNoise); a ball near the axis
+/// of a cylinder has all directions as ways out, which an iteration over support points meets to 1e-4. 0
+/// without.
+template <class S>
+double curvedTolerance(const Shape<S>& a, const Shape<S>& b) {
+    if (!isRound<S>(a) && !isRound<S>(b)) return 0;
+    const auto ball = [](const Shape<S>& s) { return std::holds_alternative<Sphere<S>>(s); };
+    return ball(a) || ball(b) ? 2e-4 : tol<S>(1e-5, 4e-5);
 }
 
 template <class S>
@@ -127,11 +193,6 @@ double separationAlong(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, 
         return rotate(X.q, support<S>(s, rotateInverse<typename S::Real>(X.q, d))).dot(d);
     };
     return static_cast<double>(n.dot(Xb.p - Xa.p) - reach(b, Xb, -n) - reach(a, Xa, n));
-}
-
-template <class S>
-double tol(double forDouble, double forFloat) {
-    return sizeof(typename S::Real) == 4 ? forFloat : forDouble;
 }
 
 }  // namespace rigor::engine::test

@@ -18,12 +18,12 @@ class Pairs : public testing::Test {
     /// `visit(a, Xa, b, Xb)` for random overlapping and nearly touching poses of every pair of kinds.
     template <class Visit>
     void forEachPair(int perPair, Visit visit) {
-        for (int ka = 0; ka < Kind::Count; ++ka)
-            for (int kb = 0; kb < Kind::Count; ++kb) {
-                if (ka == Kind::HalfSpace && kb == Kind::HalfSpace) continue;
-                SCOPED_TRACE("kinds " + std::to_string(ka) + " and " + std::to_string(kb));
-                Random<S> random{std::mt19937(static_cast<unsigned>(10 * ka + kb))};
+        for (int ka = 0; ka < kKinds<S>; ++ka)
+            for (int kb = 0; kb < kKinds<S>; ++kb) {
                 const Shape<S> a = shapeOfKind<S>(ka), b = shapeOfKind<S>(kb);
+                if (!isConvexPair<S>(a, b)) continue;
+                SCOPED_TRACE(std::string(shapeName<S>(a)) + " and " + shapeName<S>(b));
+                Random<S> random{std::mt19937(static_cast<unsigned>(10 * ka + kb))};
                 for (int i = 0; i < perPair; ++i) {
                     const auto far = static_cast<typename S::Real>(random.uniform(0, 1.3));
                     visit(a, pose<S>(vec<S>(0.5, -0.2, 0.3), random.rotation()), b,
@@ -64,7 +64,7 @@ TYPED_TEST(Pairs, ManifoldKeepsItsContract) {
 /// For bounded shapes: no direction separates more than the reported normal, which attains the depth.
 TYPED_TEST(Pairs, DepthIsTheBestOverDirections) {
     using S = TypeParam;
-    const double eps = tol<S>(1e-14, 4e-6);
+    const double sharp = tol<S>(1e-14, 4e-6);
     Random<S> random{std::mt19937(99)};
     this->forEachPair(40, [&](const auto& a, const auto& Xa, const auto& b, const auto& Xb) {
         if (a.index() == Kind::HalfSpace || b.index() == Kind::HalfSpace) return;
@@ -80,6 +80,7 @@ TYPED_TEST(Pairs, DepthIsTheBestOverDirections) {
             return;
         }
         const double d = leastSeparation(m);
+        const double eps = std::max(sharp, curvedTolerance<S>(a, b));
         EXPECT_NEAR(separationAlong<S>(a, Xa, b, Xb, m.normal), d, eps);
         EXPECT_LE(best, d + eps);
         EXPECT_GE(best, d - 0.15);
@@ -88,8 +89,9 @@ TYPED_TEST(Pairs, DepthIsTheBestOverDirections) {
 
 TYPED_TEST(Pairs, SwappingAAndBFlipsTheManifold) {
     using S = TypeParam;
-    const double eps = tol<S>(1e-13, 1e-5);
+    const double sharp = tol<S>(1e-13, 1e-5);
     this->forEachPair(40, [&](const auto& a, const auto& Xa, const auto& b, const auto& Xb) {
+        const double eps = std::max(sharp, 0.05 * curvedTolerance<S>(a, b));
         const Manifold<S> ab = collide<S>(a, Xa, b, Xb), ba = collide<S>(b, Xb, a, Xa);
         ASSERT_EQ(ab.count == 0, ba.count == 0);
         if (ab.count == 0) return;
@@ -129,7 +131,13 @@ TYPED_TEST(Pairs, RigidMotionCarriesTheManifold) {
         const Pose<S> by = pose<S>(vec<S>(-3, 5, 2), random.rotation());
         const Manifold<S> m = collide<S>(a, Xa, b, Xb);
         const Manifold<S> moved = collide<S>(a, compose<S>(by, Xa), b, compose<S>(by, Xb));
-        if (sizeof(typename S::Real) == 8) {
+        if (isRound<S>(a) || isRound<S>(b)) {
+            // Which of two equal points of a rim counts may change.
+            ASSERT_EQ(m.count > 0, moved.count > 0);
+            if (m.count == 0) return;
+            EXPECT_NEAR(leastSeparation(m), leastSeparation(moved), curvedTolerance<S>(a, b));
+            EXPECT_LE((rotate(by.q, m.normal) - moved.normal).norm(), tol<S>(1e-5, 1e-2));
+        } else if (sizeof(typename S::Real) == 8) {
             expectSameMoved<S>(m, moved, by, 1e-11);
         } else if (leastSeparation(m) < -1e-4) {
             // In float, rounding may add or drop a point at the edge of a patch: depth and normal.
@@ -161,11 +169,12 @@ TYPED_TEST(Pairs, FarFromTheOriginIsTheSame) {
 /// Shapes with one centre: any direction may be right, none may be undefined.
 TYPED_TEST(Pairs, ConcentricShapesHaveAUnitNormal) {
     using S = TypeParam;
-    for (int ka = 0; ka < Kind::Count; ++ka)
-        for (int kb = 0; kb < Kind::Count; ++kb) {
+    for (int ka = 0; ka < kKinds<S>; ++ka)
+        for (int kb = 0; kb < kKinds<S>; ++kb) {
             if (ka == Kind::HalfSpace || kb == Kind::HalfSpace) continue;
-            SCOPED_TRACE("kinds " + std::to_string(ka) + " and " + std::to_string(kb));
             const Shape<S> a = shapeOfKind<S>(ka), b = shapeOfKind<S>(kb);
+            if (!isConvexPair<S>(a, b)) continue;
+            SCOPED_TRACE(std::string(shapeName<S>(a)) + " and " + shapeName<S>(b));
             for (const auto& q : {turn<S>(0), turn<S>(0.3, 0.8)}) {
                 const Pose<S> Xa = pose<S>(vec<S>(1, 2, 3)), Xb = pose<S>(vec<S>(1, 2, 3), q);
                 const Manifold<S> m = collide<S>(a, Xa, b, Xb);
@@ -173,7 +182,7 @@ TYPED_TEST(Pairs, ConcentricShapesHaveAUnitNormal) {
                 EXPECT_TRUE(m.normal.allFinite());
                 EXPECT_NEAR(m.normal.norm(), 1, tol<S>(1e-14, 1e-6));
                 EXPECT_NEAR(separationAlong<S>(a, Xa, b, Xb, m.normal), leastSeparation(m),
-                            tol<S>(1e-14, 4e-6));
+                            std::max(curvedTolerance<S>(a, b), tol<S>(1e-14, 4e-6)));
             }
         }
 }

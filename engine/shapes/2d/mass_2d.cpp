@@ -41,10 +41,6 @@ Moments moments(const Capsule<Space<R, 2>>& s) {
     return {rectangle + disc, V::Zero(), rectangle * (r * r + h * h) / 3.0 + ends};
 }
 template <class R>
-Moments moments(const HalfSpace<Space<R, 2>>&) {
-    throw std::invalid_argument("a half-plane has no mass");
-}
-template <class R>
 Moments moments(const Hull<Space<R, 2>>& s) {
     const auto& v = s.data->vertices;
     const V origin = v[0].template cast<double>();
@@ -66,7 +62,14 @@ Moments moments(const Hull<Space<R, 2>>& s) {
 
 template <class R>
 MassProperties<Space<R, 2>> massOf(const Shape<Space<R, 2>>& shape, R density) {
-    const Moments m = std::visit([](const auto& s) { return moments<R>(s); }, shape);
+    const Moments m = std::visit(
+        []<class Kind>(const Kind& s) -> Moments {
+            if constexpr (kStaticOnly<Kind>)
+                throw std::invalid_argument("half-planes and curves have no mass");
+            else
+                return moments<R>(s);
+        },
+        shape);
     const double rho = density;
     return {static_cast<R>(rho * m.area), m.center.cast<R>(), static_cast<R>(rho * m.inertia)};
 }

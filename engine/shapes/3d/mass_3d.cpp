@@ -4,7 +4,9 @@
 // Volume, centroid and inertia tensor of the solid shapes; computed in double.
 //   polyhedron: tetrahedra (o, a, b, c) of signed volume T = a . (b x c) / 6 from a vertex o:
 //     centroid (a + b + c) / 4, integral of x x^T: T / 20 (a a^T + b b^T + c c^T + s s^T), s = a + b + c
-//   capsule: a cylinder and two half balls, whose centroids lie 3r/8 beyond the ends.
+//   capsule: a cylinder and two half balls, whose centroids lie 3r/8 beyond the ends
+//   cone: centroid a quarter of its height over the base; about it 3/10 m r^2 along the axis, 3/20 m r^2 +
+//     3/80 m (2h)^2 across [Goldstein2002, ch. 5].
 #include <numbers>
 #include <stdexcept>
 
@@ -47,8 +49,16 @@ Moments moments(const Capsule<Space<R, 3>>& s) {
     return {cylinder + ball, V::Zero(), diagonal(across, axial, across)};
 }
 template <class R>
-Moments moments(const HalfSpace<Space<R, 3>>&) {
-    throw std::invalid_argument("a half-space has no mass");
+Moments moments(const Cylinder<Space<R, 3>>& s) {
+    const double r = s.radius, h = s.halfLength, volume = 2.0 * std::numbers::pi * r * r * h;
+    const double across = volume * (0.25 * r * r + h * h / 3.0);
+    return {volume, V::Zero(), diagonal(across, 0.5 * volume * r * r, across)};
+}
+template <class R>
+Moments moments(const Cone<Space<R, 3>>& s) {
+    const double r = s.radius, h = s.halfLength, volume = 2.0 / 3.0 * std::numbers::pi * r * r * h;
+    const double across = 0.15 * volume * (r * r + h * h);
+    return {volume, V(0, -0.5 * h, 0), diagonal(across, 0.3 * volume * r * r, across)};
 }
 template <class R>
 Moments moments(const Hull<Space<R, 3>>& s) {
@@ -81,7 +91,14 @@ Moments moments(const Hull<Space<R, 3>>& s) {
 
 template <class R>
 MassProperties<Space<R, 3>> massOf(const Shape<Space<R, 3>>& shape, R density) {
-    const Moments m = std::visit([](const auto& s) { return moments<R>(s); }, shape);
+    const Moments m = std::visit(
+        []<class Kind>(const Kind& s) -> Moments {
+            if constexpr (kStaticOnly<Kind>)
+                throw std::invalid_argument("half-spaces and surfaces have no mass");
+            else
+                return moments<R>(s);
+        },
+        shape);
     const double rho = density;
     return {static_cast<R>(rho * m.volume), m.center.cast<R>(), (rho * m.inertia).cast<R>()};
 }

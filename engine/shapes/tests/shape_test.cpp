@@ -43,6 +43,14 @@ bool contains(const Shape<S>& shape, const typename S::Vec& x) {
         core.y() = std::clamp(x.y(), -c->halfLength, c->halfLength);
         return (x - core).norm() <= c->radius;
     }
+    if constexpr (S::dim == 3) {
+        const double across = std::hypot(static_cast<double>(x.x()), static_cast<double>(x.z()));
+        if (const auto* c = std::get_if<Cylinder<S>>(&shape))
+            return across <= c->radius && std::abs(x.y()) <= c->halfLength;
+        if (const auto* c = std::get_if<Cone<S>>(&shape))
+            return std::abs(x.y()) <= c->halfLength &&
+                   across <= c->radius * (c->halfLength - x.y()) / (2 * c->halfLength);
+    }
     const auto& h = *std::get<Hull<S>>(shape).data;
     if constexpr (S::dim == 2) {
         for (std::size_t i = 0; i < h.vertices.size(); ++i)
@@ -67,7 +75,19 @@ Hull<S> irregularHull() {
 template <class S>
 std::vector<Shape<S>> solids() {
     using R = typename S::Real;
-    return {Sphere<S>{R(0.7)}, Box<S>{vec<S>(0.5, 0.3, 0.8)}, Capsule<S>{R(0.4), R(0.5)}, irregularHull<S>()};
+    std::vector<Shape<S>> all{Sphere<S>{R(0.7)}, Box<S>{vec<S>(0.5, 0.3, 0.8)}, Capsule<S>{R(0.4), R(0.5)},
+                              irregularHull<S>()};
+    if constexpr (S::dim == 3) {
+        all.push_back(Cylinder<S>{R(0.6), R(0.4)});
+        all.push_back(Cone<S>{R(0.7), R(0.6)});
+    }
+    std::size_t solid = 0;  // every kind with a volume is in the list
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+        ((solid += !kStaticOnly<std::variant_alternative_t<I, Shape<S>>>), ...);
+    }
+    (std::make_index_sequence<std::variant_size_v<Shape<S>>>());
+    EXPECT_EQ(all.size(), solid);
+    return all;
 }
 
 template <class S>
@@ -251,6 +271,32 @@ TEST(CapsuleMass, MatchesAnIntegralOverDiscs) {
     EXPECT_NEAR(m.inertia(1, 1), axial, 1e-9);
     EXPECT_NEAR(m.inertia(0, 0), across, 1e-9);
     EXPECT_NEAR(m.inertia(2, 2), across, 1e-9);
+}
+
+/// Cylinder and cone as stacks of thin discs, integrated by Simpson's rule, which is exact for them.
+TEST(RoundMass, MatchesAnIntegralOverDiscs) {
+    const double r = 0.3, h = 0.6, pi = std::numbers::pi;
+    for (const bool cone : {false, true}) {
+        double volume = 0, first = 0, axial = 0, across = 0;
+        const int n = 200;
+        for (int i = 0; i <= n; ++i) {
+            const double y = -h + 2 * h * i / n, s = cone ? r * (h - y) / (2 * h) : r;
+            const double w = (i == 0 || i == n ? 1 : (i % 2 ? 4 : 2)) * 2 * h / n / 3;
+            volume += w * pi * s * s;
+            first += w * pi * s * s * y;
+            axial += w * pi * s * s * s * s / 2;
+            across += w * pi * s * s * (s * s / 4 + y * y);
+        }
+        const Shape<Space3d> shape =
+            cone ? Shape<Space3d>(Cone<Space3d>{r, h}) : Shape<Space3d>(Cylinder<Space3d>{r, h});
+        const auto m = massProperties<Space3d>(shape, 1.0);
+        const double y = first / volume;
+        EXPECT_NEAR(m.mass, volume, 1e-9);
+        EXPECT_NEAR(m.center.y(), y, 1e-9);
+        EXPECT_NEAR(m.inertia(1, 1), axial, 1e-9);
+        EXPECT_NEAR(m.inertia(0, 0), across - volume * y * y, 1e-9);
+        EXPECT_NEAR(m.inertia(2, 2), across - volume * y * y, 1e-9);
+    }
 }
 
 }  // namespace

@@ -50,6 +50,21 @@ TYPED_TEST(Friction, ConeSticksOrOpposesSlipOnTheRim) {
     EXPECT_GT(sliding, 500);
 }
 
+/// Limits that square below the smallest number, as redundant contacts have: on the rim against b, never NaN.
+TYPED_TEST(Friction, ConeWithAVanishingLimit) {
+    using R = TypeParam;
+    using Vec2 = Eigen::Matrix<R, 2, 1>;
+    const auto cone = findAlgorithm(frictionTable<Space<R, 3>>(), "friction", "cone").make;
+    for (int exponent = std::numeric_limits<R>::min_exponent10; exponent < -4; exponent += 2) {
+        const R limit = std::pow(R(10), R(exponent));
+        const Vec2 lambda = cone(R(2), R(0.3), R(1), Vec2(0, 0), Vec2(3, 4), limit);
+        ASSERT_TRUE(lambda.allFinite()) << exponent;
+        EXPECT_LE(lambda.norm(), limit * R(1.001)) << exponent;
+        EXPECT_LE(lambda[0], 0);
+        EXPECT_LE(lambda[1], 0);
+    }
+}
+
 TYPED_TEST(Friction, PyramidClampsEachTangent) {
     using R = TypeParam;
     using Vec2 = Eigen::Matrix<R, 2, 1>;

@@ -54,7 +54,10 @@ struct Inside {
     }
     bool operator()(const ConvexHull&) const { return false; }  // prepared once: see insideTest
     bool operator()(const HalfSpace&) const { return false; }
-    bool operator()(const Segment&) const { return false; }
+    template <class Surface>
+    bool operator()(const Surface&) const {
+        return false;
+    }
 };
 
 std::function<bool(Vec3)> insideTest(const Shape& shape, int dimension) {
@@ -200,6 +203,7 @@ TEST(MassProperties, ScaledToMassKeepsTheShape) {
 
 TEST(MassProperties, ShapesWithoutContentAreRefused) {
     EXPECT_THROW(massPropertiesFromShapes({{HalfSpace{}, {}, 0}}, kMaterials, 3), std::invalid_argument);
+    EXPECT_THROW(massPropertiesFromShapes({{HeightField{}, {}, 0}}, kMaterials, 3), std::invalid_argument);
     EXPECT_THROW(massPropertiesFromShapes({{Segment{{0, 0, 0}, {1, 0, 0}}, {}, 0}}, kMaterials, 2),
                  std::invalid_argument);
     EXPECT_THROW(massPropertiesFromShapes({}, kMaterials, 3), std::invalid_argument);

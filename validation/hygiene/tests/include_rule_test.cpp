@@ -35,6 +35,7 @@ const std::vector<Rule>& rules() {
          {"engine/core", "engine/math", "engine/shapes", "engine/state", "engine/broadphase/broad_phase.hpp",
           "engine/narrowphase/manifold.hpp", "engine/constraints/row.hpp"}},
         {"engine/pipeline", {"engine/"}},
+        {"engine/queries", {"engine/"}},
         {"engine", {"engine/"}},
         {"scenarios", {"scenarios/"}},
         {"adapters/interface", {"scenarios/model/"}},

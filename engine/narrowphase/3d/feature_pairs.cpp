@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Any two convex shapes of space, in the frame of A:
+//
+//   1. normal n and separation by closestPoints (GJK, EPA);
+//   2. where a flat face of A or B looks along n within 2.5 degrees and the separation along the face's own
+//      normal, s(m) = min over B of m . x - max over A of m . x, is no less than that of n within rounding,
+//      the face's normal is taken: exact, and the same from step to step;
+//   3. the supporting features of A and B along n are clipped against each other: face and face or segment
+//      (Sutherland-Hodgman against the prism over the reference face), two nearly parallel segments (their
+//      common stretch), else the closest points alone. Separations are measured along n.
+//   4. the deepest point is kept: where clipping lost it the closest points are put in.
+// Sources: [Bergen2003], [Ericson2005, ch. 5.3, 8.3].
+//
+// Limits: a disc is clipped as an inscribed polygon of 16 sides (its lowest point is good to kRimNoise);
+// overlapping curved sides have a normal as good as EPA's. Cost: that of closestPoints and O(n m) of the
+// features.
+#include "engine/narrowphase/3d/feature.hpp"
+#include "engine/narrowphase/distance.hpp"
+#include "engine/narrowphase/pairs.hpp"
+
+namespace rigor::engine {
+namespace {
+
+template <class R>
+using S3 = Space<R, 3>;
+
+/// What both sides of a contact are, in the frame of A.
+template <class R>
+struct Meeting {
+    const Shape<S3<R>>& a;
+    const Shape<S3<R>>& b;
+    Pose<S3<R>> X;  ///< of B
+    Vec3<R> normal;
+    R separation;
+    Vec3<R> pointA, pointB;
+    R tolerance;
+    R speculative;
+};
+
+/// s(m) of the file's head.
+template <class R>
+R separationAlong(const Meeting<R>& m, const Vec3<R>& n) {
+    const Vec3<R> onB = support<S3<R>>(m.b, rotateInverse<R>(m.X.q, Vec3<R>(-n)));
+    return n.dot(m.X.p) + n.dot(rotate(m.X.q, onB)) - n.dot(support<S3<R>>(m.a, n));
+}
+
+template <class R>
+void featuresAlong(const Meeting<R>& m, SupportFeature<R>& fa, SupportFeature<R>& fb) {
+    supportingFeature<R>(m.a, m.normal, fa);
+    supportingFeature<R>(m.b, rotateInverse<R>(m.X.q, Vec3<R>(-m.normal)), fb);
+    for (int i = 0; i < fb.count; ++i) {
+        Vec3<R>& x = fb.at[static_cast<std::size_t>(i)];
+        x = toWorld<S3<R>>(m.X, x);
+    }
+    fb.normal = rotate(m.X.q, fb.normal);
+}
+
+/// Step 2. True when the normal changed.
+template <class R>
+bool preferFaceNormal(Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb) {
+    Vec3<R> best = m.normal;
+    R most = m.separation - m.tolerance;
+    const auto consider = [&](const Vec3<R>& n) {
+        // B's face must be better than A's by more than rounding, or they would take turns.
+        if (const R s = separationAlong(m, n); s >= most) best = n, most = s + m.tolerance;
+    };
+    if (fa.count > 2) consider(fa.normal);
+    if (fb.count > 2) consider(-fb.normal);
+    if (most == m.separation - m.tolerance) return false;
+    m.normal = best;
+    m.separation = most - m.tolerance;
+    return true;
+}
+
+constexpr int kRefSide = 1 << 16;  ///< line numbers from here on are sides of the reference prism
+
+template <class R>
+struct ClipVertex {
+    Vec3<R> x;
+    int in, out;  ///< lines before and after: edge i of the incident feature, or kRefSide + side
+};
+template <class R>
+struct ClipPolygon {
+    std::array<ClipVertex<R>, 2 * SupportFeature<R>::kMost> v;
+    int count = 0;
+    void add(const ClipVertex<R>& c) {
+        if (count < 2 * SupportFeature<R>::kMost) v[static_cast<std::size_t>(count++)] = c;
+    }
+    const ClipVertex<R>& operator[](int i) const { return v[static_cast<std::size_t>(i)]; }
+};
+
+/// Keeps what is below the plane m . (x - p) = 0. An open polygon (a segment) is not closed again.
+template <class R>
+void clip(const ClipPolygon<R>& from, bool closed, const Vec3<R>& m, const Vec3<R>& p, int line,
+          ClipPolygon<R>& to) {
+    to.count = 0;
+    if (!closed && from.count > 0 && m.dot(from[0].x - p) <= 0) to.add(from[0]);
+    for (int i = 0; i + (closed ? 0 : 1) < from.count; ++i) {
+        const ClipVertex<R>&a = from[i], &b = from[(i + 1) % from.count];
+        const R sa = m.dot(a.x - p), sb = m.dot(b.x - p);
+        if (sa <= 0 && sb <= 0) {
+            to.add(b);
+        } else if (sa <= 0) {
+            to.add({a.x + (sa / (sa - sb)) * (b.x - a.x), a.out, line});
+        } else if (sb <= 0) {
+            to.add({b.x + (sb / (sb - sa)) * (a.x - b.x), line, a.out});
+            to.add(b);
+        }
+    }
+}
+
+template <class R>
+std::uint32_t clipFeature(const ClipVertex<R>& c, const SupportFeature<R>& ref, const SupportFeature<R>& inc,
+                          bool refIsA) {
+    const auto edge = [](const SupportFeature<R>& f, int i) {
+        const auto k = static_cast<std::size_t>(i);
+        return edgeName(f.index[k], f.index[(k + 1) % static_cast<std::size_t>(f.count)]);
+    };
+    const bool inRef = c.in >= kRefSide, outRef = c.out >= kRefSide;
+    if (!inRef && !outRef) return vertexFeature(!refIsA, inc.index[static_cast<std::size_t>(c.out)]);
+    if (inRef && outRef) {
+        const int a = c.in - kRefSide, b = c.out - kRefSide;
+        return vertexFeature(refIsA, ref.index[static_cast<std::size_t>((a + 1) % ref.count == b ? b : a)]);
+    }
+    const std::uint32_t onRef = edge(ref, (inRef ? c.in : c.out) - kRefSide);
+    const std::uint32_t onInc = edge(inc, inRef ? c.out : c.in);
+    return refIsA ? crossingFeature(onRef, onInc) : crossingFeature(onInc, onRef);
+}
+
+/// The lowest first; of those within rounding of it the first, so that a flat contact keeps its choice.
+template <class R, class Height>
+R steadyHeight(Height height, R lowest, R noise, int i) {
+    const R h = height(i);
+    return h <= lowest + noise ? lowest : h;
+}
+
+/// A disc's points all are as deep where it lies flat. Which of them count as deepest must not hang on the
+/// rocking of a resting body: another choice in every step has no impulses to start from.
+template <class R>
+R selectionNoise(const Meeting<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc) {
+    const bool discs = ref.count == kRimPoints || inc.count == kRimPoints;
+    const R size = std::min((ref.at[1] - ref.at[0]).norm(), (inc.at[1] - inc.at[0]).norm());
+    return discs ? std::max(R(2) * kRimNoise<R> * size, m.tolerance) : m.tolerance;
+}
+
+/// A face against a face or a segment.
+template <class R>
+void clipFeatures(const Meeting<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc,
+                  bool refIsA, Manifold<S3<R>>& out) {
+    const Vec3<R> outward = refIsA ? m.normal : Vec3<R>(-m.normal);
+    ClipPolygon<R> buffers[2];
+    int now = 0;
+    const bool closed = inc.count > 2;
+    for (int i = 0; i < inc.count; ++i)
+        buffers[0].add({inc.at[static_cast<std::size_t>(i)], closed ? (i + inc.count - 1) % inc.count : 0,
+                        closed || i == 0 ? i : 1});
+    for (int i = 0; i < ref.count && buffers[now].count > 0; ++i) {
+        const Vec3<R>& p = ref.at[static_cast<std::size_t>(i)];
+        const Vec3<R>& q = ref.at[static_cast<std::size_t>((i + 1) % ref.count)];
+        clip<R>(buffers[now], closed, (q - p).cross(outward), p, kRefSide + i, buffers[1 - now]);
+        now = 1 - now;
+    }
+    const ClipPolygon<R>& polygon = buffers[now];
+    const R slope = R(1) / ref.normal.dot(outward);
+    const auto height = [&](const Vec3<R>& x) { return R(ref.normal.dot(x - ref.at[0]) * slope); };
+    std::array<int, 2 * SupportFeature<R>::kMost> near;
+    int found = 0;
+    R lowest = std::numeric_limits<R>::max();
+    for (int i = 0; i < polygon.count; ++i)
+        if (const R h = height(polygon[i].x); h <= m.speculative)
+            near[static_cast<std::size_t>(found++)] = i, lowest = std::min(lowest, h);
+    const auto at = [&](int k) -> const ClipVertex<R>& { return polygon[near[static_cast<std::size_t>(k)]]; };
+    const R noise = selectionNoise(m, ref, inc);
+    reducePoints<S3<R>>(
+        found, outward,
+        [&](int k) { return steadyHeight<R>([&](int i) { return height(at(i).x); }, lowest, noise, k); },
+        [&](int k) { return at(k).x; },
+        [&](int k) {
+            const ClipVertex<R>& c = at(k);
+            const R h = height(c.x);
+            const Vec3<R> onRef = c.x - h * outward;
+            addPoint<S3<R>>(out, refIsA ? onRef : c.x, refIsA ? c.x : onRef, h,
+                            clipFeature(c, ref, inc, refIsA));
+        });
+}
+
+/// Sine of the largest angle between segments that lie side by side: about 3 degrees.
+template <class R>
+inline constexpr R kSideBySide = R(0.05);
+
+/// The ends of the common stretch of two segments; nothing where they cross.
+template <class R>
+void alongSegments(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
+                   Manifold<S3<R>>& out) {
+    const Vec3<R> d = fa.at[1] - fa.at[0], e = fb.at[1] - fb.at[0];
+    const R dd = d.squaredNorm(), de = d.dot(e);
+    if (!(d.cross(e).squaredNorm() <= kSideBySide<R> * kSideBySide<R> * dd * e.squaredNorm())) return;
+    const R t0 = d.dot(fb.at[0] - fa.at[0]) / dd, slope = de / dd, t1 = t0 + slope;
+    const R low = std::max(R(0), std::min(t0, t1)), high = std::min(R(1), std::max(t0, t1));
+    if (!(high - low > R(1e-3) * std::min(R(1), std::abs(slope)))) return;
+    for (const R t : {low, high}) {
+        const R u = std::clamp((t - t0) / slope, R(0), R(1));
+        const Vec3<R> p = fa.at[0] + t * d, q = fb.at[0] + u * e;
+        const R s = m.normal.dot(q - p);
+        if (s > m.speculative) continue;
+        const bool endOfA = t == R(0) || t == R(1);
+        const auto end = static_cast<std::size_t>((endOfA ? t : u) > R(0.5) ? 1 : 0);
+        addPoint<S3<R>>(out, p, p + s * m.normal, s,
+                        vertexFeature(endOfA, endOfA ? fa.index[end] : fb.index[end]));
+    }
+}
+
+/// Step 4.
+template <class R>
+void keepDeepest(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
+                 Manifold<S3<R>>& out) {
+    R least = std::numeric_limits<R>::max();
+    for (int i = 0; i < out.count; ++i)
+        least = std::min(least, out.points[static_cast<std::size_t>(i)].separation);
+    const R noise = fa.count > 2 && fb.count > 1   ? selectionNoise(m, fa, fb)
+                    : fb.count > 2 && fa.count > 1 ? selectionNoise(m, fb, fa)
+                                                   : m.tolerance;
+    if (out.count > 0 && least <= m.separation + R(4) * noise) return;
+    if (out.count == S3<R>::maxManifoldPoints) --out.count;
+    const bool vertexOnA = fa.count == 1, vertexOnB = fb.count == 1;
+    const std::uint32_t feature =
+        vertexOnB   ? vertexFeature(false, fb.index[0])
+        : vertexOnA ? vertexFeature(true, fa.index[0])
+                    : crossingFeature(edgeName(fa.index[0], fa.index[1]), edgeName(fb.index[0], fb.index[1]));
+    // Both points on one line along the normal.
+    const Vec3<R> middle = R(0.5) * (m.pointA + m.pointB), half = R(0.5) * m.separation * m.normal;
+    addPoint<S3<R>>(out, middle - half, middle + half, m.separation, feature);
+}
+
+}  // namespace
+
+template <class R>
+void collideFeatures(const Shape<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Shape<Space<R, 3>>& b,
+                     const Pose<Space<R, 3>>& Xb, R speculative, Manifold<Space<R, 3>>& out) {
+    using S = Space<R, 3>;
+    const Pose<S> X = relativePose<S>(Xa, Xb);
+    const ClosestPoints<S> closest = closestPoints<S>(a, Pose<S>{}, b, X);
+    if (!(closest.distance <= speculative)) return;
+    const R size = std::max({closest.pointA.cwiseAbs().maxCoeff(), closest.pointB.cwiseAbs().maxCoeff(),
+                             X.p.cwiseAbs().maxCoeff()});
+    Meeting<R> m{a,
+                 b,
+                 X,
+                 closest.normal,
+                 closest.distance,
+                 closest.pointA,
+                 closest.pointB,
+                 axisTolerance(size, closest.distance),
+                 speculative};
+    SupportFeature<R> fa, fb;
+    featuresAlong(m, fa, fb);
+    if (preferFaceNormal(m, fa, fb)) featuresAlong(m, fa, fb);
+    out.normal = m.normal;
+    if (fa.count > 2 && fb.count >= 2 &&
+        (fb.count == 2 || fa.normal.dot(m.normal) >= -fb.normal.dot(m.normal) - kRounding<R>))
+        clipFeatures(m, fa, fb, true, out);
+    else if (fb.count > 2 && fa.count >= 2)
+        clipFeatures(m, fb, fa, false, out);
+    else if (fa.count == 2 && fb.count == 2)
+        alongSegments(m, fa, fb, out);
+    keepDeepest(m, fa, fb, out);
+    toWorldFrame<S>(out, Xa);
+}
+
+template <class R>
+void collideAlong(const Triangle<Space<R, 3>>& piece, bool front, const Shape<Space<R, 3>>& convex,
+                  const Pose<Space<R, 3>>& X, typename Space<R, 3>::Real speculative,
+                  Manifold<Space<R, 3>>& out) {
+    using S = Space<R, 3>;
+    const Vec3<R> up = (piece.v[1] - piece.v[0]).cross(piece.v[2] - piece.v[0]).normalized();
+    const Vec3<R> n = front ? up : Vec3<R>(-up);
+    const Shape<S> triangle = piece;
+    const Meeting<R> m{triangle, convex, X, n, R(0), Vec3<R>::Zero(), Vec3<R>::Zero(), R(0), speculative};
+    SupportFeature<R> fa, fb;
+    featuresAlong(m, fa, fb);
+    out.count = 0;
+    out.normal = n;
+    if (fb.count >= 2) {
+        clipFeatures(m, fa, fb, true, out);
+    } else if (fb.count == 1) {
+        const Vec3<R>& x = fb.at[0];
+        for (std::size_t i = 0; i < 3; ++i)
+            if ((fa.at[(i + 1) % 3] - fa.at[i]).cross(n).dot(x - fa.at[i]) > 0) return;
+        const R s = n.dot(x - fa.at[0]);
+        if (s <= speculative) addPoint<S>(out, x - s * n, x, s, vertexFeature(false, fb.index[0]));
+    }
+}
+
+#define ALONG(S)                                                                                            \
+    template void collideAlong<S::Real>(const Triangle<S>&, bool, const Shape<S>&, const Pose<S>&, S::Real, \
+                                        Manifold<S>&);
+ALONG(Space3f)
+ALONG(Space3d)
+#undef ALONG
+template void collideFeatures<float>(const Shape<Space3f>&, const Pose<Space3f>&, const Shape<Space3f>&,
+                                     const Pose<Space3f>&, float, Manifold<Space3f>&);
+template void collideFeatures<double>(const Shape<Space3d>&, const Pose<Space3d>&, const Shape<Space3d>&,
+                                      const Pose<Space3d>&, double, Manifold<Space3d>&);
+
+}  // namespace rigor::engine

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A convex shape on a piece (segment, triangle) of a surface, without the bumps of inner edges.
+//
+// Taken by itself a piece has edges that its surface has not: a box that slides over two triangles of one
+// floor would meet the side of the second. With m the piece's normal on the side of the shape's middle:
+//
+//   1. Face first. Contact points along m: the shape's supporting feature clipped to the prism over the
+//   piece.
+//      If the shape's lowest point, depth s, is over the piece and no side of the piece is nearer than |s|,
+//      no other way out is shorter: for a way u at angle theta to m, the disc of radius |s| in the piece
+//      around the foot gives the separation |s| (sin theta + cos theta) >= |s|.
+//   2. Else the piece alone, with its normal n. It is kept where the surface near the touching vertex v lies
+//      behind the plane of contact,  n . (w - v) <= 0  for the vertices w beside the piece's touching side,
+//      or around its touching corner: only there n is a normal of the surface.
+//   3. Else the contact along m, if any: what is left belongs to a neighbour.
+// The condition of 2 is that of the normal cones of a polyhedron [Ericson2005, ch. 12.4 for the pieces' own
+// Voronoi regions]; it holds on both sides of a two-sided surface. A field that is solid below has m up, and
+// a shape with its middle under the surface is pushed along m.
+//
+// Cost: that of a contact with each piece near; step 1 alone for most of them. Limits: pieces are met one by
+// one, so that a shape larger than many pieces has many contacts.
+#include "engine/narrowphase/surface_contact.hpp"
+
+#include "engine/narrowphase/detail.hpp"
+#include "engine/narrowphase/pairs.hpp"
+
+namespace rigor::engine {
+namespace {
+
+/// Sine of the angle up to which a normal counts as perpendicular to an edge: the root of the rounding, which
+/// normals of closest points are good to.
+template <class R>
+inline constexpr R kPerpendicular = R(6e-8);
+template <>
+inline constexpr float kPerpendicular<float> = 1.4e-3f;
+
+template <class R>
+Vec2<R> pieceNormal(const Segment<Space<R, 2>>& s) {
+    const Vec2<R> d = s.b - s.a;
+    return Vec2<R>(-d.y(), d.x()).normalized();
+}
+template <class R>
+Vec3<R> pieceNormal(const Triangle<Space<R, 3>>& t) {
+    return (t.v[1] - t.v[0]).cross(t.v[2] - t.v[0]).normalized();
+}
+
+/// Distance of x, a point on the piece, from the piece's border; < 0 beside it.
+template <class R>
+R insideBy(const Segment<Space<R, 2>>& s, const Vec2<R>&, const Vec2<R>& x) {
+    const Vec2<R> along = (s.b - s.a).normalized();
+    return std::min(along.dot(x - s.a), along.dot(s.b - x));
+}
+template <class R>
+R insideBy(const Triangle<Space<R, 3>>& t, const Vec3<R>& n, const Vec3<R>& x) {
+    R least = std::numeric_limits<R>::max();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3<R> e = t.v[(i + 1) % 3] - t.v[i];
+        least = std::min(least, R(n.cross(e).dot(x - t.v[i]) / e.norm()));
+    }
+    return least;
+}
+
+template <class S>
+struct Placed {
+    const Shape<S>& convex;
+    Pose<S> X;  ///< in the frame of the surface
+    /// Furthest coordinate along n.
+    typename S::Real reach(const typename S::Vec& n) const {
+        using R = typename S::Real;
+        const typename S::Vec p = support<S>(convex, rotateInverse<R>(X.q, n));
+        return n.dot(X.p) + n.dot(rotate(X.q, p));
+    }
+};
+
+/// Step 1: is the contact along m the shortest way out? `out` in the frame of the surface.
+template <class S, class Piece>
+bool faceIsShortest(const Piece& piece, const typename S::Vec& n, typename S::Real s,
+                    const Manifold<S>& out) {
+    using R = typename S::Real;
+    if (out.count == 0) return false;
+    typename S::Vec foot = S::Vec::Zero();
+    R size = 0, used = 0;
+    for (int i = 0; i < out.count; ++i)
+        size = std::max(size, out.points[static_cast<std::size_t>(i)].pointB.cwiseAbs().maxCoeff());
+    // The lowest points, and those hardly higher: a flat contact's middle.
+    const R bound = s + R(0.1) * std::abs(s) + kRounding<R> * size;
+    for (int i = 0; i < out.count; ++i) {
+        const ManifoldPoint<S>& p = out.points[static_cast<std::size_t>(i)];
+        if (p.separation <= bound) foot += p.pointA, used += 1;
+    }
+    return used > 0 && insideBy<R>(piece, n, foot / used) >= std::abs(s);
+}
+
+/// Step 2. `n` in the frame of the surface.
+template <class S, class Data>
+bool isSurfaceNormal(const Data& data, std::uint32_t piece, const typename S::Vec& n) {
+    using R = typename S::Real;
+    using V = typename S::Vec;
+    const auto corners = data.corners(piece);
+    constexpr int kCorners = S::dim;
+    const auto at = [&](int i) { return V(data.point(corners[static_cast<std::size_t>(i % kCorners)])); };
+    int top = 0;
+    for (int i = 1; i < kCorners; ++i)
+        if (at(i).dot(n) > at(top).dot(n)) top = i;
+    const auto level = [&](const V& x) {  // as high as the top, by angle
+        const V d = at(top) - x;
+        return n.dot(d) <= kPerpendicular<R> * d.norm();
+    };
+    const auto behind = [&](std::uint32_t w) {
+        if (w == kNone) return true;
+        const V d = data.point(w) - at(top);
+        return n.dot(d) <= kPerpendicular<R> * d.norm();
+    };
+    int touching = 0, other = top;
+    for (int i = 0; i < kCorners; ++i)
+        if (i == top || level(at(i))) touching += 1, other = i == top ? other : i;
+    if (touching == kCorners) return true;
+    if (touching == 2) {
+        const int side = (top + 1) % 3 == other ? top : other;  // from corner `side` to the next
+        return behind(data.across(piece, side));
+    }
+    bool all = true;
+    data.ring(corners[static_cast<std::size_t>(top)], [&](std::uint32_t w) { all = all && behind(w); });
+    return all;
+}
+
+template <class S, class Collide, class Data>
+void collideWith(Collide collide, const Data& data, std::uint32_t index, const Pose<S>& Xs,
+                 const Shape<S>& convex, const Pose<S>& Xc, typename S::Real speculative, Manifold<S>& out) {
+    using R = typename S::Real;
+    using V = typename S::Vec;
+    const auto piece = data.piece(index);
+    const Placed<S> placed{convex, relativePose<S>(Xs, Xc)};
+    const V n = pieceNormal<R>(piece), corner = data.point(data.corners(index)[0]);
+    const R top = placed.reach(n) - n.dot(corner), bottom = -placed.reach(-n) - n.dot(corner);
+    const bool under = top + bottom < 0;
+    const bool front = Data::kSolidBelow || !under;
+    const R s = front ? bottom : -top;
+    if (s > speculative) return;
+    Manifold<S> along;
+    collideAlong<R>(piece, front, convex, placed.X, speculative, along);
+    if (faceIsShortest<S>(piece, n, s, along) || (Data::kSolidBelow && under)) {
+        out = along;
+        toWorldFrame<S>(out, Xs);
+        return;
+    }
+    collide(Shape<S>(piece), Xs, convex, Xc, speculative, out);
+    if (out.count == 0) return;
+    const V found = rotateInverse<R>(Xs.q, out.normal);
+    const bool upwards = !Data::kSolidBelow || found.dot(n) >= -kPerpendicular<R>;
+    if (upwards && isSurfaceNormal<S>(data, index, found)) return;
+    out = along;
+    toWorldFrame<S>(out, Xs);
+}
+
+}  // namespace
+
+template <class S>
+void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t piece,
+                  const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
+                  typename S::Real speculative, Manifold<S>& out) {
+    out.count = 0;
+    const auto collide = [&](const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
+                             typename S::Real distance,
+                             Manifold<S>& m) { narrowPhase.collide(a, Xa, b, Xb, distance, m); };
+    withSurface<S>(surface, [&](const auto& data) {
+        collideWith<S>(collide, data, piece, Xsurface, convex, Xconvex, speculative, out);
+    });
+}
+
+template <class S>
+void collideDeepestPiece(CollideFunction<S> collide, const Shape<S>& surface, const Pose<S>& Xsurface,
+                         const Shape<S>& convex, const Pose<S>& Xconvex, typename S::Real speculative,
+                         Manifold<S>& out) {
+    using R = typename S::Real;
+    out.count = 0;
+    R deepest = std::numeric_limits<R>::max();
+    std::uint32_t first = kNone;
+    withSurface<S>(surface, [&](const auto& data) {
+        data.query(boxOnSurface<S>(Xsurface, convex, Xconvex, speculative), [&](std::uint32_t piece) {
+            Manifold<S> m;
+            collideWith<S>(collide, data, piece, Xsurface, convex, Xconvex, speculative, m);
+            R least = std::numeric_limits<R>::max();
+            for (int i = 0; i < m.count; ++i)
+                least = std::min(least, m.points[static_cast<std::size_t>(i)].separation);
+            if (m.count == 0 || least > deepest || (least == deepest && piece > first)) return;
+            deepest = least;
+            first = piece;
+            out = m;
+        });
+    });
+}
+
+template <class S>
+bool collideSurfaces(CollideFunction<S> collide, const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b,
+                     const Pose<S>& Xb, typename S::Real speculative, Manifold<S>& out) {
+    if (isStaticOnly<S>(a) && isStaticOnly<S>(b)) {
+        out.count = 0;
+    } else if (isComposite<S>(a)) {
+        collideDeepestPiece<S>(collide, a, Xa, b, Xb, speculative, out);
+    } else if (isComposite<S>(b)) {
+        collideDeepestPiece<S>(collide, b, Xb, a, Xa, speculative, out);
+        flip(out);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+template <class S>
+void flipManifold(Manifold<S>& manifold) {
+    flip(manifold);
+}
+
+template <class S>
+Aabb<S> boxOnSurface(const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
+                     typename S::Real margin) {
+    Aabb<S> box = boundingBox<S>(convex, relativePose<S>(Xsurface, Xconvex));
+    box.min.array() -= margin;
+    box.max.array() += margin;
+    return box;
+}
+
+#define INSTANTIATE(S)                                                                                     \
+    template void collidePiece<S>(const NarrowPhase<S>&, const Shape<S>&, std::uint32_t, const Pose<S>&,   \
+                                  const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);                 \
+    template void collideDeepestPiece<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&,              \
+                                         const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);          \
+    template bool collideSurfaces<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&, const Shape<S>&, \
+                                     const Pose<S>&, S::Real, Manifold<S>&);                               \
+    template void flipManifold<S>(Manifold<S>&);                                                           \
+    template Aabb<S> boxOnSurface<S>(const Pose<S>&, const Shape<S>&, const Pose<S>&, S::Real);
+INSTANTIATE(Space2f)
+INSTANTIATE(Space2d)
+INSTANTIATE(Space3f)
+INSTANTIATE(Space3d)
+#undef INSTANTIATE
+
+}  // namespace rigor::engine

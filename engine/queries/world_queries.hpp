@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Questions to a world that is not being stepped: what does a ray meet, where does a moved shape touch first,
+// what overlaps, what is nearest.
+//
+//   WorldQueries<Space3d> queries(world);
+//   if (const auto hit = queries.castRay({0, 5, 0}, {0, -10, 0})) use(hit->body, hit->point, hit->normal);
+//
+// Making one builds a tree over the boxes of all shapes where the bodies are now: O(n log n), once for any
+// number of questions; it is stale after the next step or change of the world. All bodies are asked, those
+// without contacts too; `filter` may leave some out. Ties go to the shape added first.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "engine/pipeline/world.hpp"
+#include "engine/queries/ray_cast.hpp"
+#include "engine/shapes/static_tree.hpp"
+
+namespace rigor::engine {
+
+/// Which shape of which body; `piece` of a chain, mesh or height field.
+struct ShapeRef {
+    BodyId body;
+    ShapeId shape;
+    std::uint32_t piece = 0xffffffffu;
+};
+
+template <class S>
+struct WorldRayHit : ShapeRef {
+    typename S::Real fraction = 0;  ///< of the translation, in [0, 1]
+    typename S::Vec point, normal;  ///< world frame; normal out of the shape, unit
+    bool startsInside = false;
+};
+
+/// First touch of a shape moved without turning.
+template <class S>
+struct ShapeCastHit : ShapeRef {
+    typename S::Real fraction = 0;  ///< of the translation, in [0, 1]
+    typename S::Vec point, normal;  ///< where they touch; unit, from the moved shape to the one it meets
+    bool startsTouching = false;    ///< they overlap or touch at once: fraction 0
+    bool converged = true;          ///< false: the fraction is early by more than rounding
+};
+
+/// Closest points; signed distance.
+template <class S>
+struct NearestHit : ShapeRef {
+    typename S::Real distance = 0;  ///< [m]; < 0: overlap (of a surface: with its nearest piece)
+    typename S::Vec point, onShape,
+        normal;  ///< on what was asked about, on the world's shape; first to second
+};
+
+template <class S>
+class WorldQueries {
+  public:
+    using Real = typename S::Real;
+    using Vec = typename S::Vec;
+    /// True for bodies to ask; null: all.
+    using Filter = std::function<bool(BodyId)>;
+
+    /// `world` must outlive this and not change meanwhile.
+    explicit WorldQueries(const World<S>& world);
+
+    /// Nearest hit of x = origin + t translation, 0 <= t <= 1. Throws EngineError "query_ray" for numbers
+    /// that are not finite and for a translation of zero.
+    std::optional<WorldRayHit<S>> castRay(const Vec& origin, const Vec& translation,
+                                          const Filter& filter = {}) const;
+    /// One hit for every shape that the ray meets, nearest first.
+    std::vector<WorldRayHit<S>> castRayAll(const Vec& origin, const Vec& translation,
+                                           const Filter& filter = {}) const;
+    /// Where `shape` touches first on its way from X along `translation`. Throws EngineError "query_shape"
+    /// for half-spaces, chains, meshes and fields (also below), "query_ray" as above.
+    std::optional<ShapeCastHit<S>> castShape(const Shape<S>& shape, const Pose<S>& X, const Vec& translation,
+                                             const Filter& filter = {}) const;
+    /// Shapes that overlap or touch the posed shape, in the order they were added; of a surface the first
+    /// piece.
+    std::vector<ShapeRef> overlapping(const Shape<S>& shape, const Pose<S>& X,
+                                      const Filter& filter = {}) const;
+    /// Shapes whose bounding box meets the box.
+    std::vector<ShapeRef> inBox(const Aabb<S>& box, const Filter& filter = {}) const;
+    /// The nearest shape, if any within `most` [m] >= 0; overlapping ones count as the nearer the deeper.
+    std::optional<NearestHit<S>> nearest(const Shape<S>& shape, const Pose<S>& X, Real most,
+                                         const Filter& filter = {}) const;
+    std::optional<NearestHit<S>> nearest(const Vec& point, Real most, const Filter& filter = {}) const;
+
+  private:
+    struct Entry {
+        const ShapeRecord<S>* record;
+        Pose<S> X;
+        BodyId body;
+    };
+    template <class Enter, class Visit>
+    void visit(Enter enter, const Filter& filter, Visit use) const;
+    ShapeRef ref(std::uint32_t i, std::uint32_t piece) const {
+        return {entries_[i].body, entries_[i].record->id, piece};
+    }
+
+    std::vector<Entry> entries_;
+    std::vector<Aabb<S>> boxes_;
+    std::vector<std::uint32_t> inTree_,
+        outside_;  ///< entries with bounded boxes, in the tree's order; others
+    StaticTree<S> tree_;
+};
+
+}  // namespace rigor::engine
