@@ -192,6 +192,13 @@ class Nsgs final : public Solver<S> {
         kept_ = 0, next_ = 0, havePrevious_ = false;
         previousStep_.resize(n), previousMap_.resize(n);
         assembled_ = false;
+        // What the impulses have to stop or to bring about.
+        fastest_ = 0;
+        for (const Block<S>& block : all.blocks)
+            for (std::uint32_t i = block.first; i < block.first + block.rows; ++i)
+                fastest_ = std::max(fastest_, std::abs(rowVelocity<S>(all.rows[i], input.velocities[block.a],
+                                                                      input.velocities[block.b])) +
+                                                  std::abs(all.rows[i].bias));
     }
 
     // --- one sweep ---------------------------------------------------------------------------------------
@@ -244,8 +251,8 @@ class Nsgs final : public Solver<S> {
         return naturalMapResidual<S>(input.constraints, input.velocities);
     }
     /// What the precision can tell of velocities and impulses of this size.
-    static Real resolution(const SolverInput<S>& input) {
-        Real largest = 0, fastest = 0;
+    Real resolution(const SolverInput<S>& input) const {
+        Real largest = 0;
         for (const Block<S>& block : input.constraints.blocks) {
             const Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
             for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
@@ -254,15 +261,14 @@ class Nsgs final : public Solver<S> {
                                     std::abs(dotAng(row.angA, a.w)) + std::abs(dotAng(row.angB, b.w));
                 const Real pushed = row.invK > 0 ? std::abs(row.impulse) / row.invK : Real(0);
                 largest = std::max(largest, moving + pushed);
-                fastest = std::max(fastest, moving + std::abs(row.bias));
             }
         }
         // Impulses without bound, as contradictory rows have, are no excuse.
         constexpr Real eps = std::numeric_limits<Real>::epsilon();
-        return std::min(Real(32) * eps * largest, std::sqrt(eps) * fastest);
+        return std::min(Real(32) * eps * largest, std::sqrt(eps) * fastest_);
     }
 
-    static Real goal(const SolverInput<S>& input) {
+    Real goal(const SolverInput<S>& input) const {
         return std::max(input.residualTolerance, resolution(input));
     }
 
@@ -418,6 +424,7 @@ class Nsgs final : public Solver<S> {
     ContactNewton newton_;
     std::vector<double> target_;
     bool assembled_ = false;
+    Real fastest_ = 0;
     std::size_t kept_ = 0, next_ = 0;
     bool havePrevious_ = false;
 };
