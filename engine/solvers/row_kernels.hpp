@@ -94,8 +94,7 @@ typename S::Real solveFriction(const SolverInput<S>& input, const Block<S>& bloc
         impulse[i] = rows[1 + i].impulse;
         velocity[i] = rowVelocity<S>(rows[1 + i], a, b);
     }
-    const Vec2 next =
-        input.friction(block.k11, block.k12, block.k22, impulse, velocity, block.friction * rows[0].impulse);
+    const Vec2 next = contactFriction<S>(input.friction, block, impulse, velocity, rows[0].impulse);
     Real residual = 0;
     for (int i = 0; i < tangents; ++i) {
         const Real step = next[i] - impulse[i];

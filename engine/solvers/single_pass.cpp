@@ -85,8 +85,7 @@ class SinglePass final : public Solver<S> {
         using Vec2 = Eigen::Matrix<Real, 2, 1>;
         Vec2 velocity = Vec2::Zero();
         for (int i = 0; i < S::tangents; ++i) velocity[i] = rowVelocity<S>(rows[1 + i], a, b);
-        const Vec2 lambda =
-            input.friction(block.k11, block.k12, block.k22, Vec2::Zero(), velocity, block.friction * normal);
+        const Vec2 lambda = contactFriction<S>(input.friction, block, Vec2::Zero(), velocity, normal);
         for (int i = 0; i < S::tangents; ++i) {
             rows[1 + i].impulse += lambda[i];
             applyRowImpulse<S>(rows[1 + i], block, lambda[i], a, b);

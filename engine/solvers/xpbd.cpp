@@ -172,8 +172,7 @@ class Xpbd final : public Solver<S> {
             lambda[i] = rows[1 + i].impulse;
             slip[i] = problem.moved(block, rows[1 + i]);
         }
-        const Vec2 next =
-            input.friction(block.k11, block.k12, block.k22, lambda, slip, block.friction * rows[0].impulse);
+        const Vec2 next = contactFriction<S>(input.friction, block, lambda, slip, rows[0].impulse);
         Real removed = 0;
         for (int i = 0; i < S::tangents; ++i)
             removed = std::max(removed, moveTo(problem, block, rows[1 + i], rows[1 + i], next[i]));
