@@ -62,8 +62,8 @@ struct StepResult {
     /// What `residuals` holds, one per iteration [m/s or rad/s].
     ResidualMeasure measure = ResidualMeasure::Change;
     std::span<const typename S::Real> residuals;
-    std::span<const Event<S>> events;       ///< what began and ended, in the order of shapes
-    bool solverGaveUp = false;  ///< a solver did not reach what it promises and left the best it had
+    std::span<const Event<S>> events;  ///< what began and ended, in the order of shapes
+    bool solverGaveUp = false;         ///< a solver did not reach what it promises and left the best it had
     std::array<double, kPhases> seconds{};  ///< wall time per phase
     std::span<const JointId> broken;        ///< joints that broke in this step; they are gone
 };

@@ -142,18 +142,18 @@ TYPED_TEST(Round, BallAgainstASweptSurface) {
                      angle = random.uniform(-3, 3);
         const auto c = vec<S>(x * std::cos(angle), y, x * std::sin(angle));
         const double rho = std::abs(x);
-        for (const bool cone : {false, true}) {
+        for (const bool pointed : {false, true}) {
             double nearest = 1e9;  // over the profile
             const int n = 20000;
             for (int k = 0; k <= n; ++k) {
-                const double t = static_cast<double>(k) / n, sideR = cone ? 0.5 * (1 - t) : 0.5;
+                const double t = static_cast<double>(k) / n, sideR = pointed ? 0.5 * (1 - t) : 0.5;
                 nearest = std::min({nearest, std::hypot(rho - sideR, y - (2 * t - 1)),
                                     std::hypot(rho - 0.5 * t, y + 1),
-                                    cone ? 1e9 : std::hypot(rho - 0.5 * t, y - 1)});
+                                    pointed ? 1e9 : std::hypot(rho - 0.5 * t, y - 1)});
             }
-            const bool inside = std::abs(y) < 1 && rho < (cone ? 0.25 * (1 - y) : 0.5);
-            const auto m =
-                collide<S>(cone ? this->cone : this->cylinder, this->at(0, 0), this->ball, pose<S>(c), 10.0);
+            const bool inside = std::abs(y) < 1 && rho < (pointed ? 0.25 * (1 - y) : 0.5);
+            const auto m = collide<S>(pointed ? this->cone : this->cylinder, this->at(0, 0), this->ball,
+                                      pose<S>(c), 10.0);
             ASSERT_EQ(m.count, 1);
             EXPECT_NEAR(m.points[0].separation, (inside ? -nearest : nearest) - 0.5, 2e-4);
             const auto back = c - m.normal * (m.points[0].separation + typename S::Real(0.5));

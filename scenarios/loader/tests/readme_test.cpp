@@ -55,8 +55,9 @@ void collectKeys(const nlohmann::json& schema, std::set<std::string>& keys) {
 
 TEST(Readme, NamesEveryKeyOfTheSchemas) {
     const std::string page = read("scenarios/README.md");
-    for (const char* file : {"scenarios/schema/scenario.schema.json", "scenarios/schema/suite.schema.json",
-                             "scenarios/schema/collision.schema.json", "scenarios/schema/study.schema.json"}) {
+    for (const char* file :
+         {"scenarios/schema/scenario.schema.json", "scenarios/schema/suite.schema.json",
+          "scenarios/schema/collision.schema.json", "scenarios/schema/study.schema.json"}) {
         std::set<std::string> keys;
         collectKeys(nlohmann::json::parse(read(file)), keys);
         EXPECT_GT(keys.size(), 5u);
