@@ -93,7 +93,9 @@ TYPED_TEST(Rays, MeetWhereTheDistanceEnds) {
         }
         EXPECT_GT(hits, 60);
         EXPECT_GT(misses, 10);
-        if (!isStaticOnly<S>(shape)) EXPECT_GT(inside, 1);
+        if (!isStaticOnly<S>(shape)) {
+            EXPECT_GT(inside, 1);
+        }
     }
 }
 

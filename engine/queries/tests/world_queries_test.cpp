@@ -96,7 +96,9 @@ TYPED_TEST(Questions, RaysFindTheNearest) {
         EXPECT_EQ(list.front().fraction, best);
         EXPECT_TRUE(list.front().body == hit->body && list.front().shape == hit->shape);
         const auto without = queries.castRay(o, d, [&](BodyId body) { return !(body == hit->body); });
-        if (without) EXPECT_FALSE(without->body == hit->body);
+        if (without) {
+            EXPECT_FALSE(without->body == hit->body);
+        }
         EXPECT_EQ(without.has_value(), met > 1);
     }
     EXPECT_GT(hits, 100);
