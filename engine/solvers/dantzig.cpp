@@ -57,8 +57,9 @@ class Dantzig final : public Solver<S> {
             for (std::size_t i = 0; i < problem_.n; ++i)
                 q_[i] = problem_.q[i] - shift_[i] * problem_.lambda[i];
             setBounds();
-            if (!lcp_.solve(problem_.n, problem_.W.data(), shift_.data(), q_.data(), problem_.lower.data(),
-                            problem_.upper.data(), x_.data()))
+            const bool solved = lcp_.solve(problem_.n, problem_.W.data(), shift_.data(), q_.data(),
+                                           problem_.lower.data(), problem_.upper.data(), x_.data());
+            if (!solved || !std::all_of(x_.begin(), x_.end(), [](double x) { return std::isfinite(x); }))
                 sweep();
             const double change = problem_.apply<S>(input, x_);
             input.monitor.after(input.velocities, static_cast<Real>(change));
@@ -74,10 +75,11 @@ class Dantzig final : public Solver<S> {
 
     void begin(const SolverInput<S>& input) {
         const std::size_t n = problem_.n;
-        shift_.resize(n), q_.resize(n), x_.resize(n);
+        shift_.resize(n), q_.resize(n), x_.assign(n, 0.0);
         for (std::size_t i = 0; i < n; ++i) shift_[i] = kSigma * problem_.at(i, i);
         limits_.resize(problem_.contacts.size());
         sticks_.assign(n, 1);
+        lcp_.forget();  // a step depends on the state of the world alone
         for (std::size_t c = 0; c < limits_.size(); ++c) {
             const AssembledContact& contact = problem_.contacts[c];
             limits_[c] =
@@ -129,11 +131,13 @@ class Dantzig final : public Solver<S> {
         }
     }
 
-    /// Where pivoting gave up: projected Gauss-Seidel from where it was.
+    /// Where pivoting gave up: projected Gauss-Seidel from the impulses there are.
     void sweep() {
         gaveUp_ = true;
+        x_.assign(problem_.lambda.begin(), problem_.lambda.end());
         for (int k = 0; k < kFallbackSweeps; ++k)
             for (std::size_t i = 0; i < problem_.n; ++i) {
+                if (!(problem_.at(i, i) > 0)) continue;  // no body can follow it
                 double w = problem_.q[i];
                 for (std::size_t j = 0; j < problem_.n; ++j) w += problem_.at(i, j) * x_[j];
                 x_[i] = std::clamp(x_[i] - w / problem_.at(i, i), problem_.lower[i], problem_.upper[i]);

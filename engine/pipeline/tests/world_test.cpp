@@ -226,6 +226,9 @@ TEST(Algorithms, TablesAreSortedAndEveryEntryMakesAWorldThatFalls) {
                                  : family.name == "orientation_update"   ? &def.orientationUpdate
                                  : family.name == "solver"               ? &def.solver
                                  : family.name == "friction"             ? &def.friction
+                                 : family.name == "restitution"          ? &def.restitution
+                                 : family.name == "friction_combine"     ? &def.frictionCombine
+                                 : family.name == "restitution_combine"  ? &def.restitutionCombine
                                  : family.name == "position_correction"  ? &def.positionCorrection
                                  : family.name == "continuous_collision" ? &def.continuousCollision
                                  : family.name == "sleeping"             ? &def.sleeping
