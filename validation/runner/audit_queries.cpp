@@ -27,35 +27,32 @@ struct Ball {
     double radius = 0.0;
 };
 
+struct BallVisitor {
+    Ball operator()(const scenario::Sphere& s) const { return {{}, s.radius}; }
+    Ball operator()(const scenario::Box& s) const { return {{}, norm(s.halfExtents)}; }
+    Ball operator()(const scenario::Capsule& s) const { return {{}, s.radius + s.halfLength}; }
+    Ball operator()(const scenario::Cylinder& s) const { return {{}, std::hypot(s.radius, s.halfLength)}; }
+    Ball operator()(const scenario::Cone& s) const { return {{}, std::hypot(s.radius, s.halfLength)}; }
+    Ball operator()(const scenario::ConvexHull& s) const {
+        Ball ball;
+        for (const Vec3& v : s.vertices) ball.centre += v / static_cast<double>(s.vertices.size());
+        for (const Vec3& v : s.vertices) ball.radius = std::max(ball.radius, norm(v - ball.centre));
+        return ball;
+    }
+    Ball operator()(const scenario::HalfSpace&) const {
+        return {{}, std::numeric_limits<double>::infinity()};
+    }
+    Ball operator()(const scenario::Segment& s) const { return {0.5 * (s.a + s.b), 0.5 * norm(s.b - s.a)}; }
+    template <class Surface>
+    Ball operator()(const Surface& s) const {
+        Ball ball;
+        for (const Vec3& v : scenario::surfaceVertices(s)) ball.radius = std::max(ball.radius, norm(v));
+        return ball;
+    }
+};
+
 Ball ballAround(const scenario::Geometry& geometry) {
-    struct Visitor {
-        Ball operator()(const scenario::Sphere& s) const { return {{}, s.radius}; }
-        Ball operator()(const scenario::Box& s) const { return {{}, norm(s.halfExtents)}; }
-        Ball operator()(const scenario::Capsule& s) const { return {{}, s.radius + s.halfLength}; }
-        Ball operator()(const scenario::Cylinder& s) const {
-            return {{}, std::hypot(s.radius, s.halfLength)};
-        }
-        Ball operator()(const scenario::Cone& s) const { return {{}, std::hypot(s.radius, s.halfLength)}; }
-        Ball operator()(const scenario::ConvexHull& s) const {
-            Ball ball;
-            for (const Vec3& v : s.vertices) ball.centre += v / static_cast<double>(s.vertices.size());
-            for (const Vec3& v : s.vertices) ball.radius = std::max(ball.radius, norm(v - ball.centre));
-            return ball;
-        }
-        Ball operator()(const scenario::HalfSpace&) const {
-            return {{}, std::numeric_limits<double>::infinity()};
-        }
-        Ball operator()(const scenario::Segment& s) const {
-            return {0.5 * (s.a + s.b), 0.5 * norm(s.b - s.a)};
-        }
-        template <class Surface>
-        Ball operator()(const Surface& s) const {
-            Ball ball;
-            for (const Vec3& v : scenario::surfaceVertices(s)) ball.radius = std::max(ball.radius, norm(v));
-            return ball;
-        }
-    };
-    return std::visit(Visitor{}, geometry);
+    return std::visit(BallVisitor{}, geometry);
 }
 
 /// A pair of shapes that could ever touch.
