@@ -36,8 +36,6 @@ class BoxLcp {
                const double* upper, double* x);
     /// Of the last solve.
     const std::vector<BoxState>& states() const { return state_; }
-    /// The next solve starts afresh instead of from the states of the last one.
-    void forget() { state_.clear(); }
     /// The next solve starts from nothing.
     void forget() { state_.clear(); }
 
