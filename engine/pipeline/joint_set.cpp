@@ -117,8 +117,8 @@ void JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& 
         const auto shareOf = [&](std::uint32_t i, const typename S::Vec& anchor) {
             return endShare<S>(step.h, velocities[i].w, rotate(bodies.pose[i].q, anchor));
         };
-        const Real share =
-            std::min(shareOf(block.a, record.joint.anchorA), shareOf(block.b, record.joint.anchorB));
+        const Real share = step.curvature * std::min(shareOf(block.a, record.joint.anchorA),
+                                                     shareOf(block.b, record.joint.anchorB));
         record.evaluate(record.joint, moved(block.a), moved(block.b), made_);
         for (std::uint32_t i = 0; i < record.rows; ++i) {
             if (made_.law[i].role != RowRole::Hold && made_.law[i].role != RowRole::Limit) continue;

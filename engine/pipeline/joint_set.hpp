@@ -19,6 +19,7 @@ struct JointStep {
     BiasRule<typename S::Real> bias;  ///< what position errors do to the rows
     typename S::Real warmStart;       ///< factor on the last impulses; 0: none
     bool curved;                      ///< aim at the constraint at the end of the step
+    typename S::Real curvature = 1;   ///< share of that aim; less where the iteration diverges, in [0, 1]
 };
 
 template <class S>

@@ -25,8 +25,8 @@ template <class S>
 class StepMonitor final : public IterationMonitor<S> {
   public:
     using Real = typename S::Real;
-    StepMonitor(JointSet<S>& joints, const BodyArrays<S>& bodies, const JointStep<S>& step,
-                ConstraintRows<S>& rows, Real tolerance, bool measure, const IterationObserver<S>& observer,
+    StepMonitor(JointSet<S>& joints, const BodyArrays<S>& bodies, JointStep<S>& step, ConstraintRows<S>& rows,
+                Real tolerance, bool measure, const IterationObserver<S>& observer,
                 std::vector<Real>& residuals)
         : joints_(joints),
           bodies_(bodies),
@@ -45,6 +45,11 @@ class StepMonitor final : public IterationMonitor<S> {
             before(velocities);
             residual = naturalMapResidual<S>(rows_, velocities);
         }
+        // The aim at the end of the step is renewed with every iteration, which diverges where a step turns
+        // light links far: then it is given up by and by.
+        if (step_.curved && change > last_)
+            step_.curvature = step_.curvature > kLeast ? step_.curvature / 2 : 0;
+        last_ = change;
         residuals_.push_back(residual);
         if (observer_) observer_(static_cast<int>(residuals_.size()) - 1, rows_, residual);
         return change < tolerance_;
@@ -53,9 +58,11 @@ class StepMonitor final : public IterationMonitor<S> {
   private:
     JointSet<S>& joints_;
     const BodyArrays<S>& bodies_;
-    const JointStep<S>& step_;
+    JointStep<S>& step_;
     ConstraintRows<S>& rows_;
     Real tolerance_;
+    static constexpr Real kLeast = Real(0.1);
+    Real last_ = std::numeric_limits<Real>::infinity();  ///< change of the iteration before
     bool measure_;
     const IterationObserver<S>& observer_;
     std::vector<Real>& residuals_;

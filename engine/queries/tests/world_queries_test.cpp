@@ -18,7 +18,7 @@ namespace {
 template <class S>
 class Questions : public testing::Test {
   protected:
-    using R = typename S::Real;
+    using Scalar = typename S::Real;
     using V = typename S::Vec;
     /// Thirty bodies of every kind in turn, scattered, and a floor.
     Questions() : world(WorldDef<S>{}) {
@@ -26,10 +26,11 @@ class Questions : public testing::Test {
         for (int i = 0; i < 30; ++i) {
             const Shape<S> shape = shapeOfKind<S>(i % kKinds<S>);
             if (std::holds_alternative<HalfSpace<S>>(shape)) continue;
-            add(shape, pose<S>(R(4) * random.direction() * R(random.uniform(0.1, 1)), random.rotation()));
+            add(shape,
+                pose<S>(Scalar(4) * random.direction() * Scalar(random.uniform(0.1, 1)), random.rotation()));
         }
-        add(HalfSpace<S>{vec<S>(0, 1, 0), R(-4)}, Pose<S>{});
-        add(HalfSpace<S>{vec<S>(0.6, 0.8, 0), R(-5)}, Pose<S>{});
+        add(HalfSpace<S>{vec<S>(0, 1, 0), Scalar(-4)}, Pose<S>{});
+        add(HalfSpace<S>{vec<S>(0.6, 0.8, 0), Scalar(-5)}, Pose<S>{});
     }
     BodyId add(const Shape<S>& shape, const Pose<S>& X) {
         BodyDef<S> def;

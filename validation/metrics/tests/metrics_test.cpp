@@ -299,9 +299,12 @@ TEST(Joints, InjectedSeparationAndTilt) {
     addBox(c.scenario, "rod", {0.1, 0.5, 0.1}, 1, {0, -0.5, 0});
     addBox(c.scenario, "slide", {0.1, 0.1, 0.1}, 1, {3, 0, 0});
     addBox(c.scenario, "weight", {0.1, 0.1, 0.1}, 1, {6, -2, 0});
-    Joint hinge{"hinge", JointType::Hinge, kNone, 0, {}, {0, 0.5, 0}, {0, 0, 1}, {0, 0, 1}, 0, false, {}};
-    Joint slider{"slider", JointType::Slider, kNone, 1, {3, 0, 0}, {}, {1, 0, 0}, {1, 0, 0}, 0, false, {}};
-    Joint rope{"rope", JointType::Distance, kNone, 2, {6, 0, 0}, {}, {}, {}, 2, false, {}};
+    Joint hinge{"hinge", JointType::Hinge, kNone,     0, {}, {0, 0.5, 0}, {0, 0, 1}, {0, 0, 1}, 0,
+                false,   {1, 0, 0},        {0, 0, 1}, {}};
+    Joint slider{"slider", JointType::Slider, kNone,     1, {3, 0, 0}, {}, {1, 0, 0}, {1, 0, 0}, 0,
+                 false,    {1, 0, 0},         {0, 0, 1}, {}};
+    Joint rope{"rope", JointType::Distance, kNone,     2, {6, 0, 0}, {}, {}, {}, 2,
+               false,  {1, 0, 0},           {0, 0, 1}, {}};
     c.scenario.joints = {hinge, slider, rope};
     setReference(c.scenario, "free_flight");
     Scenario still = c.scenario;
