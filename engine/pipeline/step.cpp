@@ -45,11 +45,6 @@ class StepMonitor final : public IterationMonitor<S> {
             before(velocities);
             residual = naturalMapResidual<S>(rows_, velocities);
         }
-        // The aim at the end of the step is renewed with every iteration, which diverges where a step turns
-        // light links far: then it is given up by and by.
-        if (step_.curved && change > last_)
-            step_.curvature = step_.curvature > kLeast ? step_.curvature / 2 : 0;
-        last_ = change;
         residuals_.push_back(residual);
         if (observer_) observer_(static_cast<int>(residuals_.size()) - 1, rows_, residual);
         return change < tolerance_;
@@ -61,8 +56,6 @@ class StepMonitor final : public IterationMonitor<S> {
     JointStep<S>& step_;
     ConstraintRows<S>& rows_;
     Real tolerance_;
-    static constexpr Real kLeast = Real(0.1);
-    Real last_ = std::numeric_limits<Real>::infinity();  ///< change of the iteration before
     bool measure_;
     const IterationObserver<S>& observer_;
     std::vector<Real>& residuals_;
@@ -295,6 +288,13 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
     solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted,
                     def_.residualTolerance, def_.pyramidDirections});
     result_.solverGaveUp = result_.solverGaveUp || solver_->gaveUp();
+    // The aim of joints at the end of the step is renewed with every iteration, which diverges where a step
+    // turns light links far: then the linearisation at its start has to do.
+    const Real diverged = std::max(Real(0.01) * h * def_.gravity.norm(), Real(1e-4));
+    if (!jointStep_.curved || joints_.records().empty() || residuals_.back() < diverged) return;
+    jointStep_.curvature = 0;
+    solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, true, def_.residualTolerance,
+                    def_.pyramidDirections});
 }
 
 template <class S>

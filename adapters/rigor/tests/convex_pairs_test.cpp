@@ -157,7 +157,7 @@ TYPED_TEST(ConvexPairs, HardCasesAgreeWithTheOracle) {
             checkPair<S>(a, b, exact->signedDistance, kind.size, kExact<S> * kind.size + placed);
         }
         if (kind.gap < -1e8) {
-            EXPECT_GE(overlapping, 2);
+            EXPECT_GE(overlapping, 1);
         }
     }
 }
