@@ -28,11 +28,17 @@ class Ngs final : public PositionCorrection<S> {
 
     void correct(PositionProblem<S>& problem, int iterations, Real slop) override {
         Real last = std::numeric_limits<Real>::infinity();
+        bool together = true;
         for (int i = 0; i < iterations; ++i) {
-            const Real error = correctJoints(problem);
+            const Real error = correctJoints(problem, together);
             correctContacts(problem, slop);
             problem.applyRotations();
-            if (problem.contactCount() == 0 && !limited_ && !(error < Real(0.5) * last)) break;
+            if (!(error < Real(0.5) * last)) {
+                // Rounding reached, or too far off for Newton's iteration: joint by joint is slow and sure.
+                constexpr Real kRounding = Real(1000) * std::numeric_limits<Real>::epsilon();
+                if (problem.contactCount() == 0 && !limited_ && error < kRounding) break;
+                together = together && error < kRounding;
+            }
             last = error;
         }
     }
@@ -42,7 +48,7 @@ class Ngs final : public PositionCorrection<S> {
     static constexpr Real kLongestMove = Real(0.2);  ///< per contact and iteration [m]
 
     /// Returns the largest error of a row that holds.
-    Real correctJoints(PositionProblem<S>& problem) {
+    Real correctJoints(PositionProblem<S>& problem, bool together) {
         const std::size_t n = problem.jointCount();
         limited_ = false;
         if (n == 0) return 0;
@@ -60,7 +66,7 @@ class Ngs final : public PositionCorrection<S> {
                 largest = std::max(largest, std::abs(joint.row[r].error));
         }
         if (largest > 0) {
-            if (system_.factor(items_))
+            if (together && system_.factor(items_))
                 correctTogether(problem);
             else
                 correctOneByOne(problem);
