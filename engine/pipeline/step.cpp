@@ -279,6 +279,7 @@ BiasRule<typename S::Real> World<S>::biasRule() const {
 template <class S>
 void World<S>::solveVelocities(int iterations, bool warmStarted) {
     const Real h = cursor_.substepSize;
+    const std::size_t before = residuals_.size();
     const Real converged =
         def_.velocityTolerance > 0
             ? std::max(def_.velocityTolerance * h * def_.gravity.norm(), std::numeric_limits<Real>::epsilon())
@@ -290,8 +291,9 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
     result_.solverGaveUp = result_.solverGaveUp || solver_->gaveUp();
     // The aim of joints at the end of the step is renewed with every iteration, which diverges where a step
     // turns light links far: then the linearisation at its start has to do.
-    const Real diverged = std::max(Real(0.01) * h * def_.gravity.norm(), Real(1e-4));
-    if (!jointStep_.curved || joints_.records().empty() || residuals_.back() < diverged) return;
+    const std::size_t done = residuals_.size() - before;
+    if (!jointStep_.curved || joints_.records().empty() || done < 4 || residuals_.back() < residuals_[before])
+        return;
     jointStep_.curvature = 0;
     solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, true, def_.residualTolerance,
                     def_.pyramidDirections});

@@ -61,6 +61,9 @@ class Dantzig final : public Solver<S> {
                                            problem_.lower.data(), problem_.upper.data(), x_.data());
             if (!solved || !std::all_of(x_.begin(), x_.end(), [](double x) { return std::isfinite(x); }))
                 sweep();
+            // Single precision can make W indefinite, and then even sweeps may diverge: better no change.
+            if (!std::all_of(x_.begin(), x_.end(), [](double x) { return std::abs(x) < 1e30; }))
+                x_.assign(problem_.lambda.begin(), problem_.lambda.end());
             const double change = problem_.apply<S>(input, x_);
             input.monitor.after(input.velocities, static_cast<Real>(change));
             nextLimits(round < kPlainRounds);
