@@ -81,7 +81,7 @@ TYPED_TEST(Pairs, DepthIsTheBestOverDirections) {
         }
         const double d = leastSeparation(m);
         const double eps = std::max(sharp, curvedTolerance<S>(a, b));
-        EXPECT_NEAR(separationAlong<S>(a, Xa, b, Xb, m.normal), d, eps);
+        EXPECT_NEAR(separationAlong<S>(a, Xa, b, Xb, m.normal), d, std::max(eps, tol<S>(0, 1e-4)));
         EXPECT_LE(best, d + eps);
         EXPECT_GE(best, d - 0.15);
     });
@@ -96,7 +96,7 @@ TYPED_TEST(Pairs, SwappingAAndBFlipsTheManifold) {
         ASSERT_EQ(ab.count == 0, ba.count == 0);
         if (ab.count == 0) return;
         EXPECT_NEAR(leastSeparation(ab), leastSeparation(ba), eps);
-        EXPECT_LE((ab.normal + ba.normal).norm(), eps * 100);
+        EXPECT_LE((ab.normal + ba.normal).norm(), std::max(eps * 100, tol<S>(0, 1e-2)));
         // The deepest point of one is a point of the other, with A and B exchanged.
         const auto deepest =
             std::min_element(ab.points.begin(), ab.points.begin() + ab.count,
@@ -106,7 +106,7 @@ TYPED_TEST(Pairs, SwappingAAndBFlipsTheManifold) {
             nearest = std::min(nearest,
                                static_cast<double>(
                                    (ba.points[static_cast<std::size_t>(i)].pointB - deepest->pointA).norm()));
-        EXPECT_LE(nearest, eps * 100);
+        EXPECT_LE(nearest, std::max(eps * 100, tol<S>(0, 1e-2)));
     });
 }
 

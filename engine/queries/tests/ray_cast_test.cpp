@@ -80,8 +80,8 @@ TYPED_TEST(Rays, MeetWhereTheDistanceEnds) {
             EXPECT_FALSE(hit.startsInside);
             EXPECT_GE(hit.fraction, t - eps) << i;
             EXPECT_NEAR(distanceOf<S>(hit.point, shape, X), 0, tol<S>(1e-12, 1e-5)) << i;
-            EXPECT_LE((o + hit.fraction * d - hit.point).norm(), tol<S>(1e-14, 1e-6));
-            EXPECT_NEAR(hit.normal.norm(), 1, tol<S>(1e-14, 1e-6));
+            EXPECT_LE((o + hit.fraction * d - hit.point).norm(), tol<S>(1e-14, 1e-5));
+            EXPECT_NEAR(hit.normal.norm(), 1, tol<S>(1e-14, 1e-5));
             EXPECT_LE(hit.normal.dot(d), tol<S>(1e-12, 1e-5));
             // Nothing of the ray before the hit is in the shape.
             for (const double part : {0.25, 0.5, 0.75, 0.95})
