@@ -189,8 +189,10 @@ TEST(PublishedPairs, AgreeWithTheOracle) {
             if (skip) continue;
             ++asked;
             const double placed = 1e-15 * (norm(c.a.pose.position) + norm(c.b.pose.position));
+            // "sat" keeps a face while another axis is better by less than this share of the depth.
+            const double kept = 1e-7 * std::abs(exact->signedDistance);
             checkPair<engine::Space3d>({c.a.geometry, c.a.pose}, {c.b.geometry, c.b.pose},
-                                       exact->signedDistance, size, 1e-12 * size + placed);
+                                       exact->signedDistance, size, 1e-12 * size + placed + kept);
         }
     }
     EXPECT_GT(asked, 500);
