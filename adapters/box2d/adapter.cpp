@@ -33,8 +33,10 @@ class Box2dEngine final : public adapter::Engine, public adapter::DynamicsEngine
         c.dynamics = c.collision = c.broadPhase = true;
         c.dimensions = {2};
         c.shapes = {"circle", "box", "capsule", "polygon", "half_plane", "segment"};
-        c.joints = {"ball",         "hinge",        "hinge.limit", "hinge.motor", "slider",
-                    "slider.limit", "slider.motor", "fixed",       "distance"};
+        c.joints = {"ball",        "hinge",          "hinge.limit",     "hinge.motor",
+                    "slider",      "slider.limit",   "slider.motor",    "fixed",
+                    "distance",    "distance.limit", "distance.spring", "wheel",
+                    "wheel.limit", "wheel.motor",    "wheel.spring"};
         c.contactImpulses = c.signedDistance = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         return c;

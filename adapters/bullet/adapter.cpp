@@ -47,7 +47,8 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
         c.planar = true;
         c.shapes = {"sphere", "box",        "capsule", "cylinder", "cone",
                     "hull",   "half_space", "circle",  "polygon",  "half_plane"};
-        c.joints = {"ball", "hinge", "slider", "fixed"};
+        c.joints = {"ball",   "hinge",        "hinge.limit",  "hinge.motor",
+                    "slider", "slider.limit", "slider.motor", "fixed"};
         c.contactImpulses = c.signedDistance = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         return c;

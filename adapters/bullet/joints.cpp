@@ -7,6 +7,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "adapters/bullet/convert.hpp"
@@ -36,9 +37,49 @@ Frames jointFrames(const Joint& joint, const JointEnd& a, const JointEnd& b) {
             toBullet(inverse(b.comFrame) * Pose{joint.anchorB, normalized(inBodyB)})};
 }
 
+[[noreturn]] void unsupported(const Joint& joint, const std::string& what) {
+    throw adapter::Unsupported("bullet has no " + what + " (joint '" + joint.name + "')");
+}
+
+/// A bound of the format; what is none there is far away.
+btScalar toBound(double x) {
+    return static_cast<btScalar>(std::clamp(x, -1e9, 1e9));
+}
+
+/// Bullet's angle is that of B against A by its reference frame A. The stop's "relaxation factor" is the
+/// restitution of what hits it, 1 by default. A motor's bound is an impulse per step.
+void setAxis(const Joint& joint, btScalar dt, btHingeConstraint& hinge) {
+    const scenario::JointAxis& axis = joint.axes[0];
+    if (axis.mode == scenario::AxisMode::Limited) {
+        if (axis.upper - axis.lower > 6.283 || std::abs(axis.upper) > 3.141592 ||
+            std::abs(axis.lower) > 3.141592)
+            unsupported(joint, "hinge limits beyond half a turn, or on one side alone");
+        hinge.setLimit(static_cast<btScalar>(axis.lower), static_cast<btScalar>(axis.upper), btScalar(0.9),
+                       btScalar(0.3), btScalar(0.0));
+    }
+    if (axis.hasMotor())
+        hinge.enableAngularMotor(true, static_cast<btScalar>(axis.motorSpeed),
+                                 static_cast<btScalar>(axis.motorMaxForce) * dt);
+}
+
+/// Lower above upper: free.
+void setAxis(const Joint& joint, btSliderConstraint& slider) {
+    const scenario::JointAxis& axis = joint.axes[0];
+    const bool limited = axis.mode == scenario::AxisMode::Limited;
+    slider.setLowerLinLimit(limited ? toBound(axis.lower) : btScalar(1.0));
+    slider.setUpperLinLimit(limited ? toBound(axis.upper) : btScalar(-1.0));
+    slider.setLowerAngLimit(0.0);
+    slider.setUpperAngLimit(0.0);
+    if (!axis.hasMotor()) return;
+    slider.setPoweredLinMotor(true);
+    slider.setTargetLinMotorVelocity(static_cast<btScalar>(axis.motorSpeed));
+    slider.setMaxLinMotorForce(static_cast<btScalar>(axis.motorMaxForce));
+}
+
 }  // namespace
 
-std::unique_ptr<btTypedConstraint> buildJoint(const Joint& joint, const JointEnd& a, const JointEnd& b) {
+std::unique_ptr<btTypedConstraint> buildJoint(const Joint& joint, const JointEnd& a, const JointEnd& b,
+                                              double dt) {
     const btVector3 anchorA = toBullet(inverse(a.comFrame) * joint.anchorA);
     const btVector3 anchorB = toBullet(inverse(b.comFrame) * joint.anchorB);
     switch (joint.type) {
@@ -47,17 +88,16 @@ std::unique_ptr<btTypedConstraint> buildJoint(const Joint& joint, const JointEnd
         case JointType::Hinge: {
             const btVector3 axisA = toBullet(rotateInverse(a.comFrame.orientation, joint.axisA));
             const btVector3 axisB = toBullet(rotateInverse(b.comFrame.orientation, joint.axisB));
-            return std::make_unique<btHingeConstraint>(*a.body, *b.body, anchorA, anchorB, axisA, axisB,
-                                                       true);
+            auto hinge =
+                std::make_unique<btHingeConstraint>(*a.body, *b.body, anchorA, anchorB, axisA, axisB, true);
+            setAxis(joint, static_cast<btScalar>(dt), *hinge);
+            return hinge;
         }
         case JointType::Slider: {
             const Frames frames = jointFrames(joint, a, b);
             auto slider =
                 std::make_unique<btSliderConstraint>(*a.body, *b.body, frames.inA, frames.inB, true);
-            slider->setLowerLinLimit(1.0);  // lower > upper: free
-            slider->setUpperLinLimit(-1.0);
-            slider->setLowerAngLimit(0.0);
-            slider->setUpperAngLimit(0.0);
+            setAxis(joint, *slider);
             return slider;
         }
         case JointType::Fixed: {
@@ -70,8 +110,7 @@ std::unique_ptr<btTypedConstraint> buildJoint(const Joint& joint, const JointEnd
         case JointType::Wheel:
             break;
     }
-    throw adapter::Unsupported(std::string("bullet has no joint '") + jointName(joint.type) + "' (joint '" +
-                               joint.name + "')");
+    unsupported(joint, std::string("joint '") + jointName(joint.type) + "'");
 }
 
 }  // namespace rigor::bullet

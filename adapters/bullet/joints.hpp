@@ -17,9 +17,9 @@ struct JointEnd {
     adapter::Pose bodyPose;
 };
 
-/// The joint as a Bullet constraint; axes and signs follow the format (B relative to A). Throws Unsupported
-/// for a distance joint, which Bullet does not have.
+/// The joint as a Bullet constraint for steps of dt; axes and signs follow the format (B relative to A).
+/// Throws Unsupported for what Bullet does not have.
 std::unique_ptr<btTypedConstraint> buildJoint(const scenario::Joint& joint, const JointEnd& a,
-                                              const JointEnd& b);
+                                              const JointEnd& b, double dt);
 
 }  // namespace rigor::bullet

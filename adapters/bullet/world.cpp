@@ -214,7 +214,7 @@ void BulletWorld::addJoint(const scenario::Joint& joint) {
         return JointEnd{record.body.get(), record.comFrame,
                         scenario_.bodies[static_cast<std::size_t>(index)].pose};
     };
-    joints_.push_back(buildJoint(joint, endOf(joint.bodyA), endOf(joint.bodyB)));
+    joints_.push_back(buildJoint(joint, endOf(joint.bodyA), endOf(joint.bodyB), dt_));
     // Whether the two collide is the pair filter's business.
     world_->addConstraint(joints_.back().get(), false);
 }

@@ -225,6 +225,76 @@ TEST_P(Joints, ASliderStopsAtItsLimitsAndIsDrivenByItsMotor) {
     within("slider_limit", std::abs(dot(stateOf(*world, s, b).position, joint.axisA) - 0.5), 1e-2);
 }
 
+/// Position of a body on a damped spring of 2 Hz and damping ratio 0.1, let go 0.3 m from its target.
+double swungBack(double time) {
+    const double w = 2.0 * kPi * 2.0, zeta = 0.1, wd = w * std::sqrt(1.0 - zeta * zeta);
+    return 0.3 * std::exp(-zeta * w * time) * (std::cos(wd * time) + zeta * w / wd * std::sin(wd * time));
+}
+
+TEST_P(Joints, ADistanceSpringSwingsAtItsFrequency) {
+    if (!hasJoint("distance.spring")) GTEST_SKIP() << "no distance springs";
+    Scenario s = scene();
+    const int b = addBody(s, ball(0.1), {1.5, 0, 0}, 2.0, {0.008, 0.008, 0.008});
+    Joint joint = jointOf(JointType::Distance, scenario::kNone, b, {}, {});
+    joint.length = 1.5;
+    joint.axes[0].mode = scenario::AxisMode::Free;
+    joint.axes[0].frequency = 2.0, joint.axes[0].dampingRatio = 0.1, joint.axes[0].target = 1.2;
+    s.joints.push_back(joint);
+    auto world = build(s, kStep);
+    double worst = 0.0;
+    for (int i = 1; i <= 480; ++i) {
+        world->step();
+        worst = std::max(worst, std::abs(stateOf(*world, s, b).position.x - 1.2 - swungBack(i * kStep)));
+    }
+    within("distance_spring", worst, 2e-2);
+}
+
+TEST_P(Joints, ARopeIsSlackThenTaut) {
+    if (!hasJoint("distance.limit")) GTEST_SKIP() << "no ropes";
+    Scenario s = scene();
+    s.gravity = {0, -9.81, 0};
+    const int b = addBody(s, ball(0.1), {0, -0.5, 0}, 2.0, {0.008, 0.008, 0.008});
+    Joint joint = jointOf(JointType::Distance, scenario::kNone, b, {}, {});
+    joint.length = 0.5;
+    joint.axes[0].mode = scenario::AxisMode::Limited;
+    joint.axes[0].lower = 0.0, joint.axes[0].upper = 1.2;
+    s.joints.push_back(joint);
+    auto world = build(s, kStep);
+    run(*world, 96);  // 0.2 s of free fall; symplectic Euler adds g t dt / 2
+    within("rope_slack", std::abs(stateOf(*world, s, b).position.y + 0.5 + 0.5 * 9.81 * 0.04), 4e-3);
+    run(*world, 864);
+    within("rope_taut", std::abs(stateOf(*world, s, b).position.y + 1.2), 1e-2);
+    within("rope_rest", norm(stateOf(*world, s, b).velocity), 2e-2);
+}
+
+TEST_P(Joints, AWheelHasASpringAlongItsAxisAndAMotorAboutItsPin) {
+    if (!hasJoint("wheel.spring") || !hasJoint("wheel.motor")) GTEST_SKIP() << "no driven wheels";
+    Scenario s = scene();
+    const int b = addBody(s, ball(0.2), {1, 1, 0}, 2.0, {0.04, 0.04, 0.04});
+    Joint joint = jointOf(JointType::Wheel, scenario::kNone, b, {1, 1, 0}, {});
+    joint.axisA = joint.axisB = {0, 1, 0};
+    joint.spinAxisB = {0, 0, 1};
+    joint.axes[0].mode = joint.axes[1].mode = scenario::AxisMode::Free;
+    joint.axes[0].frequency = 2.0, joint.axes[0].dampingRatio = 0.1, joint.axes[0].target = -0.3;
+    joint.axes[1].motorSpeed = 5.0, joint.axes[1].motorMaxForce = 0.2;
+    s.joints.push_back(joint);
+    auto world = build(s, kStep);
+    double travel = 0.0, aside = 0.0;
+    for (int i = 1; i <= 480; ++i) {
+        world->step();
+        const Vec3 p = stateOf(*world, s, b).position;
+        travel = std::max(travel, std::abs(p.y - 1.0 + 0.3 - swungBack(i * kStep)));
+        aside = std::max(aside, norm(Vec3{p.x - 1.0, 0, p.z}));
+        // 0.2 N m / 0.04 kg m^2 for half a second.
+        if (i == 240)
+            within("wheel_motor_start", std::abs(stateOf(*world, s, b).angularVelocity.z - 2.5), 5e-2);
+    }
+    within("wheel_spring", travel, 2e-2);
+    within("wheel_aside", aside, 2e-3);
+    for (int i = 0; i < 240; ++i) world->step();
+    within("wheel_motor_speed", std::abs(stateOf(*world, s, b).angularVelocity.z - 5.0), 2e-2);
+}
+
 TEST_P(Joints, TwoFreeBodiesOnAJointKeepTheirMomentum) {
     for (const auto& [type, name] :
          {std::pair{JointType::Ball, "ball"}, {JointType::Hinge, "hinge"}, {JointType::Fixed, "fixed"}}) {

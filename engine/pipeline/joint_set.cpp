@@ -3,6 +3,7 @@
 #include "engine/pipeline/joint_set.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace rigor::engine {
 namespace {
@@ -19,6 +20,29 @@ typename S::Real endShare(typename S::Real h, const typename S::Ang& w, const ty
     if (!(length > 0)) return Real(1);
     const Real swing = h * cross(w, arm).norm() / length;
     return std::clamp((Real(kNoSwing) - swing) / Real(kNoSwing - kFullSwing), Real(0), Real(1));
+}
+
+/// A spring given by its frequency swings what the joint lets move: of a door that is its moment about the
+/// hinge, not about its centre of mass. With c = J M^-1 Jh^T of the rows that hold, Kh = Jh M^-1 Jh^T,
+///     1/m = K - c Kh^-1 c^T   (the Schur complement of the held rows).
+template <class S>
+void setSpringFrequency(const Row<S>* held, const Block<S>& holding, const BlockMatrix<S>& inverse,
+                        const Softness<typename S::Real>& spring, typename S::Real h, Row<S>& row) {
+    using Real = typename S::Real;
+    const Real K = rowCoupling<S>(row, row, holding);
+    Real taken = 0;
+    for (int i = 0; i < holding.rows; ++i) {
+        const Real ci = rowCoupling<S>(row, held[i], holding);
+        for (int j = 0; j < holding.rows; ++j)
+            taken += ci * inverse(i, j) * rowCoupling<S>(row, held[j], holding);
+    }
+    // Below the rounding of K the coordinate does not move at all, and any spring will do.
+    const Real left = K - taken;
+    if (!(left > Real(16) * std::numeric_limits<Real>::epsilon() * K)) return;
+    const SoftTerms<Real> terms = softTerms(spring, left, h);
+    row.bias = row.relaxedBias = terms.biasRate * row.error;
+    row.softness = row.relaxedSoftness = terms.gamma;
+    row.invK = Real(1) / (K + row.softness);
 }
 
 }  // namespace
@@ -53,9 +77,14 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
             row.impulse = std::clamp(step.warmStart * record.impulse[i], row.lower, row.upper);
             rows.rows.push_back(row);
         }
-        if (record.held > 0)
-            invertBlock<S>(rows.rows.data() + record.firstRow, rows.blocks[record.block],
-                           rows.matrices.emplace_back());
+        if (record.held == 0) continue;
+        Row<S>* own = rows.rows.data() + record.firstRow;
+        const Block<S>& holding = rows.blocks[record.block];
+        invertBlock<S>(own, holding, rows.matrices.emplace_back());
+        for (std::uint32_t i = record.held; i < record.rows; ++i)
+            if (made_.law[i].role == RowRole::Spring && made_.law[i].softness.frequency > 0)
+                setSpringFrequency<S>(own, holding, rows.matrices.back(), made_.law[i].softness, step.h,
+                                      own[i]);
     }
     startBias_.resize(rows.rows.size());
     for (std::size_t i = 0; i < startBias_.size(); ++i) startBias_[i] = rows.rows[i].bias;

@@ -16,11 +16,12 @@ std::optional<double> exactEnergy(const MetricInput& input, double t);
 /// Kinetic energy of the exact solution, likewise.
 std::optional<double> exactKinetic(const MetricInput& input, double t);
 
-/// Nothing does work on the scene: no constant force, event or moving kinematic body. Friction, impacts, drag
-/// and damping only take energy.
+/// Nothing does work on the scene: no constant force, event, moving kinematic body, motor or spring of a
+/// joint. Friction, impacts, drag and damping only take energy.
 bool isPassive(const scenario::Scenario& scenario);
 /// The scene keeps its energy: passive, without damping or drag, and either every possible contact is elastic
-/// and frictionless, or the exact solution keeps it (rolling, central elastic impacts).
+/// and frictionless and no joint has limits, or the exact solution keeps it (rolling, central elastic
+/// impacts).
 bool conservesEnergy(const MetricInput& input);
 
 /// What energies are measured against [J]: the largest kinetic energy of the exact solution where it is known

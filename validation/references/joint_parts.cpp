@@ -22,15 +22,15 @@ Vec3 axisOf(const Scenario& scenario, const scenario::Joint& joint) {
     return unit(rotate(scenario.bodies[static_cast<std::size_t>(joint.bodyA)].pose.orientation, joint.axisA));
 }
 
-void requirePassive(const scenario::Joint& joint) {
+void requirePassive(const scenario::Joint& joint, bool limitsAllowed) {
     for (const std::string& feature : joint.features())
-        require(false,
+        require(limitsAllowed && feature == "limit",
                 "joint '" + joint.name + "' has a " + feature + ", which this reference does not know");
 }
 
-FixedJoint fixedJoint(const Scenario& scenario, int index, int body) {
+FixedJoint fixedJoint(const Scenario& scenario, int index, int body, bool limitsAllowed) {
     const auto& joint = scenario.joints[static_cast<std::size_t>(index)];
-    requirePassive(joint);
+    requirePassive(joint, limitsAllowed);
     require(joint.bodyA == body || joint.bodyB == body,
             "joint '" + joint.name + "' does not hold " + bodyTitle(scenario, body));
     const int other = joint.bodyA == body ? joint.bodyB : joint.bodyA;
@@ -51,7 +51,8 @@ void requireTurnsAbout(const Scenario& scenario, int index, Vec3 anchor) {
     const double fast = std::max(norm(body.velocity), norm(expected));
     require(norm(body.velocity - expected) <= 1e-6 * fast,
             "the velocity of " + bodyTitle(scenario, index) +
-                " is not that of turning about its joint with its spin");
+                " is not that of turning about its joint with its spin, " +
+                shown(expected, scenario.dimension));
 }
 
 void requireOnlyJoints(const Scenario& scenario, int body,

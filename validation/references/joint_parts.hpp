@@ -8,8 +8,8 @@
 
 namespace rigor::validation {
 
-/// Throws where the joint has limits, a motor or a spring, or may break.
-void requirePassive(const scenario::Joint& joint);
+/// Throws where the joint has limits (unless `limitsAllowed`), a motor or a spring, or may break.
+void requirePassive(const scenario::Joint& joint, bool limitsAllowed = false);
 
 struct FixedJoint {
     const scenario::Joint* joint = nullptr;
@@ -18,7 +18,7 @@ struct FixedJoint {
 };
 /// Throws AssumptionViolated unless the joint holds `body` to the world or to a static body, with both
 /// anchors at one point.
-FixedJoint fixedJoint(const Scenario& scenario, int joint, int body);
+FixedJoint fixedJoint(const Scenario& scenario, int joint, int body, bool limitsAllowed = false);
 
 /// The body's own anchor and the joint's axis in the world, at the initial pose.
 Vec3 anchorOf(const Scenario& scenario, const scenario::Joint& joint, int body);

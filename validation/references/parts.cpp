@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 namespace rigor::validation {
@@ -18,6 +19,15 @@ void violated(const std::string& sentence) {
 
 void require(bool holds, const std::string& sentence) {
     if (!holds) violated(sentence);
+}
+
+std::string shown(Vec3 v, int dimension) {
+    std::ostringstream text;
+    text.precision(10);
+    text << '[' << v.x << ", " << v.y;
+    if (dimension == 3) text << ", " << v.z;
+    text << ']';
+    return text.str();
 }
 
 std::string bodyTitle(const Scenario& scenario, int body) {

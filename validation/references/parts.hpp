@@ -55,6 +55,8 @@ class Parts {
 
 /// "body 'block'", for messages.
 std::string bodyTitle(const Scenario& scenario, int body);
+/// "[0, 1.5, 0]" or, of two dimensions, "[0, 1.5]", for messages.
+std::string shown(Vec3 v, int dimension);
 
 // ------------------------------------------------------------------------------------------- mechanics
 Vec3 centerOfMass(const Body& body);                          ///< initial, world frame [m]

@@ -7,7 +7,10 @@
 //   m > 1: th = 2 am(sqrt(m) W t + u0 | 1/m), th' = 2 W sqrt(m) dn, period 2 K(1/m)/(W sqrt(m)); m = 1:
 //   separatrix.
 // Source: Whittaker, Analytical Dynamics, 1937, section 44.
-// Assumes: a hinge (2D: also a ball joint) to a fixed point, initial motion about its axis, nothing else.
+// Stops: at the first limit of its angle (of a ball or cone-twist joint: of its swing) the body loses its
+// speed, and stays where gravity pushes it on; where it swings back instead, the answer ends.
+// Assumes: a hinge (2D: also a ball joint) to a fixed point, initial motion about its axis, nothing else; on
+// a ball or cone-twist joint with a limit, motion about the horizontal across the arm, a principal axis.
 // Quantities: period (mean over the passages through the lowest point), amplitude.
 #include <algorithm>
 #include <cmath>
@@ -26,11 +29,14 @@ class PhysicalPendulum : public Reference {
         : duration_(scenario.duration),
           index_(index),
           body_(scenario.bodies[static_cast<std::size_t>(index)]),
-          hinge_(fixedJoint(scenario, jointIndex, index)) {
+          hinge_(fixedJoint(scenario, jointIndex, index, true)) {
         const auto type = hinge_.joint->type;
-        require(type == scenario::JointType::Hinge ||
+        const bool swings = scenario.dimension == 3 && hinge_.joint->features().size() == 1 &&
+                            (type == scenario::JointType::Ball || type == scenario::JointType::ConeTwist);
+        require(type == scenario::JointType::Hinge || swings ||
                     (scenario.dimension == 2 && type == scenario::JointType::Ball),
                 "joint '" + hinge_.joint->name + "' is not a hinge");
+        if (swings) setSwingAxis(scenario);
         requireOnlyJoints(scenario, index, {hinge_.joint});
         requireTurnsAbout(scenario, index, hinge_.anchor);
         const Vec3 a = hinge_.axis, w = body_.angularVelocity;
@@ -49,12 +55,15 @@ class PhysicalPendulum : public Reference {
         W_ = std::sqrt(m * norm(pull) * d / moment);
         angle0_ = angleOf(across_);
         setUp();
+        findStop(swings, horizon(scenario));
     }
     std::vector<int> bodies() const override { return {index_}; }
+    double validUntil() const override { return stays_ ? 1e300 : stop_; }
 
     PartialState exact(int, double t) const override {
         Real angle = 0, rate = 0;
-        solve(t, angle, rate);
+        solve(std::min(t, stop_), angle, rate);
+        if (t >= stop_) rate = 0;
         const auto turn = static_cast<double>(angle - angle0_);
         const Quat q = scenario::fromAxisAngle(hinge_.axis, turn);
         const Vec3 arm = along_ + rotate(q, across_), w = static_cast<double>(rate) * hinge_.axis;
@@ -64,7 +73,7 @@ class PhysicalPendulum : public Reference {
 
     std::vector<Quantity> quantities(double, adapter::Scheme) const override {
         std::vector<Quantity> result;
-        if (W_ == 0 || m_ == 0 || m_ == 1) return result;
+        if (W_ == 0 || m_ == 0 || m_ == 1 || stop_ < duration_) return result;
         if (firstPassage() + period_ <= duration_) {
             Quantity q{"period", "s", static_cast<double>(period_), {}, 0.0, {}};
             q.measure = [this](const Trajectory& run) { return meanPeriod(run); };
@@ -79,6 +88,48 @@ class PhysicalPendulum : public Reference {
     }
 
   private:
+    /// A cone limits motion about the horizontal across the arm as a stop of a hinge there.
+    void setSwingAxis(const Scenario& scenario) {
+        const Vec3 arm = centerOfMass(body_) - hinge_.anchor, cone = hinge_.axis;
+        const Vec3 a = unit(cross(arm, gravityOn(scenario, index_)));
+        require(a != Vec3{}, bodyTitle(scenario, index_) + " hangs straight down from its joint");
+        hinge_.axis = a;
+        const Mat3 I = worldInertia(body_);
+        require(norm(cross(I * a, a)) <= 1e-9 * norm(I * a) && std::abs(dot(cone, a)) <= 1e-9,
+                bodyTitle(scenario, index_) + " does not swing in a plane that its joint's axis is in");
+    }
+
+    void findStop(bool swings, double end) {
+        const auto& joint = *hinge_.joint;
+        const auto& axis = joint.axes[joint.type == scenario::JointType::ConeTwist ? 1 : 0];
+        if (axis.mode != scenario::AxisMode::Limited) return;
+        // The joint's angle grows with B's turn against A; a cone has the same angle on both sides.
+        const bool isB = joint.bodyB == index_;
+        const double upper = isB || swings ? axis.upper : -axis.lower;
+        const double lower = swings ? -axis.upper : isB ? axis.lower : -axis.upper;
+        const auto beyond = [&](double t) {
+            Real angle = 0, rate = 0;
+            solve(t, angle, rate);
+            const auto q = static_cast<double>(angle - static_cast<Real>(angle0_));
+            return std::max(q - upper, lower - q);
+        };
+        require(beyond(0.0) <= 1e-12, "joint '" + joint.name + "' starts beyond its limits");
+        const int points = 20000;  // the fastest swing of a run of 1000 steps moves little between them
+        for (int i = 1; i <= points && stop_ > 1e299; ++i) {
+            if (beyond(end * i / points) <= 0.0) continue;
+            double low = end * (i - 1) / points, high = end * i / points;
+            for (int k = 0; k < 80; ++k) {
+                const double middle = 0.5 * (low + high);
+                (beyond(middle) > 0.0 ? high : low) = middle;
+            }
+            stop_ = high;
+        }
+        if (stop_ > 1e299) return;
+        Real angle = 0, rate = 0;
+        solve(stop_, angle, rate);
+        stays_ = -std::sin(angle) * rate >= 0;
+    }
+
     double angleOf(Vec3 arm) const {
         return std::atan2(dot(hinge_.axis, cross(down_, arm)), dot(down_, arm));
     }
@@ -170,6 +221,8 @@ class PhysicalPendulum : public Reference {
     FixedJoint hinge_;
     Vec3 along_, across_, down_;
     double angle0_ = 0.0, rate0_ = 0.0;
+    double stop_ = 1e300;  ///< when it reaches a limit [s]
+    bool stays_ = true;    ///< and gravity holds it there
     Real W_ = 0, m_ = 0, root_ = 0, u0_ = 0, period_ = 0;
 };
 

@@ -45,7 +45,8 @@ class Turntable : public Reference {
                           tableRate_ * cross(n, ball_.center - pivot_);
         const double fast = norm(ball_.velocity) + ball_.radius * norm(ball_.spin) +
                             std::abs(tableRate_) * norm(ball_.center - pivot_);
-        require(norm(slip) <= 1e-6 * fast, who + " slips at the start");
+        require(norm(slip) <= 1e-6 * fast, who + " slips at the start; it rolls at angular_velocity " +
+                                               shown(ball_.spin - cross(slip, n) / ball_.radius, 3));
         rate_ = ball_.k / (1.0 + ball_.k) * tableRate_;
         const double mu = pairCoefficients(scenario, ball_.material, plane_.material).friction;
         require(std::abs(rate_) * norm(ball_.velocity) <= mu * load,

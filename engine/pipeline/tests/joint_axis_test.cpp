@@ -243,6 +243,32 @@ TYPED_TEST(JointAxes, SpringsAreTheImplicitOscillatorOfTheirFrequencyAndDamping)
     }
 }
 
+/// A door's spring by its frequency: what swings is the moment about the hinge, whatever the body's own is.
+TYPED_TEST(JointAxes, ASpringsFrequencyIsThatOfWhatTheJointLetsMove) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    if (std::is_same_v<R, float>) GTEST_SKIP() << "the order is beyond rounding in double alone";
+    JointDef<S> def;
+    def.type = JointType::Hinge;
+    def.anchorB = at<S>(-0.9, 0);
+    def.axes[0].frequency = R(1.5), def.axes[0].dampingRatio = R(0.2), def.axes[0].target = R(0.3);
+    const double w = 2 * kPi * 1.5, zeta = 0.2, wd = w * std::sqrt(1 - zeta * zeta);
+    double errors[2] = {};
+    for (int k = 0; k < 2; ++k) {
+        const double h = k == 0 ? 1.0 / 200 : 1.0 / 800;
+        OneBody<S> one(WorldDef<S>{}, def, 0.9);
+        for (int i = 1; i * h < 2; ++i) {
+            one.world.step(static_cast<R>(h));
+            const double t = i * h, exact = -0.3 * std::exp(-zeta * w * t) *
+                                            (std::cos(wd * t) + zeta * w / wd * std::sin(wd * t));
+            errors[k] =
+                std::max(errors[k], std::abs(double(one.world.jointCoordinate(one.joint)) - 0.3 - exact));
+        }
+    }
+    EXPECT_LT(errors[1], 0.01);
+    EXPECT_NEAR(std::log2(errors[0] / errors[1]) / 2, 1, 0.15);
+}
+
 /// k = m w^2 and c = 2 zeta m w by hand is the same spring.
 TYPED_TEST(JointAxes, StiffnessAndDampingAreTheSameSpring) {
     using S = TypeParam;

@@ -328,6 +328,92 @@ TEST(Joints, InjectedSeparationAndTilt) {
     EXPECT_TRUE(flight()->rows("joint_drift").empty());
 }
 
+/// A body at each joint with limits, and a run in which it stands still but for what the test moves.
+TEST(Joints, InjectedLimitViolation) {
+    Case c;
+    c.scenario = emptyScene(3, {}, 1);
+    const Vec3 axis{0, 0, 1}, along{1, 0, 0};
+    const auto add = [&](JointType type, std::size_t k, double lower, double upper, Vec3 a) {
+        const int b = addBall(c.scenario, std::string("b") + jointName(type), 0.1, 1, 0.4,
+                              {2.0 * static_cast<double>(c.scenario.bodies.size()), 1, 0});
+        Joint j;
+        j.name = jointName(type), j.type = type, j.bodyB = b;
+        j.anchorA = c.scenario.bodies.back().pose.position;
+        if (type == JointType::Distance) j.anchorA.y -= 0.5;
+        j.axisA = j.axisB = a;
+        j.normalA = {0, 1, 0};
+        j.spinAxisB = axis;
+        j.axes[k].mode = AxisMode::Limited, j.axes[k].lower = lower, j.axes[k].upper = upper;
+        c.scenario.joints.push_back(j);
+    };
+    add(JointType::Hinge, 0, -0.4, 8.0, axis);
+    add(JointType::Slider, 0, -0.2, 0.3, along);
+    add(JointType::Distance, 0, 0.4, 0.6, along);
+    add(JointType::Ball, 0, -1e300, 0.5, along);
+    add(JointType::ConeTwist, 1, -1e300, 0.25, along);
+    add(JointType::Wheel, 0, -0.1, 0.1, Vec3{0, 1, 0});
+    add(JointType::SixDof, 4, -0.3, 0.3, along);
+    setReference(c.scenario, "free_flight");
+    Scenario still = c.scenario;
+    still.joints.clear();
+    c.run = exactRun(still, *makeReference(still), 0.1, 10);
+    ASSERT_EQ(c.rows("joint_limit_violation").size(), 8U);
+    EXPECT_EQ(c.worst("joint_limit_violation"), 0.0);
+
+    // The hinge turns on and on: 8.2 rad are counted over the turn, whatever the quaternion says.
+    for (std::size_t k = 0; k <= 10; ++k)
+        c.state(k, 0).orientation = fromAxisAngle(axis, 0.82 * static_cast<double>(k));
+    c.state(3, 1).position += {-0.25, 0.7, 0};                       // 0.05 beyond; across does not count
+    c.state(4, 2).position += {0, -0.2, 0};                          // 0.3 long
+    c.state(5, 3).orientation = fromAxisAngle({0, 0.6, 0.8}, 0.57);  // swings 0.57
+    c.state(5, 4).orientation = fromAxisAngle(along, 1.0) * fromAxisAngle({0, 1, 0}, 0.28);  // twist is free
+    c.state(6, 5).position += {0.3, 0.12, 0};
+    c.state(6, 6).orientation = fromAxisAngle({0, 1, 0}, -0.36);
+    const double expected[] = {0.2, 0.05, 0.1, 0.07, 0.03, 0.02, 0.06};
+    const char* subjects[] = {"hinge.angle",      "slider.travel", "distance.length", "ball.swing",
+                              "cone_twist.swing", "wheel.travel",  "six_dof.swing_y"};
+    const auto rows = c.rows("joint_limit_violation");
+    EXPECT_NEAR(rows[0].value, 0.2, 1e-12);
+    for (std::size_t i = 0; i < 7; ++i) {
+        EXPECT_EQ(rows[i + 1].subject, subjects[i]);
+        EXPECT_NEAR(rows[i + 1].value, expected[i], 1e-12) << subjects[i];
+    }
+    for (Joint& j : c.scenario.joints) j.breakForce = 10;
+    EXPECT_TRUE(c.rows("joint_limit_violation").empty()) << "broken joints keep nothing";
+    EXPECT_TRUE(flight()->rows("joint_limit_violation").empty());
+}
+
+/// Springs, motors and stops of joints store, add and take energy: its change measures nothing there.
+TEST(Energy, DoesNotJudgeDrivenJoints) {
+    Case c;
+    c.scenario = emptyScene(3, {0, -9.81, 0}, 1);
+    addBall(c.scenario, "ball", 0.1, 1, 0.4, {0, 1, 0});
+    c.scenario.bodies[0].collides = false;
+    Joint j;
+    j.name = "slider", j.type = JointType::Slider, j.bodyB = 0;
+    j.anchorA = {0, 1, 0}, j.axisA = j.axisB = {0, 1, 0};
+    c.scenario.joints = {j};
+    setReference(c.scenario, "joint_coordinate");
+    const auto judged = [&](const char* metric) {
+        c.reference = makeReference(c.scenario);
+        c.run = exactRun(c.scenario, *c.reference, 0.01, 100);
+        return !c.rows(metric).empty();
+    };
+    EXPECT_TRUE(judged("energy_drift"));
+    EXPECT_LT(c.worst("energy_drift"), 1e-13) << "a free slider falls";
+    JointAxis& axis = c.scenario.joints[0].axes[0];
+    axis.mode = AxisMode::Limited, axis.lower = -2, axis.upper = 1;
+    EXPECT_FALSE(judged("energy_drift")) << "the stop is hit at 0.64 s";
+    EXPECT_TRUE(judged("energy_gain"));
+    axis.lower = -50;
+    EXPECT_TRUE(judged("energy_drift")) << "the stop is out of reach";
+    axis.stiffness = 30;
+    EXPECT_FALSE(judged("energy_drift"));
+    EXPECT_FALSE(judged("energy_gain"));
+    axis.stiffness = 0, axis.motorMaxForce = 5;
+    EXPECT_FALSE(judged("energy_gain"));
+}
+
 TEST(Rest, SinkCreepJitterTurn) {
     const auto c = resting();
     for (const char* name :
