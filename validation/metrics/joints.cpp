@@ -31,11 +31,18 @@ std::optional<double> anchorError(const MetricInput& input, const Joint& joint, 
             if (length.mode == AxisMode::Free) return std::nullopt;
             return std::abs(norm(gap) - joint.length);
         }
-        case JointType::SixDof:
-            for (std::size_t k = 0; k < (input.scenario.dimension == 3 ? 3u : 2u); ++k)
-                if (joint.axes[k].mode != AxisMode::Usual && joint.axes[k].mode != AxisMode::Locked)
-                    return std::nullopt;
-            break;
+        case JointType::SixDof: {
+            // The part of the gap along the directions that are locked.
+            const Vec3 x = joint.axisA;
+            const bool flat = input.scenario.dimension == 2;
+            const Vec3 y = flat ? Vec3{-x.y, x.x, 0.0} : joint.normalA;
+            const Vec3 own = rotateInverse(a.orientation, gap), along[3] = {x, y, cross(x, y)};
+            Vec3 locked;
+            for (std::size_t k = 0; k < (flat ? 2u : 3u); ++k)
+                if (joint.axes[k].mode == AxisMode::Usual || joint.axes[k].mode == AxisMode::Locked)
+                    locked += dot(own, along[k]) * along[k];
+            return norm(locked);
+        }
         case JointType::Wheel:
         case JointType::Slider: {
             const Vec3 axis = rotate(a.orientation, joint.axisA);

@@ -247,7 +247,6 @@ TYPED_TEST(JointAxes, SpringsAreTheImplicitOscillatorOfTheirFrequencyAndDamping)
 TYPED_TEST(JointAxes, ASpringsFrequencyIsThatOfWhatTheJointLetsMove) {
     using S = TypeParam;
     using R = typename S::Real;
-    if (std::is_same_v<R, float>) GTEST_SKIP() << "the order is beyond rounding in double alone";
     JointDef<S> def;
     def.type = JointType::Hinge;
     def.anchorB = at<S>(-0.9, 0);
@@ -265,8 +264,8 @@ TYPED_TEST(JointAxes, ASpringsFrequencyIsThatOfWhatTheJointLetsMove) {
                 std::max(errors[k], std::abs(double(one.world.jointCoordinate(one.joint)) - 0.3 - exact));
         }
     }
-    EXPECT_LT(errors[1], 0.01);
-    EXPECT_NEAR(std::log2(errors[0] / errors[1]) / 2, 1, 0.15);
+    EXPECT_LT(errors[1], 0.01) << "by its own moment alone it would swing at half the frequency";
+    EXPECT_NEAR(std::log2(errors[0] / errors[1]) / 2, 1, 0.2);
 }
 
 /// k = m w^2 and c = 2 zeta m w by hand is the same spring.

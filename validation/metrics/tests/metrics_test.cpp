@@ -378,6 +378,12 @@ TEST(Joints, InjectedLimitViolation) {
         EXPECT_EQ(rows[i + 1].subject, subjects[i]);
         EXPECT_NEAR(rows[i + 1].value, expected[i], 1e-12) << subjects[i];
     }
+    // What is free of a six_dof joint does not count as drift.
+    c.scenario.joints[6].axes[0].mode = AxisMode::Free;
+    c.state(7, 6).position += {0.4, 0.003, 0.004};
+    const auto drift = c.rows("joint_drift");
+    EXPECT_EQ(drift.back().subject, "six_dof");
+    EXPECT_NEAR(drift.back().value, 0.005, 1e-14);
     for (Joint& j : c.scenario.joints) j.breakForce = 10;
     EXPECT_TRUE(c.rows("joint_limit_violation").empty()) << "broken joints keep nothing";
     EXPECT_TRUE(flight()->rows("joint_limit_violation").empty());
