@@ -66,6 +66,8 @@ class RigorEngine final : public Engine {
                                  "report the natural map after each iteration instead of its change"));
         options.push_back(integer("pyramid_directions", 2, 64, "4", "4",
                                   "lemke: directions of its friction pyramid, even"));
+        options.push_back(integer("threads", 1, 1024, "1", "1",
+                                  "threads that share the work of a step; the results are the same bits"));
         options.push_back(
             choice("warm_starting", {"off", "on"}, "on", "on", "start from the impulses of the last step"));
         options.push_back(choice("curved_joints", {"off", "on"}, "on", "on",

@@ -49,6 +49,7 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     def.measureResiduals = textSetting(settings, "measure_residuals") == "on";
     def.pyramidDirections = integerSetting(settings, "pyramid_directions");
     def.substeps = integerSetting(settings, "substeps");
+    def.threads = integerSetting(settings, "threads");
     def.contactFrequency = static_cast<R>(numberSetting(settings, "contact_frequency"));
     def.contactDampingRatio = static_cast<R>(numberSetting(settings, "contact_damping_ratio"));
     def.jointFrequency = static_cast<R>(numberSetting(settings, "joint_frequency"));

@@ -84,14 +84,18 @@ template <class S>
 typename S::Real rowVelocity(const Row<S>& row, const Velocity<S>& a, const Velocity<S>& b) {
     return row.lin.dot(b.v - a.v) + dotAng(row.angA, a.w) + dotAng(row.angB, b.w);
 }
-/// v += M^-1 J^T lambda.
+/// v += M^-1 J^T lambda. Bodies that impulses do not move are not written to: threads share them.
 template <class S>
 void applyRowImpulse(const Row<S>& row, const Block<S>& block, typename S::Real lambda, Velocity<S>& a,
                      Velocity<S>& b) {
-    a.v -= (block.invMassA * lambda) * row.lin;
-    a.w += lambda * row.invIAngA;
-    b.v += (block.invMassB * lambda) * row.lin;
-    b.w += lambda * row.invIAngB;
+    if (block.invMassA > 0) {
+        a.v -= (block.invMassA * lambda) * row.lin;
+        a.w += lambda * row.invIAngA;
+    }
+    if (block.invMassB > 0) {
+        b.v += (block.invMassB * lambda) * row.lin;
+        b.w += lambda * row.invIAngB;
+    }
 }
 /// J1 M^-1 J2^T of two rows of one block.
 template <class S>

@@ -6,6 +6,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
+
 namespace rigor::engine {
 
 /// An arena of its own keeps a world from borrowing threads that another one was given.
@@ -25,14 +27,26 @@ Tasks::Tasks(Tasks&&) noexcept = default;
 Tasks& Tasks::operator=(Tasks&&) noexcept = default;
 Tasks::~Tasks() = default;
 
+const Tasks& Tasks::one() {
+    static const Tasks tasks(1);
+    return tasks;
+}
+
 void Tasks::shared(std::size_t n, std::size_t grain,
                    const std::function<void(std::size_t, std::size_t)>& work) const {
     using Range = oneapi::tbb::blocked_range<std::size_t>;
+    // A few parts for each thread even out what they cost; more only cost themselves.
+    constexpr std::size_t kPartsPerThread = 4;
+    const std::size_t part = std::max(grain / 2, n / (kPartsPerThread * static_cast<std::size_t>(threads_)));
     arena_->arena.execute([&] {
         oneapi::tbb::parallel_for(
-            Range(0, n, grain), [&](const Range& part) { work(part.begin(), part.end()); },
-            oneapi::tbb::simple_partitioner());
+            Range(0, n, std::max<std::size_t>(part, 1)),
+            [&](const Range& range) { work(range.begin(), range.end()); }, oneapi::tbb::simple_partitioner());
     });
+}
+
+void Tasks::entered(const std::function<void()>& work) const {
+    arena_->arena.execute([&] { work(); });
 }
 
 }  // namespace rigor::engine

@@ -11,7 +11,8 @@
 
 namespace rigor::engine {
 
-/// A fixed number of threads to share work among. Copies have threads of their own.
+/// A fixed number of threads to share work among; those that the machine does not have are not missed. Copies
+/// have threads of their own.
 class Tasks {
   public:
     /// `threads` >= 1; 1 does everything in the calling thread, without allocation.
@@ -22,10 +23,14 @@ class Tasks {
     Tasks& operator=(Tasks&&) noexcept;
     ~Tasks();
 
+    /// The calling thread alone, for those who have nobody else.
+    static const Tasks& one();
+
     int threads() const { return threads_; }
 
-    /// Calls work(begin, end) for parts of [0, n) that together are all of it; parts hold at least `grain`
-    /// indices (the last may be smaller). An exception of `work` reaches the caller.
+    /// Calls work(begin, end) for parts of [0, n) that together are all of it. A range of up to `grain` >= 1
+    /// indices is not worth sharing and is one part; else parts have more than a quarter of that. An
+    /// exception of `work` reaches the caller.
     template <class Work>
     void forRanges(std::size_t n, std::size_t grain, const Work& work) const {
         if (threads_ == 1 || n <= grain) {
@@ -34,11 +39,25 @@ class Tasks {
         }
         shared(n, grain, std::cref(work));
     }
+    /// The same index by index: work(i).
+    template <class Work>
+    void forEach(std::size_t n, std::size_t grain, const Work& work) const {
+        forRanges(n, grain, [&work](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) work(i);
+        });
+    }
+    /// Does `work` among the threads: calls of forRanges from within start at once.
+    template <class Work>
+    void enter(const Work& work) const {
+        if (threads_ == 1) return work();
+        entered(std::cref(work));
+    }
 
   private:
     struct Arena;
     void shared(std::size_t n, std::size_t grain,
                 const std::function<void(std::size_t, std::size_t)>& work) const;
+    void entered(const std::function<void()>& work) const;
 
     int threads_ = 1;
     std::unique_ptr<Arena> arena_;  ///< null for one thread

@@ -13,9 +13,9 @@ namespace {
 
 template <class S>
 void move(BodyArrays<S>& bodies, std::span<const Velocity<S>> start, std::span<Velocity<S>> used,
-          typename S::Real h, TurnRotation<S> turn) {
+          typename S::Real h, TurnRotation<S> turn, const Tasks& tasks) {
     std::copy(start.begin(), start.end(), used.begin());
-    moveWith<S>(bodies, used, h, turn);
+    moveWith<S>(bodies, used, h, turn, tasks);
 }
 
 }  // namespace

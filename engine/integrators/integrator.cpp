@@ -20,17 +20,18 @@ template DampedStep<double> dampedStep(double, double);
 
 template <class S>
 void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, typename S::Real h,
-              TurnRotation<S> turn) {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (bodies.constants[i].type == BodyType::Static) continue;
+              TurnRotation<S> turn, const Tasks& tasks) {
+    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
+        if (bodies.constants[i].type == BodyType::Static) return;
         // Not even the rounding of a rotation by nothing.
-        if (i < bodies.asleep.size() && bodies.asleep[i]) continue;
+        if (i < bodies.asleep.size() && bodies.asleep[i]) return;
         bodies.pose[i].p += h * velocities[i].v;
         bodies.pose[i].q = turn(bodies.pose[i].q, typename S::Ang(h * velocities[i].w));
-    }
+    });
 }
-#define RIGOR_INSTANTIATE(S) \
-    template void moveWith<S>(BodyArrays<S>&, std::span<const Velocity<S>>, S::Real, TurnRotation<S>);
+#define RIGOR_INSTANTIATE(S)                                                                          \
+    template void moveWith<S>(BodyArrays<S>&, std::span<const Velocity<S>>, S::Real, TurnRotation<S>, \
+                              const Tasks&);
 RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)

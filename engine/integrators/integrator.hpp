@@ -8,6 +8,7 @@
 #include <span>
 
 #include "engine/core/table.hpp"
+#include "engine/core/tasks.hpp"
 #include "engine/state/body_arrays.hpp"
 
 namespace rigor::engine {
@@ -34,7 +35,8 @@ std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable();
 /// those after it. Moves the poses and writes to `used` the velocities that moved them.
 template <class S>
 using MoveBodies = void (*)(BodyArrays<S>& bodies, std::span<const Velocity<S>> start,
-                            std::span<Velocity<S>> used, typename S::Real h, TurnRotation<S> turn);
+                            std::span<Velocity<S>> used, typename S::Real h, TurnRotation<S> turn,
+                            const Tasks& tasks);
 template <class S>
 class FreeFlow;
 /// Integrators that look at the forces more than once in a step: advances `flow` by h.
@@ -55,7 +57,9 @@ std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable();
 /// p += h v, q := turn(q, h w) for every body that may move.
 template <class S>
 void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, typename S::Real h,
-              TurnRotation<S> turn);
+              TurnRotation<S> turn, const Tasks& tasks);
+/// Bodies for which a range of them is worth sharing: some microseconds of work.
+inline constexpr std::size_t kBodyGrain = 128;
 
 /// The gyroscopic term of one body. 2D: nothing to do.
 template <class S>

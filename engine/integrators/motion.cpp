@@ -7,19 +7,20 @@
 namespace rigor::engine {
 
 template <class S>
-void Motion<S>::setInertia(BodyArrays<S>& bodies) {
-    for (std::size_t i = 0; i < bodies.size(); ++i)
+void Motion<S>::setInertia(BodyArrays<S>& bodies, const Tasks& tasks) {
+    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
         if (bodies.invMass[i] > 0)
             bodies.invInertia[i] = worldInertia<S>(bodies.pose[i].q, bodies.invInertiaLocal[i]);
+    });
 }
 
 template <class S>
-void Motion<S>::kick(BodyArrays<S>& bodies, const Load<S>& load, Real h) {
+void Motion<S>::kick(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks) {
     const std::size_t n = bodies.size();
     start_.assign(bodies.velocity.begin(), bodies.velocity.end());
     startRotations_.resize(n);
     for (std::size_t i = 0; i < n; ++i) startRotations_[i] = bodies.pose[i].q;
-    if (!integrator_.advance) return kickOnce(bodies, load, h);
+    if (!integrator_.advance) return kickOnce(bodies, load, h, tasks);
     flow_.begin(bodies, load, rotation_, turn_);
     flow_.advance(integrator_.advance, h);
     for (std::size_t i = 0; i < n; ++i)
@@ -27,7 +28,7 @@ void Motion<S>::kick(BodyArrays<S>& bodies, const Load<S>& load, Real h) {
 }
 
 template <class S>
-void Motion<S>::kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h) {
+void Motion<S>::kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks) {
     const std::size_t n = bodies.size();
     wrench_.assign(bodies.wrench.begin(), bodies.wrench.end());
     if (load.forces)
@@ -35,8 +36,8 @@ void Motion<S>::kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h) {
             {load.time, load.time + static_cast<double>(h), bodies.pose, bodies.velocity, wrench_});
     kicked_.resize(n);
     predicted_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        if (bodies.invMass[i] == 0) continue;
+    tasks.forEach(n, kBodyGrain, [&](std::size_t i) {
+        if (bodies.invMass[i] == 0) return;
         const BodyConstants<S>& body = bodies.constants[i];
         const DampedStep<Real> linear = dampedStep(body.linearVelocityKept, h);
         const DampedStep<Real> angular = dampedStep(body.angularVelocityKept, h);
@@ -46,16 +47,16 @@ void Motion<S>::kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h) {
         kicked_[i] = angular.kept * velocity.w + angular.kick * Ang(bodies.invInertia[i] * wrench_[i].torque);
         predicted_[i] = rotation_.predict(body, bodies.pose[i].q, kicked_[i], h);
         velocity.w = predicted_[i];
-    }
+    });
 }
 
 template <class S>
-void Motion<S>::move(BodyArrays<S>& bodies, Real h) {
+void Motion<S>::move(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
     used_.resize(bodies.size());
     if (integrator_.advance)
-        moveAlongFlow(bodies, h);
+        moveAlongFlow(bodies, h, tasks);
     else
-        integrator_.move(bodies, start_, used_, h, turn_);
+        integrator_.move(bodies, start_, used_, h, turn_, tasks);
 }
 
 namespace {
@@ -70,10 +71,10 @@ R movingShare(R dd, R ff) {
 }  // namespace
 
 template <class S>
-void Motion<S>::moveAlongFlow(BodyArrays<S>& bodies, Real h) {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
+void Motion<S>::moveAlongFlow(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
+    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
         used_[i] = {};
-        if (bodies.constants[i].type == BodyType::Static) continue;
+        if (bodies.constants[i].type == BodyType::Static) return;
         Pose<S>& X = bodies.pose[i];
         used_[i] = {(flow_.pose[i].p - X.p) / h, flow_.turn[i] / h};
         X = flow_.pose[i];
@@ -91,20 +92,20 @@ void Motion<S>::moveAlongFlow(BodyArrays<S>& bodies, Real h) {
             X.q = turn_(X.q, Ang(h * moving));
             used_[i].w += moving;
         }
-    }
+    });
 }
 
 template <class S>
-void Motion<S>::finish(BodyArrays<S>& bodies, Real h) {
+void Motion<S>::finish(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
     (void)h;
     // The velocities of a free flow are those of the end already.
     if (!rotation_.finish || integrator_.advance) return;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (bodies.invMass[i] == 0) continue;
+    tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
+        if (bodies.invMass[i] == 0) return;
         Ang& w = bodies.velocity[i].w;
         w = rotation_.finish(bodies.constants[i], startRotations_[i], bodies.pose[i].q, kicked_[i],
                              predicted_[i], w);
-    }
+    });
 }
 
 template <class S>

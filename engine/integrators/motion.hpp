@@ -31,18 +31,18 @@ class Motion {
     bool movesWithSolvedVelocity() const { return integrator_.movesWithSolvedVelocity; }
 
     /// World inertia of every body at its present pose. Before rows are made and before kick().
-    static void setInertia(BodyArrays<S>& bodies);
+    static void setInertia(BodyArrays<S>& bodies, const Tasks& tasks = Tasks::one());
 
     /// Velocities after h [s] of forces alone. Wrenches are read, not cleared: they last all sub-steps.
-    void kick(BodyArrays<S>& bodies, const Load<S>& load, Real h);
+    void kick(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks = Tasks::one());
     /// Moves every body over h.
-    void move(BodyArrays<S>& bodies, Real h);
+    void move(BodyArrays<S>& bodies, Real h, const Tasks& tasks = Tasks::one());
     /// The velocities of the last move().
     std::span<const Velocity<S>> used() const { return used_; }
     /// Orientations before the last move(), by dense index.
     std::span<const typename S::Rot> startRotations() const { return startRotations_; }
     /// After poses have changed for the last time, by move() of h and position correction.
-    void finish(BodyArrays<S>& bodies, Real h);
+    void finish(BodyArrays<S>& bodies, Real h, const Tasks& tasks = Tasks::one());
 
     // --- a body that collides on its way
     /// Between move() and finish(): the body's angular velocity where it is now, part of the way.
@@ -54,8 +54,8 @@ class Motion {
     void replaceUsed(std::size_t i, const Velocity<S>& velocity) { used_[i] = velocity; }
 
   private:
-    void kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h);
-    void moveAlongFlow(BodyArrays<S>& bodies, Real h);
+    void kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks);
+    void moveAlongFlow(BodyArrays<S>& bodies, Real h, const Tasks& tasks);
 
     Integrator<S> integrator_{};
     RotationScheme<S> rotation_{};

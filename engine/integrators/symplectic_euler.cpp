@@ -13,10 +13,10 @@ namespace {
 
 template <class S>
 void move(BodyArrays<S>& bodies, std::span<const Velocity<S>> start, std::span<Velocity<S>> used,
-          typename S::Real h, TurnRotation<S> turn) {
+          typename S::Real h, TurnRotation<S> turn, const Tasks& tasks) {
     (void)start;
     std::copy(bodies.velocity.begin(), bodies.velocity.end(), used.begin());
-    moveWith<S>(bodies, used, h, turn);
+    moveWith<S>(bodies, used, h, turn, tasks);
 }
 
 }  // namespace

@@ -32,8 +32,8 @@ template <class S>
 using CollideFunction = void (*)(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
                                  typename S::Real speculativeDistance, Manifold<S>& out);
 
-/// A narrow phase as an object, for those that are not in the table: WorldDef::customNarrowPhase. Called from
-/// one thread at a time, and with the same shapes and poses must answer the same.
+/// A narrow phase as an object, for those that are not in the table: WorldDef::customNarrowPhase. With
+/// the same shapes and poses it must answer the same.
 template <class S>
 class NarrowPhase {
   public:
@@ -41,6 +41,8 @@ class NarrowPhase {
     /// The contract of CollideFunction.
     virtual void collide(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
                          typename S::Real speculativeDistance, Manifold<S>& out) const = 0;
+    /// True: `collide` may be called by several threads at the same time. Else by one at a time.
+    virtual bool manyThreads() const { return false; }
 };
 
 /// A narrow phase by the names of narrowphases.def. Null when unknown.

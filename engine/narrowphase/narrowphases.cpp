@@ -17,6 +17,7 @@ class TableNarrowPhase final : public NarrowPhase<S> {
                  typename S::Real speculativeDistance, Manifold<S>& out) const override {
         function_(a, Xa, b, Xb, speculativeDistance, out);
     }
+    bool manyThreads() const override { return true; }
 
   private:
     CollideFunction<S> function_;

@@ -1,38 +1,22 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Contact rows. At a point with normal n (A to B), separation s, arms rA, rB from the centres of mass and
-// relative velocity u = vB + wB x rB - vA - wA x rA:
-//     normal    0 <= lambda_n _|_ n . u + b >= 0
-//     tangents  Coulomb's law with limit mu lambda_n
-// and the bias b is one of
-//     e n . u_0         impact: s <= 0, n . u_0 < -threshold; u_0 from before this step's forces, so that the
-//                       rebound is e times the approach and not e times (approach + g h)
-//     s / h             a gap wider than gapSlop, or an impact: the point may just close it in this step
-//     overlap           what the bias rule makes of it (Baumgarte, soft), else 0
-// A gap with e > 0 gets no rows where it is closing faster than the threshold, or is wider than gravity alone
-// closes in a step: closing it would take the speed that the impact has to reverse, or pass on a blow that
-// has not reached it. The bodies then meet with an overlap of at most one step's motion.
+// Contacts found: boxes and pairs, then the manifolds of pairs that may touch, which threads share; what a
+// contact of the last step knew goes over to the one of this step. Rows: contact_rows.cpp.
 #include "engine/pipeline/contact_set.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/narrowphase/surface_contact.hpp"
 
 namespace rigor::engine {
+namespace {
 
-template <class S>
-std::array<typename S::Vec, S::tangents> tangentBasis(const typename S::Vec& n) {
-    if constexpr (S::dim == 2) {
-        return {typename S::Vec(-n.y(), n.x())};
-    } else {
-        using Vec = typename S::Vec;
-        const Vec axis = std::abs(n.x()) < typename S::Real(0.7) ? Vec::Unit(0) : Vec::Unit(1);
-        const Vec t1 = axis.cross(n).normalized();
-        return {t1, Vec(n.cross(t1))};
-    }
-}
+constexpr std::size_t kShapeGrain = 64, kPairGrain = 16;  ///< worth sharing: some microseconds of work
+
+}  // namespace
 
 template <class S>
 PairCoefficients<S> ContactSet<S>::combine(const PairCoefficients<S>& a, const PairCoefficients<S>& b) const {
@@ -83,22 +67,23 @@ bool ContactSet<S>::mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std
 
 template <class S>
 void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase,
-                              Real speculativeDistance, const ContinuousCollision<S>& ccd) {
+                              Real speculativeDistance, const ContinuousCollision<S>& ccd,
+                              const Tasks& tasks) {
     const std::size_t n = shapes_.size();
     shapePoses_.resize(n);
     boxes_.resize(n);
     movable_.resize(n);
     const Vec margin = Vec::Constant(speculativeDistance);
-    for (std::size_t i = 0; i < n; ++i) {
+    tasks.forEach(n, kShapeGrain, [&](std::size_t i) {
         const ShapeRecord<S>& record = shapes_[i];
         const bool isStatic = bodies.constants[record.body].type == BodyType::Static;
-        if (isStatic && boxesValid_) continue;
+        if (isStatic && boxesValid_) return;
         shapePoses_[i] = compose<S>(bodies.pose[record.body], record.local);
         boxes_[i] = boundingBox<S>(record.shape, shapePoses_[i]);
         movable_[i] = bodies.constants[record.body].type == BodyType::Dynamic;
         if (movable_[i]) boxes_[i].min -= margin, boxes_[i].max += margin;
         if (!isStatic && ccd.looksAhead()) ccd.growBox(static_cast<std::uint32_t>(i), boxes_[i]);
-    }
+    });
     boxesValid_ = true;
     broadPhase.update(boxes_, movable_, proxyPairs_);
 }
@@ -147,54 +132,60 @@ void ContactSet<S>::takeOver(const BodyArrays<S>& bodies, const Contact<S>& old,
 template <class S>
 void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
                                   ManifoldFunction<S> makeManifold, Real speculativeDistance,
-                                  const ContinuousCollision<S>& ccd) {
+                                  const ContinuousCollision<S>& ccd, const Tasks& tasks) {
     std::swap(contacts_, previous_);
-    contacts_.clear();
-    Search search{bodies, narrowPhase, makeManifold, speculativeDistance, ccd, previous_.cbegin()};
+    findCandidates(bodies, speculativeDistance);
+    contacts_.resize(candidates_.size());
+    const Search search{bodies, narrowPhase, makeManifold, speculativeDistance, ccd};
+    const Tasks& those = narrowPhase.manyThreads() ? tasks : Tasks::one();
+    those.forEach(candidates_.size(), kPairGrain,
+                  [&](std::size_t k) { findContact(search, candidates_[k], contacts_[k]); });
+    std::erase_if(contacts_, [](const Contact<S>& contact) { return contact.manifold.count == 0; });
+}
+
+/// In the order of contacts: by shape pair and piece.
+template <class S>
+void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, Real speculativeDistance) {
+    candidates_.clear();
+    std::uint32_t old = 0;
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t piece) {
+        const auto key = std::pair(pairKey(a, b), piece);
+        const auto oldKey = [&] {
+            return std::pair(pairKey(previous_[old].shapeA, previous_[old].shapeB), previous_[old].piece);
+        };
+        while (old < previous_.size() && oldKey() < key) ++old;
+        candidates_.push_back({a, b, piece, old < previous_.size() && oldKey() == key ? old : kNone});
+    };
     for (const ProxyPair& p : proxyPairs_) {
         if (!mayCollide(bodies, shapes_[p.a].body, shapes_[p.b].body)) continue;
         const bool ordered = shapes_[p.a].body < shapes_[p.b].body;
         const std::uint32_t a = ordered ? p.a : p.b, b = ordered ? p.b : p.a;
         const bool surfaceA = isComposite<S>(shapes_[a].shape);
         if (!surfaceA && !isComposite<S>(shapes_[b].shape)) {
-            addContact(search, a, b, kNone, [&](Manifold<S>& manifold) {
-                narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
-                                    speculativeDistance, manifold);
-            });
+            add(a, b, kNone);
             continue;
         }
-        const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
-        findPieces(surface, other, speculativeDistance);
-        for (const std::uint32_t piece : pieces_)
-            addContact(search, a, b, piece, [&](Manifold<S>& manifold) {
-                collidePiece<S>(narrowPhase, shapes_[surface].shape, piece, shapePoses_[surface],
-                                shapes_[other].shape, shapePoses_[other], speculativeDistance, manifold);
-                if (!surfaceA) flipManifold(manifold);
-            });
+        findPieces(surfaceA ? a : b, surfaceA ? b : a, speculativeDistance);
+        for (const std::uint32_t piece : pieces_) add(a, b, piece);
     }
 }
 
-/// The contact of two shapes, or of one and a piece of the other, if there is one.
+/// The contact of a candidate; without points where there is none.
 template <class S>
-template <class Collide>
-void ContactSet<S>::addContact(Search& search, std::uint32_t a, std::uint32_t b, std::uint32_t piece,
-                               const Collide& collide) {
+void ContactSet<S>::findContact(const Search& search, const Candidate& candidate, Contact<S>& contact) const {
     const BodyArrays<S>& bodies = search.bodies;
-    const auto sortKey = [](const Contact<S>& c) { return std::pair(pairKey(c.shapeA, c.shapeB), c.piece); };
-    const auto key = std::pair(pairKey(a, b), piece);
-    auto& old = search.old;
-    while (old != previous_.cend() && sortKey(*old) < key) ++old;
-    const bool before = old != previous_.cend() && sortKey(*old) == key;
-    if (before && isAsleep(bodies, *old)) {
-        contacts_.push_back(*old);
+    const std::uint32_t a = candidate.a, b = candidate.b;
+    const Contact<S>* old = candidate.old == kNone ? nullptr : &previous_[candidate.old];
+    if (old && isAsleep(bodies, *old)) {
+        contact = *old;
         return;
     }
-    Contact<S>& contact = contacts_.emplace_back();
-    collide(contact.manifold);
-    contact.shapeA = a, contact.shapeB = b, contact.piece = piece;
+    contact = {};
+    collide(search, candidate, contact.manifold);
+    contact.shapeA = a, contact.shapeB = b, contact.piece = candidate.piece;
     contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
     if (contact.manifold.count > 0) {
-        if (before) contact.cache = old->cache;
+        if (old) contact.cache = old->cache;
         const Real size =
             std::min((boxes_[a].max - boxes_[a].min).norm(), (boxes_[b].max - boxes_[b].min).norm());
         search.makeManifold({shapePoses_[a], shapePoses_[b], size, search.speculativeDistance}, contact.cache,
@@ -202,14 +193,26 @@ void ContactSet<S>::addContact(Search& search, std::uint32_t a, std::uint32_t b,
     }
     placePoints(bodies, contact);
     // Pieces of a chain, mesh or field are found where they are, not ahead.
-    if (piece == kNone && search.ccd.looksAhead())
+    if (candidate.piece == kNone && search.ccd.looksAhead())
         search.ccd.findAhead(contact, bodies, *this, search.narrowPhase);
-    if (contact.manifold.count == 0) {
-        contacts_.pop_back();
+    if (contact.manifold.count == 0) return;
+    contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
+    if (old) takeOver(bodies, *old, contact);
+}
+
+template <class S>
+void ContactSet<S>::collide(const Search& search, const Candidate& candidate, Manifold<S>& manifold) const {
+    const std::uint32_t a = candidate.a, b = candidate.b;
+    if (candidate.piece == kNone) {
+        search.narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
+                                   search.speculativeDistance, manifold);
         return;
     }
-    contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
-    if (before) takeOver(bodies, *old, contact);
+    const bool surfaceA = isComposite<S>(shapes_[a].shape);
+    const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
+    collidePiece<S>(search.narrowPhase, shapes_[surface].shape, candidate.piece, shapePoses_[surface],
+                    shapes_[other].shape, shapePoses_[other], search.speculativeDistance, manifold);
+    if (!surfaceA) flipManifold(manifold);
 }
 
 /// Pieces of a chain, mesh or height field near another shape, in ascending order.
@@ -241,133 +244,6 @@ void ContactSet<S>::placePoints(const BodyArrays<S>& bodies, Contact<S>& contact
 }
 
 template <class S>
-void ContactSet<S>::advance(std::span<const Velocity<S>> motion) {
-    for (Contact<S>& contact : contacts_) {
-        const Velocity<S>&A = motion[contact.bodyA], &B = motion[contact.bodyB];
-        for (int i = 0; i < contact.manifold.count; ++i) {
-            typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
-            const Vec moved = B.v + cross(B.w, point.rB) - A.v - cross(A.w, point.rA);
-            point.separation += contact.manifold.normal.dot(moved);
-        }
-    }
-}
-
-template <class S>
-void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step,
-                            ConstraintRows<S>& rows) {
-    for (Contact<S>& contact : contacts_) {
-        contact.asleep = isAsleep(bodies, contact);
-        for (int i = 0; i < contact.manifold.count; ++i) {
-            contact.points[static_cast<std::size_t>(i)].block = Contact<S>::kNoBlock;
-            if (!contact.asleep) addPointRows(bodies, step, contact, i, rows);
-        }
-    }
-}
-
-template <class S>
-void ContactSet<S>::addPointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
-                                 int index, ConstraintRows<S>& rows) {
-    typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(index)];
-    const Vec& n = contact.manifold.normal;
-    const std::uint32_t a = contact.bodyA, b = contact.bodyB;
-
-    Block<S> block;
-    block.kind = BlockKind::Contact;
-    block.first = static_cast<std::uint32_t>(rows.rows.size());
-    block.a = a, block.b = b;
-    block.friction = contact.coefficients.friction;
-    block.staticFriction = contact.coefficients.staticFriction;
-    block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
-    block.rows =
-        static_cast<std::uint8_t>(std::max(block.friction, block.staticFriction) > 0 ? 1 + S::tangents : 1);
-
-    const Vec &rA = point.rA, &rB = point.rB;
-    const auto makeRow = [&](const Vec& direction) {
-        Row<S> row;
-        row.lin = direction;
-        row.angA = -cross(rA, direction);
-        row.angB = cross(rB, direction);
-        completeRow<S>(row, block, bodies.invInertia);
-        row.invK = Real(1) / rowCoupling<S>(row, row, block);
-        return row;
-    };
-    Row<S> normal = makeRow(n);
-    const Real approach = rowVelocity<S>(normal, bodies.velocity[a], bodies.velocity[b]);
-    const Real s = point.separation;
-    // Rounding of coordinates of order one metre: closer than this is touching.
-    const Real touching = Real(64) * std::numeric_limits<Real>::epsilon();
-    const Real restitution = step.bounces ? contact.coefficients.restitution : Real(0);
-    const bool bounces = restitution > 0 && approach < -step.restitutionThreshold;
-    // The blow of an impact in the last sub-step is not what the contact carries from now on.
-    if (point.impact) point.normalImpulse = 0, point.frictionImpulse.setZero();
-    point.impact = approach < -step.impactSpeed;
-    point.block = Contact<S>::kNoBlock;
-    point.rebound = contact.ahead && bounces && s > touching ? restitution * approach : Real(0);
-    const bool mayBounce = restitution > 0 && s > std::max(touching, step.restingGap);
-    if (!contact.ahead && ((bounces && s > touching) || mayBounce)) {
-        point.normalImpulse = 0;
-        point.frictionImpulse.setZero();
-        return;
-    }
-    normal.error = s;
-    // A bounce that is still ahead is continuous collision's.
-    block.restitution = bounces && point.rebound == 0 ? restitution : Real(0);
-    if (bounces && point.rebound == 0)
-        normal.bias = restitution * approach;
-    else if (s > (point.impact ? Real(0) : step.gapSlop))
-        normal.bias = s / step.h;
-    normal.relaxedBias = normal.bias;
-    if (normal.bias == 0) pushApart(step, block, s, normal);
-    normal.impulse = step.warmStart * point.normalImpulse;
-    rows.rows.push_back(normal);
-
-    if (block.rows > 1) {
-        const std::array<Vec, S::tangents> basis = tangentBasis<S>(n);
-        for (const Vec& t : basis) {
-            Row<S> row = makeRow(t);
-            row.impulse = step.warmStart * t.dot(point.frictionImpulse);
-            rows.rows.push_back(row);
-        }
-        const Row<S>* t = rows.rows.data() + block.first + 1;
-        block.k11 = rowCoupling<S>(t[0], t[0], block);
-        block.k12 = S::tangents > 1 ? rowCoupling<S>(t[0], t[S::tangents - 1], block) : Real(0);
-        block.k22 = S::tangents > 1 ? rowCoupling<S>(t[S::tangents - 1], t[S::tangents - 1], block) : Real(1);
-    }
-    point.block = static_cast<std::uint32_t>(rows.blocks.size());
-    rows.blocks.push_back(block);
-}
-
-/// What the bias rule makes of overlap.
-template <class S>
-void ContactSet<S>::pushApart(const ContactStep<S>& step, const Block<S>& block, Real s, Row<S>& normal) {
-    const Real overlap = std::min(Real(0), s + step.slop);
-    if (!step.bias.soft) {
-        normal.bias = step.bias.share * overlap / step.h;
-        return;
-    }
-    if (s > 0) return;
-    const SoftTerms<Real> terms = softTerms(step.bias.contact, rowCoupling<S>(normal, normal, block), step.h);
-    normal.bias = std::max(terms.biasRate * overlap, -step.bias.fastestPush);
-    normal.softness = terms.gamma;
-    normal.invK = Real(1) / rowK<S>(normal, block);
-}
-
-template <class S>
-bool ContactSet<S>::bounceAhead(ConstraintRows<S>& rows) const {
-    bool any = false;
-    for (const Contact<S>& contact : contacts_)
-        for (int i = 0; contact.ahead && i < contact.manifold.count; ++i) {
-            const auto& point = contact.points[static_cast<std::size_t>(i)];
-            if (point.rebound == 0 || point.block == Contact<S>::kNoBlock) continue;
-            Row<S>& normal = rows.rows[rows.blocks[point.block].first];
-            if (!(normal.impulse > 0)) continue;
-            normal.relaxedBias = point.rebound;
-            any = true;
-        }
-    return any;
-}
-
-template <class S>
 bool ContactSet<S>::hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const {
     const std::uint64_t key = pairKey(shapeA, shapeB);
     const auto found = std::lower_bound(
@@ -376,22 +252,6 @@ bool ContactSet<S>::hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const {
     if (found == contacts_.end() || pairKey(found->shapeA, found->shapeB) != key) return false;
     return std::any_of(found->points.begin(), found->points.begin() + found->manifold.count,
                        [](const auto& point) { return point.block != Contact<S>::kNoBlock; });
-}
-
-template <class S>
-void ContactSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
-    for (Contact<S>& contact : contacts_)
-        for (int i = 0; i < contact.manifold.count; ++i) {
-            typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
-            if (point.block == Contact<S>::kNoBlock) continue;
-            const Block<S>& block = rows.blocks[point.block];
-            point.normalImpulse = rows.rows[block.first].impulse;
-            point.frictionImpulse.setZero();
-            for (std::uint32_t r = 1; r < block.rows; ++r)
-                point.frictionImpulse += rows.rows[block.first + r].impulse * rows.rows[block.first + r].lin;
-            point.normalTotal += point.normalImpulse;
-            point.frictionTotal += point.frictionImpulse;
-        }
 }
 
 template <class S>
@@ -428,10 +288,6 @@ void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>
     while (old != previous_.end()) endOld();
 }
 
-template std::array<Space2f::Vec, Space2f::tangents> tangentBasis<Space2f>(const Space2f::Vec&);
-template std::array<Space2d::Vec, Space2d::tangents> tangentBasis<Space2d>(const Space2d::Vec&);
-template std::array<Space3f::Vec, Space3f::tangents> tangentBasis<Space3f>(const Space3f::Vec&);
-template std::array<Space3d::Vec, Space3d::tangents> tangentBasis<Space3d>(const Space3d::Vec&);
 template class ContactSet<Space2f>;
 template class ContactSet<Space2d>;
 template class ContactSet<Space3f>;

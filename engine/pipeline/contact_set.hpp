@@ -15,6 +15,7 @@
 #include "engine/constraints/row.hpp"
 #include "engine/constraints/soft.hpp"
 #include "engine/core/clone_ptr.hpp"
+#include "engine/core/tasks.hpp"
 #include "engine/faults/fault.hpp"
 #include "engine/narrowphase/manifolds.hpp"
 #include "engine/pipeline/events.hpp"
@@ -48,7 +49,8 @@ struct Contact {
         typename S::Vec rA, rB;  ///< arms of the impulses, as found: world axes, from the centres of mass
         std::uint32_t block = kNoBlock;  ///< its rows in this step; kNoBlock: let through
         bool impact = false;             ///< hit, rather than rested, in this step
-        Real rebound = 0;  ///< bias of the normal row once an impact ahead has taken place, < 0 [m/s]
+        Real rebound = 0;   ///< bias of the normal row once an impact ahead has taken place, < 0 [m/s]
+        Real approach = 0;  ///< normal speed when its rows were planned; < 0: closing [m/s]
     };
     std::uint32_t shapeA = 0, shapeB = 0, bodyA = 0, bodyB = 0;  ///< dense indices
     std::uint32_t piece = 0xffffffffu;  ///< segment or triangle of the chain, mesh or field; none of others
@@ -59,6 +61,7 @@ struct Contact {
     ManifoldCache<S> cache;  ///< of the manifold choice
     std::array<Point, S::maxManifoldPoints> points;
     bool touching = false;  ///< at the end of the step: overlapped when found, or pushed in the step
+    std::uint32_t firstRow = 0, blocks = 0;  ///< of this step, while rows are made
 };
 
 /// What making contact rows needs to know of a step.
@@ -103,13 +106,14 @@ class ContactSet {
 
     /// Broad phase at the bodies' poses, and on their way ahead if `ccd` wants that.
     void findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase, Real speculativeDistance,
-                   const ContinuousCollision<S>& ccd);
+                   const ContinuousCollision<S>& ccd, const Tasks& tasks);
     /// Narrow phase of the pairs; takes over the impulses of contacts that were there in the last step.
     void findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
                        ManifoldFunction<S> makeManifold, Real speculativeDistance,
-                       const ContinuousCollision<S>& ccd);
+                       const ContinuousCollision<S>& ccd, const Tasks& tasks);
     /// Appends the rows of all contacts. The bodies' velocities are those of the start of the step.
-    void addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows);
+    void addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows,
+                 const Tasks& tasks);
     /// Separations after the bodies have moved by `motion` (translation [m], rotation vector [rad]), to first
     /// order: C += n . (dB + aB x rB - dA - aA x rA), exact for translation and for rolling spheres.
     void advance(std::span<const Velocity<S>> motion);
@@ -137,23 +141,30 @@ class ContactSet {
 
   private:
     static bool isAsleep(const BodyArrays<S>& bodies, const Contact<S>& contact);
+    /// Two shapes, or one and a piece of the other, that may touch.
+    struct Candidate {
+        std::uint32_t a, b, piece;  ///< as in Contact
+        std::uint32_t old;          ///< their contact of the last step in previous_, or kNone
+    };
+    void findCandidates(const BodyArrays<S>& bodies, Real speculativeDistance);
     void findPieces(std::uint32_t surface, std::uint32_t other, Real speculativeDistance);
-    /// What finding the manifolds of a step needs to know; `old` walks along the contacts of the last step.
+    /// What finding the manifolds of a step needs to know.
     struct Search {
         const BodyArrays<S>& bodies;
         const NarrowPhase<S>& narrowPhase;
         ManifoldFunction<S> makeManifold;
         Real speculativeDistance;
         const ContinuousCollision<S>& ccd;
-        typename std::vector<Contact<S>>::const_iterator old;
     };
-    template <class Collide>
-    void addContact(Search& search, std::uint32_t a, std::uint32_t b, std::uint32_t piece,
-                    const Collide& collide);
+    void findContact(const Search& search, const Candidate& candidate, Contact<S>& contact) const;
+    void collide(const Search& search, const Candidate& candidate, Manifold<S>& manifold) const;
     void placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) const;
     void takeOver(const BodyArrays<S>& bodies, const Contact<S>& old, Contact<S>& contact) const;
-    void addPointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact, int index,
-                      ConstraintRows<S>& rows);
+    static void planRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact);
+    static bool planPoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
+                          std::size_t index);
+    static void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step,
+                              const Contact<S>& contact, std::size_t index, Block<S>& block, Row<S>* rows);
     static void pushApart(const ContactStep<S>& step, const Block<S>& block, Real s, Row<S>& normal);
 
     std::vector<ShapeRecord<S>> shapes_;
@@ -166,6 +177,7 @@ class ContactSet {
     std::vector<std::uint64_t> excluded_;
 
     std::vector<Contact<S>> contacts_, previous_;  ///< sorted by shape pair and piece
+    std::vector<Candidate> candidates_;            ///< in the same order
     std::vector<std::uint32_t> pieces_;
 
     std::vector<Pose<S>> shapePoses_;

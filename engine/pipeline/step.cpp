@@ -121,15 +121,25 @@ void World<S>::runPhase() {
     if (!stepping()) throw EngineError("no_step", "no step has begun");
     PhaseClock clock(result_.seconds);
     const Phase phase = cursor_.next;
+    tasks_.enter([this, phase] { runInside(phase); });
+    if (fault_ != nullptr) spoil(phase);
+    clock.end(phase);
+    advanceCursor();
+}
+
+/// A phase, in the company of the threads that share it.
+template <class S>
+void World<S>::runInside(Phase phase) {
     switch (phase) {
         case Phase::BroadPhase:
             ccd_->predict(bodies_, contacts_, def_.gravity, cursor_.size);
             result_.pairTests = broadPhase_->tests();
-            contacts_.findPairs(bodies_, *broadPhase_, def_.speculativeDistance, *ccd_);
+            contacts_.findPairs(bodies_, *broadPhase_, def_.speculativeDistance, *ccd_, tasks_);
             result_.pairTests = broadPhase_->tests() - result_.pairTests;
             break;
         case Phase::NarrowPhase:
-            contacts_.findManifolds(bodies_, *narrowPhase_, makeManifold_, def_.speculativeDistance, *ccd_);
+            contacts_.findManifolds(bodies_, *narrowPhase_, makeManifold_, def_.speculativeDistance, *ccd_,
+                                    tasks_);
             findIslands();
             if (sleeping_.wake) sleeping_.wake(sleepStep());
             break;
@@ -146,7 +156,7 @@ void World<S>::runPhase() {
                             false);
             break;
         case Phase::Move:
-            motion_.move(bodies_, cursor_.substepSize);
+            motion_.move(bodies_, cursor_.substepSize, tasks_);
             break;
         case Phase::Impacts:
             resolveImpacts();
@@ -161,9 +171,6 @@ void World<S>::runPhase() {
             correct();
             break;
     }
-    if (fault_ != nullptr) spoil(phase);
-    clock.end(phase);
-    advanceCursor();
 }
 
 template <class S>
@@ -210,7 +217,7 @@ void World<S>::endStep() {
 template <class S>
 void World<S>::kick() {
     ccd_->remember(bodies_);
-    motion_.kick(bodies_, load(), cursor_.substepSize);
+    motion_.kick(bodies_, load(), cursor_.substepSize, tasks_);
     ccd_->rememberKick(bodies_);
 }
 
@@ -231,7 +238,7 @@ Load<S> World<S>::load() const {
 template <class S>
 void World<S>::makeRows() {
     const Real h = cursor_.substepSize;
-    Motion<S>::setInertia(bodies_);
+    Motion<S>::setInertia(bodies_, tasks_);
     rows_.clear();
     const Real warmStart = def_.warmStarting && lastStepSize_ > 0 ? h / lastStepSize_ : Real(0);
     const BiasRule<Real> bias = biasRule();
@@ -243,7 +250,7 @@ void World<S>::makeRows() {
     contacts_.addRows(bodies_,
                       {h, def_.restitutionThreshold, Real(2) * h * gravityStep, impactSpeed, bias, def_.slop,
                        def_.gapSlop, warmStart, restitution_->bounces()},
-                      rows_);
+                      rows_, tasks_);
     if (restitution_->solvesImpacts()) solveImpacts();
 }
 
@@ -287,7 +294,7 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
     StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, converged, def_.measureResiduals, observer_,
                            residuals_);
     solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted,
-                    def_.residualTolerance, def_.pyramidDirections});
+                    def_.residualTolerance, def_.pyramidDirections, tasks_});
     result_.solverGaveUp = result_.solverGaveUp || solver_->gaveUp();
     // The aim of joints at the end of the step is renewed with every iteration, which diverges where a step
     // turns light links far: then the linearisation at its start has to do.
@@ -297,7 +304,7 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
         return;
     jointStep_.curvature = 0;
     solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, true, def_.residualTolerance,
-                    def_.pyramidDirections});
+                    def_.pyramidDirections, tasks_});
 }
 
 template <class S>
@@ -348,7 +355,7 @@ void World<S>::correct() {
     } else if (!style_.positions) {
         StepPositions<S>(bodies_, joints_, rows_, motion_.used(), h, Real(0), positionScratch_);
     }
-    motion_.finish(bodies_, h);
+    motion_.finish(bodies_, h, tasks_);
     if (more) contacts_.advance(positionScratch_.motion);
     lastStepSize_ = h;
 }

@@ -100,6 +100,8 @@ bool validShape(const Shape<S>& shape) {
 
 template <class S>
 World<S>::World(const WorldDef<S>& def) : def_(def) {
+    require(def.threads >= 1 && def.threads <= 1024, "threads", "threads must be in 1..1024");
+    tasks_ = Tasks(def.threads);
     require(def.gravity.allFinite(), "gravity", "gravity must be finite");
     require(def.velocityIterations >= 0, "velocity_iterations", "velocity iterations must not be negative");
     require(def.positionIterations >= 0, "position_iterations", "position iterations must not be negative");

@@ -194,6 +194,7 @@ class World {
         Real size = 0, substepSize = 0;  ///< [s]
     };
 
+    void runInside(Phase phase);
     void advanceCursor();
     void endStep();
     bool firstStep() const { return stepCount_ == 0 && cursor_.substep == 0; }
@@ -235,6 +236,7 @@ class World {
     ClonePtr<Restitution<S>> restitution_;
     SolverStyle<S> style_;
     const Fault<S>* fault_ = nullptr;
+    Tasks tasks_;
 
     BodyArrays<S> bodies_;
     IdTable<BodyTag> bodyIds_;

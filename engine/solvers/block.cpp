@@ -32,15 +32,13 @@ class BlockGaussSeidel final : public Solver<S> {
     void solve(const SolverInput<S>& input) override {
         applyWarmStart<S>(input);
         findGroups(input.constraints.blocks);
+        orderGroups(input);
         factorJoints(input.constraints);
-        const std::size_t n = groups_.size() - 1;
         for (int i = 0; i < input.iterations; ++i) {
             input.monitor.before(input.velocities);
-            Real change = 0;
-            for (std::size_t k = 0; k < n; ++k) {
-                const std::size_t group = (i % 2 == 0) ? k : n - 1 - k;
-                change = std::max(change, solveGroup(input, groups_[group], groups_[group + 1]));
-            }
+            const Real change = sweeps_.template largest<Real>(i % 2 != 0, [&](std::size_t group) {
+                return solveGroup(input, groups_[group], groups_[group + 1]);
+            });
             if (input.monitor.after(input.velocities, change)) break;
         }
     }
@@ -58,6 +56,13 @@ class BlockGaussSeidel final : public Solver<S> {
             if (!joins) groups_.push_back(i);
         }
         groups_.push_back(static_cast<std::uint32_t>(blocks.size()));
+    }
+
+    void orderGroups(const SolverInput<S>& input) {
+        sweeps_.begin(input.tasks, input.velocities.size());
+        for (std::size_t k = 0; k + 1 < groups_.size(); ++k)
+            sweeps_.add<S>({input.constraints.blocks.data() + groups_[k], groups_[k + 1] - groups_[k]});
+        sweeps_.finish();
     }
 
     /// All equality blocks are one system. One alone is solved by its own inverse.
@@ -148,6 +153,7 @@ class BlockGaussSeidel final : public Solver<S> {
     static constexpr int kInnerSweeps = 10;              ///< at most, per visit of a group
     static constexpr Real kInnerTolerance = Real(0.01);  ///< of the first sweep's residual
     std::vector<std::uint32_t> groups_;
+    SweepOrder sweeps_;
     std::vector<std::uint32_t> joints_;  ///< equality blocks
     std::vector<typename JointSystem<S>::Item> items_;
     JointSystem<S> system_;

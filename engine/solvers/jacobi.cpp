@@ -31,9 +31,11 @@ class Jacobi final : public Solver<S> {
     void solve(const SolverInput<S>& input) override {
         applyWarmStart<S>(input);
         findUnits(input.constraints.blocks, input.velocities.size());
-        splitMasses(input.constraints);
-        const SolverInput<S> split{
-            split_, input.velocities, input.friction, input.monitor, input.iterations, input.h, true};
+        splitMasses(input);
+        const SolverInput<S> split{split_,        input.velocities,        input.friction,
+                                   input.monitor, input.iterations,        input.h,
+                                   true,          input.residualTolerance, input.pyramidDirections,
+                                   input.tasks};
         for (int i = 0; i < input.iterations; ++i) {
             input.monitor.before(input.velocities);
             for (std::size_t r = 0; r < split_.rows.size(); ++r)
@@ -60,11 +62,13 @@ class Jacobi final : public Solver<S> {
     }
 
     /// The rows with m / n in place of m.
-    void splitMasses(const ConstraintRows<S>& whole) {
+    void splitMasses(const SolverInput<S>& input) {
+        const ConstraintRows<S>& whole = input.constraints;
         split_.rows.assign(whole.rows.begin(), whole.rows.end());
         split_.blocks.assign(whole.blocks.begin(), whole.blocks.end());
         split_.matrices.resize(whole.matrices.size());
-        for (Block<S>& block : split_.blocks) {
+        input.tasks.forEach(split_.blocks.size(), kBlockGrain, [this](std::size_t k) {
+            Block<S>& block = split_.blocks[k];
             const Real nA = partners_[block.a], nB = partners_[block.b];
             block.invMassA *= nA, block.invMassB *= nB;
             Row<S>* rows = split_.rows.data() + block.first;
@@ -82,18 +86,25 @@ class Jacobi final : public Solver<S> {
                     block.k22 = rowCoupling<S>(t2, t2, block);
                 }
             }
-        }
+        });
     }
 
     Real iterate(const SolverInput<S>& split) {
+        results_.resize(units_.size() - 1);
+        split.tasks.forEach(results_.size(), kUnitGrain, [&](std::size_t u) {
+            const Block<S>& block = split_.blocks[units_[u]];
+            Result& result = results_[u];
+            result.a = split.velocities[block.a], result.b = split.velocities[block.b];
+            result.change = solveUnit(split, units_[u], units_[u + 1], result.a, result.b);
+        });
+        // The order of a sum is part of it: unit by unit.
         Real change = 0;
         change_.assign(partners_.size(), Velocity<S>{});
-        for (std::size_t u = 0; u + 1 < units_.size(); ++u) {
-            const std::uint32_t iA = split_.blocks[units_[u]].a, iB = split_.blocks[units_[u]].b;
-            Velocity<S> a = split.velocities[iA], b = split.velocities[iB];
-            change = std::max(change, solveUnit(split, units_[u], units_[u + 1], a, b));
-            collect(iA, a, split.velocities[iA]);
-            collect(iB, b, split.velocities[iB]);
+        for (std::size_t u = 0; u < results_.size(); ++u) {
+            const Block<S>& block = split_.blocks[units_[u]];
+            change = std::max(change, results_[u].change);
+            collect(block.a, results_[u].a, split.velocities[block.a]);
+            collect(block.b, results_[u].b, split.velocities[block.b]);
         }
         for (std::size_t i = 0; i < change_.size(); ++i) {
             split.velocities[i].v += change_[i].v;
@@ -130,11 +141,17 @@ class Jacobi final : public Solver<S> {
         return std::max(residual, solveFriction(split, block, a, b));
     }
 
-    static constexpr int kInnerSweeps = 10;              ///< at most, per unit and iteration
-    static constexpr Real kInnerTolerance = Real(0.01);  ///< of the first sweep's residual
+    static constexpr int kInnerSweeps = 10;                          ///< at most, per unit and iteration
+    static constexpr Real kInnerTolerance = Real(0.01);              ///< of the first sweep's residual
+    static constexpr std::size_t kBlockGrain = 64, kUnitGrain = 16;  ///< some microseconds of work
+    struct Result {
+        Velocity<S> a, b;  ///< of the parts of its bodies
+        Real change = 0;
+    };
     ConstraintRows<S> split_;
     std::vector<std::uint32_t> units_;
     std::vector<Real> partners_;
+    std::vector<Result> results_;      ///< by unit
     std::vector<Velocity<S>> change_;  ///< of the bodies in this iteration
 };
 

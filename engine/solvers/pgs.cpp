@@ -24,7 +24,12 @@ class Pgs final : public Solver<S> {
   public:
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<Pgs>(*this); }
 
-    void solve(const SolverInput<S>& input) override { solveRowByRow(input, ContactOrder::FrictionFirst); }
+    void solve(const SolverInput<S>& input) override {
+        solveRowByRow(input, ContactOrder::FrictionFirst, sweeps_);
+    }
+
+  private:
+    SweepOrder sweeps_;
 };
 
 }  // namespace

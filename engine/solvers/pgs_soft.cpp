@@ -28,7 +28,12 @@ class PgsSoft final : public Solver<S> {
         return style;
     }
 
-    void solve(const SolverInput<S>& input) override { solveRowByRow(input, ContactOrder::FrictionFirst); }
+    void solve(const SolverInput<S>& input) override {
+        solveRowByRow(input, ContactOrder::FrictionFirst, sweeps_);
+    }
+
+  private:
+    SweepOrder sweeps_;
 };
 
 }  // namespace

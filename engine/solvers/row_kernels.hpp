@@ -15,6 +15,7 @@
 #include <cmath>
 
 #include "engine/solvers/solver.hpp"
+#include "engine/solvers/sweep_order.hpp"
 
 namespace rigor::engine {
 
@@ -111,33 +112,38 @@ enum class ContactOrder : std::uint8_t {
     FrictionLast,   ///< after everything else, the friction of all contacts
 };
 
-/// Projected Gauss-Seidel: iterations over all rows, one after the other.
+/// The order of sweeps whose units are the blocks, one by one.
 template <class S>
-void solveRowByRow(const SolverInput<S>& input, ContactOrder order) {
+void orderBlocks(const SolverInput<S>& input, SweepOrder& order) {
+    order.begin(input.tasks, input.velocities.size());
+    for (const Block<S>& block : input.constraints.blocks) order.add<S>({&block, 1});
+    order.finish();
+}
+
+/// Projected Gauss-Seidel: iterations over all rows, one after the other. `sweeps` is scratch.
+template <class S>
+void solveRowByRow(const SolverInput<S>& input, ContactOrder order, SweepOrder& sweeps) {
     using Real = typename S::Real;
     applyWarmStart<S>(input);
+    orderBlocks<S>(input, sweeps);
     const std::vector<Block<S>>& blocks = input.constraints.blocks;
     const auto solve = [&input](auto kernel, const Block<S>& block) -> Real {
         return kernel(input, block, input.velocities[block.a], input.velocities[block.b]);
     };
+    const auto visit = [&](std::size_t k) -> Real {
+        if (blocks[k].kind == BlockKind::Joint) return solve(solveJointRows<S>, blocks[k]);
+        if (blocks[k].kind == BlockKind::Bounded) return solve(solveBoundedRow<S>, blocks[k]);
+        const Real friction =
+            order == ContactOrder::FrictionFirst ? solve(solveFriction<S>, blocks[k]) : Real(0);
+        return std::max(friction, solve(solveNormal<S>, blocks[k]));
+    };
+    const auto rub = [&](std::size_t k) -> Real {
+        return blocks[k].kind == BlockKind::Contact ? solve(solveFriction<S>, blocks[k]) : Real(0);
+    };
     for (int i = 0; i < input.iterations; ++i) {
         input.monitor.before(input.velocities);
-        Real change = 0;
-        for (const Block<S>& block : blocks) {
-            if (block.kind == BlockKind::Joint) {
-                change = std::max(change, solve(solveJointRows<S>, block));
-            } else if (block.kind == BlockKind::Bounded) {
-                change = std::max(change, solve(solveBoundedRow<S>, block));
-            } else {
-                if (order == ContactOrder::FrictionFirst)
-                    change = std::max(change, solve(solveFriction<S>, block));
-                change = std::max(change, solve(solveNormal<S>, block));
-            }
-        }
-        if (order == ContactOrder::FrictionLast)
-            for (const Block<S>& block : blocks)
-                if (block.kind == BlockKind::Contact)
-                    change = std::max(change, solve(solveFriction<S>, block));
+        Real change = sweeps.largest<Real>(false, visit);
+        if (order == ContactOrder::FrictionLast) change = std::max(change, sweeps.largest<Real>(false, rub));
         if (input.monitor.after(input.velocities, change)) break;
     }
 }

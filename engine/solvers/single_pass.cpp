@@ -44,16 +44,16 @@ class SinglePass final : public Solver<S> {
     void solve(const SolverInput<S>& input) override {
         if (!input.warmStarted)
             for (Row<S>& row : input.constraints.rows) row.impulse = 0;
+        orderBlocks<S>(input, sweeps_);
         for (int pass = 0; pass < input.iterations; ++pass) {
             input.monitor.before(input.velocities);
-            Real change = 0;
-            for (const Block<S>& block : input.constraints.blocks) {
+            const Real change = sweeps_.template largest<Real>(false, [&](std::size_t k) {
+                const Block<S>& block = input.constraints.blocks[k];
                 Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
-                change =
-                    std::max(change, block.kind == BlockKind::Contact ? hit(input, block, a, b)
-                                     : block.kind == BlockKind::Joint ? solveJointRows(input, block, a, b)
-                                                                      : push(input, block, a, b));
-            }
+                return block.kind == BlockKind::Contact ? hit(input, block, a, b)
+                       : block.kind == BlockKind::Joint ? solveJointRows(input, block, a, b)
+                                                        : push(input, block, a, b);
+            });
             if (input.monitor.after(input.velocities, change)) break;
         }
     }
@@ -91,6 +91,8 @@ class SinglePass final : public Solver<S> {
             applyRowImpulse<S>(rows[1 + i], block, lambda[i], a, b);
         }
     }
+
+    SweepOrder sweeps_;
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "engine/constraints/row.hpp"
 #include "engine/constraints/soft.hpp"
 #include "engine/core/table.hpp"
+#include "engine/core/tasks.hpp"
 #include "engine/solvers/position_correction.hpp"
 
 namespace rigor::engine {
@@ -47,12 +48,13 @@ struct SolverInput {
     ConstraintRows<S>& constraints;     ///< impulses hold the warm start, and the answer afterwards
     std::span<Velocity<S>> velocities;  ///< by dense body index; changed in place
     FrictionLaw<S> friction;
-    IterationMonitor<S>& monitor;  ///< called around each iteration
-    int iterations = 8;            ///< at most
-    Real h = 0;                    ///< of this (sub-)step [s]
-    bool warmStarted = false;      ///< the velocities already contain the rows' impulses (relaxation)
-    Real residualTolerance = 0;    ///< natural map at which solvers that iterate on it may stop [m/s]
-    int pyramidDirections = 4;     ///< generators of the polyhedral friction cone, even (lemke)
+    IterationMonitor<S>& monitor;       ///< called around each iteration
+    int iterations = 8;                 ///< at most
+    Real h = 0;                         ///< of this (sub-)step [s]
+    bool warmStarted = false;           ///< the velocities already contain the rows' impulses (relaxation)
+    Real residualTolerance = 0;         ///< natural map at which solvers that iterate on it may stop [m/s]
+    int pyramidDirections = 4;          ///< generators of the polyhedral friction cone, even (lemke)
+    const Tasks& tasks = Tasks::one();  ///< to share the work among; the result is the same
 };
 
 /// What a solver asks of the step around it.

@@ -40,7 +40,12 @@ class TgsSoft final : public Solver<S> {
         return style;
     }
 
-    void solve(const SolverInput<S>& input) override { solveRowByRow(input, ContactOrder::FrictionLast); }
+    void solve(const SolverInput<S>& input) override {
+        solveRowByRow(input, ContactOrder::FrictionLast, sweeps_);
+    }
+
+  private:
+    SweepOrder sweeps_;
 };
 
 }  // namespace

@@ -62,6 +62,8 @@ struct WorldDef {
     Real residualTolerance = Real(1e-10);
     /// Residuals of the step are the natural map instead of the change an iteration made; costs a pass each.
     bool measureResiduals = false;
+    /// Threads that share the work of a step, 1..1024; the bits of the results do not depend on it.
+    int threads = 1;
     int pyramidDirections = 4;  ///< lemke: generators of its friction cone, even, 2..64
     bool warmStarting = true;   ///< start from the impulses of the last step
     /// Joint rows aim at the constraint at the end of the step instead of its linearisation at the start:

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Contact rows. At a point with normal n (A to B), separation s, arms rA, rB from the centres of mass and
+// relative velocity u = vB + wB x rB - vA - wA x rA:
+//     normal    0 <= lambda_n _|_ n . u + b >= 0
+//     tangents  Coulomb's law with limit mu lambda_n
+// and the bias b is one of
+//     e n . u_0         impact: s <= 0, n . u_0 < -threshold; u_0 from before this step's forces, so that the
+//                       rebound is e times the approach and not e times (approach + g h)
+//     s / h             a gap wider than gapSlop, or an impact: the point may just close it in this step
+//     overlap           what the bias rule makes of it (Baumgarte, soft), else 0
+// A gap with e > 0 gets no rows where it is closing faster than the threshold, or is wider than gravity alone
+// closes in a step: closing it would take the speed that the impact has to reverse, or pass on a blow that
+// has not reached it. The bodies then meet with an overlap of at most one step's motion.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/pipeline/contact_set.hpp"
+
+namespace rigor::engine {
+namespace {
+
+constexpr std::size_t kContactGrain = 16;  ///< worth sharing: some microseconds of work
+
+/// Rounding of coordinates of order one metre: closer than this is touching.
+template <class R>
+constexpr R kTouching = R(64) * std::numeric_limits<R>::epsilon();
+
+template <class S>
+std::size_t rowsPerPoint(const Contact<S>& contact) {
+    const PairCoefficients<S>& pair = contact.coefficients;
+    return std::max(pair.friction, pair.staticFriction) > 0 ? 1 + S::tangents : 1;
+}
+
+/// A row along a direction at a point: its geometry.
+template <class S>
+Row<S> pointRow(const typename Contact<S>::Point& point, const typename S::Vec& direction) {
+    Row<S> row;
+    row.lin = direction;
+    row.angA = -cross(point.rA, direction);
+    row.angB = cross(point.rB, direction);
+    return row;
+}
+
+}  // namespace
+
+template <class S>
+std::array<typename S::Vec, S::tangents> tangentBasis(const typename S::Vec& n) {
+    if constexpr (S::dim == 2) {
+        return {typename S::Vec(-n.y(), n.x())};
+    } else {
+        using Vec = typename S::Vec;
+        const Vec axis = std::abs(n.x()) < typename S::Real(0.7) ? Vec::Unit(0) : Vec::Unit(1);
+        const Vec t1 = axis.cross(n).normalized();
+        return {t1, Vec(n.cross(t1))};
+    }
+}
+
+/// Three passes, so that threads can share the work: which points get rows, where the rows go, the rows.
+template <class S>
+void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows,
+                            const Tasks& tasks) {
+    tasks.forEach(contacts_.size(), kContactGrain,
+                  [&](std::size_t k) { planRows(bodies, step, contacts_[k]); });
+    std::size_t firstRow = rows.rows.size(), firstBlock = rows.blocks.size();
+    for (Contact<S>& contact : contacts_) {
+        contact.firstRow = static_cast<std::uint32_t>(firstRow);
+        for (std::size_t i = 0; contact.blocks > 0 && i < contact.points.size(); ++i)
+            if (contact.points[i].block != Contact<S>::kNoBlock)
+                contact.points[i].block = static_cast<std::uint32_t>(firstBlock++);
+        firstRow += contact.blocks * rowsPerPoint(contact);
+    }
+    rows.rows.resize(firstRow);
+    rows.blocks.resize(firstBlock);
+    tasks.forEach(contacts_.size(), kContactGrain, [&](std::size_t k) {
+        const Contact<S>& contact = contacts_[k];
+        std::uint32_t row = contact.firstRow;
+        for (std::size_t i = 0; contact.blocks > 0 && i < contact.points.size(); ++i) {
+            if (contact.points[i].block == Contact<S>::kNoBlock) continue;
+            Block<S>& block = rows.blocks[contact.points[i].block];
+            block.first = row;
+            makePointRows(bodies, step, contact, i, block, rows.rows.data() + row);
+            row += block.rows;
+        }
+    });
+}
+
+template <class S>
+void ContactSet<S>::planRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact) {
+    contact.asleep = isAsleep(bodies, contact);
+    contact.blocks = 0;
+    for (std::size_t i = 0; i < contact.points.size(); ++i) {
+        const bool has = i < static_cast<std::size_t>(contact.manifold.count) && !contact.asleep &&
+                         planPoint(bodies, step, contact, i);
+        contact.points[i].block = has ? 0 : Contact<S>::kNoBlock;
+        contact.blocks += has;
+    }
+}
+
+/// What this step makes of a point. False: it is let through, without rows.
+template <class S>
+bool ContactSet<S>::planPoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
+                              std::size_t index) {
+    typename Contact<S>::Point& point = contact.points[index];
+    const Row<S> normal = pointRow<S>(point, contact.manifold.normal);
+    const Real s = point.separation;
+    point.approach = rowVelocity<S>(normal, bodies.velocity[contact.bodyA], bodies.velocity[contact.bodyB]);
+    const Real restitution = step.bounces ? contact.coefficients.restitution : Real(0);
+    const bool bounces = restitution > 0 && point.approach < -step.restitutionThreshold;
+    // The blow of an impact in the last sub-step is not what the contact carries from now on.
+    if (point.impact) point.normalImpulse = 0, point.frictionImpulse.setZero();
+    point.impact = point.approach < -step.impactSpeed;
+    point.rebound = contact.ahead && bounces && s > kTouching<Real> ? restitution * point.approach : Real(0);
+    const bool mayBounce = restitution > 0 && s > std::max(kTouching<Real>, step.restingGap);
+    if (contact.ahead || !((bounces && s > kTouching<Real>) || mayBounce)) return true;
+    point.normalImpulse = 0;
+    point.frictionImpulse.setZero();
+    return false;
+}
+
+/// Fills a block, but for its first row, and its rows.
+template <class S>
+void ContactSet<S>::makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step,
+                                  const Contact<S>& contact, std::size_t index, Block<S>& block,
+                                  Row<S>* rows) {
+    const typename Contact<S>::Point& point = contact.points[index];
+    const Vec& n = contact.manifold.normal;
+    const std::uint32_t a = contact.bodyA, b = contact.bodyB;
+    block.kind = BlockKind::Contact;
+    block.a = a, block.b = b;
+    block.friction = contact.coefficients.friction;
+    block.staticFriction = contact.coefficients.staticFriction;
+    block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
+    block.rows = static_cast<std::uint8_t>(rowsPerPoint(contact));
+    const auto makeRow = [&](const Vec& direction) {
+        Row<S> row = pointRow<S>(point, direction);
+        completeRow<S>(row, block, bodies.invInertia);
+        row.invK = Real(1) / rowCoupling<S>(row, row, block);
+        return row;
+    };
+    Row<S>& normal = rows[0];
+    normal = makeRow(n);
+    normal.error = point.separation;
+    const Real restitution = step.bounces ? contact.coefficients.restitution : Real(0);
+    const bool bounces = restitution > 0 && point.approach < -step.restitutionThreshold;
+    // A bounce that is still ahead is continuous collision's.
+    block.restitution = bounces && point.rebound == 0 ? restitution : Real(0);
+    if (bounces && point.rebound == 0)
+        normal.bias = restitution * point.approach;
+    else if (point.separation > (point.impact ? Real(0) : step.gapSlop))
+        normal.bias = point.separation / step.h;
+    normal.relaxedBias = normal.bias;
+    if (normal.bias == 0) pushApart(step, block, point.separation, normal);
+    normal.impulse = step.warmStart * point.normalImpulse;
+    if (block.rows == 1) return;
+
+    const std::array<Vec, S::tangents> basis = tangentBasis<S>(n);
+    for (std::size_t i = 0; i < basis.size(); ++i) {
+        rows[1 + i] = makeRow(basis[i]);
+        rows[1 + i].impulse = step.warmStart * basis[i].dot(point.frictionImpulse);
+    }
+    const Row<S>* t = rows + 1;
+    block.k11 = rowCoupling<S>(t[0], t[0], block);
+    block.k12 = S::tangents > 1 ? rowCoupling<S>(t[0], t[S::tangents - 1], block) : Real(0);
+    block.k22 = S::tangents > 1 ? rowCoupling<S>(t[S::tangents - 1], t[S::tangents - 1], block) : Real(1);
+}
+
+/// What the bias rule makes of overlap.
+template <class S>
+void ContactSet<S>::pushApart(const ContactStep<S>& step, const Block<S>& block, Real s, Row<S>& normal) {
+    const Real overlap = std::min(Real(0), s + step.slop);
+    if (!step.bias.soft) {
+        normal.bias = step.bias.share * overlap / step.h;
+        return;
+    }
+    if (s > 0) return;
+    const SoftTerms<Real> terms = softTerms(step.bias.contact, rowCoupling<S>(normal, normal, block), step.h);
+    normal.bias = std::max(terms.biasRate * overlap, -step.bias.fastestPush);
+    normal.softness = terms.gamma;
+    normal.invK = Real(1) / rowK<S>(normal, block);
+}
+
+template <class S>
+bool ContactSet<S>::bounceAhead(ConstraintRows<S>& rows) const {
+    bool any = false;
+    for (const Contact<S>& contact : contacts_)
+        for (int i = 0; contact.ahead && i < contact.manifold.count; ++i) {
+            const auto& point = contact.points[static_cast<std::size_t>(i)];
+            if (point.rebound == 0 || point.block == Contact<S>::kNoBlock) continue;
+            Row<S>& normal = rows.rows[rows.blocks[point.block].first];
+            if (!(normal.impulse > 0)) continue;
+            normal.relaxedBias = point.rebound;
+            any = true;
+        }
+    return any;
+}
+
+template <class S>
+void ContactSet<S>::advance(std::span<const Velocity<S>> motion) {
+    for (Contact<S>& contact : contacts_) {
+        const Velocity<S>&A = motion[contact.bodyA], &B = motion[contact.bodyB];
+        for (int i = 0; i < contact.manifold.count; ++i) {
+            typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
+            const Vec moved = B.v + cross(B.w, point.rB) - A.v - cross(A.w, point.rA);
+            point.separation += contact.manifold.normal.dot(moved);
+        }
+    }
+}
+
+template <class S>
+void ContactSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
+    for (Contact<S>& contact : contacts_)
+        for (int i = 0; i < contact.manifold.count; ++i) {
+            typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
+            if (point.block == Contact<S>::kNoBlock) continue;
+            const Block<S>& block = rows.blocks[point.block];
+            point.normalImpulse = rows.rows[block.first].impulse;
+            point.frictionImpulse.setZero();
+            for (std::uint32_t r = 1; r < block.rows; ++r)
+                point.frictionImpulse += rows.rows[block.first + r].impulse * rows.rows[block.first + r].lin;
+            point.normalTotal += point.normalImpulse;
+            point.frictionTotal += point.frictionImpulse;
+        }
+}
+
+template std::array<Space2f::Vec, Space2f::tangents> tangentBasis<Space2f>(const Space2f::Vec&);
+template std::array<Space2d::Vec, Space2d::tangents> tangentBasis<Space2d>(const Space2d::Vec&);
+template std::array<Space3f::Vec, Space3f::tangents> tangentBasis<Space3f>(const Space3f::Vec&);
+template std::array<Space3d::Vec, Space3d::tangents> tangentBasis<Space3d>(const Space3d::Vec&);
+template class ContactSet<Space2f>;
+template class ContactSet<Space2d>;
+template class ContactSet<Space3f>;
+template class ContactSet<Space3d>;
+
+}  // namespace rigor::engine

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The same bits for every number of threads, whatever the choices; and no allocation in a steady step.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "engine/core/tests/counting_new.hpp"
+#include "engine/narrowphase/narrowphases.hpp"
+#include "engine/pipeline/algorithms.hpp"
+#include "engine/pipeline/tests/scene.hpp"
+
+namespace rigor::engine::test {
+namespace {
+
+template <class S>
+class Threads : public testing::Test {};
+using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
+TYPED_TEST_SUITE(Threads, Spaces);
+
+/// A crowd that collapses: columns of boxes and balls that lean on each other, a chain of joints across them,
+/// and balls thrown in; enough of everything for every loop of a step to be shared.
+template <class S>
+World<S> crowd(const WorldDef<S>& def, int columns, int height) {
+    using R = typename S::Real;
+    World<S> world(def);
+    const auto wood = world.addMaterial(R(0.5), R(0.1)), rubber = world.addMaterial(R(0.8), R(0.6), R(1));
+    addGround<S>(world, wood);
+    for (int x = 0; x < columns; ++x)
+        for (int y = 0; y < height; ++y)
+            if ((x + y) % 3 == 0)
+                addBall<S>(world, 0.51 * x + 0.02 * y, 0.26 + 0.52 * y, 0.25, 1, rubber, 0.1 * (x % 3), 0, 1);
+            else
+                addCube<S>(world, 0.51 * x + 0.02 * y, 0.25 + 0.52 * y, 0.25, 1 + y % 2, wood, 0.2);
+    BodyId last;
+    for (int i = 0; i < 8; ++i) {
+        const BodyId link = addBall<S>(world, 0.3 + 0.3 * i, 0.52 * height + 0.4, 0.1, 0.3, wood);
+        if (i > 0) {
+            JointDef<S> joint;
+            joint.bodyA = last, joint.bodyB = link;
+            joint.anchorA = at<S>(0.15, 0), joint.anchorB = at<S>(-0.15, 0);
+            world.addJoint(joint);
+        }
+        last = link;
+    }
+    addBall<S>(world, -1.5, 0.8, 0.2, 5, rubber, 8, 1, -3);
+    return world;
+}
+
+template <class S>
+void expectSameBits(WorldDef<S> def, int steps, const std::string& what) {
+    using R = typename S::Real;
+    std::vector<std::uint64_t> expected;
+    for (const int threads : {1, 2, 3, 5}) {
+        def.threads = threads;
+        World<S> world = crowd<S>(def, 12, 4);
+        for (int i = 0; i < steps; ++i) {
+            world.step(R(1.0 / 60));
+            const auto place = static_cast<std::size_t>(i);
+            if (threads == 1)
+                expected.push_back(world.stateHash());
+            else
+                ASSERT_EQ(world.stateHash(), expected[place])
+                    << what << ": " << threads << " threads, step " << i;
+        }
+        EXPECT_FALSE(world.lastStep().nonFinite) << what;
+        EXPECT_GT(world.lastStep().rows, 80u) << what << ": too few to be shared";
+    }
+}
+
+TYPED_TEST(Threads, DoNotChangeABitOfTheDefaults) {
+    expectSameBits<TypeParam>(earth<TypeParam>(), 60, "default");
+}
+
+TYPED_TEST(Threads, DoNotChangeABitOfAnySolverOnAnyNarrowPhase) {
+    using S = TypeParam;
+    for (const auto& solver : solverTable<S>())
+        for (const auto& narrowPhase : narrowPhases()) {
+            WorldDef<S> def = earth<S>();
+            def.solver = solver.name, def.narrowPhase = narrowPhase.name;
+            // Direct solvers look at all rows together, and iterate no better for being many.
+            def.velocityIterations = def.firstStepIterations = 5;
+            expectSameBits<S>(def, 6, std::string(solver.name) + " " + narrowPhase.name);
+        }
+}
+
+/// Every other choice there is, one at a time.
+TEST(ThreadsChoices, DoNotChangeABitOfAnyAlgorithm) {
+    using S = Space3d;
+    const auto fieldOf = [](WorldDef<S>& def, const std::string& family) -> std::string* {
+        if (family == "broad_phase") return &def.broadPhase;
+        if (family == "integrator") return &def.integrator;
+        if (family == "rotation") return &def.rotation;
+        if (family == "orientation_update") return &def.orientationUpdate;
+        if (family == "friction") return &def.friction;
+        if (family == "restitution") return &def.restitution;
+        if (family == "position_correction") return &def.positionCorrection;
+        if (family == "manifold") return &def.manifold;
+        if (family == "continuous_collision") return &def.continuousCollision;
+        if (family == "sleeping") return &def.sleeping;
+        return nullptr;
+    };
+    for (const AlgorithmFamily& family : algorithmFamilies())
+        for (const AlgorithmInfo& algorithm : family.algorithms) {
+            WorldDef<S> def = earth<S>();
+            def.velocityIterations = def.firstStepIterations = 8;
+            if (std::string* field = fieldOf(def, family.name)) {
+                *field = algorithm.name;
+                expectSameBits<S>(def, 10, family.name + "=" + algorithm.name);
+            }
+        }
+}
+
+TYPED_TEST(Threads, DoNotAllocateInASteadyStep) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const char* solver : {"block", "jacobi", "tgs_soft"}) {
+        WorldDef<S> def = earth<S>();
+        def.threads = 2;
+        def.solver = solver;
+        World<S> world(def);
+        const auto wood = world.addMaterial(R(0.5), 0);
+        addGround<S>(world, wood);
+        for (int x = 0; x < 40; ++x)
+            for (int y = 0; y < 3; ++y) addCube<S>(world, x, 0.25 + 0.5 * y, 0.25, 1, wood);
+        for (int i = 0; i < 40; ++i) world.step(R(1.0 / 60));
+        const long before = allocationCount();
+        for (int i = 0; i < 20; ++i) world.step(R(1.0 / 60));
+        EXPECT_EQ(allocationCount() - before, 0) << solver;
+    }
+}
+
+TEST(ThreadsRange, IsChecked) {
+    for (const int threads : {0, -1, 1025}) {
+        WorldDef<Space3d> def;
+        def.threads = threads;
+        try {
+            World<Space3d> world(def);
+            ADD_FAILURE() << threads << " threads accepted";
+        } catch (const EngineError& error) {
+            EXPECT_STREQ(error.id().c_str(), "threads");
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rigor::engine::test
