@@ -265,7 +265,7 @@ void World<S>::solveImpacts() {
     const bool curved = std::exchange(jointStep_.curved, false);
     // Like a first step, an impact has no impulses to start from.
     restitution_->impact(rows_, bodies_.velocity, [this] {
-        solveVelocities(std::max(def_.firstStepIterations, def_.velocityIterations), false);
+        solveVelocities(std::max(def_.firstStepIterations, velocityIterations()), false);
     });
     jointStep_.curved = curved;
     joints_.storeImpulses(bodies_, rows_);

@@ -6,13 +6,8 @@
 #include <cmath>
 
 namespace rigor::engine {
-namespace {
 
-constexpr double kSigma = 1e-10;
-
-}  // namespace
-
-bool ContactNewton::step(const AssembledProblem& p, std::vector<double>& next) {
+bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<double>& next) {
     const std::size_t n = p.n;
     double* A = lu_.reset(n);
     w_.resize(n), right_.resize(n), next.resize(n);
@@ -23,7 +18,7 @@ bool ContactNewton::step(const AssembledProblem& p, std::vector<double>& next) {
         w_[i] = w;
         // As if w = 0 were its equation; changed below where it is not.
         std::copy_n(W, n, A + i * n);
-        A[i * n + i] *= 1 + kSigma;
+        A[i * n + i] *= 1 + sigma;
         right_[i] = -w;
     }
     const auto pin = [&](std::size_t i, double value) {

@@ -11,8 +11,9 @@
 //     tangents else:                                     lambda_t = mu lambda_n z_t / |z_t|
 // are piecewise smooth; the step is that of the piece at lambda. Redundant rows make it singular, so W_ii
 // counts (1 + sigma) fold in the rows w = 0: the steps then converge linearly with a rate of about sigma over
-// the smallest relevant eigenvalue. Cost: n^3 / 3. Known limits: no convergence from far away; the caller
-// checks what a step has brought.
+// the smallest relevant eigenvalue. A larger sigma keeps steps short where the matrix is nearly singular by
+// itself, as Levenberg's and Marquardt's damping does. Cost: n^3 / 3. Known limits: no convergence from far
+// away; the caller checks what a step has brought.
 #pragma once
 
 #include <vector>
@@ -25,7 +26,7 @@ namespace rigor::engine {
 class ContactNewton {
   public:
     /// From problem.lambda (and problem.q) to `next`. False where the equations could not be solved.
-    bool step(const AssembledProblem& problem, std::vector<double>& next);
+    bool step(const AssembledProblem& problem, double sigma, std::vector<double>& next);
 
   private:
     void tangentRows(const AssembledProblem& p, const AssembledContact& contact, double* A);

@@ -7,15 +7,8 @@
 //
 // With w = W r + b at one contact (r its impulse, b the velocity that all other impulses lead to, bias
 // included), the law is  K* > (w + mu |w_t| n)  _|_  r < K = {|r_t| <= mu r_n}  after De Saxce's change of
-// variable [DeSaxceFeng1998]. Each visit solves this 3x3 problem exactly. Its three cases are told apart:
-//     open    b_n >= 0: r = 0
-//     stick   r = -W^-1 b, if that is in the cone (of static friction)
-//     slip    w_n = 0, w_t = -alpha r_t, |r_t| = mu r_n, alpha > 0. With r_n eliminated,
-//                 (S + alpha I) r_t = -beta,   S = W_tt - W_tn W_nt / W_nn,   beta = b_t - W_tn b_n / W_nn
-//             and alpha is the root of f(alpha) = |r_t| - mu r_n: f(0) > 0 where sticking failed, and
-//             f(inf) = mu b_n / W_nn < 0, so that a root exists for every mu; bracketed Newton finds it.
-//             Bonnefon and Daviet [BonnefonDaviet2011] state the same as a quartic in alpha.
-// Joints get -K^-1 (w) as a block, bounded rows are clamped.
+// variable [DeSaxceFeng1998]. Each visit solves this 3x3 problem exactly (contact_alone.hpp). Joints get
+// -K^-1 (w) as a block, bounded rows are clamped.
 //
 // One iteration is a symmetric sweep (forwards, backwards) of all blocks, a fixed-point map g(r). Plain
 // iteration converges linearly and slowly for stacks; it is accelerated by Anderson's method of depth
@@ -24,110 +17,40 @@
 // worse than that of g(r) itself (the safeguard; else the history is dropped). Deviation from the sources:
 // they iterate without acceleration, with one sweep per iteration.
 //
-// Every kNewtonEvery iterations, when the sweeps have sorted contacts into open, sticking and sliding, up to
-// kNewtonSteps generalised Newton steps on all rows (contact_newton.hpp) try to finish; the best iterate
-// among them and the sweeps' own is kept.
+// Every kFinishEvery iterations, when the sweeps have sorted contacts into open, sticking and sliding,
+// generalised Newton steps on all rows (contact_newton.hpp) try to finish, damped where they do not come
+// nearer. Harsh piles (strong friction, a hundred times the mass on top) never get sorted that way: there an
+// interior-point method on all rows (contact_interior.hpp) finds impulses near a solution, first from the
+// middle of the cones, in later attempts from nearer and nearer to the sweeps' own; Newton steps finish
+// again. The best impulses are kept throughout.
 //
 // The velocities come from incremental updates: rounding of a few thousand updates stays below 1e-13
 // m/s. Cost: iterations * (2 sweeps + 2 passes + kDepth^2 ... rows); hundreds of iterations for tall stacks.
-// A Newton step costs n^3 / 3. Known limits: no proof of convergence; where friction has several solutions
-// the one found depends on the order of the rows. If the iteration limit comes first, gaveUp() says so and
-// the best iterate stands.
+// A step of Newton's or the interior-point method costs 2/3 n^3. velocity_iterations, 0 for kIterations, is
+// the most; below kFinishEvery there are sweeps alone. Known limits: no proof of convergence; where friction
+// has several solutions the one found depends on the order of the rows, and some problems have none. If the
+// iterations end first, gaveUp() says so and the best impulses stand. Measured on heaps of 30 boxes and balls
+// (pipeline/tests/reference_test.cpp).
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "engine/solvers/assembled.hpp"
+#include "engine/solvers/contact_alone.hpp"
+#include "engine/solvers/contact_interior.hpp"
 #include "engine/solvers/contact_newton.hpp"
 #include "engine/solvers/natural_map.hpp"
 #include "engine/solvers/solver.hpp"
 
 namespace rigor::engine {
 
-template <class R>
-Eigen::Matrix<R, 2, 1> frictionCone(R, R, R, const Eigen::Matrix<R, 2, 1>&, const Eigen::Matrix<R, 2, 1>&, R);
-
 namespace {
 
-template <class R>
-using Vec2 = Eigen::Matrix<R, 2, 1>;
 template <class R>
 using Vec3 = Eigen::Matrix<R, 3, 1>;
 template <class R>
 using Mat3 = Eigen::Matrix<R, 3, 3>;
-
-/// r_t(alpha) of a slipping contact, and f(alpha) = |r_t| - mu r_n with its derivative.
-template <class R>
-struct Slip {
-    R s11, s12, s22;  ///< S
-    Vec2<R> beta, c;  ///< c = W_tn
-    R wn, bn, mu;
-    R applied;  ///< normal impulse that friction may lean on besides r_n
-    Vec2<R> rt = Vec2<R>::Zero();
-    R rn = 0, slope = 0;
-
-    Vec2<R> solve(R alpha, const Vec2<R>& rhs) const {
-        const R a = s11 + alpha, d = s22 + alpha, determinant = a * d - s12 * s12;
-        return {(d * rhs[0] - s12 * rhs[1]) / determinant, (a * rhs[1] - s12 * rhs[0]) / determinant};
-    }
-    R evaluate(R alpha) {
-        rt = solve(alpha, -beta);
-        rn = -(bn + c.dot(rt)) / wn;
-        const R length = rt.norm();
-        const Vec2<R> change = -solve(alpha, rt);
-        slope = (length > 0 ? rt.dot(change) / length : R(0)) + mu * c.dot(change) / wn;
-        return length - mu * (rn + applied);
-    }
-};
-
-/// The impulse that satisfies the contact law of one contact alone, w = W r + b. Where `applied` > 0 the
-/// limit of friction is mu (r_n + applied), and an open contact may have friction too.
-template <class R>
-Vec3<R> solveContactAlone(const Mat3<R>& W, const Vec3<R>& b, R mu, R muStatic, R applied) {
-    if (applied > 0) {
-        const auto open = [&](R limit) {
-            return frictionCone<R>(W(1, 1), W(1, 2), W(2, 2), Vec2<R>::Zero(), Vec2<R>(b[1], b[2]), limit);
-        };
-        Vec2<R> rt = open(muStatic * applied);
-        if (rt.norm() > mu * applied && !(rt.norm() < muStatic * applied)) rt = open(mu * applied);
-        if (b[0] + W(0, 1) * rt[0] + W(0, 2) * rt[1] >= 0) return {R(0), rt[0], rt[1]};
-    } else if (b[0] >= 0) {
-        return Vec3<R>::Zero();
-    }
-    Slip<R> slip;
-    slip.applied = applied;
-    slip.c = Vec2<R>(W(1, 0), W(2, 0));
-    slip.wn = W(0, 0), slip.bn = b[0], slip.mu = mu;
-    if (!(std::max(mu, muStatic) > 0)) return {-b[0] / slip.wn, R(0), R(0)};
-    slip.s11 = W(1, 1) - slip.c[0] * slip.c[0] / slip.wn;
-    slip.s12 = W(1, 2) - slip.c[0] * slip.c[1] / slip.wn;
-    slip.s22 = W(2, 2) - slip.c[1] * slip.c[1] / slip.wn;
-    slip.beta = Vec2<R>(b[1], b[2]) - slip.c * (b[0] / slip.wn);
-
-    slip.evaluate(R(0));
-    if (slip.rn >= 0 && slip.rt.norm() <= std::max(mu, muStatic) * (slip.rn + applied))
-        return {slip.rn, slip.rt[0], slip.rt[1]};
-    if (!(mu > 0)) return {-b[0] / slip.wn, R(0), R(0)};
-    R low = 0, high = slip.s11 + slip.s22;
-    constexpr int kDoublings = 200;  // over the whole range of the exponent; f(inf) < 0 ends it before
-    for (int i = 0; i < kDoublings && slip.evaluate(high) > 0; ++i) low = high, high *= R(4);
-    R alpha = low > 0 ? std::sqrt(low * high) : R(0.5) * high;
-    constexpr int kSteps = 100;  // Newton takes about 5; bisection alone would be done by then too
-    for (int i = 0; i < kSteps; ++i) {
-        const R f = slip.evaluate(alpha);
-        (f > 0 ? low : high) = alpha;
-        R next = alpha - f / slip.slope;
-        if (!(next > low && next < high)) next = R(0.5) * (low + high);
-        const R moved = std::abs(next - alpha);
-        alpha = next;
-        if (moved <= R(2) * std::numeric_limits<R>::epsilon() * alpha) break;
-    }
-    slip.evaluate(alpha);
-    const R length = slip.rt.norm(), rn = std::max(R(0), slip.rn);
-    const R onRim = length > 0 ? mu * (rn + applied) / length : R(0);
-    return {rn, onRim * slip.rt[0], onRim * slip.rt[1]};
-}
 
 template <class S>
 class Nsgs final : public Solver<S> {
@@ -136,6 +59,11 @@ class Nsgs final : public Solver<S> {
 
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<Nsgs>(*this); }
     bool gaveUp() const override { return gaveUp_; }
+    SolverStyle<S> style() const override {
+        SolverStyle<S> style;
+        style.iterations = kIterations;
+        return style;
+    }
 
     void solve(const SolverInput<S>& input) override {
         prepare(input);
@@ -143,15 +71,16 @@ class Nsgs final : public Solver<S> {
         Real best = std::numeric_limits<Real>::infinity();
         int stalled = 0;
         gaveUp_ = true;
-        const int most = std::max(input.iterations, kIterations);
-        for (int k = 0; k < most; ++k) {
+        for (int k = 0; k < input.iterations; ++k) {
             input.monitor.before(input.velocities);
             readImpulses(input.constraints, start_);
             const Real change = std::max(sweep(input, false), sweep(input, true));
             Real residual = measure(input);
             if (residual > input.residualTolerance) residual = accelerate(input, residual);
-            if (k % kNewtonEvery == kNewtonEvery - 1 && residual > goal(input))
+            if (k % kFinishEvery == kFinishEvery - 1 && residual > goal(input)) {
                 residual = finish(input, residual);
+                if (residual > goal(input)) residual = fromInside(input, residual);
+            }
             input.monitor.after(input.velocities, change);
             if (residual <= goal(input)) {
                 gaveUp_ = false;
@@ -164,13 +93,14 @@ class Nsgs final : public Solver<S> {
     }
 
   private:
-    /// At least so many are allowed, whatever is set for solvers that are not asked for a residual.
-    static constexpr int kIterations = 2000;
-    static constexpr int kDepth = 10;         ///< of Anderson's history
-    static constexpr int kNewtonEvery = 25;   ///< iterations between attempts to finish
-    static constexpr int kNewtonSteps = 12;   ///< at most, of one attempt
-    static constexpr Real kLost = Real(1e4);  ///< residual over the best at which an attempt is given up
-    static constexpr int kPatience = 1000;    ///< iterations without halving the residual
+    static constexpr int kIterations = 1000;   ///< where the world does not say
+    static constexpr int kDepth = 10;          ///< of Anderson's history
+    static constexpr int kFinishEvery = 25;    ///< iterations between attempts to finish
+    static constexpr int kNewtonSteps = 30;    ///< at most, of one attempt
+    static constexpr int kInteriorStarts = 6;  ///< different ones, of the interior-point method
+    static constexpr Real kLost = Real(100);   ///< residual over the best from which there is no way back
+    static constexpr int kPatience = 400;      ///< iterations without halving the residual
+    static constexpr double kLeastDamping = 1e-10, kMostDamping = 1e-2;  ///< ContactNewton's sigma
 
     void prepare(const SolverInput<S>& input) {
         const ConstraintRows<S>& all = input.constraints;
@@ -186,12 +116,13 @@ class Nsgs final : public Solver<S> {
                         rowCoupling<S>(rows[i], rows[j], block) + (i == j ? rows[i].softness : Real(0));
         }
         const std::size_t n = all.rows.size();
-        start_.resize(n), mapped_.resize(n);
+        start_.resize(n), mapped_.resize(n), saved_.resize(n);
         for (auto& column : stepHistory_) column.resize(n);
         for (auto& column : mapHistory_) column.resize(n);
         kept_ = 0, next_ = 0, havePrevious_ = false;
         previousStep_.resize(n), previousMap_.resize(n);
         assembled_ = false;
+        interiorStarts_ = 0;
         // What the impulses have to stop or to bring about.
         fastest_ = 0;
         for (const Block<S>& block : all.blocks)
@@ -273,26 +204,52 @@ class Nsgs final : public Solver<S> {
     }
 
     // --- Newton's finish ---------------------------------------------------------------------------------
-    /// Full Newton steps from the impulses there are. The residual may rise on the way, while contacts change
+    /// Newton steps from the impulses there are. The residual may rise on the way, while contacts change
     /// their case; the best impulses met are kept. Returns their residual.
     Real finish(const SolverInput<S>& input, Real residual) {
         if (!assembled_) problem_.assemble<S>(input.constraints, input.velocities.size());
         assembled_ = true;
         readImpulses(input.constraints, mapped_);
         Real best = residual;
+        double damping = kLeastDamping;
+        int astray = 0;
         for (int step = 0; step < kNewtonSteps && best > goal(input); ++step) {
             problem_.readVelocities<S>(input.constraints, input.velocities);
-            if (!newton_.step(problem_, target_) || runsAway()) break;
-            for (std::size_t i = 0; i < start_.size(); ++i) start_[i] = static_cast<Real>(target_[i]);
-            project(input.constraints, start_);
-            setImpulses(input, start_);
-            const Real reached = measure(input);
-            if (!(reached < kLost * best)) break;
-            if (reached < best) best = reached, mapped_ = start_;
+            Real reached = std::numeric_limits<Real>::infinity();
+            if (newton_.step(problem_, damping, target_) && !runsAway()) reached = take(input, target_);
+            if (reached < best) {
+                best = reached, mapped_ = start_, astray = 0;
+                damping = std::max(kLeastDamping, 1e-2 * damping);
+            } else if (!(reached < kLost * best) || ++astray > 2) {
+                setImpulses(input, mapped_);
+                measure(input);
+                damping *= 100, astray = 0;
+                if (damping > kMostDamping) break;
+            }
         }
         setImpulses(input, mapped_);
         // Anderson's history is of another path.
         kept_ = 0, next_ = 0, havePrevious_ = false;
+        return measure(input);
+    }
+    /// The interior-point method, and Newton steps from where it ends. The impulses there are stay if they
+    /// are better. Returns the residual.
+    Real fromInside(const SolverInput<S>& input, Real residual) {
+        if (interiorStarts_ == kInteriorStarts || !ContactInterior::fits(problem_)) return residual;
+        const double shift = std::pow(10.0, -interiorStarts_++);
+        readImpulses(input.constraints, saved_);
+        problem_.readVelocities<S>(input.constraints, input.velocities);
+        if (!interior_.solve(problem_, shift, target_)) return residual;
+        const Real reached = finish(input, take(input, target_));
+        if (reached < residual) return reached;
+        setImpulses(input, saved_);
+        return measure(input);
+    }
+    /// Sets impulses, brought back into cones and bounds; returns their residual.
+    Real take(const SolverInput<S>& input, const std::vector<double>& impulses) {
+        for (std::size_t i = 0; i < start_.size(); ++i) start_[i] = static_cast<Real>(impulses[i]);
+        project(input.constraints, start_);
+        setImpulses(input, start_);
         return measure(input);
     }
     /// Impulses far beyond those there are: a singular system, whose rounding the velocities would keep.
@@ -418,10 +375,12 @@ class Nsgs final : public Solver<S> {
 
     bool gaveUp_ = false;
     std::vector<Mat3<Real>> local_;  ///< W by block; of contacts
-    std::vector<Real> start_, mapped_, previousStep_, previousMap_;
+    std::vector<Real> start_, mapped_, saved_, previousStep_, previousMap_;
     std::array<std::vector<Real>, kDepth> stepHistory_, mapHistory_;
     AssembledProblem problem_;
     ContactNewton newton_;
+    ContactInterior interior_;
+    int interiorStarts_ = 0;  ///< of this solve, so far
     std::vector<double> target_;
     bool assembled_ = false;
     Real fastest_ = 0;

@@ -255,41 +255,5 @@ TYPED_TEST(Impacts, MeasuredResidualIsTheNaturalMapAndObserversSeeEveryIteration
     }
 }
 
-/// The in-house reference at work: ten boxes, and a settling heap of fifty bodies, to 1e-10 in every step.
-TEST(Reference, StackAndHeapReachTheResidual) {
-    using S = Space3d;
-    for (const bool heap : {false}) {
-        WorldDef<S> def = earth<S>();
-        def.solver = "nsgs";
-        def.measureResiduals = true;
-        def.velocityIterations = def.firstStepIterations = 3000;
-        World<S> world(def);
-        const std::uint32_t m = world.addMaterial(0.5, 0);
-        addGround<S>(world, m);
-        if (!heap)
-            for (int i = 0; i < 10; ++i) addCube<S>(world, 0.01 * (i % 3), 0.25 + 0.5 * i, 0.25, 1, m);
-        for (int i = 0; heap && i < 50; ++i) {
-            const int layer = i / 16, place = i % 16;
-            BodyDef<S> body;
-            body.inertia = isotropic<S>(2.0 / 3 * 0.0625);
-            body.pose.p = {0.52 * (place % 4) + 0.1 * layer, 0.26 + 0.53 * layer,
-                           0.52 * (place / 4) + 0.07 * layer};
-            body.velocity = {0.1 * (i % 5 - 2), 0, 0.1 * (i % 7 - 3)};
-            const BodyId id = world.addBody(body);
-            if (i % 3 == 0)
-                attach<S>(world, id, Sphere<S>{0.25}, m);
-            else
-                attach<S>(world, id, Box<S>{S::Vec::Constant(0.25)}, m);
-        }
-        double worst = 0;
-        for (int i = 0; i < (heap ? 20 : 30); ++i) {
-            const auto& result = world.step(1.0 / 60);
-            ASSERT_FALSE(result.solverGaveUp) << heap << " " << i << " " << result.residuals.back();
-            if (!result.residuals.empty()) worst = std::max(worst, result.residuals.back());
-        }
-        EXPECT_LT(worst, 1e-10) << heap;
-    }
-}
-
 }  // namespace
 }  // namespace rigor::engine::test
