@@ -45,6 +45,35 @@ void setSpringFrequency(const Row<S>* held, const Block<S>& holding, const Block
     row.invK = Real(1) / (K + row.softness);
 }
 
+// A joint that pulls with F on an arm r turns its body back like a spring of stiffness F r per radian (the
+// geometric stiffness of [Andrews2017]), of circular frequency w^2 = F r / I, with I about the joint. Aimed
+// at the end of the step the scheme conserves the energy of that swing, and like every explicit scheme of
+// second order it is unstable where w h > 2; linearised at the start it damps it. Full up to (w h)^2 = 1/4,
+// none from 1: chains of light links under a heavy load, whose swing a step this long cannot follow.
+constexpr double kFullStiffness = 0.25, kNoStiffness = 1.0;
+
+template <class S>
+typename S::Real traceOf(const typename S::Inertia& I) {
+    if constexpr (S::dim == 3)
+        return I.trace();
+    else
+        return I;
+}
+
+/// `push`: impulse of the joint in this step [N s].
+template <class S>
+typename S::Real stiffShare(typename S::Real h, typename S::Real push, const typename S::Vec& arm,
+                            typename S::Real invMass, const typename S::Inertia& invInertia) {
+    using Real = typename S::Real;
+    if (!(invMass > 0)) return Real(1);
+    const Real squared = arm.squaredNorm(), spin = traceOf<S>(invInertia);
+    const Real inertia = squared / invMass + (spin > 0 ? Real(1) / spin : Real(0));
+    if (!(inertia > 0)) return Real(1);
+    const Real stiffness = h * push * std::sqrt(squared) / inertia;
+    return std::clamp((Real(kNoStiffness) - stiffness) / Real(kNoStiffness - kFullStiffness), Real(0),
+                      Real(1));
+}
+
 }  // namespace
 
 template <class S>
@@ -133,9 +162,11 @@ void JointSet<S>::addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, 
 }
 
 template <class S>
-void JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
-                               std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows) {
-    if (!step.curved) return;
+BiasChange<typename S::Real> JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                                                       std::span<const Velocity<S>> velocities,
+                                                       ConstraintRows<S>& rows) {
+    BiasChange<Real> change;
+    if (!step.curved) return change;
     const auto moved = [&](std::uint32_t i) -> Pose<S> {
         return {bodies.pose[i].p + step.h * velocities[i].v,
                 rotatedBy(bodies.pose[i].q, typename S::Ang(step.h * velocities[i].w))};
@@ -143,8 +174,13 @@ void JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& 
     for (const Record& record : records_) {
         if (record.rows == 0) continue;
         const Block<S>& block = rows.blocks[record.block];
+        typename S::Vec push = S::Vec::Zero();
+        for (std::uint32_t i = 0; i < record.rows; ++i)
+            push += rows.rows[record.firstRow + i].impulse * rows.rows[record.firstRow + i].lin;
         const auto shareOf = [&](std::uint32_t i, const typename S::Vec& anchor) {
-            return endShare<S>(step.h, velocities[i].w, rotate(bodies.pose[i].q, anchor));
+            const typename S::Vec arm = rotate(bodies.pose[i].q, anchor);
+            return std::min(endShare<S>(step.h, velocities[i].w, arm),
+                            stiffShare<S>(step.h, push.norm(), arm, bodies.invMass[i], bodies.invInertia[i]));
         };
         const Real share = step.curvature * std::min(shareOf(block.a, record.joint.anchorA),
                                                      shareOf(block.b, record.joint.anchorB));
@@ -154,10 +190,14 @@ void JointSet<S>::updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& 
             Row<S>& row = rows.rows[record.firstRow + i];
             const Real beyondLinear = (made_.error[i] - row.error) / step.h -
                                       rowVelocity<S>(row, velocities[block.a], velocities[block.b]);
-            row.relaxedBias = share * beyondLinear;
+            const Real bias = share * beyondLinear;
+            change.step = std::max(change.step, std::abs(bias - row.relaxedBias));
+            change.largest = std::max(change.largest, std::abs(bias));
+            row.relaxedBias = bias;
             row.bias = row.relaxedBias + startBias_[record.firstRow + i];
         }
     }
+    return change;
 }
 
 template <class S>

@@ -22,6 +22,13 @@ struct JointStep {
     typename S::Real curvature = 1;   ///< share of that aim; less where the iteration diverges, in [0, 1]
 };
 
+/// How far the aims of joints at the end of the step moved when they were renewed [m/s or rad/s].
+template <class Real>
+struct BiasChange {
+    Real step = 0;     ///< largest change of a row's bias
+    Real largest = 0;  ///< largest bias
+};
+
 template <class S>
 class JointSet {
   public:
@@ -57,8 +64,8 @@ class JointSet {
     ///     bias = (C(x + h v, exp(h w) q) - C(x, q)) / h - J v + what the bias rule makes of C
     /// With symplectic Euler this is SHAKE [RyckaertCiccottiBerendsen1977], which keeps the energy of a
     /// pendulum where the linear row loses a share (h w)^2 / 2 of the speed in every step.
-    void updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
-                      std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows);
+    BiasChange<Real> updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
+                                  std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows);
 
   private:
     void addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, const RowLaw<S>& law, Real error,

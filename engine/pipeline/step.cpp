@@ -37,8 +37,15 @@ class StepMonitor final : public IterationMonitor<S> {
           observer_(observer),
           residuals_(residuals) {}
     void before(std::span<const Velocity<S>> velocities) override {
-        joints_.updateBiases(bodies_, step_, velocities, rows_);
+        aim_ = joints_.updateBiases(bodies_, step_, velocities, rows_);
+        ++renewals_;
     }
+    /// Joints were aimed at where the bodies come to be, not at where they would have come.
+    bool aimSettled() const {
+        const Real still = kStill * std::max(tolerance_, std::numeric_limits<Real>::epsilon());
+        return renewals_ < 4 || aim_.step <= std::max(kSettled * aim_.largest, still);
+    }
+
     bool after(std::span<const Velocity<S>> velocities, Real change) override {
         Real residual = change;
         if (measure_) {
@@ -49,8 +56,13 @@ class StepMonitor final : public IterationMonitor<S> {
         if (observer_) observer_(static_cast<int>(residuals_.size()) - 1, rows_, residual);
         return change < tolerance_;
     }
+    Real tolerance() const override { return tolerance_; }
 
   private:
+    static constexpr Real kSettled = Real(1e-3);  ///< of the largest bias
+    static constexpr Real kStill = Real(1e3);  ///< tolerances of the iteration: rounding of positions over h
+    BiasChange<Real> aim_;
+    int renewals_ = 0;  ///< two or three are not asked to settle
     JointSet<S>& joints_;
     const BodyArrays<S>& bodies_;
     JointStep<S>& step_;
@@ -286,7 +298,6 @@ BiasRule<typename S::Real> World<S>::biasRule() const {
 template <class S>
 void World<S>::solveVelocities(int iterations, bool warmStarted) {
     const Real h = cursor_.substepSize;
-    const std::size_t before = residuals_.size();
     const Real converged =
         def_.velocityTolerance > 0
             ? std::max(def_.velocityTolerance * h * def_.gravity.norm(), std::numeric_limits<Real>::epsilon())
@@ -298,10 +309,7 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
     result_.solverGaveUp = result_.solverGaveUp || solver_->gaveUp();
     // The aim of joints at the end of the step is renewed with every iteration, which diverges where a step
     // turns light links far: then the linearisation at its start has to do.
-    const std::size_t done = residuals_.size() - before;
-    if (!jointStep_.curved || joints_.records().empty() || done < 4 ||
-        residuals_.back() < std::max(residuals_[before], Real(1e-3)))
-        return;
+    if (!jointStep_.curved || monitor.aimSettled()) return;
     jointStep_.curvature = 0;
     solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, true, def_.residualTolerance,
                     def_.pyramidDirections, tasks_});

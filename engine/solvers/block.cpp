@@ -9,14 +9,18 @@
 //     would leave it with, which is what makes tall stacks rock;
 //   - iterations go forwards and backwards in turn, so that weight travels down a stack as fast as up;
 //   - all equality blocks of joints are solved at once, by a direct method (joint_system.hpp); the normal
-//   goes
-//     before the tangents, so that friction has this sweep's limit.
+//     goes before the tangents, so that friction has this sweep's limit;
+//   - what the iterations allowed, at least kFinishIterations, leave of a problem of at most kFinishRows rows
+//     is handed to Newton's method (newton_finish.hpp), with friction on the exact cone. Heavy boxes on light
+//     ones are then solved to rounding.
 // Where too many joints meet for the direct method, or joints have bounded rows, the group is swept as
 // contacts are: bounded rows one by one and the equality blocks again after them.
 //
 // Cost: iterations * rows * (1..kInnerSweeps). Known limit: contacts converge linearly, slowly for large mass
-// ratios.
+// ratios, where there are more rows than that.
 #include "engine/solvers/joint_system.hpp"
+#include "engine/solvers/natural_map.hpp"
+#include "engine/solvers/newton_finish.hpp"
 #include "engine/solvers/row_kernels.hpp"
 
 namespace rigor::engine {
@@ -41,10 +45,25 @@ class BlockGaussSeidel final : public Solver<S> {
             });
             if (input.monitor.after(input.velocities, change)) break;
         }
+        finish(input);
     }
 
   private:
     static bool isJoint(const Block<S>& block) { return block.kind != BlockKind::Contact; }
+
+    /// What sweeps leave of a small problem, Newton's method takes.
+    void finish(const SolverInput<S>& input) {
+        const std::size_t n = input.constraints.rows.size();
+        const Real tolerance = input.monitor.tolerance();
+        if (n == 0 || n > kFinishRows || !(tolerance > 0) || input.iterations < kFinishIterations) return;
+        if (input.friction != &frictionCone<Real>) return;
+        const Real residual = renewedResidual(input);
+        const Real goal = std::max(tolerance, velocityResolution<S>(input.constraints, input.velocities));
+        if (residual <= goal) return;
+        newton_.forget();
+        const Real reached = newton_.attempt(input, residual, goal, kFinishSteps);
+        if (reached < residual) input.monitor.after(input.velocities, reached);
+    }
 
     /// Consecutive contact blocks between the same two bodies form a group; so do all consecutive joints.
     void findGroups(const std::vector<Block<S>>& blocks) {
@@ -150,6 +169,9 @@ class BlockGaussSeidel final : public Solver<S> {
         return std::max(residual, solveFriction(input, block, a, b));
     }
 
+    static constexpr std::size_t kFinishRows = 128;  ///< n^3 / 3 is then less than a millisecond
+    static constexpr int kFinishSteps = 12;
+    static constexpr int kFinishIterations = 30;         ///< fewer than that are too few to sort contacts by
     static constexpr int kInnerSweeps = 10;              ///< at most, per visit of a group
     static constexpr Real kInnerTolerance = Real(0.01);  ///< of the first sweep's residual
     std::vector<std::uint32_t> groups_;
@@ -157,6 +179,7 @@ class BlockGaussSeidel final : public Solver<S> {
     std::vector<std::uint32_t> joints_;  ///< equality blocks
     std::vector<typename JointSystem<S>::Item> items_;
     JointSystem<S> system_;
+    NewtonFinish<S> newton_;
     bool direct_ = false;  ///< the factors are those of this solve
 };
 

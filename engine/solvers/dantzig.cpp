@@ -18,7 +18,8 @@
 // Redundant rows make W singular. W + sigma diag(W) is not, and with q - sigma diag(W) lambda_last for q the
 // rounds are those of the proximal point method [Rockafellar1976]: they converge to a solution of the problem
 // itself, the one near the impulses that the step began with. sigma = 1e-8: the square root of the precision
-// halves the digits between regularisation and rounding.
+// halves the digits between regularisation and rounding; in single precision 16 epsilon, since rounded rows
+// can make W indefinite by that much.
 //
 // Cost: O(n^3) in the first step, after that rounds * n^2 plus one factorisation while the sets last.
 // Known limits: hundreds of rows, not thousands; up to sqrt(2) times Coulomb's friction diagonal to the
@@ -72,7 +73,8 @@ class Dantzig final : public Solver<S> {
     }
 
   private:
-    static constexpr double kSigma = 1e-8;
+    /// At least what rounding of the rows can take from an eigenvalue.
+    static constexpr double kSigma = std::max(1e-8, 16.0 * std::numeric_limits<Real>::epsilon());
     static constexpr int kPlainRounds = 15;
     static constexpr int kFallbackSweeps = 200;
 

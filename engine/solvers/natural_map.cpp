@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rigor::engine {
 
@@ -89,10 +90,29 @@ typename S::Real naturalMapResidual(const ConstraintRows<S>& constraints,
     return largest;
 }
 
+template <class S>
+typename S::Real velocityResolution(const ConstraintRows<S>& constraints,
+                                    std::span<const Velocity<S>> velocities) {
+    using Real = typename S::Real;
+    Real largest = 0;
+    for (const Block<S>& block : constraints.blocks) {
+        const Velocity<S>&a = velocities[block.a], &b = velocities[block.b];
+        for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
+            const Row<S>& row = constraints.rows[i];
+            const Real moving = std::abs(row.lin.dot(a.v)) + std::abs(row.lin.dot(b.v)) +
+                                std::abs(dotAng(row.angA, a.w)) + std::abs(dotAng(row.angB, b.w));
+            const Real pushed = row.invK > 0 ? std::abs(row.impulse) / row.invK : Real(0);
+            largest = std::max(largest, moving + pushed);
+        }
+    }
+    return Real(32) * std::numeric_limits<Real>::epsilon() * largest;
+}
+
 template Eigen::Vector3f projectOnCone(const Eigen::Vector3f&, float);
 template Eigen::Vector3d projectOnCone(const Eigen::Vector3d&, double);
-#define RIGOR_INSTANTIATE(S) \
-    template typename S::Real naturalMapResidual(const ConstraintRows<S>&, std::span<const Velocity<S>>);
+#define RIGOR_INSTANTIATE(S)                                                                              \
+    template typename S::Real naturalMapResidual(const ConstraintRows<S>&, std::span<const Velocity<S>>); \
+    template typename S::Real velocityResolution(const ConstraintRows<S>&, std::span<const Velocity<S>>);
 RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)

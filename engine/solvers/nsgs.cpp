@@ -18,11 +18,11 @@
 // they iterate without acceleration, with one sweep per iteration.
 //
 // Every kFinishEvery iterations, when the sweeps have sorted contacts into open, sticking and sliding,
-// generalised Newton steps on all rows (contact_newton.hpp) try to finish, damped where they do not come
-// nearer. Harsh piles (strong friction, a hundred times the mass on top) never get sorted that way: there an
-// interior-point method on all rows (contact_interior.hpp) finds impulses near a solution, first from the
-// middle of the cones, in later attempts from nearer and nearer to the sweeps' own; Newton steps finish
-// again. The best impulses are kept throughout.
+// Newton's method on all rows (newton_finish.hpp) tries to finish. Harsh piles (strong friction, a hundred
+// times the mass on top) never get sorted that way: there an interior-point method on all rows
+// (contact_interior.hpp) finds impulses near a solution, first from the middle of the cones, in later
+// attempts from nearer and nearer to the sweeps' own; Newton steps finish again. The best impulses are kept
+// throughout.
 //
 // The velocities come from incremental updates: rounding of a few thousand updates stays below 1e-13
 // m/s. Cost: iterations * (2 sweeps + 2 passes + kDepth^2 ... rows); hundreds of iterations for tall stacks.
@@ -36,11 +36,9 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/solvers/assembled.hpp"
 #include "engine/solvers/contact_alone.hpp"
-#include "engine/solvers/contact_interior.hpp"
-#include "engine/solvers/contact_newton.hpp"
-#include "engine/solvers/natural_map.hpp"
+#include "engine/solvers/impulses.hpp"
+#include "engine/solvers/newton_finish.hpp"
 #include "engine/solvers/solver.hpp"
 
 namespace rigor::engine {
@@ -75,12 +73,10 @@ class Nsgs final : public Solver<S> {
             input.monitor.before(input.velocities);
             readImpulses(input.constraints, start_);
             const Real change = std::max(sweep(input, false), sweep(input, true));
-            Real residual = measure(input);
+            Real residual = renewedResidual(input);
             if (residual > input.residualTolerance) residual = accelerate(input, residual);
-            if (k % kFinishEvery == kFinishEvery - 1 && residual > goal(input)) {
+            if (k % kFinishEvery == kFinishEvery - 1 && residual > goal(input))
                 residual = finish(input, residual);
-                if (residual > goal(input)) residual = fromInside(input, residual);
-            }
             input.monitor.after(input.velocities, change);
             if (residual <= goal(input)) {
                 gaveUp_ = false;
@@ -93,14 +89,10 @@ class Nsgs final : public Solver<S> {
     }
 
   private:
-    static constexpr int kIterations = 1000;   ///< where the world does not say
-    static constexpr int kDepth = 10;          ///< of Anderson's history
-    static constexpr int kFinishEvery = 25;    ///< iterations between attempts to finish
-    static constexpr int kNewtonSteps = 30;    ///< at most, of one attempt
-    static constexpr int kInteriorStarts = 6;  ///< different ones, of the interior-point method
-    static constexpr Real kLost = Real(100);   ///< residual over the best from which there is no way back
-    static constexpr int kPatience = 400;      ///< iterations without halving the residual
-    static constexpr double kLeastDamping = 1e-10, kMostDamping = 1e-2;  ///< ContactNewton's sigma
+    static constexpr int kIterations = 1000;  ///< where the world does not say
+    static constexpr int kDepth = 10;         ///< of Anderson's history
+    static constexpr int kFinishEvery = 25;   ///< iterations between attempts to finish
+    static constexpr int kPatience = 400;     ///< iterations without halving the residual
 
     void prepare(const SolverInput<S>& input) {
         const ConstraintRows<S>& all = input.constraints;
@@ -116,13 +108,11 @@ class Nsgs final : public Solver<S> {
                         rowCoupling<S>(rows[i], rows[j], block) + (i == j ? rows[i].softness : Real(0));
         }
         const std::size_t n = all.rows.size();
-        start_.resize(n), mapped_.resize(n), saved_.resize(n);
         for (auto& column : stepHistory_) column.resize(n);
         for (auto& column : mapHistory_) column.resize(n);
         kept_ = 0, next_ = 0, havePrevious_ = false;
         previousStep_.resize(n), previousMap_.resize(n);
-        assembled_ = false;
-        interiorStarts_ = 0;
+        finish_.forget();
         // What the impulses have to stop or to bring about.
         fastest_ = 0;
         for (const Block<S>& block : all.blocks)
@@ -177,124 +167,24 @@ class Nsgs final : public Solver<S> {
     }
 
     // --- residual ----------------------------------------------------------------------------------------
-    static Real measure(const SolverInput<S>& input) {
-        input.monitor.before(input.velocities);
-        return naturalMapResidual<S>(input.constraints, input.velocities);
-    }
-    /// What the precision can tell of velocities and impulses of this size.
-    Real resolution(const SolverInput<S>& input) const {
-        Real largest = 0;
-        for (const Block<S>& block : input.constraints.blocks) {
-            const Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
-            for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
-                const Row<S>& row = input.constraints.rows[i];
-                const Real moving = std::abs(row.lin.dot(a.v)) + std::abs(row.lin.dot(b.v)) +
-                                    std::abs(dotAng(row.angA, a.w)) + std::abs(dotAng(row.angB, b.w));
-                const Real pushed = row.invK > 0 ? std::abs(row.impulse) / row.invK : Real(0);
-                largest = std::max(largest, moving + pushed);
-            }
-        }
-        // Impulses without bound, as contradictory rows have, are no excuse.
-        constexpr Real eps = std::numeric_limits<Real>::epsilon();
-        return std::min(Real(32) * eps * largest, std::sqrt(eps) * fastest_);
-    }
-
     Real goal(const SolverInput<S>& input) const {
-        return std::max(input.residualTolerance, resolution(input));
+        // Impulses without bound, as contradictory rows have, are no excuse.
+        const Real resolved = std::min(velocityResolution<S>(input.constraints, input.velocities),
+                                       std::sqrt(std::numeric_limits<Real>::epsilon()) * fastest_);
+        return std::max(input.residualTolerance, resolved);
     }
 
-    // --- Newton's finish ---------------------------------------------------------------------------------
-    /// Newton steps from the impulses there are. The residual may rise on the way, while contacts change
-    /// their case; the best impulses met are kept. Returns their residual.
+    /// Newton's method, and the interior-point method where that does not get there. Returns the residual.
     Real finish(const SolverInput<S>& input, Real residual) {
-        if (!assembled_) problem_.assemble<S>(input.constraints, input.velocities.size());
-        assembled_ = true;
-        readImpulses(input.constraints, mapped_);
-        Real best = residual;
-        double damping = kLeastDamping;
-        int astray = 0;
-        for (int step = 0; step < kNewtonSteps && best > goal(input); ++step) {
-            problem_.readVelocities<S>(input.constraints, input.velocities);
-            Real reached = std::numeric_limits<Real>::infinity();
-            if (newton_.step(problem_, damping, target_) && !runsAway()) reached = take(input, target_);
-            if (reached < best) {
-                best = reached, mapped_ = start_, astray = 0;
-                damping = std::max(kLeastDamping, 1e-2 * damping);
-            } else if (!(reached < kLost * best) || ++astray > 2) {
-                setImpulses(input, mapped_);
-                measure(input);
-                damping *= 100, astray = 0;
-                if (damping > kMostDamping) break;
-            }
-        }
-        setImpulses(input, mapped_);
+        const Real enough = goal(input);
+        Real reached = finish_.attempt(input, residual, enough);
+        if (reached > enough) reached = finish_.attemptFromInside(input, reached, enough);
         // Anderson's history is of another path.
         kept_ = 0, next_ = 0, havePrevious_ = false;
-        return measure(input);
-    }
-    /// The interior-point method, and Newton steps from where it ends. The impulses there are stay if they
-    /// are better. Returns the residual.
-    Real fromInside(const SolverInput<S>& input, Real residual) {
-        if (interiorStarts_ == kInteriorStarts || !ContactInterior::fits(problem_)) return residual;
-        const double shift = std::pow(10.0, -interiorStarts_++);
-        readImpulses(input.constraints, saved_);
-        problem_.readVelocities<S>(input.constraints, input.velocities);
-        if (!interior_.solve(problem_, shift, target_)) return residual;
-        const Real reached = finish(input, take(input, target_));
-        if (reached < residual) return reached;
-        setImpulses(input, saved_);
-        return measure(input);
-    }
-    /// Sets impulses, brought back into cones and bounds; returns their residual.
-    Real take(const SolverInput<S>& input, const std::vector<double>& impulses) {
-        for (std::size_t i = 0; i < start_.size(); ++i) start_[i] = static_cast<Real>(impulses[i]);
-        project(input.constraints, start_);
-        setImpulses(input, start_);
-        return measure(input);
-    }
-    /// Impulses far beyond those there are: a singular system, whose rounding the velocities would keep.
-    bool runsAway() const {
-        double now = 0, then = 0;
-        for (std::size_t i = 0; i < problem_.n; ++i) {
-            const double K = problem_.at(i, i);
-            now = std::max(now, K * std::abs(problem_.lambda[i]) + std::abs(problem_.q[i]));
-            then = std::max(then, K * std::abs(target_[i]));
-        }
-        return !(then < 1e3 * now);
+        return reached;
     }
 
     // --- Anderson's acceleration -------------------------------------------------------------------------
-    static void readImpulses(const ConstraintRows<S>& all, std::vector<Real>& out) {
-        for (std::size_t i = 0; i < all.rows.size(); ++i) out[i] = all.rows[i].impulse;
-    }
-    /// Sets impulses, and velocities with them.
-    static void setImpulses(const SolverInput<S>& input, const std::vector<Real>& impulses) {
-        for (const Block<S>& block : input.constraints.blocks)
-            for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
-                Row<S>& row = input.constraints.rows[i];
-                applyRowImpulse<S>(row, block, impulses[i] - row.impulse, input.velocities[block.a],
-                                   input.velocities[block.b]);
-                row.impulse = impulses[i];
-            }
-    }
-    static void project(const ConstraintRows<S>& all, std::vector<Real>& impulses) {
-        for (const Block<S>& block : all.blocks) {
-            Real* r = impulses.data() + block.first;
-            if (block.kind == BlockKind::Bounded) {
-                r[0] = std::clamp(r[0], all.rows[block.first].lower, all.rows[block.first].upper);
-            } else if (block.kind == BlockKind::Contact) {
-                Vec3<Real> whole = Vec3<Real>::Zero();
-                for (int i = 0; i < block.rows; ++i) whole[i] = r[i];
-                const Real mu = std::max(block.friction, block.staticFriction);
-                if (block.rows > 1) whole[0] += block.appliedNormal;
-                whole = block.rows > 1 ? projectOnCone<Real>(whole, mu)
-                                       : Vec3<Real>(std::max(Real(0), whole[0]), Real(0), Real(0));
-                if (block.rows > 1) whole[0] = std::max(Real(0), whole[0] - block.appliedNormal);
-                for (int i = 0; i < block.rows; ++i) r[i] = whole[i];
-            }
-        }
-    }
-
     /// Takes the iterate g(start_), whose residual is given, to the better of itself and the extrapolation.
     /// Returns the residual of what it left.
     Real accelerate(const SolverInput<S>& input, Real residual) {
@@ -314,13 +204,13 @@ class Nsgs final : public Solver<S> {
         havePrevious_ = true;
         if (kept_ == 0) return residual;
         extrapolate(all);
-        project(all, start_);
+        projectImpulses(all, start_);
         setImpulses(input, start_);
-        const Real extrapolated = measure(input);
+        const Real extrapolated = renewedResidual(input);
         if (extrapolated <= residual) return extrapolated;
         setImpulses(input, mapped_);
         kept_ = 0, next_ = 0, havePrevious_ = false;
-        return measure(input);
+        return renewedResidual(input);
     }
 
     /// start_ = g - sum gamma_j dg_j, with gamma minimising |f - sum gamma_j df_j| in the norm weighted by K
@@ -375,14 +265,9 @@ class Nsgs final : public Solver<S> {
 
     bool gaveUp_ = false;
     std::vector<Mat3<Real>> local_;  ///< W by block; of contacts
-    std::vector<Real> start_, mapped_, saved_, previousStep_, previousMap_;
+    std::vector<Real> start_, mapped_, previousStep_, previousMap_;
     std::array<std::vector<Real>, kDepth> stepHistory_, mapHistory_;
-    AssembledProblem problem_;
-    ContactNewton newton_;
-    ContactInterior interior_;
-    int interiorStarts_ = 0;  ///< of this solve, so far
-    std::vector<double> target_;
-    bool assembled_ = false;
+    NewtonFinish<S> finish_;
     Real fastest_ = 0;
     std::size_t kept_ = 0, next_ = 0;
     bool havePrevious_ = false;

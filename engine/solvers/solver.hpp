@@ -29,6 +29,10 @@ using FrictionLaw = Eigen::Matrix<typename S::Real, 2, 1> (*)(
     const Eigen::Matrix<typename S::Real, 2, 1>& velocity, typename S::Real limit);
 template <class S>
 std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable();
+/// The exact law (friction_cone.cpp).
+template <class R>
+Eigen::Matrix<R, 2, 1> frictionCone(R k11, R k12, R k22, const Eigen::Matrix<R, 2, 1>& impulse,
+                                    const Eigen::Matrix<R, 2, 1>& velocity, R limit);
 
 /// Looks over a solver's shoulder, iteration by iteration.
 template <class S>
@@ -40,6 +44,8 @@ class IterationMonitor {
     /// `change` is the largest velocity error [m/s or rad/s] that the iteration removed from a row or block.
     /// True: good enough, stop.
     virtual bool after(std::span<const Velocity<S>> velocities, typename S::Real change) = 0;
+    /// Velocity errors below this are good enough [m/s or rad/s]; 0: none is.
+    virtual typename S::Real tolerance() const { return 0; }
 };
 
 template <class S>

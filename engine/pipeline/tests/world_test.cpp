@@ -90,7 +90,8 @@ TYPED_TEST(Worlds, ResidualsFallAndAreOnePerIteration) {
     for (int i = 0; i < 200; ++i) world.step(typename S::Real(1.0 / 60));
     const StepResult<S>& result = world.lastStep();
     ASSERT_GT(result.residuals.size(), 1u);
-    EXPECT_LE(result.residuals.size(), static_cast<std::size_t>(world.velocityIterations()));
+    // Newton's finish counts as one more.
+    EXPECT_LE(result.residuals.size(), static_cast<std::size_t>(world.velocityIterations()) + 1);
     EXPECT_EQ(result.iterations, static_cast<int>(result.residuals.size()));
     EXPECT_LE(result.residuals.back(), result.residuals.front());
     EXPECT_FALSE(result.nonFinite);
