@@ -48,9 +48,9 @@ void setSpringFrequency(const Row<S>* held, const Block<S>& holding, const Block
 // A joint that pulls with F on an arm r turns its body back like a spring of stiffness F r per radian (the
 // geometric stiffness of [Andrews2017]), of circular frequency w^2 = F r / I, with I about the joint. Aimed
 // at the end of the step the scheme conserves the energy of that swing, and like every explicit scheme of
-// second order it is unstable where w h > 2; linearised at the start it damps it. Full up to (w h)^2 = 1/4,
-// none from 1: chains of light links under a heavy load, whose swing a step this long cannot follow.
-constexpr double kFullStiffness = 0.25, kNoStiffness = 1.0;
+// second order it is unstable where w h > 2; linearised at the start it damps it. Full up to (w h)^2 = 1/2,
+// none from 3/2: chains of light links under a heavy load, whose swing a step this long cannot follow.
+constexpr double kFullStiffness = 0.5, kNoStiffness = 1.5;
 
 template <class S>
 typename S::Real traceOf(const typename S::Inertia& I) {

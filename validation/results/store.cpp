@@ -7,11 +7,13 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "validation/results/columns.hpp"
 #include "validation/results/rows.hpp"
@@ -33,7 +35,7 @@ class FolderLock {
         : file_(open((directory / ".lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
         if (file_ < 0)
             throw std::runtime_error(directory.string() + ": cannot write here: " + std::strerror(errno));
-        if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+        if (!locked()) {
             close(file_);
             throw std::runtime_error(directory.string() + ": another rigor is writing this run");
         }
@@ -43,6 +45,14 @@ class FolderLock {
     FolderLock& operator=(const FolderLock&) = delete;
 
   private:
+    /// A writer that was killed keeps its lock for a moment in a child that was just being started.
+    bool locked() const {
+        for (int attempt = 0; attempt < 50; ++attempt) {
+            if (flock(file_, LOCK_EX | LOCK_NB) == 0) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        return false;
+    }
     int file_;
 };
 
