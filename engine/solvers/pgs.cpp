@@ -29,7 +29,7 @@ class Pgs final : public Solver<S> {
     }
 
   private:
-    SweepOrder sweeps_;
+    BlockSweeps<S> sweeps_;
 };
 
 }  // namespace

@@ -33,7 +33,7 @@ class PgsSoft final : public Solver<S> {
     }
 
   private:
-    SweepOrder sweeps_;
+    BlockSweeps<S> sweeps_;
 };
 
 }  // namespace

@@ -44,10 +44,10 @@ class SinglePass final : public Solver<S> {
     void solve(const SolverInput<S>& input) override {
         if (!input.warmStarted)
             for (Row<S>& row : input.constraints.rows) row.impulse = 0;
-        orderBlocks<S>(input, sweeps_);
+        sweeps_.begin(input);
         for (int pass = 0; pass < input.iterations; ++pass) {
             input.monitor.before(input.velocities);
-            const Real change = sweeps_.template largest<Real>(false, [&](std::size_t k) {
+            const Real change = sweeps_.largest([&](std::size_t k) {
                 const Block<S>& block = input.constraints.blocks[k];
                 Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
                 return block.kind == BlockKind::Contact ? hit(input, block, a, b)
@@ -92,7 +92,7 @@ class SinglePass final : public Solver<S> {
         }
     }
 
-    SweepOrder sweeps_;
+    BlockSweeps<S> sweeps_;
 };
 
 }  // namespace

@@ -29,8 +29,9 @@ namespace rigor::engine {
 
 class SweepOrder {
   public:
-    /// Forgets all units. The next ones move some of the bodies 0 .. bodies - 1. `tasks` outlives the sweeps.
-    void begin(const Tasks& tasks, std::size_t bodies);
+    /// Forgets all units. The next ones move some of the bodies 0 .. bodies - 1; up to `grain` >= 1 of them
+    /// are not worth sharing. `tasks` outlives the sweeps.
+    void begin(const Tasks& tasks, std::size_t bodies, std::size_t grain);
     /// The next unit: it moves the bodies of these blocks.
     template <class S>
     void add(std::span<const Block<S>> unit);
@@ -47,7 +48,7 @@ class SweepOrder {
         const std::size_t levels = start_.size() - 1;
         for (std::size_t l = 0; l < levels; ++l) {
             const std::size_t level = backwards ? levels - 1 - l : l, first = start_[level];
-            tasks_->forEach(start_[level + 1] - first, kGrain,
+            tasks_->forEach(start_[level + 1] - first, grain_,
                             [&](std::size_t i) { work(order_[first + i]); });
         }
     }
@@ -69,11 +70,9 @@ class SweepOrder {
     std::size_t levels() const { return shared_ ? start_.size() - 1 : units_; }
 
   private:
-    static constexpr std::size_t kGrain = 16;  ///< units; a unit takes a microsecond, sharing several
-
     const Tasks* tasks_ = nullptr;
     bool shared_ = false;
-    std::size_t units_ = 0;
+    std::size_t units_ = 0, grain_ = 1;
     std::vector<std::uint32_t> next_;   ///< by body: the level that its next unit may have
     std::vector<std::uint32_t> level_;  ///< by unit
     std::vector<std::size_t> start_;    ///< where levels start in order_

@@ -45,7 +45,7 @@ class TgsSoft final : public Solver<S> {
     }
 
   private:
-    SweepOrder sweeps_;
+    BlockSweeps<S> sweeps_;
 };
 
 }  // namespace

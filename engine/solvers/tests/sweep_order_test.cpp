@@ -49,7 +49,7 @@ TEST(SweepOrder, SharedSweepsAreTheSweepForwardsAndBackwards) {
             for (const int threads : {1, 2, 4}) {
                 const Tasks tasks(threads);
                 SweepOrder order;
-                order.begin(tasks, bodies);
+                order.begin(tasks, bodies, 4);
                 for (const Block<S>& block : blocks) order.add<S>({&block, 1});
                 order.finish();
                 ASSERT_EQ(order.units(), blocks.size());
@@ -72,7 +72,7 @@ TEST(SweepOrder, LevelsAreAsManyAsTheLongestChain) {
     SweepOrder order;
     std::vector<Block<S>> blocks(100);
     for (const bool chained : {false, true}) {
-        order.begin(tasks, 300);
+        order.begin(tasks, 300, 4);
         for (std::uint32_t k = 0; k < 100; ++k) {
             blocks[k].a = chained ? k : 2 * k + 1, blocks[k].b = chained ? k + 1 : 2 * k + 2;
             blocks[k].invMassA = blocks[k].invMassB = 1;
@@ -82,14 +82,14 @@ TEST(SweepOrder, LevelsAreAsManyAsTheLongestChain) {
         EXPECT_EQ(order.levels(), chained ? 100u : 1u);
     }
     // A group moves the bodies of all its blocks; a wall binds nobody.
-    order.begin(tasks, 300);
+    order.begin(tasks, 300, 4);
     order.add<S>({blocks.data(), 50});
     order.add<S>({blocks.data() + 60, 1});
     order.add<S>({blocks.data() + 50, 1});
     order.finish();
     EXPECT_EQ(order.levels(), 2u);
     for (Block<S>& block : blocks) block.b = 0, block.invMassB = 0;
-    order.begin(tasks, 300);
+    order.begin(tasks, 300, 4);
     for (const Block<S>& block : blocks) order.add<S>({&block, 1});
     order.finish();
     EXPECT_EQ(order.levels(), 1u);
