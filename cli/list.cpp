@@ -3,9 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
 
 #include "adapters/interface/registry.hpp"
 #include "cli/command.hpp"
+#include "engine/constraints/joint.hpp"
 #include "engine/pipeline/algorithms.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "scenarios/loader/study.hpp"
@@ -103,14 +106,68 @@ Json studies() {
     return list;
 }
 
+/// A choice of the in-house engine; `spec` is how a command line, a study or a suite asks for it, and with
+/// "engines" a scenario.
+Json choiceJson(const std::string& stage, const std::string& name, bool isDefault,
+                const std::string& summary) {
+    return {{"name", name},
+            {"stage", stage},
+            {"default", isDefault},
+            {"summary", summary},
+            {"spec", "rigor:" + stage + "=" + name}};
+}
+
+/// What is asked for by what a scenario (and in C++ the world) is made of, not by a key.
+Json partJson(const char* stage, const std::string& name, const std::string& summary, const char* asked) {
+    return {{"name", name}, {"stage", stage}, {"default", false}, {"summary", summary}, {"asked", asked}};
+}
+
+void appendParts(const adapter::Capabilities& capabilities, Json& list) {
+    for (const std::string& shape : capabilities.shapes)
+        list.push_back(partJson("shape", shape, "", "bodies[].shapes[] of a scenario; World::addShape"));
+    list.push_back(partJson("shape", "compound",
+                            "several shapes of one body, each with its pose and material",
+                            "bodies[].shapes[] of a scenario; World::addShape"));
+    for (const auto& joint : engine::jointTable<engine::Space3d>())
+        list.push_back(
+            partJson("joint", joint.name, joint.summary, "joints[].type of a scenario; World::addJoint"));
+    for (const auto& [name, summary, asked] :
+         {std::tuple{"ray_cast", "first or every shape that a ray meets", "engine/queries/ray_cast.hpp"},
+          std::tuple{"shape_cast", "first shape that a moving shape meets", "engine/queries/shape_cast.hpp"},
+          std::tuple{"overlap", "shapes that overlap a shape or box", "engine/queries/world_queries.hpp"},
+          std::tuple{"closest_points", "nearest points of a shape and the world's",
+                     "engine/queries/world_queries.hpp; rigor collide"}})
+        list.push_back(partJson("query", name, summary, asked));
+}
+
 Json algorithms() {
+    const auto rigor = validation::describeEngine("rigor", ownBinary());
     Json list = Json::array();
-    for (const auto& family : engine::algorithmFamilies())
-        for (const auto& algorithm : family.algorithms)
-            list.push_back({{"name", algorithm.name},
-                            {"stage", family.name},
-                            {"default", algorithm.name == family.defaultChoice},
-                            {"summary", algorithm.summary}});
+    std::set<std::string> stages;
+    for (const auto& family : engine::algorithmFamilies()) {
+        stages.insert(family.name);
+        std::set<std::string> own;
+        for (const auto& algorithm : family.algorithms) {
+            own.insert(algorithm.name);
+            list.push_back(choiceJson(family.name, algorithm.name, algorithm.name == family.defaultChoice,
+                                      algorithm.summary));
+        }
+        // What other engines' modules lend.
+        for (const auto& option : rigor.options)
+            if (option.key == family.name)
+                for (const auto& value : option.values)
+                    if (!own.contains(value))
+                        list.push_back(choiceJson(family.name, value, false,
+                                                  value + "'s own, through its adapter, driving our solver"));
+    }
+    for (const auto& option : rigor.options) {
+        if (stages.contains(option.key)) continue;
+        for (const auto& value : option.values)
+            list.push_back(choiceJson(option.key, value, value == option.defaultValue, option.help));
+        if (option.key == "threads")
+            list.push_back(choiceJson("threads", option.defaultValue, true, option.help));
+    }
+    appendParts(rigor.capabilities, list);
     return list;
 }
 
@@ -149,7 +206,7 @@ const std::vector<Listing>& listings() {
         {"suites", "Suites of scenarios", suites, {"name", "title"}},
         {"studies", "Studies: choices side by side", studies, {"name", "title"}},
         {"algorithms",
-         "Choices at every stage of the in-house engine's step",
+         "Choices at every stage of the in-house engine's step, its shapes, joints and queries",
          algorithms,
          {"stage", "name", "summary"}},
         {"metrics", "Metrics with unit and formula", metrics, {"name", "unit", "kind", "title"}},

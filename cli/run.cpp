@@ -15,6 +15,7 @@
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/runner/runner.hpp"
+#include "validation/runner/scenario_settings.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -143,7 +144,8 @@ int runHere(const Arguments& a) {
         if (csv != nullptr) writeCsvRows(*csv, time, states, s);
         if (!a.log.empty()) logContacts(std::cerr, time, contacts, s);
     };
-    const auto live = runEngine(s, adapter::parseSpec(a.engine), dt, options);
+    const auto live = runEngine(
+        s, validation::withScenarioSettings(adapter::parseSpec(a.engine), loaded.text), dt, options);
     if (csv != nullptr && !csv->flush())
         throw std::runtime_error("--csv: could not write everything to '" + a.csv + "'");
     if (a.csv != "-") printCase(live.row, a.json);

@@ -132,6 +132,7 @@ class ContactSet {
     void spoilRows(const BodyArrays<S>& bodies, const Fault<S>& fault, ConstraintRows<S>& rows);
 
     const std::vector<ProxyPair>& proxyPairs() const { return proxyPairs_; }
+    const std::vector<Aabb<S>>& boxes() const { return boxes_; }
     const std::vector<Contact<S>>& contacts() const { return contacts_; }
     std::vector<Contact<S>>& contacts() { return contacts_; }
     /// True where the contact of two shapes (bodies in order) has rows in this step.

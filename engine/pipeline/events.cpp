@@ -56,7 +56,7 @@ std::string describe(const Event<S>& e, const NameOf& nameOf) {
 
 template <class S>
 std::string describe(const ContactView<S>& c, const NameOf& nameOf) {
-    return line<S>("contact", c.bodyA, c.bodyB, c.normal, -c.separation, c.normalImpulse, nameOf);
+    return line<S>("contact", c.bodyA, c.bodyB, c.normal, 0 - c.separation, c.normalImpulse, nameOf);
 }
 
 #define RIGOR_INSTANTIATE(S)                                       \

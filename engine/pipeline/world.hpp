@@ -163,7 +163,16 @@ class World {
         return def_.velocityIterations > 0 ? def_.velocityIterations : style_.iterations.value_or(50);
     }
     const StepResult<S>& lastStep() const { return result_; }
-    /// Replaces `out` by the contacts of the last step.
+    /// The boxes that the broad phase has compared in the last step, in the order of shapes() [m], world
+    /// frame; those of dynamic bodies are grown by the speculative distance. Empty before the first broad
+    /// phase.
+    std::span<const Aabb<S>> boxes() const { return contacts_.boxes(); }
+    /// Shapes whose boxes overlapped then, as indices of shapes(), the lower one first.
+    std::span<const ProxyPair> pairs() const { return contacts_.proxyPairs(); }
+    /// What the last narrow phase found of them, sorted by shapes: normal, points with their separations and
+    /// features, and the impulses they start with. Also points that the solver has no need of.
+    std::span<const Contact<S>> manifolds() const { return contacts_.contacts(); }
+    /// Replaces `out` by the contacts of the last step: the points that got rows.
     void readContacts(std::vector<ContactView<S>>& out) const;
     /// The rows of the last sub-step, solved or not yet.
     const ConstraintRows<S>& rows() const { return rows_; }

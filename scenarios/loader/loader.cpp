@@ -12,6 +12,7 @@
 #include <set>
 
 #include "scenarios/generators/generator.hpp"
+#include "scenarios/loader/engine_settings.hpp"
 #include "scenarios/loader/node.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "scenarios/loader/schema_check.hpp"
@@ -152,6 +153,7 @@ Scenario readScenario(const JsonDocument& document, const std::string& file) {
                    "metrics",
                    "accept",
                    "known_deviations",
+                   "engines",
                    "time_limit"});
     std::deque<Json> made;  // generated nodes refer to it
     if (document.value.is_object()) {
@@ -165,6 +167,7 @@ Scenario readScenario(const JsonDocument& document, const std::string& file) {
             if (const auto n = root.find("forces")) readForces(*n, s);
             if (const auto n = root.find("events")) readEvents(*n, s);
             readObserved(root, s);
+            if (const auto n = root.find("engines")) checkEngineSettings(*n);
         }
     }
     if (!context.problems.empty()) throw LoadError(std::move(context.problems));

@@ -2,18 +2,20 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "scenarios/loader/overrides.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 namespace rigor::scenario {
 namespace {
 
 /// The element of an array that `token` names, by index or by "name".
-Json* element(Json& array, const std::string& token) {
+template <class AnyJson>
+AnyJson* element(AnyJson& array, const std::string& token) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), index);
     if (error == std::errc{} && end == token.data() + token.size())
         return index < array.size() ? &array[index] : nullptr;
-    for (Json& item : array)
+    for (auto& item : array)
         if (item.is_object() && item.contains("name") && item["name"] == token) return &item;
     return nullptr;
 }
@@ -35,6 +37,35 @@ Json* locate(Json& at, const std::string& path) {
     return nullptr;
 }
 
+/// What stands at the furthest place that `path` leads to: "names in bodies: floor, ball".
+std::string furthest(const Json& document, const std::string& path) {
+    const Json* at = &document;
+    std::string where;
+    for (std::size_t begin = 0; begin < path.size();) {
+        const std::size_t dot = std::min(path.find('.', begin), path.size());
+        const std::string token = path.substr(begin, dot - begin);
+        const Json* next = at->is_array()                           ? element(*at, token)
+                           : at->is_object() && at->contains(token) ? &(*at)[token]
+                                                                    : nullptr;
+        if (next == nullptr) break;
+        at = next, where += (where.empty() ? "" : ".") + token;
+        begin = dot + 1;
+    }
+    std::string known;
+    const auto add = [&](const std::string& name) { known += (known.empty() ? "" : ", ") + name; };
+    if (at->is_object())
+        for (const auto& [key, value] : at->items()) add(key);
+    else if (at->is_array())
+        for (std::size_t i = 0; i < at->size(); ++i) {
+            const Json& item = (*at)[i];
+            add(item.is_object() && item.contains("name") && item["name"].is_string()
+                    ? item["name"].get<std::string>()
+                    : std::to_string(i));
+        }
+    if (known.empty()) return "no further step: " + (where.empty() ? "it" : where) + " is a value";
+    return "one of " + known + (where.empty() ? "" : " in " + where);
+}
+
 }  // namespace
 
 void applyOverride(JsonDocument& document, const std::string& text, const std::string& fileName) {
@@ -48,7 +79,8 @@ void applyOverride(JsonDocument& document, const std::string& text, const std::s
     Json* target = locate(document.value, key);
     if (target == nullptr)
         refuse("override.unknown", "'" + key + "'",
-               "a path such as bodies.block.velocity or materials.wood.friction");
+               furthest(document.value, key) +
+                   "; a path is like bodies.block.velocity or materials.wood.friction");
     // Words need no quotes: --set reference=none.
     *target = parsed.is_discarded() ? Json(value) : parsed;
 }

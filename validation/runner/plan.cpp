@@ -6,6 +6,7 @@
 
 #include "validation/runner/hash.hpp"
 #include "validation/runner/runner.hpp"
+#include "validation/runner/scenario_settings.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -56,8 +57,10 @@ std::vector<CasePlan> planCases(
         std::set<double> done;
         for (const double dt : timeSteps.empty() ? scenario.timeSteps : timeSteps) {
             if (!done.insert(dt).second) continue;
-            for (const auto& spec : expanded)
+            for (const auto& asked : expanded) {
+                const adapter::EngineSpec spec = withScenarioSettings(asked, text);
                 plan.push_back({caseId(text, spec.text(), dt), text, scenario, spec, dt});
+            }
         }
     }
     return plan;

@@ -100,8 +100,8 @@ void planPart(const scenario::StudyPart& part, std::size_t index, const Scenario
                     const auto cases = planCases({{s, placed.loaded.text}}, {spec}, {dt});
                     Assignment parameters = placed.parameters;
                     parameters.insert(parameters.end(), chosen.begin(), chosen.end());
-                    plan.rows.push_back({index, s.name, placed.base, parameters, variant.name, spec.text(),
-                                         cases.front().id, dt, movingBodies(s)});
+                    plan.rows.push_back({index, s.name, placed.base, parameters, variant.name,
+                                         cases.front().spec.text(), cases.front().id, dt, movingBodies(s)});
                     if (planned.insert(cases.front().id).second) plan.cases.push_back(cases.front());
                 }
     }

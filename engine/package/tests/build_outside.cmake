@@ -22,4 +22,12 @@ run(${folder}/build/drop)
 if(NOT output MATCHES "height 0\\.5000")
     message(FATAL_ERROR "the ball did not come to rest on the ground:\n${output}")
 endif()
+run(${folder}/build/inspect)
+foreach(part "broad_phase" "box of body_1: " "pair body_1 body_2" "point of body_2 and body_3, separation "
+        "iteration 1, residual [0-9.e-]+, normal impulses( [0-9.]+)+" "contact a=body_1 b=body_2 n=\\(0,1,0\\) depth="
+        " jn=0\\.[0-9]+" "island body_2 body_3" "last residual ")
+    if(NOT output MATCHES "${part}")
+        message(FATAL_ERROR "nothing like '${part}' in what the step says of itself:\n${output}")
+    endif()
+endforeach()
 file(REMOVE_RECURSE ${folder})

@@ -4,9 +4,11 @@
 // The library's symptoms, run for real: every fault is visible, every cure works, and one setting is all that
 // is switched between them.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -18,22 +20,25 @@ namespace {
 
 using nlohmann::json;
 
-json runSymptoms() {
+json runStudy(const std::string& study, int& code) {
     const auto folder = std::filesystem::path(testing::TempDir()) / "symptoms-run";
     std::filesystem::remove_all(folder);
-    const std::string command =
-        std::string(RIGOR_BINARY_DIR) + "/bin/rigor study symptoms -q -j 2 --json --out " + folder.string();
+    const std::string command = std::string(RIGOR_BINARY_DIR) + "/bin/rigor study " + study +
+                                " -q -j 2 --json --out " + folder.string();
     FILE* pipe = popen(command.c_str(), "r");
     std::string out;
     char buffer[4096];
     while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) out.append(buffer, n);
-    pclose(pipe);
+    const int status = pclose(pipe);
+    code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return json::parse(out, nullptr, false);
 }
 
 TEST(Symptoms, EveryFaultIsVisibleAndEveryCureWorks) {
-    const json out = runSymptoms();
+    int code = -1;
+    const json out = runStudy("symptoms", code);
     ASSERT_FALSE(out.is_discarded());
+    EXPECT_EQ(code, 0);
     const auto study = scenario::loadStudy(scenario::findStudy("symptoms"));
     ASSERT_EQ(out.at("symptoms").size(), study.parts.size()) << "every part of it states a symptom";
     for (const json& s : out.at("symptoms")) {
@@ -45,13 +50,45 @@ TEST(Symptoms, EveryFaultIsVisibleAndEveryCureWorks) {
     EXPECT_TRUE(out.at("green"));
 }
 
-/// What the issue of a beginner's engine is known for: each has a part.
+/// What a first engine is known for: each has its part.
 TEST(Symptoms, TheClassicOnesAreThere) {
     const auto study = scenario::loadStudy(scenario::findStudy("symptoms"));
-    std::set<std::string> kinds;
-    for (const auto& part : study.parts) kinds.insert(part.name.substr(0, part.name.find('_')));
-    for (const char* kind : {"jitter", "sinking", "sticking", "flying", "collapse", "slowdown", "tunnelling"})
-        EXPECT_TRUE(kinds.contains(kind)) << kind;
+    std::set<std::string> names;
+    for (const auto& part : study.parts) names.insert(part.name);
+    for (const char* name :
+         {"jitter_iterations", "jitter_restitution", "jitter_normals", "sinking_no_correction",
+          "sinking_no_resting_contact", "sticking", "flying_division", "flying_normal", "flying_floor",
+          "flying_quaternion", "collapse_single_point", "collapse_iterations", "collapse_restitution",
+          "slowdown_brute_force", "slowdown_no_rejection", "tunnelling"})
+        EXPECT_TRUE(names.contains(name)) << name;
+}
+
+/// The verdicts are of the runs: where a fault is off, its symptom is not there and the study is red.
+TEST(Symptoms, AFaultThatIsSwitchedOffIsNotShown) {
+    const auto file = scenario::findStudy("symptoms");
+    std::ifstream in(file);
+    json study = json::parse(in);
+    json parts = json::array();
+    for (json& part : study["parts"]) {
+        if (part["name"] != "flying_floor" && part["name"] != "sticking") continue;
+        part["scenarios"][0] = (file.parent_path() / part["scenarios"][0].get<std::string>()).string();
+        part["variants"][0]["engine"] = "rigor:fault=none";
+        part["variants"][1]["engine"] = "rigor:fault=none,precision=f64";
+        parts.push_back(part);
+    }
+    ASSERT_EQ(parts.size(), 2u);
+    study["parts"] = parts;
+    const auto own = std::filesystem::path(testing::TempDir()) / "faultless.json";
+    std::ofstream(own) << study;
+    int code = 0;
+    const json out = runStudy(own.string(), code);
+    ASSERT_FALSE(out.is_discarded());
+    EXPECT_EQ(code, 1);
+    EXPECT_FALSE(out.at("green"));
+    for (const json& s : out.at("symptoms")) {
+        EXPECT_FALSE(s.at("shown")) << s.at("name");
+        EXPECT_TRUE(s.at("cured")) << s.at("name");
+    }
 }
 
 }  // namespace
