@@ -249,6 +249,48 @@ TEST_P(Joints, ADistanceSpringSwingsAtItsFrequency) {
     within("distance_spring", worst, 2e-2);
 }
 
+/// A door of moment 0.5 + 2 0.9^2 about its hinge: what swings at the frequency asked for.
+TEST_P(Joints, AHingeSpringSwingsWhatTurnsAboutTheHinge) {
+    if (!hasJoint("hinge.spring")) GTEST_SKIP() << "no hinge springs";
+    Scenario s = scene();
+    const int b = addBody(s, block({0.9, 0.1, 0.1}), {0.9, 0, 0}, 2.0, {0.5, 0.5, 0.5});
+    Joint joint = jointOf(JointType::Hinge, scenario::kNone, b, {}, {-0.9, 0, 0});
+    joint.axisA = joint.axisB = {0, 0, 1};
+    joint.axes[0].mode = scenario::AxisMode::Free;
+    joint.axes[0].frequency = 2.0, joint.axes[0].dampingRatio = 0.1, joint.axes[0].target = -0.3;
+    s.joints.push_back(joint);
+    auto world = build(s, kStep);
+    double worst = 0.0;
+    for (int i = 1; i <= 480; ++i) {
+        world->step();
+        const Quat q = stateOf(*world, s, b).orientation;
+        worst = std::max(worst, std::abs(2.0 * std::atan2(q.z, q.w) + 0.3 - swungBack(i * kStep)));
+    }
+    within("hinge_spring", worst, 2e-2);
+}
+
+TEST_P(Joints, ASliderSpringSwingsByStiffnessAndDamping) {
+    if (!hasJoint("slider.spring")) GTEST_SKIP() << "no slider springs";
+    Scenario s = scene();
+    const Vec3 axis = is2d() ? Vec3{0.6, 0.8, 0} : Vec3{2, 3, 6} / 7.0;
+    const int b = addBody(s, block({0.2, 0.1, 0.1}), {}, 2.0, {0.05, 0.05, 0.05});
+    Joint joint = jointOf(JointType::Slider, scenario::kNone, b, {}, {});
+    joint.axisA = joint.axisB = axis;
+    const double w = 2.0 * kPi * 2.0;
+    joint.axes[0].mode = scenario::AxisMode::Free;
+    joint.axes[0].stiffness = 2.0 * w * w, joint.axes[0].damping = 2.0 * 2.0 * 0.1 * w;
+    joint.axes[0].target = -0.3;
+    s.joints.push_back(joint);
+    auto world = build(s, kStep);
+    double worst = 0.0;
+    for (int i = 1; i <= 480; ++i) {
+        world->step();
+        worst =
+            std::max(worst, std::abs(dot(stateOf(*world, s, b).position, axis) + 0.3 - swungBack(i * kStep)));
+    }
+    within("slider_spring", worst, 2e-2);
+}
+
 TEST_P(Joints, ARopeIsSlackThenTaut) {
     if (!hasJoint("distance.limit")) GTEST_SKIP() << "no ropes";
     Scenario s = scene();

@@ -37,8 +37,8 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
         c.planar = true;
         c.shapes = {"sphere",     "box",    "capsule", "cylinder",  "hull",
                     "half_space", "circle", "polygon", "half_plane"};
-        c.joints = {"ball",         "hinge",        "hinge.limit", "hinge.motor", "slider",
-                    "slider.limit", "slider.motor", "fixed",       "distance"};
+        c.joints = {"ball",         "hinge",        "hinge.limit",   "hinge.motor", "hinge.spring", "slider",
+                    "slider.limit", "slider.motor", "slider.spring", "fixed",       "distance"};
         c.contactImpulses = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         return c;

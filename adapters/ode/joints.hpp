@@ -15,7 +15,9 @@ struct JointEnd {
     adapter::Pose pose;
 };
 
-/// The scenario's joint between two bodies at their initial poses; null when neither end moves.
-dJointID buildJoint(dWorldID world, const scenario::Joint& joint, const JointEnd& a, const JointEnd& b);
+/// The scenario's joint between two bodies at their initial poses, for steps of dt; null when neither end
+/// moves. Throws Unsupported for what ODE does not have.
+dJointID buildJoint(dWorldID world, const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
+                    double dt);
 
 }  // namespace rigor::ode

@@ -46,7 +46,7 @@ OdeWorld::OdeWorld(const Scenario& scenario, double dt, const Settings& settings
             const auto i = static_cast<std::size_t>(index);
             return JointEnd{records_[i]->body, scenario_.bodies[i].pose};
         };
-        buildJoint(world_, joint, endOf(joint.bodyA), endOf(joint.bodyB));
+        buildJoint(world_, joint, endOf(joint.bodyA), endOf(joint.bodyB), dt_);
     }
 }
 
