@@ -10,11 +10,16 @@
 // Rounding radii and the speculative distance grow D by a margin where the cores are apart.
 //
 // Deviation: the paper takes the first portal's normal; the descent above is ours. It ends in a local minimum
-// of h, which a deep overlap can have several of, so it starts again along each axis of D's frame and the
-// least is kept. Known limits: no proof of the least depth, unlike EPA: in 1 of about 10^4 random deep
-// overlaps the depth is not the least one, though always one that parts the shapes. Curved sides end when the
-// portal is within rounding of the surface, with the normal off by the square root of that. Cost: 10 to 20
-// support points per ray, 2 rays per start.
+// of h, which a deep overlap can have several of, so it starts again from every face of either polytope (each
+// is a facet of D) and from the neighbours of a grid point (26 directions in space, 8 in the plane), lowest
+// support first, and the least is kept.
+//
+// Known limits: in space the least depth is not proven, unlike EPA's: crossings of edges are facets that a
+// descent has to run into. Of 6000 pairs of hulls of 8 to 20 vertices, boxes, balls and capsules, a third of
+// them concentric, identical or deep, 2 came out too deep, by 0.5 % at most (16 and 2.6 % with starts on the
+// grid alone), and of 4000 in the plane none; the depth is always one that parts the shapes. Curved sides
+// end when the portal is within rounding of the surface, with the normal off by the square root of that.
+// Cost: 10 to 20 support points per ray, 2 rays per start.
 #include "engine/narrowphase/mpr.hpp"
 
 #include "engine/narrowphase/narrowphases.hpp"
@@ -54,9 +59,54 @@ void descend(PortalQuery<S>& query, const typename S::Vec& start) {
     }
 }
 
-/// False when the shapes are further apart than the margin.
+/// Where descents begin: of all directions offered those of least support.
 template <class S>
-bool leastSupport(PortalQuery<S>& query, const typename S::Vec& inner) {
+class Starts {
+  public:
+    using R = typename S::Real;
+    using V = typename S::Vec;
+
+    void offer(PortalQuery<S>& query, const V& direction) {
+        const R support = direction.dot(query.ask(direction).w);
+        int at = count_ < kMost ? count_++ : kMost;
+        for (; at > 0 && support < found_[index(at - 1)].support; --at)
+            if (at < kMost) found_[index(at)] = found_[index(at - 1)];
+        if (at < kMost) found_[index(at)] = {support, direction};
+    }
+    template <class Visit>
+    void each(Visit visit) const {
+        for (int i = 0; i < count_; ++i) visit(found_[index(i)].direction);
+    }
+
+  private:
+    static constexpr int kMost = 64;  ///< measured: see the file's head
+    static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+    struct Start {
+        R support;
+        V direction;
+    };
+    std::array<Start, kMost> found_;
+    int count_ = 0;
+};
+
+/// Normals of the flat sides of a shape, outward, in its own frame.
+template <class S, class Visit>
+void eachSide(const Shape<S>& shape, Visit visit) {
+    using V = typename S::Vec;
+    if (std::holds_alternative<Box<S>>(shape)) {
+        for (int i = 0; i < S::dim; ++i) visit(V(V::Unit(i))), visit(V(-V::Unit(i)));
+    } else if (const auto* hull = std::get_if<Hull<S>>(&shape)) {
+        if constexpr (S::dim == 3)
+            for (const auto& face : hull->data->faces) visit(face.normal);
+        else
+            for (const V& normal : hull->data->normals) visit(normal);
+    }
+}
+
+/// False when the shapes are further apart than the margin. `sides(visit)` tells the normals of the flat
+/// sides of D that are known beforehand.
+template <class S, class Sides>
+bool leastSupport(PortalQuery<S>& query, const typename S::Vec& inner, const Sides& sides) {
     using R = typename S::Real;
     using V = typename S::Vec;
     const R length = inner.norm();
@@ -66,13 +116,17 @@ bool leastSupport(PortalQuery<S>& query, const typename S::Vec& inner) {
         if (query.least() + query.margin() < 0) return false;
         descend<S>(query, query.normal());
     }
-    for (int i = 0; i < S::dim; ++i)
-        for (const R sign : {R(-1), R(1)}) descend<S>(query, V(sign * V::Unit(i)));
-    for (int i = 0; i < (1 << S::dim); ++i) {
+    Starts<S> starts;
+    const auto offer = [&](const V& d) { starts.offer(query, d); };
+    sides(offer);
+    // The 3^dim - 1 neighbours of the middle of a grid.
+    const int cells = S::dim == 3 ? 27 : 9;
+    for (int cell = 0; cell < cells; ++cell) {
         V d;
-        for (int k = 0; k < S::dim; ++k) d[k] = (i >> k & 1) != 0 ? R(1) : R(-1);
-        descend<S>(query, d.normalized());
+        for (int k = 0, rest = cell; k < S::dim; ++k, rest /= 3) d[k] = R(rest % 3 - 1);
+        if (d.squaredNorm() > 0) offer(d.normalized());
     }
+    starts.each([&](const V& d) { descend<S>(query, d); });
     // The least may have been met on the way to a portal.
     for (R before = std::numeric_limits<R>::max(); query.least() < before - query.tolerance();) {
         before = query.least();
@@ -89,8 +143,12 @@ bool portalContact(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, 
     using V = typename S::Vec;
     const V inner = innerPoint<S>(a) - (D.rotation() * innerPoint<S>(b) + D.translation());
     PortalQuery<S> cores(D, R(0)), grown(D, reach);
-    const bool overlap = leastSupport<S>(cores, inner);
-    if (!overlap && (-cores.least() > reach || !leastSupport<S>(grown, inner))) return false;
+    const auto sides = [&](const auto& visit) {
+        eachSide<S>(a, visit);
+        eachSide<S>(b, [&](const V& n) { visit(V(-(D.rotation() * n))); });
+    };
+    const bool overlap = leastSupport<S>(cores, inner, sides);
+    if (!overlap && (-cores.least() > reach || !leastSupport<S>(grown, inner, sides))) return false;
     PortalQuery<S>& query = overlap ? cores : grown;
     contact.normal = query.normal();
     contact.distance = -query.least();
