@@ -25,6 +25,16 @@ using Vec3 = Eigen::Matrix<R, 3, 1>;
 template <class R>
 inline constexpr R kRounding = R(16) * std::numeric_limits<R>::epsilon();
 
+/// Hysteresis, as a share of the smaller shape's size: the axis and the deepest point of the last step stay
+/// until another is deeper, or parts more, by this. Ten times what bodies at rest rock by (the slop of
+/// position correction, 1e-5 m of a body of one metre), and a tenth of a millimetre for it.
+template <class R>
+inline constexpr R kKeep = R(1e-4);
+/// The same for the spread of the points kept, as a share of itself: which of two equally wide sets it is
+/// makes no difference to a body.
+template <class R>
+inline constexpr R kKeepSpread = R(1e-2);
+
 template <class R>
 Vec2<R> anyPerpendicular(const Vec2<R>& v) {
     return Vec2<R>(-v.y(), v.x()).normalized();
@@ -59,6 +69,12 @@ void addPoint(Manifold<S>& out, const typename S::Vec& pointA, const typename S:
     p.feature = feature;
 }
 
+/// The name of a feature with A and B exchanged.
+inline std::uint32_t flippedFeature(std::uint32_t feature) {
+    const std::uint32_t kind = feature >> 30;
+    return kind == 1 || kind == 2 ? (feature & 0x3fffffffu) | ((3u - kind) << 30) : feature;
+}
+
 /// The manifold of (A, B) from that of (B, A).
 template <class S>
 void flip(Manifold<S>& out) {
@@ -66,9 +82,33 @@ void flip(Manifold<S>& out) {
     for (int i = 0; i < out.count; ++i) {
         ManifoldPoint<S>& p = out.points[static_cast<std::size_t>(i)];
         std::swap(p.pointA, p.pointB);
-        const std::uint32_t kind = p.feature >> 30;
-        if (kind == 1 || kind == 2) p.feature = (p.feature & 0x3fffffffu) | ((3u - kind) << 30);
+        p.feature = flippedFeature(p.feature);
     }
+    ManifoldMemory<S>& memory = out.memory;
+    memory.normal = -memory.normal;
+    std::swap(memory.featureA, memory.featureB);
+    if (memory.axis == ManifoldMemory<S>::kFaceA)
+        memory.axis = ManifoldMemory<S>::kFaceB;
+    else if (memory.axis == ManifoldMemory<S>::kFaceB)
+        memory.axis = ManifoldMemory<S>::kFaceA;
+    for (std::uint32_t& name : memory.names) name = flippedFeature(name);
+}
+
+/// How much less deep than the deepest the points kept may be: what reducePoints may pass over.
+template <class S>
+typename S::Real keepSlack(const ManifoldMemory<S>& memory, typename S::Real size) {
+    return memory.count > 0 ? kKeep<typename S::Real> * size : typename S::Real(0);
+}
+
+/// For the next step: what the manifold, complete and in the world, was made of.
+template <class S>
+void remember(Manifold<S>& out) {
+    ManifoldMemory<S>& memory = out.memory;
+    memory.normal = out.normal;
+    memory.count = static_cast<std::uint32_t>(out.count);
+    for (std::size_t i = 0; i < memory.names.size(); ++i)
+        memory.names[i] = i < memory.count ? out.points[i].feature : 0;
+    if (out.count == 0) memory = {};
 }
 
 /// From the frame of A's pose to the world.
@@ -109,10 +149,13 @@ typename S::Real onAxis(const typename S::Vec& x, typename S::Real h) {
     return std::clamp(x.y(), -h, h);
 }
 
-/// Keeps at most maxManifoldPoints of `count` candidates: the deepest, and those that span the largest area.
-/// `separation(i)`, `position(i)`, `emit(i)`; `normal` is the contact normal.
-template <class S, class Separation, class Position, class Emit>
-void reducePoints(int count, const typename S::Vec& normal, Separation separation, Position position,
+/// Keeps at most maxManifoldPoints of `count` candidates: the deepest, and those that span the largest area;
+/// of candidates that are as good within kKeep or kKeepSpread those that `memory` knows, in its order.
+/// `separation(i)`, `position(i)`, `name(i)`, `emit(i)`; `normal` is the contact normal, `size` that of the
+/// smaller shape.
+template <class S, class Separation, class Position, class Name, class Emit>
+void reducePoints(int count, const typename S::Vec& normal, typename S::Real size,
+                  const ManifoldMemory<S>& memory, Separation separation, Position position, Name name,
                   Emit emit) {
     using R = typename S::Real;
     using V = typename S::Vec;
@@ -120,30 +163,49 @@ void reducePoints(int count, const typename S::Vec& normal, Separation separatio
         for (int i = 0; i < count; ++i) emit(i);
         return;
     }
-    const auto best = [count](auto score) {
+    // The highest score, or of those hardly lower the one remembered first.
+    const auto best = [&](auto score, R share, R tolerance) {
         int index = 0;
         R top = score(0);
         for (int i = 1; i < count; ++i)
             if (const R s = score(i); s > top) top = s, index = i;
+        const R enough = (R(1) - share) * top - tolerance;
+        for (std::uint32_t k = 0; k < memory.count; ++k)
+            for (int i = 0; i < count; ++i)
+                if (name(i) == memory.names[k] && score(i) >= enough) return std::pair<int, R>(i, top);
         return std::pair<int, R>(index, top);
     };
-    const int p0 = best([&](int i) { return -separation(i); }).first;
+    const int p0 = best([&](int i) { return R(-separation(i)); }, R(0), kKeep<R> * size).first;
     const V a = position(p0);
-    const int p1 = best([&](int i) {
-                       const V d = position(i) - a;
-                       return R((d - normal * normal.dot(d)).squaredNorm());
-                   }).first;
+    const int p1 = best(
+                       [&](int i) {
+                           const V d = position(i) - a;
+                           return R((d - normal * normal.dot(d)).squaredNorm());
+                       },
+                       R(2) * kKeepSpread<R>, R(0))
+                       .first;
     emit(p0);
     if (p1 == p0) return;
     emit(p1);
     if constexpr (S::maxManifoldPoints > 2) {
         const V across = normal.cross(V(position(p1) - a));
-        const auto [p2, high] = best([&](int i) { return R(across.dot(position(i) - a)); });
-        const auto [p3, low] = best([&](int i) { return R(-across.dot(position(i) - a)); });
+        const auto [p2, high] =
+            best([&](int i) { return R(across.dot(position(i) - a)); }, kKeepSpread<R>, R(0));
+        const auto [p3, low] =
+            best([&](int i) { return R(-across.dot(position(i) - a)); }, kKeepSpread<R>, R(0));
         const R flat = kRounding<R> * across.squaredNorm();
         if (high > flat) emit(p2);
         if (low > flat) emit(p3);
     }
+}
+
+/// The same without a memory.
+template <class S, class Separation, class Position, class Emit>
+void reducePoints(int count, const typename S::Vec& normal, Separation separation, Position position,
+                  Emit emit) {
+    reducePoints<S>(
+        count, normal, typename S::Real(0), ManifoldMemory<S>{}, separation, position,
+        [](int) { return std::uint32_t(0); }, emit);
 }
 
 }  // namespace rigor::engine

@@ -20,10 +20,13 @@ void collideGjkEpa(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, cons
     }
     out.count = 0;
     const Minkowski<S> D(a, Xa, b, Xb);
-    const CoreContact<S> contact = closestCores<S>(D);
+    CoreContact<S> contact = closestCores<S>(D);
+    if (out.memory.count > 0)
+        keepNormal<S>(a, b, D, rotateInverse<typename S::Real>(Xa.q, out.memory.normal), contact);
     if (contact.distance - roundingRadius<S>(a) - roundingRadius<S>(b) > speculativeDistance) return;
     featureManifold<typename S::Real>(a, b, D, contact, speculativeDistance, out);
     toWorldFrame<S>(out, Xa);
+    remember(out);
 }
 
 #define INSTANTIATE(S)                                                                               \

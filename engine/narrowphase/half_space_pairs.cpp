@@ -25,10 +25,11 @@ void verticesAgainstPlane(int count, Vertex vertex, typename S::Real radius, con
     constexpr int kMost = 64;
     std::array<int, kMost> near;
     int found = 0;
-    R lowest = std::numeric_limits<R>::max();
+    R lowest = std::numeric_limits<R>::max(), size = 0;
     int deepest = 0;
     for (int i = 0; i < count; ++i) {
         const R s = separation(i);
+        size = std::max(size, vertex(i).cwiseAbs().maxCoeff());
         if (s < lowest) lowest = s, deepest = i;
         if (s <= speculative && found < kMost) near[static_cast<std::size_t>(found++)] = i;
     }
@@ -43,7 +44,8 @@ void verticesAgainstPlane(int count, Vertex vertex, typename S::Real radius, con
         addPoint<S>(out, onShape, onShape - s * n, s, vertexFeature(true, index(k)));
     };
     reducePoints<S>(
-        found, local, [&](int k) { return separation(index(k)); }, [&](int k) { return V(vertex(index(k))); },
+        found, local, size, out.memory, [&](int k) { return separation(index(k)); },
+        [&](int k) { return V(vertex(index(k))); }, [&](int k) { return vertexFeature(true, index(k)); },
         emit);
 }
 

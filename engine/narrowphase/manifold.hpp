@@ -20,14 +20,30 @@ struct ManifoldPoint {
     std::uint32_t feature = 0;  ///< names the touching features; stable from frame to frame while they touch
 };
 
+/// What a narrow phase chose for a pair, for the same pair in the next step: where another axis, or another
+/// choice of points, is better by a hair only (kKeep, kKeepSpread in detail.hpp), the last one stays, and
+/// normals and features do not take turns with rounding. Part of the world's state.
+template <class S>
+struct ManifoldMemory {
+    enum Axis : std::uint8_t { kNoAxis, kFaceA, kFaceB, kEdges };
+    std::uint8_t axis = kNoAxis;               ///< which features made the axis, where polytopes met
+    std::uint32_t featureA = 0, featureB = 0;  ///< their faces; of kEdges their edges
+    typename S::Vec normal = S::Vec::Zero();   ///< as in Manifold
+    std::uint32_t count = 0;                   ///< 0: nothing remembered
+    std::array<std::uint32_t, S::maxManifoldPoints> names{};  ///< features of the points, in their order
+};
+
 template <class S>
 struct Manifold {
     typename S::Vec normal = S::Vec::Zero();  ///< unit, world frame, A to B
     int count = 0;                            ///< 0: no contact within the speculative distance
     std::array<ManifoldPoint<S>, S::maxManifoldPoints> points;
+    ManifoldMemory<S> memory;
 };
 
 /// Fills `out` for two posed shapes. Points are reported up to `speculativeDistance` >= 0 [m] of separation.
+/// Of `out` only the memory is read: that of the same pair in the last step, or an empty one, which gives the
+/// deepest axis there is.
 template <class S>
 using CollideFunction = void (*)(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
                                  typename S::Real speculativeDistance, Manifold<S>& out);

@@ -103,6 +103,12 @@ struct CoreContact {
 template <class S>
 CoreContact<S> closestCores(const Minkowski<S>& D);
 
+/// Puts the way out that `last`, the normal of the last step (frame of A), leads to in the place of the
+/// contact's, where that one is no shorter than by kKeep of the smaller shape (keep_normal.cpp).
+template <class S>
+void keepNormal(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, const typename S::Vec& last,
+                CoreContact<S>& contact);
+
 /// Contact points along a known normal: the two faces (edges, segments) of the shapes that support it, one
 /// clipped to the other where they are nearly flat against each other, and always the deepest point. Fills
 /// `out` in the frame of A; `a` and `b` are the shapes of D.

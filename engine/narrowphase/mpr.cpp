@@ -28,37 +28,6 @@
 namespace rigor::engine {
 namespace {
 
-/// Strictly inside a shape with a volume.
-template <class S>
-typename S::Vec innerPoint(const Shape<S>& shape) {
-    using V = typename S::Vec;
-    if (const auto* hull = std::get_if<Hull<S>>(&shape)) return hull->data->center;
-    V sum = V::Zero();
-    for (int i = 0; i < S::dim; ++i)
-        sum += coreSupport<S>(shape, V::Unit(i)) + coreSupport<S>(shape, V(-V::Unit(i)));
-    return sum / typename S::Real(2 * S::dim);
-}
-
-/// A descent gains at least a facet per ray; more rays than this only trade rounding.
-constexpr int kMostRays = 24;
-
-/// Follows the normals from `start` down to a local minimum of the support.
-template <class S>
-void descend(PortalQuery<S>& query, const typename S::Vec& start) {
-    using R = typename S::Real;
-    using V = typename S::Vec;
-    V d = start;
-    R last = std::numeric_limits<R>::max();
-    for (int ray = 0; ray < kMostRays; ++ray) {
-        const Portal<S> portal = castPortal<R>(query, V(V::Zero()), d);
-        if (portal.facet.count == 0) return;
-        const R support = portal.normal.dot(portal.facet.points[0].w);
-        if (!(support < last - query.tolerance())) return;
-        last = support;
-        d = portal.normal;
-    }
-}
-
 /// Where descents begin: of all directions offered those of least support.
 template <class S>
 class Starts {
@@ -152,24 +121,9 @@ bool portalContact(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, 
     PortalQuery<S>& query = overlap ? cores : grown;
     contact.normal = query.normal();
     contact.distance = -query.least();
-    // The ray from deep inside to the foot point meets the facet that holds it.
-    const V foot = (query.least() + query.margin()) * contact.normal;
-    Portal<S> portal = castPortal<R>(query, inner, V((foot - inner).normalized()));
+    placeFoot<S>(query, D, inner, contact);
     contact.iterations = cores.asked() + grown.asked();
     contact.converged = true;
-    if (portal.facet.count == 0) {
-        const DifferencePoint<S> p = D.point(contact.normal);
-        contact.onA = p.a;
-        contact.onB = p.b;
-    } else {
-        reduceSimplex<S>(portal.facet, foot);
-        contact.onA = portal.facet.onA();
-        contact.onB = portal.facet.onB();
-    }
-    // The foot point is shared: what is left of a difference across the normal goes half to either side.
-    const V gap = contact.onB - contact.onA - contact.distance * contact.normal;
-    contact.onA += R(0.5) * gap;
-    contact.onB -= R(0.5) * gap;
     return true;
 }
 
@@ -189,8 +143,10 @@ void collideMpr(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const P
     const R reach = roundingRadius<S>(a) + roundingRadius<S>(b) + speculativeDistance;
     CoreContact<S> contact;
     if (!portalContact<S>(a, b, D, reach, contact) || contact.distance > reach) return;
+    if (out.memory.count > 0) keepNormal<S>(a, b, D, rotateInverse<R>(Xa.q, out.memory.normal), contact);
     featureManifold<R>(a, b, D, contact, speculativeDistance, out);
     toWorldFrame<S>(out, Xa);
+    remember(out);
 }
 
 #define INSTANTIATE(S)                                                                                     \

@@ -50,6 +50,23 @@ struct Portal {
     typename S::Vec normal;
     Simplex<S> facet;
 };
+/// A direction and the support of the (grown) difference along it.
+template <class S>
+struct WayOut {
+    typename S::Vec normal;
+    typename S::Real support;
+};
+/// Follows the normals of portals from the direction `start` down to a local minimum of the support.
+template <class S>
+WayOut<S> descend(PortalQuery<S>& query, const typename S::Vec& start);
+/// Points on the cores for a normal and distance that a query has found; `inner` is inside the difference.
+template <class S>
+void placeFoot(PortalQuery<S>& query, const Minkowski<S>& D, const typename S::Vec& inner,
+               CoreContact<S>& contact);
+/// Strictly inside a shape with a volume, in its own frame.
+template <class S>
+typename S::Vec innerPoint(const Shape<S>& shape);
+
 template <class R>
 Portal<Space<R, 2>> castPortal(PortalQuery<Space<R, 2>>& query, const Vec2<R>& from, const Vec2<R>& d);
 template <class R>

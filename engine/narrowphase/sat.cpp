@@ -38,10 +38,15 @@ void collideKinds(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const
     } else if constexpr (kHasPair<S, A, B>) {
         collidePair(*std::get_if<A>(&a), Xa, *std::get_if<B>(&b), Xb, speculative, out);
     } else if constexpr (kHasPair<S, B, A>) {
+        flip(out);  // the memory
         collidePair(*std::get_if<B>(&b), Xb, *std::get_if<A>(&a), Xa, speculative, out);
         flip(out);
-    } else {
+    } else if constexpr (IndexA <= IndexB) {
         collideFeatures(a, Xa, b, Xb, speculative, out);
+    } else {
+        flip(out);  // the memory
+        collideFeatures(b, Xb, a, Xa, speculative, out);
+        flip(out);
     }
 }
 
@@ -58,12 +63,7 @@ void collideSat(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const P
     static constexpr auto kTable = makeTable<S>(std::make_index_sequence<kKinds<S> * kKinds<S>>());
     out.count = 0;
     kTable[a.index() * kKinds<S> + b.index()](a, Xa, b, Xb, speculativeDistance, out);
-    // Round features are named by the part they lie on, which two points may share.
-    for (int i = 1; i < out.count; ++i)
-        for (int j = 0; j < i; ++j)
-            if (out.points[static_cast<std::size_t>(i)].feature ==
-                out.points[static_cast<std::size_t>(j)].feature)
-                out.points[static_cast<std::size_t>(i)].feature ^= static_cast<std::uint32_t>(i) << 24;
+    remember(out);
 }
 
 #define INSTANTIATE(S)                                                                                     \

@@ -36,10 +36,23 @@ void collidePair(const Sphere<S>& a, const Pose<S>& Xa, const Box<S>& b, const P
     if (distance > kRounding<R> * b.halfExtents.maxCoeff()) {
         normal = outward / distance;
         separation = distance - a.radius;
+        out.memory.axis = ManifoldMemory<S>::kNoAxis;
     } else {
+        const V depths = b.halfExtents - c.cwiseAbs();
         int axis = 0;
-        const R inside = (b.halfExtents - c.cwiseAbs()).minCoeff(&axis);
-        normal = V::Unit(axis) * (c[axis] < 0 ? R(-1) : R(1));
+        R inside = depths.minCoeff(&axis);
+        // The face of the last step stays while it is as near within kKeep.
+        R sign = c[axis] < 0 ? R(-1) : R(1);
+        const auto last = static_cast<int>(out.memory.featureB);
+        if (out.memory.axis == ManifoldMemory<S>::kFaceB && last < 2 * S::dim) {
+            const R lastSign = last % 2 == 0 ? R(-1) : R(1);
+            const R depth = b.halfExtents[last / 2] - lastSign * c[last / 2];
+            if (depth <= inside + kKeep<R> * std::min(a.radius, b.halfExtents.minCoeff()))
+                axis = last / 2, sign = lastSign, inside = depth;
+        }
+        out.memory.axis = ManifoldMemory<S>::kFaceB;
+        out.memory.featureB = static_cast<std::uint32_t>(2 * axis + (sign < 0 ? 0 : 1));
+        normal = V::Unit(axis) * sign;
         onBox[axis] = normal[axis] * b.halfExtents[axis];
         separation = -inside - a.radius;
     }

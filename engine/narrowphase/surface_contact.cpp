@@ -140,10 +140,12 @@ void collideWith(Collide collide, const Data& data, std::uint32_t index, const P
     const R s = front ? bottom : -top;
     if (s > speculative) return;
     Manifold<S> along;
+    along.memory = out.memory;
     collideAlong<R>(piece, front, convex, placed.X, speculative, along);
     if (faceIsShortest<S>(piece, n, s, along) || (Data::kSolidBelow && under)) {
         out = along;
         toWorldFrame<S>(out, Xs);
+        remember(out);
         return;
     }
     collide(Shape<S>(piece), Xs, convex, Xc, speculative, out);
@@ -153,6 +155,7 @@ void collideWith(Collide collide, const Data& data, std::uint32_t index, const P
     if (upwards && isSurfaceNormal<S>(data, index, found)) return;
     out = along;
     toWorldFrame<S>(out, Xs);
+    remember(out);
 }
 
 }  // namespace

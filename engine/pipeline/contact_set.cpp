@@ -181,6 +181,7 @@ void ContactSet<S>::findContact(const Search& search, const Candidate& candidate
         return;
     }
     contact = {};
+    if (old) contact.manifold.memory = old->manifold.memory;
     collide(search, candidate, contact.manifold);
     contact.shapeA = a, contact.shapeB = b, contact.piece = candidate.piece;
     contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
@@ -210,6 +211,7 @@ void ContactSet<S>::collide(const Search& search, const Candidate& candidate, Ma
     }
     const bool surfaceA = isComposite<S>(shapes_[a].shape);
     const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
+    if (!surfaceA) flipManifold(manifold);  // its memory
     collidePiece<S>(search.narrowPhase, shapes_[surface].shape, candidate.piece, shapePoses_[surface],
                     shapes_[other].shape, shapePoses_[other], search.speculativeDistance, manifold);
     if (!surfaceA) flipManifold(manifold);

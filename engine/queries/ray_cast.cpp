@@ -99,7 +99,7 @@ void meetBall(const Ray<S>& ray, const typename S::Vec& c, typename S::Real r, F
     const R disc = r * r - nearest.squaredNorm();
     if (disc < 0) return;
     const R t = outside / (-b + std::sqrt(dd * disc));
-    found.consider(t, typename S::Vec((ray.at(t) - c) / r));
+    found.consider(t, typename S::Vec((ray.at(t) - c).normalized()));
 }
 
 /// v without its component along y.
@@ -135,7 +135,7 @@ void meet(const Ray<S>& ray, const Capsule<S>& s, Found<S>& found) {
     if (c <= 0 && std::abs(ray.o.y()) <= s.halfLength) found.inside = true;
     typename S::Real t0 = 0, t1 = 0;
     if (found.inside || c <= 0 || !roots(typename S::Real(d.squaredNorm()), o.dot(d), c, t0, t1)) return;
-    if (std::abs(ray.at(t0).y()) <= s.halfLength) found.consider(t0, V((o + t0 * d) / s.radius));
+    if (std::abs(ray.at(t0).y()) <= s.halfLength) found.consider(t0, V((o + t0 * d).normalized()));
 }
 template <class S>
 void meet(const Ray<S>& ray, const HalfSpace<S>& s, Found<S>& found) {
@@ -174,7 +174,7 @@ void meet(const Ray<S>& ray, const Cylinder<S>& s, Found<S>& found) {
     if (a == 0 || !roots<R>(a, o.dot(d), c, t0, t1)) {
         met = met && c <= 0;
     } else {
-        if (c > 0 && t0 >= stretch.enter) stretch.enter = t0, stretch.normal = V((o + t0 * d) / s.radius);
+        if (c > 0 && t0 >= stretch.enter) stretch.enter = t0, stretch.normal = V((o + t0 * d).normalized());
         met = met && stretch.enter <= std::min(stretch.exit, t1) && (c <= 0 || t0 >= 0);
     }
     take(stretch, met, found);

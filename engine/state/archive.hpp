@@ -168,6 +168,16 @@ void visitValue(A& archive, C& cache) {
         archive.scalar(cache.points[i].name);
     }
 }
+template <class A, class M>
+requires requires(M& m) {
+    m.axis, m.featureA, m.featureB, m.names;
+}
+void visitValue(A& archive, M& memory) {
+    archive.scalar(memory.axis), archive.scalar(memory.featureA), archive.scalar(memory.featureB);
+    visitValue(archive, memory.normal), archive.scalar(memory.count);
+    ByteReader::require(memory.count <= memory.names.size(), "a manifold of too many points");
+    for (auto& name : memory.names) archive.scalar(name);
+}
 template <class A, class L>
 requires requires(L& l) {
     l.begin(), l.data(), l.max_size();

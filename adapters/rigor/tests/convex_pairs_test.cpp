@@ -133,7 +133,7 @@ TYPED_TEST(ConvexPairs, HardCasesAgreeWithTheOracle) {
         SCOPED_TRACE(kind.name);
         Maker make{std::mt19937(11), S::dim};
         int overlapping = 0;
-        for (int i = 0; i < 12 && !this->HasFatalFailure(); ++i) {
+        for (int i = 0; i < 30 && !this->HasFatalFailure(); ++i) {
             SCOPED_TRACE(i);
             Posed a{make.shape(kind), {kind.place * make.direction(), make.rotation()}};
             Posed b{kind.same ? a.geometry : make.shape(kind), a.pose};
@@ -157,7 +157,7 @@ TYPED_TEST(ConvexPairs, HardCasesAgreeWithTheOracle) {
             checkPair<S>(a, b, exact->signedDistance, kind.size, kExact<S> * kind.size + placed);
         }
         if (kind.gap < -1e8) {
-            EXPECT_GE(overlapping, 1);
+            EXPECT_GE(overlapping, 3);
         }
     }
 }

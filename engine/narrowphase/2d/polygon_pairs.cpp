@@ -81,14 +81,20 @@ template <class R>
 EdgeAxis<R> bestEdge(const Polygon<R>& a, const Polygon<R>& b, const Pose<Space<R, 2>>& X, R tolerance) {
     EdgeAxis<R> best;
     for (int i = 0; i < a.count; ++i) {
-        const Vec2<R> n = rotateInverse<R>(X.q, a.normals[i]);
-        const R base = a.normals[i].dot(X.p - a.vertices[i]);
-        R s = std::numeric_limits<R>::max();
-        for (int j = 0; j < b.count; ++j) s = std::min(s, base + n.dot(b.vertices[j]));
+        const R s = edgeSeparation(a, b, X, i);
         // An edge must be better by more than rounding, or opposite edges would take turns.
         if (i == 0 || s > best.separation + tolerance) best = {i, s};
     }
     return best;
+}
+
+/// The separation along edge i of `a`.
+template <class R>
+R edgeSeparation(const Polygon<R>& a, const Polygon<R>& b, const Pose<Space<R, 2>>& X, int i) {
+    const Vec2<R> n = rotateInverse<R>(X.q, a.normals[i]);
+    R s = std::numeric_limits<R>::max();
+    for (int j = 0; j < b.count; ++j) s = std::min(s, n.dot(b.vertices[j]));
+    return s + a.normals[i].dot(X.p - a.vertices[i]);
 }
 
 template <class R>
@@ -213,10 +219,20 @@ void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Pol
     if (onB.separation > radius + speculative) return;
     bool refIsA = onB.separation <= onA.separation + tolerance;
     int edge = refIsA ? onA.edge : onB.edge;
-    const R separation = refIsA ? onA.separation : onB.separation;
+    const R widest = refIsA ? onA.separation : onB.separation;
+    R separation = widest;
+    // The edge of the last step stays while it is as good within kKeep.
+    using Memory = ManifoldMemory<S>;
+    const bool lastIsA = out.memory.axis == Memory::kFaceA;
+    const auto last = static_cast<int>(lastIsA ? out.memory.featureA : out.memory.featureB);
+    if (out.memory.axis != Memory::kNoAxis && last < (lastIsA ? a : b).count) {
+        const R s = lastIsA ? edgeSeparation(a, b, XAB, last) : edgeSeparation(b, a, XBA, last);
+        if (s >= widest - kKeep<R> * std::min(sizeOf(a), sizeOf(b)))
+            refIsA = lastIsA, edge = last, separation = s;
+    }
 
     const bool segments = a.count == 2 && b.count == 2;
-    const bool apart = segments ? coresApart(a, b, XAB) : separation > tolerance;
+    const bool apart = segments ? coresApart(a, b, XAB) : widest > tolerance;
     if (radius > 0 && apart) {
         Closest<R> closest;
         closestVertex(a, b, XAB, true, closest);
@@ -228,14 +244,19 @@ void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Pol
             roundedPoint<S>(a.vertices[va], a.radius, toWorld<S>(XAB, b.vertices[vb]), b.radius,
                             a.normals[va], speculative, vertexFeature(false, vb), out);
             toWorldFrame<S>(out, Xa);
+            out.memory.axis = Memory::kNoAxis;
             return;
         }
         if (!touching) refIsA = closest.vertexOnB, edge = closest.edge;
     }
+    out.memory.axis = refIsA ? Memory::kFaceA : Memory::kFaceB;
+    out.memory.featureA = out.memory.featureB = static_cast<std::uint32_t>(edge);
     const Reference<R> c =
         refIsA ? Reference<R>{a, b, XAB, true, speculative} : Reference<R>{b, a, XBA, false, speculative};
     clipEdges<R>(c, edge, out);
-    if (separation < -tolerance && !apart) restoreDeepest<R>(c, edge, separation, tolerance, out);
+    // Along an edge that is not the best the deepest vertex can well be beside the edge.
+    if (separation < -tolerance && !apart && (separation == widest || out.count == 0))
+        restoreDeepest<R>(c, edge, separation, tolerance, out);
     toWorldFrame<S>(out, refIsA ? Xa : Xb);
 }
 
@@ -256,6 +277,14 @@ void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, cons
     for (int i = 0; i < p.count; ++i)
         if (const R h = p.normals[i].dot(c - p.vertices[i]); h > height) height = h, edge = i;
     if (height - a.radius > speculative) return;
+    // A centre inside keeps the edge of the last step while it is as near within kKeep.
+    const auto last = static_cast<int>(out.memory.featureB);
+    if (height <= 0 && out.memory.axis == ManifoldMemory<S>::kFaceB && last < p.count) {
+        const R h = p.normals[last].dot(c - p.vertices[last]);
+        if (h >= height - kKeep<R> * std::min(a.radius, sizeOf(p))) height = h, edge = last;
+    }
+    out.memory.axis = ManifoldMemory<S>::kFaceB;
+    out.memory.featureB = static_cast<std::uint32_t>(edge);
     const Vec2<R> v = p.vertices[edge], e = p.vertex(edge + 1) - v, n = p.normals[edge];
     const R t = e.dot(c - v) / e.squaredNorm();
     if (height > 0 && (t < 0 || t > 1)) {
@@ -270,15 +299,26 @@ void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, cons
     toWorldFrame<S>(out, Xb);
 }
 
-/// The nearest point of the segment; a centre on it leaves along the normal.
+/// Over the segment its own normal, exact however near the centre is, and upwards where it lies on it; beside
+/// it the end.
 template <class R>
 void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, const Segment<Space<R, 2>>& b,
                  const Pose<Space<R, 2>>& Xb, typename Space<R, 2>::Real speculative,
                  Manifold<Space<R, 2>>& out) {
     using S = Space<R, 2>;
     const Vec2<R> c = rotateInverse<R>(Xb.q, Xa.p - Xb.p), e = b.b - b.a;
-    const R t = std::clamp(e.dot(c - b.a) / e.squaredNorm(), R(0), R(1));
-    roundedPoint<S>(c, a.radius, b.a + t * e, R(0), anyPerpendicular<R>(e), speculative, 0, out);
+    const R t = e.dot(c - b.a) / e.squaredNorm();
+    if (t > 0 && t < 1) {
+        const Vec2<R> across = anyPerpendicular<R>(e);
+        const R height = across.dot(c - b.a);
+        const Vec2<R> up = height < 0 ? Vec2<R>(-across) : across;
+        if (std::abs(height) - a.radius > speculative) return;
+        out.normal = -up;
+        addPoint<S>(out, c - a.radius * up, c - height * across, std::abs(height) - a.radius, 0);
+    } else {
+        roundedPoint<S>(c, a.radius, b.a + std::clamp(t, R(0), R(1)) * e, R(0), anyPerpendicular<R>(e),
+                        speculative, 0, out);
+    }
     toWorldFrame<S>(out, Xb);
 }
 

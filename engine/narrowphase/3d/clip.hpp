@@ -118,9 +118,10 @@ int deepestIndex(const Polytope<R>& p, const Vec3<R>& direction) {
 }
 
 /// Of the faces that meet at the vertex furthest along `direction`, the one that faces it most. (The best of
-/// all faces need not hold that vertex: hulls can be sharp.)
+/// all faces need not hold that vertex: hulls can be sharp.) `last`, the face of the last step or -1, stays
+/// where it faces it as well as that, to a milliradian or so, and holds the vertex within kKeep.
 template <class R>
-int incidentFace(const Polytope<R>& p, const Vec3<R>& direction) {
+int incidentFace(const Polytope<R>& p, const Vec3<R>& direction, int last = -1) {
     const Vec3<R>& v = p.vertices[deepestIndex(p, direction)];
     int best = 0;
     R facing = -2;
@@ -128,6 +129,11 @@ int incidentFace(const Polytope<R>& p, const Vec3<R>& direction) {
         const HullFace<R>& f = p.faces[i];
         if (f.offset - f.normal.dot(v) > kRounding<R> * p.size) continue;
         if (const R c = f.normal.dot(direction); c > facing) facing = c, best = i;
+    }
+    if (last >= 0 && last < p.faceCount) {
+        const HullFace<R>& f = p.faces[last];
+        if (f.offset - f.normal.dot(v) <= kKeep<R> * p.size && f.normal.dot(direction) >= facing - R(1e-3))
+            return last;
     }
     return best;
 }

@@ -62,6 +62,12 @@ R flatness(const Feature<R>& f, const Vec3<R>& n) {
     return std::sqrt(std::max(R(0), R(1) - e.dot(n) * e.dot(n)));
 }
 
+/// The first side of the smaller of two faces or segments: what kKeep is a share of.
+template <class R>
+R smallerSide(const FaceLoop<R>& a, const FaceLoop<R>& b) {
+    return std::min((a.at[1] - a.at[0]).norm(), (b.at[1] - b.at[0]).norm());
+}
+
 template <class R>
 struct Clip {
     const Feature<R>& ref;
@@ -102,7 +108,8 @@ void faceAgainstFeature(const Clip<R>& c, Manifold<Space<R, 3>>& out) {
         return polygon.v[static_cast<std::size_t>(near[static_cast<std::size_t>(k)])].x;
     };
     reducePoints<Space<R, 3>>(
-        found, c.outward, [&](int k) { return height(at(k)); }, at,
+        found, c.outward, smallerSide(c.ref.loop, c.inc.loop), out.memory,
+        [&](int k) { return height(at(k)); }, at, [&](int k) { return names[static_cast<std::size_t>(k)]; },
         [&](int k) { addClipped(c, at(k), height(at(k)), names[static_cast<std::size_t>(k)], out); });
 }
 
@@ -158,7 +165,10 @@ void featureManifold(const Shape<Space<R, 3>>& a, const Shape<Space<R, 3>>& b,
             segmentAgainstSegment<R>({fA, fB, true, n, rA, rB, speculative}, out);
     }
     const R size = std::max(contact.onA.norm(), contact.onB.norm()) + rA + rB;
-    addDeepest<S>(contact, rA, rB, R(4) * kRounding<R> * size, out);
+    const R slack = fA.loop.count >= 2 && fB.loop.count >= 2
+                        ? keepSlack(out.memory, smallerSide(fA.loop, fB.loop))
+                        : R(0);
+    addDeepest<S>(contact, rA, rB, R(4) * kRounding<R> * size + slack, out);
 }
 
 template void featureManifold<float>(const Shape<Space3f>&, const Shape<Space3f>&, const Minkowski<Space3f>&,

@@ -3,7 +3,8 @@
 //
 // Any two convex shapes of space, in the frame of A:
 //
-//   1. normal n and separation by closestPoints (GJK, EPA);
+//   1. normal n and separation by closestPoints (GJK, EPA), or the way out of the last step where that is as
+//      short (keep_normal.cpp);
 //   2. where a flat face of A or B looks along n within 2.5 degrees and the separation along the face's own
 //      normal, s(m) = min over B of m . x - max over A of m . x, is no less than that of n within rounding,
 //      the face's normal is taken: exact, and the same from step to step;
@@ -18,6 +19,7 @@
 // features.
 #include "engine/narrowphase/3d/feature.hpp"
 #include "engine/narrowphase/distance.hpp"
+#include "engine/narrowphase/minkowski.hpp"
 #include "engine/narrowphase/pairs.hpp"
 
 namespace rigor::engine {
@@ -136,13 +138,18 @@ R steadyHeight(Height height, R lowest, R noise, int i) {
     return h <= lowest + noise ? lowest : h;
 }
 
+/// The first side of the smaller of two faces or segments.
+template <class R>
+R smallerSide(const SupportFeature<R>& a, const SupportFeature<R>& b) {
+    return std::min((a.at[1] - a.at[0]).norm(), (b.at[1] - b.at[0]).norm());
+}
+
 /// A disc's points all are as deep where it lies flat. Which of them count as deepest must not hang on the
 /// rocking of a resting body: another choice in every step has no impulses to start from.
 template <class R>
 R selectionNoise(const Meeting<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc) {
     const bool discs = ref.count == kRimPoints || inc.count == kRimPoints;
-    const R size = std::min((ref.at[1] - ref.at[0]).norm(), (inc.at[1] - inc.at[0]).norm());
-    return discs ? std::max(R(2) * kRimNoise<R> * size, m.tolerance) : m.tolerance;
+    return discs ? std::max(R(2) * kRimNoise<R> * smallerSide(ref, inc), m.tolerance) : m.tolerance;
 }
 
 /// A face against a face or a segment.
@@ -174,9 +181,9 @@ void clipFeatures(const Meeting<R>& m, const SupportFeature<R>& ref, const Suppo
     const auto at = [&](int k) -> const ClipVertex<R>& { return polygon[near[static_cast<std::size_t>(k)]]; };
     const R noise = selectionNoise(m, ref, inc);
     reducePoints<S3<R>>(
-        found, outward,
+        found, outward, smallerSide(ref, inc), out.memory,
         [&](int k) { return steadyHeight<R>([&](int i) { return height(at(i).x); }, lowest, noise, k); },
-        [&](int k) { return at(k).x; },
+        [&](int k) { return at(k).x; }, [&](int k) { return clipFeature(at(k), ref, inc, refIsA); },
         [&](int k) {
             const ClipVertex<R>& c = at(k);
             const R h = height(c.x);
@@ -212,6 +219,23 @@ void alongSegments(const Meeting<R>& m, const SupportFeature<R>& fa, const Suppo
     }
 }
 
+/// Step 1b: the way out of the last step, where it is as short. `last` in the frame of A.
+template <class R>
+void keepWayOut(const Shape<S3<R>>& a, const Shape<S3<R>>& b, const Pose<S3<R>>& X, const Vec3<R>& last,
+                ClosestPoints<S3<R>>& closest) {
+    const R rA = roundingRadius<S3<R>>(a), rB = roundingRadius<S3<R>>(b);
+    CoreContact<S3<R>> contact;
+    contact.normal = closest.normal;
+    contact.distance = closest.distance + rA + rB;
+    contact.onA = closest.pointA - rA * closest.normal;
+    contact.onB = closest.pointB + rB * closest.normal;
+    keepNormal<S3<R>>(a, b, Minkowski<S3<R>>(a, Pose<S3<R>>{}, b, X), last, contact);
+    closest.normal = contact.normal;
+    closest.distance = contact.distance - rA - rB;
+    closest.pointA = contact.onA + rA * contact.normal;
+    closest.pointB = contact.onB - rB * contact.normal;
+}
+
 /// Step 4.
 template <class R>
 void keepDeepest(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
@@ -222,13 +246,14 @@ void keepDeepest(const Meeting<R>& m, const SupportFeature<R>& fa, const Support
     const R noise = fa.count > 2 && fb.count > 1   ? selectionNoise(m, fa, fb)
                     : fb.count > 2 && fa.count > 1 ? selectionNoise(m, fb, fa)
                                                    : m.tolerance;
-    if (out.count > 0 && least <= m.separation + R(4) * noise) return;
+    const R slack = fa.count > 1 && fb.count > 1 ? keepSlack(out.memory, smallerSide(fa, fb)) : R(0);
+    if (out.count > 0 && least <= m.separation + R(4) * noise + slack) return;
     if (out.count == S3<R>::maxManifoldPoints) --out.count;
     const bool vertexOnA = fa.count == 1, vertexOnB = fb.count == 1;
-    const std::uint32_t feature =
-        vertexOnB   ? vertexFeature(false, fb.index[0])
-        : vertexOnA ? vertexFeature(true, fa.index[0])
-                    : crossingFeature(edgeName(fa.index[0], fa.index[1]), edgeName(fb.index[0], fb.index[1]));
+    // Inside both features, whatever of them is near: a name that no crossing of two edges has.
+    const std::uint32_t feature = vertexOnB   ? vertexFeature(false, fb.index[0])
+                                  : vertexOnA ? vertexFeature(true, fa.index[0])
+                                              : crossingFeature(0, 1);
     // Both points on one line along the normal.
     const Vec3<R> middle = R(0.5) * (m.pointA + m.pointB), half = R(0.5) * m.separation * m.normal;
     addPoint<S3<R>>(out, middle - half, middle + half, m.separation, feature);
@@ -241,7 +266,9 @@ void collideFeatures(const Shape<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, c
                      const Pose<Space<R, 3>>& Xb, R speculative, Manifold<Space<R, 3>>& out) {
     using S = Space<R, 3>;
     const Pose<S> X = relativePose<S>(Xa, Xb);
-    const ClosestPoints<S> closest = closestPoints<S>(a, Pose<S>{}, b, X);
+    ClosestPoints<S> closest = closestPoints<S>(a, Pose<S>{}, b, X);
+    if (out.memory.count > 0 && closest.distance < 0)
+        keepWayOut(a, b, X, rotateInverse<R>(Xa.q, out.memory.normal), closest);
     if (!(closest.distance <= speculative)) return;
     const R size = std::max({closest.pointA.cwiseAbs().maxCoeff(), closest.pointB.cwiseAbs().maxCoeff(),
                              X.p.cwiseAbs().maxCoeff()});

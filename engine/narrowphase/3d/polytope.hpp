@@ -85,6 +85,7 @@ struct PolytopeAxis {
     int featureA = 0, featureB = 0;  ///< face or edge indices (FaceA: only featureA; FaceB: only featureB)
     Vec3<R> normal;                  ///< unit, A to B
     R separation = -std::numeric_limits<R>::max();
+    bool kept = false;  ///< the last step's, though another is better by less than kKeep
 };
 
 /// Rotation and translation of B in the frame of A.
@@ -113,6 +114,13 @@ bool polytopeAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>&
 template <class R>
 bool boxAxis(const Vec3<R>& halfA, const Vec3<R>& halfB, const Relative<R>& X, R speculative,
              PolytopeAxis<R>& best);
+
+/// Puts the axis that `memory` names in the place of `best` where that one is no better than by kKeep of the
+/// smaller polytope: two ways out that are equally deep do not take turns. A face does not give way to
+/// edges then, but edges to a face: it holds more points.
+template <class R>
+void keepAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X,
+              const ManifoldMemory<Space<R, 3>>& memory, PolytopeAxis<R>& best);
 
 /// Near-parallel edges make no axis: their facet of the Minkowski difference is thin, and its normal lost to
 /// rounding. Sine of the angle.

@@ -113,6 +113,42 @@ bool polytopeAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>&
     return best.separation <= speculative;
 }
 
+template <class R>
+void keepAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X,
+              const ManifoldMemory<Space<R, 3>>& memory, PolytopeAxis<R>& best) {
+    using Memory = ManifoldMemory<Space<R, 3>>;
+    PolytopeAxis<R> last;
+    const auto i = static_cast<int>(memory.featureA), j = static_cast<int>(memory.featureB);
+    if (memory.axis == Memory::kFaceA && i < a.faceCount) {
+        last.kind = PolytopeAxis<R>::FaceA;
+        last.normal = a.faces[i].normal;
+    } else if (memory.axis == Memory::kFaceB && j < b.faceCount) {
+        last.kind = PolytopeAxis<R>::FaceB;
+        last.normal = -(X.rotation * b.faces[j].normal);
+    } else if (memory.axis == Memory::kEdges && best.kind == PolytopeAxis<R>::Edges && i < a.edgeCount &&
+               j < b.edgeCount) {
+        const HullEdge &ea = a.edges[i], &eb = b.edges[j];
+        const Vec3<R> da = a.vertices[ea.v1] - a.vertices[ea.v0];
+        const Vec3<R> db = X.rotation * (b.vertices[eb.v1] - b.vertices[eb.v0]);
+        const Vec3<R> n = da.cross(db);
+        const R length = n.norm();
+        if (!(length > kParallel<R> * da.norm() * db.norm())) return;
+        last.kind = PolytopeAxis<R>::Edges;
+        last.normal =
+            n * ((n.dot(a.faces[ea.left].normal + a.faces[ea.right].normal) < 0 ? R(-1) : R(1)) / length);
+    } else {
+        return;
+    }
+    last.featureA = i, last.featureB = j;
+    last.separation = separationAlong(a, b, X, last.normal);
+    last.kept = last.separation < best.separation;
+    if (last.separation >= best.separation - kKeep<R> * std::min(a.size, b.size)) best = last;
+}
+
+template void keepAxis<float>(const Polytope<float>&, const Polytope<float>&, const Relative<float>&,
+                              const ManifoldMemory<Space3f>&, PolytopeAxis<float>&);
+template void keepAxis<double>(const Polytope<double>&, const Polytope<double>&, const Relative<double>&,
+                               const ManifoldMemory<Space3d>&, PolytopeAxis<double>&);
 template bool polytopeAxis<float>(const Polytope<float>&, const Polytope<float>&, const Relative<float>&,
                                   float, PolytopeAxis<float>&);
 template bool polytopeAxis<double>(const Polytope<double>&, const Polytope<double>&, const Relative<double>&,

@@ -17,7 +17,7 @@ namespace {
 /// `outward`: the contact normal, out of the reference face. Fills `out` in the frame of A.
 template <class R>
 void clipFaces(const FaceLoop<R>& ref, const HullFace<R>& refPlane, const FaceLoop<R>& inc, bool refIsA,
-               const PolytopeAxis<R>& axis, R speculative, Manifold<Space<R, 3>>& out) {
+               const PolytopeAxis<R>& axis, R size, R speculative, Manifold<Space<R, 3>>& out) {
     using V = Vec3<R>;
     const V outward = refIsA ? axis.normal : V(-axis.normal);
     ClipPolygon<R> buffers[2];
@@ -40,7 +40,9 @@ void clipFaces(const FaceLoop<R>& ref, const HullFace<R>& refPlane, const FaceLo
                               featureOf(c, ref, inc, refIsA));
     };
     reducePoints<Space<R, 3>>(
-        found, outward, [&](int k) { return height(vertex(k).x); }, [&](int k) { return vertex(k).x; }, emit);
+        found, outward, size, out.memory, [&](int k) { return height(vertex(k).x); },
+        [&](int k) { return vertex(k).x; }, [&](int k) { return featureOf(vertex(k), ref, inc, refIsA); },
+        emit);
 }
 
 /// Closest points of two segments p + s d, q + t e that are not parallel; clamped to the segments.
@@ -98,6 +100,16 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
     const V towardsB = X.rotation.transpose() * axis.normal;
     const bool edges = axis.kind == PolytopeAxis<R>::Edges;
     int faceA = axis.featureA, faceB = axis.featureB;
+    using Memory = ManifoldMemory<Space<R, 3>>;
+    const auto feature = [](int i) { return static_cast<std::uint32_t>(i); };
+    const Memory last = out.memory;
+    out.memory.axis = edges                                 ? Memory::kEdges
+                      : axis.kind == PolytopeAxis<R>::FaceA ? Memory::kFaceA
+                                                            : Memory::kFaceB;
+    out.memory.featureA = feature(axis.featureA), out.memory.featureB = feature(axis.featureB);
+    const bool keepsAxis = last.axis == out.memory.axis &&
+                           (axis.kind == PolytopeAxis<R>::FaceA ? last.featureA == feature(axis.featureA)
+                                                                : last.featureB == feature(axis.featureB));
     if (edges) {
         faceA = betterFace<R>(a, a.edges[axis.featureA], axis.normal);
         faceB = betterFace<R>(b, b.edges[axis.featureB], -towardsB);
@@ -107,10 +119,11 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
             return;
         }
     } else if (axis.kind == PolytopeAxis<R>::FaceA) {
-        faceB = incidentFace<R>(b, -towardsB);
+        faceB = incidentFace<R>(b, -towardsB, keepsAxis ? static_cast<int>(last.featureB) : -1);
     } else {
-        faceA = incidentFace<R>(a, axis.normal);
+        faceA = incidentFace<R>(a, axis.normal, keepsAxis ? static_cast<int>(last.featureA) : -1);
     }
+    if (!edges) out.memory.featureA = feature(faceA), out.memory.featureB = feature(faceB);
     const bool refIsA = axis.kind != PolytopeAxis<R>::FaceB;
     FaceLoop<R> loopA, loopB;
     loadFace(
@@ -122,14 +135,18 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
         plane.normal = X.direction(plane.normal);
         plane.offset += plane.normal.dot(X.translation);
     }
-    clipFaces<R>(refIsA ? loopA : loopB, plane, refIsA ? loopB : loopA, refIsA, axis, speculative, out);
+    clipFaces<R>(refIsA ? loopA : loopB, plane, refIsA ? loopB : loopA, refIsA, axis,
+                 std::min(a.size, b.size), speculative, out);
     // Of overlapping polytopes the deepest point is on both faces; where rounding clipped it away it is put
-    // back.
+    // back. Along an axis that is not the best it can well be beside them.
     R least = std::numeric_limits<R>::max();
     for (int i = 0; i < out.count; ++i)
         least = std::min(least, out.points[static_cast<std::size_t>(i)].separation);
     const R size = std::max(a.size, b.size);
-    if (axis.separation > 0 || least <= axis.separation + R(4) * axisTolerance(size, axis.separation)) return;
+    if (axis.separation > 0 || (axis.kept && out.count > 0) ||
+        least <= axis.separation + R(4) * axisTolerance(size, axis.separation) +
+                     keepSlack(out.memory, std::min(a.size, b.size)))
+        return;
     if (out.count == Space<R, 3>::maxManifoldPoints) --out.count;
     if (edges)
         edgePoint(a, b, X, axis, out);

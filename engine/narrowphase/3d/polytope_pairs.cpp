@@ -34,6 +34,7 @@ void collidePolytopes(const A& a, const Pose<Space<R, 3>>& Xa, const B& b, const
     const Relative<R> X = relative<R>(Xa, Xb);
     PolytopeAxis<R> axis;
     if (!bestAxis<R>(a, pa, b, pb, X, speculative, axis)) return;
+    keepAxis<R>(pa, pb, X, out.memory, axis);
     polytopeManifold<R>(pa, pb, X, axis, speculative, out);
     toWorldFrame<Space<R, 3>>(out, Xa);
 }

@@ -151,8 +151,12 @@ void roundAgainstPlane(const Round& a, const Pose<Space<R, 3>>& Xa, const HalfSp
         addPoint<S>(out, x, x - s * n, s,
                     vertexFeature(true, static_cast<int>(near.id[static_cast<std::size_t>(i)])));
     };
+    const auto name = [&](int i) {
+        return vertexFeature(true, static_cast<int>(near.id[static_cast<std::size_t>(i)]));
+    };
     reducePoints<S>(
-        near.count, local, separation, [&](int i) { return near.at[static_cast<std::size_t>(i)]; }, emit);
+        near.count, local, std::max(a.radius, a.halfLength), out.memory, separation,
+        [&](int i) { return near.at[static_cast<std::size_t>(i)]; }, name, emit);
 }
 
 /// Point of a triangle nearest to x: over the face its foot, else the nearest point of the sides.

@@ -88,6 +88,22 @@ struct CoreAxis {
     int face = -1, edge = -1;
 };
 
+/// The axis across the core and edge i; false where they make no facet of the difference.
+template <class R>
+bool edgeAxis(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, int i, CoreAxis<R>& axis) {
+    const HullEdge& e = hull.edges[i];
+    const Vec3<R>& left = hull.faces[e.left].normal;
+    const Vec3<R>& right = hull.faces[e.right].normal;
+    if (left.dot(d) * right.dot(d) >= 0) return false;
+    const Vec3<R> along = hull.vertices[e.v1] - hull.vertices[e.v0];
+    Vec3<R> n = along.cross(d);
+    const R length = n.norm();
+    if (!(length > kRounding<R> * along.norm() * d.norm())) return false;
+    n *= (n.dot(left + right) < 0 ? R(-1) : R(1)) / length;
+    axis = {n, n.dot(p - hull.vertices[e.v0]), -1, i};
+    return true;
+}
+
 template <class R>
 CoreAxis<R> bestAxis(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R tolerance) {
     CoreAxis<R> best;
@@ -97,20 +113,26 @@ CoreAxis<R> bestAxis(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d
         if (s > best.separation + tolerance) best = {f.normal, s, i, -1};
     }
     if (d.squaredNorm() == 0) return best;
-    for (int i = 0; i < hull.edgeCount; ++i) {
-        const HullEdge& e = hull.edges[i];
-        const Vec3<R>& left = hull.faces[e.left].normal;
-        const Vec3<R>& right = hull.faces[e.right].normal;
-        if (left.dot(d) * right.dot(d) >= 0) continue;
-        const Vec3<R> along = hull.vertices[e.v1] - hull.vertices[e.v0];
-        Vec3<R> n = along.cross(d);
-        const R length = n.norm();
-        if (!(length > kRounding<R> * along.norm() * d.norm())) continue;
-        n *= (n.dot(left + right) < 0 ? R(-1) : R(1)) / length;
-        const R s = n.dot(p - hull.vertices[e.v0]);
-        if (s > best.separation + tolerance) best = {n, s, -1, i};
-    }
+    CoreAxis<R> axis;
+    for (int i = 0; i < hull.edgeCount; ++i)
+        if (edgeAxis(hull, p, d, i, axis) && axis.separation > best.separation + tolerance) best = axis;
     return best;
+}
+
+/// The face or edge that `memory` names in the place of the best where it is as good within `slack`.
+template <class R>
+void keepAxis(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d,
+              const ManifoldMemory<Space<R, 3>>& memory, R slack, CoreAxis<R>& best) {
+    using Memory = ManifoldMemory<Space<R, 3>>;
+    const auto i = static_cast<int>(memory.featureB);
+    CoreAxis<R> last;
+    if (memory.axis == Memory::kFaceB && i < hull.faceCount) {
+        const HullFace<R>& f = hull.faces[i];
+        last = {f.normal, f.normal.dot(p) - f.offset + std::min(R(0), f.normal.dot(d)), i, -1};
+    } else if (memory.axis == Memory::kEdges && best.edge >= 0 && i < hull.edgeCount) {
+        if (!edgeAxis(hull, p, d, i, last)) return;
+    }
+    if (last.separation >= best.separation - slack) best = last;
 }
 
 /// The part of the core over the face, along n: parameters of p + s d. False where nothing is left.
@@ -145,8 +167,16 @@ void collideCore(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R 
     using V = Vec3<R>;
     const R size = std::max({hull.size, p.cwiseAbs().maxCoeff(), (p + d).cwiseAbs().maxCoeff()});
     const R tolerance = kRounding<R> * size;
-    const CoreAxis<R> axis = bestAxis(hull, p, d, tolerance);
+    CoreAxis<R> axis = bestAxis(hull, p, d, tolerance);
     if (axis.separation - radius > speculative) return;
+    using Memory = ManifoldMemory<S>;
+    if (axis.separation <= tolerance) {
+        keepAxis(hull, p, d, out.memory, kKeep<R> * std::min(hull.size, radius + d.norm() / R(2)), axis);
+        out.memory.axis = axis.face >= 0 ? Memory::kFaceB : Memory::kEdges;
+        out.memory.featureB = static_cast<std::uint32_t>(std::max(axis.face, axis.edge));
+    } else {
+        out.memory.axis = Memory::kNoAxis;
+    }
 
     V n = axis.normal;
     R distance = axis.separation;
@@ -234,6 +264,7 @@ template <class R>
 void collidePair(const Box<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Capsule<Space<R, 3>>& b,
                  const Pose<Space<R, 3>>& Xb, typename Space<R, 3>::Real speculative,
                  Manifold<Space<R, 3>>& out) {
+    flip(out);  // the memory
     capsulePolytope<R>(b, Xb, a, Xa, speculative, out);
     flip(out);
 }

@@ -80,9 +80,7 @@ TYPED_TEST(NarrowPhases, AgreeWithTheClosestPoints) {
             EXPECT_EQ(names.size(), static_cast<std::size_t>(m.count));
             const double found = leastSeparation(m);
             if (a.index() != Kind::HalfSpace && b.index() != Kind::HalfSpace) {
-                // A normal's last bit, times the distance to the furthest point.
-                EXPECT_NEAR(separationAlong<S>(a, Xa, b, Xb, m.normal), found,
-                            std::max(eps, tol<S>(0, 1e-4)));
+                EXPECT_NEAR(separationAlong<S>(a, Xa, b, Xb, m.normal), found, eps);
             }
             EXPECT_LE(found, d + eps);
             if (exact)

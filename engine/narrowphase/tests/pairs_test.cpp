@@ -81,7 +81,7 @@ TYPED_TEST(Pairs, DepthIsTheBestOverDirections) {
         }
         const double d = leastSeparation(m);
         const double eps = std::max(sharp, curvedTolerance<S>(a, b));
-        EXPECT_NEAR(separationAlong<S>(a, Xa, b, Xb, m.normal), d, std::max(eps, tol<S>(0, 1e-4)));
+        EXPECT_NEAR(separationAlong<S>(a, Xa, b, Xb, m.normal), d, eps);
         EXPECT_LE(best, d + eps);
         EXPECT_GE(best, d - 0.15);
     });
@@ -92,11 +92,14 @@ TYPED_TEST(Pairs, SwappingAAndBFlipsTheManifold) {
     const double sharp = tol<S>(1e-13, 1e-5);
     this->forEachPair(40, [&](const auto& a, const auto& Xa, const auto& b, const auto& Xb) {
         const double eps = std::max(sharp, 0.05 * curvedTolerance<S>(a, b));
+        // Where both sides are curved the depth has a smooth minimum over directions, whose normal is good to
+        // the root of the rounding, sqrt(2 * 16 * 6e-8 m / 0.4 m): 2e-3 from either side.
+        const double across = isRound<S>(a) && isRound<S>(b) ? tol<S>(0, 5e-3) : 0;
         const Manifold<S> ab = collide<S>(a, Xa, b, Xb), ba = collide<S>(b, Xb, a, Xa);
         ASSERT_EQ(ab.count == 0, ba.count == 0);
         if (ab.count == 0) return;
         EXPECT_NEAR(leastSeparation(ab), leastSeparation(ba), eps);
-        EXPECT_LE((ab.normal + ba.normal).norm(), std::max(eps * 100, tol<S>(0, 1e-2)));
+        EXPECT_LE((ab.normal + ba.normal).norm(), std::max(100 * eps, across));
         // The deepest point of one is a point of the other, with A and B exchanged.
         const auto deepest =
             std::min_element(ab.points.begin(), ab.points.begin() + ab.count,
@@ -106,7 +109,7 @@ TYPED_TEST(Pairs, SwappingAAndBFlipsTheManifold) {
             nearest = std::min(nearest,
                                static_cast<double>(
                                    (ba.points[static_cast<std::size_t>(i)].pointB - deepest->pointA).norm()));
-        EXPECT_LE(nearest, std::max(eps * 100, tol<S>(0, 1e-2)));
+        EXPECT_LE(nearest, std::max(100 * eps, across));
     });
 }
 

@@ -102,7 +102,7 @@ TYPED_TEST(Questions, RaysFindTheNearest) {
         }
         EXPECT_EQ(without.has_value(), met > 1);
     }
-    EXPECT_GT(hits, 40);
+    EXPECT_GT(hits, 100);
 }
 
 TYPED_TEST(Questions, NearestAndOverlaps) {
