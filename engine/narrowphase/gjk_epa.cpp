@@ -4,6 +4,10 @@
 // The "gjk_epa" narrow phase: distance and normal of every pair of bounded convex shapes by GJK between their
 // cores, by EPA where the cores overlap (gjk.cpp, 2d/epa.cpp, 3d/epa.cpp); contact points by clipping the
 // features that support the normal (feature_manifold.cpp). Half-spaces are the closed forms of "sat".
+//
+// Known limits: on the pairs of sat.cpp no wrong verdict beyond 1e-9 m of touching, and depths and what
+// normals lose within 2e-15 of size and place. Curved shapes with a ring of equally deep ways out (a cylinder
+// in a cone about one axis) run out of EPA's vertices 1e-4 too deep.
 #include "engine/narrowphase/minkowski.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
 #include "engine/narrowphase/surface_contact.hpp"

@@ -56,6 +56,14 @@ Vec3<R> edgeNormal(const Eigen::Matrix<R, 3, 3>& C, int i, int j) {
     return Vec3<R>::Unit(i).cross(C.col(j));
 }
 
+/// The separation along the unit vector n over both boxes: never more than there is, whatever rounding made
+/// of n.
+template <class R>
+R separationAlong(const Vec3<R>& a, const Vec3<R>& b, const Eigen::Matrix<R, 3, 3>& C, const Vec3<R>& t,
+                  const Vec3<R>& n) {
+    return std::abs(n.dot(t)) - a.dot(n.cwiseAbs()) - b.dot((C.transpose() * n).cwiseAbs());
+}
+
 /// False when an edge axis separates by more than `speculative`.
 template <class R>
 bool bestEdges(const Vec3<R>& a, const Vec3<R>& b, const Eigen::Matrix<R, 3, 3>& C,
@@ -65,11 +73,13 @@ bool bestEdges(const Vec3<R>& a, const Vec3<R>& b, const Eigen::Matrix<R, 3, 3>&
         for (int j = 0; j < 3; ++j) {
             const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
             const R squared = C(i1, j) * C(i1, j) + C(i2, j) * C(i2, j);
-            if (squared <= kParallel<R> * kParallel<R>) continue;
+            if (squared <= kRounding<R> * kRounding<R>) continue;
             const R ra = a[i1] * absC(i2, j) + a[i2] * absC(i1, j);
             const R rb = b[j1] * absC(i, j2) + b[j2] * absC(i, j1);
             const R along = t[i2] * C(i1, j) - t[i1] * C(i2, j);
-            const R s = (std::abs(along) - ra - rb) / std::sqrt(squared);
+            R s = (std::abs(along) - ra - rb) / std::sqrt(squared);
+            if (squared <= kParallel<R> * kParallel<R> && s > best.separation)
+                s = separationAlong<R>(a, b, C, t, edgeNormal(C, i, j).normalized());
             if (s > best.separation) best = {i, j, s};
         }
     }

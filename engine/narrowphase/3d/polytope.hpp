@@ -122,8 +122,8 @@ template <class R>
 void keepAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X,
               const ManifoldMemory<Space<R, 3>>& memory, PolytopeAxis<R>& best);
 
-/// Near-parallel edges make no axis: their facet of the Minkowski difference is thin, and its normal lost to
-/// rounding. Sine of the angle.
+/// The facet of near-parallel edges is thin and its normal may be lost to rounding: their separation is
+/// measured over all vertices. Sine of the angle.
 template <class R>
 inline constexpr R kParallel = R(1e-7);
 template <>

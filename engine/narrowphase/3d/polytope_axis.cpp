@@ -36,6 +36,16 @@ FaceAxis<R> bestFace(const Polytope<R>& p, const Polytope<R>& q, const Relative<
     return best;
 }
 
+/// The separation along `n` over all vertices: never more than there is, whatever rounding made of n.
+template <class R>
+R separationAlong(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X, const Vec3<R>& n) {
+    R high = -std::numeric_limits<R>::max(), low = std::numeric_limits<R>::max();
+    for (int i = 0; i < a.vertexCount; ++i) high = std::max(high, n.dot(a.vertices[i]));
+    const Vec3<R> local = X.rotation.transpose() * n;
+    for (int i = 0; i < b.vertexCount; ++i) low = std::min(low, local.dot(b.vertices[i]));
+    return low + n.dot(X.translation) - high;
+}
+
 template <class R>
 PolytopeAxis<R> bestEdges(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X) {
     PolytopeAxis<R> best;
@@ -58,10 +68,15 @@ PolytopeAxis<R> bestEdges(const Polytope<R>& a, const Polytope<R>& b, const Rela
             if (l * r >= 0 || c * r <= 0) continue;
             Vec3<R> n = da.cross(db);
             const R squared = n.squaredNorm();
-            if (squared <= kParallel<R> * kParallel<R> * squaredA * db.squaredNorm()) continue;
+            const R whole = squaredA * db.squaredNorm();
+            if (squared <= kRounding<R> * kRounding<R> * whole) continue;
             n *= (n.dot(left + right) < 0 ? R(-1) : R(1)) / std::sqrt(squared);
-            const R s = n.dot(b.vertices[eb.v0] - pa);
+            R s = n.dot(b.vertices[eb.v0] - pa);
             if (s <= best.separation) continue;
+            if (squared <= kParallel<R> * kParallel<R> * whole) {
+                s = separationAlong(a, b, X, Vec3<R>(X.rotation * n));
+                if (s <= best.separation) continue;
+            }
             best.separation = s;
             best.normal = n;
             best.featureA = i;
@@ -70,16 +85,6 @@ PolytopeAxis<R> bestEdges(const Polytope<R>& a, const Polytope<R>& b, const Rela
     }
     best.normal = X.rotation * best.normal;
     return best;
-}
-
-/// The separation along `n` over all vertices: what the edge pair's own value must agree with.
-template <class R>
-R separationAlong(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X, const Vec3<R>& n) {
-    R high = -std::numeric_limits<R>::max(), low = std::numeric_limits<R>::max();
-    for (int i = 0; i < a.vertexCount; ++i) high = std::max(high, n.dot(a.vertices[i]));
-    const Vec3<R> local = X.rotation.transpose() * n;
-    for (int i = 0; i < b.vertexCount; ++i) low = std::min(low, local.dot(b.vertices[i]));
-    return low + n.dot(X.translation) - high;
 }
 
 }  // namespace

@@ -43,20 +43,21 @@ bool overFace(const Polytope<R>& p, const HullFace<R>& f, const Vec3<R>& x) {
     return true;
 }
 
-/// Closest points of segments p + s d and q + t e, s and t in [0, 1]; d may be zero.
+/// Closest points of segments p + s d and q + t e, s and t in [0, 1]; d may be zero. The crossing by cross
+/// products: |d|^2 |e|^2 - (d . e)^2 is all rounding for angles below its root.
 template <class R>
 void segmentSegment(const Vec3<R>& p, const Vec3<R>& d, const Vec3<R>& q, const Vec3<R>& e,
                     std::uint32_t feature, Closest<R>& best) {
-    const Vec3<R> r = p - q;
+    const Vec3<R> r = p - q, across = d.cross(e);
     const R dd = d.squaredNorm(), ee = e.squaredNorm(), de = d.dot(e);
-    const R denominator = dd * ee - de * de;
+    const R denominator = across.squaredNorm();
     R s = 0;
-    if (denominator > kRounding<R> * dd * ee)
-        s = std::clamp((de * e.dot(r) - ee * d.dot(r)) / denominator, R(0), R(1));
+    if (denominator > kRounding<R> * kRounding<R> * dd * ee)
+        s = std::clamp(R(e.cross(r).dot(across) / denominator), R(0), R(1));
     const R t = std::clamp((de * s + e.dot(r)) / ee, R(0), R(1));
     if (dd > 0) s = std::clamp((de * t - d.dot(r)) / dd, R(0), R(1));
     const bool inside = denominator > R(1e-6) * dd * ee && s > 0 && s < 1 && t > 0 && t < 1;
-    consider<R>(p + s * d, q + t * e, feature, inside ? Vec3<R>(d.cross(e)) : Vec3<R>(Vec3<R>::Zero()), best);
+    consider<R>(p + s * d, q + t * e, feature, inside ? across : Vec3<R>(Vec3<R>::Zero()), best);
 }
 
 /// Core p to p + d (d = 0: a point) outside the polytope.

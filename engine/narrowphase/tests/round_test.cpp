@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "engine/narrowphase/narrowphases.hpp"
 #include "engine/narrowphase/tests/pair_table.hpp"
 
 namespace rigor::engine::test {
@@ -24,6 +25,12 @@ class Round : public testing::Test {
     const Shape<S> ball = Sphere<S>{R(0.5)};
     static Pose<S> at(double x, double y, double z = 0, double angle = 0, double tilt = 0) {
         return pose<S>(vec<S>(x, y, z), turn<S>(angle, tilt));
+    }
+    static Manifold<S> by(const char* narrowPhase, const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b,
+                          const Pose<S>& Xb) {
+        Manifold<S> m;
+        findNarrowPhase<S>(narrowPhase)(a, Xa, b, Xb, R(0), m);
+        return m;
     }
     static void expectContact(const Manifold<S>& m, const typename S::Vec& normal, double separation,
                               int count) {
@@ -50,63 +57,78 @@ TYPED_TEST_SUITE(Round, RoundSpaces);
 
 TYPED_TEST(Round, StandingOnACapHasFourSpreadPoints) {
     using S = TypeParam;
-    const auto up = vec<S>(0, 1, 0);
-    const std::array<Shape<S>, 2> grounds{this->floor, this->table};
-    for (std::size_t g = 0; g < 2; ++g)
-        for (const Shape<S>& round : {this->cylinder, this->cone}) {
-            const auto m = collide<S>(grounds[g], this->at(0, g == 0 ? 0 : -1), round, this->at(0, 0.99));
-            this->expectContact(m, up, -0.01, 4);
-            EXPECT_GT(this->spread(m), 0.5 * std::sqrt(0.5) - 1e-5) << g;
+    for (const NarrowPhaseEntry& entry : narrowPhases()) {
+        SCOPED_TRACE(entry.name);
+        const auto up = vec<S>(0, 1, 0);
+        const std::array<Shape<S>, 2> grounds{this->floor, this->table};
+        for (std::size_t g = 0; g < 2; ++g)
+            for (const Shape<S>& round : {this->cylinder, this->cone}) {
+                const auto m =
+                    this->by(entry.name, grounds[g], this->at(0, g == 0 ? 0 : -1), round, this->at(0, 0.99));
+                this->expectContact(m, up, -0.01, 4);
+                EXPECT_GT(this->spread(m), 0.5 * std::sqrt(0.5) - 1e-5) << g;
+            }
+        // On another cylinder, beside its middle: the common part of the caps.
+        const auto m =
+            this->by(entry.name, this->cylinder, this->at(0, -1), this->cylinder, this->at(0.3, 0.99, 0.1));
+        this->expectContact(m, up, -0.01, 4);
+        for (int i = 0; i < 4; ++i) {
+            const auto& p = m.points[static_cast<std::size_t>(i)].pointA;
+            EXPECT_LE(std::hypot(p.x(), p.z()), 0.5 + 1e-5);
+            EXPECT_LE(std::hypot(p.x() - 0.3, p.z() - 0.1), 0.5 + 1e-5);
         }
-    // On another cylinder, beside its middle: the common part of the caps.
-    const auto m = collide<S>(this->cylinder, this->at(0, -1), this->cylinder, this->at(0.3, 0.99, 0.1));
-    this->expectContact(m, up, -0.01, 4);
-    for (int i = 0; i < 4; ++i) {
-        const auto& p = m.points[static_cast<std::size_t>(i)].pointA;
-        EXPECT_LE(std::hypot(p.x(), p.z()), 0.5 + 1e-5);
-        EXPECT_LE(std::hypot(p.x() - 0.3, p.z() - 0.1), 0.5 + 1e-5);
     }
 }
 
 TYPED_TEST(Round, LyingCylinderHasItsLine) {
     using S = TypeParam;
-    const auto up = vec<S>(0, 1, 0);
-    const auto lying = this->at(0.2, 0.49, 0, kPi / 2);
-    for (const bool onTable : {false, true}) {
-        const auto m = onTable ? collide<S>(this->table, this->at(0, -1), this->cylinder, lying)
-                               : collide<S>(this->floor, this->at(0, 0), this->cylinder, lying);
-        this->expectContact(m, up, -0.01, 2);
-        EXPECT_NEAR(std::abs(m.points[0].pointA.x() - m.points[1].pointA.x()), 2, 1e-5);
+    for (const NarrowPhaseEntry& entry : narrowPhases()) {
+        SCOPED_TRACE(entry.name);
+        const auto up = vec<S>(0, 1, 0);
+        const auto lying = this->at(0.2, 0.49, 0, kPi / 2);
+        for (const bool onTable : {false, true}) {
+            const auto m = onTable ? this->by(entry.name, this->table, this->at(0, -1), this->cylinder, lying)
+                                   : this->by(entry.name, this->floor, this->at(0, 0), this->cylinder, lying);
+            this->expectContact(m, up, -0.01, 2);
+            EXPECT_NEAR(std::abs(m.points[0].pointA.x() - m.points[1].pointA.x()), 2, 1e-5);
+        }
+        // Two cylinders side by side share a line of 1.5.
+        const auto m =
+            this->by(entry.name, this->cylinder, this->at(0, 0), this->cylinder, this->at(0.6, 0.5, 0.78));
+        ASSERT_EQ(m.count, 2);
+        const double d = std::hypot(0.6, 0.78);
+        EXPECT_LE((m.normal - vec<S>(0.6 / d, 0, 0.78 / d)).norm(), tol<S>(1e-6, 3e-3));
+        EXPECT_NEAR(leastSeparation(m), d - 1, tol<S>(1e-12, 4e-6));
+        EXPECT_NEAR(std::abs(m.points[0].pointA.y() - m.points[1].pointA.y()), 1.5, 1e-5);
+        // Crossed: one point.
+        EXPECT_EQ(this->by(entry.name, this->cylinder, this->at(0, 0), this->cylinder,
+                           this->at(0.1, 0.2, 0.95, kPi / 2))
+                      .count,
+                  1);
     }
-    // Two cylinders side by side share a line of 1.5.
-    const auto m = collide<S>(this->cylinder, this->at(0, 0), this->cylinder, this->at(0.6, 0.5, 0.78));
-    ASSERT_EQ(m.count, 2);
-    const double d = std::hypot(0.6, 0.78);
-    EXPECT_LE((m.normal - vec<S>(0.6 / d, 0, 0.78 / d)).norm(), tol<S>(1e-6, 3e-3));
-    EXPECT_NEAR(leastSeparation(m), d - 1, tol<S>(1e-12, 4e-6));
-    EXPECT_NEAR(std::abs(m.points[0].pointA.y() - m.points[1].pointA.y()), 1.5, 1e-5);
-    // Crossed: one point.
-    EXPECT_EQ(
-        collide<S>(this->cylinder, this->at(0, 0), this->cylinder, this->at(0.1, 0.2, 0.95, kPi / 2)).count,
-        1);
 }
 
 TYPED_TEST(Round, ConeOnItsSideHasItsLineAndOnItsApexAPoint) {
     using S = TypeParam;
-    const auto up = vec<S>(0, 1, 0);
-    // Its side makes the angle atan(r / 2h) with the axis; lying on it the axis rises by as much.
-    const double half = std::atan(0.25), middle = 0.5 * 0.5 * std::cos(half);
-    const auto side = this->at(0, middle - 0.01, 0, kPi / 2 + half);
-    for (const bool onTable : {false, true}) {
-        const auto m = onTable ? collide<S>(this->table, this->at(0, -1), this->cone, side)
-                               : collide<S>(this->floor, this->at(0, 0), this->cone, side);
-        this->expectContact(m, up, -0.01, 2);
-        EXPECT_NEAR((m.points[0].pointA - m.points[1].pointA).norm(), std::hypot(2, 0.5), 1e-5);
+    for (const NarrowPhaseEntry& entry : narrowPhases()) {
+        SCOPED_TRACE(entry.name);
+        const auto up = vec<S>(0, 1, 0);
+        // Its side makes the angle atan(r / 2h) with the axis; lying on it the axis rises by as much.
+        const double half = std::atan(0.25), middle = 0.5 * 0.5 * std::cos(half);
+        const auto side = this->at(0, middle - 0.01, 0, kPi / 2 + half);
+        for (const bool onTable : {false, true}) {
+            const auto m = onTable ? this->by(entry.name, this->table, this->at(0, -1), this->cone, side)
+                                   : this->by(entry.name, this->floor, this->at(0, 0), this->cone, side);
+            this->expectContact(m, up, -0.01, 2);
+            EXPECT_NEAR((m.points[0].pointA - m.points[1].pointA).norm(), std::hypot(2, 0.5), 1e-5);
+        }
+        this->expectContact(
+            this->by(entry.name, this->floor, this->at(0, 0), this->cone, this->at(0, 0.98, 0, kPi)), up,
+            -0.02, 1);
+        this->expectContact(
+            this->by(entry.name, this->table, this->at(0, -1), this->cone, this->at(0, 0.98, 0, kPi)), up,
+            -0.02, 1);
     }
-    this->expectContact(collide<S>(this->floor, this->at(0, 0), this->cone, this->at(0, 0.98, 0, kPi)), up,
-                        -0.02, 1);
-    this->expectContact(collide<S>(this->table, this->at(0, -1), this->cone, this->at(0, 0.98, 0, kPi)), up,
-                        -0.02, 1);
 }
 
 /// The lowest rim point of a tilted cylinder is exact, whichever way it tilts.

@@ -7,6 +7,7 @@
 
 #include <numbers>
 
+#include "engine/narrowphase/narrowphases.hpp"
 #include "engine/pipeline/tests/scene.hpp"
 #include "engine/shapes/surface.hpp"
 
@@ -86,8 +87,10 @@ double energyOf(const World<Space3d>& world, const std::vector<BodyId>& bodies) 
     return energy;
 }
 
-/// Ten seconds on a floor, a table, and a cylinder: nothing moves, nothing gains energy.
-TEST(RoundShapes, StandAndLieStill) {
+/// Ten seconds on a floor, a table, and a cylinder, whoever finds the contacts: nothing moves, nothing gains
+/// energy.
+class RoundShapesAtRest : public testing::TestWithParam<const char*> {};
+TEST_P(RoundShapesAtRest, StandAndLieStill) {
     using S = Space3d;
     const Shape<S> cylinder = Cylinder<S>{0.25, 0.3}, cone = Cone<S>{0.3, 0.3};
     const double half = std::atan(0.5);
@@ -103,7 +106,9 @@ TEST(RoundShapes, StandAndLieStill) {
     for (const Case& c : cases)
         for (const std::string ground : {"half-space", "box", "cylinder", "mesh"}) {
             SCOPED_TRACE(std::string(c.name) + " on " + ground);
-            World<S> world(earth<S>());
+            WorldDef<S> settings = earth<S>();
+            settings.narrowPhase = GetParam();
+            World<S> world(settings);
             const std::uint32_t material = world.addMaterial(0.5, 0);
             if (ground == "half-space") addGround<S>(world, material);
             if (ground == "mesh") addSurface<S>(world, flatFloors<S>()[0], material);
@@ -128,9 +133,11 @@ TEST(RoundShapes, StandAndLieStill) {
 }
 
 /// A tower of four cylinders.
-TEST(RoundShapes, CylindersStack) {
+TEST_P(RoundShapesAtRest, CylindersStack) {
     using S = Space3d;
-    World<S> world(earth<S>());
+    WorldDef<S> settings = earth<S>();
+    settings.narrowPhase = GetParam();
+    World<S> world(settings);
     const std::uint32_t material = world.addMaterial(0.5, 0);
     addGround<S>(world, material);
     std::vector<BodyId> bodies;
@@ -145,6 +152,14 @@ TEST(RoundShapes, CylindersStack) {
         EXPECT_GT(rotate(X.q, Eigen::Vector3d(Eigen::Vector3d::UnitY())).y(), 1 - 1e-6);
     }
 }
+
+std::vector<const char*> narrowPhaseNames() {
+    std::vector<const char*> names;
+    for (const NarrowPhaseEntry& entry : narrowPhases()) names.push_back(entry.name);
+    return names;
+}
+INSTANTIATE_TEST_SUITE_P(NarrowPhases, RoundShapesAtRest, testing::ValuesIn(narrowPhaseNames()),
+                         [](const auto& name) { return std::string(name.param); });
 
 /// v = v0 without slip for ever; from sliding, 2/3 v0 (I = m r^2 / 2).
 TEST(RoundShapes, LyingCylinderRolls) {

@@ -75,7 +75,7 @@ TYPED_TEST(Questions, RaysFindTheNearest) {
     const WorldQueries<S> queries(this->world);
     Random<S> random{std::mt19937(40)};
     int hits = 0;
-    for (int n = 0; n < 200; ++n) {
+    for (int n = 0; n < 500; ++n) {
         const typename S::Vec o = R(5) * random.direction(),
                               d = R(random.uniform(1, 10)) * random.direction();
         R best = 2;
