@@ -62,6 +62,14 @@ scenario::LoadedScenario loadWithReference(const std::string& nameOrFile,
                                            const std::vector<std::string>& overrides,
                                            bool assumptionsMustHold);
 
+/// Whether `--set` changed more than the acceptance bounds: simulation and reference follow the new values,
+/// the bounds in the file were measured at its own.
+bool setsMoreThanBounds(const std::vector<std::string>& overrides);
+
+inline constexpr const char* kBoundsNote =
+    "the bounds were set at the file's own values; for other values judge the errors and their order, or "
+    "give bounds: --set accept.rigor.METRIC=VALUE";
+
 /// Prints every problem of a LoadError to stderr, as text or as a JSON array on stdout.
 void printProblems(const scenario::LoadError& error, bool json);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <algorithm>
 #include <cstdio>
 
 #include "cli/command.hpp"
@@ -28,6 +29,11 @@ scenario::LoadedScenario loadWithReference(const std::string& nameOrFile,
             {problem("reference.invalid", error, "a reference of `rigor list references`")});
     }
     return loaded;
+}
+
+bool setsMoreThanBounds(const std::vector<std::string>& overrides) {
+    return std::any_of(overrides.begin(), overrides.end(),
+                       [](const std::string& text) { return !text.starts_with("accept"); });
 }
 
 }  // namespace rigor::cli

@@ -149,6 +149,8 @@ int runHere(const Arguments& a) {
     if (csv != nullptr && !csv->flush())
         throw std::runtime_error("--csv: could not write everything to '" + a.csv + "'");
     if (a.csv != "-") printCase(live.row, a.json);
+    if (live.row.verdict == results::Verdict::Fail && setsMoreThanBounds(a.overrides))
+        std::fprintf(stderr, "note: %s\n", kBoundsNote);
     switch (live.row.verdict) {
         case results::Verdict::Pass:
         case results::Verdict::KnownDeviation:

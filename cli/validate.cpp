@@ -193,7 +193,9 @@ int validate(const Arguments& given) {
     }
     report::writeReports(options.directory);
     printResult(run, options.directory, arguments.json);
-    return validation::runIsGreen(run) ? kOk : kRed;
+    const bool green = validation::runIsGreen(run);
+    if (!green && setsMoreThanBounds(arguments.overrides)) std::fprintf(stderr, "note: %s\n", kBoundsNote);
+    return green ? kOk : kRed;
 }
 
 }  // namespace

@@ -126,6 +126,20 @@ TEST(CommandLine, OverridesChangeSimulationAndReferenceAlike) {
     EXPECT_NEAR(error, 0.5 * 2.0 * 0.01 * 1.0, 1e-9) << "symplectic Euler is off by g h t / 2";
 }
 
+TEST(CommandLine, BoundsUnderOverridesAreExplainedAndCanBeGiven) {
+    const std::string faster = "run symmetric_top --set bodies.plate.angular_velocity=[1.1,-4,2.3]";
+    const auto red = rigor(faster);
+    EXPECT_EQ(red.code, 1);
+    EXPECT_NE(red.out.find("bounds were set at the file's own values"), std::string::npos) << red.out;
+    const auto green = rigor(faster + " --set accept.rigor.orientation_final=0.002");
+    EXPECT_EQ(green.code, 0) << green.out;
+    EXPECT_EQ(green.out.find("note:"), std::string::npos);
+    // a bound alone: the values are the file's own, nothing to explain
+    const auto tight = rigor("run symmetric_top --set accept.rigor.orientation_final=1e-9");
+    EXPECT_EQ(tight.code, 1);
+    EXPECT_EQ(tight.out.find("note:"), std::string::npos) << tight.out;
+}
+
 TEST(CommandLine, ContactLogNamesBodies) {
     const Result result = rigor("run bouncing_ball --engine rigor --log contacts");
     EXPECT_EQ(result.code, 0) << result.out;

@@ -56,6 +56,8 @@ TEST(Overrides, MistakesAreRefused) {
     EXPECT_EQ(idOf("slide_and_stop", "=3"), "override.form");
     EXPECT_EQ(idOf("slide_and_stop", "bodies.brick.mass=3"), "override.unknown");
     EXPECT_EQ(idOf("slide_and_stop", "bodies.7.mass=3"), "override.unknown");
+    EXPECT_EQ(idOf("slide_and_stop", "bodies.block.velocity=[2,0,-.7]"), "override.value");
+    EXPECT_EQ(idOf("slide_and_stop", "title=\"half"), "override.value");
     EXPECT_EQ(idOf("slide_and_stop", "bodies.block.mas=3"), "schema.unknown_key");
     EXPECT_EQ(idOf("slide_and_stop", "bodies.block.mass=-3"), "value.range");
     EXPECT_EQ(idOf("slide_and_stop", "bodies.block.mass=heavy"), "schema.type");
