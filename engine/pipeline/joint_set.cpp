@@ -3,6 +3,7 @@
 #include "engine/pipeline/joint_set.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace rigor::engine {
@@ -20,6 +21,21 @@ typename S::Real endShare(typename S::Real h, const typename S::Ang& w, const ty
     if (!(length > 0)) return Real(1);
     const Real swing = h * cross(w, arm).norm() / length;
     return std::clamp((Real(kNoSwing) - swing) / Real(kNoSwing - kFullSwing), Real(0), Real(1));
+}
+
+/// The inverse of the block's K alone: soft rows hold as well as hard ones, only later, and what the joint
+/// lets move does not depend on the step by which their softness grows.
+template <class S>
+BlockMatrix<S> invertHard(const Row<S>* held, const Block<S>& holding) {
+    std::array<Row<S>, kMaxJointRows> hard;
+    for (int i = 0; i < holding.rows; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        hard[k] = held[i];
+        hard[k].softness = 0;
+    }
+    BlockMatrix<S> inverse;
+    invertBlock<S>(hard.data(), holding, inverse);
+    return inverse;
 }
 
 /// A spring given by its frequency swings what the joint lets move: of a door that is its moment about the
@@ -112,8 +128,9 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
         invertBlock<S>(own, holding, rows.matrices.emplace_back());
         for (std::uint32_t i = record.held; i < record.rows; ++i)
             if (made_.law[i].role == RowRole::Spring && made_.law[i].softness.frequency > 0)
-                setSpringFrequency<S>(own, holding, rows.matrices.back(), made_.law[i].softness, step.h,
-                                      own[i]);
+                setSpringFrequency<S>(own, holding,
+                                      step.bias.soft ? invertHard<S>(own, holding) : rows.matrices.back(),
+                                      made_.law[i].softness, step.h, own[i]);
     }
     startBias_.resize(rows.rows.size());
     for (std::size_t i = 0; i < startBias_.size(); ++i) startBias_[i] = rows.rows[i].bias;

@@ -268,6 +268,31 @@ TYPED_TEST(JointAxes, ASpringsFrequencyIsThatOfWhatTheJointLetsMove) {
     EXPECT_NEAR(std::log2(errors[0] / errors[1]) / 2, 1, 0.2);
 }
 
+/// The same where the joint itself is soft: its softness grows as the step shrinks, the door's moment does
+/// not.
+TYPED_TEST(JointAxes, ASpringsFrequencyDoesNotDependOnHowSoftTheJointIs) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    JointDef<S> def;
+    def.type = JointType::Hinge;
+    def.anchorB = at<S>(-0.9, 0);
+    def.axes[0].frequency = R(1.5), def.axes[0].dampingRatio = R(0.2), def.axes[0].target = R(0.3);
+    WorldDef<S> settings;
+    settings.solver = "tgs_soft";
+    const double w = 2 * kPi * 1.5, zeta = 0.2, wd = w * std::sqrt(1 - zeta * zeta);
+    for (const double h : {1.0 / 100, 1.0 / 400}) {
+        OneBody<S> one(settings, def, 0.9);
+        double error = 0;
+        for (int i = 1; i * h < 2; ++i) {
+            one.world.step(static_cast<R>(h));
+            const double t = i * h, exact = -0.3 * std::exp(-zeta * w * t) *
+                                            (std::cos(wd * t) + zeta * w / wd * std::sin(wd * t));
+            error = std::max(error, std::abs(double(one.world.jointCoordinate(one.joint)) - 0.3 - exact));
+        }
+        EXPECT_LT(error, 0.005 * h * 400) << "h = " << h;
+    }
+}
+
 /// k = m w^2 and c = 2 zeta m w by hand is the same spring.
 TYPED_TEST(JointAxes, StiffnessAndDampingAreTheSameSpring) {
     using S = TypeParam;
