@@ -4,15 +4,12 @@
 // The end of a step for rotation schemes that keep the angular momentum in the world.
 #pragma once
 
-#include <limits>
-
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/rotation.hpp"
 
 namespace rigor::engine {
 
 /// RotationScheme::finish: what the constraints changed is added to the angular momentum L of the start, and
-/// the end velocity is I(q1)^-1 L. Where velocity and momentum are parallel nothing turns and no rounding is
-/// added.
+/// the end velocity is I(q1)^-1 L.
 template <class S>
 typename S::Ang keepAngularMomentum(const BodyConstants<S>& body, const typename S::Rot& q0,
                                     const typename S::Rot& q1, const typename S::Ang& w,
@@ -26,8 +23,7 @@ typename S::Ang keepAngularMomentum(const BodyConstants<S>& body, const typename
         // L = I(q0) (w + what the constraints changed)
         const Vec kept = rotateInverse(q0, Vec(w + (solved - predicted)));
         const Vec Pi = body.inertia * kept;
-        if (kept.cross(Pi).norm() <= Real(4) * std::numeric_limits<Real>::epsilon() * kept.norm() * Pi.norm())
-            return w + (solved - predicted);
+        if (turnsAboutItself<Real>(kept, Pi)) return w + (solved - predicted);
         const Vec L = rotate(q0, Pi);
         const Vec local = inverseInertia<S>(body.inertia) * rotateInverse(q1, L);
         return rotate(q1, local);

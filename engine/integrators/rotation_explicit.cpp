@@ -3,35 +3,29 @@
 //
 // Euler's equations by an explicit step in the body frame: w' = w - h I^-1 (w x I w). Order 1; gains energy
 // and blows up for fast bodies.
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/rotation.hpp"
 
 namespace rigor::engine {
 namespace {
 
-template <class S>
-typename S::Ang predict(const BodyConstants<S>& body, const typename S::Rot& q, const typename S::Ang& w,
-                        typename S::Real h) {
-    if constexpr (S::dim == 2) {
-        (void)body, (void)q, (void)h;
-        return w;
-    } else {
-        using Vec = typename S::Vec;
-        const Vec local = rotateInverse(q, w);
-        const Vec torque = local.cross(Vec(body.inertia * local));
-        const Vec change = inverseInertia<S>(body.inertia) * torque;
-        return rotate(q, Vec(local - h * change));
+struct Explicit {
+    template <class R>
+    static bool turn(const Eigen::Matrix<R, 3, 3>& I, const Eigen::Matrix<R, 3, 1>& w, R h,
+                     Eigen::Matrix<R, 3, 1>& next) {
+        using Vec = Eigen::Matrix<R, 3, 1>;
+        const Vec torque = w.cross(Vec(I * w));
+        const Vec change = inverseInertia<Space<R, 3>>(I) * torque;
+        next = w - h * change;
+        return true;
     }
-}
+};
 
 }  // namespace
 
 template <class S>
 RotationScheme<S> rotationExplicit() {
-    return {&predict<S>, nullptr};
+    return {&predictInBodyFrame<S, Explicit>, nullptr};
 }
-template RotationScheme<Space2f> rotationExplicit<Space2f>();
-template RotationScheme<Space2d> rotationExplicit<Space2d>();
-template RotationScheme<Space3f> rotationExplicit<Space3f>();
-template RotationScheme<Space3d> rotationExplicit<Space3d>();
+RIGOR_INSTANTIATE_ROTATION(rotationExplicit);
 
 }  // namespace rigor::engine

@@ -5,57 +5,38 @@
 //     f(w') = I (w' - w) + h w' x I w' = 0
 // solved by Newton's iteration from w with the Jacobian I + h ([w']x I - [I w']x). Order 1; never gains
 // energy. Deviation from [Catto2015]: iterated to convergence instead of one step.
-#include <limits>
-
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/rotation.hpp"
 
 namespace rigor::engine {
 namespace {
 
-template <class V>
-Eigen::Matrix<typename V::Scalar, 3, 3> skew(const V& a) {
-    Eigen::Matrix<typename V::Scalar, 3, 3> m;
-    m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-    return m;
-}
-
-template <class S>
-typename S::Ang predict(const BodyConstants<S>& body, const typename S::Rot& q, const typename S::Ang& w,
-                        typename S::Real h) {
-    if constexpr (S::dim == 2) {
-        (void)body, (void)q, (void)h;
-        return w;
-    } else {
-        using Vec = typename S::Vec;
-        using Real = typename S::Real;
-        const Vec start = rotateInverse(q, w);
-        const typename S::Mat& I = body.inertia;
-        Vec x = start;
+struct Implicit {
+    template <class R>
+    static bool turn(const Eigen::Matrix<R, 3, 3>& I, const Eigen::Matrix<R, 3, 1>& w, R h,
+                     Eigen::Matrix<R, 3, 1>& next) {
+        using Vec = Eigen::Matrix<R, 3, 1>;
+        constexpr R eps = std::numeric_limits<R>::epsilon();
+        next = w;
         constexpr int kMaxNewton = 8;  // quadratic: 4 suffice up to h |w| = 1
         for (int i = 0; i < kMaxNewton; ++i) {
-            const Vec Ix = I * x;
-            const Vec f = I * (x - start) + h * x.cross(Ix);
-            const typename S::Mat J = I + h * (skew(x) * I - skew(Ix));
+            const Vec L = I * next;
+            const Vec f = I * (next - w) + h * next.cross(L);
+            const Eigen::Matrix<R, 3, 3> J = I + h * (skew<R>(next) * I - skew<R>(L));
             const Vec step = J.inverse() * f;
             if (!step.allFinite()) break;
-            x -= step;
-            if (step.squaredNorm() <= Real(4) * std::numeric_limits<Real>::epsilon() *
-                                          std::numeric_limits<Real>::epsilon() * x.squaredNorm())
-                break;
+            next -= step;
+            if (step.squaredNorm() <= R(4) * eps * eps * next.squaredNorm()) break;
         }
-        return rotate(q, x);
+        return true;
     }
-}
+};
 
 }  // namespace
 
 template <class S>
 RotationScheme<S> rotationImplicit() {
-    return {&predict<S>, nullptr};
+    return {&predictInBodyFrame<S, Implicit>, nullptr};
 }
-template RotationScheme<Space2f> rotationImplicit<Space2f>();
-template RotationScheme<Space2d> rotationImplicit<Space2d>();
-template RotationScheme<Space3f> rotationImplicit<Space3f>();
-template RotationScheme<Space3d> rotationImplicit<Space3d>();
+RIGOR_INSTANTIATE_ROTATION(rotationImplicit);
 
 }  // namespace rigor::engine

@@ -14,59 +14,43 @@
 //
 // Solved by Newton's iteration with the Jacobian I - h/2 [Pi_1]x (exp's derivative taken as that at zero,
 // hence linear convergence with a factor of order (h |W|)^2).
-#include <limits>
-
 #include "engine/integrators/angular_momentum.hpp"
 
 namespace rigor::engine {
 namespace {
 
-template <class S>
-typename S::Ang predict(const BodyConstants<S>& body, const typename S::Rot& q, const typename S::Ang& w,
-                        typename S::Real h) {
-    if constexpr (S::dim == 2) {
-        (void)body, (void)q, (void)h;
-        return w;
-    } else {
-        using Vec = typename S::Vec;
-        using Real = typename S::Real;
-        constexpr Real eps = std::numeric_limits<Real>::epsilon();
-        const typename S::Mat& I = body.inertia;
-        const Vec start = rotateInverse(q, w);
-        const Vec Pi0 = I * start;
-        // Parallel to the angular momentum (a sphere, a principal axis): nothing to solve, no rounding added.
-        if (start.cross(Pi0).norm() <= Real(4) * eps * start.norm() * Pi0.norm()) return w;
-        Vec W = start;
-        Real last = std::numeric_limits<Real>::max();
+struct LieMidpoint {
+    template <class R>
+    static bool turn(const Eigen::Matrix<R, 3, 3>& I, const Eigen::Matrix<R, 3, 1>& w, R h,
+                     Eigen::Matrix<R, 3, 1>& W) {
+        using Vec = Eigen::Matrix<R, 3, 1>;
+        constexpr R eps = std::numeric_limits<R>::epsilon();
+        const Vec Pi0 = I * w;
+        if (turnsAboutItself<R>(w, Pi0)) return false;
+        W = w;
+        R last = std::numeric_limits<R>::max();
         constexpr int kMaxNewton = 30;  // 5 at h |w| = 0.1, 12 at 0.8
         for (int i = 0; i < kMaxNewton; ++i) {
             const Vec Pi1 = rotate(expMap(Vec(-h * W)), Pi0);
-            const Vec f = I * W - Real(0.5) * (Pi0 + Pi1);
-            typename S::Mat J = I;
-            const Vec p = Real(0.5) * h * Pi1;
-            J(0, 1) += p.z(), J(0, 2) -= p.y();
-            J(1, 0) -= p.z(), J(1, 2) += p.x();
-            J(2, 0) += p.y(), J(2, 1) -= p.x();
+            const Vec f = I * W - R(0.5) * (Pi0 + Pi1);
+            const Eigen::Matrix<R, 3, 3> J = I - skew<R>(R(0.5) * h * Pi1);
             const Vec step = J.inverse() * f;
-            const Real size = step.squaredNorm();
+            const R size = step.squaredNorm();
             if (!(size < last)) break;  // rounding reached, or no convergence
             last = size;
             W -= step;
             if (size <= eps * eps * W.squaredNorm()) break;
         }
-        return rotate(q, W);
+        return true;
     }
-}
+};
 
 }  // namespace
 
 template <class S>
 RotationScheme<S> rotationLieMidpoint() {
-    return {&predict<S>, &keepAngularMomentum<S>};
+    return {&predictInBodyFrame<S, LieMidpoint>, &keepAngularMomentum<S>};
 }
-template RotationScheme<Space2f> rotationLieMidpoint<Space2f>();
-template RotationScheme<Space2d> rotationLieMidpoint<Space2d>();
-template RotationScheme<Space3f> rotationLieMidpoint<Space3f>();
-template RotationScheme<Space3d> rotationLieMidpoint<Space3d>();
+RIGOR_INSTANTIATE_ROTATION(rotationLieMidpoint);
 
 }  // namespace rigor::engine

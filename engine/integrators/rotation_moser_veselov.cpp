@@ -20,8 +20,6 @@
 // exactly. There Moser-Veselov would turn by asin(h |w|), and a ball that rolls would seem to slip.
 //
 // In a step with constraints as lie_midpoint. Cost: one to five Newton steps (h |w| = 0.01 .. 0.8).
-#include <limits>
-
 #include "engine/integrators/angular_momentum.hpp"
 
 namespace rigor::engine {
@@ -39,11 +37,8 @@ bool solveCayley(const Eigen::Matrix<R, 3, 3>& J, const Eigen::Matrix<R, 3, 1>& 
     for (int i = 0; i < kMaxNewton; ++i) {
         const R ag = a.dot(g);
         const Vec f = J * a - g - ag * a - g.cross(a);
-        Eigen::Matrix<R, 3, 3> K = J - a * g.transpose();
+        Eigen::Matrix<R, 3, 3> K = J - a * g.transpose() - skew<R>(g);
         K.diagonal().array() -= ag;
-        K(0, 1) += g.z(), K(0, 2) -= g.y();
-        K(1, 0) -= g.z(), K(1, 2) += g.x();
-        K(2, 0) += g.y(), K(2, 1) -= g.x();
         const Vec step = K.inverse() * f;
         if (!step.allFinite()) return false;
         a -= step;
@@ -56,8 +51,8 @@ bool solveCayley(const Eigen::Matrix<R, 3, 3>& J, const Eigen::Matrix<R, 3, 1>& 
 
 /// F of `steps` steps of h / steps; false where a step has no solution.
 template <class R>
-bool turn(const Eigen::Matrix<R, 3, 3>& J, Eigen::Matrix<R, 3, 1> Pi, R h, int steps,
-          Eigen::Quaternion<R>& F) {
+bool turnInSteps(const Eigen::Matrix<R, 3, 3>& J, Eigen::Matrix<R, 3, 1> Pi, R h, int steps,
+                 Eigen::Quaternion<R>& F) {
     using Vec = Eigen::Matrix<R, 3, 1>;
     F = Eigen::Quaternion<R>::Identity();
     for (int i = 0; i < steps; ++i) {
@@ -70,37 +65,29 @@ bool turn(const Eigen::Matrix<R, 3, 3>& J, Eigen::Matrix<R, 3, 1> Pi, R h, int s
     return true;
 }
 
-template <class S>
-typename S::Ang predict(const BodyConstants<S>& body, const typename S::Rot& q, const typename S::Ang& w,
-                        typename S::Real h) {
-    if constexpr (S::dim == 2) {
-        (void)body, (void)q, (void)h;
-        return w;
-    } else {
-        using Vec = typename S::Vec;
-        using Real = typename S::Real;
-        const typename S::Mat& J = body.inertia;
-        const Vec start = rotateInverse(q, w);
-        const Vec Pi = J * start;
-        const Real parallel = Real(4) * std::numeric_limits<Real>::epsilon() * start.norm() * Pi.norm();
-        if (!(start.cross(Pi).norm() > parallel)) return w;
+struct MoserVeselov {
+    template <class R>
+    static bool turn(const Eigen::Matrix<R, 3, 3>& J, const Eigen::Matrix<R, 3, 1>& w, R h,
+                     Eigen::Matrix<R, 3, 1>& next) {
+        const Eigen::Matrix<R, 3, 1> Pi = J * w;
+        if (turnsAboutItself<R>(w, Pi)) return false;
         constexpr int kMostSteps = 64;
-        typename S::Rot F;
+        Eigen::Quaternion<R> F;
         for (int steps = 1; steps <= kMostSteps; steps *= 2)
-            if (turn<Real>(J, Pi, h, steps, F)) return rotate(q, Vec(rotationVector(F) / h));
-        return w;
+            if (turnInSteps<R>(J, Pi, h, steps, F)) {
+                next = rotationVector(F) / h;
+                return true;
+            }
+        return false;
     }
-}
+};
 
 }  // namespace
 
 template <class S>
 RotationScheme<S> rotationMoserVeselov() {
-    return {&predict<S>, &keepAngularMomentum<S>};
+    return {&predictInBodyFrame<S, MoserVeselov>, &keepAngularMomentum<S>};
 }
-template RotationScheme<Space2f> rotationMoserVeselov<Space2f>();
-template RotationScheme<Space2d> rotationMoserVeselov<Space2d>();
-template RotationScheme<Space3f> rotationMoserVeselov<Space3f>();
-template RotationScheme<Space3d> rotationMoserVeselov<Space3d>();
+RIGOR_INSTANTIATE_ROTATION(rotationMoserVeselov);
 
 }  // namespace rigor::engine

@@ -3,7 +3,7 @@
 //
 // No gyroscopic term: without torque the angular velocity is constant in the world. Right for spheres and in
 // the plane; wrong for every other body, whose angular momentum then turns with it. What several engines do.
-#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/rotation.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -20,9 +20,6 @@ template <class S>
 RotationScheme<S> rotationNone() {
     return {&keep<S>, nullptr, false};
 }
-template RotationScheme<Space2f> rotationNone<Space2f>();
-template RotationScheme<Space2d> rotationNone<Space2d>();
-template RotationScheme<Space3f> rotationNone<Space3f>();
-template RotationScheme<Space3d> rotationNone<Space3d>();
+RIGOR_INSTANTIATE_ROTATION(rotationNone);
 
 }  // namespace rigor::engine

@@ -62,6 +62,29 @@ void keepNearer(const Nearest<S>& candidate, Nearest<S>& best) {
     if (best.count == 0 || candidate.v.squaredNorm() < best.v.squaredNorm()) best = candidate;
 }
 
+/// The weighted points `index` when their simplex holds the nearest point, which is v.
+template <class S, std::size_t n>
+Nearest<S> onInside(const typename S::Vec& v, const std::array<int, n>& index,
+                    const std::array<typename S::Real, n>& part) {
+    Nearest<S> r;
+    r.v = v;
+    typename S::Real sum = part[0];
+    for (std::size_t m = 1; m < n; ++m) sum += part[m];
+    for (std::size_t m = 0; m < n; ++m) r.weights[m] = part[m] / sum, r.index[m] = index[m];
+    r.count = static_cast<int>(n);
+    return r;
+}
+
+/// The nearest of the edges opposite to vertices that do not agree.
+template <class S>
+Nearest<S> onEdges(const Points<S>& s, const std::array<int, 3>& index,
+                   const std::array<typename S::Real, 3>& part, bool flat) {
+    Nearest<S> r;
+    for (std::size_t m = 0; m < 3; ++m)
+        if (flat || part[m] <= 0) keepNearer<S>(onSegment<S>(s, index[(m + 1) % 3], index[(m + 2) % 3]), r);
+    return r;
+}
+
 /// In the plane a triangle either holds the origin or an edge is nearest.
 template <class R>
 Nearest<Space<R, 2>> onTriangle(const Points<Space<R, 2>>& s, int i, int j, int k) {
@@ -73,23 +96,14 @@ Nearest<Space<R, 2>> onTriangle(const Points<Space<R, 2>>& s, int i, int j, int 
     const R area = cross(Vec2<R>(at(1) - at(0)), Vec2<R>(at(2) - at(0)));
     const R size = std::max({at(0).norm(), at(1).norm(), at(2).norm()});
     const bool flat = !(std::abs(area) > kRounding<R> * size * size);
-    Nearest<S> r;
     bool inside = !flat;
     std::array<R, 3> part{};
     for (std::size_t m = 0; m < 3; ++m) {
         part[m] = cross(at(m + 1), at(m + 2)) / (flat ? R(1) : area);
         inside = inside && part[m] >= 0;
     }
-    if (inside) {
-        r.v.setZero();
-        const R sum = part[0] + part[1] + part[2];
-        for (std::size_t m = 0; m < 3; ++m) r.weights[m] = part[m] / sum, r.index[m] = index[m];
-        r.count = 3;
-        return r;
-    }
-    for (std::size_t m = 0; m < 3; ++m)
-        if (flat || part[m] <= 0) keepNearer<S>(onSegment<S>(s, index[(m + 1) % 3], index[(m + 2) % 3]), r);
-    return r;
+    if (inside) return onInside<S>(Vec2<R>::Zero(), index, part);
+    return onEdges<S>(s, index, part, flat);
 }
 
 template <class R>
@@ -107,7 +121,6 @@ Nearest<Space<R, 3>> onTriangle(const Points<Space<R, 3>>& s, int i, int j, int 
     const Vec3<R> e1 = at(apex + 1) - at(apex), e2 = at(apex + 2) - at(apex);
     const Vec3<R> n = e1.cross(e2);
     const R nn = n.squaredNorm();
-    Nearest<S> r;
     const R rounding = std::numeric_limits<R>::epsilon();
     const bool flat = !(nn > rounding * rounding * e1.squaredNorm() * e2.squaredNorm()) ||
                       !(nn > std::numeric_limits<R>::min());
@@ -123,17 +136,9 @@ Nearest<Space<R, 3>> onTriangle(const Points<Space<R, 3>>& s, int i, int j, int 
             part[m] = (f[x] * g[y] - f[y] * g[x]) / n[drop];
             inside = inside && part[m] > 0;
         }
-        if (inside) {
-            r.v = p;
-            const R sum = part[0] + part[1] + part[2];
-            for (std::size_t m = 0; m < 3; ++m) r.weights[m] = part[m] / sum, r.index[m] = index[m];
-            r.count = 3;
-            return r;
-        }
+        if (inside) return onInside<S>(p, index, part);
     }
-    for (std::size_t m = 0; m < 3; ++m)
-        if (flat || part[m] <= 0) keepNearer<S>(onSegment<S>(s, index[(m + 1) % 3], index[(m + 2) % 3]), r);
-    return r;
+    return onEdges<S>(s, index, part, flat);
 }
 
 template <class R>
@@ -153,16 +158,8 @@ Nearest<Space<R, 3>> onTetrahedron(const Points<Space<R, 3>>& s) {
         part[m] = at(0).dot((at(1) - at(0)).cross(at(2) - at(0))) / volume;
         inside = inside && part[m] >= 0;
     }
+    if (inside) return onInside<S>(Vec3<R>::Zero(), std::array<int, 4>{0, 1, 2, 3}, part);
     Nearest<S> r;
-    if (inside) {
-        r.v.setZero();
-        const R sum = part[0] + part[1] + part[2] + part[3];
-        for (int m = 0; m < 4; ++m)
-            r.weights[static_cast<std::size_t>(m)] = part[static_cast<std::size_t>(m)] / sum,
-            r.index[static_cast<std::size_t>(m)] = m;
-        r.count = 4;
-        return r;
-    }
     for (std::size_t m = 0; m < 4; ++m)
         if (flat || part[m] <= 0) keepNearer<S>(onTriangle<R>(s, faces[m][0], faces[m][1], faces[m][2]), r);
     return r;

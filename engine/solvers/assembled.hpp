@@ -10,6 +10,8 @@
 // Cost: memory n^2; time the sum over bodies of (rows of the body)^2.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -53,6 +55,20 @@ class AssembledProblem {
     double apply(const SolverInput<S>& input, const std::vector<double>& impulses) const;
 
     double at(std::size_t i, std::size_t j) const { return W[i * n + j]; }
+    /// w of row i under the impulses.
+    double velocity(std::size_t i, const std::vector<double>& impulses) const {
+        double w = q[i];
+        for (std::size_t j = 0; j < n; ++j) w += W[i * n + j] * impulses[j];
+        return w;
+    }
+    /// The impulse of row i within the bounds that comes next to making its w zero, the others kept.
+    double relaxed(std::size_t i, const std::vector<double>& impulses, double least, double most) const {
+        return std::clamp(impulses[i] - velocity(i, impulses) / at(i, i), least, std::max(least, most));
+    }
+    /// By how much, as a velocity, lambda_i differs from that: the natural map of the row.
+    double defect(std::size_t i, double least, double most) const {
+        return at(i, i) * std::abs(lambda[i] - relaxed(i, lambda, least, most));
+    }
 
   private:
     std::vector<std::uint32_t> start_, entry_;  ///< rows by body; entry = 2 row + side

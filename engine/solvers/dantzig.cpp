@@ -29,56 +29,30 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/solvers/assembled.hpp"
 #include "engine/solvers/box_lcp.hpp"
+#include "engine/solvers/direct_rounds.hpp"
 
 namespace rigor::engine {
 namespace {
 
 template <class S>
-class Dantzig final : public Solver<S> {
+class Dantzig final : public DirectRounds<S> {
   public:
     using Real = typename S::Real;
 
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<Dantzig>(*this); }
-    bool gaveUp() const override { return gaveUp_; }
-
-    void solve(const SolverInput<S>& input) override {
-        applyWarmStart<S>(input);
-        gaveUp_ = false;
-        if (input.constraints.rows.empty()) return;
-        problem_.assemble<S>(input.constraints, input.velocities.size());
-        begin(input);
-        bool settled = false;
-        for (int round = 0;; ++round) {
-            input.monitor.before(input.velocities);
-            problem_.readVelocities<S>(input.constraints, input.velocities);
-            settled = round > 0 && residual() <= tolerance(input);
-            if (settled || round == input.iterations) break;
-            for (std::size_t i = 0; i < problem_.n; ++i)
-                q_[i] = problem_.q[i] - shift_[i] * problem_.lambda[i];
-            setBounds();
-            const bool solved = lcp_.solve(problem_.n, problem_.W.data(), shift_.data(), q_.data(),
-                                           problem_.lower.data(), problem_.upper.data(), x_.data());
-            if (!solved || !std::all_of(x_.begin(), x_.end(), [](double x) { return std::isfinite(x); }))
-                sweep();
-            // Single precision can make W indefinite, and then even sweeps may diverge: better no change.
-            if (!std::all_of(x_.begin(), x_.end(), [](double x) { return std::abs(x) < 1e30; }))
-                x_.assign(problem_.lambda.begin(), problem_.lambda.end());
-            const double change = problem_.apply<S>(input, x_);
-            input.monitor.after(input.velocities, static_cast<Real>(change));
-            nextLimits(round < kPlainRounds);
-        }
-        gaveUp_ = gaveUp_ || !settled;
-    }
 
   private:
+    using DirectRounds<S>::gaveUp_;
+    using DirectRounds<S>::problem_;
+    using DirectRounds<S>::x_;
+
     /// At least what rounding of the rows can take from an eigenvalue.
     static constexpr double kSigma = std::max(1e-8, 16.0 * std::numeric_limits<Real>::epsilon());
     static constexpr int kPlainRounds = 15;
     static constexpr int kFallbackSweeps = 200;
 
-    void begin(const SolverInput<S>& input) {
+    void begin(const SolverInput<S>& input) override {
         const std::size_t n = problem_.n;
         shift_.resize(n), q_.resize(n), x_.assign(n, 0.0);
         for (std::size_t i = 0; i < n; ++i) shift_[i] = kSigma * problem_.at(i, i);
@@ -91,40 +65,34 @@ class Dantzig final : public Solver<S> {
                 static_cast<double>(input.constraints.rows[contact.normal].impulse) + contact.applied;
         }
     }
-    double tolerance(const SolverInput<S>& input) const {
-        double largest = 0, fastest = 0;
-        for (std::size_t i = 0; i < problem_.n; ++i) {
-            fastest = std::max(fastest, std::abs(problem_.q[i]));
-            largest = std::max(largest, problem_.at(i, i) * std::abs(x_[i]));
-        }
-        // Impulses without bound, as contradictory rows have, are no excuse.
-        constexpr auto eps = static_cast<double>(std::numeric_limits<Real>::epsilon());
-        return std::max(static_cast<double>(input.residualTolerance),
-                        std::min(32 * eps * (largest + fastest), std::sqrt(eps) * fastest));
+    void improve(const SolverInput<S>&, int round) override {
+        for (std::size_t i = 0; i < problem_.n; ++i) q_[i] = problem_.q[i] - shift_[i] * problem_.lambda[i];
+        setBounds();
+        const bool solved = lcp_.solve(problem_.n, problem_.W.data(), shift_.data(), q_.data(),
+                                       problem_.lower.data(), problem_.upper.data(), x_.data());
+        if (!solved || !std::all_of(x_.begin(), x_.end(), [](double x) { return std::isfinite(x); })) sweep();
+        // Single precision can make W indefinite, and then even sweeps may diverge: better no change.
+        if (!std::all_of(x_.begin(), x_.end(), [](double x) { return std::abs(x) < 1e30; }))
+            x_.assign(problem_.lambda.begin(), problem_.lambda.end());
+        nextLimits(round < kPlainRounds);
     }
     double coefficient(const AssembledContact& contact, std::size_t tangent) const {
         return sticks_[tangent] ? contact.muStatic : contact.mu;
     }
     /// Of the impulses there are, with the bounds that their own normals set: the natural map of the pyramid.
-    double residual() const {
+    double residual() const override {
         double largest = 0;
         for (std::size_t i = 0; i < problem_.n; ++i) {
             if (problem_.kind[i] == RowKind::Tangent) continue;
-            largest = std::max(largest, defect(i, problem_.lower[i], problem_.upper[i]));
+            largest = std::max(largest, problem_.defect(i, problem_.lower[i], problem_.upper[i]));
         }
         for (const AssembledContact& contact : problem_.contacts)
             for (std::size_t t = contact.normal + 1; t <= contact.normal + contact.tangents; ++t) {
                 const double limit =
                     coefficient(contact, t) * (problem_.lambda[contact.normal] + contact.applied);
-                largest = std::max(largest, defect(t, -limit, limit));
+                largest = std::max(largest, problem_.defect(t, -limit, limit));
             }
         return largest;
-    }
-    double defect(std::size_t i, double lower, double upper) const {
-        double w = problem_.q[i];
-        for (std::size_t j = 0; j < problem_.n; ++j) w += problem_.at(i, j) * problem_.lambda[j];
-        const double K = problem_.at(i, i), old = problem_.lambda[i];
-        return K * std::abs(old - std::clamp(old - w / K, lower, std::max(lower, upper)));
     }
     void setBounds() {
         for (std::size_t c = 0; c < limits_.size(); ++c) {
@@ -143,9 +111,7 @@ class Dantzig final : public Solver<S> {
         for (int k = 0; k < kFallbackSweeps; ++k)
             for (std::size_t i = 0; i < problem_.n; ++i) {
                 if (!(problem_.at(i, i) > 0)) continue;  // no body can follow it
-                double w = problem_.q[i];
-                for (std::size_t j = 0; j < problem_.n; ++j) w += problem_.at(i, j) * x_[j];
-                x_[i] = std::clamp(x_[i] - w / problem_.at(i, i), problem_.lower[i], problem_.upper[i]);
+                x_[i] = problem_.relaxed(i, x_, problem_.lower[i], problem_.upper[i]);
             }
     }
 
@@ -214,11 +180,9 @@ class Dantzig final : public Solver<S> {
         return true;
     }
 
-    bool gaveUp_ = false;
-    AssembledProblem problem_;
     BoxLcp lcp_;
     DenseLu lu_;
-    std::vector<double> shift_, q_, x_, limits_, next_, right_;
+    std::vector<double> shift_, q_, limits_, next_, right_;
     std::vector<std::uint8_t> sticks_;  ///< by row: tangents inside their bounds
     std::vector<std::size_t> place_, free_;
 };

@@ -27,7 +27,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/solvers/assembled.hpp"
+#include "engine/solvers/direct_rounds.hpp"
 #include "engine/solvers/lemke_lcp.hpp"
 
 namespace rigor::engine {
@@ -43,39 +43,17 @@ struct Variable {
 };
 
 template <class S>
-class Lemke final : public Solver<S> {
+class Lemke final : public DirectRounds<S> {
   public:
     using Real = typename S::Real;
 
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<Lemke>(*this); }
-    bool gaveUp() const override { return gaveUp_; }
-
-    void solve(const SolverInput<S>& input) override {
-        applyWarmStart<S>(input);
-        gaveUp_ = false;
-        if (input.constraints.rows.empty()) return;
-        problem_.assemble<S>(input.constraints, input.velocities.size());
-        begin();
-        bool settled = false;
-        for (int round = 0;; ++round) {
-            input.monitor.before(input.velocities);
-            problem_.readVelocities<S>(input.constraints, input.velocities);
-            settled = round > 0 && residual() <= tolerance(input);
-            if (settled || round == input.iterations || (round > 0 && gaveUp_)) break;
-            if (!pivot(input) && !soften()) gaveUp_ = true;
-            if (softened_ == Softened::JustNow) {
-                softened_ = Softened::Yes;
-                if (!pivot(input)) gaveUp_ = true;
-            }
-            readImpulses();
-            if (gaveUp_) sweep();
-            const double change = problem_.apply<S>(input, x_);
-            input.monitor.after(input.velocities, static_cast<Real>(change));
-        }
-        gaveUp_ = gaveUp_ || !settled;
-    }
 
   private:
+    using DirectRounds<S>::gaveUp_;
+    using DirectRounds<S>::problem_;
+    using DirectRounds<S>::x_;
+
     static constexpr double kSigma = 1e-8;  ///< of joints; the square root of the precision
     static constexpr double kSoft = 1e-6;   ///< of the other rows, where pivoting needs it
     enum class Softened : std::uint8_t { No, JustNow, Yes };
@@ -100,7 +78,18 @@ class Lemke final : public Solver<S> {
         return true;
     }
 
-    void begin() {
+    bool isHopeless() const override { return gaveUp_; }
+    void improve(const SolverInput<S>& input, int) override {
+        if (!pivot(input) && !soften()) gaveUp_ = true;
+        if (softened_ == Softened::JustNow) {
+            softened_ = Softened::Yes;
+            if (!pivot(input)) gaveUp_ = true;
+        }
+        readImpulses();
+        if (gaveUp_) sweep();
+    }
+
+    void begin(const SolverInput<S>&) override {
         const std::size_t n = problem_.n;
         x_.resize(n), q_.resize(n), shift_.assign(n, 0.0), reduced_.resize(n);
         free_.reset(n);
@@ -135,17 +124,6 @@ class Lemke final : public Solver<S> {
                 for (std::size_t j = 0; j < n; ++j) R_[i * n + j] -= W * response_[k * n + j];
             }
         }
-    }
-    double tolerance(const SolverInput<S>& input) const {
-        double largest = 0, fastest = 0;
-        for (std::size_t i = 0; i < problem_.n; ++i) {
-            fastest = std::max(fastest, std::abs(problem_.q[i]));
-            largest = std::max(largest, problem_.at(i, i) * std::abs(x_[i]));
-        }
-        // Impulses without bound, as contradictory rows have, are no excuse.
-        constexpr auto eps = static_cast<double>(std::numeric_limits<Real>::epsilon());
-        return std::max(static_cast<double>(input.residualTolerance),
-                        std::min(32 * eps * (largest + fastest), std::sqrt(eps) * fastest));
     }
 
     // --- the complementarity problem ---------------------------------------------------------------------
@@ -259,20 +237,13 @@ class Lemke final : public Solver<S> {
     }
 
     // --- how good it is ----------------------------------------------------------------------------------
-    double velocity(std::size_t i, const std::vector<double>& lambda) const {
-        double w = problem_.q[i];
-        for (std::size_t j = 0; j < problem_.n; ++j) w += problem_.at(i, j) * lambda[j];
-        return w;
-    }
     /// Natural map of the linear complementarity problem at the impulses there are: w = |min(w, z)| of
     /// all rows but friction, whose slack and directions are checked through the impulses they make.
-    double residual() const {
+    double residual() const override {
         double largest = 0;
         for (std::size_t i = 0; i < problem_.n; ++i) {
             if (problem_.kind[i] == RowKind::Tangent) continue;
-            const double w = velocity(i, problem_.lambda), K = problem_.at(i, i), old = problem_.lambda[i];
-            largest = std::max(
-                largest, K * std::abs(old - std::clamp(old - w / K, problem_.lower[i], problem_.upper[i])));
+            largest = std::max(largest, problem_.defect(i, problem_.lower[i], problem_.upper[i]));
         }
         for (std::size_t c = 0; c < problem_.contacts.size(); ++c)
             if (problem_.contacts[c].tangents > 0) largest = std::max(largest, frictionResidual(c));
@@ -283,8 +254,8 @@ class Lemke final : public Solver<S> {
     double frictionResidual(std::size_t c) const {
         const AssembledContact& contact = problem_.contacts[c];
         const std::size_t n = contact.normal, first = firstOf_[c] + 1;
-        double w[2] = {velocity(n + 1, problem_.lambda), 0};
-        if (contact.tangents == 2) w[1] = velocity(n + 2, problem_.lambda);
+        double w[2] = {problem_.velocity(n + 1, problem_.lambda), 0};
+        if (contact.tangents == 2) w[1] = problem_.velocity(n + 2, problem_.lambda);
         double slip = 0, sum = 0, largest = 0;
         const auto along = [&](std::size_t a) {
             const Variable& v = variables_[a];
@@ -309,24 +280,20 @@ class Lemke final : public Solver<S> {
     void sweep() {
         for (int k = 0; k < kFallbackSweeps; ++k) {
             for (std::size_t i = 0; i < problem_.n; ++i)
-                if (problem_.kind[i] != RowKind::Tangent) relax(i, problem_.lower[i], problem_.upper[i]);
+                if (problem_.kind[i] != RowKind::Tangent)
+                    x_[i] = problem_.relaxed(i, x_, problem_.lower[i], problem_.upper[i]);
             for (const AssembledContact& contact : problem_.contacts)
                 for (std::size_t t = contact.normal + 1; t <= contact.normal + contact.tangents; ++t) {
                     const double limit = contact.mu * (x_[contact.normal] + contact.applied);
-                    relax(t, -limit, limit);
+                    x_[t] = problem_.relaxed(t, x_, -limit, limit);
                 }
         }
     }
-    void relax(std::size_t i, double lower, double upper) {
-        x_[i] = std::clamp(x_[i] - velocity(i, x_) / problem_.at(i, i), lower, upper);
-    }
 
-    bool gaveUp_ = false;
     Softened softened_ = Softened::No;
-    AssembledProblem problem_;
     LemkeLcp lcp_;
     GrowingCholesky free_;  ///< W of the rows without bounds
-    std::vector<double> shift_, q_, x_, R_, response_, column_, reduced_, offset_, M_, constant_, z_;
+    std::vector<double> shift_, q_, R_, response_, column_, reduced_, offset_, M_, constant_, z_;
     std::vector<Variable> variables_;
     std::vector<std::size_t> firstOf_;
     std::vector<std::uint8_t> slips_;

@@ -11,7 +11,9 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/core/error.hpp"
@@ -104,56 +106,33 @@ requires requires(Q& q) {
 void visitValue(A& archive, Q& q) {
     visitValue(archive, q.coeffs());
 }
-template <class A, class Q>
-requires requires(Q& q) {
-    q.c, q.s;
+/// The fields of a small struct in their order; none of anything else.
+template <class X>
+constexpr auto fieldsOf(X& x) {
+    if constexpr (requires { x.c, x.s; })
+        return std::tie(x.c, x.s);
+    else if constexpr (requires { x.p, x.q; })
+        return std::tie(x.p, x.q);
+    else if constexpr (requires { x.v, x.w; })
+        return std::tie(x.v, x.w);
+    else if constexpr (
+        !requires { x.body; } && requires { x.force, x.torque, x.force.size(); })
+        return std::tie(x.force, x.torque);
+    else if constexpr (requires { x.index, x.generation; })
+        return std::tie(x.index, x.generation);
+    else if constexpr (requires { x.friction, x.restitution; })
+        return std::tie(x.friction, x.restitution);
+    else if constexpr (requires { x.motorSpeed, x.motorMaxForce; })
+        return std::tie(x.mode, x.lower, x.upper, x.motorSpeed, x.motorMaxForce, x.target, x.frequency,
+                        x.dampingRatio, x.stiffness, x.damping);
+    else
+        return std::tuple<>();
 }
-void visitValue(A& archive, Q& q) {
-    archive.scalar(q.c), archive.scalar(q.s);
-}
-template <class A, class X>
-requires requires(X& x) {
-    x.p, x.q;
-}
+template <class X>
+concept HasFields = !std::is_same_v<decltype(fieldsOf(std::declval<X&>())), std::tuple<>>;
+template <class A, HasFields X>
 void visitValue(A& archive, X& x) {
-    visitValue(archive, x.p), visitValue(archive, x.q);
-}
-template <class A, class V>
-requires requires(V& v) {
-    v.v, v.w;
-}
-void visitValue(A& archive, V& v) {
-    visitValue(archive, v.v), visitValue(archive, v.w);
-}
-template <class A, class W>
-requires requires(W& w) {
-    w.force, w.torque, w.force.size();
-} &&(!requires(W & w) { w.body; }) void visitValue(A& archive, W& w) {
-    visitValue(archive, w.force), visitValue(archive, w.torque);
-}
-template <class A, class I>
-requires requires(I& id) {
-    id.index, id.generation;
-}
-void visitValue(A& archive, I& id) {
-    archive.scalar(id.index), archive.scalar(id.generation);
-}
-template <class A, class C>
-requires requires(C& c) {
-    c.friction, c.restitution;
-}
-void visitValue(A& archive, C& c) {
-    archive.scalar(c.friction), archive.scalar(c.restitution);
-}
-template <class A, class J>
-requires requires(J& j) {
-    j.motorSpeed, j.motorMaxForce;
-}
-void visitValue(A& archive, J& axis) {
-    archive.scalar(axis.mode), archive.scalar(axis.lower), archive.scalar(axis.upper);
-    archive.scalar(axis.motorSpeed), archive.scalar(axis.motorMaxForce), archive.scalar(axis.target);
-    archive.scalar(axis.frequency), archive.scalar(axis.dampingRatio);
-    archive.scalar(axis.stiffness), archive.scalar(axis.damping);
+    std::apply([&archive](auto&... field) { (visitValue(archive, field), ...); }, fieldsOf(x));
 }
 template <class A, class C>
 requires requires(C& c) {
