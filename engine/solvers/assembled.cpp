@@ -120,27 +120,9 @@ void AssembledProblem::readVelocities(const ConstraintRows<S>& rows,
         }
 }
 
-template <class S>
-double AssembledProblem::apply(const SolverInput<S>& input, const std::vector<double>& impulses) const {
-    using Real = typename S::Real;
-    double change = 0;
-    for (const Block<S>& block : input.constraints.blocks)
-        for (std::size_t i = block.first; i < block.first + std::size_t(block.rows); ++i) {
-            Row<S>& row = input.constraints.rows[i];
-            if (!(row.invK > 0)) continue;
-            const Real next = static_cast<Real>(impulses[i]), step = next - row.impulse;
-            applyRowImpulse<S>(row, block, step, input.velocities[block.a], input.velocities[block.b]);
-            row.impulse = next;
-            change = std::max(change, std::abs(static_cast<double>(step)) / static_cast<double>(row.invK));
-        }
-    return change;
-}
-
 #define RIGOR_INSTANTIATE(S)                                                            \
     template void AssembledProblem::assemble<S>(const ConstraintRows<S>&, std::size_t); \
-    template void AssembledProblem::readVelocities<S>(const ConstraintRows<S>&,         \
-                                                      std::span<const Velocity<S>>);    \
-    template double AssembledProblem::apply<S>(const SolverInput<S>&, const std::vector<double>&) const;
+    template void AssembledProblem::readVelocities<S>(const ConstraintRows<S>&, std::span<const Velocity<S>>);
 RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)

@@ -49,10 +49,6 @@ class AssembledProblem {
     /// q and lambda from the biases, velocities and impulses of now.
     template <class S>
     void readVelocities(const ConstraintRows<S>& rows, std::span<const Velocity<S>> velocities);
-    /// Sets the rows' impulses, and the velocities with them. Returns the largest change of a row's velocity
-    /// that its own impulse makes.
-    template <class S>
-    double apply(const SolverInput<S>& input, const std::vector<double>& impulses) const;
 
     double at(std::size_t i, std::size_t j) const { return W[i * n + j]; }
     /// w of row i under the impulses.

@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "engine/solvers/assembled.hpp"
+#include "engine/solvers/impulses.hpp"
 
 namespace rigor::engine {
 
@@ -38,7 +39,7 @@ class DirectRounds : public Solver<S> {
             settled = round > 0 && residual() <= tolerance(input);
             if (settled || round == input.iterations || isHopeless()) break;
             improve(input, round);
-            const double change = problem_.apply<S>(input, x_);
+            const double change = setImpulses(input, x_);
             input.monitor.after(input.velocities, static_cast<Real>(change));
         }
         gaveUp_ = gaveUp_ || !settled;

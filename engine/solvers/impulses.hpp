@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "engine/solvers/natural_map.hpp"
@@ -19,16 +20,22 @@ void readImpulses(const ConstraintRows<S>& all, std::vector<typename S::Real>& o
     for (std::size_t i = 0; i < all.rows.size(); ++i) out[i] = all.rows[i].impulse;
 }
 
-/// Sets impulses, and velocities with them.
-template <class S>
-void setImpulses(const SolverInput<S>& input, const std::vector<typename S::Real>& impulses) {
+/// Sets impulses, and velocities with them; those of rows that no body can follow stay. Returns the largest
+/// change of a row's velocity that its own impulse makes [m/s or rad/s].
+template <class S, class Value>
+double setImpulses(const SolverInput<S>& input, const std::vector<Value>& impulses) {
+    using Real = typename S::Real;
+    double change = 0;
     for (const Block<S>& block : input.constraints.blocks)
         for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
             Row<S>& row = input.constraints.rows[i];
-            applyRowImpulse<S>(row, block, impulses[i] - row.impulse, input.velocities[block.a],
-                               input.velocities[block.b]);
-            row.impulse = impulses[i];
+            if (!(row.invK > 0)) continue;
+            const Real next = static_cast<Real>(impulses[i]), step = next - row.impulse;
+            applyRowImpulse<S>(row, block, step, input.velocities[block.a], input.velocities[block.b]);
+            row.impulse = next;
+            change = std::max(change, std::abs(static_cast<double>(step)) / static_cast<double>(row.invK));
         }
+    return change;
 }
 
 /// To the nearest impulses that the rows allow: bounds, and Coulomb's cone (of static friction).

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "engine/solvers/contact_interior.hpp"
+#include "engine/solvers/impulses.hpp"
 #include "engine/solvers/tests/row_problem.hpp"
 
 namespace rigor::engine::test {
@@ -71,7 +72,7 @@ TYPED_TEST(Convergence, InteriorPointsEndNearTheLaw) {
         std::vector<double> impulses;
         ASSERT_TRUE(interior.solve(problem, 1, impulses));
         QuietMonitor<S> monitor;
-        problem.apply<S>({p.rows, p.velocities, nullptr, monitor}, impulses);
+        setImpulses(SolverInput<S>{p.rows, p.velocities, nullptr, monitor}, impulses);
         ASSERT_TRUE(p.finite());
         ++all, near += p.residual() < 1e-4;
     }
