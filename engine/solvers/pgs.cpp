@@ -17,26 +17,10 @@
 #include "engine/solvers/row_kernels.hpp"
 
 namespace rigor::engine {
-namespace {
-
-template <class S>
-class Pgs final : public Solver<S> {
-  public:
-    std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<Pgs>(*this); }
-
-    void solve(const SolverInput<S>& input) override {
-        solveRowByRow(input, ContactOrder::FrictionFirst, sweeps_);
-    }
-
-  private:
-    BlockSweeps<S> sweeps_;
-};
-
-}  // namespace
 
 template <class S>
 std::unique_ptr<Solver<S>> makePgs() {
-    return std::make_unique<Pgs<S>>();
+    return std::make_unique<RowByRow<S>>(ContactOrder::FrictionFirst);
 }
 RIGOR_INSTANTIATE_FACTORY(makePgs, Solver);
 

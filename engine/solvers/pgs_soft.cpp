@@ -14,33 +14,13 @@
 #include "engine/solvers/row_kernels.hpp"
 
 namespace rigor::engine {
-namespace {
-
-template <class S>
-class PgsSoft final : public Solver<S> {
-  public:
-    std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<PgsSoft>(*this); }
-
-    SolverStyle<S> style() const override {
-        SolverStyle<S> style;
-        style.bias = softBiasRule<typename S::Real>();
-        style.ownsCorrection = true;
-        return style;
-    }
-
-    void solve(const SolverInput<S>& input) override {
-        solveRowByRow(input, ContactOrder::FrictionFirst, sweeps_);
-    }
-
-  private:
-    BlockSweeps<S> sweeps_;
-};
-
-}  // namespace
 
 template <class S>
 std::unique_ptr<Solver<S>> makePgsSoft() {
-    return std::make_unique<PgsSoft<S>>();
+    SolverStyle<S> style;
+    style.bias = softBiasRule<typename S::Real>();
+    style.ownsCorrection = true;
+    return std::make_unique<RowByRow<S>>(ContactOrder::FrictionFirst, style);
 }
 RIGOR_INSTANTIATE_FACTORY(makePgsSoft, Solver);
 

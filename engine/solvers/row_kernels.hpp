@@ -175,4 +175,19 @@ void solveRowByRow(const SolverInput<S>& input, ContactOrder order, BlockSweeps<
     }
 }
 
+/// A solver that is nothing but those sweeps, in an order and in a style.
+template <class S>
+class RowByRow final : public Solver<S> {
+  public:
+    explicit RowByRow(ContactOrder order, const SolverStyle<S>& style = {}) : order_(order), style_(style) {}
+    std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<RowByRow>(*this); }
+    SolverStyle<S> style() const override { return style_; }
+    void solve(const SolverInput<S>& input) override { solveRowByRow(input, order_, sweeps_); }
+
+  private:
+    ContactOrder order_;
+    SolverStyle<S> style_;
+    BlockSweeps<S> sweeps_;
+};
+
 }  // namespace rigor::engine

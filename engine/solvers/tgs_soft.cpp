@@ -26,36 +26,16 @@
 #include "engine/solvers/row_kernels.hpp"
 
 namespace rigor::engine {
-namespace {
-
-template <class S>
-class TgsSoft final : public Solver<S> {
-  public:
-    std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<TgsSoft>(*this); }
-
-    SolverStyle<S> style() const override {
-        SolverStyle<S> style;
-        style.substeps = 8;
-        style.iterations = 1;
-        style.bias = softBiasRule<typename S::Real>();
-        style.relaxIterations = 1;
-        style.ownsCorrection = true;
-        return style;
-    }
-
-    void solve(const SolverInput<S>& input) override {
-        solveRowByRow(input, ContactOrder::FrictionLast, sweeps_);
-    }
-
-  private:
-    BlockSweeps<S> sweeps_;
-};
-
-}  // namespace
 
 template <class S>
 std::unique_ptr<Solver<S>> makeTgsSoft() {
-    return std::make_unique<TgsSoft<S>>();
+    SolverStyle<S> style;
+    style.substeps = 8;
+    style.iterations = 1;
+    style.bias = softBiasRule<typename S::Real>();
+    style.relaxIterations = 1;
+    style.ownsCorrection = true;
+    return std::make_unique<RowByRow<S>>(ContactOrder::FrictionLast, style);
 }
 RIGOR_INSTANTIATE_FACTORY(makeTgsSoft, Solver);
 
