@@ -36,13 +36,6 @@ void addForce(const ConstantForce<S>& force, const ForcePlace<S>& place, const F
     wrench.torque += part * force.torque;
 }
 
-#define RIGOR_INSTANTIATE(S)                              \
-    template void checkForce<S>(const ConstantForce<S>&); \
-    template void addForce<S>(const ConstantForce<S>&, const ForcePlace<S>&, const ForceMoment<S>&);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
-#undef RIGOR_INSTANTIATE
+RIGOR_INSTANTIATE_FORCE(ConstantForce);
 
 }  // namespace rigor::engine

@@ -77,4 +77,14 @@ using ForceDef = VariantAfterFirst<S
 #include "engine/forces/forces.def"
 #undef FORCE
 
+/// Both of a kind for all spaces; at the end of its file.
+#define RIGOR_INSTANTIATE_FORCE_IN(Kind, S)      \
+    template void checkForce<S>(const Kind<S>&); \
+    template void addForce<S>(const Kind<S>&, const ForcePlace<S>&, const ForceMoment<S>&)
+#define RIGOR_INSTANTIATE_FORCE(Kind)          \
+    RIGOR_INSTANTIATE_FORCE_IN(Kind, Space2f); \
+    RIGOR_INSTANTIATE_FORCE_IN(Kind, Space2d); \
+    RIGOR_INSTANTIATE_FORCE_IN(Kind, Space3f); \
+    RIGOR_INSTANTIATE_FORCE_IN(Kind, Space3d)
+
 }  // namespace rigor::engine

@@ -18,13 +18,6 @@ void addForce(const LinearDrag<S>& force, const ForcePlace<S>& place, const Forc
     moment.wrench[place.b].force -= force.coefficient * moment.velocity[place.b].v;
 }
 
-#define RIGOR_INSTANTIATE(S)                           \
-    template void checkForce<S>(const LinearDrag<S>&); \
-    template void addForce<S>(const LinearDrag<S>&, const ForcePlace<S>&, const ForceMoment<S>&);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
-#undef RIGOR_INSTANTIATE
+RIGOR_INSTANTIATE_FORCE(LinearDrag);
 
 }  // namespace rigor::engine

@@ -39,13 +39,6 @@ void addForce(const LinearSpring<S>& force, const ForcePlace<S>& place, const Fo
     moment.wrench[place.a].torque -= cross(rA, F);
 }
 
-#define RIGOR_INSTANTIATE(S)                             \
-    template void checkForce<S>(const LinearSpring<S>&); \
-    template void addForce<S>(const LinearSpring<S>&, const ForcePlace<S>&, const ForceMoment<S>&);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
-#undef RIGOR_INSTANTIATE
+RIGOR_INSTANTIATE_FORCE(LinearSpring);
 
 }  // namespace rigor::engine
