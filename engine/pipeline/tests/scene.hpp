@@ -4,6 +4,8 @@
 // Small scenes for the tests of the step, alike in both dimensions.
 #pragma once
 
+#include <string>
+
 #include "engine/pipeline/world.hpp"
 
 namespace rigor::engine::test {
@@ -15,6 +17,26 @@ WorldDef<S> earth() {
     WorldDef<S> def;
     def.gravity[1] = -static_cast<typename S::Real>(kGravity);
     return def;
+}
+/// Where a world's choice of a family of algorithmFamilies() stands. Null for faults, which break what is
+/// tested.
+template <class S>
+std::string* choiceOf(WorldDef<S>& def, const std::string& family) {
+    return family == "broad_phase"            ? &def.broadPhase
+           : family == "narrow_phase"         ? &def.narrowPhase
+           : family == "manifold"             ? &def.manifold
+           : family == "integrator"           ? &def.integrator
+           : family == "rotation"             ? &def.rotation
+           : family == "orientation_update"   ? &def.orientationUpdate
+           : family == "solver"               ? &def.solver
+           : family == "friction"             ? &def.friction
+           : family == "restitution"          ? &def.restitution
+           : family == "friction_combine"     ? &def.frictionCombine
+           : family == "restitution_combine"  ? &def.restitutionCombine
+           : family == "position_correction"  ? &def.positionCorrection
+           : family == "continuous_collision" ? &def.continuousCollision
+           : family == "sleeping"             ? &def.sleeping
+                                              : nullptr;
 }
 template <class S>
 typename S::Vec at(double x, double y) {

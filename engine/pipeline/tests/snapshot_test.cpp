@@ -94,24 +94,10 @@ TYPED_TEST(Snapshot, HasTheSameFutureWithTheDefaults) {
 /// Every choice there is, one at a time.
 TEST(SnapshotChoices, HaveTheSameFutureForEveryAlgorithm) {
     using S = Space3d;
-    const auto fieldOf = [](WorldDef<S>& def, const std::string& family) -> std::string* {
-        if (family == "broad_phase") return &def.broadPhase;
-        if (family == "narrow_phase") return &def.narrowPhase;
-        if (family == "integrator") return &def.integrator;
-        if (family == "rotation") return &def.rotation;
-        if (family == "orientation_update") return &def.orientationUpdate;
-        if (family == "solver") return &def.solver;
-        if (family == "friction") return &def.friction;
-        if (family == "position_correction") return &def.positionCorrection;
-        if (family == "manifold") return &def.manifold;
-        if (family == "continuous_collision") return &def.continuousCollision;
-        if (family == "sleeping") return &def.sleeping;
-        return nullptr;
-    };
     for (const AlgorithmFamily& family : algorithmFamilies())
         for (const AlgorithmInfo& algorithm : family.algorithms) {
             WorldDef<S> def = earth<S>();
-            std::string* field = fieldOf(def, family.name);
+            std::string* field = choiceOf(def, family.name);
             if (!field) continue;
             *field = algorithm.name;
             savedAndRestored<S>(def, family.name + "=" + algorithm.name);

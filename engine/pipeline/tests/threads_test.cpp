@@ -85,27 +85,14 @@ TYPED_TEST(Threads, DoNotChangeABitOfAnySolverOnAnyNarrowPhase) {
         }
 }
 
-/// Every other choice there is, one at a time.
+/// Every choice there is, one at a time.
 TEST(ThreadsChoices, DoNotChangeABitOfAnyAlgorithm) {
     using S = Space3d;
-    const auto fieldOf = [](WorldDef<S>& def, const std::string& family) -> std::string* {
-        if (family == "broad_phase") return &def.broadPhase;
-        if (family == "integrator") return &def.integrator;
-        if (family == "rotation") return &def.rotation;
-        if (family == "orientation_update") return &def.orientationUpdate;
-        if (family == "friction") return &def.friction;
-        if (family == "restitution") return &def.restitution;
-        if (family == "position_correction") return &def.positionCorrection;
-        if (family == "manifold") return &def.manifold;
-        if (family == "continuous_collision") return &def.continuousCollision;
-        if (family == "sleeping") return &def.sleeping;
-        return nullptr;
-    };
     for (const AlgorithmFamily& family : algorithmFamilies())
         for (const AlgorithmInfo& algorithm : family.algorithms) {
             WorldDef<S> def = earth<S>();
             def.velocityIterations = def.firstStepIterations = 8;
-            if (std::string* field = fieldOf(def, family.name)) {
+            if (std::string* field = choiceOf(def, family.name)) {
                 *field = algorithm.name;
                 expectSameBits<S>(def, 10, family.name + "=" + algorithm.name);
             }

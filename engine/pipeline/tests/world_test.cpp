@@ -70,10 +70,7 @@ TYPED_TEST(Worlds, SteadyStepDoesNotAllocate) {
             continue;
         for (const AlgorithmInfo& choice : family.algorithms) {
             WorldDef<S> def = earth<S>();
-            (family.name == "broad_phase"  ? def.broadPhase
-             : family.name == "integrator" ? def.integrator
-             : family.name == "rotation"   ? def.rotation
-                                           : def.positionCorrection) = choice.name;
+            *choiceOf(def, family.name) = choice.name;
             World<S> world = busyWorld<S>(def);
             for (int i = 0; i < 400; ++i) world.step(typename S::Real(1.0 / 60));
             const long before = allocationCount();
@@ -219,21 +216,7 @@ TEST(Algorithms, TablesAreSortedAndEveryEntryMakesAWorldThatFalls) {
             hasDefault = hasDefault || algorithm.name == family.defaultChoice;
             if (family.name == "fault") continue;  // engine/faults/tests asserts what each breaks
             WorldDef<Space3d> def = earth<Space3d>();
-            std::string* field = family.name == "broad_phase"            ? &def.broadPhase
-                                 : family.name == "narrow_phase"         ? &def.narrowPhase
-                                 : family.name == "manifold"             ? &def.manifold
-                                 : family.name == "integrator"           ? &def.integrator
-                                 : family.name == "rotation"             ? &def.rotation
-                                 : family.name == "orientation_update"   ? &def.orientationUpdate
-                                 : family.name == "solver"               ? &def.solver
-                                 : family.name == "friction"             ? &def.friction
-                                 : family.name == "restitution"          ? &def.restitution
-                                 : family.name == "friction_combine"     ? &def.frictionCombine
-                                 : family.name == "restitution_combine"  ? &def.restitutionCombine
-                                 : family.name == "position_correction"  ? &def.positionCorrection
-                                 : family.name == "continuous_collision" ? &def.continuousCollision
-                                 : family.name == "sleeping"             ? &def.sleeping
-                                                                         : nullptr;
+            std::string* field = choiceOf(def, family.name);
             ASSERT_NE(field, nullptr) << family.name;
             *field = algorithm.name;
             World<Space3d> world = busyWorld<Space3d>(def);
