@@ -168,7 +168,7 @@ TEST_F(Browser, EveryScenarioPageOpensWithTheNumbersOfTheRun) {
         found.pages = [];
         for (const s of Rigor.run.scenarios) {
           location.hash = Rigor.scenarioLink(s.name).slice(1);
-          await pause();
+          for (let wait = 0; wait < 50 && !document.title.startsWith(s.name + ' '); ++wait) await pause();
           const cells = {};
           for (const row of document.querySelectorAll('#metrics tr[data-metric]'))
             if (row.dataset.subject === '') cells[row.dataset.metric] = [...row.querySelectorAll('td[data-value]')].map(d => d.dataset.value);
@@ -179,13 +179,17 @@ TEST_F(Browser, EveryScenarioPageOpensWithTheNumbersOfTheRun) {
         Rigor.drawAllCharts();  // as for printing: no frames are shown here that would bring them into view
         const box = document.querySelector('#curves input[data-spec]');
         box.click();
-        found.hidden = Rigor.liveCharts.length > 0 && Rigor.liveCharts.every(c => c.data.datasets.filter(d => d.spec === box.dataset.spec).every(d => d.hidden));
+        const charts = Rigor.liveCharts.map(c => ({connected: c.canvas.isConnected,
+          hidden: c.data.datasets.filter(d => d.spec === box.dataset.spec).map(d => d.hidden)}));
+        found.charts = charts;
+        found.box = {checked: box.checked, connected: box.isConnected};
+        found.hidden = charts.length > 0 && charts.every(c => c.connected && c.hidden.every(h => h));
         await pause();
         const pixels = (c) => { const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; return d.some((v) => v !== 0); };
         found.drawn = [...document.querySelectorAll('#curves canvas')].slice(0, 1).every(pixels);
     )js");
     expectClean(found);
-    EXPECT_EQ(found["hidden"], true);
+    EXPECT_EQ(found["hidden"], true) << found["box"] << found["charts"];
     EXPECT_EQ(found["drawn"], true);
     ASSERT_EQ(found["pages"].size(), run_.scenarios.size());
     std::size_t compared = 0;
@@ -210,6 +214,33 @@ TEST_F(Browser, EveryScenarioPageOpensWithTheNumbersOfTheRun) {
         }
     }
     EXPECT_GT(compared, 500u);
+}
+
+TEST_F(Browser, ChartsOfAPageThatWasLeftAreNotDrawn) {
+    const json found = probe("", R"js(
+        const late = [];
+        window.IntersectionObserver = class {
+          constructor(callback) { late.push(() => callback([{isIntersecting: true}])); }
+          observe() {}
+          disconnect() {}
+        };
+        const open = async (name) => {
+          location.hash = Rigor.scenarioLink(name).slice(1);
+          for (let wait = 0; wait < 50 && !document.title.startsWith(name + ' '); ++wait) await pause();
+        };
+        await open(Rigor.run.scenarios[0].name);
+        const left = late.splice(0);
+        await open(Rigor.run.scenarios[1].name);
+        late.forEach((seen) => seen());
+        found.drawn = Rigor.liveCharts.length;
+        left.forEach((seen) => seen());  // the browser may still deliver these
+        found.left = left.length;
+        found.after = Rigor.liveCharts.length;
+    )js");
+    expectClean(found);
+    EXPECT_GT(found["left"], 0);
+    EXPECT_GT(found["drawn"], 0);
+    EXPECT_EQ(found["after"], found["drawn"]);
 }
 
 TEST_F(Browser, ScreenshotsAreWritten) {

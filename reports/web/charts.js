@@ -5,8 +5,12 @@
 // when it scrolls into view.
 'use strict';
 Rigor.liveCharts = [];
+Rigor.chartWatchers = [];
+/** Ends the charts of the page being left, and those that were still waiting to come into view. */
 Rigor.dropCharts = function () {
+  for (const watcher of Rigor.chartWatchers) watcher.disconnect();
   for (const chart of Rigor.liveCharts) chart.destroy();
+  Rigor.chartWatchers = [];
   Rigor.liveCharts = [];
 };
 
@@ -88,10 +92,11 @@ Rigor.chartCard = function (plot, shown, focus) {
   const node = el('div', {class: 'chart'}, el('h4', {}, el('span', {}, plot.title, plot.unit && plot.unit !== '1' ? el('span', {class: 'muted'}, ` [${plot.unit}]`) : ''), button), el('div', {class: 'box'}, canvas));
   if ('IntersectionObserver' in window) {
     const watcher = new IntersectionObserver((entries) => {
-      if (!chart && entries.some((e) => e.isIntersecting)) { watcher.disconnect(); make(); }
+      if (!chart && node.isConnected && entries.some((e) => e.isIntersecting)) { watcher.disconnect(); make(); }
     }, {rootMargin: '300px'});
+    Rigor.chartWatchers.push(watcher);
     watcher.observe(node);
-  } else requestAnimationFrame(make);
+  } else requestAnimationFrame(() => { if (!chart && node.isConnected) make(); });
   const refresh = function () {
     if (!chart) return;
     for (const d of chart.data.datasets) if (d.spec) d.hidden = !shown(d.spec);
