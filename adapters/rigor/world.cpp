@@ -236,7 +236,7 @@ class RigorWorld final : public World {
 
     Scheme scheme() const override {
         const std::string& name = world_.def().integrator;
-        if (world_.def().substeps != 1) return Scheme::Unknown;  // another step than the one reported
+        if (world_.substeps() != 1) return Scheme::Unknown;  // another step than the one reported
         if (name == "symplectic_euler") return Scheme::SymplecticEuler;
         if (name == "explicit_euler") return Scheme::ExplicitEuler;
         if (name == "velocity_verlet") return Scheme::VelocityVerlet;
