@@ -11,6 +11,7 @@
 // for the minimising directions only. It judges ties and continua of directions without listing them.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "validation/collide/collide.hpp"
@@ -41,6 +42,20 @@ double allowedLength(const CollideTruth& truth, const CollideTolerance& toleranc
 /// Largest coordinate or size: rounding of the files' own numbers.
 double roundingOf(const CollisionCase& c) {
     return 1e-14 * std::max({1.0, norm(c.a.pose.position), norm(c.b.pose.position)});
+}
+
+/// The gap along one direction is a lower bound of the signed distance that anybody can check.
+std::string conflictWith(double stated, const OracleAnswer& exact) {
+    char text[200];
+    const Vec3 n = exact.normals.front();
+    if (stated < exact.signedDistance)
+        std::snprintf(text, sizeof text,
+                      "the file says %.10g m; along (%.6g, %.6g, %.6g) the signed distance is %.10g m",
+                      stated, n.x, n.y, n.z, exact.signedDistance);
+    else
+        std::snprintf(text, sizeof text, "the file says %.10g m, the oracle %.10g m", stated,
+                      exact.signedDistance);
+    return text;
 }
 
 bool normalIsRight(const CollideTruth& truth, const CollideTolerance& tolerance,
@@ -108,7 +123,7 @@ CollideTruth truthOf(const CollisionCase& c, const CollideTolerance& tolerance) 
             const double off = std::abs(*expected.signedDistance - exact->signedDistance);
             if (off > std::max(tolerance.touch, tolerance.relative * std::abs(exact->signedDistance)) +
                           expected.accuracy + roundingOf(c))
-                truth.conflict = "the file says " + std::to_string(*expected.signedDistance) + " m";
+                truth.conflict = conflictWith(*expected.signedDistance, *exact);
         }
     } else if (expected.signedDistance) {
         truth.source = "file";

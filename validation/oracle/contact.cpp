@@ -11,11 +11,12 @@
 // these, with both signs, are tried; further directions can not exceed the maximum and do no harm.
 // A difference that is flat (two balls, two capsules, a ball in a segment) has no inside: touching cores are
 // at distance 0, and every direction orthogonal to the difference is a minimising normal.
+// Cylinders and cones: solid_contact.cpp.
 #include <algorithm>
 #include <limits>
 
-#include "validation/oracle/core.hpp"
 #include "validation/oracle/oracle.hpp"
+#include "validation/oracle/solid.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -32,10 +33,6 @@ Real supportAlong(const Core& c, Vec n) {
 }
 Real separation(const Core& a, const Core& b, Vec n) {
     return -supportAlong(b, -1 * n) - supportAlong(a, n);
-}
-
-Vec edgeVector(const Core& c, const std::array<int, 2>& e) {
-    return c.vertices[static_cast<std::size_t>(e[1])] - c.vertices[static_cast<std::size_t>(e[0])];
 }
 
 void addDirection(Vec n, Real scale, std::vector<Vec>& directions) {
@@ -62,63 +59,6 @@ std::vector<Vec> candidateDirections(const Core& a, const Core& b, int dimension
             addDirection(cross(u, v), norm(u) * norm(v), directions);
         }
     return directions;
-}
-
-struct Pair {
-    Real distance = std::numeric_limits<Real>::max();
-    Vec onA, onB;
-    void consider(Vec a, Vec b) {
-        if (const Real d = norm(b - a); d < distance) *this = {d, a, b};
-    }
-};
-
-/// Nearest point to x of the segment from p along d.
-Vec nearestOnSegment(Vec x, Vec p, Vec d) {
-    const Real dd = dot(d, d);
-    return dd > 0 ? p + std::clamp(dot(x - p, d) / dd, 0.0L, 1.0L) * d : p;
-}
-
-/// All cases of two segments: the four ends against the other segment, and the two lines' common
-/// perpendicular where its feet are inside both.
-void segments(Vec p, Vec d, Vec q, Vec e, Pair& best) {
-    for (const Vec& x : {p, p + d}) best.consider(x, nearestOnSegment(x, q, e));
-    for (const Vec& y : {q, q + e}) best.consider(nearestOnSegment(y, p, d), y);
-    const Vec n = cross(d, e);
-    const Real nn = dot(n, n);
-    if (nn <= 0) return;
-    const Real s = dot(cross(q - p, e), n) / nn, t = dot(cross(q - p, d), n) / nn;
-    if (s >= 0 && s <= 1 && t >= 0 && t <= 1) best.consider(p + s * d, q + t * e);
-}
-
-/// Foot of x on the plane of a face, if inside the face: on the inner side of all its edges.
-bool footInFace(const Core& c, const Face& f, Vec x, Vec& foot) {
-    Vec middle;
-    for (int v : f.vertices)
-        middle =
-            middle + (1.0L / static_cast<Real>(f.vertices.size())) * c.vertices[static_cast<std::size_t>(v)];
-    foot = x - dot(f.normal, x - middle) * f.normal;
-    for (const auto& e : f.edges) {
-        const Vec p = c.vertices[static_cast<std::size_t>(e[0])];
-        const Vec across = cross(f.normal, edgeVector(c, e));
-        if (dot(across, foot - p) * dot(across, middle - p) < 0) return false;
-    }
-    return true;
-}
-
-Pair closestFeatures(const Core& a, const Core& b, Vec shiftB = {}) {
-    Pair best;
-    for (const auto& ea : a.edges)
-        for (const auto& eb : b.edges)
-            segments(a.vertices[static_cast<std::size_t>(ea[0])], edgeVector(a, ea),
-                     b.vertices[static_cast<std::size_t>(eb[0])] + shiftB, edgeVector(b, eb), best);
-    Vec foot;
-    for (const Face& f : a.faces)
-        for (const Vec& v : b.vertices)
-            if (footInFace(a, f, v + shiftB, foot)) best.consider(foot, v + shiftB);
-    for (const Face& f : b.faces)
-        for (const Vec& v : a.vertices)
-            if (footInFace(b, f, v - shiftB, foot)) best.consider(v, foot + shiftB);
-    return best;
 }
 
 /// Orthonormal basis of the directions the Minkowski difference extends in (Gram-Schmidt with pivoting).
@@ -233,6 +173,16 @@ std::optional<Plane> makePlane(const scenario::Geometry& g, const scenario::Pose
     return Plane{unit, h->offset + dot(unit, widen(pose.position) - widen(origin))};
 }
 
+OracleAnswer planeAnswer(Real sd, Vec onShape, const Plane& plane, bool shapeIsA, scenario::Vec3 origin) {
+    const Vec onPlane = onShape - sd * plane.normal, shift = widen(origin);
+    OracleAnswer answer;
+    answer.signedDistance = static_cast<double>(sd);
+    answer.normals = {narrow((shapeIsA ? -1 : 1) * plane.normal)};
+    answer.witnessA = narrow((shapeIsA ? onShape : onPlane) + shift);
+    answer.witnessB = narrow((shapeIsA ? onPlane : onShape) + shift);
+    return answer;
+}
+
 /// Core over a half-space; `coreIsA` tells the direction of the normal.
 OracleAnswer planeContact(const Core& c, const Plane& plane, bool coreIsA, scenario::Vec3 origin) {
     const Real low = -supportAlong(c, -1 * plane.normal);
@@ -240,16 +190,42 @@ OracleAnswer planeContact(const Core& c, const Plane& plane, bool coreIsA, scena
     Real count = 0;
     for (const Vec& v : c.vertices)
         if (dot(plane.normal, v) <= low + 1e-12L * c.size) deepest = deepest + v, count += 1;
-    const Real sd = low - plane.offset - c.radius;
-    const Vec onCore = (1 / count) * deepest - c.radius * plane.normal;
-    const Vec onPlane = onCore - sd * plane.normal;
+    return planeAnswer(low - plane.offset - c.radius, (1 / count) * deepest - c.radius * plane.normal, plane,
+                       coreIsA, origin);
+}
+OracleAnswer planeContact(const Solid& s, const Plane& plane, bool solidIsA, scenario::Vec3 origin) {
+    const Vec down = -1 * plane.normal;
+    return planeAnswer(-supportOf(s, down) - plane.offset, supportPoint(s, down), plane, solidIsA, origin);
+}
+
+/// Pairs with a cylinder or a cone.
+std::optional<OracleAnswer> roundContact(const scenario::Geometry& a, const scenario::Pose& poseA,
+                                         const scenario::Geometry& b, const scenario::Pose& poseB,
+                                         double tie) {
+    const scenario::Vec3 origin = poseA.position;
+    const std::optional<Solid> solidA = makeSolid(a, poseA, origin), solidB = makeSolid(b, poseB, origin);
+    if (solidA)
+        if (const std::optional<Plane> plane = makePlane(b, poseB, origin))
+            return planeContact(*solidA, *plane, true, origin);
+    if (solidB)
+        if (const std::optional<Plane> plane = makePlane(a, poseA, origin))
+            return planeContact(*solidB, *plane, false, origin);
+    if (!solidA || !solidB) return std::nullopt;
+    const std::optional<Core> coreA = makeCore(a, poseA, 3, origin), coreB = makeCore(b, poseB, 3, origin);
+    const SolidContact c =
+        solidContact(*solidA, coreA ? &*coreA : nullptr, *solidB, coreB ? &*coreB : nullptr, tie);
     const Vec shift = widen(origin);
     OracleAnswer answer;
-    answer.signedDistance = static_cast<double>(sd);
-    answer.normals = {narrow((coreIsA ? -1 : 1) * plane.normal)};
-    answer.witnessA = narrow((coreIsA ? onCore : onPlane) + shift);
-    answer.witnessB = narrow((coreIsA ? onPlane : onCore) + shift);
+    answer.signedDistance = static_cast<double>(c.distance);
+    for (const Vec& n : c.normals) answer.normals.push_back(narrow(n));
+    answer.continuum = c.continuum;
+    answer.witnessA = narrow(c.onA + shift);
+    answer.witnessB = narrow(c.onB + shift);
     return answer;
+}
+
+bool isRound(const scenario::Geometry& g) {
+    return std::holds_alternative<scenario::Cylinder>(g) || std::holds_alternative<scenario::Cone>(g);
 }
 
 }  // namespace
@@ -257,6 +233,8 @@ OracleAnswer planeContact(const Core& c, const Plane& plane, bool coreIsA, scena
 std::optional<OracleAnswer> exactContact(const scenario::Geometry& a, const scenario::Pose& poseA,
                                          const scenario::Geometry& b, const scenario::Pose& poseB,
                                          int dimension, double tie) {
+    if (isRound(a) || isRound(b))
+        return dimension == 3 ? roundContact(a, poseA, b, poseB, tie) : std::nullopt;
     const scenario::Vec3 origin = poseA.position;
     const std::optional<Core> coreA = makeCore(a, poseA, dimension, origin);
     const std::optional<Core> coreB = makeCore(b, poseB, dimension, origin);
@@ -289,6 +267,7 @@ std::optional<double> separationAlong(const scenario::Geometry& a, const scenari
                            Vec d) -> std::optional<Real> {
         if (const std::optional<Core> c = makeCore(g, pose, dimension, origin, false))
             return supportAlong(*c, d) + c->radius;
+        if (dimension == 3 && isRound(g)) return supportOf(*makeSolid(g, pose, origin), d);
         if (const std::optional<Plane> p = makePlane(g, pose, origin)) {
             // Bounded along its own normal alone; 1e-8 rad of rounding in a reported normal is no other
             // direction.

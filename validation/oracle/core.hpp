@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -57,6 +58,20 @@ struct Core {
 /// 3D. Without `features` it has vertices and radius alone.
 std::optional<Core> makeCore(const scenario::Geometry& geometry, const scenario::Pose& pose, int dimension,
                              scenario::Vec3 origin, bool features = true);
+
+Vec edgeVector(const Core& core, const std::array<int, 2>& edge);
+
+/// Two points and how far they are apart.
+struct Pair {
+    Real distance = std::numeric_limits<Real>::max();
+    Vec onA, onB;
+    void consider(Vec a, Vec b) {
+        if (const Real d = norm(b - a); d < distance) *this = {d, a, b};
+    }
+};
+
+/// Closest points of two cores that do not overlap, B moved by `shiftB`: over all pairs of features.
+Pair closestFeatures(const Core& a, const Core& b, Vec shiftB = {});
 
 /// x rotated by the unit quaternion; renormalised in long double.
 Vec rotate(const scenario::Quat& q, Vec x);

@@ -21,8 +21,8 @@ struct OracleAnswer {
     scenario::Vec3 witnessA, witnessB;  ///< one pair of closest (or deepest) points
 };
 
-/// Empty for shape pairs without an exact method (cylinder and cone for now). `tie` is relative to the larger
-/// shape.
+/// Empty for shape pairs without an exact method: two half-spaces, surfaces made of pieces (chain, mesh,
+/// height field), a segment in 3D, cylinder and cone in 2D. `tie` is relative to the larger shape.
 std::optional<OracleAnswer> exactContact(const scenario::Geometry& a, const scenario::Pose& poseA,
                                          const scenario::Geometry& b, const scenario::Pose& poseB,
                                          int dimension, double tie = 1e-9);

@@ -92,10 +92,10 @@ TEST(Judge, SetsOfNormals) {
 
 TEST(Judge, ShapesTheOracleLacksAreJudgedByTheFile) {
     scenario::CollisionCase c;
+    c.dimension = 2;  // a cylinder is no shape of the plane
     c.a.geometry = scenario::Cylinder{1.0, 1.0};
     c.b.geometry = scenario::Cylinder{1.0, 1.0};
     c.b.pose.position = {0, 1.75, 0};
-    if (truthOf(c, {}).source == "oracle") GTEST_SKIP() << "the oracle has cylinders now";
     EXPECT_EQ(judged(c, answer(-0.25, Vec3{0, 1, 0})), CollideVerdict::Undecided);
     c.expected.signedDistance = -0.25, c.expected.normals = {{0, 1, 0}}, c.expected.accuracy = 1e-9;
     EXPECT_EQ(judged(c, answer(-0.25, Vec3{0, 1, 0})), CollideVerdict::Ok);

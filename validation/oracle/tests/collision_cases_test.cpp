@@ -35,20 +35,22 @@ std::optional<Geometry> geometry(const json& j) {
         for (const json& v : j.at("vertices")) hull.vertices.push_back(vec(v));
         return hull;
     }
-    return std::nullopt;  // cylinder, cone, ellipsoid
+    if (type == "cylinder") return Cylinder{j.at("radius"), j.at("half_height")};
+    if (type == "cone") return Cone{j.at("radius"), j.at("half_height")};
+    return std::nullopt;  // ellipsoid
 }
 
 Pose pose(const json& j, const json& shape) {
     const json& q = j.at("q");
     Pose X{vec(j.at("p")), {q.at(0), q.at(1), q.at(2), q.at(3)}};
-    // Capsules of the files lie along local z.
-    if (shape.at("type") == "capsule")
+    // Capsules, cylinders and cones of the files lie along local z.
+    if (shape.contains("half_height"))
         X.orientation = X.orientation * fromAxisAngle({1, 0, 0}, std::numbers::pi / 2);
     return X;
 }
 
 struct Tally {
-    int answered = 0, normals = 0;
+    int answered = 0, normals = 0, refuted = 0;
     double worst = 0.0;
 };
 
@@ -69,8 +71,18 @@ void checkFile(const std::string& name, double tolerance, Tally& tally) {
         ++tally.answered;
         const double d = expected.at("signed_distance"), accuracy = expected.value("accuracy", 0.0);
         const double error = std::abs(answer->signedDistance - d);
-        EXPECT_LE(error, accuracy + tolerance * std::max(1.0, std::abs(d)))
-            << c.at("id") << " expected " << d;
+        const double allowed = accuracy + tolerance * std::max(1.0, std::abs(d));
+        const bool round = c.at("check").at("method") != "minkowski-hull";
+        // The values of round shapes come from a search over directions, which can only miss the best one:
+        // the direction found here shows it where the file's distance is too low (by 8.4e-6 m at most).
+        if (round && answer->signedDistance > d + allowed) {
+            EXPECT_NEAR(*separationAlong(*a, Xa, *b, Xb, 3, answer->normals[0]), answer->signedDistance,
+                        1e-15);
+            EXPECT_LE(error, 1e-5) << c.at("id");
+            ++tally.refuted;
+            continue;
+        }
+        EXPECT_LE(error, allowed) << c.at("id") << " expected " << d;
         tally.worst = std::max(tally.worst, error);
         if (!expected.value("normal_unique", false) || expected.value("touching", false)) continue;
         const json& margin = expected.at("normal_margin");
@@ -99,8 +111,10 @@ TEST(CollisionCases, PublishedQueries) {
     Tally tally;
     checkFile("cases.jsonl", 1e-9, tally);
     if (IsSkipped() || HasFatalFailure()) return;
-    EXPECT_GT(tally.answered, 200);
-    std::printf("worst signed distance error %.3g over %d cases\n", tally.worst, tally.answered);
+    EXPECT_GT(tally.answered, 350);
+    EXPECT_LE(tally.refuted, 16);
+    std::printf("worst signed distance error %.3g over %d cases, values of %d refuted by a direction\n",
+                tally.worst, tally.answered, tally.refuted);
 }
 
 }  // namespace
