@@ -109,5 +109,37 @@ TYPED_TEST(BroadPhases, TouchingCountsAndACopyContinuesAlike) {
     }
 }
 
+/// What has wandered off costs no more box tests than what has just arrived: nothing stays where it was put.
+TYPED_TEST(BroadPhases, AfterALongWayTheWorkIsThatOfAFreshStart) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const auto& entry : broadPhaseTable<S>()) {
+        std::mt19937 random(11);
+        std::vector<Aabb<S>> boxes;
+        for (int i = 0; i < 300; ++i) boxes.push_back(randomBox<S>(random, 20));
+        const std::vector<std::uint8_t> movable(boxes.size(), 1);
+        std::vector<ProxyPair> pairs;
+        auto walked = entry.make(), fresh = entry.make();
+        std::uniform_real_distribution<double> stride(-1, 1);
+        for (int round = 0; round < 200; ++round) {
+            walked->update(boxes, movable, pairs);
+            for (auto& box : boxes) {
+                typename S::Vec d;
+                for (int k = 0; k < S::dim; ++k) d[k] = static_cast<R>(stride(random) + (k == 0 ? 2 : 0));
+                box.min += d, box.max += d;
+            }
+        }
+        const auto cost = [&](BroadPhase<S>& broadPhase) {
+            const auto before = broadPhase.tests();
+            broadPhase.update(boxes, movable, pairs);
+            return static_cast<double>(broadPhase.tests() - before);
+        };
+        fresh->update(boxes, movable, pairs);
+        walked->update(boxes, movable, pairs);
+        const double afresh = cost(*fresh), after = cost(*walked);
+        EXPECT_LE(after, 2 * afresh + 300) << entry.name << ": " << after << " tests, afresh " << afresh;
+    }
+}
+
 }  // namespace
 }  // namespace rigor::engine

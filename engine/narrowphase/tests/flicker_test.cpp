@@ -99,7 +99,7 @@ TYPED_TEST(Flicker, TheNormalMovesWithTheNoiseAndNoFurther) {
 /// Two ways out that are equally deep, and noise that makes now the one and now the other the shorter.
 template <class S>
 struct Tie {
-    const char* name;
+    std::string name;
     Shape<S> a, b;
     Pose<S> Xb;
 };
@@ -121,6 +121,12 @@ std::vector<Tie<S>> ties() {
     if constexpr (S::dim == 3)
         all.push_back({"cylinder in the edge of a box", box, Cylinder<S>{R(0.3), R(0.4)},
                        pose<S>(vec<S>(0.6, 0.7, 0))});
+    // The other way round the narrow phase turns the pair about, and what it remembers with it.
+    for (std::size_t i = 0, n = all.size(); i < n; ++i) {
+        const Tie<S> tie = all[i];
+        const typename S::Vec back = -rotateInverse<R>(tie.Xb.q, tie.Xb.p);
+        all.push_back({tie.name + ", turned about", tie.b, tie.a, pose<S>(back, inverse(tie.Xb.q))});
+    }
     return all;
 }
 

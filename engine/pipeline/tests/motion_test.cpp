@@ -74,6 +74,37 @@ TYPED_TEST(Motion, DampingIsAPowerOfTheFactorPerSecondAndExactWithAForce) {
     }
 }
 
+/// v = v0 kept^t + F/(m c) (1 - kept^t), c = -ln(kept), in every integrator. Both Euler schemes and Verlet
+/// solve the damped kick exactly; rk4 is within h^4.
+TYPED_TEST(Motion, DampingIsTheSameInEveryIntegrator) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const auto& integrator : integratorTable<S>()) {
+        WorldDef<S> worldDef;
+        worldDef.integrator = integrator.name;
+        World<S> world(worldDef);
+        BodyDef<S> def;
+        def.mass = 2;
+        def.inertia = isotropic<S>(0.5);
+        def.velocity = at<S>(3, 0);
+        def.angularVelocity = spin<S>(2);
+        def.linearVelocityKept = R(0.5), def.angularVelocityKept = R(0.25);
+        const BodyId body = world.addBody(def);
+        ConstantForce<S> force;
+        force.body = body;
+        force.force = at<S>(0, 4), force.torque = spin<S>(1);
+        world.addForce(force);
+        for (int i = 0; i < 128; ++i) world.step(R(1.0 / 64));
+        const double c = -std::log(0.5), k = -std::log(0.25);
+        const double tolerance = std::string(integrator.name) == "rk4" ? 1e-9 : 1e-13;
+        EXPECT_NEAR(world.velocity(body)[0], 3 * 0.25, tol<S>(tolerance, 1e-5)) << integrator.name;
+        EXPECT_NEAR(world.velocity(body)[1], 2 * 0.75 / c, tol<S>(tolerance, 1e-5)) << integrator.name;
+        EXPECT_NEAR(spinOf<S>(world.angularVelocity(body)), 2.0 / 16 + 2 * (1 - 1.0 / 16) / k,
+                    tol<S>(tolerance, 1e-5))
+            << integrator.name;
+    }
+}
+
 TYPED_TEST(Motion, GravityScaleAndOffsetCentreOfMass) {
     using S = TypeParam;
     using R = typename S::Real;
