@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One known error for every metric of the table: the exact run shows none, and a run with the error shows it
+// with the size computed by hand. The exact solution here is made up, so that nothing is assumed of any
+// reference of the project. A metric without a row in this table fails the last test.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "validation/metrics/metric.hpp"
+#include "validation/references/tests/scene.hpp"
+
+namespace rigor::validation::testing {
+namespace {
+
+constexpr double kDt = 0.01;
+constexpr std::size_t kLast = 100;
+const Vec3 kVelocity{3, 4, 0}, kSpin{0, 0, 4};
+
+/// Two balls in step, |v| = 5 m/s, the first of them spinning; the ideal run of its scheme lags by h/2, and
+/// its clock by 1 %.
+class Glide : public Reference {
+  public:
+    explicit Glide(const Scenario& scenario) : scenario_(scenario) {}
+    std::vector<int> bodies() const override { return {0, 1}; }
+    PartialState exact(int body, double t) const override {
+        const Vec3 w = body == 0 ? kSpin : Vec3{};
+        return {scenario_.bodies[static_cast<std::size_t>(body)].pose.position + t * kVelocity,
+                fromAxisAngle({0, 0, 1}, t * w.z), kVelocity, w};
+    }
+    std::optional<PartialState> schemeExact(int body, std::size_t step, double dt,
+                                            adapter::Scheme) const override {
+        const double t = static_cast<double>(step) * dt;
+        PartialState late = exact(body, t);
+        late.position = *late.position - 0.5 * dt * kVelocity;
+        late.velocity = 0.99 * *late.velocity;
+        late.orientation = fromAxisAngle({0, 0, 1}, 0.9 * t * late.angularVelocity->z);
+        return late;
+    }
+    std::vector<Quantity> quantities(double dt, adapter::Scheme) const override {
+        Quantity range{"range", "m", 5.0, 5.0 - 2.5 * dt, 0.0, {}};
+        range.measure = [this](const Trajectory& run) {
+            return norm(run.state(kLast, 0).position - scenario_.bodies[0].pose.position);
+        };
+        Quantity end{"end", "s", 1.0, 1.0, 0.0, {}};
+        end.measure = [](const Trajectory& run) { return run.times.back(); };
+        return {range, end};
+    }
+
+  private:
+    const Scenario& scenario_;
+};
+
+class Still : public Reference {
+  public:
+    explicit Still(const Scenario& scenario) : scenario_(scenario) {}
+    std::vector<int> bodies() const override { return {1}; }
+    PartialState exact(int body, double) const override {
+        const Pose& X = scenario_.bodies[static_cast<std::size_t>(body)].pose;
+        return {X.position, X.orientation, Vec3{}, Vec3{}};
+    }
+
+  private:
+    const Scenario& scenario_;
+};
+
+struct Case {
+    Scenario scenario;
+    std::unique_ptr<Reference> reference;
+    Trajectory run;
+    BodyState& at(std::size_t frame, std::size_t body) { return run.states[frame * run.bodyCount + body]; }
+    BodyState& last(std::size_t body) { return at(kLast, body); }
+};
+
+std::unique_ptr<Case> gliding() {
+    auto c = std::make_unique<Case>();
+    c->scenario = emptyScene(3, {}, 1);
+    addBall(c->scenario, "first", 0.1, 2, 0.4, {0, 0, 0}, kVelocity, kSpin);
+    addBall(c->scenario, "second", 0.2, 1, 0.4, {0, 0, 5}, kVelocity);
+    c->reference = std::make_unique<Glide>(c->scenario);
+    c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
+    return c;
+}
+/// The same, as an ideal run of the scheme.
+std::unique_ptr<Case> ideal() {
+    auto c = gliding();
+    for (std::size_t k = 0; k <= kLast; ++k)
+        for (const int b : {0, 1}) {
+            const auto s = c->reference->schemeExact(b, k, kDt, adapter::Scheme::SymplecticEuler);
+            c->at(k, static_cast<std::size_t>(b)) = {*s->position, *s->orientation, *s->velocity,
+                                                     *s->angularVelocity};
+        }
+    return c;
+}
+/// A ball of 2 kg on the floor, with a contact.
+std::unique_ptr<Case> resting() {
+    auto c = std::make_unique<Case>();
+    c->scenario = emptyScene(3, {0, -10, 0}, 1);
+    addFloor(c->scenario);
+    addBall(c->scenario, "ball", 0.25, 2, 0.4, {0, 0.25, 0});
+    c->reference = std::make_unique<Still>(c->scenario);
+    c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
+    ContactPoint touch;
+    touch.bodyA = 0, touch.bodyB = 1, touch.normal = {0, 1, 0};
+    c->run.contacts[10] = {touch};
+    return c;
+}
+/// A rod on a hinge about z with stops at 0.1 rad.
+std::unique_ptr<Case> hinged() {
+    auto c = std::make_unique<Case>();
+    c->scenario = emptyScene(3, {}, 1);
+    addFloor(c->scenario);
+    addBox(c->scenario, "rod", {0.1, 0.5, 0.1}, 1, {0, 5, 0});
+    Joint hinge;
+    hinge.name = "hinge", hinge.type = JointType::Hinge, hinge.bodyB = 1;
+    hinge.anchorA = {0, 5.5, 0}, hinge.anchorB = {0, 0.5, 0};
+    hinge.axes[0].mode = AxisMode::Limited, hinge.axes[0].lower = -0.1, hinge.axes[0].upper = 0.1;
+    c->scenario.joints = {hinge};
+    c->reference = std::make_unique<Still>(c->scenario);
+    c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
+    return c;
+}
+
+/// Turned about the hinge's anchor.
+void swing(BodyState& rod, const Quat& q) {
+    rod.orientation = q;
+    rod.position = Vec3{0, 5.5, 0} - rotate(q, {0, 0.5, 0});
+}
+/// A range 2 % too long.
+void stretch(Case& c) {
+    c.last(0).position = 1.02 * c.last(0).position;
+}
+void shiftUp(BodyState& s, double by) {
+    s.position += Vec3{0, by, 0};
+}
+void turnBy(BodyState& s, double angle) {
+    s.orientation = fromAxisAngle({0.6, 0, 0.8}, angle) * s.orientation;
+}
+// 0.5 x 3 kg x 25 + 0.5 x 0.008 kg m^2 x 16
+constexpr double kEnergy = 37.564;
+
+struct Row {
+    const char* metric;
+    const char* subject;  ///< of the row that shows the error
+    std::unique_ptr<Case> (*make)();
+    std::function<void(Case&)> spoil;
+    double expected;
+};
+const std::vector<Row>& rows() {
+    static const std::vector<Row> table{
+        {"position_final", "first", gliding,
+         [](Case& c) {
+             c.last(0).position += Vec3{0.03, 0, -0.04};
+         },
+         0.05},
+        {"position_max", "second", gliding, [](Case& c) { shiftUp(c.at(40, 1), 0.2); }, 0.2},
+        {"position_rmse", "second", gliding, [](Case& c) { shiftUp(c.at(40, 1), 0.2); },
+         0.2 / std::sqrt(101.0)},
+        {"velocity_final", "second", gliding,
+         [](Case& c) {
+             c.last(1).velocity += Vec3{0, 0.7, 0};
+         },
+         0.7},
+        {"velocity_max", "first", gliding,
+         [](Case& c) {
+             c.at(40, 0).velocity += Vec3{0, 0, 0.6};
+         },
+         0.6},
+        {"orientation_final", "first", gliding, [](Case& c) { turnBy(c.last(0), 0.25); }, 0.25},
+        {"orientation_max", "second", gliding, [](Case& c) { turnBy(c.at(60, 1), 3.0); }, 3.0},
+        {"spin_final", "first", gliding,
+         [](Case& c) {
+             c.last(0).angularVelocity += Vec3{0, 0.1, 0};
+         },
+         0.1},
+        {"quantity_error", "range", gliding, stretch, 0.02},
+        {"event_time_error", "end", gliding, [](Case& c) { c.run.times.back() += 0.02; }, 0.02},
+        {"energy_error", "", gliding, [](Case& c) { c.at(30, 0).velocity = 2.0 * kVelocity; }, 75 / kEnergy},
+        {"energy_drift", "", gliding, [](Case& c) { c.at(30, 0).velocity = {}; }, 25 / kEnergy},
+        {"energy_final", "", gliding, [](Case& c) { c.last(0).velocity = 2.0 * kVelocity; }, 75 / kEnergy},
+        // It loses 25 J first: what it has gained is counted from there.
+        {"energy_gain", "", gliding,
+         [](Case& c) { c.at(30, 0).velocity = {}, c.at(40, 0).velocity = 2.0 * kVelocity; }, 100 / kEnergy},
+        {"scheme_position_final", "first", ideal, [](Case& c) { shiftUp(c.last(0), 0.05); }, 0.05},
+        {"scheme_position_max", "second", ideal, [](Case& c) { shiftUp(c.at(40, 1), 0.2); }, 0.2},
+        {"scheme_velocity_max", "first", ideal,
+         [](Case& c) {
+             c.at(40, 0).velocity += Vec3{0, 0, 0.6};
+         },
+         0.6},
+        {"scheme_orientation_max", "first", ideal, [](Case& c) { turnBy(c.at(60, 0), 0.25); }, 0.25},
+        {"scheme_quantity_error", "range", ideal, stretch, 0.02},
+        // 2 kg x 0.6 m/s of 15 kg m/s
+        {"linear_momentum_drift", "", gliding,
+         [](Case& c) {
+             c.at(30, 0).velocity += Vec3{0, 0, 0.6};
+         },
+         0.08},
+        // 0.008 kg m^2 x 5 rad/s of 0.032 kg m^2/s
+        {"angular_momentum_drift", "", gliding,
+         [](Case& c) {
+             c.at(30, 0).angularVelocity += Vec3{0, 5, 0};
+         },
+         1.25},
+        {"quaternion_norm_error", "second", gliding, [](Case& c) { c.at(20, 1).orientation.w *= 1.003; },
+         0.003},
+        {"penetration_max", "ball", resting, [](Case& c) { c.run.contacts[10][0].depth = 0.004; }, 0.004},
+        {"overlap_max", "ball", resting, [](Case& c) { shiftUp(c.at(50, 1), -0.01); }, 0.01},
+        {"normal_error", "ball", resting,
+         [](Case& c) {
+             c.run.contacts[10][0].normal = {std::sin(0.02), std::cos(0.02), 0};
+         },
+         0.02},
+        {"joint_drift", "hinge", hinged,
+         [](Case& c) {
+             c.at(50, 1).position += Vec3{0.003, 0, 0.004};
+         },
+         0.005},
+        {"joint_axis_drift", "hinge", hinged,
+         [](Case& c) {
+             swing(c.at(50, 1), fromAxisAngle({1, 0, 0}, 0.03));
+         },
+         0.03},
+        {"joint_limit_violation", "hinge.angle", hinged,
+         [](Case& c) {
+             swing(c.at(50, 1), fromAxisAngle({0, 0, 1}, -0.15));
+         },
+         0.05},
+        {"rest_motion", "ball", resting,
+         [](Case& c) {
+             c.at(30, 1).position += Vec3{0.003, 0.004, 0};
+         },
+         0.005},
+        {"rest_sink", "ball", resting,
+         [](Case& c) {
+             c.at(30, 1).position += Vec3{0.003, -0.004, 0};
+         },
+         0.004},
+        {"rest_creep", "ball", resting,
+         [](Case& c) {
+             c.last(1).position += Vec3{0.003, -0.007, 0.004};
+         },
+         0.005},
+        {"rest_turn", "ball", resting, [](Case& c) { turnBy(c.at(10, 1), 0.1); }, 0.1},
+        {"rest_jitter", "ball", resting,
+         [](Case& c) {
+             for (std::size_t k = 76; k <= kLast; ++k) c.at(k, 1).velocity = {0.03, 0, k % 2 ? 0.04 : -0.04};
+         },
+         0.05},
+        {"kinetic_energy_final", "", resting,
+         [](Case& c) {
+             c.last(1).velocity = {0, 0.3, 0};
+         },
+         0.09},
+    };
+    return table;
+}
+
+double valueOf(const Case& c, const Row& row) {
+    const MetricEntry* entry = findMetric(row.metric);
+    if (entry == nullptr) throw std::invalid_argument("no such metric");
+    for (const MetricValue& v :
+         entry->evaluate({c.scenario, c.run, c.reference.get(), adapter::Scheme::SymplecticEuler}))
+        if (v.subject == row.subject) return v.value;
+    throw std::invalid_argument(std::string("no row of '") + row.subject + "'");
+}
+
+TEST(KnownErrors, ComeBackWithTheirSizeAndAnExactRunHasNone) {
+    for (const Row& row : rows()) {
+        SCOPED_TRACE(row.metric);
+        const auto c = row.make();
+        EXPECT_NEAR(valueOf(*c, row), 0.0, 1e-13);
+        row.spoil(*c);
+        EXPECT_NEAR(valueOf(*c, row), row.expected, 1e-12);
+    }
+}
+
+TEST(KnownErrors, EveryMetricHasOne) {
+    std::set<std::string> tested, listed;
+    for (const Row& row : rows()) tested.insert(row.metric);
+    for (const MetricEntry& entry : metricTable()) listed.insert(entry.name);
+    EXPECT_EQ(tested, listed);
+}
+
+}  // namespace
+}  // namespace rigor::validation::testing
