@@ -12,6 +12,7 @@
 #include "cli/command.hpp"
 #include "scenarios/loader/collision_cases.hpp"
 #include "validation/collide/print.hpp"
+#include "validation/collide/random_pairs.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -22,6 +23,8 @@ struct Arguments {
     validation::CollideTolerance tolerance;
     int jobs = 0;
     bool suite = false, json = false, all = false, quiet = false;
+    validation::RandomPairs random{0, 1, 3, {}, {}, {}};  ///< count 0: none
+    std::string save;
 };
 
 std::atomic<bool> interrupted{false};
@@ -36,8 +39,19 @@ std::vector<scenario::CollisionFile> loadFiles(const Arguments& a) {
             files.push_back(scenario::loadCollisionFile(entry.file));
     for (const auto& name : a.files)
         files.push_back(scenario::loadCollisionFile(scenario::findCollisionFile(name)));
-    if (files.empty()) throw std::invalid_argument("collide: name a file of cases, or give --suite");
+    if (a.random.count > 0) {
+        files.push_back(validation::makeRandomPairs(a.random));
+        if (!a.save.empty()) validation::writeCollisionFile(files.back(), a.save);
+    }
+    if (files.empty())
+        throw std::invalid_argument("collide: name a file of cases, or give --suite or --random");
     return files;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
 }
 
 std::vector<adapter::EngineSpec> chooseSpecs(const Arguments& a, int jobs) {
@@ -87,6 +101,22 @@ void addCollide(CLI::App& app, Action& action) {
         "FILE", a->files,
         "Files of cases (rigor_collision JSON, or one query per line), or names of the library");
     command->add_flag("--suite", a->suite, "All case files of the library");
+    command->add_option("--random", a->random.count, "So many random pairs, exact answers by the oracle")
+        ->check(CLI::Range(1, 10000000));
+    command->add_option("--seed", a->random.seed,
+                        "Of --random: the same pairs for the same seed (default 1)");
+    command->add_option("--dimension", a->random.dimension, "Of --random: 2 or 3 (default 3)")
+        ->check(CLI::IsMember({2, 3}));
+    command->add_option("--kinds", a->random.kinds, "Of --random: " + joined(validation::randomPairKinds()))
+        ->delimiter(',');
+    command
+        ->add_option("--shapes", a->random.shapes,
+                     "Of --random, every two of: " + joined(validation::randomPairShapes(3)) +
+                         "; in 2D: " + joined(validation::randomPairShapes(2)))
+        ->delimiter(',');
+    command->add_option("--pairs", a->random.pairs, "Of --random: box-hull,hull-hull,... instead of --shapes")
+        ->delimiter(',');
+    command->add_option("--save", a->save, "Write the random pairs as a file of cases");
     command->add_option(
         "-e,--engines", a->engines,
         "Specs, e.g. rigor:narrow_phase=gjk_epa,fcl (default: every engine, every algorithm)");

@@ -6,9 +6,11 @@
 //   distance(A, B) = distance(core A, core B) - rA - rB
 // A core difference without volume (two crossing segments, concentric balls) has no inside: the cores touch,
 // the normal is across it, and its sign such that B is on the side of its own centre.
+// Where EPA ran out of vertices (a ring of equally deep ways out of curved sides) its normal is close to the
+// best: the descent of mpr.cpp, which needs no more of the surface than a portal, follows it to the end.
 #include "engine/narrowphase/distance.hpp"
 
-#include "engine/narrowphase/minkowski.hpp"
+#include "engine/narrowphase/mpr.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -37,6 +39,19 @@ ClosestPoints<S> twoPlanes(const HalfSpace<S>& a, const Pose<S>& Xa) {
     r.pointA = r.pointB = toWorld<S>(Xa, typename S::Vec(a.offset * a.normal));
     r.distance = std::numeric_limits<typename S::Real>::lowest();
     return r;
+}
+
+/// What an unfinished EPA left to gain.
+template <class S>
+void finishByDescent(const Minkowski<S>& D, CoreContact<S>& r) {
+    PortalQuery<S> query(D, typename S::Real(0));
+    const WayOut<S> found = descend<S>(query, r.normal);
+    r.iterations += query.asked();
+    if (!(found.support < -r.distance)) return;
+    r.normal = found.normal;
+    r.distance = -found.support;
+    r.converged = true;
+    placeFoot<S>(query, D, D.innerPoint(), r);
 }
 
 }  // namespace
@@ -70,6 +85,7 @@ CoreContact<S> closestCores(const Minkowski<S>& D) {
     } else {
         r.onA = inside.simplex.onA();
         r.onB = inside.simplex.onB();
+        if (!inside.converged) finishByDescent<S>(D, r);
     }
     return r;
 }

@@ -84,7 +84,6 @@ template <class S>
 void keepNormal(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, const typename S::Vec& last,
                 CoreContact<S>& contact) {
     using R = typename S::Real;
-    using V = typename S::Vec;
     if (!(contact.distance < 0) || last.dot(contact.normal) > kFlatFeature<R>) return;
     PortalQuery<S> query(D, R(0));
     // Of the descent alone, not the least of all directions asked on the way: that may be the other one.
@@ -92,8 +91,7 @@ void keepNormal(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, con
     if (!(found.support <= kKeep<R> * std::min(coreSize<S>(a), coreSize<S>(b)) - contact.distance)) return;
     contact.normal = found.normal;
     contact.distance = -found.support;
-    const V inner = innerPoint<S>(a) - (D.rotation() * innerPoint<S>(b) + D.translation());
-    placeFoot<S>(query, D, inner, contact);
+    placeFoot<S>(query, D, D.innerPoint(), contact);
 }
 
 #define INSTANTIATE(S)                                                                                \

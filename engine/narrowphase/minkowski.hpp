@@ -34,6 +34,10 @@ typename S::Vec coreSupport(const Shape<S>& shape, const typename S::Vec& d) {
     return support<S>(shape, d);
 }
 
+/// Strictly inside a shape with a volume, in its own frame.
+template <class S>
+typename S::Vec innerPoint(const Shape<S>& shape);
+
 template <class S>
 class Minkowski {
   public:
@@ -56,6 +60,10 @@ class Minkowski {
     /// B's frame in the frame of A.
     const typename S::Mat& rotation() const { return rotation_; }
     const V& translation() const { return translation_; }
+    /// Inside D, where either shape has a volume.
+    V innerPoint() const {
+        return engine::innerPoint<S>(a_) - (rotation_ * engine::innerPoint<S>(b_) + translation_);
+    }
 
   private:
     const Shape<S>& a_;

@@ -110,7 +110,7 @@ bool portalContact(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, 
                    CoreContact<S>& contact) {
     using R = typename S::Real;
     using V = typename S::Vec;
-    const V inner = innerPoint<S>(a) - (D.rotation() * innerPoint<S>(b) + D.translation());
+    const V inner = D.innerPoint();
     PortalQuery<S> cores(D, R(0)), grown(D, reach);
     const auto sides = [&](const auto& visit) {
         eachSide<S>(a, visit);

@@ -63,9 +63,6 @@ WayOut<S> descend(PortalQuery<S>& query, const typename S::Vec& start);
 template <class S>
 void placeFoot(PortalQuery<S>& query, const Minkowski<S>& D, const typename S::Vec& inner,
                CoreContact<S>& contact);
-/// Strictly inside a shape with a volume, in its own frame.
-template <class S>
-typename S::Vec innerPoint(const Shape<S>& shape);
 
 template <class R>
 Portal<Space<R, 2>> castPortal(PortalQuery<Space<R, 2>>& query, const Vec2<R>& from, const Vec2<R>& d);
