@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// See planar_motion.hpp.
+#include "validation/references/planar_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "validation/references/numerics/quadrature.hpp"
+#include "validation/references/numerics/vector.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using numerics::OdeState;
+using Real = numerics::Real;
+using Kind = PlanarMotion::Kind;
+
+constexpr Real kStill = 1e-10L;  // beside the speeds of the scene: rounding of events, not physics
+constexpr int kChunks = 48;      // pieces of the duration that are integrated at a time
+constexpr int kLooks = 64;       // samples of the event functions in a piece
+constexpr std::size_t kMostEvents = 60;
+
+OdeState pack(const PlanarMotion::State& s) {
+    return {s.x, s.z, s.angle, s.vx, s.vz, s.rate};
+}
+PlanarMotion::State unpack(const OdeState& y) {
+    return {y[0], y[1], y[2], y[3], y[4], y[5]};
+}
+bool isSlip(Kind kind) {
+    return kind == Kind::SlipForward || kind == Kind::SlipBackward;
+}
+Real signOf(Kind kind) {
+    return kind == Kind::SlipForward ? 1 : (kind == Kind::SlipBackward ? -1 : 0);
+}
+
+}  // namespace
+
+PlanarMotion::Arm PlanarMotion::armOf(int corner, Real angle) const {
+    const Corner& p = setup_.corners[static_cast<std::size_t>(corner)];
+    const Real c = std::cos(angle), s = std::sin(angle);
+    Arm arm;
+    arm.x = c * p.along - s * p.above;
+    arm.z = s * p.along + c * p.above;
+    arm.cx = arm.x;
+    arm.cz = arm.z - p.radius;
+    return arm;
+}
+
+Real PlanarMotion::gapOf(int corner, const State& s) const {
+    return s.z + armOf(corner, s.angle).cz;
+}
+Real PlanarMotion::closingOf(int corner, const State& s) const {
+    return s.vz + s.rate * armOf(corner, s.angle).x;
+}
+Real PlanarMotion::slipOf(int corner, const State& s) const {
+    return s.vx - s.rate * armOf(corner, s.angle).cz;
+}
+
+/// What the normal force per newton does to the gap's acceleration: Painleve's p over m.
+Real PlanarMotion::leverOf(const Mode& mode, const State& s) const {
+    const Arm a = armOf(mode.corner, s.angle);
+    return 1 / setup_.mass + a.x * (a.cx + setup_.friction * signOf(mode.kind) * a.cz) / setup_.inertia;
+}
+
+std::optional<PlanarMotion::Forces> PlanarMotion::forcesIn(const Mode& mode, const State& s) const {
+    Forces f;
+    if (mode.kind != Kind::Flight) {
+        const Arm a = armOf(mode.corner, s.angle);
+        const Real m = setup_.mass, inertia = setup_.inertia, mu = setup_.friction, w2 = s.rate * s.rate;
+        const Real turn = setup_.torque / inertia;
+        // gap'' = b + p N + q F; slip' = d + q' N + e F.
+        const Real b = setup_.pullAbove + turn * a.x - w2 * a.z;
+        const Real d = setup_.pullAlong - turn * a.cz - w2 * a.x;
+        const Real p = 1 / m + a.x * a.cx / inertia, q = -a.x * a.cz / inertia;
+        const Real r = -a.cx * a.cz / inertia, e = 1 / m + a.cz * a.cz / inertia;
+        if (mode.kind == Kind::Stick) {
+            const Real det = p * e - q * r;
+            f.load.normal = (q * d - e * b) / det;
+            f.load.tangential = (r * b - p * d) / det;
+        } else {
+            const Real lever = leverOf(mode, s);
+            if (!(lever > 0)) return std::nullopt;
+            f.load.normal = -b / lever;
+            f.load.tangential = -mu * signOf(mode.kind) * f.load.normal;
+        }
+        f.spin = (a.cx * f.load.normal - a.cz * f.load.tangential) / inertia;
+    }
+    f.ax = setup_.pullAlong + f.load.tangential / setup_.mass;
+    f.az = setup_.pullAbove + f.load.normal / setup_.mass;
+    f.spin += setup_.torque / setup_.inertia;
+    return f;
+}
+
+PlanarMotion::PlanarMotion(Setup setup, State start, double duration)
+    : setup_(std::move(setup)), duration_(duration) {
+    double t = 0.0;
+    State s = start;
+    Mode mode = startMode(s);
+    while (t < duration_ && validUntil_ > 1e299) {
+        mode = follow(t, s, mode);
+        // Bounces that come closer and closer: known up to here.
+        if (events_.size() >= kMostEvents) validUntil_ = std::min(validUntil_, t);
+    }
+}
+
+/// The mode that the contact forces of a single touching corner choose.
+PlanarMotion::Mode PlanarMotion::contactMode(int corner, const State& s) const {
+    const Real slip = slipOf(corner, s),
+               speed = std::abs(s.vx) + std::abs(s.vz) + setup_.size * std::abs(s.rate);
+    const Real pull = std::hypot(setup_.pullAlong, setup_.pullAbove);
+    if (std::abs(slip) > kStill * (speed + std::sqrt(pull * setup_.size)))
+        return {slip > 0 ? Kind::SlipForward : Kind::SlipBackward, corner};
+    const Mode stick{Kind::Stick, corner};
+    const auto f = forcesIn(stick, s);
+    if (f->load.normal < 0) return {Kind::Flight, -1};
+    if (std::abs(f->load.tangential) <= setup_.friction * f->load.normal) return stick;
+    // It starts to slip against the force that would have held it.
+    return {f->load.tangential > 0 ? Kind::SlipBackward : Kind::SlipForward, corner};
+}
+
+/// Whether forces inside the cones of two corners hold the body: the line of the load crosses the base.
+bool PlanarMotion::restsOn(const std::vector<int>& corners, const State& s) const {
+    if (corners.size() != 2 || setup_.pullAbove >= 0) return false;
+    const Arm a = armOf(corners[0], s.angle), b = armOf(corners[1], s.angle);
+    const Real normal = -setup_.mass * setup_.pullAbove, tangential = -setup_.mass * setup_.pullAlong;
+    if (std::abs(tangential) > setup_.friction * normal) return false;
+    // Moments about the centre of mass: Na a.cx + Nb b.cx - F cz + T = 0, Na + Nb = N.
+    const Real moment = tangential * a.cz - setup_.torque;
+    const Real nb = (moment - normal * a.cx) / (b.cx - a.cx), na = normal - nb;
+    return na >= 0 && nb >= 0;
+}
+
+PlanarMotion::Mode PlanarMotion::startMode(State& s) const {
+    std::vector<int> touching;
+    const Real speed = std::abs(s.vx) + std::abs(s.vz) + setup_.size * std::abs(s.rate);
+    for (int i = 0; i < static_cast<int>(setup_.corners.size()); ++i) {
+        const Real gap = gapOf(i, s), rate = closingOf(i, s);
+        require(gap > -1e-6L * setup_.size, "the body starts inside the floor");
+        if (gap > 1e-6L * setup_.size || rate > 1e-6L * speed) continue;
+        require(rate >= -1e-6L * speed, "a corner of the body moves into the floor at the start");
+        touching.push_back(i);
+    }
+    if (touching.empty()) return {Kind::Flight, -1};
+    if (touching.size() == 1) return contactMode(touching[0], s);
+    require(touching.size() == 2 && speed == 0, "the body slides on a flat side");
+    if (restsOn(touching, s)) return {Kind::Rest, -1};
+    // At rest on a side but not held: it tips over one of its ends.
+    for (const int i : touching) {
+        const int other = i == touching[0] ? touching[1] : touching[0];
+        const Mode mode = contactMode(i, s);
+        if (mode.kind == Kind::Flight) continue;
+        const auto f = forcesIn(mode, s);
+        if (f && f->load.normal >= 0 && f->az + f->spin * armOf(other, s.angle).x > 0) return mode;
+    }
+    violated("the body slides on a flat side");
+}
+
+/// Integrates one mode to its next event and says which mode follows.
+PlanarMotion::Mode PlanarMotion::follow(double& t, State& s, Mode mode) {
+    if (mode.kind == Kind::Rest) {
+        phases_.push_back({t, 1e300, mode, s, {}});
+        t = duration_;
+        return mode;
+    }
+    if (!forcesIn(mode, s)) {
+        const Arm a = armOf(mode.corner, s.angle);
+        require(setup_.pullAbove + setup_.torque / setup_.inertia * a.x - s.rate * s.rate * a.z < 0,
+                "the slipping contact may open or jam: the laws leave it undetermined (Painleve)");
+        State next = s;
+        const Mode after = impact(t, next, {mode.corner}, {}, EventKind::Jam);
+        s = next;
+        return after;
+    }
+    const double end = std::min(duration_, t + duration_ / kChunks);
+    const auto rhs = [this, mode](Real, const OdeState& y, OdeState& d) {
+        const auto f = forcesIn(mode, unpack(y));
+        if (!f) throw std::runtime_error("a slipping contact approaches the state that Painleve found");
+        d = {y[3], y[4], y[5], f->ax, f->az, f->spin};
+    };
+    Phase phase{t, end, mode, s, numerics::DenseSolution(rhs, t, pack(s), end, 1e-14L)};
+    const auto stateAt = [&](Real at) { return unpack(phase.solution.at(at)); };
+    // Functions that are positive while the mode holds.
+    std::vector<std::function<Real(Real)>> watched;
+    if (mode.kind != Kind::Flight)
+        watched.push_back([&](Real at) { return forcesIn(mode, stateAt(at))->load.normal; });
+    if (isSlip(mode.kind))
+        watched.push_back([&](Real at) { return signOf(mode.kind) * slipOf(mode.corner, stateAt(at)); });
+    if (mode.kind == Kind::Stick)
+        watched.push_back([&](Real at) {
+            const auto f = forcesIn(mode, stateAt(at));
+            return setup_.friction * f->load.normal - std::abs(f->load.tangential);
+        });
+    for (int i = 0; i < static_cast<int>(setup_.corners.size()); ++i)
+        if (i != mode.corner) watched.push_back([&, i](Real at) { return gapOf(i, stateAt(at)); });
+    Real first = end;
+    bool found = false;
+    for (const auto& f : watched) {
+        Real low = t;
+        for (int k = 1; k <= kLooks; ++k) {
+            const Real high = t + (static_cast<Real>(end) - t) * k / kLooks;
+            // Zero at the very start is the event that led here; it counts once the function has moved.
+            if (f(high) >= 0) {
+                low = high;
+                continue;
+            }
+            Real root = low;
+            if (f(low) > 0) root = numerics::findRoot(f, low, high);
+            if (root < first || !found) first = std::min(first, root), found = true;
+            break;
+        }
+    }
+    phase.end = static_cast<double>(first);
+    phases_.push_back(phase);
+    t = phase.end;
+    s = unpack(phase.solution.at(t));
+    if (!found) return mode;
+    return resolve(t, s, mode);
+}
+
+/// The mode after the event at time t.
+PlanarMotion::Mode PlanarMotion::resolve(double t, State& s, const Mode& mode) {
+    std::vector<int> landing;
+    for (int i = 0; i < static_cast<int>(setup_.corners.size()); ++i)
+        if (i != mode.corner && gapOf(i, s) < 1e-12L * setup_.size && closingOf(i, s) < 0)
+            landing.push_back(i);
+    std::vector<int> touching;
+    if (mode.kind != Kind::Flight) touching.push_back(mode.corner);
+    if (!landing.empty()) return impact(t, s, touching, landing, EventKind::Impact);
+    const auto f = forcesIn(mode, s);
+    const Real pull = setup_.mass * std::hypot(setup_.pullAlong, setup_.pullAbove);
+    if (f->load.normal <= kStill * pull) {
+        events_.push_back({t, EventKind::Release, mode.corner, s, s});
+        return {Kind::Flight, -1};
+    }
+    const Mode next =
+        isSlip(mode.kind)
+            ? contactMode(mode.corner, s)
+            : Mode{f->load.tangential > 0 ? Kind::SlipBackward : Kind::SlipForward, mode.corner};
+    if (next != mode)
+        events_.push_back({t, isSlip(next.kind) ? EventKind::Slip : EventKind::Stick, mode.corner, s, s});
+    return next;
+}
+
+/// Impulses at the corners that touch and land, each in one of the modes leave, stick, slip either way.
+PlanarMotion::Mode PlanarMotion::impact(double t, State& s, const std::vector<int>& touching,
+                                        const std::vector<int>& landing, EventKind kind) {
+    std::vector<int> corners = landing;
+    corners.insert(corners.end(), touching.begin(), touching.end());
+    require(corners.size() <= 2, "three corners meet the floor at once");
+    const std::size_t n = corners.size();
+    const Real speed = std::abs(s.vx) + std::abs(s.vz) + setup_.size * std::abs(s.rate), tiny = 1e-9L * speed;
+    struct Outcome {
+        State state;
+        std::array<int, 2> choice{};  ///< 0 leave, 1 stick, 2 slip forward, 3 slip backward
+    };
+    std::vector<Outcome> outcomes;
+    int combinations = 1;
+    for (std::size_t i = 0; i < n; ++i) combinations *= 4;
+    for (int pick = 0; pick < combinations; ++pick) {
+        std::array<int, 2> choice{pick % 4, pick / 4};
+        // Unknown: impulses (Pn, Pt) of each corner; equations: its law.
+        std::vector<std::vector<Real>> matrix(2 * n, std::vector<Real>(2 * n, 0));
+        std::vector<Real> right(2 * n, 0);
+        for (std::size_t i = 0; i < n; ++i) {
+            const Arm a = armOf(corners[i], s.angle);
+            const bool lands = i < landing.size();
+            if (choice[i] == 0) {
+                matrix[2 * i][2 * i] = 1;
+                matrix[2 * i + 1][2 * i + 1] = 1;
+                continue;
+            }
+            for (std::size_t j = 0; j < n; ++j) {
+                const Arm b = armOf(corners[j], s.angle);
+                matrix[2 * i][2 * j] += 1 / setup_.mass + a.x * b.cx / setup_.inertia;
+                matrix[2 * i][2 * j + 1] += -a.x * b.cz / setup_.inertia;
+            }
+            const Real e = lands ? setup_.restitution : 0;
+            right[2 * i] = -(1 + e) * closingOf(corners[i], s);
+            if (choice[i] == 1) {
+                for (std::size_t j = 0; j < n; ++j) {
+                    const Arm b = armOf(corners[j], s.angle);
+                    matrix[2 * i + 1][2 * j] += -a.cz * b.cx / setup_.inertia;
+                    matrix[2 * i + 1][2 * j + 1] += 1 / setup_.mass + a.cz * b.cz / setup_.inertia;
+                }
+                right[2 * i + 1] = -slipOf(corners[i], s);
+            } else {
+                matrix[2 * i + 1][2 * i + 1] = 1;
+                matrix[2 * i + 1][2 * i] = choice[i] == 2 ? setup_.friction : -setup_.friction;
+            }
+        }
+        try {
+            numerics::solveDense(matrix, right);
+        } catch (const std::runtime_error&) {
+            continue;  // both corners stick: the three velocities are zero, one impulse is left open
+        }
+        State after = s;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Arm a = armOf(corners[i], s.angle);
+            after.vx += right[2 * i + 1] / setup_.mass;
+            after.vz += right[2 * i] / setup_.mass;
+            after.rate += (a.cx * right[2 * i] - a.cz * right[2 * i + 1]) / setup_.inertia;
+        }
+        bool fits = true;
+        Real total = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Real normal = right[2 * i], tangential = right[2 * i + 1], slip = slipOf(corners[i], after);
+            const Real least = i < landing.size() && choice[i] != 0 ? -tiny : 0;
+            total += normal;
+            fits = fits && normal >= least - 1e-12L * setup_.mass * speed;
+            if (choice[i] == 0) fits = fits && closingOf(corners[i], after) >= -tiny;
+            if (choice[i] == 1)
+                fits =
+                    fits && std::abs(tangential) <= setup_.friction * normal + 1e-12L * setup_.mass * speed;
+            if (choice[i] == 2) fits = fits && slip > tiny;
+            if (choice[i] == 3) fits = fits && slip < -tiny;
+        }
+        // A jam is the answer with an impulse; without one the contact has no force that fits.
+        if (fits && (kind != EventKind::Jam || total > 1e-9L * setup_.mass * speed))
+            outcomes.push_back({after, choice});
+    }
+    // Both corners hold: at rest.
+    State rest = s;
+    rest.vx = rest.vz = rest.rate = 0;
+    if (outcomes.empty() && n == 2 && restsOn(corners, s)) outcomes.push_back({rest, {1, 1}});
+    require(!outcomes.empty(), "an impact has no answer by the laws of Newton and Coulomb");
+    for (const Outcome& other : outcomes) {
+        const State &a = other.state, &b = outcomes[0].state;
+        require(std::abs(a.vx - b.vx) + std::abs(a.vz - b.vz) + setup_.size * std::abs(a.rate - b.rate) <=
+                    1e-8L * speed,
+                "an impact has several answers by the laws of Newton and Coulomb");
+    }
+    const State before = s;
+    s = outcomes[0].state;
+    events_.push_back({t, kind, corners[0], before, s});
+    std::vector<int> staying;
+    for (const int i : corners)
+        if (closingOf(i, s) <= tiny) staying.push_back(i);
+    if (staying.empty()) return {Kind::Flight, -1};
+    if (staying.size() == 1) return contactMode(staying[0], s);
+    if (std::abs(s.vx) <= tiny && restsOn(staying, s)) {
+        s.vx = s.vz = s.rate = 0;
+        return {Kind::Rest, -1};
+    }
+    validUntil_ = t;
+    return {Kind::Rest, -1};
+}
+
+const PlanarMotion::Phase& PlanarMotion::phaseAt(double t) const {
+    for (const Phase& phase : phases_)
+        if (t <= phase.end) return phase;
+    return phases_.back();
+}
+
+PlanarMotion::State PlanarMotion::at(double t) const {
+    const Phase& phase = phaseAt(t);
+    return phase.mode.kind == Kind::Rest ? phase.held : unpack(phase.solution.at(t));
+}
+
+PlanarMotion::Mode PlanarMotion::modeAt(double t) const {
+    return phaseAt(t).mode;
+}
+
+std::optional<PlanarMotion::Load> PlanarMotion::loadAt(double t) const {
+    const Phase& phase = phaseAt(t);
+    if (phase.mode.kind == Kind::Rest) return std::nullopt;
+    const auto f = forcesIn(phase.mode, at(t));
+    if (!f) return std::nullopt;
+    return f->load;
+}
+
+}  // namespace rigor::validation

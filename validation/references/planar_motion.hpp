@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One rigid body that moves in a plane of space over a straight floor, from event to event: rods and blocks
+// that rock, tip, slide, stick, jam, lift off and hit. In coordinates x along the floor, z above it, phi:
+// corner i (a point, or the centre of a cap of radius r) is at R(phi) rho from the centre of mass, the
+// contact at c = R rho - (0, r); N, F: normal and tangential contact force.
+//   x'' = gx + F/m, z'' = gz + N/m, I phi'' = c_x N - c_z F + T,
+//   contact holds:  z'' + phi'' (R rho)_x - phi'^2 (R rho)_z = 0,
+//   slips, s = x' - phi' c_z:  F = -mu N sign(s);   sticks:  s' = 0 with |F| <= mu N.
+// Events: N = 0 (flight), s = 0 (stick, or slip the other way), |F| = mu N (slip), another corner lands.
+// Impacts: all laws at the level of impulses at once (Newton's restitution at the corner that lands, Coulomb
+// with the slip after the impact), the answer by trying every mode. Where a slipping contact can carry no
+// force and not open either (Painleve), it stops in an impact without collision.
+// Source: Painleve 1895; Housner, Bull. Seism. Soc. Am. 53 (1963) 403; Genot and Brogliato, Eur. J. Mech. A
+// 18 (1999) 653; Brogliato, Nonsmooth Mechanics, 2016, chapters 4-5; Stronge, Impact Mechanics, 2000.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/references/numerics/ode.hpp"
+#include "validation/references/parts.hpp"
+
+namespace rigor::validation {
+
+class PlanarMotion {
+  public:
+    using Real = numerics::Real;
+    struct Corner {
+        Real along = 0, above = 0;  ///< from the centre of mass, body frame of the plane at phi = 0 [m]
+        Real radius = 0;            ///< of a cap; 0: a point [m]
+    };
+    struct Setup {
+        std::vector<Corner> corners;
+        Real mass = 1, inertia = 1;
+        Real pullAlong = 0, pullAbove = 0;  ///< acceleration by gravity and constant force [m/s^2]
+        Real torque = 0;                    ///< constant [N m]
+        Real friction = 0, restitution = 0;
+        Real size = 1;  ///< lengths are small beside this [m]
+    };
+    struct State {
+        Real x = 0, z = 0, angle = 0, vx = 0, vz = 0, rate = 0;
+    };
+    enum class Kind { Rest, Flight, Stick, SlipForward, SlipBackward };
+    struct Mode {
+        Kind kind = Kind::Flight;
+        int corner = -1;
+        bool operator==(const Mode&) const = default;
+    };
+    enum class EventKind { Impact, Release, Stick, Slip, Jam };
+    struct Event {
+        double time = 0.0;
+        EventKind kind = EventKind::Impact;
+        int corner = -1;
+        State before, after;
+    };
+    struct Load {
+        Real normal = 0, tangential = 0;  ///< [N]
+    };
+
+    /// Follows the motion for `duration`. Throws AssumptionViolated for a start inside the floor, contacts
+    /// that do not fit the velocities, and motion with both ends of a flat side sliding.
+    PlanarMotion(Setup setup, State start, double duration);
+
+    State at(double t) const;
+    /// Contact force at time t; zero in flight, empty at rest on two corners.
+    std::optional<Load> loadAt(double t) const;
+    Mode modeAt(double t) const;
+    const std::vector<Event>& events() const { return events_; }
+    /// Until when the motion is known [s]; 1e300 where it is to the end.
+    double validUntil() const { return validUntil_; }
+
+  private:
+    struct Phase {
+        double begin = 0.0, end = 0.0;
+        Mode mode;
+        State held;  ///< Kind::Rest
+        numerics::DenseSolution solution;
+    };
+    struct Forces {
+        Load load;
+        Real ax = 0, az = 0, spin = 0;
+    };
+    struct Arm {
+        Real x = 0, z = 0;    ///< R rho
+        Real cx = 0, cz = 0;  ///< contact from the centre of mass
+    };
+    Arm armOf(int corner, Real angle) const;
+    Real gapOf(int corner, const State& s) const;
+    Real closingOf(int corner, const State& s) const;  ///< rate of the gap
+    Real slipOf(int corner, const State& s) const;
+    /// Forces and accelerations; empty where a slipping contact has no consistent force.
+    std::optional<Forces> forcesIn(const Mode& mode, const State& s) const;
+    Real leverOf(const Mode& mode, const State& s) const;
+    Mode startMode(State& s) const;
+    Mode contactMode(int corner, const State& s) const;
+    bool restsOn(const std::vector<int>& corners, const State& s) const;
+    Mode follow(double& t, State& s, Mode mode);
+    Mode resolve(double t, State& s, const Mode& mode);
+    Mode impact(double t, State& s, const std::vector<int>& touching, const std::vector<int>& landing,
+                EventKind kind);
+    const Phase& phaseAt(double t) const;
+
+    Setup setup_;
+    double duration_ = 0.0, validUntil_ = 1e300;
+    std::vector<Phase> phases_;
+    std::vector<Event> events_;
+};
+
+/// The body of a scenario as a planar body over a plane, with the way between the coordinates.
+class PlanarFrame {
+  public:
+    /// Throws AssumptionViolated where the motion does not stay in a plane across the floor.
+    PlanarFrame(const Scenario& scenario, int body, int floor);
+
+    const PlanarMotion::Setup& setup() const { return setup_; }
+    PlanarMotion::State start() const { return start_; }
+    PartialState lift(const PlanarMotion::State& state) const;
+    /// x, z, angle and their rates of a recorded state; the angle within half a turn.
+    PlanarMotion::State read(const BodyState& state) const;
+
+  private:
+    void addForces(const Scenario& scenario, int body);
+    void addCorners(const Scenario& scenario);
+    void chooseAxis(const Scenario& scenario);
+
+    const Body& body_;
+    Plane plane_;
+    Vec3 along_, above_, axis_{0, 0, 1}, origin_;  ///< along_ = above_ x axis_; phi > 0 is about axis_
+    PlanarMotion::Setup setup_;
+    PlanarMotion::State start_;
+};
+
+}  // namespace rigor::validation

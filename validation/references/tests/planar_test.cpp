@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One body on a floor seen from the side: catalogued values of rocking blocks, falling rods, impacts of
+// corners and Painleve's rod; and Newton's and Euler's laws asked for the contact force.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/planar_motion.hpp"
+#include "validation/references/tests/newton_euler.hpp"
+
+namespace rigor::validation::testing {
+namespace {
+
+using adapter::Scheme;
+using std::numbers::pi;
+
+Scenario onFloor(double duration, double friction, double restitution, int dimension = 2) {
+    Scenario s = emptyScene(dimension, {0, -9.81, 0}, duration);
+    s.materials[0].friction = friction;
+    s.materials[0].restitution = restitution;
+    addFloor(s);
+    setReference(s, "planar_contact");
+    return s;
+}
+/// A box tilted by `angle` about the corner that stays on the floor at the origin (angle > 0: to the left).
+void addTilted(Scenario& s, double b, double h, double angle, double rate = 0) {
+    const Quat q = fromAxisAngle({0, 0, 1}, angle);
+    const Vec3 corner{angle > 0 ? -b : b, -h, 0};
+    addBox(s, "block", {b, h, s.dimension == 3 ? 0.2 : 0.0}, 1, rotate(q, -corner));
+    Body& body = s.bodies.back();
+    body.pose.orientation = q;
+    body.massProperties.inertia = Mat3::diagonal(1, 1, (b * b + h * h) / 3);
+    body.angularVelocity = {0, 0, rate};
+    body.velocity = cross(body.angularVelocity, body.pose.position);
+}
+/// A slender rod (capsule of a vanishing radius) with its foot at the origin, leaning by `tilt` from upright.
+void addRod(Scenario& s, double half, double tilt, double rate = 0, Vec3 foot = {}) {
+    const Quat q = fromAxisAngle({0, 0, 1}, -tilt);
+    addBody(s, "rod", BodyType::Dynamic, Capsule{1e-13, half}, rotate(q, {0, half, 0}));
+    Body& body = s.bodies.back();
+    body.pose.orientation = q;
+    body.massProperties = {1, {}, Mat3::diagonal(1, 1, half * half / 3)};
+    body.angularVelocity = {0, 0, rate};
+    body.velocity = foot + cross(body.angularVelocity, body.pose.position);
+}
+double quantity(const Reference& r, const char* name) {
+    const auto all = r.quantities(0.01, Scheme::Unknown);
+    const Quantity* q = findQuantity(all, name);
+    EXPECT_NE(q, nullptr) << name;
+    return q ? q->exact : 0.0;
+}
+
+/// The force from the reference's own velocities acts at the lowest corner, pushes, and obeys Coulomb.
+void expectContactForce(const Scenario& s, const Reference& r, double t, Vec3 contact, bool slips) {
+    const Wrench w = wrenchOn(s, r, 1, t, 1e-4);
+    const double mu = s.materials[0].friction;
+    EXPECT_LT(norm(w.remainder(contact)), 1e-6) << t;
+    EXPECT_GT(w.force.y, 0.0) << t;
+    if (slips) {
+        EXPECT_NEAR(std::abs(w.force.x), mu * w.force.y, 1e-6) << t;
+    } else {
+        EXPECT_LT(std::abs(w.force.x), mu * w.force.y) << t;
+    }
+}
+
+TEST(PlanarContact, RockingBlockOfHousner) {
+    for (const int dimension : {2, 3}) {
+        Scenario s = onFloor(2, 0.9, 0, dimension);
+        addTilted(s, 0.1, 0.4, 0.15);
+        const auto r = makeReference(s);
+        EXPECT_NEAR(quantity(*r, "impact_time_1"), 0.3794327442, 1e-9);
+        EXPECT_NEAR(quantity(*r, "impact_time_2"), 0.9599502251, 1e-9);
+        EXPECT_NEAR(quantity(*r, "impact_time_3"), 1.440522242, 1e-9);
+        EXPECT_NEAR(quantity(*r, "impact_time_4"), 1.851713166, 1e-9);
+        EXPECT_NEAR(quantity(*r, "peak_1"), 0.1123422461, 1e-6);
+        EXPECT_NEAR(quantity(*r, "peak_2"), 0.0877293220, 1e-6);
+        expectContactForce(s, *r, 0.2, {}, false);
+        expectContactForce(s, *r, 0.7, {0.2, 0, 0}, false);
+        // The measures find what the exact run shows, to what steps can resolve of an impact.
+        const Trajectory run = exactRun(s, *r, 0.001, 2000);
+        for (const auto& q : r->quantities(0.001, Scheme::Unknown))
+            EXPECT_NEAR(q.measure(run).value(), q.exact, 2e-4) << q.name;
+    }
+}
+
+TEST(PlanarContact, RockingLosesWhatHousnerSaysAndKeepsTheMomentumAboutTheNewCorner) {
+    Scenario s = onFloor(2, 0.9, 0);
+    const double b = 0.13, h = 0.5;
+    addTilted(s, b, h, -0.12, 0.4);
+    const auto r = makeReference(s);
+    const double t = quantity(*r, "impact_time_1"), alpha = std::atan(b / h);
+    const double before = r->exact(1, t - 1e-7).angularVelocity->z,
+                 after = r->exact(1, t + 1e-7).angularVelocity->z;
+    EXPECT_NEAR(after / before, 1 - 1.5 * std::sin(alpha) * std::sin(alpha), 1e-5);
+    EXPECT_NEAR(energyOf(s, *r, 0), energyOf(s, *r, t - 1e-9), 1e-7);
+    EXPECT_LT(energyOf(s, *r, t + 1e-9), energyOf(s, *r, t - 1e-9));
+    expectConsistent(s, *r, 1, 0.5 * t, 1e-8);
+}
+
+TEST(PlanarContact, SlenderRodFromUprightSticksAndThenSlipsBackOrForth) {
+    // Stuck foot: the elliptic closed form, friction 3 s (3 c - 2)/(3 c - 1)^2.
+    Scenario s = onFloor(1.05, 5.0, 0);
+    addRod(s, 0.5, 0.05);
+    const auto stuck = makeReference(s);
+    const auto lean = [](const Reference& r, double t) {
+        const Vec3 up = rotate(*r.exact(1, t).orientation, {0, 1, 0});
+        return std::atan2(up.x, up.y);
+    };
+    EXPECT_NEAR(lean(*stuck, 0.5), 0.173706764, 1e-9);
+    // From a start at (almost) rest upright the ratio of friction to load depends on the lean alone.
+    const PlanarFrame frame(s, 1, 0);
+    const PlanarMotion motion(frame.setup(), frame.start(), 1.0);
+    for (const double t : {0.6, 0.8, 0.9}) {
+        const auto load = motion.loadAt(t);
+        const double a = lean(*stuck, t), c = std::cos(a), si = std::sin(a), c0 = std::cos(0.05);
+        // With start from rest at 0.05: N = m g (1 - 3/4 s^2 - 3/2 c (c0 - c)), F = 3/4 m g s (3 c - 2 c0).
+        EXPECT_NEAR(static_cast<double>(load->normal), 9.81 * (1 - 0.75 * si * si - 1.5 * c * (c0 - c)),
+                    1e-8);
+        EXPECT_NEAR(static_cast<double>(load->tangential), 9.81 * 0.75 * si * (3 * c - 2 * c0), 1e-8);
+    }
+    // Below 0.3706 the foot slips back before 35 degrees, above it forward after 48.
+    for (const double mu : {0.36, 0.38}) {
+        Scenario slips = onFloor(1.06, mu, 0);
+        addRod(slips, 0.5, 0.001, 0.0);
+        slips.duration = 2.03;
+        const PlanarFrame f(slips, 1, 0);
+        const PlanarMotion m(f.setup(), f.start(), 2.0);
+        ASSERT_FALSE(m.events().empty());
+        const auto& first = m.events()[0];
+        EXPECT_EQ(first.kind, PlanarMotion::EventKind::Slip);
+        EXPECT_EQ(m.modeAt(first.time + 1e-6).kind,
+                  mu < 0.3706 ? PlanarMotion::Kind::SlipBackward : PlanarMotion::Kind::SlipForward);
+        const double angle = std::abs(static_cast<double>(first.before.angle));
+        EXPECT_TRUE(mu < 0.3706 ? angle < 35.11 * pi / 180 : angle > 48.18 * pi / 180) << angle;
+        expectContactForce(slips, *makeReference(slips), first.time + 0.01,
+                           pointAt(*makeReference(slips), 1, first.time + 0.01, {0, -0.5, 0}), true);
+    }
+}
+
+TEST(PlanarContact, RodOnIceFallsStraightDown) {
+    Scenario s = onFloor(0.55, 0, 0);
+    addRod(s, 0.5, 0.1);
+    const auto r = makeReference(s);
+    const Vec3 up = rotate(*r->exact(1, 0.5).orientation, {0, 1, 0});
+    EXPECT_NEAR(std::atan2(up.x, up.y), 1.150705756, 1e-9);
+    EXPECT_NEAR(r->exact(1, 0.5).position->x, s.bodies[1].pose.position.x, 1e-13);
+    EXPECT_NEAR(energyOf(s, *r, 0.5), energyOf(s, *r, 0), 1e-11);
+    const PlanarFrame frame(s, 1, 0);
+    const PlanarMotion motion(frame.setup(), frame.start(), 1.0);
+    ASSERT_FALSE(motion.events().empty());
+    EXPECT_NEAR(motion.events()[0].time, 0.5859474728, 1e-8);
+    // A capsule with a thick end falls in the same way, higher by its radius.
+    Scenario thick = onFloor(0.55, 0, 0, 3);
+    addRod(thick, 0.5, 0.1);
+    std::get<Capsule>(thick.bodies[1].shapes[0].geometry).radius = 0.07;
+    thick.bodies[1].pose.position.y += 0.07;
+    const auto t = makeReference(thick);
+    EXPECT_NEAR(t->exact(1, 0.5).position->y - 0.07, r->exact(1, 0.5).position->y, 1e-10);
+}
+
+struct Hit {
+    double inertia, rx, ry, vx, vy, mu, e;
+    double x, y, w;
+};
+Scenario cornerHit(const Hit& h) {
+    Scenario s = onFloor(0.4, h.mu, h.e);
+    s.gravity = {};
+    addBody(s, "body", BodyType::Dynamic, ConvexHull{{{h.rx, h.ry, 0}, {1, 0.5, 0}, {-1, 0.5, 0}}},
+            {0, 0.3 - h.ry, 0});
+    s.bodies[1].massProperties = {1, {}, Mat3::diagonal(1, 1, h.inertia)};
+    s.bodies[1].velocity = {h.vx, h.vy, 0};
+    return s;
+}
+
+TEST(PlanarContact, CornerImpactsOfTheCatalogue) {
+    const Hit hits[] = {
+        {0.1, 0.2, -0.4, 1, -2, 0.2, 0.5, 0.5161290323, 0.4193548387, 2.903225806},
+        {0.1, -0.2, -0.4, 0.2, -2, 0.8, 0.5, 0.9066666667, 0.5466666667, -2.266666667},
+        {1.0 / 12, -0.25, -0.4330127019, 0.6, -2, 0.3, 0.5, 1.261624321, 0.2054144024, -3.17834239}};
+    for (const Hit& h : hits) {
+        const Scenario s = cornerHit(h);
+        const auto r = makeReference(s);
+        EXPECT_NEAR(quantity(*r, "impact_time_1"), 0.15, 1e-12);
+        EXPECT_NEAR(quantity(*r, "along_after"), h.x, 1e-9);
+        EXPECT_NEAR(quantity(*r, "above_after"), h.y, 1e-9);
+        EXPECT_NEAR(quantity(*r, "spin_after"), h.w, 1e-8);
+        const Trajectory run = exactRun(s, *r, 0.01, 40);
+        for (const auto& q : r->quantities(0.01, Scheme::Unknown))
+            EXPECT_NEAR(q.measure(run).value(), q.exact, 1e-9) << q.name;
+    }
+}
+
+TEST(PlanarContact, ImpulsesActAtTheCornerWithRestitutionAndCoulomb) {
+    // A spinning box dropped with gravity: the second method is the pair of changes of momentum.
+    Scenario s = onFloor(1.5, 0.25, 0.4);
+    addBox(s, "box", {0.5, 0.1, 0}, 2, {0, 2, 0}, {1, 0, 0});
+    s.bodies[1].angularVelocity = {0, 0, 4};
+    const auto r = makeReference(s);
+    // The catalogue's time of impact: y(t) = hx |sin| + hy |cos| with w = 4 from rest at 2 m.
+    EXPECT_NEAR(quantity(*r, "impact_time_1"), 0.5616630192, 1e-9);
+    const double t = quantity(*r, "impact_time_1");
+    const auto a = r->exact(1, t - 1e-10), b = r->exact(1, t + 1e-10);
+    const Vec3 impulse = 2.0 * (*b.velocity - *a.velocity);
+    double low = 1e9;
+    Vec3 corner;
+    for (const double x : {-0.5, 0.5})
+        for (const double y : {-0.1, 0.1}) {
+            const Vec3 p = pointAt(*r, 1, t, {x, y, 0});
+            if (p.y < low) low = p.y, corner = p;
+        }
+    EXPECT_NEAR(low, 0.0, 1e-9);
+    const Vec3 arm = corner - *a.position;
+    EXPECT_NEAR(s.bodies[1].massProperties.inertia(2, 2) * (b.angularVelocity->z - a.angularVelocity->z),
+                cross(arm, impulse).z, 1e-7);
+    const Vec3 ua = *a.velocity + cross(*a.angularVelocity, arm),
+               ub = *b.velocity + cross(*b.angularVelocity, arm);
+    EXPECT_NEAR(ub.y, -0.4 * ua.y, 1e-7);
+    const bool sticks = std::abs(ub.x) < 1e-7;
+    EXPECT_TRUE(sticks ? std::abs(impulse.x) <= 0.25 * impulse.y + 1e-7
+                       : std::abs(impulse.x + 0.25 * impulse.y * (ub.x > 0 ? 1 : -1)) < 1e-7);
+}
+
+TEST(PlanarContact, PainleveRodSlidesBelowTheThresholdAndJamsAboveIt) {
+    // The lean from the floor is theta; the foot slides ahead of the rod's fall.
+    const auto scene = [](double mu, double theta) {
+        Scenario s = onFloor(0.05, mu, 0);
+        addRod(s, 0.5, -(pi / 2 - theta), 0, {1.0, 0, 0});
+        return s;
+    };
+    const Scenario smooth = scene(0.5, 1.0);
+    const PlanarFrame f(smooth, 1, 0);
+    const PlanarMotion slides(f.setup(), f.start(), 0.05);
+    const auto load = slides.loadAt(0);
+    const double c = std::cos(1.0), si = std::sin(1.0);
+    // Both leading and trailing: p = 1 + 3 c (c -+ mu s); 8.2174 is the catalogue's with p = 1.1938.
+    const double p = 9.81 / static_cast<double>(load->normal);
+    EXPECT_TRUE(std::abs(p - (1 + 3 * c * (c - 0.5 * si))) < 1e-9 ||
+                std::abs(p - (1 + 3 * c * (c + 0.5 * si))) < 1e-9);
+    EXPECT_NEAR(static_cast<double>(load->normal), 8.217410913, 1e-8);
+    const Scenario rough = scene(1.5, 1.1);
+    const PlanarFrame g(rough, 1, 0);
+    const PlanarMotion jams(g.setup(), g.start(), 0.05);
+    ASSERT_FALSE(jams.events().empty());
+    EXPECT_EQ(jams.events()[0].kind, PlanarMotion::EventKind::Jam);
+    EXPECT_EQ(jams.events()[0].time, 0.0);
+    // After it the foot stands still and the momentum about the foot is what it was.
+    const auto& e = jams.events()[0];
+    const double hx = 0.5 * std::cos(1.1), hy = 0.5 * std::sin(1.1), moment = 0.25 / 3;
+    const double about =
+        moment * static_cast<double>(e.before.rate) + -hy * 1.0;  // m (r x v), r = (-+hx, hy)
+    const auto after = e.after;
+    const double sign = g.start().x < 0 ? -1 : 1;
+    EXPECT_NEAR(moment * static_cast<double>(after.rate) + sign * hx * static_cast<double>(after.vz) -
+                    hy * static_cast<double>(after.vx),
+                about, 1e-10);
+    EXPECT_NEAR(static_cast<double>(after.vx) + hy * static_cast<double>(after.rate), 0.0, 1e-10);
+    // At an unchanged friction the threshold is (1 + 3 c^2)/(3 s c).
+    const double threshold = (1 + 3 * std::cos(1.1) * std::cos(1.1)) / (3 * std::sin(1.1) * std::cos(1.1));
+    for (const double mu : {0.999 * threshold, 1.001 * threshold}) {
+        const Scenario near = scene(mu, 1.1);
+        const PlanarFrame n(near, 1, 0);
+        if (mu > threshold) {
+            EXPECT_EQ(PlanarMotion(n.setup(), n.start(), 1e-4).events().size(), 1U);
+        } else {
+            EXPECT_TRUE(PlanarMotion(n.setup(), n.start(), 1e-6).events().empty());
+        }
+    }
+}
+
+TEST(PlanarContact, TippingThresholds) {
+    // Pushed at height y a box at rest tips where mu m g > F > m g b/(2 y) (width b), else it stays.
+    const auto pushed = [](double force, double height) {
+        Scenario s = onFloor(0.3, 0.9, 0);
+        addBox(s, "box", {0.2, 0.5, 0}, 1, {0, 0.5, 0});
+        s.forces.push_back(ConstantForce{1, {force, 0, 0}, {0, 0, -force * (height - 0.5)}});
+        return makeReference(s)->exact(1, 0.3);
+    };
+    const double tips = 9.81 * 0.4 / (2 * 0.8);
+    EXPECT_NEAR(pushed(0.999 * tips, 0.8).orientation->z, 0.0, 1e-15);
+    EXPECT_LT(pushed(1.001 * tips, 0.8).orientation->z, -1e-6);
+    // On a slope (gravity leans instead): tan(slope) against b/h.
+    for (const double factor : {0.99, 1.01}) {
+        Scenario s = onFloor(0.3, 0.9, 0);
+        addBox(s, "box", {0.2, 0.5, 0}, 1, {0, 0.5, 0});
+        const double slope = std::atan(0.4 * factor);
+        s.gravity = {9.81 * std::sin(slope), -9.81 * std::cos(slope), 0};
+        const bool stays = std::abs(makeReference(s)->exact(1, 0.3).orientation->z) < 1e-15;
+        EXPECT_EQ(stays, factor < 1);
+    }
+    // Too smooth a floor: it slides, which is another reference's.
+    Scenario s = onFloor(0.3, 0.1, 0);
+    addBox(s, "box", {0.2, 0.5, 0}, 1, {0, 0.5, 0});
+    s.gravity = {2, -9, 0};
+    EXPECT_THROW(makeReference(s), AssumptionViolated);
+}
+
+TEST(PlanarContact, RefusesWhatIsNotPlanar) {
+    Scenario s = onFloor(1, 0.5, 0, 3);
+    addTilted(s, 0.1, 0.4, 0.15);
+    s.bodies[1].velocity.z = 0.1;
+    EXPECT_THROW(makeReference(s), AssumptionViolated);
+    s = onFloor(1, 0.5, 0, 3);
+    addTilted(s, 0.1, 0.4, 0.15);
+    s.bodies[1].shapes.push_back({Box{{0.05, 0.05, 0.05}}, {{0, 0.5, 0.4}, {}}, 0});
+    EXPECT_THROW(makeReference(s), AssumptionViolated);
+    s = onFloor(1, 0.5, 0);
+    addTilted(s, 0.1, 0.4, 0.15);
+    s.bodies[1].pose.position.y -= 0.05;
+    EXPECT_THROW(makeReference(s), AssumptionViolated);
+}
+
+}  // namespace
+}  // namespace rigor::validation::testing
