@@ -193,5 +193,59 @@ TEST(HandValues, WhatRestsHasSomethingUnderItAndAPendulumOneJoint) {
     EXPECT_THROW(makeReference(s), AssumptionViolated);
 }
 
+TEST(HandValues, TheCentreOfMassIsWhereTheBodysTurnHasTakenIt) {
+    Scenario s = emptyScene(3, {}, 1);
+    addBall(s, "ball", 0.1, 1, 0.4, {});
+    Body& b = s.bodies[0];
+    b.massProperties.centerOfMass = {0, 2, 0};
+    b.pose = {{1, 0, 0}, fromAxisAngle({0, 0, 1}, M_PI)};
+    const Vec3 start = centerOfMass(b),
+               now = centerOfMass(b, {{5, 6, 7}, fromAxisAngle({0, 0, 1}, M_PI / 2), {}, {}});
+    EXPECT_NEAR(norm(start - Vec3{1, -2, 0}), 0, 1e-14);
+    EXPECT_NEAR(norm(now - Vec3{3, 6, 7}), 0, 1e-14);
+}
+
+TEST(HandValues, ACradleIsMeasuredOnceItsLastImpactIsOver) {
+    Scenario s = emptyScene(3, {}, 2);
+    addBall(s, "a", 0.1, 1, 0.4, {-1, 0, 0}, {2, 0, 0});
+    addBall(s, "b", 0.1, 1, 0.4, {0, 0, 0});
+    addBall(s, "c", 0.1, 1, 0.4, {1, 0, 0});
+    s.materials[0].restitution = 1;
+    setReference(s, "newtons_cradle");
+    const auto reference = makeReference(s);
+    const auto quantities = reference->quantities(0.01, Scheme::Unknown);
+    ASSERT_EQ(quantities.size(), 3u);
+    const Trajectory run = exactRun(s, *reference, 0.01, 200);
+    for (const auto& [name, speed] :
+         {std::pair{"velocity_a", 0.0}, {"velocity_b", 0.0}, {"velocity_c", 2.0}}) {
+        const Quantity& q = quantity(quantities, name);
+        EXPECT_NEAR(q.exact, speed, 1e-13) << name;
+        EXPECT_NEAR(q.scale, 2, 1e-13) << name;
+        EXPECT_NEAR(q.measure(run).value(), speed, 1e-12) << name;
+    }
+    s.duration = 0.7;  // impacts after 0.4 and 0.8 s
+    EXPECT_TRUE(makeReference(s)->quantities(0.01, Scheme::Unknown).empty());
+}
+
+TEST(HandValues, AMotorThatBrakesIsMeasuredLikeOneThatDrives) {
+    for (const double speed : {6.0, -6.0}) {
+        Scenario s = emptyScene(3, {}, 2);
+        for (const char* name : {"a", "b"}) addBox(s, name, {0.1, 0.1, 0.1}, 1, {});
+        s.bodies[0].massProperties.inertia = Mat3::diagonal(2, 2, 2);
+        s.bodies[1].massProperties.inertia = Mat3::diagonal(1, 1, 1);
+        Joint hinge;
+        hinge.name = "hinge", hinge.type = JointType::Hinge, hinge.bodyA = 0, hinge.bodyB = 1;
+        hinge.axes[0].motorSpeed = speed, hinge.axes[0].motorMaxForce = 3;
+        s.joints = {hinge};
+        setReference(s, "motor_pair");
+        const auto quantities = makeReference(s)->quantities(0.01, Scheme::Unknown);
+        // Up to speed in 6/(3/2 + 3/1) s: b turns by 4 rad/s, a by -2.
+        EXPECT_NEAR(quantity(quantities, "ramp_time").exact, 4.0 / 3, 1e-12);
+        EXPECT_NEAR(quantity(quantities, "spin_b").exact, speed * 4 / 6, 1e-12);
+        EXPECT_NEAR(quantity(quantities, "spin_a").exact, -speed * 2 / 6, 1e-12);
+        EXPECT_NEAR(quantity(quantities, "spin_a").scale, 6, 1e-12) << "the speed between them";
+    }
+}
+
 }  // namespace
 }  // namespace rigor::validation::testing
