@@ -328,5 +328,35 @@ TYPED_TEST(Contacts, ALeverLiftsABallWhicheverComesFirst) {
     }
 }
 
+/// What a step tells of its contacts is all that they did in it, with sub-steps or without: m dv = m g h +
+/// the impulses, of a block that slides and one that lands.
+TYPED_TEST(Contacts, ReportedImpulsesAreThoseOfTheWholeStep) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const auto& solver : solverTable<S>()) {
+        WorldDef<S> def = earth<S>();
+        def.solver = solver.name;
+        World<S> world(def);
+        const std::uint32_t wood = world.addMaterial(R(0.5), 0);
+        addGround<S>(world, wood);
+        const BodyId block = addCube<S>(world, 0, 0.55, 0.5, 2, wood, 4);
+        std::vector<ContactView<S>> contacts;
+        double slid = 0;
+        for (int i = 0; i < 30; ++i) {
+            const typename S::Vec before = world.velocity(block);
+            world.step(R(1.0 / 60));
+            world.readContacts(contacts);
+            typename S::Vec sum = R(2.0 / 60) * def.gravity;
+            for (const ContactView<S>& c : contacts) {
+                sum += c.normalImpulse * c.normal + c.frictionImpulse;
+                slid += static_cast<double>(c.frictionImpulse.norm());
+            }
+            const typename S::Vec change = R(2) * (world.velocity(block) - before);
+            EXPECT_NEAR((change - sum).norm(), 0, tol<S>(1e-9, 2e-4)) << solver.name << " step " << i;
+        }
+        EXPECT_GT(slid, 1) << solver.name;
+    }
+}
+
 }  // namespace
 }  // namespace rigor::engine::test
