@@ -247,5 +247,37 @@ TEST(HandValues, AMotorThatBrakesIsMeasuredLikeOneThatDrives) {
     }
 }
 
+Scenario hung(Vec3 bob) {
+    Scenario s = emptyScene(3, {0, -10, 0}, 20);
+    addBox(s, "bob", {0.1, 0.1, 0.1}, 1, bob);
+    Joint hinge;
+    hinge.name = "hinge", hinge.type = JointType::Hinge, hinge.bodyB = 0;
+    hinge.anchorB = -bob;
+    s.joints = {hinge};
+    setReference(s, "physical_pendulum");
+    return s;
+}
+
+TEST(HandValues, APendulumThatHangsStillHasNoPeriod) {
+    const Scenario still = hung({0, -1, 0}), swinging = hung({0.1, -0.99, 0});
+    EXPECT_TRUE(makeReference(still)->quantities(0.01, Scheme::Unknown).empty());
+    EXPECT_EQ(makeReference(still)->exact(0, 7).position->y, -1);
+    EXPECT_EQ(makeReference(swinging)->quantities(0.01, Scheme::Unknown).size(), 2u);
+}
+
+TEST(HandValues, ADamperAloneIsAForceToo) {
+    for (const double damping : {0.0, 0.5}) {
+        Scenario s = emptyScene(3, {0, -10, 0}, 1);
+        addBall(s, "ball", 0.1, 1, 0.4, {});
+        s.forces.push_back(SpringForce{kNone, 0, {0, 5, 0}, {}, 0, damping, 1});
+        setReference(s, "free_flight");
+        if (damping == 0.0) {
+            EXPECT_NE(makeReference(s), nullptr);
+        } else {
+            EXPECT_THROW(makeReference(s), AssumptionViolated);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace rigor::validation::testing
