@@ -41,20 +41,54 @@ StudyVariant readVariant(const Node& node) {
     return variant;
 }
 
+/// The value of `key`: the name of a variant of the part.
+std::string readVariantName(const Node& node, const char* key, const StudyPart& part) {
+    const auto n = node.require(key);
+    if (!n) return {};
+    const std::string name = n->text();
+    const bool known = std::any_of(part.variants.begin(), part.variants.end(),
+                                   [&](const StudyVariant& v) { return v.name == name; });
+    if (!known) n->problem("study.unknown_variant", "the name of a variant of this part");
+    return name;
+}
+
+/// A value that is judged has a column.
+void showMetric(StudyPart& part, const std::string& metric) {
+    if (std::find(part.metrics.begin(), part.metrics.end(), metric) == part.metrics.end())
+        part.metrics.push_back(metric);
+}
+
+StudyFinding readFinding(const Node& node, const StudyPart& part) {
+    StudyFinding finding;
+    if (!node.isObject({"statement", "source", "variant", "metric", "where", "at_least", "at_most"}))
+        return finding;
+    if (const auto n = node.require("statement")) finding.statement = n->text();
+    if (const auto n = node.find("source")) finding.source = n->text();
+    finding.variant = readVariantName(node, "variant", part);
+    if (const auto n = node.require("metric")) finding.metric = n->text();
+    if (const auto n = node.find("where"))
+        for (const auto& [key, value] : n->members()) {
+            const auto isKey = [&, name = key](const auto& axis) { return axis.first == name; };
+            if (key != "scenario" && key != "dt" &&
+                std::none_of(part.parameters.begin(), part.parameters.end(), isKey) &&
+                std::none_of(part.options.begin(), part.options.end(), isKey))
+                value.problem("study.unknown_key", "scenario, dt, or a key of parameters or options");
+            finding.where.emplace_back(key, valueText(value.json()));
+        }
+    if (const auto n = node.find("at_least")) finding.atLeast = n->number(-1e15, 1e15);
+    if (const auto n = node.find("at_most")) finding.atMost = n->number(-1e15, 1e15);
+    if (!node.has("at_least") && !node.has("at_most"))
+        node.problem("study.finding", "neither at_least nor at_most", "one of them or both");
+    else if (finding.atLeast && finding.atMost && *finding.atLeast > *finding.atMost)
+        node.problem("study.finding", "at_least above at_most", "a range");
+    return finding;
+}
+
 StudySymptom readSymptom(const Node& node, const StudyPart& part) {
     StudySymptom symptom;
     if (!node.isObject({"fault", "cure", "metric", "growth", "fault_at_least", "cure_at_most"}))
         return symptom;
-    const auto variantName = [&](const char* key) {
-        const auto n = node.require(key);
-        if (!n) return std::string();
-        const std::string name = n->text();
-        const bool known = std::any_of(part.variants.begin(), part.variants.end(),
-                                       [&](const StudyVariant& v) { return v.name == name; });
-        if (!known) n->problem("study.unknown_variant", "the name of a variant of this part");
-        return name;
-    };
-    symptom.fault = variantName("fault"), symptom.cure = variantName("cure");
+    symptom.fault = readVariantName(node, "fault", part), symptom.cure = readVariantName(node, "cure", part);
     if (const auto n = node.require("metric")) symptom.metric = n->text();
     if (const auto n = node.find("growth")) symptom.growth = n->boolean();
     if (const auto n = node.require("fault_at_least")) symptom.faultAtLeast = n->number(-1e15, 1e15);
@@ -69,7 +103,7 @@ StudySymptom readSymptom(const Node& node, const StudyPart& part) {
 StudyPart readPart(const Node& node) {
     StudyPart part;
     if (!node.isObject({"name", "title", "description", "scenarios", "set", "parameters", "options",
-                        "variants", "dt", "metrics", "symptom"}))
+                        "variants", "dt", "metrics", "symptom", "findings"}))
         return part;
     if (const auto n = node.require("name")) part.name = n->name();
     if (const auto n = node.find("title")) part.title = n->text();
@@ -95,6 +129,11 @@ StudyPart readPart(const Node& node) {
         if (std::find(part.metrics.begin(), part.metrics.end(), part.symptom->metric) == part.metrics.end())
             part.metrics.insert(part.metrics.begin(), part.symptom->metric);
     }
+    if (const auto list = node.find("findings"))
+        for (const Node& item : list->items()) {
+            part.findings.push_back(readFinding(item, part));
+            showMetric(part, part.findings.back().metric);
+        }
     return part;
 }
 

@@ -28,6 +28,16 @@ struct StudySymptom {
     double faultAtLeast = 0.0, cureAtMost = 0.0;
 };
 
+/// A statement about the numbers of a part, judged when it has run.
+struct StudyFinding {
+    std::string statement, source;
+    std::string variant, metric;
+    /// Rows it is about: "scenario" (as the part names it), "dt" [s], or a parameter's or option's key, with
+    /// its value; all of the variant's when empty.
+    std::vector<std::pair<std::string, std::string>> where;
+    std::optional<double> atLeast, atMost;  ///< every such row is within
+};
+
 struct StudyPart {
     std::string name, title, description;
     std::vector<std::string> scenarios;  ///< names or files; relative to the study's own file
@@ -40,6 +50,7 @@ struct StudyPart {
     std::vector<double> timeSteps;     ///< empty: the first of each scenario
     std::vector<std::string> metrics;  ///< columns; "name" or "name:subject"
     std::optional<StudySymptom> symptom;
+    std::vector<StudyFinding> findings;
 };
 
 struct Study {

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "validation/results/columns.hpp"
+#include "validation/results/schema.hpp"
 
 namespace rigor::results {
 namespace {
@@ -175,6 +176,26 @@ void readHeader(SQLite::Database& database, Run& run) {
     }
 }
 
+void readAnalysis(SQLite::Database& database, Run& run) {
+    SQLite::Statement orders(
+        database,
+        "SELECT scenario, spec, metric, unit, observed_order, low, high, points, finest, "
+        "coarsest, note FROM orders ORDER BY position");
+    while (orders.executeStep()) {
+        OrderRow& o = run.orders.emplace_back();
+        Taker(orders) >> o.scenario >> o.spec >> o.metric >> o.unit >> o.order >> o.low >> o.high >>
+            o.points >> o.finest >> o.coarsest >> o.note;
+    }
+    SQLite::Statement fairness(database,
+                               "SELECT mode, scenario, metric, unit, competitor, case_id, spec, dt, error, "
+                               "cost, budget_or_target FROM fairness ORDER BY position");
+    while (fairness.executeStep()) {
+        FairnessRow& f = run.fairness.emplace_back();
+        Taker(fairness) >> f.mode >> f.scenario >> f.metric >> f.unit >> f.competitor >> f.caseId >> f.spec >>
+            f.dt >> f.error >> f.cost >> f.limit;
+    }
+}
+
 }  // namespace
 
 void writeHeaderRows(SQLite::Database& database, const Run& run) {
@@ -213,6 +234,22 @@ void writeCaseRows(SQLite::Database& database, const CaseRow& c) {
     writeParity(database, c);
 }
 
+void writeAnalysisRows(SQLite::Database& database, const Run& run) {
+    for (const char* table : {"orders", "fairness"}) database.exec(std::string("DELETE FROM ") + table);
+    SQLite::Statement orders(database, insertInto("orders", 12));
+    int position = 0;
+    for (const OrderRow& o : run.orders)
+        (Binder(orders) << position++ << o.scenario << o.spec << o.metric << o.unit << o.order << o.low
+                        << o.high << o.points << o.finest << o.coarsest << o.note)
+            .run();
+    SQLite::Statement fairness(database, insertInto("fairness", 12));
+    position = 0;
+    for (const FairnessRow& f : run.fairness)
+        (Binder(fairness) << position++ << f.mode << f.scenario << f.metric << f.unit << f.competitor
+                          << f.caseId << f.spec << f.dt << f.error << f.cost << f.limit)
+            .run();
+}
+
 Run readRows(SQLite::Database& database) {
     Run run;
     readHeader(database, run);
@@ -221,6 +258,7 @@ Run readRows(SQLite::Database& database) {
     for (CaseRow& c : run.cases) index[c.id] = &c;
     readMeasured(database, index);
     readParity(database, index);
+    if (schemaVersionOf(database) >= 2) readAnalysis(database, run);
     return run;
 }
 

@@ -14,6 +14,8 @@ namespace rigor::results {
 void writeHeaderRows(SQLite::Database& database, const Run& run);
 /// Replaces the case and its rows; the caller holds the transaction.
 void writeCaseRows(SQLite::Database& database, const CaseRow& row);
+/// Replaces orders and fairness; the caller holds the transaction.
+void writeAnalysisRows(SQLite::Database& database, const Run& run);
 
 /// The whole store, cases in the order of the plan.
 Run readRows(SQLite::Database& database);

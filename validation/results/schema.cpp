@@ -57,6 +57,16 @@ CREATE INDEX cases_by_scenario ON cases (scenario, engine, preset, dt);
 CREATE INDEX metrics_by_name ON metrics (name, subject);
 )sql";
 
+/// Since schema 2: what is computed from all cases of a run together.
+constexpr const char* kAnalysisTables = R"sql(
+CREATE TABLE orders (
+    position INTEGER PRIMARY KEY, scenario TEXT, spec TEXT, metric TEXT, unit TEXT, observed_order, low, high,
+    points INTEGER, finest, coarsest, note TEXT);
+CREATE TABLE fairness (
+    position INTEGER PRIMARY KEY, mode TEXT, scenario TEXT, metric TEXT, unit TEXT, competitor TEXT, case_id TEXT,
+    spec TEXT, dt, error, cost, budget_or_target);
+)sql";
+
 /// A committed transaction is on the disk: rollback journal, synced. One file, whole at rest, that can be
 /// copied while nobody writes.
 void prepare(SQLite::Database& database) {
@@ -65,19 +75,24 @@ void prepare(SQLite::Database& database) {
     database.exec("PRAGMA synchronous = FULL");
 }
 
-int pragma(SQLite::Database& database, const char* text) {
-    return database.execAndGet(text).getInt();
-}
-
 void checkVersion(SQLite::Database& database, const std::filesystem::path& file) {
-    if (pragma(database, "PRAGMA application_id") != kApplicationId)
+    if (database.execAndGet("PRAGMA application_id").getInt() != kApplicationId)
         throw std::runtime_error(file.string() + ": this is not a results store of rigor");
-    const int version = pragma(database, "PRAGMA user_version");
+    const int version = schemaVersionOf(database);
     if (version > kSchemaVersion)
         throw std::runtime_error(file.string() + ": written by a newer rigor: found schema " +
                                  std::to_string(version) + ", expected at most " +
                                  std::to_string(kSchemaVersion));
     if (version < 1) throw std::runtime_error(file.string() + ": the store has no schema version");
+}
+
+/// A run of an older rigor that is gone on with.
+void upgrade(SQLite::Database& database) {
+    if (schemaVersionOf(database) >= 2) return;
+    SQLite::Transaction transaction(database);
+    database.exec(kAnalysisTables);
+    database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+    transaction.commit();
 }
 
 /// A store left by a kill may have a journal to roll back, which needs writing; where the folder is
@@ -93,11 +108,16 @@ SQLite::Database openFile(const std::filesystem::path& file, bool forWriting) {
 
 }  // namespace
 
+int schemaVersionOf(SQLite::Database& database) {
+    return database.execAndGet("PRAGMA user_version").getInt();
+}
+
 SQLite::Database createDatabase(const std::filesystem::path& file) {
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     prepare(database);
     SQLite::Transaction transaction(database);
     database.exec(kTables);
+    database.exec(kAnalysisTables);
     database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
@@ -109,6 +129,7 @@ SQLite::Database openDatabase(const std::filesystem::path& file, bool forWriting
         SQLite::Database database = openFile(file, forWriting);
         prepare(database);
         checkVersion(database, file);
+        if (forWriting) upgrade(database);
         return database;
     } catch (const SQLite::Exception& error) {
         throw std::runtime_error(file.string() + ": cannot be read as a results store: " + error.what());

@@ -15,7 +15,10 @@ namespace rigor::results {
 SQLite::Database createDatabase(const std::filesystem::path& file);
 
 /// Opens an existing store. Throws std::runtime_error naming the file when it is no store, damaged, or of a
-/// newer schema.
+/// newer schema. Opened for writing, an older one is brought up to date.
 SQLite::Database openDatabase(const std::filesystem::path& file, bool forWriting);
+
+/// What the open file says of itself: kSchemaVersion, or that of an older rigor.
+int schemaVersionOf(SQLite::Database& database);
 
 }  // namespace rigor::results

@@ -133,6 +133,12 @@ void RunWriter::writeCase(const CaseRow& row) {
     transaction.commit();
 }
 
+void RunWriter::writeAnalysis(const Run& run) {
+    SQLite::Transaction transaction(impl_->database);
+    writeAnalysisRows(impl_->database, run);
+    transaction.commit();
+}
+
 void RunWriter::finish(const std::string& isoTime) {
     SQLite::Transaction transaction(impl_->database);
     SQLite::Statement update(impl_->database, "UPDATE run SET finished = ?");
@@ -150,7 +156,7 @@ Run readRun(const fs::path& directory) {
         SQLite::Transaction transaction(database);  // one consistent view while another process writes
         Run run = readRows(database);
         run.directory = directory.string();
-        run.schemaVersion = database.execAndGet("PRAGMA user_version").getInt();
+        run.schemaVersion = schemaVersionOf(database);
         return run;
     } catch (const std::exception& error) {
         throw std::runtime_error(file.string() + ": cannot be read: " + error.what());

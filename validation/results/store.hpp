@@ -11,7 +11,7 @@
 
 namespace rigor::results {
 
-inline constexpr int kSchemaVersion = 1;
+inline constexpr int kSchemaVersion = 2;
 
 /// Reads a run folder. Throws std::runtime_error when it is none or of a newer schema.
 Run readRun(const std::filesystem::path& directory);
@@ -35,6 +35,8 @@ class RunWriter {
     void keepOnly(const std::vector<std::string>& ids);
     /// Replaces a case with the same id.
     void writeCase(const CaseRow& row);
+    /// Replaces the orders and fairness rows of the run; the rest of `run` is ignored.
+    void writeAnalysis(const Run& run);
     void finish(const std::string& isoTime);
 
   private:

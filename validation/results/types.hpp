@@ -111,6 +111,28 @@ struct CaseRow {
     std::vector<TimingRow> timings;
 };
 
+/// Observed order of convergence of a metric over a ladder of time steps: slope of ln error on ln dt.
+struct OrderRow {
+    std::string scenario, spec, metric, unit;
+    std::optional<double> order;          ///< none: round-off at every step
+    std::optional<double> low, high;      ///< 95 % interval; none for two points
+    std::int64_t points = 0;              ///< time steps that count
+    double finest = 0.0, coarsest = 0.0;  ///< of those [s]
+    std::string note;                     ///< what was left out
+};
+
+/// One competitor's place in one of the four ways to compare.
+struct FairnessRow {
+    std::string mode;  ///< "engine_defaults", "matched_settings", "equal_time", "equal_accuracy"
+    std::string scenario, metric, unit;
+    std::string competitor;       ///< the spec without numeric options
+    std::string caseId, spec;     ///< the run that stands for it
+    double dt = 0.0;              ///< [s]
+    double error = 0.0;           ///< value of the metric
+    double cost = 0.0;            ///< [s] wall time of all its steps
+    std::optional<double> limit;  ///< equal_time: the budget [s]; equal_accuracy: the target [unit]
+};
+
 struct ScenarioRow {
     std::string name, title, description, source;
     std::vector<std::string> isolates, tags, observed, metrics;
@@ -135,6 +157,8 @@ struct Run {
     std::vector<EngineRow> engines;
     std::vector<ScenarioRow> scenarios;
     std::vector<CaseRow> cases;
+    std::vector<OrderRow> orders;       ///< written when the run has ended
+    std::vector<FairnessRow> fairness;  ///< likewise
     std::int64_t plannedCases = 0;
 };
 

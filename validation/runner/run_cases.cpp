@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "validation/comparison/ladders.hpp"
 #include "validation/results/store.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/audit.hpp"
@@ -88,13 +89,24 @@ class RunInProgress {
             report(nullptr);
         });
         audits_.reset();
-        if (complete) writer_.finish(isoTime());
+        if (complete) {
+            writeAnalysis();
+            writer_.finish(isoTime());
+        }
         auto stored = results::readRun(directory_);
         stored.directory = options_.directory.string();
         return stored;
     }
 
   private:
+    /// What only all cases together tell.
+    void writeAnalysis() {
+        auto run = results::readRun(directory_);
+        run.orders = observedOrders(run);
+        run.fairness = fairComparisons(run);
+        writer_.writeAnalysis(run);
+    }
+
     void prepare() {
         const auto engines = describeInvolved();
         auto header = runHeader(plan_, options_, engines);

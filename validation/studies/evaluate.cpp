@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "validation/comparison/order.hpp"
 #include "validation/studies/study.hpp"
 
 namespace rigor::validation {
@@ -77,6 +78,69 @@ const CaseRow* caseOf(const std::map<std::string, const CaseRow*>& cases, const 
     return nullptr;
 }
 
+/// Same place of the grid but for the time step.
+bool sameLadder(const StudyRow& a, const StudyRow& b) {
+    return a.part == b.part && a.base == b.base && a.parameters == b.parameters && a.variant == b.variant;
+}
+
+/// Columns "order.METRIC": the observed order of the ladder of time steps that a row belongs to.
+void fillOrders(StudyResult& result, const std::map<std::string, const CaseRow*>& cases) {
+    for (StudyResultRow& row : result.rows) {
+        const auto& metrics = result.study.parts[row.row.part].metrics;
+        for (std::size_t i = 0; i < metrics.size(); ++i) {
+            if (!metrics[i].starts_with(kOrderPrefix)) continue;
+            std::vector<LadderPoint> ladder;
+            for (const StudyResultRow& other : result.rows) {
+                if (!sameLadder(row.row, other.row)) continue;
+                const auto it = cases.find(other.row.caseId);
+                if (it == cases.end() || it->second->outcome != Outcome::Completed) continue;
+                const auto value = studyValue(*it->second, metrics[i].substr(kOrderPrefix.size()));
+                if (value.value) ladder.push_back({other.row.dt, *value.value});
+            }
+            if (const auto fit = observedOrder(ladder)) row.values[i] = {fit->order, "1"};
+        }
+    }
+}
+
+bool isAbout(const scenario::StudyFinding& finding, const StudyRow& row) {
+    if (row.variant != finding.variant) return false;
+    return std::all_of(finding.where.begin(), finding.where.end(), [&](const auto& condition) {
+        const auto& [key, value] = condition;
+        if (key == "scenario") return row.base == value;
+        if (key == "dt") return std::abs(std::stod(value) - row.dt) <= 1e-9 * row.dt;
+        return std::find(row.parameters.begin(), row.parameters.end(), condition) != row.parameters.end();
+    });
+}
+
+FindingVerdict judgeFinding(const StudyResult& result, std::size_t part, std::size_t index) {
+    const auto& finding = result.study.parts[part].findings[index];
+    const auto& metrics = result.study.parts[part].metrics;
+    const auto metric =
+        static_cast<std::size_t>(std::find(metrics.begin(), metrics.end(), finding.metric) - metrics.begin());
+    FindingVerdict verdict;
+    verdict.part = part, verdict.finding = index, verdict.holds = true;
+    for (const StudyResultRow& row : result.rows) {
+        if (row.row.part != part || !isAbout(finding, row.row)) continue;
+        const double value = judged(row, metric);
+        if (std::isnan(value)) verdict.holds = false;
+        if (std::isnan(value)) continue;
+        verdict.least = std::min(value, verdict.least.value_or(value));
+        verdict.greatest = std::max(value, verdict.greatest.value_or(value));
+    }
+    if (!verdict.least) verdict.holds = false;
+    if (verdict.least && finding.atLeast && *verdict.least < *finding.atLeast) verdict.holds = false;
+    if (verdict.greatest && finding.atMost && *verdict.greatest > *finding.atMost) verdict.holds = false;
+    return verdict;
+}
+
+/// A run that a finding says does not survive.
+bool mayBreak(const scenario::StudyPart& part, const StudyRow& row) {
+    if (part.symptom && part.symptom->fault == row.variant) return true;
+    return std::any_of(part.findings.begin(), part.findings.end(), [&](const auto& finding) {
+        return isAbout(finding, row) && finding.atLeast && !finding.atMost;
+    });
+}
+
 }  // namespace
 
 StudyValue studyValue(const CaseRow& row, const std::string& metric) {
@@ -85,6 +149,12 @@ StudyValue studyValue(const CaseRow& row, const std::string& metric) {
         for (const auto& t : row.timings)
             if (t.phase == metric.substr(timePrefix.size()) && t.samples > 0) return {t.median, "s"};
         return {std::nullopt, "s"};
+    }
+    const std::string quantityPrefix = "quantity.";
+    if (metric.starts_with(quantityPrefix)) {
+        for (const auto& q : row.quantities)
+            if (q.name == metric.substr(quantityPrefix.size())) return {q.measured, q.unit};
+        return {};
     }
     const auto colon = metric.find(':');
     const std::string name = metric.substr(0, colon);
@@ -111,6 +181,10 @@ StudyResult evaluateStudy(const StudyPlan& plan, const results::Run& run) {
         }
         result.rows.push_back(std::move(shown));
     }
+    fillOrders(result, cases);
+    for (std::size_t part = 0; part < plan.study.parts.size(); ++part)
+        for (std::size_t i = 0; i < plan.study.parts[part].findings.size(); ++i)
+            result.findings.push_back(judgeFinding(result, part, i));
     for (std::size_t part = 0; part < plan.study.parts.size(); ++part) {
         const auto& symptom = plan.study.parts[part].symptom;
         if (!symptom) continue;
@@ -131,9 +205,10 @@ StudyResult evaluateStudy(const StudyPlan& plan, const results::Run& run) {
 bool studyIsGreen(const StudyResult& result) {
     for (const SymptomVerdict& s : result.symptoms)
         if (!s.shown || !s.cured) return false;
+    for (const FindingVerdict& f : result.findings)
+        if (!f.holds) return false;
     for (const StudyResultRow& row : result.rows) {
-        const auto& symptom = result.study.parts[row.row.part].symptom;
-        if (symptom && symptom->fault == row.row.variant) continue;
+        if (mayBreak(result.study.parts[row.row.part], row.row)) continue;
         if (!row.ran || broke(row.outcome) || row.outcome == Outcome::Error) return false;
     }
     return true;

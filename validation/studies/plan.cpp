@@ -78,11 +78,14 @@ std::vector<Placed> placeScenarios(const scenario::StudyPart& part, const Scenar
 /// A column that no case can fill is a typing error.
 void checkMetrics(const scenario::StudyPart& part) {
     for (const std::string& metric : part.metrics) {
-        const std::string name = metric.substr(0, metric.find(':'));
-        if (!metric.starts_with("time.") && !isCostMetric(name) && findMetric(name) == nullptr)
+        if (metric.starts_with("time.") || metric.starts_with("quantity.")) continue;
+        const std::string asked =
+            metric.starts_with(kOrderPrefix) ? metric.substr(kOrderPrefix.size()) : metric;
+        const std::string name = asked.substr(0, asked.find(':'));
+        if (!isCostMetric(name) && findMetric(name) == nullptr)
             throw std::invalid_argument("study part '" + part.name + "': found metric '" + metric +
                                         "', expected a name of `rigor list metrics`, " + costMetricNames() +
-                                        ", or time.PHASE");
+                                        ", order.METRIC, quantity.NAME or time.PHASE");
     }
 }
 

@@ -99,6 +99,30 @@ Table symptomTable(const StudyResult& result) {
     return table;
 }
 
+std::string rangeText(const std::optional<double>& least, const std::optional<double>& most) {
+    if (least && most) return *least == *most ? shown(*least) : shown(*least) + " .. " + shown(*most);
+    if (least) return ">= " + shown(*least);
+    return most ? "<= " + shown(*most) : "-";
+}
+
+std::string whereText(const scenario::StudyFinding& finding) {
+    std::string text = finding.variant;
+    for (const auto& [key, value] : finding.where)
+        text += ", " + (key == "scenario" ? value : key + "=" + value);
+    return text;
+}
+
+Table findingTable(const StudyResult& result) {
+    Table table{{"finding", "where", "metric", "expected", "found", "verdict", "source"}};
+    for (const FindingVerdict& f : result.findings) {
+        const auto& finding = result.study.parts[f.part].findings[f.finding];
+        table.push_back({finding.statement, whereText(finding), finding.metric,
+                         rangeText(finding.atLeast, finding.atMost), rangeText(f.least, f.greatest),
+                         f.holds ? "holds" : "DOES NOT HOLD", finding.source});
+    }
+    return table;
+}
+
 std::string aligned(const Table& table) {
     std::vector<std::size_t> widths;
     for (const auto& row : table) {
@@ -161,6 +185,7 @@ std::string markdown(const StudyResult& result, const std::string& command) {
                        "\n\n`" + command + "`\n";
     if (!result.study.description.empty()) text += "\n" + result.study.description + "\n";
     if (!result.symptoms.empty()) text += "\n## Symptoms\n\n" + markdownTable(symptomTable(result));
+    if (!result.findings.empty()) text += "\n## Findings\n\n" + markdownTable(findingTable(result));
     for (std::size_t i = 0; i < result.study.parts.size(); ++i) {
         const auto& part = result.study.parts[i];
         text += "\n## " + part.name + (part.title.empty() ? "" : ": " + part.title) + "\n\n";
@@ -198,6 +223,27 @@ Json rowJson(const StudyResult& result, const StudyResultRow& row) {
             {"metrics", values}};
 }
 
+Json findingJson(const StudyResult& result, const FindingVerdict& f) {
+    const auto& part = result.study.parts[f.part];
+    const auto& finding = part.findings[f.finding];
+    const auto number = [](const std::optional<double>& value) {
+        return value ? Json(numberToJson(*value)) : Json(nullptr);
+    };
+    Json where = Json::object();
+    for (const auto& [key, value] : finding.where) where[key] = value;
+    return {{"part", part.name},
+            {"statement", finding.statement},
+            {"source", finding.source},
+            {"variant", finding.variant},
+            {"where", where},
+            {"metric", finding.metric},
+            {"at_least", number(finding.atLeast)},
+            {"at_most", number(finding.atMost)},
+            {"least", number(f.least)},
+            {"greatest", number(f.greatest)},
+            {"holds", f.holds}};
+}
+
 }  // namespace
 
 std::string studyText(const StudyResult& result) {
@@ -208,15 +254,13 @@ std::string studyText(const StudyResult& result) {
                 aligned(partTable(result, i)) + "\n";
     }
     if (!result.symptoms.empty()) text += "symptoms\n" + aligned(symptomTable(result)) + "\n";
+    if (!result.findings.empty()) text += "findings\n" + aligned(findingTable(result)) + "\n";
     return text;
 }
 
 Json studyJson(const StudyResult& result) {
-    Json out{{"name", result.study.name},
-             {"title", result.study.title},
-             {"green", studyIsGreen(result)},
-             {"symptoms", Json::array()},
-             {"parts", Json::array()}};
+    Json out{{"name", result.study.name}, {"title", result.study.title}, {"green", studyIsGreen(result)},
+             {"symptoms", Json::array()}, {"findings", Json::array()},   {"parts", Json::array()}};
     for (const SymptomVerdict& s : result.symptoms) {
         const auto& part = result.study.parts[s.part];
         out["symptoms"].push_back({{"name", part.name},
@@ -232,6 +276,7 @@ Json studyJson(const StudyResult& result) {
                                    {"shown", s.shown},
                                    {"cured", s.cured}});
     }
+    for (const FindingVerdict& f : result.findings) out["findings"].push_back(findingJson(result, f));
     for (std::size_t i = 0; i < result.study.parts.size(); ++i) {
         const auto& part = result.study.parts[i];
         Json entry{{"name", part.name}, {"title", part.title}, {"rows", Json::array()}};

@@ -62,20 +62,32 @@ struct SymptomVerdict {
     std::vector<std::string> switched;  ///< settings in which the two differ: "solver: single_pass -> pgs"
 };
 
+/// What became of a finding.
+struct FindingVerdict {
+    std::size_t part = 0, finding = 0;      ///< index into the part's findings
+    std::optional<double> least, greatest;  ///< of the rows it is about; infinite where a run broke
+    bool holds = false;                     ///< false also when a row has no value or there is no row
+};
+
 struct StudyResult {
     scenario::Study study;
     std::vector<StudyResultRow> rows;
     std::vector<SymptomVerdict> symptoms;
+    std::vector<FindingVerdict> findings;
 };
 
 /// Reads the rows' values from the cases of a run.
 StudyResult evaluateStudy(const StudyPlan& plan, const results::Run& run);
 
-/// A metric of a case: "name", "name:subject", or "time.PHASE" (median wall time of a phase of the step).
+/// A column over several cases: "order.METRIC", the observed order of the ladder of time steps of a row.
+inline const std::string kOrderPrefix = "order.";
+
+/// A column of one case: a metric "name" or "name:subject", "quantity.NAME" (what a reference measures in the
+/// run) or "time.PHASE" (median wall time of a phase of the step).
 StudyValue studyValue(const results::CaseRow& row, const std::string& metric);
 
-/// False when a symptom is not shown or not cured, or a case crashed, hung, failed to run or gave numbers
-/// that are not finite, unless it is the fault of a symptom.
+/// False when a symptom is not shown or not cured, a finding does not hold, or a case crashed, hung, failed
+/// to run or gave numbers that are not finite, unless it is the fault of a symptom.
 bool studyIsGreen(const StudyResult& result);
 
 }  // namespace rigor::validation

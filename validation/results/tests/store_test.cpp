@@ -18,6 +18,8 @@ namespace {
 
 using sample::caseRow;
 using sample::header;
+using sample::kDenormal;
+using sample::kInf;
 using sample::TemporaryFolder;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -197,6 +199,66 @@ TEST(Store, RefusesToOverwriteAndToResumeNothing) {
     { RunWriter(folder.path(), false).writeHeader(header()); }
     EXPECT_THAT(refusal([&] { RunWriter(folder.path(), false); }), HasSubstr("holds a run already"));
     EXPECT_THAT(refusal([&] { readRun(folder.path() / "nowhere"); }), HasSubstr("is no run folder"));
+}
+
+Run analysed() {
+    Run run;
+    run.orders = {{"slide", "ode", "position_final", "m", 0.1 + 0.2, -kInf, {}, 3, 1e-3, 1e-2, "left out"},
+                  {"slide", "rigor", "energy_drift", "1", {}, {}, 1.5, 0, 0.0, 0.0, ""}};
+    run.fairness = {
+        {"equal_time", "slide", "position_final", "m", "ode", "a", "ode:n=3", 1.0 / 60.0, kDenormal,
+         1.0 / 3.0, 0.25},
+        {"engine_defaults", "slide", "position_final", "m", "rigor", "b", "rigor", 0.1, 1.0, 2.0, {}}};
+    return run;
+}
+
+void expectAnalysed(const Run& read) {
+    const Run asked = analysed();
+    ASSERT_EQ(read.orders.size(), 2u);
+    ASSERT_EQ(read.fairness.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const OrderRow &a = asked.orders[i], &b = read.orders[i];
+        EXPECT_EQ(std::tie(a.scenario, a.spec, a.metric, a.unit, a.order, a.low, a.high, a.points, a.finest,
+                           a.coarsest, a.note),
+                  std::tie(b.scenario, b.spec, b.metric, b.unit, b.order, b.low, b.high, b.points, b.finest,
+                           b.coarsest, b.note));
+        const FairnessRow &f = asked.fairness[i], &g = read.fairness[i];
+        EXPECT_EQ(std::tie(f.mode, f.scenario, f.metric, f.unit, f.competitor, f.caseId, f.spec, f.dt,
+                           f.error, f.cost, f.limit),
+                  std::tie(g.mode, g.scenario, g.metric, g.unit, g.competitor, g.caseId, g.spec, g.dt,
+                           g.error, g.cost, g.limit));
+    }
+}
+
+TEST(Store, AnalysisIsReplacedAsAWhole) {
+    const TemporaryFolder folder;
+    RunWriter writer(folder.path(), false);
+    writer.writeHeader(header());
+    writer.writeAnalysis(analysed());
+    writer.writeAnalysis(analysed());
+    expectAnalysed(readRun(folder.path()));
+}
+
+TEST(Store, AnOlderSchemaIsReadAndGoneOnWith) {
+    const TemporaryFolder folder;
+    {
+        RunWriter writer(folder.path(), false);
+        writer.writeHeader(header());
+        writer.writeCase(caseRow("a", 0));
+    }
+    {
+        SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+        database.exec("DROP TABLE orders");
+        database.exec("DROP TABLE fairness");
+        database.exec("PRAGMA user_version = 1");
+    }
+    EXPECT_EQ(readRun(folder.path()).schemaVersion, 1);
+    EXPECT_EQ(readRun(folder.path()).cases.size(), 1u);
+    { RunWriter(folder.path(), true).writeAnalysis(analysed()); }
+    const auto read = readRun(folder.path());
+    EXPECT_EQ(read.schemaVersion, kSchemaVersion);
+    EXPECT_EQ(read.cases.size(), 1u);
+    expectAnalysed(read);
 }
 
 TEST(Store, OneWriterAtATime) {

@@ -4,9 +4,7 @@
 // The library's symptoms, run for real: every fault is visible, every cure works, and one setting is all that
 // is switched between them.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,25 +12,12 @@
 #include <string>
 
 #include "scenarios/loader/study.hpp"
+#include "validation/studies/tests/run_study.hpp"
 
 namespace rigor::validation {
 namespace {
 
 using nlohmann::json;
-
-json runStudy(const std::string& study, int& code) {
-    const auto folder = std::filesystem::path(testing::TempDir()) / "symptoms-run";
-    std::filesystem::remove_all(folder);
-    const std::string command = std::string(RIGOR_BINARY_DIR) + "/bin/rigor study " + study +
-                                " -q -j 2 --json --out " + folder.string();
-    FILE* pipe = popen(command.c_str(), "r");
-    std::string out;
-    char buffer[4096];
-    while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) out.append(buffer, n);
-    const int status = pclose(pipe);
-    code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return json::parse(out, nullptr, false);
-}
 
 TEST(Symptoms, EveryFaultIsVisibleAndEveryCureWorks) {
     int code = -1;
