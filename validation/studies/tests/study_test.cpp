@@ -83,6 +83,20 @@ TEST(StudyFile, MessagesNameThePlace) {
     EXPECT_EQ(problem(kStudy, "\"dt\": [0.01],", "\"dt\": [7],").line, 5);
     EXPECT_EQ(problem(kStudy, "\"name\": \"sick\"", "\"name\": \"grid\"").id, "study.duplicate");
     EXPECT_EQ(problem(kStudy, "\"scenarios\"", "\"scenes\"").id, "schema.unknown_key");
+    const auto finding = [&](const std::string& text) {
+        return problem(kStudy, "\"metrics\": [\"energy_gain\"],",
+                       "\"metrics\": [\"energy_gain\"], \"findings\": [" + text + "],");
+    };
+    EXPECT_EQ(finding(R"({"statement": "s", "variant": "ugly", "metric": "m", "at_most": 1})").pointer,
+              "/parts/1/findings/0/variant");
+    EXPECT_EQ(finding(R"({"statement": "s", "variant": "bad", "metric": "m"})").id, "study.finding");
+    EXPECT_EQ(
+        finding(R"({"statement": "s", "variant": "bad", "metric": "m", "at_least": 2, "at_most": 1})").id,
+        "study.finding");
+    EXPECT_EQ(
+        finding(R"({"statement": "s", "variant": "bad", "metric": "m", "at_most": 1, "where": {"mood": 1}})")
+            .id,
+        "study.unknown_key");
 }
 
 /// A run of the plan with values of our choice.
