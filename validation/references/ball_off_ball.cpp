@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A ball (disc in 2D) on a fixed ball slides or rolls down from near the top and leaves it. With theta from
+// the top, d = R + r, k = I/(m r^2), s = d theta' - r w the slip:
+//   rolls:  theta'' = g sin(theta)/((1 + k) d), friction k/(1 + k) m g sin(theta) against mu N;
+//   slips:  theta'' = (g sin(theta) - mu N/m sign(s))/d, k r w' = mu N/m sign(s);
+//   N = m (g cos(theta) - d theta'^2); leaves where N = 0: cos(theta) = 2 cos(theta0)/(3 + k') from rest, k'
+//   = 0
+// without friction, k where it rolls to the end. Then free flight. Integrated to 1e-12; the separation
+// without friction is the closed form. Source: Goldstein, Poole, Safko 2002, ch. 1, exercises; Routh 1905.
+// Assumes: touching at the start, velocity along the surface, in the plane of gravity and the centres; spin
+// across it. Quantities: clear_time and clear_angle, where the gap is a twentieth of the radius.
+#include <algorithm>
+#include <cmath>
+
+#include "validation/references/numerics/ode.hpp"
+#include "validation/references/numerics/quadrature.hpp"
+#include "validation/references/parts.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using numerics::DenseSolution;
+using numerics::OdeState;
+using numerics::Real;
+
+class BallOffBall : public Reference {
+  public:
+    BallOffBall(const Scenario& scenario, int index, int base)
+        : scenario_(scenario),
+          ball_(ballOf(scenario, index)),
+          body_(scenario.bodies[static_cast<std::size_t>(index)]) {
+        const std::string who = bodyTitle(scenario, index);
+        requireUndisturbed(scenario, index);
+        requireContact(scenario, index, base);
+        const Body& fixed = scenario.bodies[static_cast<std::size_t>(base)];
+        require(fixed.type == scenario::BodyType::Static && fixed.shapes.size() == 1 &&
+                    std::holds_alternative<scenario::Sphere>(fixed.shapes[0].geometry),
+                bodyTitle(scenario, base) + " is not a fixed ball");
+        middle_ = fixed.pose * fixed.shapes[0].pose.position;
+        const Vec3 g = gravityOn(scenario, index), from = ball_.center - middle_;
+        pull_ = norm(g);
+        require(pull_ > 0.0, "nothing pulls " + who);
+        up_ = -unit(g);
+        distance_ = norm(from);
+        require(std::abs(distance_ - std::get<scenario::Sphere>(fixed.shapes[0].geometry).radius -
+                         ball_.radius) <= 1e-6 * ball_.radius,
+                who + " does not touch the fixed ball");
+        mu_ = pairCoefficients(scenario, ball_.material, fixed.shapes[0].material).friction;
+        side_ = unit(from - dot(from, up_) * up_);
+        require(side_ != Vec3{}, who + " stands on the top: nothing says which way it goes");
+        axis_ = cross(up_, side_);  // positive spin rolls down along side_
+        const double angle = std::atan2(dot(from, side_), dot(from, up_));
+        const Vec3 along = std::cos(angle) * side_ - std::sin(angle) * up_, v = ball_.velocity,
+                   w = ball_.spin;
+        require(norm(v - dot(v, along) * along) <= 1e-9 * norm(v) &&
+                    norm(w - dot(w, axis_) * axis_) <= 1e-9 * norm(w),
+                who + " does not move along the surface in the plane of gravity");
+        follow({angle, dot(v, along) / distance_, 0, dot(w, axis_)});
+    }
+    std::vector<int> bodies() const override { return {ball_.body}; }
+
+    PartialState exact(int, double t) const override {
+        if (t > leaves_) {
+            const double s = t - leaves_;
+            const Vec3 g = -pull_ * up_;
+            return stateOf(body_, left_.com + s * left_.velocity + (0.5 * s * s) * g,
+                           turnedBy(left_.turn + s * left_.spin), left_.velocity + s * g, left_.spin * axis_);
+        }
+        const Moment m = momentAt(t);
+        return stateOf(body_, m.com, turnedBy(m.turn), m.velocity, m.spin * axis_);
+    }
+
+    std::vector<Quantity> quantities(double, adapter::Scheme) const override {
+        std::vector<Quantity> result;
+        if (!(leaves_ + 0.02 < scenario_.duration)) return result;
+        // The gap grows from nothing with the square of time: taken where it can be seen in any run.
+        const double apart = distance_ + 0.05 * ball_.radius;
+        double low = leaves_, high = scenario_.duration;
+        const auto away = [&](double t) { return norm(*exact(ball_.body, t).position - middle_) - apart; };
+        if (body_.massProperties.centerOfMass != Vec3{} || away(high) <= 0.0) return result;
+        const auto when = static_cast<double>(
+            numerics::findRoot([&](Real t) { return Real{away(static_cast<double>(t))}; }, low, high));
+        result.push_back({"clear_time", "s", when, {}, 0.0, [this, apart](const Trajectory& run) {
+                              return clearTime(run, apart);
+                          }});
+        const auto angleAt = [this](Vec3 x) {
+            return std::atan2(dot(x - middle_, side_), dot(x - middle_, up_));
+        };
+        result.push_back({"clear_angle",
+                          "rad",
+                          angleAt(*exact(ball_.body, when).position),
+                          {},
+                          0.0,
+                          [this, apart, angleAt](const Trajectory& run) -> std::optional<double> {
+                              const auto t = clearTime(run, apart);
+                              if (!t) return std::nullopt;
+                              const auto k = lastFrameBefore(run, *t);
+                              if (!k || *k + 1 >= run.frames()) return std::nullopt;
+                              const double f = (*t - run.times[*k]) / (run.times[*k + 1] - run.times[*k]);
+                              return angleAt((1 - f) * run.state(*k, ball_.body).position +
+                                             f * run.state(*k + 1, ball_.body).position);
+                          }});
+        return result;
+    }
+
+  private:
+    struct Moment {
+        Vec3 com, velocity;
+        double turn = 0.0, spin = 0.0;
+    };
+    struct Phase {
+        double begin = 0.0, end = 0.0;
+        DenseSolution solution;
+    };
+
+    Real loadOf(const OdeState& y) const { return pull_ * std::cos(y[0]) - distance_ * y[1] * y[1]; }
+    Real slipOf(const OdeState& y) const { return distance_ * y[1] - ball_.radius * y[3]; }
+
+    /// y = theta, theta', angle turned, spin. From the start to the separation, rolling or slipping.
+    void follow(OdeState y) {
+        double t = 0.0;
+        const double end = horizon(scenario_);
+        require(loadOf(y) > 0, "the ball is already too fast to stay on");
+        bool rolls = mu_ > 0.0 && std::abs(slipOf(y)) <=
+                                      1e-9L * (distance_ * std::abs(y[1]) + std::sqrt(pull_ * distance_));
+        double sign = slipOf(y) >= 0 ? 1.0 : -1.0;
+        while (t < end) {
+            const Real k = ball_.k, rubbing = rolls ? 0.0 : mu_ * sign;
+            const bool rolling = rolls;
+            const auto rhs = [=, this](Real, const OdeState& s, OdeState& d) {
+                const Real rub = rolling ? k / (1 + k) * pull_ * std::sin(s[0]) : rubbing * loadOf(s);
+                d = {s[1], (pull_ * std::sin(s[0]) - rub) / distance_, s[3], rub / (k * ball_.radius)};
+            };
+            // In pieces: beyond the separation the equations of the contact soon mean nothing.
+            const double until = std::min(end, t + end / 48);
+            Phase phase{t, until, DenseSolution(rhs, t, y, until)};
+            // Rolls while friction holds; slips until the slip is gone; either until the load is.
+            const auto keeps = [&](Real at) {
+                const OdeState s = phase.solution.at(at);
+                if (rolling) return mu_ * loadOf(s) - k / (1 + k) * pull_ * std::abs(std::sin(s[0]));
+                return mu_ > 0.0 ? sign * slipOf(s) : Real{1};
+            };
+            const auto loaded = [&](Real at) { return loadOf(phase.solution.at(at)); };
+            const auto lost = firstLoss(loaded, t, until), changed = firstLoss(keeps, t, until);
+            phase.end = std::min(lost.value_or(until), changed.value_or(until));
+            phases_.push_back(phase);
+            y = phase.solution.at(phase.end);
+            t = phase.end;
+            if (lost && *lost <= phase.end) {
+                leaves_ = t;
+                left_ = momentAt(t);
+                return;
+            }
+            if (!changed) continue;
+            if (!rolling) sign = -sign;  // where it does not come to roll, it slips the other way
+            rolls = !rolling && mu_ * loadOf(y) >= k / (1 + k) * pull_ * std::abs(std::sin(y[0]));
+        }
+    }
+
+    static std::optional<double> firstLoss(const std::function<Real(Real)>& f, double from, double to) {
+        const int looks = 100;
+        for (int i = 1; i <= looks; ++i) {
+            const double a = from + (to - from) * (i - 1) / looks, b = from + (to - from) * i / looks;
+            if (f(b) >= 0) continue;
+            if (!(f(a) > 0)) return i == 1 ? std::optional<double>() : a;
+            return static_cast<double>(numerics::findRoot(f, a, b));
+        }
+        return std::nullopt;
+    }
+
+    Moment momentAt(double t) const {
+        const Phase* phase = &phases_.front();
+        for (const Phase& p : phases_)
+            if (p.begin <= t) phase = &p;
+        const OdeState y = phase->solution.at(t);
+        const double a = static_cast<double>(y[0]), c = std::cos(a), s = std::sin(a);
+        return {middle_ + distance_ * (s * side_ + c * up_),
+                (distance_ * static_cast<double>(y[1])) * (c * side_ - s * up_), static_cast<double>(y[2]),
+                static_cast<double>(y[3])};
+    }
+
+    Quat turnedBy(double angle) const {
+        return scenario::normalized(scenario::fromAxisAngle(axis_, angle) * body_.pose.orientation);
+    }
+
+    std::optional<double> clearTime(const Trajectory& run, double apart) const {
+        return upwardCrossing(
+            run, 0, [&](std::size_t k) { return norm(run.state(k, ball_.body).position - middle_) - apart; },
+            [&](std::size_t k) {
+                return dot(unit(run.state(k, ball_.body).position - middle_),
+                           run.state(k, ball_.body).velocity);
+            });
+    }
+
+    const Scenario& scenario_;
+    Ball ball_;
+    const Body& body_;
+    Vec3 middle_, up_, side_, axis_;
+    double distance_ = 0.0, pull_ = 0.0, mu_ = 0.0, leaves_ = 1e300;
+    std::vector<Phase> phases_;
+    Moment left_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reference> makeBallOffBall(const Scenario& scenario, const scenario::ReferenceSpec& spec) {
+    const Parts parts(scenario, spec, {"ball", "base"});
+    const int ball = parts.dynamicBody("ball");
+    return std::make_unique<BallOffBall>(scenario, ball, parts.support("base", ball));
+}
+
+}  // namespace rigor::validation
