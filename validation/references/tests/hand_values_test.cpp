@@ -279,5 +279,34 @@ TEST(HandValues, ADamperAloneIsAForceToo) {
     }
 }
 
+/// A rod of 0.4 m beside the origin keeps length, energy and the momentum about the vertical; a wrong power
+/// of its length would not.
+TEST(HandValues, AShortRodBesideTheOriginKeepsItsEnergy) {
+    Scenario s = emptyScene(3, {0, -10, 0}, 2);
+    const Vec3 pivot{3, 2, -1};
+    addBall(s, "bob", 0.05, 2, 0.4, pivot + Vec3{0.24, -0.32, 0}, {0, 0, 1.5});
+    Joint rod;
+    rod.name = "rod", rod.type = JointType::Distance, rod.bodyB = 0, rod.anchorA = pivot, rod.length = 0.4;
+    s.joints = {rod};
+    setReference(s, "rod_pendulum");
+    const auto reference = makeReference(s);
+    const auto at = [&](double t) { return reference->exact(0, t); };
+    const auto energy = [&](const PartialState& x) {
+        return 0.5 * dot(*x.velocity, *x.velocity) + 10 * x.position->y;
+    };
+    const auto turning = [&](const PartialState& x) { return cross(*x.position - pivot, *x.velocity).y; };
+    for (const double t : {0.3, 1.1, 2.0}) {
+        EXPECT_NEAR(norm(*at(t).position - pivot), 0.4, 1e-12);
+        EXPECT_NEAR(energy(at(t)), energy(at(0)), 1e-11);
+        EXPECT_NEAR(turning(at(t)), turning(at(0)), 1e-12);
+    }
+    // T/m at the start from its curvature: v^2/l + g cos.
+    const Vec3 inwards = unit(pivot - *at(0).position), g{0, -10, 0};
+    const double h = 1e-4;
+    const Vec3 a = (*at(2 * h).velocity - *at(0).velocity) / (2 * h);
+    EXPECT_NEAR(dot(a - g, unit(pivot - *at(h).position)), 1.5 * 1.5 / 0.4 + 10 * 0.8, 1e-3);
+    EXPECT_NEAR(inwards.y, 0.8, 1e-14);
+}
+
 }  // namespace
 }  // namespace rigor::validation::testing
