@@ -269,6 +269,38 @@ TYPED_TEST(Sleeping, AKinematicBodyThatMovesKeepsAndMakesAwake) {
     EXPECT_GT(static_cast<double>(scene.world.pose(scene.stack[0]).p.x()), 0.15);
 }
 
+/// A weight on a spring is slow twice in each swing, a tenth of a second at a time: it never rests long
+/// enough, however often. One whose swing is slow throughout sleeps on time.
+TYPED_TEST(Sleeping, OnlyRestWithoutInterruptionCounts) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const double amplitude : {0.01, 0.001}) {
+        WorldDef<S> def;
+        def.sleeping = "islands";
+        def.sleepLinearVelocity = R(0.05);
+        def.timeToSleep = R(0.5);
+        World<S> world(def);
+        BodyDef<S> body;
+        body.inertia = isotropic<S>(1);
+        body.pose.p = at<S>(1 + amplitude, 0);
+        const BodyId id = world.addBody(body);
+        LinearSpring<S> spring;
+        spring.bodyB = id;
+        spring.stiffness = 100, spring.restLength = 1;
+        world.addForce(spring);
+        double slept = 0;
+        for (int i = 0; i < 300 && slept == 0; ++i) {
+            world.step(static_cast<R>(kStep));
+            if (world.isAsleep(id)) slept = world.time();
+        }
+        if (amplitude == 0.01) {
+            EXPECT_EQ(slept, 0);
+        } else {
+            EXPECT_NEAR(slept, 0.5, 2 * kStep);
+        }
+    }
+}
+
 TYPED_TEST(Sleeping, OffChangesNoBitsAndCopiesAndHashesKnowTheTimers) {
     using S = TypeParam;
     Scene<S> off("off"), on("islands");
