@@ -54,6 +54,26 @@ TYPED_TEST(Impacts, LawsAgreeWithoutFrictionAndOffMeansOff) {
     }
 }
 
+/// Approaches on both sides of the threshold, near it: slower ones stop, faster ones bounce by the whole
+/// coefficient.
+TYPED_TEST(Impacts, BounceAboveTheThresholdAndNotBelow) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const char* law : {"newton", "poisson"})
+        for (const double share : {0.5, 0.95, 1.05, 1.5, 1.95, 3.0}) {
+            WorldDef<S> def;  // no gravity
+            def.restitution = law;
+            def.restitutionThreshold = R(0.4);
+            World<S> world(def);
+            const std::uint32_t m = world.addMaterial(0, R(0.5));
+            addGround<S>(world, m);
+            const BodyId ball = addBall<S>(world, 0, 0.5, 0.5, 3, m, 0, -0.4 * share);
+            for (int i = 0; i < 3; ++i) world.step(R(1.0 / 240));
+            EXPECT_NEAR(world.velocity(ball)[1], share > 1 ? 0.2 * share : 0, tol<S>(1e-12, 1e-5))
+                << law << " " << share;
+        }
+}
+
 /// A body that hits the ground with one point, at r from its centre of mass; mass 1, inertia I about z.
 struct Oblique {
     double rx, ry, I, mu, e, vx, vy, w;

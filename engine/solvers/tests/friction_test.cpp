@@ -74,6 +74,58 @@ TYPED_TEST(Friction, PyramidClampsEachTangent) {
     EXPECT_EQ(pyramid(2, 0, 4, Vec2(0, 0), Vec2(R(0.2), R(-0.4)), R(0.5)), Vec2(R(-0.1), R(0.1)));
 }
 
+/// On either side of either tangent alike; the second tangent sees what the first has done.
+TYPED_TEST(Friction, PyramidIsTheSameOnEverySideAndCouplesItsTangents) {
+    using R = TypeParam;
+    using Vec2 = Eigen::Matrix<R, 2, 1>;
+    const auto pyramid = findAlgorithm(frictionTable<Space<R, 3>>(), "friction", "pyramid").make;
+    for (const R x : {R(-1), R(1)})
+        for (const R y : {R(-1), R(1)})
+            EXPECT_EQ(pyramid(1, 0, 1, Vec2(0, 0), Vec2(-5 * x, -5 * y), R(0.5)),
+                      Vec2(R(0.5) * x, R(0.5) * y));
+    // Sticking: v1 + 2 l1 = 0 gives l1 = -0.1; then v2 + 0.5 l1 + 4 l2 = 0.
+    const Vec2 coupled = pyramid(2, R(0.5), 4, Vec2(0, 0), Vec2(R(0.2), R(0.45)), 1);
+    EXPECT_NEAR(coupled[0], -0.1, 1e-6);
+    EXPECT_NEAR(coupled[1], -0.1, 1e-6);
+    // The same from impulses that are there already.
+    const Vec2 warm = pyramid(2, R(0.5), 4, Vec2(R(-0.1), R(-0.1)), Vec2(R(-0.05), 0), 1);
+    EXPECT_NEAR(warm[0], -0.1 + 0.025, 1e-6);
+    EXPECT_NEAR(warm[1], -0.1 - 0.5 * 0.025 / 4, 1e-6);
+}
+
+/// One direction, against the slip that there would be without friction: stopped along it, or at the limit.
+TYPED_TEST(Friction, TheOneDirectionOfPyramid2IsAgainstTheSlip) {
+    using R = TypeParam;
+    using Vec2 = Eigen::Matrix<R, 2, 1>;
+    const auto law = findAlgorithm(frictionTable<Space<R, 3>>(), "friction", "pyramid_2").make;
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> u(-1, 1);
+    int sticking = 0, sliding = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double a = u(random), b = u(random), c = u(random);
+        const R k11 = R(a * a + b * b + 0.1), k12 = R(b * c), k22 = R(c * c + 0.1);
+        const Vec2 impulse(R(u(random)), R(u(random))), velocity(R(3 * u(random)), R(3 * u(random)));
+        const R limit = R(std::abs(u(random)) * 4);
+        const Vec2 free(velocity[0] - k11 * impulse[0] - k12 * impulse[1],
+                        velocity[1] - k12 * impulse[0] - k22 * impulse[1]);
+        const Vec2 next = law(k11, k12, k22, impulse, velocity, limit);
+        const double eps = sizeof(R) == 8 ? 1e-12 : 1e-4;
+        ASSERT_NEAR(next.normalized().dot(free.normalized()), -1, eps);
+        const Vec2 slip(free[0] + k11 * next[0] + k12 * next[1], free[1] + k12 * next[0] + k22 * next[1]);
+        const double along = slip.dot(free.normalized());
+        if (std::abs(along) < eps * 100) {
+            ++sticking;
+            ASSERT_LE(next.norm(), limit * (1 + eps));
+        } else {
+            ++sliding;
+            ASSERT_NEAR(next.norm(), limit, eps * 100);
+            ASSERT_GT(along, 0);
+        }
+    }
+    EXPECT_GT(sticking, 200);
+    EXPECT_GT(sliding, 200);
+}
+
 TYPED_TEST(Friction, NothingWithoutNormalImpulse) {
     using R = TypeParam;
     using Vec2 = Eigen::Matrix<R, 2, 1>;
