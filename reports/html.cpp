@@ -15,8 +15,9 @@ namespace rigor::report {
 namespace {
 
 /// In the order in which they must run.
-constexpr std::array<const char*, 8> kScripts{"core.js",   "scoreboard.js",  "overview.js", "tables.js",
-                                              "charts.js", "case_tables.js", "scenario.js", "main.js"};
+constexpr std::array<const char*, 9> kScripts{"core.js",    "scoreboard.js", "overview.js",
+                                              "tables.js",  "charts.js",     "case_tables.js",
+                                              "ladders.js", "scenario.js",   "main.js"};
 
 /// Nothing inside a script element may look like markup to the parser.
 std::string inScript(std::string_view json) {

@@ -8,25 +8,18 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/curves.hpp"
+#include "reports/page_json.hpp"
 #include "reports/text.hpp"
 #include "reports/writers.hpp"
 
 namespace rigor::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using results::CaseRow;
 
 constexpr std::size_t kMostBodies = 6;      // curves of more bodies would drown the page
 constexpr std::size_t kMostSubjects = 6;    // per series
 constexpr std::size_t kMostReadBack = 200;  // rows per case that differ
-
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(fullNumber(value));
-}
-Json number(const std::optional<double>& value) {
-    return value ? number(*value) : Json(nullptr);
-}
 
 std::string text(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -400,7 +393,11 @@ std::string scenarioJson(const ViewModel& view, std::size_t index, const Traject
             }
             cases.push_back(std::move(entry));
         }
-    return text({{"name", scenario.name}, {"text", scenario.text}, {"cases", cases}});
+    return text({{"name", scenario.name},
+                 {"text", scenario.text},
+                 {"cases", cases},
+                 {"orders", ordersJson(view.run(), scenario.name)},
+                 {"fairness", fairnessJson(view.run(), scenario.name)}});
 }
 
 }  // namespace rigor::report

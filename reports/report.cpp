@@ -33,7 +33,10 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory) {
     write("results.csv", csvReport(run));
     write("summary.md", markdownSummary(view));
     write("junit.xml", junitReport(run));
-    const auto plots = scenarioPlots(view, load);
+    if (!run.orders.empty()) write("orders.csv", ordersCsv(run));
+    if (!run.fairness.empty()) write("fairness.csv", fairnessCsv(run));
+    auto plots = scenarioPlots(view, load);
+    for (auto& plot : ladderPlots(view)) plots.push_back(std::move(plot));
     if (!plots.empty()) fs::create_directories(runDirectory / "plots");
     for (const auto& plot : plots) write(fs::path("plots") / plot.fileName, plot.svg);
     return written;

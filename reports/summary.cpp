@@ -99,7 +99,7 @@ std::string markdownSummary(const ViewModel& view) {
     out += run.finished.empty() ? " (**unfinished**)\n\n" : "\n\n";
     out += verdictTable(view);
     out += "\nA cell shows the worst verdict over all time steps and the metric at the finest one.\n";
-    out += offenderList(view) + trustList(view);
+    out += offenderList(view) + trustList(view) + ordersMarkdown(view);
     if (!run.command.empty()) out += "\n`" + run.command + "`\n";
     out += "\n" + environmentLine(run) + "\n\n";
     out += "The authors of this comparison wrote one of the engines in it (rigor).\n";

@@ -48,16 +48,18 @@ std::string segment(double x1, double y1, double x2, double y2, const char* stro
            "\" y2=\"" + coordinate(y2) + "\" stroke=\"" + stroke + "\"/>\n";
 }
 
+double logarithm(double v) {
+    return v > 0.0 ? std::log10(v) : std::numeric_limits<double>::quiet_NaN();
+}
+
 struct Frame {
     Range x, y;
-    bool logarithmic;
+    bool logarithmic, logarithmicX;
 
-    double value(double v) const {
-        if (!logarithmic) return v;
-        return v > 0.0 ? std::log10(v) : std::numeric_limits<double>::quiet_NaN();
-    }
-    double px(double v) const {
-        return kLeft + (v - x.least) / (x.greatest - x.least) * (kWidth - kLeft - kRight);
+    double value(double v) const { return logarithmic ? logarithm(v) : v; }
+    double place(double v) const { return logarithmicX ? logarithm(v) : v; }
+    double px(double transformed) const {
+        return kLeft + (transformed - x.least) / (x.greatest - x.least) * (kWidth - kLeft - kRight);
     }
     double py(double transformed) const {
         return kHeight - kBottom -
@@ -66,12 +68,12 @@ struct Frame {
 };
 
 Frame frameOf(const Plot& plot) {
-    Frame frame{{}, {}, plot.logarithmic};
+    Frame frame{{}, {}, plot.logarithmic, plot.logarithmicX};
     for (const auto& line : plot.lines)
         for (std::size_t i = 0; i < line.x.size(); ++i) {
-            const double v = frame.value(line.y[i]);
-            if (!std::isfinite(v)) continue;
-            frame.x.add(line.x[i]);
+            const double v = frame.value(line.y[i]), at = frame.place(line.x[i]);
+            if (!std::isfinite(v) || !std::isfinite(at)) continue;
+            frame.x.add(at);
             frame.y.add(v);
         }
     frame.x.settle(0.5);
@@ -83,12 +85,31 @@ Frame frameOf(const Plot& plot) {
     return frame;
 }
 
+/// Places and their texts; 1, 2 and 5 times powers of ten on a logarithmic axis of less than two decades,
+/// powers of ten on a longer one.
+std::vector<std::pair<double, std::string>> ticksOfX(const Frame& frame) {
+    std::vector<std::pair<double, std::string>> ticks;
+    if (!frame.logarithmicX) {
+        for (const double t : niceTicks(frame.x.least, frame.x.greatest, 6))
+            ticks.emplace_back(t, shortNumber(t));
+        return ticks;
+    }
+    const bool isShort = frame.x.greatest - frame.x.least < 2.0;
+    for (double e = std::floor(frame.x.least); e <= frame.x.greatest; ++e)
+        for (const double factor : {1.0, 2.0, 5.0}) {
+            const double at = e + std::log10(factor);
+            if ((factor == 1.0 || isShort) && at >= frame.x.least - 1e-9 && at <= frame.x.greatest + 1e-9)
+                ticks.emplace_back(at, shortNumber(std::pow(10.0, at)));
+        }
+    return ticks;
+}
+
 std::string axes(const Plot& plot, const Frame& frame) {
     std::string out;
     const double right = kWidth - kRight, bottom = kHeight - kBottom;
-    for (const double t : niceTicks(frame.x.least, frame.x.greatest, 6)) {
+    for (const auto& [t, text] : ticksOfX(frame)) {
         out += segment(frame.px(t), kTop, frame.px(t), bottom, "#e3e6ea");
-        out += label(frame.px(t), bottom + 18, shortNumber(t), "middle");
+        out += label(frame.px(t), bottom + 18, text, "middle");
     }
     if (plot.logarithmic) {
         const int step = std::max(1, static_cast<int>(std::ceil((frame.y.greatest - frame.y.least) / 8)));
@@ -110,23 +131,26 @@ std::string axes(const Plot& plot, const Frame& frame) {
     return out + label(kLeft, 24, plot.title, "start", " font-size=\"15\" font-weight=\"600\"");
 }
 
-std::string curve(const PlotLine& line, const Frame& frame) {
-    std::string path;
+std::string curve(const PlotLine& line, const Frame& frame, bool marked) {
+    std::string path, dots;
     bool pen = false;
     for (std::size_t i = 0; i < line.x.size(); ++i) {
-        const double v = frame.value(line.y[i]);
-        if (!std::isfinite(v)) {
+        const double v = frame.value(line.y[i]), at = frame.place(line.x[i]);
+        if (!std::isfinite(v) || !std::isfinite(at)) {
             pen = false;
             continue;
         }
-        path +=
-            std::string(pen ? "L" : "M") + coordinate(frame.px(line.x[i])) + " " + coordinate(frame.py(v));
+        const std::string x = coordinate(frame.px(at)), y = coordinate(frame.py(v));
+        path += std::string(pen ? "L" : "M") + x + " " + y;
+        if (marked)
+            dots += "<circle cx=\"" + x + "\" cy=\"" + y + "\" r=\"3\" fill=\"" + escapeMarkup(line.colour) +
+                    "\"/>\n";
         pen = true;
     }
     if (path.empty()) return "";
     return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + escapeMarkup(line.colour) +
            "\" stroke-width=\"1.6\" stroke-linejoin=\"round\"" +
-           (line.dashed ? " stroke-dasharray=\"5 4\"" : "") + "/>\n";
+           (line.dashed ? " stroke-dasharray=\"5 4\"" : "") + "/>\n" + dots;
 }
 
 std::string legend(const Plot& plot) {
@@ -153,14 +177,14 @@ const results::SeriesChannel* findSeries(const results::TrajectoryFile& file, co
     return found;
 }
 
+}  // namespace
+
 std::string colourOf(const ViewModel& view, const SpecColumn& column) {
     const auto& engines = view.run().engines;
     std::size_t i = 0;
     while (i < engines.size() && engines[i].name != column.engine) ++i;
     return kPalette[i % kPalette.size()];
 }
-
-}  // namespace
 
 std::vector<double> niceTicks(double least, double greatest, int about) {
     if (!(greatest > least) || about < 1) return {least};
@@ -183,7 +207,7 @@ std::string svgPlot(const Plot& plot) {
         "font-family=\"system-ui, sans-serif\" font-size=\"12\" fill=\"#22272e\">\n"
         "<rect width=\"760\" height=\"420\" fill=\"#ffffff\"/>\n";
     out += axes(plot, frame);
-    for (const auto& line : plot.lines) out += curve(line, frame);
+    for (const auto& line : plot.lines) out += curve(line, frame, plot.marked);
     return out + legend(plot) + "</svg>\n";
 }
 

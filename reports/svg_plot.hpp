@@ -19,7 +19,9 @@ struct PlotLine {
 
 struct Plot {
     std::string title, xLabel, yLabel;
-    bool logarithmic = false;  ///< values <= 0 are gaps then
+    bool logarithmic = false;   ///< values <= 0 are gaps then
+    bool logarithmicX = false;  ///< likewise
+    bool marked = false;        ///< a dot at every point
     std::vector<PlotLine> lines;
 };
 
@@ -31,6 +33,10 @@ std::vector<double> niceTicks(double least, double greatest, int about);
 struct NamedPlot {
     std::string fileName, svg;
 };
+/// The colour of a column's engine: the same in every plot.
+std::string colourOf(const ViewModel& view, const SpecColumn& column);
+/// Error over time step and error over cost of every scenario that was run at three time steps or more.
+std::vector<NamedPlot> ladderPlots(const ViewModel& view);
 /// One plot per scenario: its position error over time at the finest time step, or the first series there is.
 std::vector<NamedPlot> scenarioPlots(const ViewModel& view, const TrajectoryLoader& load);
 

@@ -22,6 +22,11 @@ std::string csvReport(const results::Run& run);
 std::string markdownSummary(const ViewModel& view);
 /// JUnit XML: one testcase per case.
 std::string junitReport(const results::Run& run);
+/// Observed orders, and the four ways to compare; a header alone where nothing was run at three time steps.
+std::string ordersCsv(const results::Run& run);
+std::string fairnessCsv(const results::Run& run);
+/// The orders of each scenario's main metric as a section of the summary; empty without any.
+std::string ordersMarkdown(const ViewModel& view);
 /// The self-contained page.
 std::string htmlReport(const ViewModel& view, const TrajectoryLoader& load);
 /// The data behind the page's overview, and behind the page of one scenario, as JSON.

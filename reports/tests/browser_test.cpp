@@ -216,6 +216,32 @@ TEST_F(Browser, EveryScenarioPageOpensWithTheNumbersOfTheRun) {
     EXPECT_GT(compared, 500u);
 }
 
+TEST_F(Browser, AScenarioRunAtManyStepsShowsItsOrders) {
+    const auto& name = run_.scenarios[0].name;
+    const auto& spec = run_.cases[0].spec;
+    run_.orders = {
+        {name, spec, "position_max", "m", 1.0625, 0.9, 1.2, 5, 1e-3, 1e-2, "left out: 1 at round-off"},
+        {name, spec, "velocity_max", "m/s", {}, {}, {}, 0, 0.0, 0.0, "round-off"}};
+    run_.fairness = {{"equal_time", name, "position_max", "m", "ode", "a", "ode", 0.01, 0.25, 1e-3, 2e-3},
+                     {"equal_accuracy", name, "position_max", "m", "ode", "a", "ode", 0.01, 0.25, 1e-3, 0.5}};
+    html_ = htmlReport(ViewModel(run_), synthetic::makeLoader(run_));
+    const json found = probe("#/scenario/" + name, R"js(
+        await pause();
+        found.orders = [...document.querySelectorAll('#ladder #orders tbody td[data-value]')].map(d => d.dataset.value);
+        found.text = document.querySelector('#ladder')?.textContent || '';
+        found.modes = [...document.querySelectorAll('#fairness tbody')].map(b => b.dataset.mode);
+        location.hash = Rigor.scenarioLink(Rigor.run.scenarios[1].name).slice(1);
+        await pause();
+        found.elsewhere = document.querySelectorAll('#ladder').length;
+    )js");
+    expectClean(found);
+    EXPECT_EQ(found["orders"], json::array({"1.0625"}));
+    EXPECT_NE(found["text"].get<std::string>().find("0.90 … 1.20"), std::string::npos) << found["text"];
+    EXPECT_NE(found["text"].get<std::string>().find("1 at round-off"), std::string::npos);
+    EXPECT_EQ(found["modes"], json::array({"equal_time", "equal_accuracy"}));
+    EXPECT_EQ(found["elsewhere"], 0);
+}
+
 TEST_F(Browser, ChartsOfAPageThatWasLeftAreNotDrawn) {
     const json found = probe("", R"js(
         const late = [];

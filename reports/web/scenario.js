@@ -32,6 +32,7 @@ Rigor.sections = [
   ({cases, focus}) => Rigor.outcomesPanel(cases, focus),
   ({scenario, cases, focus}) => Rigor.curvesPanel(scenario, cases, focus),
   ({cases}) => Rigor.metricsPanel(cases),
+  ({scenario, data}) => Rigor.ladderPanel(scenario, data),
   ({cases}) => Rigor.quantitiesPanel(cases),
   ({cases}) => Rigor.auditPanel(cases),
   ({cases}) => Rigor.parityPanel(cases),
