@@ -42,7 +42,8 @@ Json capabilitiesJson(const adapter::Capabilities& c) {
             {"shapes", c.shapes},
             {"joints", c.joints},
             {"contact_impulses", c.contactImpulses},
-            {"signed_distance", c.signedDistance}};
+            {"signed_distance", c.signedDistance},
+            {"query_options", c.queryOptions}};
 }
 
 Json engines() {

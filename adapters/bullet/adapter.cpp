@@ -50,6 +50,7 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
         c.joints = {"ball",   "hinge",        "hinge.limit",  "hinge.motor",
                     "slider", "slider.limit", "slider.motor", "fixed"};
         c.contactImpulses = c.signedDistance = true;
+        c.queryOptions = {"sat", "box_margin", "cylinder_margin", "hull_margin"};
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         return c;
     }

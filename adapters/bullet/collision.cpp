@@ -2,9 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Contacts come from btCollisionDispatcher::findAlgorithm with BT_CONTACT_POINT_ALGORITHMS, the path that
-// stepping takes (contactPairTest takes another one and rounds edges by the margin). Hulls and boxes carry
-// polyhedral features and SAT is on; margins are 0, which SAT ignores and GJK pairs need to be exact. The
-// distance of separated shapes is GJK's (btGjkPairDetector), the support of the plane for half-spaces.
+// stepping takes (contactPairTest takes another one and rounds edges by the margin). SAT and margins are
+// those of the settings; without any, hulls and boxes carry polyhedral features, SAT is on, and margins are
+// 0, which SAT ignores and GJK pairs need to be exact. The distance of separated shapes is GJK's
+// (btGjkPairDetector), the support of the plane for half-spaces.
 #include "adapters/bullet/collision.hpp"
 
 #include <BulletCollision/CollisionShapes/btConvexShape.h>
@@ -57,13 +58,23 @@ Geometry lifted(const Geometry& geometry, double halfDepth) {
     return solid;
 }
 
+/// Those of a world with these settings, half-spaces apart; without settings the ones of the matched preset.
+ShapeSettings shapeSettings(const adapter::Settings* given) {
+    ShapeSettings settings;
+    settings.polyhedralFeatures = given == nullptr || given->at("sat") == "on";
+    const auto margin = [&](const char* key) {
+        return given == nullptr ? 0.0 : adapter::numberSetting(*given, key);
+    };
+    settings.boxMargin = margin("box_margin");
+    settings.cylinderMargin = margin("cylinder_margin");
+    settings.hullMargin = margin("hull_margin");
+    return settings;
+}
+
 /// One side of a query as a collision object.
 struct Side {
     /// `halfDepth` of the prisms of a two-dimensional query; 0 for three dimensions.
-    Side(const adapter::PosedShape& posed, double halfDepth) {
-        ShapeSettings settings;
-        settings.polyhedralFeatures = true;
-        settings.boxMargin = settings.cylinderMargin = settings.hullMargin = 0.0;
+    Side(const adapter::PosedShape& posed, double halfDepth, const ShapeSettings& settings) {
         shape = buildGeometry(halfDepth > 0.0 ? lifted(*posed.geometry, halfDepth) : *posed.geometry,
                               posed.pose, settings)
                     .shape;
@@ -86,7 +97,7 @@ class ContactFinder {
         configuration_.setPlaneConvexMultipointIterations(8, 5);
     }
 
-    std::vector<ContactPoint> find(const Side& a, const Side& b) {
+    std::vector<ContactPoint> find(const Side& a, const Side& b, bool sat) {
         const btCollisionObjectWrapper wrapA(nullptr, a.shape.get(), &a.object, a.object.getWorldTransform(),
                                              -1, -1);
         const btCollisionObjectWrapper wrapB(nullptr, b.shape.get(), &b.object, b.object.getWorldTransform(),
@@ -94,7 +105,7 @@ class ContactFinder {
         btCollisionAlgorithm* algorithm =
             dispatcher_.findAlgorithm(&wrapA, &wrapB, nullptr, BT_CONTACT_POINT_ALGORITHMS);
         btDispatcherInfo info;
-        info.m_enableSatConvex = true;
+        info.m_enableSatConvex = sat;
         btManifoldResult result(&wrapA, &wrapB);
         algorithm->processCollision(&wrapA, &wrapB, info, &result);
         btManifoldArray manifolds;
@@ -199,10 +210,11 @@ CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) cons
     // that: EPA loses digits on slender prisms.
     const double halfDepth =
         query.dimension == 2 ? planarExtent(*query.a.geometry) + planarExtent(*query.b.geometry) : 0.0;
-    const Side a(query.a, halfDepth), b(query.b, halfDepth);
+    const ShapeSettings settings = shapeSettings(query.settings);
+    const Side a(query.a, halfDepth, settings), b(query.b, halfDepth, settings);
     if (a.isPlane() && b.isPlane()) throw Unsupported("bullet has no contact of half-space with half-space");
     ContactFinder finder;
-    std::vector<ContactPoint> contacts = finder.find(a, b);
+    std::vector<ContactPoint> contacts = finder.find(a, b, settings.polyhedralFeatures);
     if (query.dimension == 2) contacts = projected(contacts);
     std::erase_if(contacts, [](const ContactPoint& c) { return c.depth < 0.0; });
     std::stable_sort(contacts.begin(), contacts.end(),

@@ -6,6 +6,7 @@
 
 #include "adapters/fcl/broadphase.hpp"
 #include "adapters/fcl/collision.hpp"
+#include "adapters/interface/options.hpp"
 
 namespace rigor::fcl_adapter {
 namespace {
@@ -26,7 +27,11 @@ class FclEngine final : public adapter::Engine {
         c.signedDistance = true;
         return c;
     }
-    std::vector<adapter::Option> options() const override { return {}; }
+    std::vector<adapter::Option> options() const override {
+        return {adapter::choice("narrow_phase", collision_.algorithms(), "libccd", "libccd",
+                                "libccd with EPA for depths of polytopes, fcl::collide with libccd alone, or "
+                                "with FCL's own solver")};
+    }
     const adapter::CollisionEngine* collision() const override { return &collision_; }
     const adapter::BroadPhaseEngine* broadPhase() const override { return &broadPhase_; }
 

@@ -49,8 +49,9 @@ struct Separation {
 
 /// fcl::distance; nothing where libccd gives up (it throws). With `inside` an overlap is measured by EPA,
 /// without it has some negative distance.
-std::optional<Separation> separation(const FclShape& a, const FclShape& b, bool inside) {
-    const fcl::DistanceRequestd request(true, inside, 0.0, 0.0, kDistanceTolerance, fcl::GST_LIBCCD);
+std::optional<Separation> separation(const FclShape& a, const FclShape& b, bool inside,
+                                     fcl::GJKSolverType solver = fcl::GST_LIBCCD) {
+    const fcl::DistanceRequestd request(true, inside, 0.0, 0.0, kDistanceTolerance, solver);
     fcl::DistanceResultd result;
     try {
         fcl::distance(a.geometry.get(), a.pose, b.geometry.get(), b.pose, request, result);
@@ -114,17 +115,18 @@ std::vector<ContactPoint> contactsOf(const fcl::CollisionResultd& result, const 
     return contacts;
 }
 
-/// Also of contacts that had no direction.
+/// Also of contacts that had no direction. Negative where FCL's own solver says so.
 double deepest(const fcl::CollisionResultd& result) {
-    double depth = 0.0;
-    for (std::size_t i = 0; i < result.numContacts(); ++i)
+    if (result.numContacts() == 0) return 0.0;
+    double depth = result.getContact(0).penetration_depth;
+    for (std::size_t i = 1; i < result.numContacts(); ++i)
         depth = std::max(depth, result.getContact(i).penetration_depth);
     return depth;
 }
 
 /// Adds the signed distance to an answer of fcl::collide, and the contact of overlapping polytopes.
 void answerDistance(const FclShape& a, const FclShape& b, bool unbounded, bool exactInside, double depth,
-                    CollisionAnswer& answer) {
+                    fcl::GJKSolverType solver, CollisionAnswer& answer) {
     std::optional<Separation> found;
     if (answer.overlap) {
         answer.signedDistance = -depth;
@@ -134,7 +136,7 @@ void answerDistance(const FclShape& a, const FclShape& b, bool unbounded, bool e
         answer.contacts.assign(1, contactOf(*found));
     } else {
         if (unbounded) return;
-        found = separation(a, b, false);
+        found = separation(a, b, false, solver);
         if (!found) return;
         // Within its tolerance GJK may see an overlap where fcl::collide saw none.
         found->distance = std::max(found->distance, 0.0);
@@ -170,6 +172,12 @@ Geometry solidOf(const Geometry& geometry, int dimension) {
 
 CollisionAnswer FclCollisionEngine::collide(const CollisionQuery& query) const {
     adapter::checkQueryInput(query);
+    const std::string algorithm = query.algorithm.empty() ? "libccd" : query.algorithm;
+    const std::vector<std::string> known = algorithms();
+    if (std::find(known.begin(), known.end(), algorithm) == known.end())
+        throw adapter::BadInput("fcl: found narrow phase '" + algorithm +
+                                "', expected one of indep, libccd, libccd_collide");
+    const fcl::GJKSolverType solver = algorithm == "indep" ? fcl::GST_INDEP : fcl::GST_LIBCCD;
     const Geometry solidA = solidOf(*query.a.geometry, query.dimension);
     const Geometry solidB = solidOf(*query.b.geometry, query.dimension);
     const bool unboundedA = is<scenario::HalfSpace>(solidA), unboundedB = is<scenario::HalfSpace>(solidB);
@@ -178,7 +186,7 @@ CollisionAnswer FclCollisionEngine::collide(const CollisionQuery& query) const {
     const FclShape a = toFcl(solidA, query.a.pose), b = toFcl(solidB, query.b.pose);
 
     fcl::CollisionRequestd request(kMostContacts, true);
-    request.gjk_solver_type = fcl::GST_LIBCCD;
+    request.gjk_solver_type = solver;
     fcl::CollisionResultd result;
     fcl::collide(a.geometry.get(), a.pose, b.geometry.get(), b.pose, request, result);
 
@@ -186,8 +194,8 @@ CollisionAnswer FclCollisionEngine::collide(const CollisionQuery& query) const {
     answer.overlap = result.isCollision();
     answer.contacts = contactsOf(result, {&solidA, query.a.pose}, {&solidB, query.b.pose});
     const double depth = deepest(result);
-    const bool exactInside = mayAskEpa(solidA, solidB, depth);
-    answerDistance(a, b, unboundedA || unboundedB, exactInside, depth, answer);
+    const bool exactInside = algorithm == "libccd" && mayAskEpa(solidA, solidB, depth);
+    answerDistance(a, b, unboundedA || unboundedB, exactInside, depth, solver, answer);
     if (query.dimension == 2) {
         bringIntoPlane(answer.contacts);
         if (answer.witnessA) answer.witnessA->z = answer.witnessB->z = 0.0;

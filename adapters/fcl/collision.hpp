@@ -6,9 +6,11 @@
 
 namespace rigor::fcl_adapter {
 
-/// fcl::collide and fcl::distance with the libccd solver.
+/// fcl::collide and fcl::distance. Algorithms: "libccd" (the default; depths of overlapping hulls and boxes
+/// by EPA), "libccd_collide" (what fcl::collide says, alone), "indep" (FCL's own solver, GST_INDEP).
 class FclCollisionEngine final : public adapter::CollisionEngine {
   public:
+    std::vector<std::string> algorithms() const override { return {"indep", "libccd", "libccd_collide"}; }
     adapter::CollisionAnswer collide(const adapter::CollisionQuery& query) const override;
 };
 

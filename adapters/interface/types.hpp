@@ -100,6 +100,8 @@ struct Capabilities {
     std::vector<std::string> joints;
     bool contactImpulses = false;
     bool signedDistance = false;  ///< CollisionEngine answers for separated shapes too
+    /// Keys of options that collision queries heed, `narrow_phase` apart.
+    std::vector<std::string> queryOptions;
     bool kinematicBodies = false, damping = false, gravityScale = false, centerOfMassOffset = false;
     bool staticFriction = false;  ///< contacts that stick up to a coefficient above that of sliding
 };
@@ -152,6 +154,9 @@ struct CollisionQuery {
     int dimension = 3;
     int maxContacts = 8;
     std::string algorithm;  ///< one of CollisionEngine::algorithms(); empty: the engine's default
+    /// Of a spec, where the query is to be answered as its worlds are simulated; null: as exactly as can be.
+    /// Capabilities::queryOptions tells which keys matter.
+    const Settings* settings = nullptr;
 };
 
 /// Answer to a query. Contacts have depth > 0 (or the engine's own tolerance); bodyA/bodyB are 0 and 1.

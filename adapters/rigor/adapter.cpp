@@ -117,6 +117,7 @@ void addJointCapabilities(const std::string& name, bool moves, std::vector<std::
 Capabilities rigorCapabilities() {
     Capabilities c;
     c.dynamics = c.collision = c.broadPhase = true;
+    c.queryOptions = {"precision"};
     c.dimensions = {2, 3};
     c.shapes = {"sphere",  "circle", "box",           "capsule",     "cylinder",
                 "cone",    "hull",   "polygon",       "half_space",  "half_plane",

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Collision queries by the in-house narrow phases, in double precision. Contacts are those of the algorithm
-// asked for. The signed distance of overlapping shapes is its depth; shapes that are apart have the distance
-// and points of closestPoints, exact for every pair.
+// Collision queries by the in-house narrow phases, in double precision unless the settings say single.
+// Contacts are those of the algorithm asked for. The signed distance of overlapping shapes is its depth;
+// shapes that are apart have the distance and points of closestPoints, exact for every pair.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,10 +37,10 @@ template <class S>
 bool answerDistance(const engine::Shape<S>& a, const engine::Pose<S>& Xa, const engine::Shape<S>& b,
                     const engine::Pose<S>& Xb, CollisionAnswer& answer) {
     const engine::ClosestPoints<S> found = engine::closestPoints<S>(a, Xa, b, Xb);
-    if (!std::isfinite(found.distance) || found.distance == std::numeric_limits<double>::lowest())
+    if (!std::isfinite(found.distance) || found.distance == std::numeric_limits<typename S::Real>::lowest())
         return false;
     // The algorithm has found no overlap: below rounding the two may differ.
-    answer.signedDistance = std::max(0.0, found.distance);
+    answer.signedDistance = std::max(0.0, static_cast<double>(found.distance));
     answer.witnessA = fromEngineVec(found.pointA);
     answer.witnessB = fromEngineVec(found.pointB);
     return true;
@@ -51,7 +51,7 @@ CollisionAnswer collideIn(const CollisionQuery& query, const engine::NarrowPhase
     const engine::Shape<S> a = toEngineShape<S>(*query.a.geometry), b = toEngineShape<S>(*query.b.geometry);
     const engine::Pose<S> Xa = toEnginePose<S>(query.a.pose), Xb = toEnginePose<S>(query.b.pose);
     engine::Manifold<S> manifold;
-    narrowPhase.collide(a, Xa, b, Xb, 0.0, manifold);
+    narrowPhase.collide(a, Xa, b, Xb, typename S::Real(0), manifold);
 
     CollisionAnswer answer;
     std::vector<ContactPoint> points;
@@ -63,7 +63,7 @@ CollisionAnswer collideIn(const CollisionQuery& query, const engine::NarrowPhase
         c.pointA = fromEngineVec(p.pointA);
         c.pointB = fromEngineVec(p.pointB);
         c.normal = fromEngineVec(manifold.normal);
-        c.depth = -p.separation;
+        c.depth = -static_cast<double>(p.separation);
         points.push_back(c);
     }
     std::stable_sort(points.begin(), points.end(),
@@ -94,6 +94,10 @@ class RigorCollision final : public CollisionEngine {
         checkQueryInput(query);
         const std::string name = query.algorithm.empty() ? "sat" : query.algorithm;
         try {
+            if (isSingle(query)) {
+                if (query.dimension == 2) return collideIn<engine::Space2f>(query, *planarSingle_.get(name));
+                return collideIn<engine::Space3f>(query, *spatialSingle_.get(name));
+            }
             if (query.dimension == 2) return collideIn<engine::Space2d>(query, *planar_.get(name));
             return collideIn<engine::Space3d>(query, *spatial_.get(name));
         } catch (const engine::EngineError& error) {
@@ -117,6 +121,14 @@ class RigorCollision final : public CollisionEngine {
         mutable std::mutex mutex_;
         mutable std::map<std::string, std::shared_ptr<const engine::NarrowPhase<S>>> made_;
     };
+    static bool isSingle(const CollisionQuery& query) {
+        if (query.settings == nullptr) return false;
+        const auto precision = query.settings->find("precision");
+        return precision != query.settings->end() && precision->second == "f32";
+    }
+
+    Made<engine::Space2f> planarSingle_;
+    Made<engine::Space3f> spatialSingle_;
     Made<engine::Space2d> planar_;
     Made<engine::Space3d> spatial_;
 };

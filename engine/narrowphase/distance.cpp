@@ -6,9 +6,14 @@
 //   distance(A, B) = distance(core A, core B) - rA - rB
 // A core difference without volume (two crossing segments, concentric balls) has no inside: the cores touch,
 // the normal is across it, and its sign such that B is on the side of its own centre.
-// Where EPA ran out of vertices (a ring of equally deep ways out of curved sides) its normal is close to the
-// best: the descent of mpr.cpp, which needs no more of the surface than a portal, follows it to the end.
+// Where EPA ran out of vertices (rings of nearly as deep ways out of curved sides) the descents of mpr.cpp,
+// which need no more of the surface than a portal, go on from its normal and from the shapes' axes.
 #include "engine/narrowphase/distance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
 
 #include "engine/narrowphase/mpr.hpp"
 
@@ -41,16 +46,34 @@ ClosestPoints<S> twoPlanes(const HalfSpace<S>& a, const Pose<S>& Xa) {
     return r;
 }
 
-/// What an unfinished EPA left to gain.
+/// What an unfinished EPA left to gain: descents from its normal and from the lowest of the shapes' own axes,
+/// which are ways out of curved sides.
 template <class S>
 void finishByDescent(const Minkowski<S>& D, CoreContact<S>& r) {
-    PortalQuery<S> query(D, typename S::Real(0));
-    const WayOut<S> found = descend<S>(query, r.normal);
+    using R = typename S::Real;
+    using V = typename S::Vec;
+    constexpr std::size_t kAxes = 4 * S::dim, kDescents = 3;
+    PortalQuery<S> query(D, R(0));
+    descend<S>(query, r.normal);
+    std::array<std::pair<R, V>, kAxes> starts;
+    for (std::size_t i = 0; i < kAxes; ++i) {
+        const auto k = static_cast<Eigen::Index>(i / 4);
+        const V axis = i % 2 == 0 ? V(V::Unit(k)) : V(D.rotation().col(k)), d = i % 4 < 2 ? axis : V(-axis);
+        starts[i] = {d.dot(query.ask(d).w), d};
+    }
+    std::partial_sort(starts.begin(), starts.begin() + kDescents, starts.end(),
+                      [](const auto& x, const auto& y) { return x.first < y.first; });
+    for (std::size_t i = 0; i < kDescents; ++i) descend<S>(query, starts[i].second);
+    // Along a ring that is nearly level a descent runs out of rays.
+    R before = std::numeric_limits<R>::max();
+    for (int again = 0; again < 8 && query.least() < before - query.tolerance(); ++again) {
+        before = query.least();
+        descend<S>(query, query.normal());
+    }
     r.iterations += query.asked();
-    if (!(found.support < -r.distance)) return;
-    r.normal = found.normal;
-    r.distance = -found.support;
-    r.converged = true;
+    if (!(query.least() < -r.distance)) return;
+    r.normal = query.normal();
+    r.distance = -query.least();
     placeFoot<S>(query, D, D.innerPoint(), r);
 }
 

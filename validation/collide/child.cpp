@@ -59,15 +59,15 @@ CollideAnswer fromEngine(const CollisionAnswer& found) {
     return answer;
 }
 
-/// By the algorithm that the spec's narrow_phase names, where the engine has a choice.
+/// With the settings of the spec, and by the algorithm that its narrow_phase names where there is a choice.
 CollisionAnswer answerBy(const adapter::CollisionEngine& engine, const adapter::Settings& settings,
                          const adapter::CollisionQuery& query) {
     const std::vector<std::string> known = engine.algorithms();
     const auto chosen = settings.find("narrow_phase");
-    if (chosen == settings.end() || std::find(known.begin(), known.end(), chosen->second) == known.end())
-        return engine.collide(query);
     adapter::CollisionQuery by = query;
-    by.algorithm = chosen->second;
+    by.settings = &settings;
+    if (chosen != settings.end() && std::find(known.begin(), known.end(), chosen->second) != known.end())
+        by.algorithm = chosen->second;
     return engine.collide(by);
 }
 

@@ -69,6 +69,9 @@ struct CollideAnswer {
     /// How much shallower than along its normal the shapes overlap (or farther apart they are) [m]: 0 for
     /// every minimiser, even where they are a continuum.
     std::optional<double> normalExcess;
+    /// How far the points are from being the answer [m]: the largest of their distances from the surfaces and
+    /// of |pointB - pointA - signed distance * normal|.
+    std::optional<double> pointError;
 };
 
 struct CollideCase {
@@ -88,7 +91,15 @@ struct CollideSummary {
     std::optional<double> depthRelativeMax;                 ///< error / max(depth, touch)
     std::optional<double> distanceErrorMax;                 ///< over the separated [m]
     std::optional<double> normalAngleMax, normalExcessMax;
+    std::optional<double> pointErrorMax, pointErrorMedian;  ///< over the overlapping [m]
     double microsecondsMedian = 0.0;
+};
+
+/// The cases of one kind (first tag) and one spec.
+struct CollideKind {
+    std::string kind;
+    int asked = 0;
+    std::vector<int> answered, wrong;  ///< by spec; wrong: every failure, crashes included
 };
 
 struct CollideRun {
@@ -127,7 +138,10 @@ void judgeAnswer(const scenario::CollisionCase& c, const CollideTruth& truth,
 /// Tallies the answers of one spec.
 CollideSummary summarise(const CollideRun& run, std::size_t spec);
 
-/// 0 failures of the in-house engine; see the README for what counts.
+/// By first tag, in the order they come up; cases without a tag do not count.
+std::vector<CollideKind> tallyKinds(const CollideRun& run);
+
+/// 0 failures of the in-house engine in double precision; see the README for what counts.
 bool collideIsGreen(const CollideRun& run);
 
 }  // namespace rigor::validation

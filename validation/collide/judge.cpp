@@ -134,6 +134,30 @@ CollideTruth truthOf(const CollisionCase& c, const CollideTolerance& tolerance) 
     return truth;
 }
 
+namespace {
+
+/// Distance of a point from the surface of a shape.
+std::optional<double> offSurface(const scenario::Shape& shape, Vec3 point, int dimension) {
+    const auto exact =
+        exactContact(shape.geometry, shape.pose, scenario::Sphere{0.0}, {point, {}}, dimension);
+    return exact ? std::optional(std::abs(exact->signedDistance)) : std::nullopt;
+}
+
+std::optional<double> pointErrorOf(const CollisionCase& c, const CollideTruth& truth,
+                                   const CollideAnswer& answer) {
+    if (truth.source != "oracle" || !answer.witnessA || !answer.witnessB || !answer.normal)
+        return std::nullopt;
+    const Vec3 gap = *answer.witnessB - *answer.witnessA;
+    double worst = norm(gap - truth.signedDistance * *answer.normal);
+    if (!std::isfinite(worst)) return std::nullopt;
+    const auto a = offSurface(c.a, *answer.witnessA, c.dimension),
+               b = offSurface(c.b, *answer.witnessB, c.dimension);
+    if (!a || !b) return std::nullopt;
+    return std::max({worst, *a, *b});
+}
+
+}  // namespace
+
 void judgeAnswer(const CollisionCase& c, const CollideTruth& truth, const CollideTolerance& tolerance,
                  CollideAnswer& answer) {
     if (!answer.answered) return;  // its verdict says why
@@ -148,13 +172,34 @@ void judgeAnswer(const CollisionCase& c, const CollideTruth& truth, const Collid
             separationAlong(c.a.geometry, c.a.pose, c.b.geometry, c.b.pose, c.dimension, *answer.normal);
         if (along) answer.normalExcess = std::max(0.0, truth.signedDistance - *along);
     }
+    answer.pointError = pointErrorOf(c, truth, answer);
     answer.verdict = verdictOf(truth, tolerance, answer);
+}
+
+std::vector<CollideKind> tallyKinds(const CollideRun& run) {
+    std::vector<CollideKind> kinds;
+    for (const CollideCase& c : run.cases) {
+        if (c.asked.tags.empty()) continue;
+        const std::string& tag = c.asked.tags.front();
+        auto kind =
+            std::find_if(kinds.begin(), kinds.end(), [&](const CollideKind& k) { return k.kind == tag; });
+        if (kind == kinds.end()) {
+            const std::vector<int> zeros(run.specs.size());
+            kind = kinds.insert(kinds.end(), {tag, 0, zeros, zeros});
+        }
+        ++kind->asked;
+        for (std::size_t i = 0; i < run.specs.size(); ++i) {
+            kind->answered[i] += c.answers[i].answered ? 1 : 0;
+            kind->wrong[i] += isFailure(c.answers[i].verdict) ? 1 : 0;
+        }
+    }
+    return kinds;
 }
 
 CollideSummary summarise(const CollideRun& run, std::size_t spec) {
     CollideSummary s;
     s.spec = run.specs[spec].text();
-    Spread depth, relative, distance, angle, excess, time;
+    Spread depth, relative, distance, angle, excess, points, time;
     for (const CollideCase& c : run.cases) {
         const CollideAnswer& answer = c.answers[spec];
         ++s.asked;
@@ -176,7 +221,7 @@ CollideSummary summarise(const CollideRun& run, std::size_t spec) {
         if (sd < -run.tolerance.touch) {
             depth.add(answer.distanceError);
             if (answer.distanceError) relative.add(*answer.distanceError / -sd);
-            angle.add(answer.normalAngle), excess.add(answer.normalExcess);
+            angle.add(answer.normalAngle), excess.add(answer.normalExcess), points.add(answer.pointError);
         } else {
             distance.add(answer.distanceError);
         }
@@ -184,15 +229,22 @@ CollideSummary summarise(const CollideRun& run, std::size_t spec) {
     s.depthErrorMax = depth.max(), s.depthErrorMedian = depth.median(), s.depthRelativeMax = relative.max();
     s.distanceErrorMax = distance.max();
     s.normalAngleMax = angle.max(), s.normalExcessMax = excess.max();
+    s.pointErrorMax = points.max(), s.pointErrorMedian = points.median();
     s.microsecondsMedian = 1e6 * time.median().value_or(0.0);
     return s;
+}
+
+/// The tolerances are those of double precision.
+static bool judgesRun(const adapter::EngineSpec& spec) {
+    const auto precision = spec.options.find("precision");
+    return spec.engine == kInHouseEngine && (precision == spec.options.end() || precision->second != "f32");
 }
 
 bool collideIsGreen(const CollideRun& run) {
     for (const CollideCase& c : run.cases) {
         if (!c.truth.conflict.empty()) return false;
         for (std::size_t i = 0; i < run.specs.size(); ++i)
-            if (run.specs[i].engine == kInHouseEngine && isFailure(c.answers[i].verdict)) return false;
+            if (judgesRun(run.specs[i]) && isFailure(c.answers[i].verdict)) return false;
     }
     return true;
 }

@@ -62,6 +62,7 @@ Json answerJson(const std::string& spec, const CollideAnswer& a, int dimension) 
     out["distance_error"] = number(a.distanceError);
     out["normal_angle"] = number(a.normalAngle);
     out["normal_excess"] = number(a.normalExcess);
+    out["point_error"] = number(a.pointError);
     out["seconds"] = numberToJson(a.seconds);
     return out;
 }
@@ -83,6 +84,8 @@ Json summaryJson(const CollideSummary& s) {
             {"distance_error_max", number(s.distanceErrorMax)},
             {"normal_angle_max", number(s.normalAngleMax)},
             {"normal_excess_max", number(s.normalExcessMax)},
+            {"point_error_max", number(s.pointErrorMax)},
+            {"point_error_median", number(s.pointErrorMedian)},
             {"microseconds_median", numberToJson(s.microsecondsMedian)}};
 }
 
@@ -109,6 +112,7 @@ std::string answerLine(const CollideCase& c, const std::string& spec, const Coll
     line += " n=" + shown(a.normal) + " on_a=" + shown(a.witnessA) + " on_b=" + shown(a.witnessB);
     if (a.distanceError) line += " err=" + shown(a.distanceError);
     if (a.normalAngle) line += " angle=" + shown(a.normalAngle);
+    if (a.pointError) line += " points=" + shown(a.pointError);
     return line;
 }
 
@@ -135,14 +139,28 @@ std::vector<std::vector<std::string>> summaryRows(const CollideRun& run) {
     std::vector<std::vector<std::string>> rows{{"engine", "asked", "answered", "unsupported", "failed",
                                                 "missed", "spurious", "wrong depth", "wrong normal",
                                                 "depth err [m]", "relative", "distance err [m]",
-                                                "angle [rad]", "excess [m]", "us/query"}};
+                                                "angle [rad]", "excess [m]", "point err [m]", "us/query"}};
     for (const CollideSummary& s : run.summaries)
         rows.push_back({s.spec, std::to_string(s.asked), std::to_string(s.answered),
                         std::to_string(s.unsupported), std::to_string(s.failed), std::to_string(s.missed),
                         std::to_string(s.spurious), std::to_string(s.wrongDepth),
                         std::to_string(s.wrongNormal), shown(s.depthErrorMax), shown(s.depthRelativeMax),
                         shown(s.distanceErrorMax), shown(s.normalAngleMax), shown(s.normalExcessMax),
-                        shown(s.microsecondsMedian)});
+                        shown(s.pointErrorMax), shown(s.microsecondsMedian)});
+    return rows;
+}
+
+/// Wrong of answered (and lost) answers by kind; nothing where there are too many kinds or only one.
+std::vector<std::vector<std::string>> kindRows(const CollideRun& run) {
+    const std::vector<CollideKind> kinds = tallyKinds(run);
+    if (kinds.size() < 2 || kinds.size() > 16) return {};
+    std::vector<std::vector<std::string>> rows{{"wrong by kind", "cases"}};
+    for (const auto& spec : run.specs) rows[0].push_back(spec.text());
+    for (const CollideKind& k : kinds) {
+        rows.push_back({k.kind, std::to_string(k.asked)});
+        for (std::size_t i = 0; i < run.specs.size(); ++i)
+            rows.back().push_back(k.answered[i] + k.wrong[i] == 0 ? "-" : std::to_string(k.wrong[i]));
+    }
     return rows;
 }
 
@@ -188,7 +206,7 @@ std::string csv(const CollideRun& run) {
     std::string text =
         "case,engine,verdict,overlap,signed_distance,exact,nx,ny,nz,ax,ay,az,bx,by,bz,distance_error,normal_"
         "angle,"
-        "normal_excess,message\n";
+        "normal_excess,point_error,message\n";
     for (const CollideCase& c : run.cases)
         for (std::size_t i = 0; i < run.specs.size(); ++i) {
             const CollideAnswer& a = c.answers[i];
@@ -197,15 +215,16 @@ std::string csv(const CollideRun& run) {
                     collideVerdictName(a.verdict) + "," + (a.answered ? (a.overlap ? "1" : "0") : "") + "," +
                     exact(a.signedDistance) + "," + truth + "," + exact(a.normal) + "," + exact(a.witnessA) +
                     "," + exact(a.witnessB) + "," + exact(a.distanceError) + "," + exact(a.normalAngle) +
-                    "," + exact(a.normalExcess) + "," + csvField(a.message) + "\n";
+                    "," + exact(a.normalExcess) + "," + exact(a.pointError) + "," + csvField(a.message) +
+                    "\n";
         }
     return text;
 }
 
-std::string markdown(const CollideRun& run, const std::string& command) {
-    std::string text = "# Collision queries\n\n`" + command + "`\n\n" + truthLine(run) + "\n";
+std::string markdownTable(const std::vector<std::vector<std::string>>& rows) {
+    std::string text;
     bool head = true;
-    for (const auto& row : summaryRows(run)) {
+    for (const auto& row : rows) {
         for (const auto& cell : row) text += "| " + cell + " ";
         text += "|\n";
         if (head)
@@ -213,6 +232,11 @@ std::string markdown(const CollideRun& run, const std::string& command) {
         head = false;
     }
     return text;
+}
+
+std::string markdown(const CollideRun& run, const std::string& command) {
+    return "# Collision queries\n\n`" + command + "`\n\n" + truthLine(run) + "\n" +
+           markdownTable(summaryRows(run)) + "\n" + markdownTable(kindRows(run));
 }
 
 }  // namespace
@@ -225,8 +249,16 @@ Json collideJson(const CollideRun& run) {
                {"relative", run.tolerance.relative},
                {"angle", run.tolerance.angle}}},
              {"summary", Json::array()},
+             {"kinds", Json::array()},
              {"cases", Json::array()}};
     for (const CollideSummary& s : run.summaries) out["summary"].push_back(summaryJson(s));
+    for (const CollideKind& k : tallyKinds(run))
+        for (std::size_t i = 0; i < run.specs.size(); ++i)
+            out["kinds"].push_back({{"kind", k.kind},
+                                    {"name", run.specs[i].text()},
+                                    {"asked", k.asked},
+                                    {"answered", k.answered[i]},
+                                    {"wrong", k.wrong[i]}});
     for (const CollideCase& c : run.cases) {
         Json entry{{"name", c.asked.name},
                    {"file", c.file},
@@ -259,7 +291,9 @@ std::string collideText(const CollideRun& run, bool all) {
         }
     if (hidden > 0) text += "... and " + std::to_string(hidden) + " more; --all shows them\n";
     if (!text.empty()) text += "\n";
-    return text + aligned(summaryRows(run), "  ") + "\n" + truthLine(run);
+    text += aligned(summaryRows(run), "  ") + "\n";
+    if (const auto kinds = kindRows(run); !kinds.empty()) text += aligned(kinds, "  ") + "\n";
+    return text + truthLine(run);
 }
 
 std::vector<std::filesystem::path> writeCollideFiles(const CollideRun& run,

@@ -160,6 +160,14 @@ std::vector<adapter::EngineSpec> allCollisionSpecs(const fs::path& binary, int j
     const std::vector<std::string> engines = adapter::availableEngines();
     for (const EngineDescription& d : describeEngines(engines, binary, jobs)) {
         if (!d.problem.empty() || !d.capabilities.collision) continue;
+        // Presets of which collision queries see a difference are both asked.
+        const auto differs = [&](const adapter::Option& o) {
+            const auto& keys = d.capabilities.queryOptions;
+            return std::find(keys.begin(), keys.end(), o.key) != keys.end() &&
+                   o.defaultValue != o.matchedValue;
+        };
+        if (std::any_of(d.options.begin(), d.options.end(), differs))
+            specs.push_back({d.info.name, {{"preset", "matched"}}});
         const auto choice = std::find_if(d.options.begin(), d.options.end(),
                                          [](const adapter::Option& o) { return o.key == kAlgorithmKey; });
         if (choice == d.options.end() || choice->values.size() < 2) {

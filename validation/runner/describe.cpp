@@ -48,6 +48,7 @@ json capabilitiesToJson(const adapter::Capabilities& c) {
             {"joints", c.joints},
             {"contact_impulses", c.contactImpulses},
             {"signed_distance", c.signedDistance},
+            {"query_options", c.queryOptions},
             {"kinematic_bodies", c.kinematicBodies},
             {"damping", c.damping},
             {"gravity_scale", c.gravityScale},
@@ -63,6 +64,7 @@ adapter::Capabilities capabilitiesFromJson(const json& j) {
     c.shapes = j.at("shapes").get<std::vector<std::string>>();
     c.joints = j.at("joints").get<std::vector<std::string>>();
     c.contactImpulses = j.at("contact_impulses"), c.signedDistance = j.at("signed_distance");
+    c.queryOptions = j.at("query_options").get<std::vector<std::string>>();
     c.kinematicBodies = j.at("kinematic_bodies"), c.damping = j.at("damping");
     c.gravityScale = j.at("gravity_scale"), c.centerOfMassOffset = j.at("center_of_mass_offset");
     c.staticFriction = j.at("static_friction");

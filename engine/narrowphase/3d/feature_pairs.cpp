@@ -14,7 +14,8 @@
 //   4. the deepest point is kept: where clipping lost it the closest points are put in.
 // Sources: [Bergen2003], [Ericson2005, ch. 5.3, 8.3].
 //
-// Limits: a disc is clipped as an inscribed polygon of 16 sides (its lowest point is good to kRimNoise);
+// Limits: a disc is clipped as an inscribed polygon of 16 sides (in a sequence of steps its lowest
+// point is good to kRimNoise);
 // overlapping curved sides have a normal as good as EPA's. Cost: that of closestPoints and O(n m) of the
 // features.
 #include "engine/narrowphase/3d/feature.hpp"
@@ -236,6 +237,20 @@ void keepWayOut(const Shape<S3<R>>& a, const Shape<S3<R>>& b, const Pose<S3<R>>&
     closest.pointB = contact.onB - rB * contact.normal;
 }
 
+/// What is not in a sequence of steps has the exact depth: the deepest corner of a disc's polygon is
+/// shallower than the rim between two by up to the noise.
+template <class R>
+void deepen(const Meeting<R>& m, R least, Manifold<S3<R>>& out) {
+    for (int i = 0; i < out.count; ++i) {
+        auto& p = out.points[static_cast<std::size_t>(i)];
+        if (p.separation != least || !(m.separation < least)) continue;
+        const Vec3<R> half = R(0.5) * (least - m.separation) * m.normal;
+        p.pointA += half;
+        p.pointB -= half;
+        p.separation = m.separation;
+    }
+}
+
 /// Step 4.
 template <class R>
 void keepDeepest(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
@@ -247,7 +262,10 @@ void keepDeepest(const Meeting<R>& m, const SupportFeature<R>& fa, const Support
                     : fb.count > 2 && fa.count > 1 ? selectionNoise(m, fb, fa)
                                                    : m.tolerance;
     const R slack = fa.count > 1 && fb.count > 1 ? keepSlack(out.memory, smallerSide(fa, fb)) : R(0);
-    if (out.count > 0 && least <= m.separation + R(4) * noise + slack) return;
+    if (out.count > 0 && least <= m.separation + R(4) * noise + slack) {
+        if (out.memory.count == 0) deepen(m, least, out);
+        return;
+    }
     if (out.count == S3<R>::maxManifoldPoints) --out.count;
     const bool vertexOnA = fa.count == 1, vertexOnB = fb.count == 1;
     // Inside both features, whatever of them is near: a name that no crossing of two edges has.

@@ -33,8 +33,8 @@ class Distance : public testing::Test {
         EXPECT_NEAR(separationAlong<S>(a, Xa, b, Xb, r.normal), static_cast<double>(r.distance), eps);
         EXPECT_LE(outside(r.pointA, a, Xa), eps);
         EXPECT_LE(outside(r.pointB, b, Xb), eps);
-        // Round: a full EPA of 128 points and a descent after it.
-        EXPECT_LE(r.iterations, round ? 1000 : 80);
+        // Round: a full EPA of 128 points and four descents after it.
+        EXPECT_LE(r.iterations, round ? 8000 : 80);
     }
 };
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;

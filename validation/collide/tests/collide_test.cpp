@@ -72,6 +72,41 @@ TEST(Judge, ErrorsAreTheOnesThatWereMade) {
     EXPECT_NEAR(a.normalExcess.value(), 1.25 * (1 - std::cos(1e-3)), 1e-12);
 }
 
+TEST(Judge, PointsAreMeasured) {
+    const auto c = balls(1.25);  // surfaces at x = 1 and x = 0.75
+    const CollideTolerance tolerance;
+    const auto error = [&](Vec3 onA, Vec3 onB) {
+        CollideAnswer a = answer(-0.25, Vec3{1, 0, 0});
+        a.witnessA = onA, a.witnessB = onB;
+        judgeAnswer(c, truthOf(c, tolerance), tolerance, a);
+        return a.pointError.value();
+    };
+    EXPECT_NEAR(error({1, 0, 0}, {0.75, 0, 0}), 0, 1e-15);
+    EXPECT_NEAR(error({0.9, 0, 0}, {0.65, 0, 0}), 0.1, 1e-15) << "both off their surfaces, the gap right";
+    EXPECT_NEAR(error({0.75, 0, 0}, {1, 0, 0}), 0.5, 1e-15) << "exchanged";
+    EXPECT_NEAR(error({std::cos(0.01), std::sin(0.01), 0}, {0.75, 0, 0}), 0.01, 1e-4) << "on another place";
+}
+
+TEST(Judge, KindsAreTallied) {
+    CollideRun run;
+    run.specs = {adapter::parseSpec("one"), adapter::parseSpec("two")};
+    for (const char* kind : {"deep", "thin", "deep", ""}) {
+        CollideCase c;
+        if (*kind) c.asked.tags = {kind, "box"};
+        c.answers = {answer(-1, std::nullopt), answer(-1, std::nullopt)};
+        c.answers[0].verdict = CollideVerdict::Ok, c.answers[1].verdict = CollideVerdict::WrongDepth;
+        run.cases.push_back(c);
+    }
+    run.cases[2].answers[1].verdict = CollideVerdict::Unsupported, run.cases[2].answers[1].answered = false;
+    const auto kinds = tallyKinds(run);
+    ASSERT_EQ(kinds.size(), 2u);
+    EXPECT_EQ(kinds[0].kind, "deep");
+    EXPECT_EQ(kinds[0].asked, 2);
+    EXPECT_EQ(kinds[0].answered, (std::vector<int>{2, 1}));
+    EXPECT_EQ(kinds[0].wrong, (std::vector<int>{0, 1}));
+    EXPECT_EQ(kinds[1].wrong, (std::vector<int>{0, 1}));
+}
+
 /// Within the tolerance of touching both verdicts are right; beyond it one is.
 TEST(Judge, TouchingMayBeCalledEitherWay) {
     for (const double gap : {-0.5e-9, 0.0, 0.5e-9}) {
