@@ -247,6 +247,21 @@ TEST(HandValues, AMotorThatBrakesIsMeasuredLikeOneThatDrives) {
     }
 }
 
+TEST(HandValues, RollingIsMeasuredAgainstTheSpeedsThereAre) {
+    Scenario s = emptyScene(3, {0, -10, 0}, 2);
+    addBall(s, "ball", 0.5, 2, 0.4, {0, 0.5, 0}, {3, 0, 0}, {0, 0, 4});
+    addFloor(s);
+    s.materials[0].friction = 0.3;
+    setReference(s, "slip_to_roll");
+    const auto quantities = makeReference(s)->quantities(0.01, Scheme::Unknown);
+    for (const auto& q : quantities)
+        if (q.unit == "m/s") {
+            EXPECT_NEAR(q.scale, 3 + 0.5 * 4, 1e-13) << q.name << ": |v| + r |w|";
+        }
+    s.duration = 0.2;  // it still slips: (3 + 2)/(0.3 10 (1 + 1/0.4)) = 0.476 s
+    EXPECT_EQ(findQuantity(makeReference(s)->quantities(0.01, Scheme::Unknown), "roll_time"), nullptr);
+}
+
 Scenario hung(Vec3 bob) {
     Scenario s = emptyScene(3, {0, -10, 0}, 20);
     addBox(s, "bob", {0.1, 0.1, 0.1}, 1, bob);

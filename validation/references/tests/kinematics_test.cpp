@@ -5,6 +5,8 @@
 // masses, radii and moments that are not 1, before, between and after the events.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "validation/references/tests/newton_euler.hpp"
 
 namespace rigor::validation::testing {
@@ -42,6 +44,34 @@ TEST(Kinematics, OfABallOnATurntable) {
     s.materials[0].friction = 0.5;
     setReference(s, "turntable");
     expectMoves(s, {0.2, 0.6});
+    // A table that stands still: straight on.
+    s.bodies[0].angularVelocity = {};
+    s.bodies[1].angularVelocity = (1 / 0.2) * cross(Vec3{0, 0, 1}, v);
+    expectMoves(s, {0.2, 0.6});
+    EXPECT_NEAR(norm(*makeReference(s)->exact(1, 1).position - Vec3{0.5, 0.2, 0.2}), 0, 1e-13);
+}
+
+/// Wherever the spin starts: about the first axis, about the third, and near the separatrix between them.
+TEST(Kinematics, OfATopFromEveryStart) {
+    for (const Vec3 I : {Vec3{1, 2, 2.5}, Vec3{0.4, 1.9, 2.0}, Vec3{3, 2, 2.9}})
+        for (int i = 0; i < 24; ++i) {
+            Scenario s = emptyScene(3, {}, 2);
+            addBox(s, "top", {0.1, 0.1, 0.1}, 1, {});
+            s.bodies[0].massProperties.inertia = Mat3::diagonal(I.x, I.y, I.z);
+            s.bodies[0].pose.orientation = fromAxisAngle({0.6, 0, 0.8}, 0.7);
+            const double a = 0.27 * i, b = 0.41 * i;
+            s.bodies[0].angularVelocity =
+                3.0 * Vec3{std::cos(a) * std::sin(b), std::sin(a) * std::sin(b), std::cos(b)};
+            setReference(s, "torque_free_top");
+            const auto reference = makeReference(s);
+            const Vec3 start = spinMomentum(s, *reference, 0, 0);
+            for (const double t : {0.5, 1.7}) {
+                SCOPED_TRACE(std::to_string(i) + " at " + std::to_string(t));
+                expectConsistent(s, *reference, 0, t, 1e-8);
+                EXPECT_LT(norm(spinMomentum(s, *reference, 0, t) - start), 1e-11);
+                EXPECT_NEAR(energyOf(s, *reference, t), energyOf(s, *reference, 0), 1e-11);
+            }
+        }
 }
 
 TEST(Kinematics, OfImpacts) {
