@@ -301,6 +301,25 @@ TYPED_TEST(Sleeping, OnlyRestWithoutInterruptionCounts) {
     }
 }
 
+/// Either velocity keeps a body awake, each by its own threshold.
+TYPED_TEST(Sleeping, WhatOnlySpinsOrOnlyDriftsIsAwake) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const double speed : {0.0, 0.02, 0.04})
+        for (const double turn : {0.0, 0.2, 0.4}) {
+            WorldDef<S> def;
+            def.sleeping = "islands";
+            def.sleepLinearVelocity = R(0.03), def.sleepAngularVelocity = R(0.3);
+            World<S> world(def);
+            BodyDef<S> body;
+            body.inertia = isotropic<S>(1);
+            body.velocity = at<S>(speed, 0), body.angularVelocity = spin<S>(-turn);
+            const BodyId id = world.addBody(body);
+            for (int i = 0; i < 120; ++i) world.step(static_cast<R>(kStep));
+            EXPECT_EQ(world.isAsleep(id), speed < 0.03 && turn < 0.3) << speed << " " << turn;
+        }
+}
+
 TYPED_TEST(Sleeping, OffChangesNoBitsAndCopiesAndHashesKnowTheTimers) {
     using S = TypeParam;
     Scene<S> off("off"), on("islands");
