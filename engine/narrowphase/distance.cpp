@@ -71,9 +71,10 @@ void finishByDescent(const Minkowski<S>& D, CoreContact<S>& r) {
         descend<S>(query, query.normal());
     }
     r.iterations += query.asked();
-    if (!(query.least() < -r.distance)) return;
-    r.normal = query.normal();
-    r.distance = -query.least();
+    if (query.least() < -r.distance) {
+        r.normal = query.normal();
+        r.distance = -query.least();
+    }
     placeFoot<S>(query, D, D.innerPoint(), r);
 }
 

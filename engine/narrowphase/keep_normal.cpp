@@ -17,6 +17,9 @@ namespace {
 
 /// A descent gains at least a facet per ray; more rays than this only trade rounding.
 constexpr int kMostRays = 24;
+/// A foot point this far from its facet, as a share of the place, was not on it.
+template <class R>
+inline constexpr R kLostFoot = R(1e-3);
 
 /// Half the largest extent of a core.
 template <class S>
@@ -64,8 +67,16 @@ void placeFoot(PortalQuery<S>& query, const Minkowski<S>& D, const typename S::V
         contact.onA = portal.facet.onA();
         contact.onB = portal.facet.onB();
     }
+    V gap = contact.onB - contact.onA - contact.distance * contact.normal;
+    if (gap.norm() > kLostFoot<typename S::Real> * std::max(contact.onA.norm(), contact.onB.norm()) &&
+        std::abs(contact.distance) <= query.tolerance()) {
+        // Cores that cross without a volume in common (two segments): no facet holds the foot. They meet.
+        const GjkResult<S> meeting = gjk<S>(D, D.translation());
+        contact.onA = meeting.simplex.onA();
+        contact.onB = meeting.simplex.onB();
+        gap = contact.onB - contact.onA - contact.distance * contact.normal;
+    }
     // The foot point is shared: what is left of a difference across the normal goes half to either side.
-    const V gap = contact.onB - contact.onA - contact.distance * contact.normal;
     contact.onA += R(0.5) * gap;
     contact.onB -= R(0.5) * gap;
 }
