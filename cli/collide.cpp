@@ -91,6 +91,24 @@ int collide(const Arguments& a) {
     return validation::collideIsGreen(run) ? kOk : kRed;
 }
 
+void addRandom(CLI::App& command, Arguments& a) {
+    auto* random =
+        command.add_option("--random", a.random.count, "So many random pairs, exact answers by the oracle")
+            ->check(CLI::Range(1, 10000000));
+    const auto of = [&](const char* name, auto& value, const std::string& help) {
+        return command.add_option(name, value, "Of --random: " + help)->needs(random);
+    };
+    of("--seed", a.random.seed, "the same pairs for the same seed (default 1)");
+    of("--dimension", a.random.dimension, "2 or 3 (default 3)")->check(CLI::IsMember({2, 3}));
+    of("--kinds", a.random.kinds, joined(validation::randomPairKinds()))->delimiter(',');
+    of("--shapes", a.random.shapes,
+       "every two of " + joined(validation::randomPairShapes(3)) + "; in 2D of " +
+           joined(validation::randomPairShapes(2)))
+        ->delimiter(',');
+    of("--pairs", a.random.pairs, "box-hull,hull-hull,... instead of --shapes")->delimiter(',');
+    of("--save", a.save, "write the pairs as a file of cases");
+}
+
 }  // namespace
 
 void addCollide(CLI::App& app, Action& action) {
@@ -101,22 +119,7 @@ void addCollide(CLI::App& app, Action& action) {
         "FILE", a->files,
         "Files of cases (rigor_collision JSON, or one query per line), or names of the library");
     command->add_flag("--suite", a->suite, "All case files of the library");
-    command->add_option("--random", a->random.count, "So many random pairs, exact answers by the oracle")
-        ->check(CLI::Range(1, 10000000));
-    command->add_option("--seed", a->random.seed,
-                        "Of --random: the same pairs for the same seed (default 1)");
-    command->add_option("--dimension", a->random.dimension, "Of --random: 2 or 3 (default 3)")
-        ->check(CLI::IsMember({2, 3}));
-    command->add_option("--kinds", a->random.kinds, "Of --random: " + joined(validation::randomPairKinds()))
-        ->delimiter(',');
-    command
-        ->add_option("--shapes", a->random.shapes,
-                     "Of --random, every two of: " + joined(validation::randomPairShapes(3)) +
-                         "; in 2D: " + joined(validation::randomPairShapes(2)))
-        ->delimiter(',');
-    command->add_option("--pairs", a->random.pairs, "Of --random: box-hull,hull-hull,... instead of --shapes")
-        ->delimiter(',');
-    command->add_option("--save", a->save, "Write the random pairs as a file of cases");
+    addRandom(*command, *a);
     command->add_option(
         "-e,--engines", a->engines,
         "Specs, e.g. rigor:narrow_phase=gjk_epa,fcl (default: every engine, every algorithm)");

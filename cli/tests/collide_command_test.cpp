@@ -79,6 +79,42 @@ TEST(CollideCommand, AWrongExpectationIsRed) {
     EXPECT_NE(result.out.find("liar"), std::string::npos) << result.out;
 }
 
+/// Random pairs: the same for the same seed and from the file they were saved in; judged by the oracle alone.
+TEST(CollideCommand, RandomPairs) {
+    const auto file = std::filesystem::path(testing::TempDir()) / "random.json";
+    const std::string request = "--random 33 --seed 4 --engines rigor";
+    const json made = collideJson(request + " --save " + file.string());
+    const json again = collideJson(request), read = collideJson(file.string() + " --engines rigor"),
+               other = collideJson("--random 33 --seed 5 --engines rigor");
+    ASSERT_EQ(made.at("cases").size(), 33u);
+    EXPECT_EQ(made.at("kinds").size(), 11u);
+    for (std::size_t i = 0; i < 33; ++i) {
+        const json &c = made.at("cases").at(i), &truth = c.at("truth");
+        EXPECT_EQ(truth.at("source"), "oracle");
+        EXPECT_EQ(c.at("answers").at(0).at("verdict"), "ok") << c;
+        EXPECT_EQ(again.at("cases").at(i).at("truth"), truth);
+        EXPECT_EQ(read.at("cases").at(i).at("truth"), truth);
+        EXPECT_NE(other.at("cases").at(i).at("truth"), truth);
+    }
+    for (const json& c :
+         collideJson("--random 8 --dimension 2 --kinds deep --pairs box-circle --engines rigor").at("cases"))
+        EXPECT_EQ(c.at("tags"), json({"deep", "box", "circle"}));
+    EXPECT_EQ(rigor("collide analytic --seed 3").code, 2) << "a seed of nothing";
+    const auto odd = rigor("collide --random 3 --kinds odd");
+    EXPECT_EQ(odd.code, 2);
+    EXPECT_NE(odd.out.find("'odd', expected one of generic"), std::string::npos) << odd.out;
+}
+
+/// Single precision is another spec: coarser, measured by the same oracle, and it does not make a run red.
+TEST(CollideCommand, SinglePrecisionIsASpec) {
+    const json run = collideJson("--random 60 --kinds generic,deep --engines rigor,rigor:precision=f32");
+    const json &twice = run.at("summary").at(0), &once = run.at("summary").at(1);
+    EXPECT_EQ(once.at("answered"), 60);
+    EXPECT_LT(twice.at("depth_error_max").get<double>(), 1e-9);
+    EXPECT_GT(once.at("depth_error_max").get<double>(), 1e-9);
+    EXPECT_LT(once.at("depth_error_max").get<double>(), 1e-4);
+}
+
 TEST(CollideCommand, BadInputIsSaid) {
     EXPECT_EQ(rigor("collide").code, 2);
     EXPECT_EQ(rigor("collide no_such_file --engines rigor").code, 2);
