@@ -122,5 +122,24 @@ TYPED_TEST(ContactContract, WhatClosesAGapTouchesWithEveryCorrection) {
     }
 }
 
+/// Contacts push: a ball at rest just above the floor, seen as a contact that is open, is not pulled down to
+/// it.
+TYPED_TEST(ContactContract, AnOpenContactDoesNotPull) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const auto& correction : positionCorrectionTable<S>())
+        for (const double share : {0.1, 0.9}) {
+            WorldDef<S> def;  // no gravity
+            def.positionCorrection = correction.name;
+            World<S> world(def);
+            const std::uint32_t m = world.addMaterial(R(0.5), 0);
+            addGround<S>(world, m);
+            const double y = 0.5 + share * static_cast<double>(def.speculativeDistance);
+            const BodyId ball = addBall<S>(world, 0, y, 0.5, 2, m);
+            for (int i = 0; i < 10; ++i) world.step(R(1.0 / 60));
+            EXPECT_EQ(world.pose(ball).p[1], static_cast<R>(y)) << correction.name << " " << share;
+        }
+}
+
 }  // namespace
 }  // namespace rigor::engine::test
