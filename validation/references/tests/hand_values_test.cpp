@@ -262,6 +262,18 @@ TEST(HandValues, RollingIsMeasuredAgainstTheSpeedsThereAre) {
     EXPECT_EQ(findQuantity(makeReference(s)->quantities(0.01, Scheme::Unknown), "roll_time"), nullptr);
 }
 
+TEST(HandValues, RollingDownhillIsMeasuredAgainstTheFall) {
+    Scenario s = emptyScene(3, {3, -9, 0}, 2);
+    addBall(s, "ball", 0.5, 2, 0.4, {0, 0.5, 0});
+    addFloor(s);
+    s.materials[0].friction = 0.6;
+    setReference(s, "rolling_incline");
+    const auto quantities = makeReference(s)->quantities(0.01, Scheme::Unknown);
+    EXPECT_NEAR(quantity(quantities, "final_speed").scale, 3 * 2, 1e-12);
+    EXPECT_NEAR(quantity(quantities, "final_spin").scale, 3 * 2 / 0.5, 1e-12);
+    EXPECT_TRUE(quantity(quantities, "final_speed").schemeExact.has_value()) << "it rolls from the start";
+}
+
 Scenario hung(Vec3 bob) {
     Scenario s = emptyScene(3, {0, -10, 0}, 20);
     addBox(s, "bob", {0.1, 0.1, 0.1}, 1, bob);

@@ -117,5 +117,23 @@ TEST(Kinematics, OfFlightsAndSprings) {
     expectMoves(flight, {0.2, 1.1, 1.8});
 }
 
+/// A conical pendulum goes round at sqrt(g/(l cos a)) under a constant tilt.
+TEST(Kinematics, OfAConicalPendulum) {
+    const double tilt = 0.6, length = 0.5, rate = std::sqrt(10 / (length * std::cos(tilt)));
+    Scenario s = emptyScene(3, {0, -10, 0}, 1.5);
+    const Vec3 arm{length * std::sin(tilt), -length * std::cos(tilt), 0};
+    addBall(s, "bob", 1e-3, 2, 0.4, arm, cross({0, rate, 0}, arm), {0, rate, 0});
+    Joint ball;
+    ball.name = "pivot", ball.type = JointType::Ball, ball.bodyB = 0, ball.anchorB = -arm;
+    s.joints = {ball};
+    setReference(s, "spherical_pendulum");
+    expectMoves(s, {0.2, 1.1});
+    const auto quantities = makeReference(s)->quantities(0.01, adapter::Scheme::Unknown);
+    ASSERT_NE(findQuantity(quantities, "azimuth_turned"), nullptr);
+    EXPECT_NEAR(std::abs(findQuantity(quantities, "azimuth_turned")->exact), rate * 1.5, 1e-4);
+    EXPECT_NEAR(findQuantity(quantities, "tilt_max")->exact, M_PI - tilt, 1e-5) << "from the upward vertical";
+    EXPECT_NEAR(findQuantity(quantities, "tilt_min")->exact, M_PI - tilt, 1e-5);
+}
+
 }  // namespace
 }  // namespace rigor::validation::testing

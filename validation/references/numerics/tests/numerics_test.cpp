@@ -124,5 +124,17 @@ TEST(Eigen, PrincipalAxesRebuildTheTensor) {
         for (int j = 0; j < 3; ++j) EXPECT_NEAR(matrix(i, j), p.axes(i, j), 1e-15);
 }
 
+/// Round trip over all four branches: near the identity and by half turns about every axis.
+TEST(Eigen, QuaternionsOfAnyRotation) {
+    for (int i = 0; i < 200; ++i) {
+        const double a = 0.7 * i, b = 0.43 * i;
+        const scenario::Vec3 axis{std::cos(a) * std::sin(b), std::sin(a) * std::sin(b), std::cos(b)};
+        const scenario::Quat q = scenario::fromAxisAngle(axis, i % 2 ? 3.1 : 0.11 * i);
+        const scenario::Quat back = toQuaternion(scenario::toMatrix(q));
+        const double cosine = q.w * back.w + q.x * back.x + q.y * back.y + q.z * back.z;
+        EXPECT_NEAR(std::abs(cosine), 1, 1e-14) << i;
+    }
+}
+
 }  // namespace
 }  // namespace rigor::validation::numerics
