@@ -50,7 +50,7 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
         c.joints = {"ball",   "hinge",        "hinge.limit",  "hinge.motor",
                     "slider", "slider.limit", "slider.motor", "fixed"};
         c.contactImpulses = c.signedDistance = true;
-        c.queryOptions = {"sat", "box_margin", "cylinder_margin", "hull_margin"};
+        c.queryOptions = {"sat", "box_margin", "cylinder_margin", "hull_margin", "query_path"};
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         return c;
     }
@@ -83,6 +83,9 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
             number("box_margin", 0, 0.04, "0.04", "0", "of boxes, inside the shape [m]"),
             number("cylinder_margin", 0, 0.04, "0.04", "0.04", "of cylinders, inside the shape [m]"),
             number("hull_margin", 0, 0.04, "0.04", "0", "of hulls and cones; grows hulls [m]"),
+            choice(
+                "query_path", {"stepping", "contact_pair_test"}, "stepping", "stepping",
+                "of collision queries alone: as a step finds contacts, or btCollisionWorld::contactPairTest"),
             choice("half_space", {"plane", "box"}, "plane", "box",
                    "half-spaces as btStaticPlaneShape, or as a large box with full manifolds"),
             choice("broadphase", {"dbvt", "axis_sweep_3", "simple"}, "dbvt", "dbvt", "broad phase"),

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Contacts come from btCollisionDispatcher::findAlgorithm with BT_CONTACT_POINT_ALGORITHMS, the path that
-// stepping takes (contactPairTest takes another one and rounds edges by the margin). SAT and margins are
+// stepping takes (contactPairTest, query_path=contact_pair_test, takes another one and rounds edges by the
+// margin). SAT and margins are
 // those of the settings; without any, hulls and boxes carry polyhedral features, SAT is on, and margins are
 // 0, which SAT ignores and GJK pairs need to be exact. The distance of separated shapes is GJK's
 // (btGjkPairDetector), the support of the plane for half-spaces.
@@ -91,10 +92,10 @@ struct Side {
 /// Contacts of the stepping path: every manifold point, overlapping or not.
 class ContactFinder {
   public:
-    ContactFinder() : configuration_(smallPools()), dispatcher_(&configuration_) {
-        // A polyhedron on a plane gets one point per call without these queries in slightly turned poses;
-        // with eight directions each corner of a square face is met at least once.
-        configuration_.setPlaneConvexMultipointIterations(8, 5);
+    /// With `wholeFaces` a polyhedron on a plane, which gets one point per call, is asked about in slightly
+    /// turned poses too: with eight directions each corner of a square face is met at least once.
+    explicit ContactFinder(bool wholeFaces) : configuration_(smallPools()), dispatcher_(&configuration_) {
+        if (wholeFaces) configuration_.setPlaneConvexMultipointIterations(8, 5);
     }
 
     std::vector<ContactPoint> find(const Side& a, const Side& b, bool sat) {
@@ -117,7 +118,27 @@ class ContactFinder {
         return contacts;
     }
 
+    /// btCollisionWorld::contactPairTest, which asks for closest points instead of contacts.
+    std::vector<ContactPoint> findByPairTest(Side& a, Side& b) {
+        btDbvtBroadphase broadphase;
+        btCollisionWorld world(&dispatcher_, &broadphase, &configuration_);
+        PairTestResult result(a.object);
+        world.contactPairTest(&a.object, &b.object, result);
+        return result.contacts;
+    }
+
   private:
+    struct PairTestResult final : btCollisionWorld::ContactResultCallback {
+        explicit PairTestResult(const btCollisionObject& a) : objectA(a) {}
+        btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper* first, int, int,
+                                 const btCollisionObjectWrapper*, int, int) override {
+            contacts.push_back(toContact(point, first->getCollisionObject() == &objectA));
+            return 0;
+        }
+        const btCollisionObject& objectA;
+        std::vector<ContactPoint> contacts;
+    };
+
     /// One pair at a time: the library's pools of 4096 manifolds would cost more than the query.
     static btDefaultCollisionConstructionInfo smallPools() {
         btDefaultCollisionConstructionInfo info;
@@ -128,17 +149,18 @@ class ContactFinder {
     static void append(const btPersistentManifold& manifold, const btCollisionObject& objectA,
                        std::vector<ContactPoint>& contacts) {
         const bool ordered = manifold.getBody0() == &objectA;
-        for (int i = 0; i < manifold.getNumContacts(); ++i) {
-            const btManifoldPoint& point = manifold.getContactPoint(i);
-            const Vec3 on0 = fromBullet(point.getPositionWorldOnA());
-            const Vec3 on1 = fromBullet(point.getPositionWorldOnB());
-            ContactPoint contact;
-            contact.bodyB = 1;
-            contact.pointA = ordered ? on0 : on1, contact.pointB = ordered ? on1 : on0;
-            contact.normal = (ordered ? -1.0 : 1.0) * fromBullet(point.m_normalWorldOnB);
-            contact.depth = -static_cast<double>(point.getDistance());
-            contacts.push_back(contact);
-        }
+        for (int i = 0; i < manifold.getNumContacts(); ++i)
+            contacts.push_back(toContact(manifold.getContactPoint(i), ordered));
+    }
+    static ContactPoint toContact(const btManifoldPoint& point, bool ordered) {
+        const Vec3 on0 = fromBullet(point.getPositionWorldOnA());
+        const Vec3 on1 = fromBullet(point.getPositionWorldOnB());
+        ContactPoint contact;
+        contact.bodyB = 1;
+        contact.pointA = ordered ? on0 : on1, contact.pointB = ordered ? on1 : on0;
+        contact.normal = (ordered ? -1.0 : 1.0) * fromBullet(point.m_normalWorldOnB);
+        contact.depth = -static_cast<double>(point.getDistance());
+        return contact;
     }
 
     btDefaultCollisionConfiguration configuration_;
@@ -211,10 +233,13 @@ CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) cons
     const double halfDepth =
         query.dimension == 2 ? planarExtent(*query.a.geometry) + planarExtent(*query.b.geometry) : 0.0;
     const ShapeSettings settings = shapeSettings(query.settings);
-    const Side a(query.a, halfDepth, settings), b(query.b, halfDepth, settings);
+    Side a(query.a, halfDepth, settings), b(query.b, halfDepth, settings);
     if (a.isPlane() && b.isPlane()) throw Unsupported("bullet has no contact of half-space with half-space");
-    ContactFinder finder;
-    std::vector<ContactPoint> contacts = finder.find(a, b, settings.polyhedralFeatures);
+    ContactFinder finder(query.settings == nullptr);
+    const bool pairTest =
+        query.settings != nullptr && query.settings->at("query_path") == "contact_pair_test";
+    std::vector<ContactPoint> contacts =
+        pairTest ? finder.findByPairTest(a, b) : finder.find(a, b, settings.polyhedralFeatures);
     if (query.dimension == 2) contacts = projected(contacts);
     std::erase_if(contacts, [](const ContactPoint& c) { return c.depth < 0.0; });
     std::stable_sort(contacts.begin(), contacts.end(),
