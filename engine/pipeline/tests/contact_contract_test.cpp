@@ -141,5 +141,25 @@ TYPED_TEST(ContactContract, AnOpenContactDoesNotPull) {
         }
 }
 
+/// Kept impulses are forces times the step: a box rests through steps of changing length with one iteration
+/// each.
+TYPED_TEST(ContactContract, KeptImpulsesFollowTheLengthOfTheStep) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    WorldDef<S> def = earth<S>();
+    def.solver = "pgs";
+    World<S> world(def);
+    const std::uint32_t m = world.addMaterial(R(0.5), 0);
+    addGround<S>(world, m);
+    const BodyId box = addCube<S>(world, 0, 0.5, 0.5, 2, m);
+    for (int i = 0; i < 60; ++i) world.step(R(1.0 / 60));
+    int most = 0;
+    for (int i = 0; i < 40; ++i) {
+        most = std::max(most, world.step(R(i % 2 ? 1.0 / 60 : 1.0 / 240)).iterations);
+        EXPECT_NEAR(world.velocity(box).norm(), 0, tol<S>(1e-6, 1e-4)) << i;
+    }
+    EXPECT_LE(most, 2) << "nothing is left to iterate";
+}
+
 }  // namespace
 }  // namespace rigor::engine::test
