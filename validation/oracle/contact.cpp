@@ -156,6 +156,14 @@ CoreContact coreContact(const Core& a, const Core& b, int dimension, Real tie) {
         contact.onA = touching.onA;
         contact.onB = touching.onB - out;
     }
+    // Of a tie the one that the points belong to comes first.
+    const scenario::Vec3 first = narrow(contact.normal);
+    const auto nearer = [&](const scenario::Vec3& m, const scenario::Vec3& n) {
+        return scenario::norm(m - first) < scenario::norm(n - first);
+    };
+    if (const auto at = std::min_element(contact.normals.begin(), contact.normals.end(), nearer);
+        at != contact.normals.end())
+        std::iter_swap(contact.normals.begin(), at);
     return contact;
 }
 

@@ -17,8 +17,9 @@ struct OracleAnswer {
     double signedDistance = 0.0;  ///< [m]; < 0: minus the penetration depth (minimum translation distance)
     std::vector<scenario::Vec3>
         normals;  ///< unit, A to B; all directions whose signed distance is within `tie` of the best
-    bool continuum = false;             ///< infinitely many such directions: `normals` holds samples of them
-    scenario::Vec3 witnessA, witnessB;  ///< one pair of closest (or deepest) points
+    bool continuum = false;  ///< infinitely many such directions: `normals` holds samples of them
+    /// One pair of closest (or deepest) points; pointB - pointA = signedDistance * normals[0].
+    scenario::Vec3 witnessA, witnessB;
 };
 
 /// Empty for shape pairs without an exact method: two half-spaces, surfaces made of pieces (chain, mesh,

@@ -84,6 +84,13 @@ TEST(Oracle, ConcentricCubesHaveSixNormals) {
     EXPECT_NEAR(answer->signedDistance, -1.0, 1e-15);
     EXPECT_EQ(answer->normals.size(), 6u);
     EXPECT_FALSE(answer->continuum);
+    // Turned any way rounding picks one of the six; the points belong to the first.
+    for (int i = 0; i < 50; ++i) {
+        const Pose X = at(0.3, 0.1, -0.2, fromAxisAngle(Vec3{0.36, 0.48, 0.8}, 0.1 * i));
+        const auto turned = exactContact(cube(0.5), X, cube(0.5), X, 3);
+        EXPECT_EQ(turned->normals.size(), 6u);
+        expectNear(turned->witnessB - turned->witnessA, turned->signedDistance * turned->normals[0], 1e-15);
+    }
 }
 
 TEST(Oracle, Capsules) {
@@ -197,6 +204,7 @@ TEST_P(OracleRandom, IsTheLargestSeparation) {
         EXPECT_GE(best, answer->signedDistance - 0.3);  // 500 directions come near
         const Vec3 gap = answer->witnessB - answer->witnessA;
         EXPECT_NEAR(norm(gap), std::abs(answer->signedDistance), 1e-13);
+        EXPECT_LE(norm(gap - answer->signedDistance * answer->normals[0]), 1e-13);
     }
     EXPECT_GT(overlapping, 50);
     EXPECT_GT(apart, 50);
