@@ -12,6 +12,7 @@
 #include <set>
 
 #include "validation/collide/collide.hpp"
+#include "validation/collide/random_pairs.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -141,6 +142,23 @@ const Contacts kContacts[] = {
     {"capsule_lying_on_box", kFclCollide, 1},
     {"capsule_lying_on_box", kFclIndep, 1},
 };
+
+/// The in-house narrow phases on pairs of every kind and shape.
+TEST(InHouse, IsRightOnRandomPairs) {
+    setenv("RIGOR_ADAPTER_PATH", (std::string(RIGOR_BINARY_DIR) + "/bin/adapters").c_str(), 1);
+    CollideOptions options;
+    options.binary = std::string(RIGOR_BINARY_DIR) + "/bin/rigor";
+    const std::atomic<bool> never{false};
+    for (int dimension : {2, 3}) {
+        const auto file = makeRandomPairs({660, 17, dimension, {}, {}, {}});
+        const auto run =
+            runCollide({file}, adapter::parseSpecList("rigor:narrow_phase=sat,rigor:narrow_phase=gjk_epa"),
+                       options, {}, never);
+        for (const CollideCase& c : run.cases)
+            for (const CollideAnswer& a : c.answers)
+                EXPECT_EQ(a.verdict, V::Ok) << collideVerdictName(a.verdict) << " " << c.asked.text;
+    }
+}
 
 class KnownWrongAnswers : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Specs, KnownWrongAnswers, testing::ValuesIn(kSpecs), [](const auto& instance) {
