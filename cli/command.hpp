@@ -41,6 +41,8 @@ void addStudy(CLI::App& app, Action& action);
 void addCollide(CLI::App& app, Action& action);
 void addCheck(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
+void addCompare(CLI::App& app, Action& action);
+void addRecord(CLI::App& app, Action& action);
 
 /// This program's own file.
 std::filesystem::path ownBinary();
@@ -69,6 +71,12 @@ bool setsMoreThanBounds(const std::vector<std::string>& overrides);
 inline constexpr const char* kBoundsNote =
     "the bounds were set at the file's own values; for other values judge the errors and their order, or "
     "give bounds: --set accept.rigor.METRIC=VALUE";
+
+/// Says on stderr what became better or worse in a run since `baseline`: run folders with commas between, or
+/// "recorded". Throws std::invalid_argument where there is no such run.
+bool becameWorseThan(const std::string& baseline, const std::filesystem::path& run);
+/// Throws std::invalid_argument when `baseline` names no run; empty is fine.
+void checkBaseline(const std::string& baseline);
 
 /// Prints every problem of a LoadError to stderr, as text or as a JSON array on stdout.
 void printProblems(const scenario::LoadError& error, bool json);

@@ -34,7 +34,9 @@ int runCommand(int argc, char** argv) {
     addStudy(app, action);
     addCollide(app, action);
     addCheck(app, action);
+    addCompare(app, action);
     addReport(app, action);
+    addRecord(app, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::RequiredError& error) {

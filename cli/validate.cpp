@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 struct Arguments {
     std::vector<std::string> what, overrides, timeSteps;
-    std::string engines, out;
+    std::string engines, out, baseline;
     int jobs = 0;
     bool resume = false, noAudit = false, json = false, quiet = false;
 };
@@ -159,6 +159,7 @@ int validate(const Arguments& given) {
     Arguments arguments = given;
     if (arguments.what.empty())
         arguments.what = arguments.resume ? resumedWhat(arguments) : std::vector{kDefaultSuite};
+    checkBaseline(arguments.baseline);
     const Selection selection = select(arguments);
     const auto specs = chooseEngines(arguments, selection);
     std::vector<double> timeSteps = selection.timeSteps;
@@ -195,7 +196,8 @@ int validate(const Arguments& given) {
     printResult(run, options.directory, arguments.json);
     const bool green = validation::runIsGreen(run);
     if (!green && setsMoreThanBounds(arguments.overrides)) std::fprintf(stderr, "note: %s\n", kBoundsNote);
-    return green ? kOk : kRed;
+    const bool worse = !arguments.baseline.empty() && becameWorseThan(arguments.baseline, options.directory);
+    return green && !worse ? kOk : kRed;
 }
 
 }  // namespace
@@ -218,6 +220,8 @@ void addValidate(CLI::App& app, Action& action) {
         ->check(CLI::Range(1, 1024));
     command->add_option("--out", a->out, "Run folder (default: runs/<suite>-<time>)");
     command->add_flag("--resume", a->resume, "Go on with an interrupted run (--out, or the latest)");
+    command->add_option("--baseline", a->baseline,
+                        "Also compare with an earlier run, or with 'recorded'; worse is red");
     command->add_flag("--no-audit", a->noAudit, "Leave out the contact audit");
     command->add_flag("--json", a->json, "Print the results as JSON");
     command->add_flag("-q,--quiet", a->quiet, "No progress");

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/comparison/compare.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+#include "cli/command.hpp"
+#include "scenarios/loader/loader.hpp"
+#include "validation/comparison/recorded.hpp"
+#include "validation/results/store.hpp"
+
+namespace rigor::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using results::Run;
+
+const std::string kRecorded = "recorded";
+
+struct Arguments {
+    std::string before, after;  ///< folders with commas between
+    validation::CompareOptions options;
+    std::size_t most = 20;
+    bool json = false;
+};
+
+fs::path recordedFolder() {
+    return scenario::libraryFolder() / kRecorded;
+}
+
+std::vector<Run> readRuns(const std::string& folders) {
+    std::vector<Run> runs;
+    std::istringstream list(folders);
+    try {
+        for (std::string folder; std::getline(list, folder, ',');) runs.push_back(results::readRun(folder));
+    } catch (const std::runtime_error& error) {
+        throw std::invalid_argument(error.what());
+    }
+    if (runs.empty()) throw std::invalid_argument("found no run folder, expected one or more");
+    return runs;
+}
+
+validation::RunComparison comparisonOf(const Arguments& a) {
+    const auto after = readRuns(a.after);
+    std::vector<Run> before;
+    if (a.before == kRecorded) {
+        std::vector<std::string> missing;
+        before.push_back(validation::readRecorded(recordedFolder(), after.front(), missing));
+        for (const auto& engine : missing)
+            std::fprintf(stderr, "rigor: nothing is recorded for %s\n", engine.c_str());
+    } else {
+        before = readRuns(a.before);
+    }
+    return validation::compareRuns(before, after, a.options);
+}
+
+int compare(const Arguments& a) {
+    const auto comparison = comparisonOf(a);
+    const auto text = a.json ? validation::comparisonJson(comparison)
+                             : validation::comparisonText(comparison, a.options, a.most);
+    std::fputs(text.c_str(), stdout);
+    return validation::becameWorse(comparison) ? kRed : kOk;
+}
+
+int record(const std::string& folder, const std::string& out) {
+    const auto runs = readRuns(folder);
+    for (const auto& file :
+         validation::writeRecorded(runs.front(), out.empty() ? recordedFolder() : fs::path(out)))
+        std::printf("%s\n", file.string().c_str());
+    return kOk;
+}
+
+}  // namespace
+
+bool becameWorseThan(const std::string& baseline, const fs::path& run) {
+    Arguments a;
+    a.before = baseline, a.after = run.string();
+    const auto comparison = comparisonOf(a);
+    std::fprintf(stderr, "Against %s:\n%s", baseline.c_str(),
+                 validation::comparisonText(comparison, a.options, a.most).c_str());
+    return validation::becameWorse(comparison);
+}
+
+void checkBaseline(const std::string& baseline) {
+    if (!baseline.empty() && baseline != kRecorded) (void)readRuns(baseline);
+}
+
+void addCompare(CLI::App& app, Action& action) {
+    auto a = std::make_shared<Arguments>();
+    auto* command =
+        app.add_subcommand("compare", "What became better or worse between runs, with statistics");
+    command
+        ->add_option("BEFORE", a->before,
+                     "Run folder, several with commas between, or 'recorded': what the repository has on "
+                     "record for the engine versions of AFTER")
+        ->required();
+    command->add_option("AFTER", a->after, "Run folder, or several")->required();
+    command
+        ->add_option("--tolerance", a->options.tolerance,
+                     "Errors that differ by a smaller share count as equal (default 0.01)")
+        ->check(CLI::Range(0.0, 10.0));
+    command->add_option("--limit", a->most, "Lines of each list (default 20)");
+    command->add_flag("--json", a->json, "Print the comparison as JSON");
+    command->footer(
+        "Exit codes: 0 no verdict and no error became worse, 1 some did, 2 bad command line or no run.");
+    command->callback([a, &action] { action = [a] { return compare(*a); }; });
+}
+
+void addRecord(CLI::App& app, Action& action) {
+    auto folder = std::make_shared<std::string>(), out = std::make_shared<std::string>();
+    auto* command = app.add_subcommand("record", "Put the numbers of a run on record for `compare recorded`");
+    command->add_option("RUN", *folder, "Run folder")->required();
+    command->add_option("--out", *out, "Folder of the records (default: the library's)");
+    command->callback([folder, out, &action] { action = [folder, out] { return record(*folder, *out); }; });
+}
+
+}  // namespace rigor::cli

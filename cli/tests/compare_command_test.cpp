@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// `rigor compare`, `rigor record` and `validate --baseline` as a user calls them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "cli/tests/program.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using rigor::cli_test::rigor;
+
+class CompareCommand : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        fs::remove_all(folder_);
+        const auto run = rigor(validate("a", "rigor"));
+        ASSERT_EQ(run.code, 0) << run.out;
+    }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    std::string validate(const std::string& out, const std::string& engine) const {
+        return "validate bouncing_ball slide_and_stop --no-audit -q --dt 1/60 --engines " + engine +
+               " --out " + path(out);
+    }
+    fs::path folder_ = fs::path(testing::TempDir()) / "compare-command";
+};
+
+TEST_F(CompareCommand, TheSameRunTwiceIsTheSame) {
+    EXPECT_EQ(rigor(validate("b", "rigor")).code, 0);
+    const auto text = rigor("compare " + path("a") + " " + path("b"));
+    EXPECT_EQ(text.code, 0) << text.out;
+    EXPECT_NE(text.out.find("No verdict and no error changed"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("1 and 1 run(s)"), std::string::npos);
+    const json out =
+        json::parse(rigor("compare --json " + path("a") + " " + path("b") + "," + path("a"), false).out);
+    EXPECT_FALSE(out.at("worse"));
+    EXPECT_EQ(out.at("specs").size(), 2u);  // both presets
+    EXPECT_GT(out.at("specs")[0].at("same"), 5);
+}
+
+/// A record that says half or twice of what the run gives.
+TEST_F(CompareCommand, AChangeInEitherDirectionIsSeenAgainstTheRecord) {
+    ASSERT_EQ(rigor("record " + path("a") + " --out " + path("library/recorded")).code, 0);
+    const fs::path library = fs::path(RIGOR_SOURCE_DIR) / "scenarios/library";
+    for (const auto& entry : fs::directory_iterator(library))
+        if (entry.path().filename() != "recorded")
+            fs::create_symlink(entry.path(), folder_ / "library" / entry.path().filename());
+    const std::string environment = "RIGOR_SCENARIOS=" + path("library");
+    const auto same = rigor("compare recorded " + path("a"), true, environment);
+    EXPECT_EQ(same.code, 0) << same.out;
+    EXPECT_NE(same.out.find("No verdict and no error changed"), std::string::npos) << same.out;
+
+    fs::path file;
+    for (const auto& entry : fs::directory_iterator(folder_ / "library/recorded")) file = entry.path();
+    std::ifstream in(file);
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    const auto at = text.rfind(';', text.find("position_final") + 20);
+    const auto end = text.find('\n', at);
+    const double value = std::stod(text.substr(at + 1, end - at - 1));
+    const auto recordValue = [&](double recorded) {
+        std::ofstream(file) << text.substr(0, at + 1) << recorded << text.substr(end);
+        return rigor("compare recorded " + path("a"), true, environment);
+    };
+    const auto worse = recordValue(0.5 * value), better = recordValue(2.0 * value);
+    EXPECT_EQ(worse.code, 1) << worse.out;
+    EXPECT_NE(worse.out.find("worse   slide_and_stop"), std::string::npos) << worse.out;
+    EXPECT_EQ(better.code, 0) << better.out;
+    EXPECT_NE(better.out.find("better  slide_and_stop"), std::string::npos) << better.out;
+}
+
+TEST_F(CompareCommand, ValidateAgainstABaseline) {
+    const auto same = rigor(validate("b", "rigor") + " --baseline " + path("a"));
+    EXPECT_EQ(same.code, 0) << same.out;
+    EXPECT_NE(same.out.find("No verdict and no error changed"), std::string::npos) << same.out;
+    const auto missing = rigor(validate("c", "rigor") + " --baseline " + path("nowhere"));
+    EXPECT_EQ(missing.code, 2);
+    EXPECT_FALSE(fs::exists(folder_ / "c")) << "said before anything runs";
+}
+
+TEST_F(CompareCommand, WhatIsNoRunIsSaid) {
+    const auto none = rigor("compare " + path("nowhere") + " " + path("a"));
+    EXPECT_EQ(none.code, 2);
+    EXPECT_NE(none.out.find("nowhere"), std::string::npos);
+    EXPECT_EQ(rigor("compare " + path("a")).code, 2);
+}
+
+}  // namespace

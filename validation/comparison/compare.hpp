@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What changed between two runs, or two sets of runs: case by case, and per engine with statistics.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/comparison/statistics.hpp"
+#include "validation/results/types.hpp"
+
+namespace rigor::validation {
+
+struct CompareOptions {
+    /// Errors whose ratio is within 1 +- this count as equal: runs are deterministic, machines are not all
+    /// alike.
+    double tolerance = 0.01;
+    double floor = 1e-9;  ///< errors that are both below this are equal, whatever their ratio
+};
+
+/// A value of a metric that is not what it was.
+struct MetricChange {
+    std::string scenario, spec, metric, subject, unit;
+    double dt = 0.0;
+    double before = 0.0, after = 0.0;
+    bool worse = false;  ///< further from zero, or not finite any more
+};
+
+/// A case that ends or is judged differently.
+struct VerdictChange {
+    std::string scenario, spec, before, after, reason;
+    double dt = 0.0;
+    bool worse = false;
+};
+
+/// One engine spec over all cases that both have.
+struct SpecChange {
+    std::string spec;
+    int cases = 0;
+    int better = 0, worse = 0, same = 0;  ///< errors
+    double pErrors = 1.0;                 ///< sign test of better against worse
+    int timed = 0;
+    std::optional<double> timeRatio;       ///< median over the cases of (step time after)/(before)
+    std::optional<Interval> timeInterval;  ///< 95 %, from six cases on
+    double pTime = 1.0;                    ///< sign test of slower against faster
+};
+
+struct RunComparison {
+    std::vector<SpecChange> specs;
+    std::vector<VerdictChange> verdicts;
+    std::vector<MetricChange> metrics;               ///< by size of the change, largest first
+    std::vector<std::string> onlyBefore, onlyAfter;  ///< "scenario spec dt"
+    std::vector<std::string> changedScenarios;       ///< whose physics differ: their numbers are not compared
+    std::vector<std::string> environment;            ///< "key: before -> after"
+    int runsBefore = 0, runsAfter = 0;
+};
+
+/// Errors are those of the first run of each side (a case is deterministic); step times are medians over the
+/// runs of a side.
+RunComparison compareRuns(const std::vector<results::Run>& before, const std::vector<results::Run>& after,
+                          const CompareOptions& options = {});
+
+/// A scenario without what does not change its motion: bounds, records, words. Text that is no JSON is
+/// returned as it is.
+std::string physicsOf(const std::string& scenarioText);
+
+/// Whether a verdict or an error became worse. Times do not count.
+bool becameWorse(const RunComparison& comparison);
+
+std::string comparisonText(const RunComparison& comparison, const CompareOptions& options, std::size_t most);
+std::string comparisonJson(const RunComparison& comparison);
+
+}  // namespace rigor::validation

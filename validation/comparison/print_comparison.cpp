@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "validation/comparison/compare.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string number(double value, const char* format = "%.4g") {
+    char text[40];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+    return text + std::string(width > text.size() ? width - text.size() : 0, ' ');
+}
+
+/// "1.02 (0.98 .. 1.05), p = 0.3: no difference shown".
+std::string timeText(const SpecChange& s) {
+    if (!s.timeRatio) return "not timed";
+    std::string text = number(*s.timeRatio, "%.3f");
+    if (!s.timeInterval) return text + " (too few cases for an interval)";
+    text += " (" + number(s.timeInterval->low, "%.3f") + " .. " + number(s.timeInterval->high, "%.3f") + ")";
+    if (s.timeInterval->low > 1.0) return text + " slower";
+    return text + (s.timeInterval->high < 1.0 ? " faster" : " no difference shown");
+}
+
+template <class List, class Line>
+void addSome(std::string& text, const std::string& title, const List& list, std::size_t most, Line line) {
+    if (list.empty()) return;
+    text += title + " (" + std::to_string(list.size()) + ")\n";
+    for (std::size_t i = 0; i < std::min(most, list.size()); ++i) text += "  " + line(list[i]) + "\n";
+    if (list.size() > most) text += "  and " + std::to_string(list.size() - most) + " more\n";
+}
+
+Json finite(double value) {
+    if (std::isfinite(value)) return value;
+    return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
+}
+
+}  // namespace
+
+std::string comparisonText(const RunComparison& c, const CompareOptions& options, std::size_t most) {
+    std::string text;
+    std::size_t width = 6;
+    for (const SpecChange& s : c.specs) width = std::max(width, s.spec.size());
+    text += padded("engine", width) +
+            "  cases  errors better/worse/same  sign test  time after/before, median over cases (95 %)\n";
+    for (const SpecChange& s : c.specs) {
+        const std::string errors =
+            std::to_string(s.better) + "/" + std::to_string(s.worse) + "/" + std::to_string(s.same);
+        text += padded(s.spec, width) + "  " + padded(std::to_string(s.cases), 5) + "  " +
+                padded(errors, 24) + "  " + padded("p = " + number(s.pErrors, "%.2g"), 9) + "  " +
+                timeText(s) + "\n";
+    }
+    if (c.runsBefore < 3 || c.runsAfter < 3)
+        text +=
+            "Times: " + std::to_string(c.runsBefore) + " and " + std::to_string(c.runsAfter) +
+            " run(s); a change of the machine's load between them is not seen. Give three of each or more.\n";
+    const auto where = [](const auto& x) {
+        return x.scenario + " " + x.spec + " dt=" + number(x.dt, "%.6g");
+    };
+    addSome(text, "Verdicts that changed", c.verdicts, most, [&](const VerdictChange& v) {
+        return std::string(v.worse ? "worse   " : "better  ") + where(v) + ": " + v.before + " -> " +
+               v.after + (v.reason.empty() ? "" : " (" + v.reason + ")");
+    });
+    addSome(text, "Errors that changed by more than " + number(100.0 * options.tolerance) + " %", c.metrics,
+            most, [&](const MetricChange& m) {
+                return std::string(m.worse ? "worse   " : "better  ") + where(m) + ": " + m.metric + " " +
+                       number(m.before) + " -> " + number(m.after) + (m.unit == "1" ? "" : " " + m.unit);
+            });
+    const auto plain = [](const std::string& line) { return line; };
+    addSome(text, "Scenarios whose files differ, not compared", c.changedScenarios, most, plain);
+    addSome(text, "Only before", c.onlyBefore, most, plain);
+    addSome(text, "Only after", c.onlyAfter, most, plain);
+    addSome(text, "Other environment", c.environment, most, plain);
+    if (c.verdicts.empty() && c.metrics.empty()) text += "No verdict and no error changed.\n";
+    return text;
+}
+
+std::string comparisonJson(const RunComparison& c) {
+    Json out{{"worse", becameWorse(c)},
+             {"specs", Json::array()},
+             {"verdicts", Json::array()},
+             {"metrics", Json::array()},
+             {"changed_scenarios", c.changedScenarios},
+             {"only_before", c.onlyBefore},
+             {"only_after", c.onlyAfter},
+             {"environment", c.environment}};
+    for (const SpecChange& s : c.specs)
+        out["specs"].push_back(
+            {{"name", s.spec},
+             {"cases", s.cases},
+             {"better", s.better},
+             {"worse", s.worse},
+             {"same", s.same},
+             {"p_errors", s.pErrors},
+             {"timed", s.timed},
+             {"time_ratio", s.timeRatio ? Json(*s.timeRatio) : Json(nullptr)},
+             {"time_interval",
+              s.timeInterval ? Json::array({s.timeInterval->low, s.timeInterval->high}) : Json(nullptr)},
+             {"p_time", s.pTime}});
+    for (const VerdictChange& v : c.verdicts)
+        out["verdicts"].push_back({{"scenario", v.scenario},
+                                   {"spec", v.spec},
+                                   {"dt", v.dt},
+                                   {"before", v.before},
+                                   {"after", v.after},
+                                   {"worse", v.worse},
+                                   {"reason", v.reason}});
+    for (const MetricChange& m : c.metrics)
+        out["metrics"].push_back({{"scenario", m.scenario},
+                                  {"spec", m.spec},
+                                  {"dt", m.dt},
+                                  {"metric", m.metric},
+                                  {"unit", m.unit},
+                                  {"before", finite(m.before)},
+                                  {"after", finite(m.after)},
+                                  {"worse", m.worse}});
+    return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rigor::validation

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/comparison/compare.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "validation/comparison/recorded.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using results::CaseRow;
+using Stored = results::Run;
+using results::Verdict;
+
+/// Eight scenarios, one engine, an error of 0.1 and a step of 1 us in each.
+Stored exampleRun() {
+    Stored run;
+    run.environment = {{"cpu", "one"}, {"date", "today"}};
+    run.engines = {{"ode", "ODE", "0.16", "f64", "", ""}};
+    for (int i = 0; i < 8; ++i) {
+        results::ScenarioRow s;
+        s.name = "s" + std::to_string(i), s.text = "{}", s.metrics = {"position_max"};
+        run.scenarios.push_back(s);
+        CaseRow c;
+        c.scenario = s.name, c.spec = "ode", c.engine = "ode", c.dt = 0.01;
+        c.metrics = {{"position_max", "", "m", "exact", 0.1, -1.0, {}, {}, {}, ""},
+                     {"position_max", "block", "m", "exact", 0.1, -1.0, {}, {}, {}, ""},
+                     {"mean_contacts", "", "1", "cost", 4.0, -1.0, {}, {}, {}, ""}};
+        c.timings = {{"step", 1e-6, 1e-6, 1e-6, 1e-4, 100, 0.0}};
+        run.cases.push_back(c);
+    }
+    return run;
+}
+
+TEST(Compare, ARunIsEqualToItself) {
+    const auto c = compareRuns({exampleRun()}, {exampleRun()});
+    ASSERT_EQ(c.specs.size(), 1u);
+    EXPECT_EQ(c.specs[0].cases, 8);
+    EXPECT_EQ(c.specs[0].same, 8) << "whole scenes, and no counts of work";
+    EXPECT_EQ(c.specs[0].better + c.specs[0].worse, 0);
+    EXPECT_DOUBLE_EQ(c.specs[0].timeRatio.value(), 1.0);
+    EXPECT_TRUE(c.metrics.empty() && c.verdicts.empty() && c.environment.empty());
+    EXPECT_FALSE(becameWorse(c));
+    EXPECT_NE(comparisonText(c, {}, 5).find("No verdict and no error changed"), std::string::npos);
+}
+
+TEST(Compare, ErrorsInBothDirections) {
+    Stored after = exampleRun();
+    after.cases[0].metrics[0].value = 0.2;
+    after.cases[1].metrics[0].value = 0.01;
+    after.cases[2].metrics[0].value = 0.1005;  // within 1 %
+    const auto c = compareRuns({exampleRun()}, {after});
+    EXPECT_EQ(c.specs[0].worse, 1);
+    EXPECT_EQ(c.specs[0].better, 1);
+    EXPECT_EQ(c.specs[0].same, 6);
+    ASSERT_EQ(c.metrics.size(), 2u);
+    EXPECT_EQ(c.metrics[0].scenario, "s1") << "the larger change first";
+    EXPECT_FALSE(c.metrics[0].worse);
+    EXPECT_TRUE(c.metrics[1].worse);
+    EXPECT_TRUE(becameWorse(c));
+    EXPECT_EQ(compareRuns({exampleRun()}, {after}, {0.001, 1e-9}).specs[0].worse, 2);
+}
+
+TEST(Compare, RoundOffIsNoChangeAndLostNumbersAre) {
+    Stored before = exampleRun(), after = exampleRun();
+    before.cases[0].metrics[0].value = 1e-15, after.cases[0].metrics[0].value = 5e-12;
+    after.cases[1].metrics[0].value = std::numeric_limits<double>::quiet_NaN();
+    const auto c = compareRuns({before}, {after});
+    ASSERT_EQ(c.metrics.size(), 1u);
+    EXPECT_EQ(c.metrics[0].scenario, "s1");
+    EXPECT_TRUE(c.metrics[0].worse);
+    EXPECT_FALSE(becameWorse(compareRuns({after}, {before})));
+}
+
+TEST(Compare, Verdicts) {
+    Stored after = exampleRun();
+    after.cases[3].verdict = Verdict::Fail, after.cases[3].reason = "why";
+    const auto c = compareRuns({exampleRun()}, {after});
+    ASSERT_EQ(c.verdicts.size(), 1u);
+    EXPECT_TRUE(c.verdicts[0].worse);
+    EXPECT_TRUE(becameWorse(c));
+    EXPECT_FALSE(becameWorse(compareRuns({after}, {exampleRun()})));
+    EXPECT_NE(comparisonText(c, {}, 5).find("pass -> fail (why)"), std::string::npos);
+}
+
+/// 20 % slower in every case: shown. In half the cases slower, in half faster: not shown.
+TEST(Compare, TimesNeedEvidence) {
+    Stored slower = exampleRun(), mixed = exampleRun();
+    for (std::size_t i = 0; i < 8; ++i) {
+        slower.cases[i].timings[0].median = 1.2e-6;
+        mixed.cases[i].timings[0].median = i % 2 ? 1.2e-6 : 0.8e-6;
+    }
+    const auto shown = compareRuns({exampleRun()}, {slower}).specs[0];
+    EXPECT_NEAR(shown.timeRatio.value(), 1.2, 1e-12);
+    EXPECT_GT(shown.timeInterval->low, 1.0);
+    EXPECT_NEAR(shown.pTime, 2.0 / 256.0, 1e-15);
+    const auto unclear = compareRuns({exampleRun()}, {mixed}).specs[0];
+    EXPECT_LT(unclear.timeInterval->low, 1.0);
+    EXPECT_GT(unclear.timeInterval->high, 1.0);
+    EXPECT_EQ(unclear.pTime, 1.0);
+    EXPECT_FALSE(becameWorse(compareRuns({exampleRun()}, {slower}))) << "times are told, not judged";
+}
+
+TEST(Compare, TimesAreMediansOverTheRunsOfASide) {
+    Stored fast = exampleRun(), disturbed = exampleRun();
+    for (auto& c : disturbed.cases) c.timings[0].median = 50e-6;
+    const auto c = compareRuns({exampleRun()}, {fast, disturbed, fast});
+    EXPECT_DOUBLE_EQ(c.specs[0].timeRatio.value(), 1.0);
+    EXPECT_EQ(c.runsAfter, 3);
+}
+
+TEST(Compare, NewBoundsAreNotNewPhysics) {
+    Stored before = exampleRun(), after = exampleRun();
+    before.scenarios[0].text = R"({"gravity": [0, -9.81], "accept": {"*": {"position_max": 1}}})";
+    after.scenarios[0].text = R"({"accept": {}, "title": "t", "gravity": [0, -9.81]})";
+    EXPECT_TRUE(compareRuns({before}, {after}).changedScenarios.empty());
+    after.scenarios[0].text = R"({"gravity": [0, -9.82]})";
+    EXPECT_EQ(compareRuns({before}, {after}).changedScenarios.size(), 1u);
+}
+
+TEST(Compare, WhatCannotBeComparedIsSaid) {
+    Stored after = exampleRun();
+    after.scenarios[0].text = "{\"changed\": 1}";
+    after.cases[1].dt = 0.02;
+    after.environment["cpu"] = "another";
+    const auto c = compareRuns({exampleRun()}, {after});
+    EXPECT_EQ(c.changedScenarios, std::vector<std::string>{"s0"});
+    EXPECT_EQ(c.onlyBefore, std::vector<std::string>{"s1 ode dt=0.01"});
+    EXPECT_EQ(c.onlyAfter, std::vector<std::string>{"s1 ode dt=0.02"});
+    EXPECT_EQ(c.environment, std::vector<std::string>{"cpu: one -> another"});
+    EXPECT_EQ(c.specs[0].cases, 6);
+}
+
+class Recorded : public ::testing::Test {
+  protected:
+    std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "recorded";
+    void SetUp() override { std::filesystem::remove_all(folder_); }
+};
+
+TEST_F(Recorded, ComesBackBitForBit) {
+    Stored run = exampleRun();
+    run.cases[0].metrics[0].value = 1.0 / 3.0;
+    run.cases[1].outcome = results::Outcome::Crashed, run.cases[1].verdict = Verdict::Crashed;
+    run.cases[1].metrics.clear();
+    run.cases[2].metrics[0].value = std::numeric_limits<double>::infinity();
+    const auto files = writeRecorded(run, folder_);
+    ASSERT_EQ(files.size(), 1u);
+    EXPECT_EQ(files[0].filename(), "ode-0.16.csv");
+    std::vector<std::string> missing;
+    const Stored recorded = readRecorded(folder_, run, missing);
+    EXPECT_TRUE(missing.empty());
+    const auto c = compareRuns({recorded}, {run}, {0.0, 0.0});
+    EXPECT_EQ(c.specs.at(0).cases, 8);
+    EXPECT_TRUE(c.metrics.empty() && c.verdicts.empty() && c.changedScenarios.empty());
+}
+
+TEST_F(Recorded, AnotherVersionHasNoRecordAndAnotherScenarioIsNotCompared) {
+    Stored run = exampleRun();
+    writeRecorded(run, folder_);
+    run.scenarios[4].text = "{\"changed\": 1}";
+    std::vector<std::string> missing;
+    EXPECT_EQ(compareRuns({readRecorded(folder_, run, missing)}, {run}).changedScenarios,
+              std::vector<std::string>{"s4"});
+    run.engines[0].version = "0.17";
+    (void)readRecorded(folder_, run, missing);
+    EXPECT_EQ(missing, std::vector<std::string>{"ode 0.17"});
+}
+
+TEST_F(Recorded, ADamagedFileIsNamedWithItsLine) {
+    const Stored run = exampleRun();
+    const auto file = writeRecorded(run, folder_).at(0);
+    std::ofstream(file, std::ios::app) << "s0;x;ode;0.01;completed;pass;position_max;m;much\n";
+    std::vector<std::string> missing;
+    try {
+        (void)readRecorded(folder_, run, missing);
+        FAIL() << "accepted";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("ode-0.16.csv:10"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("'much'"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace rigor::validation
