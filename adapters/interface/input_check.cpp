@@ -199,6 +199,8 @@ struct CheckForce {
         checkIndex("drag", f.body, scenario, false);
         if (!(std::isfinite(f.coefficient) && f.coefficient >= 0.0))
             refuse("drag", "expected a coefficient >= 0");
+        if (!(std::isfinite(f.quadratic) && f.quadratic >= 0.0))
+            refuse("drag", "expected a quadratic coefficient >= 0");
     }
 };
 

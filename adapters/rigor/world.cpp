@@ -353,8 +353,10 @@ class RigorWorld final : public World {
         world_.addForce(def);
     }
     void addForce(const scenario::DragForce& f) {
-        if (isDynamic(f.body))
-            world_.addForce(engine::LinearDrag<S>{id(f.body), static_cast<R>(f.coefficient)});
+        if (!isDynamic(f.body)) return;
+        world_.addForce(engine::LinearDrag<S>{id(f.body), static_cast<R>(f.coefficient)});
+        if (f.quadratic > 0.0)
+            world_.addForce(engine::QuadraticDrag<S>{id(f.body), static_cast<R>(f.quadratic)});
     }
 
     Scenario scenario_;

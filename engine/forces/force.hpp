@@ -41,6 +41,13 @@ struct LinearDrag {
     typename S::Real coefficient = 0;  ///< [N s/m], >= 0
 };
 
+/// F = -coefficient |v| v at the centre of mass.
+template <class S>
+struct QuadraticDrag {
+    BodyId body;                       ///< dynamic
+    typename S::Real coefficient = 0;  ///< [N s^2/m^2], >= 0
+};
+
 /// The bodies a force looks at and pushes, by dense index, and the time during which it does.
 template <class S>
 struct ForceMoment {

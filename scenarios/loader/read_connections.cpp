@@ -213,10 +213,11 @@ Force readSpring(const Node& node, const Scenario& scenario) {
 }
 
 Force readDrag(const Node& node, const Scenario& scenario) {
-    node.isObject({"body", "coefficient"});
+    node.isObject({"body", "coefficient", "quadratic"});
     DragForce f;
     if (const auto n = node.require("body")) f.body = readDynamicBody(*n, scenario);
     if (const auto n = node.require("coefficient")) f.coefficient = n->number(0.0, 1e12);
+    if (const auto n = node.find("quadratic")) f.quadratic = n->number(0.0, 1e12);
     return f;
 }
 

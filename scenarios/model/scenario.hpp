@@ -217,10 +217,11 @@ struct SpringForce {
     double damping = 0.0;     ///< [N s/m], >= 0
     double restLength = 0.0;  ///< [m], >= 0
 };
-/// F = -coefficient * v at the centre of mass.
+/// F = -(coefficient + quadratic * |v|) * v at the centre of mass.
 struct DragForce {
     int body = 0;
     double coefficient = 0.0;  ///< [N s/m], >= 0
+    double quadratic = 0.0;    ///< [N s^2/m^2], >= 0
 };
 using Force = std::variant<ConstantForce, SpringForce, DragForce>;
 

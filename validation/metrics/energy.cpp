@@ -35,7 +35,9 @@ std::optional<std::vector<BodyState>> exactStates(const MetricInput& input, doub
 
 bool hasLossyForces(const Scenario& scenario) {
     for (const auto& force : scenario.forces) {
-        if (const auto* drag = std::get_if<DragForce>(&force); drag && drag->coefficient > 0.0) return true;
+        if (const auto* drag = std::get_if<DragForce>(&force);
+            drag && (drag->coefficient > 0.0 || drag->quadratic > 0.0))
+            return true;
         if (const auto* spring = std::get_if<SpringForce>(&force); spring && spring->damping > 0.0)
             return true;
     }

@@ -221,7 +221,8 @@ struct Influence {
                (f.stiffness == 0 && f.damping == 0);
     }
     bool allows(const scenario::DragForce& f) const {
-        return f.body != body || allowed.drag || f.coefficient == 0.0;
+        const bool known = allowed.quadraticDrag || f.quadratic == 0.0;
+        return f.body != body || (known && (allowed.drag || f.coefficient == 0.0));
     }
 };
 

@@ -84,7 +84,7 @@ double horizon(const Scenario& scenario);
 // -------------------------------------------------------------------------------------------- assumptions
 struct Allowed {
     bool joints = false, springs = false, constantForces = false, drag = false, events = false,
-         damping = false;
+         damping = false, quadraticDrag = false;
 };
 /// Throws AssumptionViolated when anything but contact, gravity and what is allowed acts on the body.
 void requireUndisturbed(const Scenario& scenario, int body, Allowed allowed = {});

@@ -63,7 +63,8 @@ void apply(const Step& step, const scenario::SpringForce& f) {
 }
 
 void apply(const Step& step, const scenario::DragForce& f) {
-    step.push(f.body, -f.coefficient * step.states[static_cast<std::size_t>(f.body)].velocity, {});
+    const Vec3 v = step.states[static_cast<std::size_t>(f.body)].velocity;
+    step.push(f.body, -(f.coefficient + f.quadratic * norm(v)) * v, {});
 }
 
 }  // namespace

@@ -81,6 +81,23 @@ TYPED_TEST(Forces, SpringAgainstAHandComputation) {
     EXPECT_NEAR(spinOf<S>(world.angularVelocity(b)), 2 + h * -0.35 * tension / 0.5, tol<S>(1e-14, 1e-6));
 }
 
+TYPED_TEST(Forces, QuadraticDragSlowsABodyAsOneOverTime) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    WorldDef<S> def;
+    def.integrator = "rk4";
+    World<S> world(def);
+    const BodyId body = addFree<S>(world, 0, 0, 2);
+    world.setVelocity(body, at<S>(3, 4), spin<S>(0));
+    world.addForce(QuadraticDrag<S>{body, R(0.6)});
+    for (int k = 0; k < 128; ++k) world.step(R(1.0 / 128));
+    // v' = -(c/m) v^2: v = v0/(1 + c v0 t/m), along the start.
+    const double speed = 5 / (1 + 0.3 * 5);
+    EXPECT_NEAR(world.velocity(body)[0], 0.6 * speed, tol<S>(1e-8, 1e-5));
+    EXPECT_NEAR(world.velocity(body)[1], 0.8 * speed, tol<S>(1e-8, 1e-5));
+    EXPECT_NEAR(world.pose(body).p[0], 0.6 * std::log(1 + 0.3 * 5) / 0.3, tol<S>(1e-8, 1e-5));
+}
+
 TYPED_TEST(Forces, CoincidentAnchorsPullNowhere) {
     using S = TypeParam;
     using R = typename S::Real;
@@ -144,6 +161,7 @@ TYPED_TEST(Forces, BadOnesAreRefusedByName) {
     const R nan = std::numeric_limits<R>::quiet_NaN();
     EXPECT_EQ(refused(LinearDrag<S>{body, R(-1)}), "drag_coefficient");
     EXPECT_EQ(refused(LinearDrag<S>{body, nan}), "drag_coefficient");
+    EXPECT_EQ(refused(QuadraticDrag<S>{body, R(-1)}), "drag_coefficient");
     EXPECT_EQ(refused(LinearDrag<S>{ground, R(1)}), "force_body");
     EXPECT_EQ(refused(LinearDrag<S>{BodyId{}, R(1)}), "force_body");
     EXPECT_EQ(refused(LinearDrag<S>{BodyId{77, 0}, R(1)}), "force_body");

@@ -114,6 +114,43 @@ TEST(LinearDrag, CatalogueAndDampingAndScheme) {
     EXPECT_FALSE(damped->schemeExact(0, 1, 0.01, Scheme::SymplecticEuler).has_value());
 }
 
+TEST(QuadraticDrag, ClosedFormsOfTheVerticalAndForcesOfTheFlight) {
+    Scenario s = emptyScene(3, {0, 0, -9.81}, 4);
+    addBall(s, "ball", 0.1, 1, 0.4, {}, {0, 0, 20});
+    s.forces.push_back(DragForce{0, 0.0, 0.05});
+    setReference(s, "quadratic_drag");
+    const auto r = makeReference(s);
+    EXPECT_NEAR(r->exact(0, 1).position->z, 10.43345698, 1e-8);
+    EXPECT_NEAR(r->exact(0, 3).position->z, 0.2094594705, 1e-8);
+    EXPECT_NEAR(r->exact(0, 1).velocity->z, 3.718308986, 1e-9);
+    EXPECT_NEAR(r->exact(0, 3).velocity->z, -11.41345759, 1e-8);
+    // Falling from rest: v = -vt tanh(t/T).
+    s.bodies[0].velocity = {};
+    const double vt = std::sqrt(9.81 / 0.05);
+    EXPECT_NEAR(makeReference(s)->exact(0, 1.3).velocity->z, -vt * std::tanh(1.3 * 9.81 / vt), 1e-11);
+    // Across, with linear drag besides: the force asked of the motion, and the scheme by hand.
+    s.bodies[0].velocity = {5, -2, 7};
+    s.forces[0] = DragForce{0, 0.3, 0.08};
+    const auto across = makeReference(s);
+    const double h = 1e-3;
+    const auto velocity = [&](double t) { return *across->exact(0, t).velocity; };
+    const Vec3 a =
+        (8.0 * (velocity(1 + h) - velocity(1 - h)) - (velocity(1 + 2 * h) - velocity(1 - 2 * h))) / (12 * h);
+    expectVec(a, s.gravity - (0.3 + 0.08 * norm(velocity(1))) * velocity(1), 1e-9);
+    Vec3 x{}, v = s.bodies[0].velocity;
+    for (int k = 0; k < 50; ++k) {
+        v += 0.01 * (s.gravity - (0.3 + 0.08 * norm(v)) * v);
+        x += 0.01 * v;
+    }
+    expectVec(*across->schemeExact(0, 50, 0.01, Scheme::SymplecticEuler)->position, x, 1e-12);
+    // linear_drag does not know it.
+    setReference(s, "linear_drag");
+    EXPECT_THROW(makeReference(s), AssumptionViolated);
+    s.forces[0] = DragForce{0, 0.3, 0.0};
+    setReference(s, "quadratic_drag");
+    EXPECT_THROW(makeReference(s), AssumptionViolated);
+}
+
 Scenario top(Mat3 inertia, Vec3 bodyRates, Quat orientation, double duration) {
     Scenario s = emptyScene(3, {0, 0, 0}, duration);
     addBox(s, "top", {0.1, 0.1, 0.1}, 1, {});
