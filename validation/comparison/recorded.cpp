@@ -132,7 +132,7 @@ std::vector<fs::path> writeRecorded(const Run& run, const fs::path& folder) {
         std::ofstream out(file, std::ios::trunc);
         out << kHeader << "\n";
         for (const CaseRow& c : run.cases)
-            if (mine(c) && c.outcome != results::Outcome::Unsupported)
+            if (mine(c))
                 if (const auto* scenario = scenarioOf(run, c.scenario)) writeCase(out, *scenario, c);
         if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
         files.push_back(file);

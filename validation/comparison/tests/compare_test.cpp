@@ -148,6 +148,8 @@ TEST_F(Recorded, ComesBackBitForBit) {
     run.cases[1].outcome = results::Outcome::Crashed, run.cases[1].verdict = Verdict::Crashed;
     run.cases[1].metrics.clear();
     run.cases[2].metrics[0].value = std::numeric_limits<double>::infinity();
+    run.cases[3].outcome = results::Outcome::Unsupported, run.cases[3].verdict = Verdict::Unsupported;
+    run.cases[3].metrics.clear();
     const auto files = writeRecorded(run, folder_);
     ASSERT_EQ(files.size(), 1u);
     EXPECT_EQ(files[0].filename(), "ode-0.16.csv");
@@ -157,6 +159,7 @@ TEST_F(Recorded, ComesBackBitForBit) {
     const auto c = compareRuns({recorded}, {run}, {0.0, 0.0});
     EXPECT_EQ(c.specs.at(0).cases, 8);
     EXPECT_TRUE(c.metrics.empty() && c.verdicts.empty() && c.changedScenarios.empty());
+    EXPECT_TRUE(c.onlyBefore.empty() && c.onlyAfter.empty());
 }
 
 TEST_F(Recorded, AnotherVersionHasNoRecordAndAnotherScenarioIsNotCompared) {
