@@ -201,7 +201,8 @@ TEST(StaticEquilibrium, LadderAndAFrame) {
         }
         return s;
     };
-    // The thrust about the foot's contact: W l cos(beta) = H (2 l sin(beta) + r); 1/(2 tan(beta)) without caps.
+    // The thrust about the foot's contact: W l cos(beta) = H (2 l sin(beta) + r); 1/(2 tan(beta)) without
+    // caps.
     const double thrust = 0.5 * std::cos(1.0) / (std::sin(1.0) + 0.01);
     EXPECT_NEAR(thrust, 0.321046308, 0.004);
     EXPECT_NEAR(threshold(0.2, 0.5, frame), thrust, 1e-5);
