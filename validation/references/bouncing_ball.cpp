@@ -29,9 +29,7 @@ class BouncingBall : public Reference {
         const std::string who = bodyTitle(scenario, index);
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, floor);
-        const Body& ground = scenario.bodies[static_cast<std::size_t>(floor)];
-        require(ground.velocity == Vec3{} && ground.angularVelocity == Vec3{},
-                bodyTitle(scenario, floor) + " moves");
+        requireStill(scenario, floor);
         const Vec3 n = plane_.normal, g = gravityOn(scenario, index);
         g_ = -dot(g, n);
         require(g_ > 0.0, "gravity does not pull " + who + " towards the floor");

@@ -250,6 +250,11 @@ void requireUndisturbed(const Scenario& scenario, int index, Allowed allowed) {
     require(body.massProperties.mass > 0.0, who + " has no mass");
 }
 
+void requireStill(const Scenario& scenario, int body) {
+    const Body& b = scenario.bodies[static_cast<std::size_t>(body)];
+    require(b.velocity == Vec3{} && b.angularVelocity == Vec3{}, bodyTitle(scenario, body) + " moves");
+}
+
 void requireContact(const Scenario& scenario, int a, int b) {
     require(scenario::mayCollide(scenario, a, b), bodyTitle(scenario, a) + " and " + bodyTitle(scenario, b) +
                                                       " never touch: contacts between them are off");

@@ -127,6 +127,8 @@ Footing footingOf(const Scenario& scenario, int body, const Plane& plane);
 /// Signed distance of `p` to the border of the convex hull of `points` in the plane of normal n; > 0 inside.
 double supportMargin(const std::vector<Vec3>& points, Vec3 p, Vec3 n, int dimension);
 
+/// Throws AssumptionViolated when the body moves or turns at the start.
+void requireStill(const Scenario& scenario, int body);
 /// Throws AssumptionViolated unless the two bodies can touch.
 void requireContact(const Scenario& scenario, int a, int b);
 /// Throws AssumptionViolated when the exact motion runs through another body: through one that the reference

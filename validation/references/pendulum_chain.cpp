@@ -15,6 +15,7 @@
 
 #include "validation/references/joint_parts.hpp"
 #include "validation/references/numerics/ode.hpp"
+#include "validation/references/numerics/vector.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -42,21 +43,6 @@ Real turnOf(Point a, Point b) {
     return a[0] * b[1] - a[1] * b[0];
 }
 
-/// Solves the symmetric positive definite system in place by Gaussian elimination.
-void solve(std::vector<std::vector<Real>>& m, std::vector<Real>& f) {
-    const std::size_t n = f.size();
-    for (std::size_t p = 0; p < n; ++p)
-        for (std::size_t i = p + 1; i < n; ++i) {
-            const Real factor = m[i][p] / m[p][p];
-            for (std::size_t j = p; j < n; ++j) m[i][j] -= factor * m[p][j];
-            f[i] -= factor * f[p];
-        }
-    for (std::size_t p = n; p-- > 0;) {
-        for (std::size_t j = p + 1; j < n; ++j) f[p] -= m[p][j] * f[j];
-        f[p] /= m[p][p];
-    }
-}
-
 void derivative(const std::vector<Link>& links, Point gravity, const OdeState& y, OdeState& d) {
     const std::size_t n = links.size();
     std::vector<Point> next(n), center(n);
@@ -77,7 +63,7 @@ void derivative(const std::vector<Link>& links, Point gravity, const OdeState& y
         }
         mass[i][i] += links[i].inertia;
     }
-    solve(mass, force);
+    numerics::solveDense(std::move(mass), force);
     for (std::size_t j = 0; j < n; ++j) {
         d[j] = y[n + j];
         d[n + j] = force[j];

@@ -50,9 +50,7 @@ PlanarFrame::PlanarFrame(const Scenario& scenario, int index, int floor)
     const std::string who = bodyTitle(scenario, index);
     requireUndisturbed(scenario, index, {.constantForces = true});
     requireContact(scenario, index, floor);
-    const Body& ground = scenario.bodies[static_cast<std::size_t>(floor)];
-    require(ground.velocity == Vec3{} && ground.angularVelocity == Vec3{},
-            bodyTitle(scenario, floor) + " moves");
+    requireStill(scenario, floor);
     require(!body_.shapes.empty(), who + " has no shape");
     above_ = plane_.normal;
     chooseAxis(scenario);

@@ -22,9 +22,7 @@ RollingBall::RollingBall(const Scenario& scenario, int index, int floor)
     const std::string who = bodyTitle(scenario, index);
     requireUndisturbed(scenario, index);
     requireContact(scenario, index, floor);
-    const Body& ground = scenario.bodies[static_cast<std::size_t>(floor)];
-    require(ground.velocity == Vec3{} && ground.angularVelocity == Vec3{},
-            bodyTitle(scenario, floor) + " moves");
+    requireStill(scenario, floor);
     require(std::abs(plane_.height(ball_.center) - ball_.radius) <= 1e-4 * ball_.radius,
             who + " does not start in contact");
     const Vec3 n = plane_.normal, g = gravityOn(scenario, index);

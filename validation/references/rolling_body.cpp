@@ -41,9 +41,7 @@ class RollingBody : public Reference {
         require(scenario.dimension == 3, "a rolling body in space needs three dimensions");
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, floor);
-        const Body& ground = scenario.bodies[static_cast<std::size_t>(floor)];
-        require(ground.velocity == Vec3{} && ground.angularVelocity == Vec3{},
-                bodyTitle(scenario, floor) + " moves");
+        requireStill(scenario, floor);
         readShape(who);
         const auto pair = pairCoefficients(scenario, body_.shapes[0].material, plane_.material);
         mu_ = pair.friction;

@@ -21,9 +21,7 @@ SlidingBody::SlidingBody(const Scenario& scenario, int index, int floor)
     const std::string who = bodyTitle(scenario, index);
     requireUndisturbed(scenario, index);
     requireContact(scenario, index, floor);
-    const Body& ground = scenario.bodies[static_cast<std::size_t>(floor)];
-    require(ground.velocity == Vec3{} && ground.angularVelocity == Vec3{},
-            bodyTitle(scenario, floor) + " moves");
+    requireStill(scenario, floor);
     const Footing footing = footingOf(scenario, index, plane_);
     require(std::abs(footing.gap) <= 1e-4 * sizeOf(*body_),
             who + " does not start in contact with " + bodyTitle(scenario, floor));

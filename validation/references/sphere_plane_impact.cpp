@@ -29,9 +29,7 @@ class SpherePlaneImpact : public Reference {
         const std::string who = bodyTitle(scenario, index);
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, floor);
-        const Body& ground = scenario.bodies[static_cast<std::size_t>(floor)];
-        require(ground.velocity == Vec3{} && ground.angularVelocity == Vec3{},
-                bodyTitle(scenario, floor) + " moves");
+        requireStill(scenario, floor);
         const Vec3 n = plane_.normal;
         const double gap = plane_.height(ball_.center) - ball_.radius;
         require(gap >= -1e-9 * ball_.radius, who + " starts inside the floor");

@@ -39,8 +39,7 @@ class StaticEquilibrium : public Reference {
         require(scenario.joints.empty(), "joints hold bodies, which this reference does not know");
         for (int i = 0; i < static_cast<int>(scenario.bodies.size()); ++i) {
             const Body& body = at(i);
-            require(body.velocity == Vec3{} && body.angularVelocity == Vec3{},
-                    bodyTitle(scenario, i) + " moves");
+            requireStill(scenario, i);
             if (body.type != BodyType::Dynamic) continue;
             requireUndisturbed(scenario, i, {.constantForces = true});
             require(std::find(dynamic_.begin(), dynamic_.end(), i) != dynamic_.end(),

@@ -96,16 +96,18 @@ class Collector {
         out_.push_back({a_, b_, point, normal, friction_});
     }
 
+    /// One of the two is a half-space, or both are.
+    void onPlane(const Core& a, const Core& b) {
+        if (a.unbounded && b.unbounded) return;
+        const Core &plane = a.unbounded ? a : b, &core = a.unbounded ? b : a;
+        for (const Vec3 p : core.corners)
+            if (touches(dot(plane.normal, p) - plane.offset - core.radius))
+                add(p - core.radius * plane.normal, a.unbounded ? plane.normal : -plane.normal);
+    }
+
     // -------------------------------------------------------------------------------------- two dimensions
     void flat(const Core& a, const Core& b) {
-        if (a.unbounded && b.unbounded) return;
-        if (a.unbounded || b.unbounded) {
-            const Core &plane = a.unbounded ? a : b, &core = a.unbounded ? b : a;
-            for (const Vec3 p : core.corners)
-                if (touches(dot(plane.normal, p) - plane.offset - core.radius))
-                    add(p - core.radius * plane.normal, a.unbounded ? plane.normal : -plane.normal);
-            return;
-        }
+        if (a.unbounded || b.unbounded) return onPlane(a, b);
         const double reach = a.radius + b.radius;
         const std::size_t before = out_.size();
         for (const bool swapped : {false, true}) {
@@ -139,12 +141,8 @@ class Collector {
 
     // ------------------------------------------------------------------------------------ three dimensions
     void space(const Core& a, const Core& b) {
-        if (a.unbounded && b.unbounded) return;
         if (a.unbounded || b.unbounded) {
-            const Core &plane = a.unbounded ? a : b, &core = a.unbounded ? b : a;
-            for (const Vec3 p : core.corners)
-                if (touches(dot(plane.normal, p) - plane.offset - core.radius))
-                    add(p - core.radius * plane.normal, a.unbounded ? plane.normal : -plane.normal);
+            onPlane(a, b);
         } else if (a.corners.size() == 1 && b.corners.size() == 1) {
             const Vec3 d = b.corners[0] - a.corners[0];
             if (touches(norm(d) - a.radius - b.radius)) add(a.corners[0] + a.radius * unit(d), unit(d));

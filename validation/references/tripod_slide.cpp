@@ -34,9 +34,7 @@ class TripodSlide : public Reference {
         require(scenario.dimension == 3, "a tripod needs three dimensions");
         requireUndisturbed(scenario, index);
         requireContact(scenario, index, floor);
-        const Body& ground = scenario.bodies[static_cast<std::size_t>(floor)];
-        require(ground.velocity == Vec3{} && ground.angularVelocity == Vec3{},
-                bodyTitle(scenario, floor) + " moves");
+        requireStill(scenario, floor);
         const Footing footing = footingOf(scenario, index, plane_);
         require(std::abs(footing.gap) <= 1e-4 * sizeOf(body_), who + " does not stand on the floor");
         require(footing.points.size() == 3, who + " does not stand on exactly three points");

@@ -46,8 +46,7 @@ class WedgeBlock : public Reference {
           plane_(planeOf(scenario, floor, centerOfMass(at(wedge)))) {
         for (const int i : {wedge, block}) {
             requireUndisturbed(scenario, i);
-            require(at(i).velocity == Vec3{} && at(i).angularVelocity == Vec3{},
-                    bodyTitle(scenario, i) + " moves");
+            requireStill(scenario, i);
         }
         requireContact(scenario, wedge, floor);
         requireContact(scenario, wedge, block);

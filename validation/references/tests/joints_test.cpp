@@ -16,21 +16,6 @@ namespace {
 using namespace testing;
 using std::numbers::pi;
 
-Joint& addJoint(Scenario& s, JointType type, int a, int b, Vec3 anchor, Vec3 axis = {0, 0, 1}) {
-    Joint j;
-    j.name = "joint" + std::to_string(s.joints.size());
-    j.type = type;
-    j.bodyA = a, j.bodyB = b;
-    const auto pose = [&](int body) {
-        return body == kNone ? Pose{} : s.bodies[static_cast<std::size_t>(body)].pose;
-    };
-    j.anchorA = inverse(pose(a)) * anchor;
-    j.anchorB = inverse(pose(b)) * anchor;
-    j.axisA = rotateInverse(pose(a).orientation, axis);
-    j.axisB = rotateInverse(pose(b).orientation, axis);
-    s.joints.push_back(j);
-    return s.joints.back();
-}
 /// A rod of length |b - a| in the x-y plane.
 int addRod(Scenario& s, const std::string& name, Vec3 a, Vec3 b, double mass) {
     const Vec3 d = b - a;

@@ -17,27 +17,6 @@ namespace {
 using adapter::Scheme;
 using std::numbers::pi;
 
-Joint& join(Scenario& s, JointType type, int a, int b, Vec3 anchor, Vec3 axis = {0, 0, 1}) {
-    Joint j;
-    j.name = "joint" + std::to_string(s.joints.size());
-    j.type = type;
-    j.bodyA = a, j.bodyB = b;
-    const auto pose = [&](int body) {
-        return body == kNone ? Pose{} : s.bodies[static_cast<std::size_t>(body)].pose;
-    };
-    j.anchorA = inverse(pose(a)) * anchor;
-    j.anchorB = inverse(pose(b)) * anchor;
-    j.axisA = rotateInverse(pose(a).orientation, axis);
-    j.axisB = rotateInverse(pose(b).orientation, axis);
-    s.joints.push_back(j);
-    return s.joints.back();
-}
-void expectNear(Vec3 a, Vec3 b, double tolerance) {
-    EXPECT_NEAR(a.x, b.x, tolerance);
-    EXPECT_NEAR(a.y, b.y, tolerance);
-    EXPECT_NEAR(a.z, b.z, tolerance);
-}
-
 // ------------------------------------------------------------------------------------------- spring_network
 Scenario springPendulum() {
     Scenario s = emptyScene(3, {0, 0, -9.81}, 3);
@@ -133,9 +112,9 @@ Scenario cartPendulum(int dimension, Vec3 axis = {0, 0, 1}, Vec3 rail = {1, 0, 0
     s.bodies[1].pose.orientation = tilt;
     s.bodies[1].massProperties.inertia = Mat3::diagonal(1.0 / 12, 1.0 / 12, 1.0 / 12);
     for (auto& body : s.bodies) body.collides = false;
-    Joint& slider = join(s, JointType::Slider, kNone, 0, {}, rail);
+    Joint& slider = addJoint(s, JointType::Slider, kNone, 0, {}, rail);
     slider.axisA = rail;
-    join(s, JointType::Hinge, 0, 1, {}, axis);
+    addJoint(s, JointType::Hinge, 0, 1, {}, axis);
     setReference(s, "cart_pendulum", {{"cart", std::string("cart")}, {"pendulum", std::string("rod")}});
     return s;
 }
@@ -196,7 +175,7 @@ Scenario hoop(double rate, double angle, double spin) {
     s.bodies[1].angularVelocity = w;
     s.bodies[1].velocity = cross(w, arm);
     for (auto& body : s.bodies) body.collides = false;
-    join(s, JointType::Hinge, 0, 1, {}, {0, 1, 0});
+    addJoint(s, JointType::Hinge, 0, 1, {}, {0, 1, 0});
     setReference(s, "rotating_hinge");
     return s;
 }
@@ -256,7 +235,7 @@ Scenario motorPair(int dimension) {
     addBox(s, "b", {0.1, 0.1, 0.1}, 1, {});
     s.bodies[0].massProperties.inertia = Mat3::diagonal(1, 1, 2);
     s.bodies[1].massProperties.inertia = Mat3::diagonal(3, 3, 1);
-    Joint& j = join(s, JointType::Hinge, 0, 1, {});
+    Joint& j = addJoint(s, JointType::Hinge, 0, 1, {});
     j.axes[0].motorSpeed = 6;
     j.axes[0].motorMaxForce = 3;
     setReference(s, "motor_pair");
@@ -313,9 +292,9 @@ Scenario hooke(double beta, double rate, double yokeAngle) {
     s.bodies[1].angularVelocity = rate * e + (b * dot(f, c)) * c;
     s.bodies[2].angularVelocity = b * f;
     for (auto& body : s.bodies) body.collides = false;
-    join(s, JointType::Hinge, 0, 1, {}, c);
-    join(s, JointType::Hinge, 1, 2, {}, d);
-    join(s, JointType::Hinge, kNone, 2, {}, f);
+    addJoint(s, JointType::Hinge, 0, 1, {}, c);
+    addJoint(s, JointType::Hinge, 1, 2, {}, d);
+    addJoint(s, JointType::Hinge, kNone, 2, {}, f);
     setReference(s, "hooke_joint",
                  {{"input", std::string("input")},
                   {"cross", std::string("cross")},
@@ -376,7 +355,7 @@ Scenario heavyTop(double spin, double precession, double tilt) {
     s.bodies[0].massProperties.inertia = Mat3::diagonal(0.02, 0.02, 0.02);
     s.bodies[0].angularVelocity = precession * Vec3{0, 1, 0} + (spin - precession * std::cos(tilt)) * axis;
     s.bodies[0].velocity = cross(s.bodies[0].angularVelocity, 0.2 * axis);
-    join(s, JointType::Ball, kNone, 0, {});
+    addJoint(s, JointType::Ball, kNone, 0, {});
     setReference(s, "spherical_pendulum");
     return s;
 }

@@ -13,6 +13,12 @@
 
 namespace rigor::validation::testing {
 
+inline void expectNear(Vec3 a, Vec3 b, double tolerance) {
+    EXPECT_NEAR(a.x, b.x, tolerance);
+    EXPECT_NEAR(a.y, b.y, tolerance);
+    EXPECT_NEAR(a.z, b.z, tolerance);
+}
+
 /// What acts on a body at time t beside gravity, from finite differences of the reference's velocities.
 struct Wrench {
     Vec3 com;

@@ -21,11 +21,6 @@ void expectQuat(Quat a, Quat b, double tolerance) {
     for (const double d : {sign * a.w - b.w, sign * a.x - b.x, sign * a.y - b.y, sign * a.z - b.z})
         EXPECT_NEAR(d, 0.0, tolerance);
 }
-void expectNear(Vec3 a, Vec3 b, double tolerance) {
-    EXPECT_NEAR(a.x, b.x, tolerance);
-    EXPECT_NEAR(a.y, b.y, tolerance);
-    EXPECT_NEAR(a.z, b.z, tolerance);
-}
 
 /// Floor normal and "up" along z, as in the catalogue.
 Scenario upright(double friction, double duration) {

@@ -33,6 +33,23 @@ inline int addBody(Scenario& s, const std::string& name, BodyType type, Geometry
     return s.observed.back();
 }
 
+/// A joint whose anchor and axis are given in the world; `a` may be kNone, the world.
+inline Joint& addJoint(Scenario& s, JointType type, int a, int b, Vec3 anchor, Vec3 axis = {0, 0, 1}) {
+    Joint j;
+    j.name = "joint" + std::to_string(s.joints.size());
+    j.type = type;
+    j.bodyA = a, j.bodyB = b;
+    const auto pose = [&](int body) {
+        return body == kNone ? Pose{} : s.bodies[static_cast<std::size_t>(body)].pose;
+    };
+    j.anchorA = inverse(pose(a)) * anchor;
+    j.anchorB = inverse(pose(b)) * anchor;
+    j.axisA = rotateInverse(pose(a).orientation, axis);
+    j.axisB = rotateInverse(pose(b).orientation, axis);
+    s.joints.push_back(j);
+    return s.joints.back();
+}
+
 /// A dynamic ball of moment k m r^2.
 inline int addBall(Scenario& s, const std::string& name, double radius, double mass, double k, Vec3 position,
                    Vec3 velocity = {}, Vec3 spin = {}) {
