@@ -4,7 +4,6 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -14,6 +13,7 @@
 
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "validation/results/values.hpp"
 #include "validation/runner/runner.hpp"
 #include "validation/runner/scenario_settings.hpp"
 
@@ -26,22 +26,15 @@ struct Arguments {
     bool json = false;
 };
 
-/// The shortest text that reads back as the same double.
-std::string number(double value) {
-    char text[32];
-    const auto [end, error] = std::to_chars(text, text + sizeof text, value);
-    return error == std::errc{} ? std::string(text, end) : "nan";
-}
-
 void writeCsvRows(std::ostream& out, double time, std::span<const validation::BodyState> states,
                   const scenario::Scenario& s) {
     for (std::size_t i = 0; i < states.size(); ++i) {
         const auto& b = states[i];
-        out << number(time) << ',' << s.bodies[i].name;
+        out << results::exactText(time) << ',' << s.bodies[i].name;
         for (double v : {b.position.x, b.position.y, b.position.z, b.orientation.w, b.orientation.x,
                          b.orientation.y, b.orientation.z, b.velocity.x, b.velocity.y, b.velocity.z,
                          b.angularVelocity.x, b.angularVelocity.y, b.angularVelocity.z})
-            out << ',' << number(v);
+            out << ',' << results::exactText(v);
         out << '\n';
     }
 }
@@ -50,10 +43,11 @@ void logContacts(std::ostream& out, double time, const std::vector<validation::C
                  const scenario::Scenario& s) {
     for (const auto& c : contacts) {
         char text[256];
-        const std::string impulse = c.hasImpulse ? " jn=" + number(c.normalImpulse) : "";
+        const std::string impulse = c.hasImpulse ? " jn=" + results::exactText(c.normalImpulse) : "";
         std::snprintf(text, sizeof text, " n=(%.6g,%.6g,%.6g) depth=%.6g", c.normal.x, c.normal.y, c.normal.z,
                       c.depth);
-        out << "t=" << number(time) << " contact a=" << s.bodies[static_cast<std::size_t>(c.bodyA)].name
+        out << "t=" << results::exactText(time)
+            << " contact a=" << s.bodies[static_cast<std::size_t>(c.bodyA)].name
             << " b=" << s.bodies[static_cast<std::size_t>(c.bodyB)].name << text << impulse << '\n';
     }
 }
@@ -86,8 +80,8 @@ void printCase(const results::CaseRow& row, bool json) {
         return;
     }
     std::printf("%s  %s  dt=%s  %lld steps  %s%s%s\n", row.scenario.c_str(), row.spec.c_str(),
-                number(row.dt).c_str(), static_cast<long long>(row.steps), results::verdictName(row.verdict),
-                row.reason.empty() ? "" : ": ", row.reason.c_str());
+                results::exactText(row.dt).c_str(), static_cast<long long>(row.steps),
+                results::verdictName(row.verdict), row.reason.empty() ? "" : ": ", row.reason.c_str());
     for (const auto& m : row.metrics) {
         if (!m.subject.empty()) continue;
         std::printf("  %-26s %-13s %14.6g %-8s", m.name.c_str(), m.kind.c_str(), m.value, m.unit.c_str());

@@ -9,6 +9,7 @@
 #include "reports/svg_plot.hpp"
 #include "reports/text.hpp"
 #include "reports/writers.hpp"
+#include "validation/results/values.hpp"
 
 namespace rigor::report {
 namespace {
@@ -21,19 +22,6 @@ std::string joined(const std::vector<std::string>& fields) {
     std::string line;
     for (const auto& field : fields) line += (line.empty() ? "" : ",") + csvField(field);
     return line + "\n";
-}
-
-const results::MetricRow* wholeScene(const results::CaseRow& row, const std::string& name) {
-    for (const auto& m : row.metrics)
-        if (m.name == name && m.subject.empty()) return &m;
-    return nullptr;
-}
-
-/// Wall time of all steps [s].
-std::optional<double> costOf(const results::CaseRow& row) {
-    for (const auto& t : row.timings)
-        if (t.phase == "step") return t.median * static_cast<double>(row.steps);
-    return std::nullopt;
 }
 
 struct Ladder {
@@ -68,8 +56,8 @@ Plot ladderPlot(const ViewModel& view, const Ladder& ladder, bool overCost) {
             if (c.scenario == ladder.scenario && c.spec == column.spec) cases.push_back(&c);
         std::sort(cases.begin(), cases.end(), [](const auto* a, const auto* b) { return a->dt < b->dt; });
         for (const auto* c : cases) {
-            const auto* m = wholeScene(*c, ladder.metric);
-            const auto cost = costOf(*c);
+            const auto* m = results::wholeScene(*c, ladder.metric);
+            const auto cost = results::steppingTime(*c);
             if (!m || (overCost && !cost)) continue;
             line.x.push_back(overCost ? *cost : c->dt), line.y.push_back(m->value);
         }

@@ -5,12 +5,8 @@
 // when it scrolls into view.
 'use strict';
 Rigor.liveCharts = [];
-Rigor.chartWatchers = [];
-/** Ends the charts of the page being left, and those that were still waiting to come into view. */
 Rigor.dropCharts = function () {
-  for (const watcher of Rigor.chartWatchers) watcher.disconnect();
   for (const chart of Rigor.liveCharts) chart.destroy();
-  Rigor.chartWatchers = [];
   Rigor.liveCharts = [];
 };
 
@@ -59,7 +55,10 @@ Rigor.lineSample = function (colour, dash, width) {
   return svg;
 };
 
-/** A card with one chart. `shown` tells whether a spec is on; returns {node, refresh}. */
+/**
+ * A card with one chart, made when it comes into view; never once its page was left, though the browser may
+ * tell of it that late. `shown` tells whether a spec is on; returns {node, refresh, draw}.
+ */
 Rigor.chartCard = function (plot, shown, focus) {
   const {el} = Rigor;
   const canvas = el('canvas', {role: 'img', 'aria-label': plot.title});
@@ -94,7 +93,6 @@ Rigor.chartCard = function (plot, shown, focus) {
     const watcher = new IntersectionObserver((entries) => {
       if (!chart && node.isConnected && entries.some((e) => e.isIntersecting)) { watcher.disconnect(); make(); }
     }, {rootMargin: '300px'});
-    Rigor.chartWatchers.push(watcher);
     watcher.observe(node);
   } else requestAnimationFrame(() => { if (!chart && node.isConnected) make(); });
   const refresh = function () {

@@ -3,12 +3,12 @@
 #include "validation/collide/print.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "validation/results/values.hpp"
 #include "validation/runner/answer.hpp"
 
 namespace rigor::validation {
@@ -187,9 +187,7 @@ void writeText(const std::filesystem::path& file, const std::string& text) {
 }
 
 std::string exact(const std::optional<double>& value) {
-    if (!value) return "";
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, *value).ptr};
+    return value ? results::exactText(*value) : "";
 }
 std::string exact(const std::optional<Vec3>& v) {
     return v ? exact(v->x) + "," + exact(v->y) + "," + exact(v->z) : ",,";

@@ -19,6 +19,7 @@ using results::Run;
 using results::Verdict;
 
 using Key = std::tuple<std::string, std::string, double>;  // scenario, spec, dt
+using Cases = std::map<Key, const CaseRow*>;
 
 Key keyOf(const CaseRow& c) {
     return {c.scenario, c.spec, c.dt};
@@ -30,10 +31,12 @@ std::string nameOf(const Key& key) {
     return std::get<0>(key) + " " + std::get<1>(key) + " dt=" + dt;
 }
 
-std::map<Key, const CaseRow*> casesOf(const Run& run) {
-    std::map<Key, const CaseRow*> cases;
-    for (const CaseRow& c : run.cases) cases[keyOf(c)] = &c;
-    return cases;
+/// The cases of each run of a side.
+std::vector<Cases> casesOf(const std::vector<Run>& runs) {
+    std::vector<Cases> all(runs.size());
+    for (std::size_t i = 0; i < runs.size(); ++i)
+        for (const CaseRow& c : runs[i].cases) all[i][keyOf(c)] = &c;
+    return all;
 }
 
 /// From good to bad; known deviations and what an engine lacks are as good as passing.
@@ -88,13 +91,15 @@ void compareVerdicts(const CaseRow& before, const CaseRow& after, RunComparison&
                             badness(after.verdict) > badness(before.verdict)});
 }
 
-std::optional<double> stepTime(const std::vector<Run>& runs, const Key& key) {
+/// Median over the runs of a side of the median time of a step [s].
+std::optional<double> stepTime(const std::vector<Cases>& runs, const Key& key) {
     std::vector<double> medians;
-    for (const Run& run : runs)
-        for (const CaseRow& c : run.cases)
-            if (keyOf(c) == key && c.outcome == Outcome::Completed)
-                for (const auto& t : c.timings)
-                    if (t.phase == "step" && t.median > 0.0) medians.push_back(t.median);
+    for (const Cases& cases : runs) {
+        const auto it = cases.find(key);
+        if (it == cases.end() || it->second->outcome != Outcome::Completed) continue;
+        for (const auto& t : it->second->timings)
+            if (t.phase == "step" && t.median > 0.0) medians.push_back(t.median);
+    }
     if (medians.empty()) return std::nullopt;
     return median(medians);
 }
@@ -130,7 +135,8 @@ std::vector<std::string> changedScenarios(const Run& before, const Run& after) {
     std::vector<std::string> names;
     for (const auto& a : before.scenarios)
         for (const auto& b : after.scenarios)
-            if (a.name == b.name && physicsOf(a.text) != physicsOf(b.text)) names.push_back(a.name);
+            if (a.name == b.name && a.text != b.text && physicsOf(a.text) != physicsOf(b.text))
+                names.push_back(a.name);
     return names;
 }
 
@@ -157,7 +163,8 @@ RunComparison compareRuns(const std::vector<Run>& before, const std::vector<Run>
     all.runsBefore = static_cast<int>(before.size()), all.runsAfter = static_cast<int>(after.size());
     compareEnvironments(before.front(), after.front(), all);
     all.changedScenarios = changedScenarios(before.front(), after.front());
-    const auto old = casesOf(before.front()), now = casesOf(after.front());
+    const auto casesBefore = casesOf(before), casesAfter = casesOf(after);
+    const Cases &old = casesBefore.front(), &now = casesAfter.front();
     std::map<std::string, SpecChange> specs;
     std::map<std::string, std::vector<double>> times;
     for (const auto& [key, c] : old) {
@@ -173,7 +180,7 @@ RunComparison compareRuns(const std::vector<Run>& before, const std::vector<Run>
         spec.spec = c->spec, ++spec.cases;
         compareVerdicts(*c, *it->second, all);
         compareMetrics(*c, *it->second, options, spec, all);
-        const auto a = stepTime(before, key), b = stepTime(after, key);
+        const auto a = stepTime(casesBefore, key), b = stepTime(casesAfter, key);
         if (a && b) times[c->spec].push_back(std::log(*b / *a));
     }
     for (const auto& [key, c] : now)

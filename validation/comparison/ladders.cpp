@@ -7,9 +7,10 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
-#include <set>
+#include <tuple>
 
 #include "validation/comparison/order.hpp"
+#include "validation/results/values.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -18,6 +19,7 @@ using results::CaseRow;
 using results::MetricRow;
 using results::Outcome;
 using results::Run;
+using results::wholeScene;
 
 constexpr std::size_t kLeastLadder = 3;
 
@@ -25,12 +27,6 @@ bool isNumber(const std::string& text) {
     char* end = nullptr;
     std::strtod(text.c_str(), &end);
     return !text.empty() && *end == '\0';
-}
-
-const MetricRow* wholeScene(const CaseRow& c, const std::string& metric) {
-    for (const MetricRow& m : c.metrics)
-        if (m.name == metric && m.subject.empty()) return &m;
-    return nullptr;
 }
 
 bool shrinksWithDt(const MetricRow& m) {
@@ -51,19 +47,17 @@ std::vector<std::string> metricsOf(const Run& run, const std::string& scenario, 
 }
 
 void markBest(std::vector<WorkPoint>& points) {
-    for (WorkPoint& p : points) {
-        const auto who = competitorOf(p.row->spec);
+    for (WorkPoint& p : points)
         p.best = std::none_of(points.begin(), points.end(), [&](const WorkPoint& q) {
-            return competitorOf(q.row->spec) == who && q.cost <= p.cost && q.error < p.error;
+            return q.competitor == p.competitor && q.cost <= p.cost && q.error < p.error;
         });
-    }
 }
 
 results::FairnessRow rowOf(const std::string& mode, const std::string& metric, const std::string& unit,
                            const WorkPoint& point, std::optional<double> limit) {
     results::FairnessRow row;
     row.mode = mode, row.scenario = point.row->scenario, row.metric = metric, row.unit = unit;
-    row.competitor = competitorOf(point.row->spec), row.caseId = point.row->id;
+    row.competitor = point.competitor, row.caseId = point.row->id;
     row.spec = point.row->spec, row.dt = point.row->dt;
     row.error = point.error, row.cost = point.cost, row.limit = limit;
     return row;
@@ -114,24 +108,17 @@ std::string competitorOf(const std::string& spec) {
     return spec.substr(0, colon) + kept;
 }
 
-double costOf(const CaseRow& row) {
-    for (const auto& t : row.timings)
-        if (t.phase == "step") return t.median * static_cast<double>(row.steps);
-    return std::numeric_limits<double>::quiet_NaN();
-}
-
 std::vector<WorkPoint> workPoints(const Run& run, const std::string& scenario, const std::string& metric) {
     std::vector<WorkPoint> points;
     for (const CaseRow& c : run.cases) {
         if (c.scenario != scenario || c.outcome != Outcome::Completed) continue;
         const MetricRow* m = wholeScene(c, metric);
-        const double cost = costOf(c);
-        if (m != nullptr && std::isfinite(m->value) && std::isfinite(cost))
-            points.push_back({&c, m->value, cost, false});
+        const auto cost = results::steppingTime(c);
+        if (m != nullptr && std::isfinite(m->value) && cost && std::isfinite(*cost))
+            points.push_back({&c, competitorOf(c.spec), m->value, *cost, false});
     }
     std::stable_sort(points.begin(), points.end(), [](const WorkPoint& a, const WorkPoint& b) {
-        const auto first = competitorOf(a.row->spec), second = competitorOf(b.row->spec);
-        return first != second ? first < second : a.cost < b.cost;
+        return std::tie(a.competitor, a.cost) < std::tie(b.competitor, b.cost);
     });
     markBest(points);
     return points;
@@ -186,7 +173,7 @@ std::vector<results::FairnessRow> fairComparisons(const Run& run) {
             for (const auto& p : points) first = std::max(first, p.row->dt);
             Competitors competitors;
             for (const auto& p : points) {
-                competitors[competitorOf(p.row->spec)].push_back(&p);
+                competitors[p.competitor].push_back(&p);
                 if (p.row->dt != first) continue;
                 if (p.row->preset == "default") rows.push_back(rowOf("engine_defaults", metric, unit, p, {}));
                 if (p.row->preset == "matched")

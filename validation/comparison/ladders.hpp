@@ -14,17 +14,15 @@ namespace rigor::validation {
 /// A case as a point of the error-against-cost plane.
 struct WorkPoint {
     const results::CaseRow* row = nullptr;
-    double error = 0.0;  ///< of the metric asked for
-    double cost = 0.0;   ///< [s] wall time of all steps: median of a step times their number
-    bool best = false;   ///< no other point of its competitor has less error at no more cost
+    std::string competitor;  ///< who runs it
+    double error = 0.0;      ///< of the metric asked for
+    double cost = 0.0;       ///< [s] wall time of all steps (results::steppingTime)
+    bool best = false;       ///< no other point of its competitor has less error at no more cost
 };
 
 /// Who competes: the spec without its numeric options. `rigor:solver=pgs,velocity_iterations=8` and the same
 /// with 64 are one competitor with two settings; another solver is another competitor.
 std::string competitorOf(const std::string& spec);
-
-/// Wall time of all steps of a case [s]; NaN where it was not measured.
-double costOf(const results::CaseRow& row);
 
 /// Completed cases of one scenario with a finite value of `metric` (whole scene), by competitor and cost.
 std::vector<WorkPoint> workPoints(const results::Run& run, const std::string& scenario,

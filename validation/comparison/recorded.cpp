@@ -3,14 +3,13 @@
 #include "validation/comparison/recorded.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <cstdint>
 #include <fstream>
 #include <map>
 #include <stdexcept>
 
 #include "validation/comparison/compare.hpp"
+#include "validation/hash.hpp"
+#include "validation/results/values.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -23,20 +22,10 @@ using results::Run;
 const std::string kHeader = "scenario;scenario_hash;spec;dt;outcome;verdict;metric;unit;value";
 constexpr std::size_t kColumns = 9;
 
-/// FNV-1a of the physics of a scenario.
 std::string hashOf(const std::string& scenarioText) {
-    const std::string text = physicsOf(scenarioText);
-    std::uint64_t hash = 0xcbf29ce484222325ull;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-    char out[17];
-    std::snprintf(out, sizeof out, "%016llx", static_cast<unsigned long long>(hash));
-    return out;
-}
-
-std::string numberText(double value) {
-    if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+    Fnv1a hash;
+    hash.bytes(physicsOf(scenarioText));
+    return hash.hex();
 }
 
 fs::path fileOf(const fs::path& folder, const results::EngineRow& engine) {
@@ -56,12 +45,12 @@ bool isNamed(const results::ScenarioRow& scenario, const MetricRow& m) {
 
 void writeCase(std::ostream& out, const results::ScenarioRow& scenario, const CaseRow& c) {
     const std::string head = c.scenario + ";" + hashOf(scenario.text) + ";" + c.spec + ";" +
-                             numberText(c.dt) + ";" + results::outcomeName(c.outcome) + ";" +
+                             results::exactText(c.dt) + ";" + results::outcomeName(c.outcome) + ";" +
                              results::verdictName(c.verdict) + ";";
     bool any = false;
     for (const MetricRow& m : c.metrics)
         if (isNamed(scenario, m)) {
-            out << head << m.name << ";" << m.unit << ";" << numberText(m.value) << "\n";
+            out << head << m.name << ";" << m.unit << ";" << results::exactText(m.value) << "\n";
             any = true;
         }
     if (!any) out << head << ";;\n";

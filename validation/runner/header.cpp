@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "validation/runner/header.hpp"
 
-#include <charconv>
 #include <fstream>
 #include <set>
 
 #include "scenarios/loader/loader.hpp"
+#include "validation/results/values.hpp"
 #include "validation/runner/environment.hpp"
 #include "validation/runner/evaluate.hpp"
 
@@ -17,12 +17,6 @@ namespace fs = std::filesystem;
 
 fs::path storedScenario(const std::string& name, const fs::path& run) {
     return run / "scenarios" / (name + ".json");
-}
-
-/// The shortest text that reads back as the same double.
-std::string shortest(double value) {
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 std::string quoted(const std::string& word) {
@@ -70,7 +64,7 @@ std::string reproduceCommand(const CasePlan& plan, const fs::path& run, bool fro
     const std::string scenario =
         fromLibrary ? plan.scenario.name : storedScenario(plan.scenario.name, run).string();
     return "./rigor run " + quoted(scenario) + " --engine " + quoted(plan.spec.text()) + " --dt " +
-           shortest(plan.dt);
+           results::exactText(plan.dt);
 }
 
 void writeScenarioFiles(const std::vector<CasePlan>& plan, const fs::path& run) {

@@ -4,7 +4,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "validation/runner/hash.hpp"
+#include "validation/hash.hpp"
 #include "validation/runner/runner.hpp"
 #include "validation/runner/scenario_settings.hpp"
 

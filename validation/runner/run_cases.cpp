@@ -89,22 +89,20 @@ class RunInProgress {
             report(nullptr);
         });
         audits_.reset();
-        if (complete) {
-            writeAnalysis();
-            writer_.finish(isoTime());
-        }
         auto stored = results::readRun(directory_);
+        if (complete) finish(stored);
         stored.directory = options_.directory.string();
         return stored;
     }
 
   private:
-    /// What only all cases together tell.
-    void writeAnalysis() {
-        auto run = results::readRun(directory_);
+    /// Adds what only all cases together tell, then the mark of the end.
+    void finish(results::Run& run) {
         run.orders = observedOrders(run);
         run.fairness = fairComparisons(run);
         writer_.writeAnalysis(run);
+        run.finished = isoTime();
+        writer_.finish(run.finished);
     }
 
     void prepare() {

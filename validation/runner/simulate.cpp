@@ -7,9 +7,9 @@
 #include <cmath>
 #include <map>
 
+#include "validation/hash.hpp"
 #include "validation/runner/cost.hpp"
 #include "validation/runner/forces.hpp"
-#include "validation/runner/hash.hpp"
 
 namespace rigor::validation {
 namespace {

@@ -3,13 +3,13 @@
 #include "validation/studies/print.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "validation/results/values.hpp"
 #include "validation/runner/answer.hpp"
 
 namespace rigor::validation {
@@ -24,13 +24,6 @@ std::string shown(double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.4g", value);
     return text;
-}
-
-/// The shortest text that reads back as the same double.
-std::string exact(double value) {
-    if (!std::isfinite(value)) return std::isnan(value) ? "nan" : "inf";
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 std::string stepText(double dt) {
@@ -171,11 +164,12 @@ std::string csv(const StudyResult& result) {
         const auto& part = result.study.parts[row.row.part];
         for (std::size_t i = 0; i < part.metrics.size(); ++i)
             text += part.name + "," + row.row.scenario + "," + csvField(parameterText(row.row)) + "," +
-                    exact(row.row.dt) + "," + csvField(row.row.variant) + "," + csvField(row.row.spec) + "," +
-                    row.row.caseId + "," + (row.ran ? results::outcomeName(row.outcome) : "not run") + "," +
+                    results::exactText(row.row.dt) + "," + csvField(row.row.variant) + "," +
+                    csvField(row.row.spec) + "," + row.row.caseId + "," +
+                    (row.ran ? results::outcomeName(row.outcome) : "not run") + "," +
                     csvField(part.metrics[i]) + "," +
-                    (row.values[i].value ? exact(*row.values[i].value) : "") + "," + row.values[i].unit +
-                    "\n";
+                    (row.values[i].value ? results::exactText(*row.values[i].value) : "") + "," +
+                    row.values[i].unit + "\n";
     }
     return text;
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/results/values.hpp"
+
 namespace rigor::validation {
 namespace {
 
@@ -81,8 +83,8 @@ TEST(Ladders, CasesThatDidNotEndWellDoNotCount) {
 
 TEST(Ladders, CostIsMedianTimesSteps) {
     const auto run = twoEngines();
-    EXPECT_DOUBLE_EQ(costOf(run.cases[0]), 50.0 * 1e-6);
-    EXPECT_TRUE(std::isnan(costOf(CaseRow{})));
+    EXPECT_DOUBLE_EQ(results::steppingTime(run.cases[0]).value(), 50.0 * 1e-6);
+    EXPECT_FALSE(results::steppingTime(CaseRow{}));
 }
 
 TEST(Ladders, TheFrontHoldsWhatNothingCheaperBeats) {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "validation/runner/hash.hpp"
+#include "validation/hash.hpp"
 #include "validation/runner/tests/fixtures.hpp"
 
 namespace rigor::validation {

@@ -19,10 +19,13 @@ class Fnv1a {
         for (int i = 0; i < 8; ++i) byte(static_cast<std::uint8_t>(w >> (8 * i)));
     }
     void number(double value) { word(std::bit_cast<std::uint64_t>(value)); }
+    void bytes(std::string_view s) {
+        for (const char c : s) byte(static_cast<std::uint8_t>(c));
+    }
     /// Length first, so that "ab"+"c" and "a"+"bc" differ.
     void text(std::string_view s) {
         word(s.size());
-        for (const char c : s) byte(static_cast<std::uint8_t>(c));
+        bytes(s);
     }
     std::string hex() const {
         constexpr const char* digits = "0123456789abcdef";

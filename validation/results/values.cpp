@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/results/values.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace rigor::results {
+
+const MetricRow* wholeScene(const CaseRow& row, const std::string& metric) {
+    for (const MetricRow& m : row.metrics)
+        if (m.name == metric && m.subject.empty()) return &m;
+    return nullptr;
+}
+
+std::optional<double> steppingTime(const CaseRow& row) {
+    for (const TimingRow& t : row.timings)
+        if (t.phase == "step") return t.median * static_cast<double>(row.steps);
+    return std::nullopt;
+}
+
+std::string exactText(double value) {
+    if (std::isnan(value)) return "nan";  // to_chars tells its sign
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+}  // namespace rigor::results
