@@ -8,6 +8,7 @@ Rigor.columnOf = (c) => Rigor.run.columns.find((x) => x.spec === c.spec);
 Rigor.metricKinds = [
   ['exact', 'Against the exact solution', 'accuracy: the distance from the physics'],
   ['scheme_exact', 'Against the engine’s own scheme', 'bugs: the distance from a perfect run of its own time-stepping formula'],
+  ['measured', 'Against the recorded motion', 'a real body: the errors of the model and of the instrument are in it'],
   ['invariant', 'Invariants', 'what physics conserves'], ['contact', 'Contacts', 'penetration, normals, contact law'],
   ['joint', 'Joints', 'anchor drift and limits'], ['rest', 'Rest', 'what should stand still']];
 

@@ -15,7 +15,7 @@ Rigor.collectCurves = function (scenario, cases, body) {
   const plots = new Map();
   const add = function (key, title, unit, spec, times, values) {
     if (!values) return;
-    if (!plots.has(key)) plots.set(key, {key, title, unit, lines: []});
+    if (!plots.has(key)) plots.set(key, {key, title, unit, lines: [], referenceLabel: Rigor.referenceLabel(cases)});
     plots.get(key).lines.push({spec, points: values.map((y, i) => ({x: times[i], y: Number.isFinite(y) ? y : null}))});
   };
   const axis = ['x', 'y', 'z'];
@@ -36,6 +36,8 @@ Rigor.collectCurves = function (scenario, cases, body) {
   const moving = (plot) => plot.lines.some((l) => l.points.some((p) => p.y !== null && Math.abs(p.y) > 1e-12));
   return [...plots.values()].filter(moving);
 };
+/** A recording is not the exact solution, and is not called so. */
+Rigor.referenceLabel = (cases) => (cases.some((c) => c.metrics.some((m) => m.kind === 'measured')) ? 'recorded motion' : 'exact reference');
 Rigor.bodyNames = (cases) => [...new Set(cases.flatMap((c) => (c.curves ? c.curves.bodies.map((b) => b.name) : [])))];
 
 /** Logarithmic where non-negative values spread over more than three decades. */
@@ -68,7 +70,7 @@ Rigor.chartCard = function (plot, shown, focus) {
     const column = Rigor.run.columns.find((c) => c.spec === line.spec);
     const data = log ? line.points.map((p) => ({x: p.x, y: p.y > 0 ? p.y : null})) : line.points;
     const base = {data, pointRadius: 0, pointHitRadius: 6, tension: 0, spanGaps: false};
-    if (!column) return {...base, label: 'exact reference', borderColor: style('--reference'), borderWidth: 6, order: 1};
+    if (!column) return {...base, label: plot.referenceLabel, borderColor: style('--reference'), borderWidth: 6, order: 1};
     return {...base, label: column.label, spec: line.spec, borderColor: Rigor.engineColour(column.engine), borderDash: Rigor.dashOf(column),
       borderWidth: line.spec === focus ? 3 : 1.6, hidden: !shown(line.spec)};
   };
@@ -135,7 +137,7 @@ Rigor.curvesPanel = function (scenario, cases, focus) {
       names.length > 1 ? Rigor.select('Body', names.map((n) => [n, n]), body, (value) => { body = value; draw(); }) : null,
       el('span', {class: 'seg'}, el('button', {class: 'button', onclick: setAll(() => true)}, 'all'),
         presets.map((p) => el('button', {class: 'button', onclick: setAll((c) => c.preset === p)}, p)), el('button', {class: 'button', onclick: setAll(() => false)}, 'none'))),
-    el('div', {class: 'lines'}, hasReference ? el('span', {class: 'lines'}, el('label', {}, Rigor.lineSample('var(--reference)', [], 6), 'exact reference')) : null,
+    el('div', {class: 'lines'}, hasReference ? el('span', {class: 'lines'}, el('label', {}, Rigor.lineSample('var(--reference)', [], 6), Rigor.referenceLabel(cases))) : null,
       columns.map((c, i) => el('label', {}, boxes[i], Rigor.lineSample(Rigor.engineColour(c.engine), Rigor.dashOf(c), 2), c.label))),
     grid, el('p', {class: 'muted small'}, 'Thinned for viewing to about 200 points that keep the extremes; the full series are in the trajectory files.'));
 };

@@ -15,8 +15,8 @@
 namespace rigor::validation {
 
 /// What the number is compared with.
-enum class MetricKind { Exact, SchemeExact, Invariant, Contact, Joint, Rest };
-const char* metricKindName(MetricKind kind);  ///< "exact", "scheme_exact", "invariant", ...
+enum class MetricKind { Exact, SchemeExact, Measured, Invariant, Contact, Joint, Rest };
+const char* metricKindName(MetricKind kind);  ///< "exact", "scheme_exact", "measured", ...
 
 struct MetricValue {
     std::string subject;  ///< body, joint or quantity name; "" for the whole scene

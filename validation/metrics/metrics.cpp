@@ -33,6 +33,8 @@ const char* metricKindName(MetricKind kind) {
             return "exact";
         case MetricKind::SchemeExact:
             return "scheme_exact";
+        case MetricKind::Measured:
+            return "measured";
         case MetricKind::Invariant:
             return "invariant";
         case MetricKind::Contact:

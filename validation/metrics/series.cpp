@@ -33,13 +33,16 @@ void addMechanics(const MetricInput& input, std::vector<Series>& result) {
 void addErrors(const MetricInput& input, std::vector<Series>& result) {
     const std::size_t frames = input.trajectory.frames(), valid = validFrames(input);
     for (const int body : comparedBodies(input)) {
+        const bool isMeasured = input.reference->measured(body, 0.0).has_value();
         Series position{"position_error", bodyName(input, body), "m", std::vector<double>(frames, kNone)};
         Series velocity{"velocity_error", bodyName(input, body), "m/s", std::vector<double>(frames, kNone)};
         Series orientation{"orientation_error", bodyName(input, body), "rad",
                            std::vector<double>(frames, kNone)};
         for (std::size_t k = 0; k < valid; ++k) {
             const auto& state = input.trajectory.state(k, body);
-            const PartialState exact = input.reference->exact(body, input.trajectory.times[k]);
+            const double t = input.trajectory.times[k];
+            const PartialState exact =
+                isMeasured ? *input.reference->measured(body, t) : input.reference->exact(body, t);
             position.values[k] = positionError(state, exact).value_or(kNone);
             velocity.values[k] = velocityError(state, exact).value_or(kNone);
             orientation.values[k] = orientationError(state, exact).value_or(kNone);

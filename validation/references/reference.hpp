@@ -2,9 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Reference solutions. A reference takes every physical value from the scenario and names only the bodies
-// that play its parts. Two kinds of answer, never mixed: exact (the physics), and scheme-exact (what an ideal
-// implementation of the engine's own time-stepping scheme gives at this dt). Standard library and the
-// scenario model only: code shared with an engine would prove nothing.
+// that play its parts. Three kinds of answer, never mixed: exact (the physics), scheme-exact (what an ideal
+// implementation of the engine's own time-stepping scheme gives at this dt), and measured (what a real body
+// did, with the errors of the instrument). Standard library and the scenario model only: code shared with an
+// engine would prove nothing.
 #pragma once
 
 #include <cstddef>
@@ -67,6 +68,10 @@ class Reference {
                                                     adapter::Scheme scheme) const;
 
     virtual std::vector<Quantity> quantities(double dt, adapter::Scheme scheme) const;
+
+    /// What was recorded of a body of bodies() at time t; empty unless the reference is a measurement. Such a
+    /// reference has no exact answers.
+    virtual std::optional<PartialState> measured(int body, double t) const;
 };
 
 /// A line of the table of references.

@@ -61,4 +61,8 @@ std::vector<Quantity> Reference::quantities(double, adapter::Scheme) const {
     return {};
 }
 
+std::optional<PartialState> Reference::measured(int, double) const {
+    return std::nullopt;
+}
+
 }  // namespace rigor::validation

@@ -27,7 +27,7 @@ struct MetricRow {
     std::string name;     ///< of validation/metrics' table
     std::string subject;  ///< body, joint, quantity; "" the whole scene
     std::string unit;
-    std::string kind;  ///< "exact", "scheme_exact", "invariant", "contact", "joint", "rest"
+    std::string kind;  ///< "exact", "scheme_exact", "measured", "invariant", "contact", "joint", "rest"
     double value = 0.0;
     double at = -1.0;                   ///< time of the largest contribution [s], -1 unknown
     std::optional<double> bound;        ///< acceptance bound at this dt

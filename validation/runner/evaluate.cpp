@@ -51,7 +51,8 @@ void keepWorstSubjects(std::vector<MetricValue>& values) {
 void addMissing(const MetricEntry& entry, const MetricInput& input, const std::string& problem,
                 CaseRow& row) {
     if (boundFor(input.scenario, row, entry.name) == nullptr) return;
-    const bool compares = entry.kind == MetricKind::Exact || entry.kind == MetricKind::SchemeExact;
+    const bool compares = entry.kind == MetricKind::Exact || entry.kind == MetricKind::SchemeExact ||
+                          entry.kind == MetricKind::Measured;
     if (problem.empty() && compares && input.reference == nullptr) return;
     MetricRow missing = metricRow(entry, {"", kNaN, -1.0});
     missing.note = problem.empty() ? "the run shows no value of it" : problem;
@@ -116,7 +117,8 @@ results::BodyChannels referenceBody(const Scenario& scenario, const Trajectory& 
     auto channels = emptyBody(scenario.bodies[static_cast<std::size_t>(body)].name, t.frames());
     bool known[4] = {};
     for (std::size_t f = 0; f < t.frames() && t.times[f] <= reference.validUntil(); ++f) {
-        const PartialState s = reference.exact(body, t.times[f]);
+        const PartialState s =
+            reference.measured(body, t.times[f]).value_or(reference.exact(body, t.times[f]));
         if (s.position) set(channels.position, f, *s.position), known[0] = true;
         if (s.orientation) set(channels.orientation, f, *s.orientation), known[1] = true;
         if (s.velocity) set(channels.velocity, f, *s.velocity), known[2] = true;

@@ -67,6 +67,15 @@ class Still : public Reference {
     const Scenario& scenario_;
 };
 
+/// A plate filmed while it is carried along and turned; who filmed it knows no velocities.
+class Filmed : public Reference {
+  public:
+    std::vector<int> bodies() const override { return {0}; }
+    std::optional<PartialState> measured(int, double t) const override {
+        return PartialState{t * kVelocity, fromAxisAngle({0, 0, 1}, t * kSpin.z), {}, {}};
+    }
+};
+
 struct Case {
     Scenario scenario;
     std::unique_ptr<Reference> reference;
@@ -93,6 +102,19 @@ std::unique_ptr<Case> ideal() {
             c->at(k, static_cast<std::size_t>(b)) = {*s->position, *s->orientation, *s->velocity,
                                                      *s->angularVelocity};
         }
+    return c;
+}
+/// A plate 0.2 m thin.
+std::unique_ptr<Case> filmed() {
+    auto c = std::make_unique<Case>();
+    c->scenario = emptyScene(3, {}, 1);
+    addBox(c->scenario, "plate", {0.4, 0.1, 0.3}, 1, {});
+    c->reference = std::make_unique<Filmed>();
+    c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
+    for (std::size_t k = 0; k <= kLast; ++k) {
+        const auto pose = *c->reference->measured(0, c->run.times[k]);
+        c->at(k, 0).position = *pose.position, c->at(k, 0).orientation = *pose.orientation;
+    }
     return c;
 }
 /// A ball of 2 kg on the floor, with a contact.
@@ -193,6 +215,13 @@ const std::vector<Row>& rows() {
          0.6},
         {"scheme_orientation_max", "first", ideal, [](Case& c) { turnBy(c.at(60, 0), 0.25); }, 0.25},
         {"scheme_quantity_error", "range", ideal, stretch, 0.02},
+        {"measured_position_mean", "plate", filmed, [](Case& c) { shiftUp(c.at(40, 0), 0.2); }, 1.0 / 101},
+        {"measured_position_max", "plate", filmed, [](Case& c) { shiftUp(c.at(40, 0), 0.5); }, 2.5},
+        {"measured_position_final", "plate", filmed, [](Case& c) { shiftUp(c.last(0), 0.1); }, 0.5},
+        {"measured_orientation_mean", "plate", filmed, [](Case& c) { turnBy(c.at(40, 0), 2.0); }, 2.0 / 101},
+        {"measured_orientation_max", "plate", filmed, [](Case& c) { turnBy(c.at(40, 0), 2.0); }, 2.0},
+        {"measured_loss", "plate", filmed,
+         [](Case& c) { shiftUp(c.at(40, 0), 0.2), turnBy(c.at(60, 0), 2.0); }, (0.04 / 0.1 + 4.0) / 101},
         // 2 kg x 0.6 m/s of 15 kg m/s
         {"linear_momentum_drift", "", gliding,
          [](Case& c) {
@@ -276,6 +305,23 @@ TEST(KnownErrors, ComeBackWithTheirSizeAndAnExactRunHasNone) {
         row.spoil(*c);
         EXPECT_NEAR(valueOf(*c, row), row.expected, 1e-12);
     }
+}
+
+TEST(KnownErrors, MeasuredAndExactAreNeverMixed) {
+    const auto answers = [](const Case& c, MetricKind kind) {
+        int count = 0;
+        for (const MetricEntry& entry : metricTable())
+            if (entry.kind == kind)
+                count += static_cast<int>(
+                    entry.evaluate({c.scenario, c.run, c.reference.get(), adapter::Scheme::SymplecticEuler})
+                        .size());
+        return count;
+    };
+    const auto recorded = filmed(), known = gliding();
+    EXPECT_EQ(answers(*recorded, MetricKind::Exact) + answers(*recorded, MetricKind::SchemeExact), 0);
+    EXPECT_GT(answers(*recorded, MetricKind::Measured), 0);
+    EXPECT_EQ(answers(*known, MetricKind::Measured), 0);
+    EXPECT_GT(answers(*known, MetricKind::Exact), 0);
 }
 
 TEST(KnownErrors, EveryMetricHasOne) {

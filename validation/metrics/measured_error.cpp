@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Distance of a run from a recorded motion, over the frames that the recording covers. Lengths are in widths
+// of the body, so that bodies of any size compare. Source of the loss: Acosta, Yang, Posa, Validating
+// Robotics Simulators on Real-World Impacts, IEEE RA-L 7 (2022) 6471; it adds metres and squared angles,
+// because it divides by the half width alone.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "validation/metrics/closed_forms.hpp"
+#include "validation/metrics/metric_parts.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using namespace scenario;
+
+/// What holds a shape without a closed form to a half-space: the box about it.
+Geometry boundOf(const Geometry& geometry) {
+    const auto round = [](double radius, double halfLength) { return Box{{radius, halfLength, radius}}; };
+    if (const auto* c = std::get_if<Cylinder>(&geometry)) return round(c->radius, c->halfLength);
+    if (const auto* c = std::get_if<Cone>(&geometry)) return round(c->radius, c->halfLength);
+    return geometry;
+}
+
+/// Least of direction . x over the body, in its own frame [m].
+double lowestAlong(const Body& body, Vec3 direction, int dimension) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Shape& shape : body.shapes)
+        if (const auto to =
+                closedFormPair(boundOf(shape.geometry), shape.pose, HalfSpace{direction, 0.0}, {}, dimension))
+            lowest = std::min(lowest, to->distance);
+    return lowest;
+}
+
+/// Shortest edge of the bounding box along the body's axes [m]; not finite without shapes.
+double widthOf(const Body& body, int dimension) {
+    constexpr std::array<Vec3, 3> kAxes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+    double width = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i)
+        width = std::min(width,
+                         -lowestAlong(body, -kAxes[i], dimension) - lowestAlong(body, kAxes[i], dimension));
+    return width;
+}
+
+struct Errors {
+    std::vector<double> position, orientation;  ///< [m], [rad]; as many as known
+    std::vector<double> times;                  ///< of the positions
+};
+
+Errors errorsOf(const MetricInput& input, int body) {
+    Errors errors;
+    const std::size_t frames = validFrames(input);
+    for (std::size_t k = 0; k < frames; ++k) {
+        const double t = input.trajectory.times[k];
+        const auto recorded = input.reference->measured(body, t);
+        if (!recorded) return {};
+        const BodyState& state = input.trajectory.state(k, body);
+        if (const auto e = positionError(state, *recorded)) errors.position.push_back(*e);
+        if (const auto e = orientationError(state, *recorded)) errors.orientation.push_back(*e);
+        errors.times.push_back(t);
+    }
+    return errors;
+}
+
+double meanOf(const std::vector<double>& values, int power) {
+    double sum = 0.0;
+    for (const double v : values) sum += power == 2 ? v * v : v;
+    return sum / static_cast<double>(values.size());
+}
+
+/// One row per compared body that a recording knows; `value` returns the number and when it was met.
+template <class Value>
+std::vector<MetricValue> measuredRows(const MetricInput& input, Value value) {
+    std::vector<MetricValue> rows;
+    if (!input.reference || validFrames(input) < 2) return rows;
+    for (const int body : comparedBodies(input)) {
+        const double width =
+            widthOf(input.scenario.bodies[static_cast<std::size_t>(body)], input.scenario.dimension);
+        const Errors errors = errorsOf(input, body);
+        if (errors.position.empty() || !(width > 0.0 && std::isfinite(width))) continue;
+        Worst worst;
+        value(errors, width, worst);
+        if (worst.any()) rows.push_back(worst.row(bodyName(input, body)));
+    }
+    return withWorst(std::move(rows));
+}
+
+void addLargest(const std::vector<double>& values, const std::vector<double>& times, double scale,
+                Worst& worst) {
+    for (std::size_t k = 0; k < values.size(); ++k) worst.add(values[k] / scale, times[k]);
+}
+
+}  // namespace
+
+std::vector<MetricValue> measuredPositionMean(const MetricInput& input) {
+    return measuredRows(input, [](const Errors& e, double width, Worst& worst) {
+        worst.add(meanOf(e.position, 1) / width, -1.0);
+    });
+}
+
+std::vector<MetricValue> measuredPositionMax(const MetricInput& input) {
+    return measuredRows(input, [](const Errors& e, double width, Worst& worst) {
+        addLargest(e.position, e.times, width, worst);
+    });
+}
+
+std::vector<MetricValue> measuredPositionFinal(const MetricInput& input) {
+    return measuredRows(input, [](const Errors& e, double width, Worst& worst) {
+        worst.add(e.position.back() / width, e.times.back());
+    });
+}
+
+std::vector<MetricValue> measuredOrientationMean(const MetricInput& input) {
+    return measuredRows(input, [](const Errors& e, double, Worst& worst) {
+        if (!e.orientation.empty()) worst.add(meanOf(e.orientation, 1), -1.0);
+    });
+}
+
+std::vector<MetricValue> measuredOrientationMax(const MetricInput& input) {
+    return measuredRows(
+        input, [](const Errors& e, double, Worst& worst) { addLargest(e.orientation, e.times, 1.0, worst); });
+}
+
+std::vector<MetricValue> measuredLoss(const MetricInput& input) {
+    return measuredRows(input, [](const Errors& e, double width, Worst& worst) {
+        if (!e.orientation.empty())
+            worst.add(meanOf(e.position, 2) / (0.5 * width) + meanOf(e.orientation, 2), -1.0);
+    });
+}
+
+}  // namespace rigor::validation
