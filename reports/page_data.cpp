@@ -79,27 +79,6 @@ Json readBackJson(const CaseRow& row) {
     return {{"compared", row.readBack.size()}, {"bad", bad}, {"differing", differing}};
 }
 
-Json auditJson(const CaseRow& row) {
-    Json list = Json::array();
-    for (const auto& a : row.audit)
-        list.push_back({{"auditor", a.auditor},
-                        {"outcome", a.outcome},
-                        {"frames", a.frames},
-                        {"queries", a.queries},
-                        {"overlapping", a.overlapping},
-                        {"missed", a.missed},
-                        {"spurious", a.spurious},
-                        {"undecided", a.undecided},
-                        {"normalErrorMax", number(a.normalErrorMax)},
-                        {"normalErrorMedian", number(a.normalErrorMedian)},
-                        {"depthErrorMax", number(a.depthErrorMax)},
-                        {"depthErrorMedian", number(a.depthErrorMedian)},
-                        {"pointErrorMax", number(a.pointErrorMax)},
-                        {"worst", a.worst},
-                        {"note", a.note}});
-    return list;
-}
-
 Json timingsJson(const CaseRow& row) {
     Json list = Json::array();
     for (const auto& t : row.timings)
@@ -132,6 +111,7 @@ Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) 
                                   {"samples", timing->samples},
                                   {"contacts", number(timing->meanContacts)}}
                            : Json(nullptr);
+    brief["inRun"] = inRunJson(row);
     return brief;
 }
 
@@ -180,43 +160,6 @@ Json mechanismsJson(const ViewModel& view) {
                                  {"ratio", number(s.ratio)}});
         list.push_back(
             {{"name", m.name}, {"scenarios", m.scenarios}, {"best", m.best}, {"standings", standings}});
-    }
-    return list;
-}
-
-/// Contact audit gathered per scenario and auditor over all cases whose poses were asked about.
-Json gatheredAudit(const ViewModel& view) {
-    Json list = Json::array();
-    const auto& run = view.run();
-    const auto worst = [](std::optional<double>& into, const std::optional<double>& value) {
-        if (value && (!into || *value > *into || std::isnan(*value))) into = value;
-    };
-    for (const auto& scenario : run.scenarios) {
-        std::vector<results::AuditRow> rows;
-        for (const auto& row : run.cases) {
-            if (row.scenario != scenario.name) continue;
-            for (const auto& a : row.audit) {
-                auto it = std::find_if(rows.begin(), rows.end(),
-                                       [&](const auto& r) { return r.auditor == a.auditor; });
-                if (it == rows.end()) {
-                    rows.push_back({});
-                    it = rows.end() - 1;
-                    it->auditor = a.auditor, it->outcome = a.outcome;
-                }
-                if (a.outcome != "completed") it->outcome = a.outcome, it->note = a.note;
-                it->frames += a.frames, it->queries += a.queries, it->overlapping += a.overlapping;
-                it->missed += a.missed, it->spurious += a.spurious, it->undecided += a.undecided;
-                if (a.normalErrorMax && (!it->normalErrorMax || *a.normalErrorMax > *it->normalErrorMax))
-                    it->worst = a.worst + " (" + row.spec + ")";
-                worst(it->normalErrorMax, a.normalErrorMax);
-                worst(it->depthErrorMax, a.depthErrorMax);
-                worst(it->pointErrorMax, a.pointErrorMax);
-            }
-        }
-        if (rows.empty()) continue;
-        CaseRow holder;
-        holder.audit = rows;
-        list.push_back({{"scenario", scenario.name}, {"rows", auditJson(holder)}});
     }
     return list;
 }
@@ -351,7 +294,7 @@ std::string overviewJson(const ViewModel& view) {
                  {"engines", engines},
                  {"scenarios", scenariosJson(view)},
                  {"mechanisms", mechanismsJson(view)},
-                 {"audit", gatheredAudit(view)},
+                 {"audit", gatheredAudit(run)},
                  {"ledger", gatheredLedger(view)}});
 }
 

@@ -29,4 +29,10 @@ inline Json number(const std::optional<double>& value) {
 Json ordersJson(const results::Run& run, const std::string& scenario);
 Json fairnessJson(const results::Run& run, const std::string& scenario);
 
+/// The audit of a case; of what its run acted upon (null where that was not asked); per scenario and auditor
+/// over all cases of a run.
+Json auditJson(const results::CaseRow& row);
+Json inRunJson(const results::CaseRow& row);
+Json gatheredAudit(const results::Run& run);
+
 }  // namespace rigor::report

@@ -159,7 +159,7 @@ TEST_F(Browser, OverviewShowsFiltersAndSorts) {
     EXPECT_EQ(found["images"], 0);
     const auto sections = found["sections"].get<std::vector<std::string>>();
     for (const char* id :
-         {"summary", "trust", "scoreboard", "timing", "audit", "ledger", "engines", "method"})
+         {"summary", "trust", "scoreboard", "timing", "in-run", "audit", "ledger", "engines", "method"})
         EXPECT_NE(std::find(sections.begin(), sections.end(), id), sections.end()) << id;
 }
 

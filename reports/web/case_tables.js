@@ -87,12 +87,12 @@ Rigor.auditPanel = function (cases) {
   const audited = cases.filter((c) => c.audit.length);
   if (!audited.length) return null;
   const count = (n, bad) => el('td', {class: 'num'}, bad && n ? Rigor.chip('fail', n) : n);
-  const row = (a) => el('tr', {}, el('th', {class: 'sticky', scope: 'row'}, a.auditor, a.outcome === 'completed' ? '' : el('span', {class: 'bound'}, a.outcome, a.note ? `: ${a.note}` : '')), count(a.frames), count(a.queries), count(a.overlapping), count(a.missed, true), count(a.spurious, true), count(a.undecided),
+  const row = (a) => el('tr', {}, el('th', {class: 'sticky', scope: 'row'}, a.auditor === 'in_run' ? 'the run itself' : a.auditor, a.outcome === 'completed' ? '' : el('span', {class: 'bound'}, a.outcome, a.note ? `: ${a.note}` : '')), count(a.frames), count(a.queries), count(a.overlapping), count(a.missed, true), count(a.spurious, true), count(a.undecided),
     el('td', {class: 'num', title: Rigor.full(a.normalErrorMax) + ' rad'}, Rigor.angle(a.normalErrorMax)), el('td', {class: 'num', title: Rigor.full(a.normalErrorMedian) + ' rad'}, Rigor.angle(a.normalErrorMedian)),
     Rigor.numberCell(a.depthErrorMax, 'm'), Rigor.numberCell(a.depthErrorMedian, 'm'), Rigor.numberCell(a.pointErrorMax, 'm'), el('td', {class: 'small'}, a.worst));
   const heads = ['Asked', 'Frames', 'Pairs', 'Overlap', 'Missed', 'Spurious', 'Undecided', 'Normal, worst', 'median', 'Depth, worst [m]', 'median [m]', 'Point, worst [m]', 'Worst at'];
   return Rigor.panel('case-audit', 'Contact audit',
-    el('p', {class: 'muted'}, 'Each collision engine asked about sampled poses of the run named in the grey rows, against the exact oracle.'),
+    el('p', {class: 'muted'}, 'Sampled poses of the run named in the grey rows: the contacts that the run itself acted upon, and every collision engine asked about the same poses, against the exact oracle.'),
     Rigor.scroll(el('table', {class: 'full'}, el('thead', {}, el('tr', {}, heads.map((t, i) => el('th', {class: i === 0 ? 'sticky' : i === heads.length - 1 ? null : 'num', scope: 'col'}, t)))),
       audited.map((c) => el('tbody', {}, el('tr', {class: 'sub'}, el('th', {colspan: heads.length}, `Poses of ${Rigor.columnOf(c).label}`)), c.audit.map(row))))));
 };

@@ -32,7 +32,7 @@ Rigor.timingTable = function () {
 Rigor.auditSummary = function () {
   const {el, run} = Rigor;
   if (!run.audit.length) return null;
-  const auditors = [...new Set(run.audit.flatMap((a) => a.rows.map((r) => r.auditor)))].filter((name) => name !== 'oracle');
+  const auditors = [...new Set(run.audit.flatMap((a) => a.rows.map((r) => r.auditor)))].filter((name) => name !== 'oracle' && name !== 'in_run');
   const cell = function (rows, auditor) {
     const r = rows.find((x) => x.auditor === auditor);
     if (!r) return el('td', {class: 'num muted'}, '');
@@ -43,13 +43,38 @@ Rigor.auditSummary = function () {
       wrong ? Rigor.chip('fail', `${wrong} wrong`) : null, Rigor.angle(r.normalErrorMax),
       el('span', {class: 'bound'}, r.depthErrorMax === null ? '' : `${Rigor.format(r.depthErrorMax)} m`));
   };
-  return Rigor.panel('audit', 'Contact audit',
+  return Rigor.panel('audit', 'Contact queries',
     el('p', {class: 'muted'}, 'At sampled frames of every run, each collision engine is asked about the same poses and compared with an exact oracle. ',
       'Shown: the worst angle between its contact normal and the nearest exact one, and the worst penetration error below; ',
       '“wrong” counts overlaps that were missed or invented.'),
     Rigor.scroll(el('table', {}, el('thead', {}, el('tr', {}, el('th', {class: 'sticky', scope: 'col'}, 'Poses of'), auditors.map((a) => el('th', {class: 'num', scope: 'col'}, a)))),
       el('tbody', {}, run.audit.map((a) => el('tr', {}, el('th', {class: 'sticky', scope: 'row'}, el('a', {href: Rigor.scenarioLink(a.scenario)}, a.scenario)),
         auditors.map((auditor) => cell(a.rows, auditor))))))));
+};
+
+/** What each run acted upon, worst over its time steps. */
+Rigor.inRunSummary = function () {
+  const {el, run} = Rigor;
+  const rows = run.scenarios.filter((s) => s.cases.some((c) => c.inRun && c.inRun.overlapping));
+  if (!rows.length) return null;
+  const cell = function (s, column) {
+    const seen = s.cases.filter((c) => c.spec === column.spec && c.inRun).map((c) => c.inRun);
+    if (!seen.length) return el('td', {class: 'num muted'}, '');
+    const worst = (key) => seen.reduce((w, a) => (a[key] !== null && !(Rigor.number(a[key]) <= w) ? Rigor.number(a[key]) : w), null);
+    const sum = (key) => seen.reduce((n, a) => n + a[key], 0);
+    const wrong = sum('missed') + sum('spurious'), flicker = worst('contactFlicker');
+    if (!sum('overlapping') && !wrong) return el('td', {class: 'small muted', title: `${sum('queries')} pairs asked about`}, 'no overlap');
+    return el('td', {class: 'num', 'data-wrong': wrong, title: `${sum('queries')} pairs, ${sum('overlapping')} overlapping; ${sum('missed')} missed, ${sum('spurious')} spurious; worst normal ${Rigor.full(worst('normal'))} rad, ` +
+      `depth ${Rigor.full(worst('depth'))} m, point ${Rigor.full(worst('point'))} m off its surface; normals flicker by ${Rigor.full(worst('normalFlicker'))} rad, ${Rigor.full(flicker)} of contacts blink; ${seen.map((a) => a.worst).filter(Boolean).join('; ')}`},
+      wrong ? Rigor.chip('fail', `${wrong} wrong`) : null, Rigor.angle(worst('normal')),
+      el('span', {class: 'bound'}, worst('depth') === null ? '' : `${Rigor.format(worst('depth'))} m`),
+      flicker > 0.01 ? el('span', {class: 'bound'}, `${(100 * flicker).toPrecision(2)} % blink`) : null);
+  };
+  return Rigor.panel('in-run', 'Contacts acted upon',
+    el('p', {class: 'muted'}, 'The contacts that each run itself acted upon, at sampled steps, against the exact oracle at the poses where the step began. ',
+      'Shown: the worst angle to the nearest exact normal and the worst depth error; “wrong” counts overlaps that were missed or invented; “blink” is the share of steps in which a touching pair lost its contact for one step.'),
+    Rigor.scroll(el('table', {}, Rigor.specHead([el('th', {class: 'sticky', scope: 'col'}, 'Scenario')], run.columns, (c) => el('th', {class: 'num', scope: 'col', title: c.spec}, Rigor.specSubtitle(c))),
+      el('tbody', {}, rows.map((s) => el('tr', {}, el('th', {class: 'sticky', scope: 'row'}, el('a', {href: Rigor.scenarioLink(s.name)}, s.name)), run.columns.map((c) => cell(s, c))))))));
 };
 
 Rigor.ledgerRows = function (rows, withEngine) {

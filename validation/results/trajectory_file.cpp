@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr const char* kScene = "_";  ///< dataset name of a series without a subject
 
 /// Names become HDF5 links: '/' and '.' have a meaning there, and "_" is ours.
@@ -183,6 +183,7 @@ void writeTrajectory(const fs::path& target, const TrajectoryFile& data) {
         file.setText("/", "case_id", data.caseId);
         file.setDouble("/", "dt", data.dt);
         file.setInteger("/", "stride", data.stride);
+        file.setInteger("/", "contact_stride", data.contactStride);
         file.writeDoubles("/time", data.times, 1, "s");
         writeBodies(file, "/bodies", data.bodies);
         writeBodies(file, "/reference", data.reference);
@@ -211,6 +212,7 @@ TrajectoryFile readTrajectory(const fs::path& source, bool withContacts) {
         data.caseId = file.text("/", "case_id");
         data.dt = file.number("/", "dt");
         data.stride = file.integer("/", "stride");
+        if (format > 1) data.contactStride = file.integer("/", "contact_stride");
         int columns = 0;
         data.times = file.readDoubles("/time", columns);
         data.bodies = readBodies(file, "/bodies");

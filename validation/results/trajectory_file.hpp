@@ -42,7 +42,8 @@ struct ContactSample {
 struct TrajectoryFile {
     std::string scenario, spec, caseId;
     double dt = 0.0;
-    int stride = 1;
+    int stride = 1;         ///< steps between frames
+    int contactStride = 1;  ///< frames between those whose contacts are stored: frame 0 and every n-th
     std::vector<double> times;
     std::vector<BodyChannels> bodies;  ///< all bodies, in scenario order
     std::vector<BodyChannels>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The contact audit: at sampled frames of every run, every collision engine is asked about the same poses,
-// and the exact oracle knows the truth. Runs in child processes: one finds the questions and the oracle's
-// answers for all cases of a scenario, then one per auditor answers them.
+// The contact audit: at sampled frames of every run, the contacts that the run itself acted upon and the
+// answers of every collision engine about the same poses are held against the exact oracle. Runs in child
+// processes: one finds the questions, the oracle's answers and what the run did with them for all cases of a
+// scenario, then one per auditor answers them.
 #pragma once
 
 #include <filesystem>
@@ -29,7 +30,9 @@ struct AuditQuery {
     scenario::Pose poseA, poseB;  ///< of the shapes, in the world
     bool decided = false;         ///< whether the oracle has an exact method for this pair
     double signedDistance = 0.0;
-    std::vector<scenario::Vec3> normals;  ///< all minimising directions, A to B
+    std::vector<scenario::Vec3> normals;     ///< all minimising directions, A to B
+    bool actedUpon = false;                  ///< whether the step that began at these poses was recorded
+    std::vector<adapter::ContactPoint> own;  ///< the contacts of that step
 };
 
 /// The questions of one case, from its recorded trajectory.
@@ -37,6 +40,7 @@ struct AuditCase {
     std::string id;
     std::int64_t frames = 0;
     std::vector<AuditQuery> queries;
+    std::vector<adapter::ContactPoint> stray;  ///< overlaps that the run claimed of shapes far apart
 };
 AuditCase findQueries(const scenario::Scenario& scenario, const std::string& caseId,
                       const std::filesystem::path& trajectory);
@@ -44,6 +48,13 @@ AuditCase findQueries(const scenario::Scenario& scenario, const std::string& cas
 /// What one collision engine answers, held against the oracle.
 results::AuditRow askAuditor(const scenario::Scenario& scenario, const AuditCase& questions,
                              const adapter::CollisionEngine& engine, const std::string& auditor);
+/// Name of the row of what the run itself acted upon.
+inline constexpr const char* kInRun = "in_run";
+/// The contacts that the run acted upon, held against the oracle at the poses where its step began. A contact
+/// that the engine let act on an overlap counts as found whatever depth it gave it; one between shapes that
+/// are apart is spurious when its depth claims an overlap. Without questions where frames are several steps
+/// apart.
+results::AuditRow inRunRow(const scenario::Scenario& scenario, const AuditCase& questions);
 /// The oracle's own row: how many questions there were, how many it could decide.
 results::AuditRow oracleRow(const AuditCase& questions);
 

@@ -68,7 +68,8 @@ json prepare(const json& request) {
         cases.push_back({{"id", id},
                          {"frames", found.frames},
                          {"queries", std::move(queries)},
-                         {"oracle", auditToJson(oracleRow(found))}});
+                         {"oracle", auditToJson(oracleRow(found))},
+                         {kInRun, auditToJson(inRunRow(s, found))}});
     }
     return {{"cases", std::move(cases)}};
 }

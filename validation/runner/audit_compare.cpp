@@ -85,6 +85,14 @@ class Comparison {
         if (overlaps && answer.overlap && !answer.contacts.empty()) compareContacts(q, answer);
     }
 
+    /// A contact that claims an overlap of shapes that nobody needed to ask about.
+    void addStray(const ContactPoint& contact) {
+        ++row_.spurious;
+        AuditQuery q;
+        q.bodyA = contact.bodyA, q.bodyB = contact.bodyB;
+        name(q, "spurious, far apart", 2);
+    }
+
     void finish() {
         row_.normalErrorMax = normal_.max(), row_.normalErrorMedian = normal_.median();
         row_.depthErrorMax = depth_.max(), row_.depthErrorMedian = depth_.median();
@@ -153,6 +161,29 @@ results::AuditRow askAuditor(const Scenario& scenario, const AuditCase& question
         row.note = std::to_string(refused) + " of " + std::to_string(questions.queries.size()) +
                    " questions not answered: " + refusal;
     if (refused > 0 && row.queries == 0) row.outcome = "unsupported";
+    return row;
+}
+
+results::AuditRow inRunRow(const Scenario& scenario, const AuditCase& questions) {
+    results::AuditRow row;
+    row.auditor = kInRun, row.outcome = "completed";
+    Comparison comparison(scenario, row);
+    double last = -1.0;
+    for (const AuditQuery& q : questions.queries) {
+        if (!q.actedUpon) continue;
+        ++row.queries;
+        if (q.time != last) ++row.frames, last = q.time;
+        CollisionAnswer answer;
+        answer.contacts = q.own;
+        const bool overlaps = q.decided && q.signedDistance < -kTouchTolerance;
+        answer.overlap = std::any_of(q.own.begin(), q.own.end(), [&](const ContactPoint& c) {
+            return overlaps || c.depth > kTouchTolerance;
+        });
+        comparison.add(q, answer);
+    }
+    for (const ContactPoint& contact : questions.stray) comparison.addStray(contact);
+    comparison.finish();
+    if (row.queries == 0) row.note = "no two recorded frames are one step apart";
     return row;
 }
 

@@ -104,7 +104,11 @@ std::vector<Candidate> candidates(const Scenario& s) {
     return pairs;
 }
 
-/// Half of the frames evenly over the run, half evenly over the frames in which the engine had contacts.
+bool contactsStoredOf(const results::TrajectoryFile& file, std::size_t frame) {
+    return frame < file.times.size() && frame % static_cast<std::size_t>(file.contactStride) == 0;
+}
+
+/// Half of the frames evenly over the run, half evenly over those at which a step with contacts began.
 std::vector<std::size_t> sampledFrames(const results::TrajectoryFile& file) {
     std::set<std::size_t> chosen;
     const auto spread = [&](const std::vector<std::size_t>& from, std::size_t count) {
@@ -112,12 +116,15 @@ std::vector<std::size_t> sampledFrames(const results::TrajectoryFile& file) {
         for (std::size_t k = 0; k < count; ++k)
             chosen.insert(from[k * (from.size() - 1) / std::max<std::size_t>(1, count - 1)]);
     };
-    std::vector<std::size_t> all(file.times.size()), touching;
-    for (std::size_t f = 0; f < all.size(); ++f) all[f] = f;
+    std::vector<std::size_t> all, touching;
+    for (std::size_t f = 0; f < file.times.size(); ++f)
+        if (file.contactStride == 1 || contactsStoredOf(file, f + 1)) all.push_back(f);
     for (const auto& contact : file.contacts) {
         const auto it = std::lower_bound(file.times.begin(), file.times.end(), contact.time);
-        const auto frame = static_cast<std::size_t>(it - file.times.begin());
-        if (frame < all.size() && (touching.empty() || touching.back() != frame)) touching.push_back(frame);
+        auto frame = static_cast<std::size_t>(it - file.times.begin());
+        if (frame >= file.times.size()) continue;
+        if (file.stride == 1 && frame > 0) --frame;
+        if (touching.empty() || touching.back() != frame) touching.push_back(frame);
     }
     spread(all, kFrames / 2);
     spread(touching, kFrames / 2);
@@ -147,6 +154,34 @@ std::vector<AuditQuery> frameQueries(const Scenario& s, const std::vector<Candid
     return queries;
 }
 
+adapter::ContactPoint contactOf(const results::ContactSample& c) {
+    const auto vec = [](const double* v) { return Vec3{v[0], v[1], v[2]}; };
+    adapter::ContactPoint out;
+    out.bodyA = c.bodyA, out.bodyB = c.bodyB, out.shapeA = c.shapeA, out.shapeB = c.shapeB;
+    out.pointA = vec(c.pointA), out.pointB = vec(c.pointB), out.normal = vec(c.normal), out.depth = c.depth;
+    return out;
+}
+
+/// Gives the questions of a frame the contacts of the step that began there; what is left over is stray.
+void addOwnContacts(const results::TrajectoryFile& file, std::size_t frame, std::vector<AuditQuery>& queries,
+                    std::vector<adapter::ContactPoint>& stray) {
+    if (file.stride != 1 || !contactsStoredOf(file, frame + 1)) return;
+    for (AuditQuery& q : queries) q.actedUpon = true;
+    const auto time = [](const results::ContactSample& c, double t) { return c.time < t; };
+    auto it = std::lower_bound(file.contacts.begin(), file.contacts.end(), file.times[frame + 1], time);
+    for (; it != file.contacts.end() && it->time == file.times[frame + 1]; ++it) {
+        const adapter::ContactPoint contact = contactOf(*it);
+        const auto about = std::find_if(queries.begin(), queries.end(), [&](const AuditQuery& q) {
+            return q.bodyA == contact.bodyA && q.bodyB == contact.bodyB && q.shapeA == contact.shapeA &&
+                   q.shapeB == contact.shapeB;
+        });
+        if (about != queries.end())
+            about->own.push_back(contact);
+        else if (contact.depth > kTouchTolerance)
+            stray.push_back(contact);
+    }
+}
+
 void thinOut(std::vector<AuditQuery>& queries) {
     if (queries.size() <= kMostQueries) return;
     std::vector<AuditQuery> kept;
@@ -171,6 +206,7 @@ AuditCase findQueries(const Scenario& s, const std::string& caseId, const std::f
     found.id = caseId;
     for (const std::size_t frame : sampledFrames(file)) {
         auto queries = frameQueries(s, pairs, file, frame);
+        addOwnContacts(file, frame, queries, found.stray);
         found.queries.insert(found.queries.end(), queries.begin(), queries.end());
         ++found.frames;
     }

@@ -62,7 +62,8 @@ void AuditQueue::add(const std::string& scenario, const std::string& scenarioTex
                            return;
                        }
                        for (const json& entry : questions->at("cases"))
-                           batch->rows[entry.at("id")]["oracle"] = auditFromJson(entry.at("oracle"));
+                           for (const char* row : {"oracle", kInRun})
+                               batch->rows[entry.at("id")][row] = auditFromJson(entry.at(row));
                        batch->pending = 1;
                        for (const auto& auditor : auditors_) ask(batch, auditor, "");
                        finishOne(batch);
@@ -108,7 +109,7 @@ void AuditQueue::answered(const std::shared_ptr<Batch>& batch, const std::string
 void AuditQueue::finishOne(const std::shared_ptr<Batch>& batch) {
     if (--batch->pending > 0) return;
     for (auto& [id, byAuditor] : batch->rows) {
-        std::vector<AuditRow> rows{byAuditor["oracle"]};
+        std::vector<AuditRow> rows{byAuditor["oracle"], byAuditor[kInRun]};
         for (const auto& auditor : auditors_)
             if (const auto it = byAuditor.find(auditor); it != byAuditor.end()) rows.push_back(it->second);
         deliver_(id, std::move(rows));

@@ -143,12 +143,15 @@ results::ContactSample sample(double time, const ContactPoint& c) {
     return s;
 }
 
-/// All contacts of every n-th frame, n as small as the size of the file allows.
-std::vector<results::ContactSample> contactSamples(const Trajectory& t) {
+/// Contacts of every n-th frame are stored, n as small as the size of the file allows.
+std::size_t contactStride(const Trajectory& t) {
     constexpr std::size_t kMostContacts = 60000;
     std::size_t count = 0;
     for (const auto& frame : t.contacts) count += frame.size();
-    const std::size_t every = std::max<std::size_t>(1, (count + kMostContacts - 1) / kMostContacts);
+    return std::max<std::size_t>(1, (count + kMostContacts - 1) / kMostContacts);
+}
+
+std::vector<results::ContactSample> contactSamples(const Trajectory& t, std::size_t every) {
     std::vector<results::ContactSample> samples;
     for (std::size_t f = 0; f < t.contacts.size(); f += every)
         for (const ContactPoint& c : t.contacts[f]) samples.push_back(sample(t.times[f], c));
@@ -189,7 +192,9 @@ results::TrajectoryFile trajectoryFile(const MetricInput& input, const CaseRow& 
             file.reference.push_back(referenceBody(input.scenario, t, *input.reference, body));
     for (const Series& s : diagnosticSeries(input))
         file.series.push_back({s.name, s.subject, {s.unit, 1, s.values}});
-    file.contacts = contactSamples(t);
+    const std::size_t every = contactStride(t);
+    file.contactStride = static_cast<int>(every);
+    file.contacts = contactSamples(t, every);
     return file;
 }
 

@@ -127,7 +127,7 @@ std::unique_ptr<Case> resting() {
     c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
     ContactPoint touch;
     touch.bodyA = 0, touch.bodyB = 1, touch.normal = {0, 1, 0};
-    c->run.contacts[10] = {touch};
+    for (std::size_t k = 1; k <= kLast; ++k) c->run.contacts[k] = {touch};
     return c;
 }
 /// A rod on a hinge about z with stops at 0.1 rad.
@@ -243,6 +243,14 @@ const std::vector<Row>& rows() {
              c.run.contacts[10][0].normal = {std::sin(0.02), std::cos(0.02), 0};
          },
          0.02},
+        // out and back in one of the 98 triples of frames with contacts
+        {"normal_flicker", "ball", resting,
+         [](Case& c) {
+             c.run.contacts[10][0].normal = {std::sin(0.02), std::cos(0.02), 0};
+         },
+         0.04 / 98},
+        // the triples that begin or end with the gap do not count
+        {"contact_flicker", "ball", resting, [](Case& c) { c.run.contacts[10].clear(); }, 1.0 / 96},
         {"joint_drift", "hinge", hinged,
          [](Case& c) {
              c.at(50, 1).position += Vec3{0.003, 0, 0.004};

@@ -32,7 +32,7 @@ Channel channel(const char* unit, int columns, std::size_t rows, std::uint64_t s
 TrajectoryFile sampleFile(std::size_t frames) {
     TrajectoryFile data;
     data.scenario = "slide", data.spec = "ode:preset=matched", data.caseId = "0123";
-    data.dt = 1.0 / 240.0, data.stride = 3;
+    data.dt = 1.0 / 240.0, data.stride = 3, data.contactStride = 2;
     data.times = anyDoubles(frames, 1);
     for (const char* name : {"floor", "block", "a/b", ".", "_", "50%"})  // order is not alphabetical
         data.bodies.push_back({name, channel("m", 3, frames, 2), channel("1", 4, frames, 3),
@@ -82,8 +82,8 @@ TEST_P(RoundTrip, IsBitExact) {
     const TrajectoryFile data = sampleFile(GetParam());
     writeTrajectory(file, data);
     const TrajectoryFile read = readTrajectory(file);
-    EXPECT_EQ(std::tie(data.scenario, data.spec, data.caseId, data.dt, data.stride),
-              std::tie(read.scenario, read.spec, read.caseId, read.dt, read.stride));
+    EXPECT_EQ(std::tie(data.scenario, data.spec, data.caseId, data.dt, data.stride, data.contactStride),
+              std::tie(read.scenario, read.spec, read.caseId, read.dt, read.stride, read.contactStride));
     expectSame(data.times, read.times);
     expectSame(data.bodies, read.bodies);
     expectSame(data.reference, read.reference);

@@ -80,7 +80,7 @@ TEST_F(Audit, AnAuditorThatCrashesCostsItsOwnRowOnly) {
         EXPECT_THAT(rowOf(c, "double_auditor_abort").note, HasSubstr("SIGABRT"));
         EXPECT_EQ(rowOf(c, "double_auditor").outcome, "completed");
         EXPECT_EQ(c.verdict, results::Verdict::Pass) << "the case is not to blame";
-        EXPECT_EQ(c.audit.size(), 8u) << "the oracle and seven auditors";
+        EXPECT_EQ(c.audit.size(), 9u) << "the oracle, the run and seven auditors";
     }
 }
 

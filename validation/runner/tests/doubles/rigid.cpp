@@ -144,6 +144,23 @@ struct NormalFlipped : RigidWorld {
         return p;
     }
 };
+/// Every other normal leans by 10 mrad.
+struct NormalFlickers : RigidWorld {
+    using RigidWorld::RigidWorld;
+    ContactPoint reported(const Contact& c) const override {
+        ContactPoint p = c.point;
+        if (steps_ % 2 == 0) p.normal = rotate(turnedBy({}, {0.01, 0, 0}), p.normal);
+        return p;
+    }
+};
+/// Forgets to tell its contacts in one step of four.
+struct ContactsBlink : RigidWorld {
+    using RigidWorld::RigidWorld;
+    void readContacts(std::vector<ContactPoint>& contacts) const override {
+        RigidWorld::readContacts(contacts);
+        if (steps_ % 4 == 0) contacts.clear();
+    }
+};
 struct MomentumLeak : RigidWorld {
     using RigidWorld::RigidWorld;
     Vec3 reaction(const Vec3& impulse) const override { return (1.0 - 1e-6) * impulse; }
@@ -216,6 +233,7 @@ const std::map<std::string, Maker> kFaults{{"none", &make<RigidWorld>},
                                            {"compound_inertia", &make<CompoundInertia>},
                                            {"compound_inertia_announced", &make<CompoundInertiaAnnounced>},
                                            {"compound_inertia_hidden", &make<CompoundInertiaHidden>},
+                                           {"contacts_blink", &make<ContactsBlink>},
                                            {"creeping", &make<Creeping>},
                                            {"friction_pyramid", &make<FrictionPyramid>},
                                            {"friction_squared", &make<FrictionSquared>},
@@ -226,6 +244,7 @@ const std::map<std::string, Maker> kFaults{{"none", &make<RigidWorld>},
                                            {"inertia_not_rotated", &make<InertiaNotRotated>},
                                            {"jitter", &make<Jitter>},
                                            {"momentum_leak", &make<MomentumLeak>},
+                                           {"normal_flickers", &make<NormalFlickers>},
                                            {"normal_flipped", &make<NormalFlipped>},
                                            {"origin_is_centre", &make<OriginIsCentre>},
                                            {"own_step", &make<OwnStep>},

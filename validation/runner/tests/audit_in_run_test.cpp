@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What a run acted upon against the oracle: recorded contacts of known faults, each seen in the number meant
+// for it. Two balls fly through each other; the contacts of a step are those of the poses it began at.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "validation/results/trajectory_file.hpp"
+#include "validation/runner/audit.hpp"
+#include "validation/runner/tests/fixtures.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using results::ContactSample;
+using results::TrajectoryFile;
+using scenario::Vec3;
+
+constexpr double kStep = 1.0 / 64, kRadius = 0.25;
+constexpr int kFrames = 65;
+
+void set(double (&into)[3], Vec3 v) {
+    into[0] = v.x, into[1] = v.y, into[2] = v.z;
+}
+
+class InRun : public fixtures::RunnerTest {
+  protected:
+    InRun() : scenario_(fixtures::load(fixtures::crossingBalls()).first) {
+        file_.scenario = scenario_.name, file_.dt = kStep;
+        for (const auto& b : scenario_.bodies) {
+            file_.bodies.push_back({b.name, {"m", 3, {}}, {"1", 4, {}}, {"m/s", 3, {}}, {"rad/s", 3, {}}});
+            for (int k = 0; k < kFrames; ++k) {
+                const Vec3 x = b.pose.position + k * kStep * b.velocity;
+                auto& channels = file_.bodies.back();
+                channels.position.values.insert(channels.position.values.end(), {x.x, x.y, x.z});
+                channels.orientation.values.insert(channels.orientation.values.end(), {1, 0, 0, 0});
+                channels.velocity.values.insert(channels.velocity.values.end(), {0, 0, 0});
+                channels.angularVelocity.values.insert(channels.angularVelocity.values.end(), {0, 0, 0});
+            }
+        }
+        for (int k = 0; k < kFrames; ++k) file_.times.push_back(k * kStep);
+        for (int k = 1; k < kFrames; ++k)
+            for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {1, 2}}) addTruth(k, a, b);
+    }
+
+    Vec3 at(int frame, int body) const {
+        const double* p = &file_.bodies[static_cast<std::size_t>(body)]
+                               .position.values[3 * static_cast<std::size_t>(frame)];
+        return {p[0], p[1], p[2]};
+    }
+    /// The contact that the step from frame k - 1 to k should act upon.
+    void addTruth(int k, int a, int b) {
+        const Vec3 other = at(k - 1, b);
+        const Vec3 between = a == 0 ? Vec3{0, other.y, 0} : other - at(k - 1, a);
+        const double distance = norm(between), depth = (a == 0 ? kRadius : 2 * kRadius) - distance;
+        if (depth <= 0.0) return;
+        const Vec3 n = between / distance;
+        ContactSample c;
+        c.time = file_.times[static_cast<std::size_t>(k)], c.bodyA = a, c.bodyB = b, c.depth = depth;
+        set(c.normal, n);
+        set(c.pointA, a == 0 ? Vec3{other.x, 0, other.z} : at(k - 1, a) + kRadius * n);
+        set(c.pointB, other - kRadius * n);
+        file_.contacts.push_back(c);
+    }
+
+    results::AuditRow audited() {
+        const auto path = scratch_.path() / "run.h5";
+        writeTrajectory(path, file_);
+        return inRunRow(scenario_, findQueries(scenario_, "run", path));
+    }
+
+    scenario::Scenario scenario_;
+    TrajectoryFile file_;
+};
+
+TEST_F(InRun, ContactsAsTheyShouldBe) {
+    const auto row = audited();
+    EXPECT_EQ(row.auditor, kInRun);
+    EXPECT_GE(row.frames, 10);
+    EXPECT_GT(row.overlapping, 10);
+    EXPECT_EQ(row.missed + row.spurious + row.undecided, 0) << row.worst;
+    EXPECT_LT(row.normalErrorMax.value(), 1e-9);
+    EXPECT_LT(row.depthErrorMax.value(), 1e-12);
+    EXPECT_LT(row.pointErrorMax.value(), 1e-12);
+}
+
+TEST_F(InRun, TheContactsOfAStepLaterAreNoticed) {
+    for (auto& c : file_.contacts) c.time += kStep;
+    EXPECT_GT(audited().depthErrorMax.value(), 1e-3);
+}
+
+TEST_F(InRun, FlippedNormals) {
+    for (auto& c : file_.contacts)
+        for (double& x : c.normal) x = -x;
+    const auto row = audited();
+    EXPECT_NEAR(row.normalErrorMedian.value(), std::numbers::pi, 1e-9);
+    EXPECT_LT(row.depthErrorMax.value(), 1e-12);
+}
+
+TEST_F(InRun, DepthsWithAMargin) {
+    for (auto& c : file_.contacts) c.depth += 0.04;
+    EXPECT_NEAR(audited().depthErrorMedian.value(), 0.04, 1e-12);
+}
+
+TEST_F(InRun, ForgottenAndInvented) {
+    std::erase_if(file_.contacts, [](const ContactSample& c) { return c.bodyA == 1; });
+    const auto forgotten = audited();
+    EXPECT_GT(forgotten.missed, 3);
+    EXPECT_EQ(forgotten.spurious, 0);
+    EXPECT_NE(forgotten.worst.find("left|right"), std::string::npos) << forgotten.worst;
+    EXPECT_NE(forgotten.worst.find("(missed)"), std::string::npos) << forgotten.worst;
+
+    ContactSample invented;
+    invented.bodyA = 1, invented.bodyB = 2, invented.depth = 0.01, invented.normal[0] = 1;
+    file_.contacts.clear();
+    for (int k = 1; k < kFrames; ++k) {
+        invented.time = k * kStep;
+        file_.contacts.push_back(invented);
+    }
+    const auto far = audited();
+    EXPECT_GT(far.spurious, 5);
+    for (auto& c : file_.contacts) c.depth = -0.01;  // keeps its distance: nothing is claimed
+    EXPECT_EQ(audited().spurious, 0);
+}
+
+/// Where contacts were not stored, nothing can be said, and nothing is.
+TEST_F(InRun, FramesWithoutStoredContactsAreNotAsked) {
+    file_.contactStride = 4;
+    std::erase_if(file_.contacts,
+                  [](const ContactSample& c) { return std::lround(c.time / kStep) % 4 != 0; });
+    const auto thinned = audited();
+    EXPECT_GT(thinned.overlapping, 5);
+    EXPECT_EQ(thinned.missed, 0) << thinned.worst;
+    file_.stride = 2;
+    const auto coarse = audited();
+    EXPECT_EQ(coarse.queries, 0);
+    EXPECT_NE(coarse.note, "");
+}
+
+}  // namespace
+}  // namespace rigor::validation
