@@ -35,7 +35,7 @@ TEST(Tree, EveryFolderHasAReadme) {
          {"engine", "adapters", "scenarios", "validation", "reports", "cli", "adapters/rigor",
           "adapters/bullet", "adapters/box2d", "adapters/ode", "adapters/fcl", "adapters/conformance",
           "validation/references", "validation/metrics", "validation/results", "validation/runner",
-          "validation/collide", "validation/studies"})
+          "validation/collide", "validation/studies", "validation/symmetry"})
         EXPECT_TRUE(exists(std::string(folder) + "/README.md")) << folder;
 }
 
