@@ -130,6 +130,14 @@ std::unique_ptr<Case> resting() {
     for (std::size_t k = 1; k <= kLast; ++k) c->run.contacts[k] = {touch};
     return c;
 }
+/// The ball pressed on the floor by 2 N s in one step: mu p_n = 1 N s. K is 1/m = 0.5 1/kg along the normal
+/// and 1/m + r^2/(0.4 m r^2) = 1.75 1/kg across it.
+std::unique_ptr<Case> pressed() {
+    auto c = resting();
+    c->scenario.materials[0].friction = 0.5;
+    c->run.contacts[10][0].hasImpulse = true, c->run.contacts[10][0].normalImpulse = 2;
+    return c;
+}
 /// A rod on a hinge about z with stops at 0.1 rad.
 std::unique_ptr<Case> hinged() {
     auto c = std::make_unique<Case>();
@@ -251,6 +259,24 @@ const std::vector<Row>& rows() {
          0.04 / 98},
         // the triples that begin or end with the gap do not count
         {"contact_flicker", "ball", resting, [](Case& c) { c.run.contacts[10].clear(); }, 1.0 / 96},
+        // Leaves while it is pressed.
+        {"signorini_residual", "ball", pressed,
+         [](Case& c) {
+             c.at(10, 1).velocity = {0, 0.3, 0};
+         },
+         0.3},
+        // 10 % beyond the cone, as a velocity
+        {"coulomb_residual", "ball", pressed,
+         [](Case& c) {
+             c.run.contacts[10][0].frictionImpulse = {0.88, 0, 0.66};
+         },
+         0.175},
+        // Slides and nothing brakes.
+        {"dissipation_error", "ball", pressed,
+         [](Case& c) {
+             c.at(10, 1).velocity = {0.12, 0, -0.16};
+         },
+         0.2},
         {"joint_drift", "hinge", hinged,
          [](Case& c) {
              c.at(50, 1).position += Vec3{0.003, 0, 0.004};

@@ -84,7 +84,7 @@ const std::string kBounce = scene("bounce", R"("gravity": [0, 0, 0], "duration":
      "shapes": [{"sphere": {"radius": 0.125}}]}],
   "reference": {"sphere_plane_impact": {"ball": "ball", "floor": "wall"}}, "metrics": ["quantity_error"],
   "accept": {"*": {"quantity_error": 1e-9, "position_max": 1e-9, "normal_error": 1e-7, "overlap_max": 1e-12,
-    "penetration_max": 1e-9, "energy_gain": 1e-12}})");
+    "penetration_max": 1e-9, "energy_gain": 1e-12, "signorini_residual": 1e-9}})");
 
 /// Blocks slide in two directions until they stop: v^2/(2 mu g) = 0.25 m, in 0.25 s.
 const std::string kSlides = scene("slides", R"("gravity": [0, -10, 0], "duration": 0.5, "dt": [0.0078125],
@@ -97,7 +97,8 @@ const std::string kSlides = scene("slides", R"("gravity": [0, -10, 0], "duration
      "velocity": [1.4142135623730951, 0, 1.4142135623730951],
      "shapes": [{"box": {"half_extents": [0.25, 0.03125, 0.25]}}]}],
   "reference": {"friction_sweep": {"bodies": ["along", "across"], "on": "floor"}}, "metrics": ["quantity_error"],
-  "accept": {"*": {"quantity_error": 0.04, "velocity_final": 1e-6, "position_final": 0.01, "normal_error": 1e-6}})");
+  "accept": {"*": {"quantity_error": 0.04, "velocity_final": 1e-6, "position_final": 0.01, "normal_error": 1e-6,
+    "signorini_residual": 1e-4, "coulomb_residual": 1e-9, "dissipation_error": 1e-4}})");
 
 /// A ball between two walls: for ever.
 const std::string kRally = scene("rally", R"("gravity": [0, 0, 0], "duration": 4, "dt": [0.0078125],
@@ -170,16 +171,28 @@ const Fault kFaults[] = {
     {"compound_inertia_hidden", &kTop, "angular_momentum_drift", "", 0.1, 1.0, kAllOfTheTop},
     {"momentum_leak", &kImpact, "linear_momentum_drift", "", 0.99e-6, 1.02e-6, "velocity_final spin_final"},
     {"normal_flipped", &kImpact, "normal_error", "", 3.13, 3.1416},
-    {"normal_flipped", &kBounce, "normal_error", "", 3.1415, 3.1416},
+    {"normal_flipped", &kBounce, "normal_error", "", 3.1415, 3.1416, "signorini_residual"},
     // (e - 0.99 e) |vn| / |v| = 0.005 / sqrt 2
-    {"restitution_low", &kBounce, "quantity_error", "normal_velocity", 0.00353, 0.00354, "position_max",
-     "tangential_velocity"},
+    {"restitution_low", &kBounce, "quantity_error", "normal_velocity", 0.00353, 0.00354,
+     "position_max signorini_residual", "tangential_velocity"},
+    // (e - 0.99 e) |vn|
+    {"restitution_low", &kBounce, "signorini_residual", "", 0.00999, 0.01001, "position_max quantity_error"},
     // 1/mu - 1 less a step's worth
-    {"friction_squared", &kSlides, "quantity_error", "stop_distance_along", 0.21, 0.26, "position_final"},
-    {"friction_squared", &kSlides, "quantity_error", "stop_distance_across", 0.21, 0.26, "position_final"},
+    {"friction_squared", &kSlides, "quantity_error", "stop_distance_along", 0.21, 0.26,
+     "position_final dissipation_error"},
+    {"friction_squared", &kSlides, "quantity_error", "stop_distance_across", 0.21, 0.26,
+     "position_final dissipation_error"},
     // 1 - 1/sqrt 2 at 45 degrees and a step's worth; nothing along an axis
-    {"friction_pyramid", &kSlides, "quantity_error", "stop_distance_across", 0.29, 0.33, "position_final",
-     "stop_distance_along"},
+    {"friction_pyramid", &kSlides, "quantity_error", "stop_distance_across", 0.29, 0.33,
+     "position_final coulomb_residual dissipation_error", "stop_distance_along"},
+    // (sqrt 2 - 1) mu p_n K: K is 1.05/m .. 4.05/m at a corner, and each carries a fourth of m g h, unevenly
+    {"friction_pyramid", &kSlides, "coulomb_residual", "across", 0.0067, 0.04,
+     "position_final quantity_error dissipation_error", "along"},
+    // 0.1 rad of what friction may take at a corner in a step: mu p_n K = 0.016 .. 0.063 m/s, and up to all
+    // of the
+    // load stands on one corner when it stops
+    {"friction_sideways", &kSlides, "dissipation_error", "", 0.0016, 0.0252,
+     "position_final quantity_error velocity_final signorini_residual"},
     // 2 x 1e-4/s x 4 s
     {"hidden_damping", &kRally, "energy_drift", "", 7.9e-4, 8.1e-4},
     // 1.01^2 at each of 10 or 11 bounces, of the energy at the end

@@ -180,6 +180,13 @@ struct FrictionPyramid : RigidWorld {
         return {clamp(impulse.x), clamp(impulse.y), clamp(impulse.z)};
     }
 };
+/// Half a tangent frame taken for the other: friction of the right size, turned by 0.1 rad from the slip.
+struct FrictionSideways : RigidWorld {
+    using RigidWorld::RigidWorld;
+    Vec3 limited(const Vec3& impulse, double limit) const override {
+        return rotate(scenario::fromAxisAngle({0, 1, 0}, 0.1), RigidWorld::limited(impulse, limit));
+    }
+};
 template <int Percent>
 struct Restitution : RigidWorld {
     using RigidWorld::RigidWorld;
@@ -236,6 +243,7 @@ const std::map<std::string, Maker> kFaults{{"none", &make<RigidWorld>},
                                            {"contacts_blink", &make<ContactsBlink>},
                                            {"creeping", &make<Creeping>},
                                            {"friction_pyramid", &make<FrictionPyramid>},
+                                           {"friction_sideways", &make<FrictionSideways>},
                                            {"friction_squared", &make<FrictionSquared>},
                                            {"gravity_double", &make<GravityDouble>},
                                            {"gravity_twice", &make<GravityTwice>},
