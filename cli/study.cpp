@@ -54,7 +54,7 @@ int runStudy(const Arguments& a) {
     options.directory = chooseRunFolder(a.out, a.resume, study.name);
     prepareRunFolder(options.directory, a.resume);
     options.binary = ownBinary(), options.jobs = a.jobs, options.resume = a.resume;
-    options.audit = a.audit, options.suite = study.name, options.command = ownCommandLine();
+    options.audit = a.audit || validation::asksForAudit(study), options.suite = study.name, options.command = ownCommandLine();
     if (options.resume) checkResumed(options.directory, plan.cases);
     std::signal(SIGINT, onInterruptStudy);
     std::signal(SIGTERM, onInterruptStudy);
@@ -92,7 +92,7 @@ void addStudy(CLI::App& app, Action& action) {
     command->add_option("-j,--jobs", a->jobs, "Cases at a time (default 1: timings are taken alone)")
         ->check(CLI::Range(1, 1024));
     command->add_flag("--resume", a->resume, "Go on with an interrupted run (--out, or the latest)");
-    command->add_flag("--audit", a->audit, "Also the contact audit of `validate`");
+    command->add_flag("--audit", a->audit, "Also the contact audit of `validate` (on where a column needs it)");
     command->add_flag("--json", a->json, "Print the tables as JSON");
     command->add_flag("-q,--quiet", a->quiet, "No progress");
     command->footer(

@@ -15,9 +15,9 @@ namespace rigor::report {
 namespace {
 
 /// In the order in which they must run.
-constexpr std::array<const char*, 9> kScripts{"core.js",    "scoreboard.js", "overview.js",
-                                              "tables.js",  "charts.js",     "case_tables.js",
-                                              "ladders.js", "scenario.js",   "main.js"};
+constexpr std::array<const char*, 10> kScripts{"core.js",     "scoreboard.js",  "overview.js", "tables.js",
+                                               "charts.js",   "case_tables.js", "ladders.js",  "study.js",
+                                               "scenario.js", "main.js"};
 
 /// Nothing inside a script element may look like markup to the parser.
 std::string inScript(std::string_view json) {
@@ -58,13 +58,14 @@ void fill(std::string& page, const std::string& mark, const std::string& with) {
 
 }  // namespace
 
-std::string htmlReport(const ViewModel& view, const TrajectoryLoader& load) {
+std::string htmlReport(const ViewModel& view, const TrajectoryLoader& load, const std::string& study) {
     std::string page(webAsset("page.html"));
     const auto& suite = view.run().suite;
     fill(page, "<!--title-->", "Rigor report" + (suite.empty() ? "" : ": " + escapeMarkup(suite)));
     fill(page, "/*style*/", inlined("style.css"));
 
     std::string data = dataElement("run-data", overviewJson(view));
+    if (!study.empty()) data += dataElement("study-data", study);
     for (std::size_t i = 0; i < view.run().scenarios.size(); ++i)
         data += dataElement("scenario-data-" + std::to_string(i), scenarioJson(view, i, load));
     std::string scripts = "<script>" + inlined("chart.min.js") + "</script>\n";

@@ -3,7 +3,9 @@
 #include "reports/report.hpp"
 
 #include <exception>
+#include <fstream>
 
+#include "reports/study.hpp"
 #include "reports/svg_plot.hpp"
 #include "reports/text.hpp"
 #include "reports/writers.hpp"
@@ -12,10 +14,25 @@
 
 namespace rigor::report {
 namespace fs = std::filesystem;
+namespace {
+
+/// What `rigor study` left beside the run, if it was one.
+std::optional<nlohmann::ordered_json> readStudy(const fs::path& file) {
+    std::ifstream in(file);
+    if (!in) return std::nullopt;
+    try {
+        return nlohmann::ordered_json::parse(in);
+    } catch (const nlohmann::json::exception& error) {
+        throw std::runtime_error(file.string() + ": cannot be read as a study: " + error.what());
+    }
+}
+
+}  // namespace
 
 std::vector<fs::path> writeReports(const fs::path& runDirectory) {
     const results::Run run = results::readRun(runDirectory);
     const ViewModel view(run);
+    const auto study = readStudy(runDirectory / "study.json");
     const TrajectoryLoader load = [&](const results::CaseRow& row) -> std::optional<results::TrajectoryFile> {
         if (row.trajectoryFile.empty()) return std::nullopt;
         try {
@@ -29,7 +46,7 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory) {
         writeFile(runDirectory / name, content);
         written.push_back(runDirectory / name);
     };
-    write("index.html", htmlReport(view, load));
+    write("index.html", htmlReport(view, load, study ? studyPageJson(*study) : ""));
     write("results.csv", csvReport(run));
     write("summary.md", markdownSummary(view));
     write("junit.xml", junitReport(run));
@@ -37,6 +54,8 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory) {
     if (!run.fairness.empty()) write("fairness.csv", fairnessCsv(run));
     auto plots = scenarioPlots(view, load);
     for (auto& plot : ladderPlots(view)) plots.push_back(std::move(plot));
+    if (study)
+        for (auto& plot : studyPlots(*study)) plots.push_back(std::move(plot));
     if (!plots.empty()) fs::create_directories(runDirectory / "plots");
     for (const auto& plot : plots) write(fs::path("plots") / plot.fileName, plot.svg);
     return written;

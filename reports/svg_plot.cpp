@@ -17,8 +17,8 @@ namespace {
 constexpr double kWidth = 760, kHeight = 420, kLeft = 78, kRight = 190, kTop = 40, kBottom = 50;
 
 /// Okabe-Ito: told apart with every common colour vision. The page uses the same, in the same order.
-constexpr std::array<const char*, 7> kPalette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                              "#E69F00", "#56B4E9", "#7A5C00"};
+constexpr std::array<const char*, kPaletteSize> kPalette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                         "#E69F00", "#56B4E9", "#7A5C00"};
 
 std::string coordinate(double value) {
     char buffer[32];
@@ -183,7 +183,11 @@ std::string colourOf(const ViewModel& view, const SpecColumn& column) {
     const auto& engines = view.run().engines;
     std::size_t i = 0;
     while (i < engines.size() && engines[i].name != column.engine) ++i;
-    return kPalette[i % kPalette.size()];
+    return paletteColour(i);
+}
+
+const char* paletteColour(std::size_t index) {
+    return kPalette[index % kPaletteSize];
 }
 
 std::vector<double> niceTicks(double least, double greatest, int about) {

@@ -33,6 +33,9 @@ std::vector<double> niceTicks(double least, double greatest, int about);
 struct NamedPlot {
     std::string fileName, svg;
 };
+/// Colours told apart with every common colour vision; they repeat after kPaletteSize.
+inline constexpr std::size_t kPaletteSize = 7;
+const char* paletteColour(std::size_t index);
 /// The colour of a column's engine: the same in every plot.
 std::string colourOf(const ViewModel& view, const SpecColumn& column);
 /// Error over time step and error over cost of every scenario that was run at three time steps or more.

@@ -27,8 +27,8 @@ std::string ordersCsv(const results::Run& run);
 std::string fairnessCsv(const results::Run& run);
 /// The orders of each scenario's main metric as a section of the summary; empty without any.
 std::string ordersMarkdown(const ViewModel& view);
-/// The self-contained page.
-std::string htmlReport(const ViewModel& view, const TrajectoryLoader& load);
+/// The self-contained page. `study`: studyPageJson() of a study's run, else empty.
+std::string htmlReport(const ViewModel& view, const TrajectoryLoader& load, const std::string& study = "");
 /// The data behind the page's overview, and behind the page of one scenario, as JSON.
 std::string overviewJson(const ViewModel& view);
 std::string scenarioJson(const ViewModel& view, std::size_t scenario, const TrajectoryLoader& load);

@@ -18,14 +18,14 @@
     try { localStorage.setItem('rigor-theme', theme); } catch { /* lasts for this visit */ }
     applyTheme(); route();
   }});
-  const links = [['#trust', 'Which engine', run.mechanisms.length], ['#scoreboard', 'Scoreboard', true], ['#timing', 'Cost', run.scenarios.some((s) => s.cases.some((c) => c.step))],
+  const links = [['#study', 'Study', Rigor.study], ['#trust', 'Which engine', run.mechanisms.length], ['#scoreboard', 'Scoreboard', true], ['#timing', 'Cost', run.scenarios.some((s) => s.cases.some((c) => c.step))],
     ['#in-run', 'Contacts', run.scenarios.some((s) => s.cases.some((c) => c.inRun && c.inRun.overlapping))], ['#audit', 'Contact queries', run.audit.length], ['#ledger', 'Parity ledger', true], ['#engines', 'Engines', true], ['#method', 'Method', true]];
   document.getElementById('top').append(el('div', {class: 'bar'}, el('a', {class: 'brand', href: '#'}, 'Rigor'),
     el('nav', {'aria-label': 'Sections'}, links.filter(([, , on]) => on).map(([href, text]) => el('a', {href}, text))), themeButton));
   document.getElementById('foot').append('The hosts of this comparison are the authors of one of the engines in it, rigor. ',
     'Beside this page: results.csv, summary.md, junit.xml, results.sqlite, plots.');
 
-  const overview = () => [Rigor.headline(), Rigor.trust(), Rigor.scoreboard(), Rigor.timingTable(), Rigor.inRunSummary(), Rigor.auditSummary(), Rigor.ledgerSummary(), Rigor.enginesPanel(), Rigor.methodPanel()].filter(Boolean);
+  const overview = () => [Rigor.headline(), Rigor.studyPanel(), Rigor.trust(), Rigor.scoreboard(), Rigor.timingTable(), Rigor.inRunSummary(), Rigor.auditSummary(), Rigor.ledgerSummary(), Rigor.enginesPanel(), Rigor.methodPanel()].filter(Boolean);
   let shown = null;
   const route = function () {
     const match = /^#\/scenario\/([^?]*)(?:\?(.*))?$/.exec(location.hash);

@@ -72,7 +72,7 @@ Rigor.inRunSummary = function () {
   };
   return Rigor.panel('in-run', 'Contacts acted upon',
     el('p', {class: 'muted'}, 'The contacts that each run itself acted upon, at sampled steps, against the exact oracle at the poses where the step began. ',
-      'Shown: the worst angle to the nearest exact normal and the worst depth error; “wrong” counts overlaps that were missed or invented; “blink” is the share of steps in which a touching pair lost its contact for one step.'),
+      'Shown: the worst angle to the nearest exact normal and the worst depth error; “wrong” counts overlaps that were missed or invented; “blink” is the share of steps in which a touching pair had lost its contact for just that step.'),
     Rigor.scroll(el('table', {}, Rigor.specHead([el('th', {class: 'sticky', scope: 'col'}, 'Scenario')], run.columns, (c) => el('th', {class: 'num', scope: 'col', title: c.spec}, Rigor.specSubtitle(c))),
       el('tbody', {}, rows.map((s) => el('tr', {}, el('th', {class: 'sticky', scope: 'row'}, el('a', {href: Rigor.scenarioLink(s.name)}, s.name)), run.columns.map((c) => cell(s, c))))))));
 };

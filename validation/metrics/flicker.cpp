@@ -95,8 +95,11 @@ std::vector<MetricValue> normalFlicker(const MetricInput& input) {
 std::vector<MetricValue> contactFlicker(const MetricInput& input) {
     ByBody found;
     overTriples(input, [&](Vec3, const Vec3* now, Vec3, const PairKey& key, std::size_t frame) {
-        add(found, key, now == nullptr ? 1.0 : 0.0, input.trajectory.times[frame]);
+        if (now == nullptr) add(found, key, 1.0, input.trajectory.times[frame]);
     });
+    if (input.trajectory.stride == 1)
+        for (const auto& contacts : input.trajectory.contacts)
+            for (const auto& [key, normal] : deepestNormals(contacts)) add(found, key, 0.0, -1.0);
     return meanRows(input, found);
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "validation/comparison/order.hpp"
+#include "validation/studies/audit_columns.hpp"
 #include "validation/studies/study.hpp"
 
 namespace rigor::validation {
@@ -150,6 +151,7 @@ StudyValue studyValue(const CaseRow& row, const std::string& metric) {
             if (t.phase == metric.substr(timePrefix.size()) && t.samples > 0) return {t.median, "s"};
         return {std::nullopt, "s"};
     }
+    if (metric.starts_with(kAuditPrefix)) return auditValue(row, metric.substr(kAuditPrefix.size()));
     const std::string quantityPrefix = "quantity.";
     if (metric.starts_with(quantityPrefix)) {
         for (const auto& q : row.quantities)

@@ -75,10 +75,24 @@ std::vector<Placed> placeScenarios(const scenario::StudyPart& part, const Scenar
     return all;
 }
 
+void checkAuditColumn(const scenario::StudyPart& part, const std::string& metric) {
+    std::string known;
+    for (const std::string& field : auditFields()) {
+        if (metric == kAuditPrefix + field) return;
+        known += (known.empty() ? "" : ", ") + field;
+    }
+    throw std::invalid_argument("study part '" + part.name + "': found column '" + metric +
+                                "', expected audit. and one of " + known);
+}
+
 /// A column that no case can fill is a typing error.
 void checkMetrics(const scenario::StudyPart& part) {
     for (const std::string& metric : part.metrics) {
         if (metric.starts_with("time.") || metric.starts_with("quantity.")) continue;
+        if (metric.starts_with(kAuditPrefix)) {
+            checkAuditColumn(part, metric);
+            continue;
+        }
         const std::string asked =
             metric.starts_with(kOrderPrefix) ? metric.substr(kOrderPrefix.size()) : metric;
         const std::string name = asked.substr(0, asked.find(':'));

@@ -253,8 +253,13 @@ std::string studyText(const StudyResult& result) {
 }
 
 Json studyJson(const StudyResult& result) {
-    Json out{{"name", result.study.name}, {"title", result.study.title}, {"green", studyIsGreen(result)},
-             {"symptoms", Json::array()}, {"findings", Json::array()},   {"parts", Json::array()}};
+    Json out{{"name", result.study.name},
+             {"title", result.study.title},
+             {"description", result.study.description},
+             {"green", studyIsGreen(result)},
+             {"symptoms", Json::array()},
+             {"findings", Json::array()},
+             {"parts", Json::array()}};
     for (const SymptomVerdict& s : result.symptoms) {
         const auto& part = result.study.parts[s.part];
         out["symptoms"].push_back({{"name", part.name},
@@ -273,7 +278,10 @@ Json studyJson(const StudyResult& result) {
     for (const FindingVerdict& f : result.findings) out["findings"].push_back(findingJson(result, f));
     for (std::size_t i = 0; i < result.study.parts.size(); ++i) {
         const auto& part = result.study.parts[i];
-        Json entry{{"name", part.name}, {"title", part.title}, {"rows", Json::array()}};
+        Json entry{{"name", part.name},
+                   {"title", part.title},
+                   {"description", part.description},
+                   {"rows", Json::array()}};
         for (const StudyResultRow& row : result.rows)
             if (row.row.part == i) entry["rows"].push_back(rowJson(result, row));
         out["parts"].push_back(std::move(entry));

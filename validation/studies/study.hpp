@@ -82,8 +82,14 @@ StudyResult evaluateStudy(const StudyPlan& plan, const results::Run& run);
 /// A column over several cases: "order.METRIC", the observed order of the ladder of time steps of a row.
 inline const std::string kOrderPrefix = "order.";
 
+/// A column of the contact audit: "audit.FIELD", of the contacts that the run acted upon.
+inline const std::string kAuditPrefix = "audit.";
+std::vector<std::string> auditFields();
+/// A part has such a column: its cases have to be audited.
+bool asksForAudit(const scenario::Study& study);
+
 /// A column of one case: a metric "name" or "name:subject", "quantity.NAME" (what a reference measures in the
-/// run) or "time.PHASE" (median wall time of a phase of the step).
+/// run), "time.PHASE" (median wall time of a phase of the step) or "audit.FIELD".
 StudyValue studyValue(const results::CaseRow& row, const std::string& metric);
 
 /// False when a symptom is not shown or not cured, a finding does not hold, or a case crashed, hung, failed
