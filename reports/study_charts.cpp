@@ -63,23 +63,23 @@ std::optional<Way> axisOf(const Json& rows, const std::vector<Way>& ways) {
 std::string shownValue(const Way& way, const Json& row) {
     const Json value = way.of(row);
     if (way.name == "dt") return timeStepLabel(value.get<double>());
-    return way.name + "=" + (value.is_string() ? value.get<std::string>() : value.dump());
+    return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 /// The variant, where there are several, and what else varies apart from the axis.
 std::string labelOf(const Json& rows, const Json& row, const std::vector<Way>& ways,
                     const std::optional<Way>& axis) {
-    std::string label;
+    std::vector<Way> varying;
+    for (const Way& way : ways)
+        if (way.name != "bodies" && (!axis || way.name != axis->name) && differentValues(rows, way) > 1)
+            varying.push_back(way);
     const Way variant{"variant", "", [](const Json& r) { return r.at("variant"); }};
-    std::vector<std::string> parts;
-    for (const Way& way : ways) {
-        if ((axis && (way.name == axis->name || way.name == "bodies")) || differentValues(rows, way) < 2)
-            continue;
-        if (way.name == "bodies") continue;  // another name for a parameter
-        parts.push_back(shownValue(way, row));
-    }
-    if (differentValues(rows, variant) > 1 || parts.empty()) label = row.at("variant").get<std::string>();
-    for (const auto& part : parts) label += (label.empty() ? "" : ", ") + part;
+    std::string label;
+    if (differentValues(rows, variant) > 1 || varying.empty()) label = row.at("variant").get<std::string>();
+    const bool named = !label.empty() || varying.size() > 1;  // one way alone needs no name
+    for (const Way& way : varying)
+        label += (label.empty() ? "" : ", ") + (named && way.name != "dt" ? way.name + "=" : "") +
+                 shownValue(way, row);
     return label;
 }
 

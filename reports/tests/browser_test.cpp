@@ -14,7 +14,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "reports/study.hpp"
 #include "reports/tests/synthetic_run.hpp"
+#include "reports/tests/synthetic_study.hpp"
 #include "reports/text.hpp"
 
 namespace rigor::report {
@@ -240,6 +242,52 @@ TEST_F(Browser, AScenarioRunAtManyStepsShowsItsOrders) {
     EXPECT_NE(found["text"].get<std::string>().find("1 at round-off"), std::string::npos);
     EXPECT_EQ(found["modes"], json::array({"equal_time", "equal_accuracy"}));
     EXPECT_EQ(found["elsewhere"], 0);
+}
+
+TEST_F(Browser, AStudyShowsItsFindingsChartsAndTables) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array(), bars = nlohmann::ordered_json::array();
+    for (const char* variant : {"cold", "warm"})
+        for (const double dt : {0.01, 0.005, 0.0025})
+            rows.push_back(
+                synthetic::studyRow(run_.scenarios[0].name, variant, dt, {}, {{"rest_sink", dt * dt}}));
+    for (const char* solver : {"pgs", "nsgs"})
+        bars.push_back(
+            synthetic::studyRow("other", "rigor", 0.01, {{"solver", solver}}, {{"rest_sink", 0.25}}));
+    const nlohmann::ordered_json study{
+        {"name", "sweeps"},
+        {"title", "What sweeps buy"},
+        {"description", "Much."},
+        {"symptoms", nlohmann::ordered_json::array()},
+        {"findings",
+         {{{"statement", "It sinks"},
+           {"source", "Catto 2005"},
+           {"variant", "cold"},
+           {"where", {{"dt", "0.01"}}},
+           {"metric", "rest_sink"},
+           {"at_least", 0.5},
+           {"at_most", nullptr},
+           {"least", 1e-4},
+           {"greatest", 1e-4},
+           {"holds", false}}}},
+        {"parts", {synthetic::studyPart("ladder", rows), synthetic::studyPart("solvers", bars)}}};
+    html_ = htmlReport(ViewModel(run_), synthetic::makeLoader(run_), studyPageJson(study));
+    const json found = probe("", R"js(
+        await pause();
+        found.kinds = [...document.querySelectorAll('#study .chart')].map(c => c.dataset.kind);
+        found.drawn = Rigor.liveCharts.map(c => c.data.datasets.map(d => d.data.length));
+        found.findings = document.querySelector('#study table').textContent;
+        found.values = [...document.querySelectorAll('[data-part="ladder"] td[data-value]')].map(d => d.dataset.value);
+        found.links = document.querySelectorAll('[data-part="ladder"] tbody a').length;
+        found.dead = document.querySelectorAll('[data-part="solvers"] tbody a').length;
+    )js");
+    expectClean(found);
+    EXPECT_EQ(found["kinds"], json::array({"lines", "bars"}));
+    EXPECT_EQ(found["drawn"], json::parse("[[3, 3], [2]]"));
+    EXPECT_NE(found["findings"].get<std::string>().find("does not hold"), std::string::npos);
+    EXPECT_EQ(found["values"].size(), 6u);
+    EXPECT_EQ(std::stod(found["values"][0].get<std::string>()), 0.01 * 0.01);
+    EXPECT_EQ(found["links"], 6);
+    EXPECT_EQ(found["dead"], 0) << "no page to go to";
 }
 
 TEST_F(Browser, ChartsOfAPageThatWasLeftAreNotDrawn) {

@@ -29,6 +29,8 @@ Rigor.studyChart = function (chart) {
   const tick = {color: style('--muted'), font: {size: 11}}, grid = {color: style('--line')};
   const colour = (i) => Rigor.palette[i % Rigor.palette.length];
   const values = {type: chart.logarithmic ? 'logarithmic' : 'linear', grid, ticks: {...tick, maxTicksLimit: 8, callback: (v) => Rigor.tick(v)}, beginAtZero: !chart.logarithmic};
+  const positive = chart.points.map((p) => Rigor.number(p.value)).filter((v) => v > 0 && Number.isFinite(v));
+  if (chart.logarithmic && !chart.axis && positive.length) values.min = 10 ** (Math.ceil(Math.log10(Math.min(...positive))) - 1);
   const common = {animation: false, responsive: true, maintainAspectRatio: false};
   const lines = chart.axis ? Rigor.studyLines(chart) : [];
   const text = (value) => `${Rigor.format(value)}${Rigor.unit(chart.unit)}`;
