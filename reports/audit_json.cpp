@@ -63,6 +63,7 @@ Json gatheredAudit(const results::Run& run) {
         for (const auto& row : run.cases) {
             if (row.scenario != scenario.name) continue;
             for (const auto& a : row.audit) {
+                if (a.auditor.find('|') != std::string::npos) continue;  // pairs are on the scenario's page
                 auto it = std::find_if(rows.begin(), rows.end(),
                                        [&](const auto& r) { return r.auditor == a.auditor; });
                 if (it == rows.end()) {

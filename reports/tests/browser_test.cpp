@@ -174,7 +174,8 @@ TEST_F(Browser, EveryScenarioPageOpensWithTheNumbersOfTheRun) {
           const cells = {};
           for (const row of document.querySelectorAll('#metrics tr[data-metric]'))
             if (row.dataset.subject === '') cells[row.dataset.metric] = [...row.querySelectorAll('td[data-value]')].map(d => d.dataset.value);
-          found.pages.push({name: s.name, cells, canvases: document.querySelectorAll('#curves canvas').length,
+          found.pages.push({name: s.name, cells, pairs: document.querySelectorAll('#audit-pairs tbody tr').length,
+            asked: [...document.querySelectorAll('#case-audit > .scroll tbody th')].map(t => t.textContent), canvases: document.querySelectorAll('#curves canvas').length,
             commands: [...document.querySelectorAll('#commands code')].map(c => c.textContent),
             outcomes: document.querySelector('#outcomes')?.textContent || ''});
         }
@@ -197,6 +198,9 @@ TEST_F(Browser, EveryScenarioPageOpensWithTheNumbersOfTheRun) {
     std::size_t compared = 0;
     for (const auto& page : found["pages"]) {
         EXPECT_GT(page["canvases"], 2);
+        EXPECT_GT(page["pairs"], 0);
+        for (const auto& asked : page["asked"])
+            EXPECT_EQ(asked.get<std::string>().find('|'), std::string::npos);
         for (const auto& c : run_.cases) {
             if (c.scenario != page["name"] || c.dt != 1.0 / 240.0) continue;
             const auto commands = page["commands"].get<std::vector<std::string>>();

@@ -121,7 +121,7 @@ void fillContext(CaseRow& c, Dice& dice) {
     c.readBack = {{"mass", "block", 2.0, 2.0, 0.0, true}, {"inertia", "block", 0.1, 0.1, 0.0, true}};
     if (c.spec == "ode:preset=default")
         c.readBack.push_back({"friction", "wood|floor", 0.5, 0.49, 0.01, false});
-    for (const char* auditor : {"oracle", "in_run", "rigor", "bullet", "ode", "fcl"}) {
+    for (const char* auditor : {"oracle", "in_run", "rigor", "bullet", "ode", "fcl", "bullet|ode"}) {
         AuditRow a{auditor,
                    "completed",
                    20,

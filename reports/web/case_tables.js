@@ -91,10 +91,16 @@ Rigor.auditPanel = function (cases) {
     el('td', {class: 'num', title: Rigor.full(a.normalErrorMax) + ' rad'}, Rigor.angle(a.normalErrorMax)), el('td', {class: 'num', title: Rigor.full(a.normalErrorMedian) + ' rad'}, Rigor.angle(a.normalErrorMedian)),
     Rigor.numberCell(a.depthErrorMax, 'm'), Rigor.numberCell(a.depthErrorMedian, 'm'), Rigor.numberCell(a.pointErrorMax, 'm'), el('td', {class: 'small'}, a.worst));
   const heads = ['Asked', 'Frames', 'Pairs', 'Overlap', 'Missed', 'Spurious', 'Undecided', 'Normal, worst', 'median', 'Depth, worst [m]', 'median [m]', 'Point, worst [m]', 'Worst at'];
+  const pairs = audited.flatMap((c) => c.audit.filter((a) => a.auditor.includes('|')).map((a) => ({...a, poses: Rigor.columnOf(c).label})));
+  const pairRow = (a) => el('tr', {}, el('th', {class: 'sticky', scope: 'row'}, a.auditor.replace('|', ' and ')), el('td', {}, a.poses), count(a.queries), count(a.overlapping), count(a.spurious), count(a.missed),
+    el('td', {class: 'num', title: Rigor.full(a.normalErrorMax) + ' rad'}, Rigor.angle(a.normalErrorMax)), el('td', {class: 'num', title: Rigor.full(a.normalErrorMedian) + ' rad'}, Rigor.angle(a.normalErrorMedian)), Rigor.numberCell(a.depthErrorMax, 'm'), Rigor.numberCell(a.depthErrorMedian, 'm'));
+  const pairHeads = ['Asked', 'Poses of', 'Pairs', 'Overlap for both', 'For the first alone', 'For the second alone', 'Normals apart, worst', 'median', 'Depths apart, worst [m]', 'median [m]'];
   return Rigor.panel('case-audit', 'Contact audit',
     el('p', {class: 'muted'}, 'Sampled poses of the run named in the grey rows: the contacts that the run itself acted upon, and every collision engine asked about the same poses, against the exact oracle.'),
     Rigor.scroll(el('table', {class: 'full'}, el('thead', {}, el('tr', {}, heads.map((t, i) => el('th', {class: i === 0 ? 'sticky' : i === heads.length - 1 ? null : 'num', scope: 'col'}, t)))),
-      audited.map((c) => el('tbody', {}, el('tr', {class: 'sub'}, el('th', {colspan: heads.length}, `Poses of ${Rigor.columnOf(c).label}`)), c.audit.map(row))))));
+      audited.map((c) => el('tbody', {}, el('tr', {class: 'sub'}, el('th', {colspan: heads.length}, `Poses of ${Rigor.columnOf(c).label}`)), c.audit.filter((a) => !a.auditor.includes('|')).map(row))))),
+    pairs.length ? el('details', {id: 'audit-pairs'}, el('summary', {}, 'Collision engines against each other'), el('p', {class: 'muted'}, 'Normals that are both among the exact ones count as the same.'),
+      Rigor.scroll(el('table', {class: 'full'}, el('thead', {}, el('tr', {}, pairHeads.map((t, i) => el('th', {class: i === 0 ? 'sticky' : i === 1 ? null : 'num', scope: 'col'}, t)))), el('tbody', {}, pairs.map(pairRow))))) : null);
 };
 
 Rigor.parityPanel = function (cases) {

@@ -32,7 +32,7 @@ Rigor.timingTable = function () {
 Rigor.auditSummary = function () {
   const {el, run} = Rigor;
   if (!run.audit.length) return null;
-  const auditors = [...new Set(run.audit.flatMap((a) => a.rows.map((r) => r.auditor)))].filter((name) => name !== 'oracle' && name !== 'in_run');
+  const auditors = [...new Set(run.audit.flatMap((a) => a.rows.map((r) => r.auditor)))].filter((name) => name !== 'oracle' && name !== 'in_run' && !name.includes('|'));
   const cell = function (rows, auditor) {
     const r = rows.find((x) => x.auditor === auditor);
     if (!r) return el('td', {class: 'num muted'}, '');

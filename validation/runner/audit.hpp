@@ -45,9 +45,26 @@ struct AuditCase {
 AuditCase findQueries(const scenario::Scenario& scenario, const std::string& caseId,
                       const std::filesystem::path& trajectory);
 
-/// What one collision engine answers, held against the oracle.
-results::AuditRow askAuditor(const scenario::Scenario& scenario, const AuditCase& questions,
-                             const adapter::CollisionEngine& engine, const std::string& auditor);
+/// What one collision engine said to one question.
+struct AuditAnswer {
+    bool answered = false;  ///< false: it does not have such shapes
+    bool overlap = false;
+    bool hasContact = false;  ///< the rest is of its deepest contact
+    bool minimising = false;  ///< its normal is one of the exact ones
+    double depth = 0.0;
+    scenario::Vec3 normal;
+};
+struct AuditAnswers {
+    results::AuditRow row;             ///< held against the oracle
+    std::vector<AuditAnswer> answers;  ///< by question
+};
+AuditAnswers askAuditor(const scenario::Scenario& scenario, const AuditCase& questions,
+                        const adapter::CollisionEngine& engine, const std::string& auditor);
+/// Two engines held against each other, whether or not the oracle knows: a row named "a|b" in which `missed`
+/// counts what b alone calls an overlap, `spurious` what a alone does, and the errors are between the two.
+/// Normals that are both among the exact ones do not differ.
+results::AuditRow pairRow(const std::string& a, const std::vector<AuditAnswer>& ofA, const std::string& b,
+                          const std::vector<AuditAnswer>& ofB);
 /// Name of the row of what the run itself acted upon.
 inline constexpr const char* kInRun = "in_run";
 /// The contacts that the run acted upon, held against the oracle at the poses where its step began. A contact

@@ -51,6 +51,10 @@ AuditQuery queryFromJson(const json& j) {
     return q;
 }
 
+json auditAnswerToJson(const AuditAnswer& a) {
+    return {a.answered, a.overlap, a.hasContact, a.minimising, numberToJson(a.depth), vectorToJson(a.normal)};
+}
+
 scenario::Scenario scenarioOf(const json& request) {
     return scenario::loadScenarioText(request.at("text").get<std::string>(),
                                       request.at("scenario").get<std::string>())
@@ -90,7 +94,10 @@ json ask(const json& request) {
         asked.id = entry.at("id"), asked.frames = entry.at("frames");
         if (!only.empty() && asked.id != only) continue;
         for (const json& q : entry.at("queries")) asked.queries.push_back(queryFromJson(q));
-        rows[asked.id] = auditToJson(askAuditor(s, asked, *engine->collision(), auditor));
+        const AuditAnswers said = askAuditor(s, asked, *engine->collision(), auditor);
+        json answers = json::array();
+        for (const AuditAnswer& a : said.answers) answers.push_back(auditAnswerToJson(a));
+        rows[asked.id] = {{"row", auditToJson(said.row)}, {"answers", std::move(answers)}};
     }
     return rows;
 }

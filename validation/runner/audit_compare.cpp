@@ -8,6 +8,7 @@
 #include "adapters/interface/input_check.hpp"
 #include "validation/oracle/oracle.hpp"
 #include "validation/runner/audit.hpp"
+#include "validation/runner/audit_spread.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -39,29 +40,21 @@ double surfaceDistance(Vec3 point, const Geometry& geometry, const Pose& pose, i
     return answer ? std::abs(answer->signedDistance + kRadius) : 0.0;
 }
 
-/// The largest value and the median of what was measured.
-class Spread {
-  public:
-    bool add(double value) {
-        values_.push_back(value);
-        if (!(value <= largest_)) {
-            largest_ = value;
-            return true;
-        }
-        return false;
-    }
-    std::optional<double> max() const { return values_.empty() ? std::nullopt : std::optional(largest_); }
-    std::optional<double> median() {
-        if (values_.empty()) return std::nullopt;
-        const auto middle = values_.begin() + static_cast<std::ptrdiff_t>(values_.size() / 2);
-        std::nth_element(values_.begin(), middle, values_.end());
-        return *middle;
-    }
+const ContactPoint& deepestOf(const std::vector<ContactPoint>& contacts) {
+    return *std::max_element(contacts.begin(), contacts.end(),
+                             [](const ContactPoint& x, const ContactPoint& y) { return x.depth < y.depth; });
+}
 
-  private:
-    std::vector<double> values_;
-    double largest_ = -1.0;
-};
+AuditAnswer brief(const AuditQuery& q, const CollisionAnswer& answer) {
+    constexpr double kSame = 1e-6;  // [rad]
+    AuditAnswer said;
+    said.answered = true, said.overlap = answer.overlap, said.hasContact = !answer.contacts.empty();
+    if (!said.hasContact) return said;
+    const ContactPoint& deepest = deepestOf(answer.contacts);
+    said.depth = deepest.depth, said.normal = deepest.normal;
+    said.minimising = q.decided && normalError(deepest.normal, q.normals) < kSame;
+    return said;
+}
 
 class Comparison {
   public:
@@ -101,9 +94,7 @@ class Comparison {
 
   private:
     void compareContacts(const AuditQuery& q, const CollisionAnswer& answer) {
-        const ContactPoint& deepest =
-            *std::max_element(answer.contacts.begin(), answer.contacts.end(),
-                              [](const ContactPoint& x, const ContactPoint& y) { return x.depth < y.depth; });
+        const ContactPoint& deepest = deepestOf(answer.contacts);
         depth_.add(std::abs(deepest.depth + q.signedDistance));
         if (normal_.add(normalError(deepest.normal, q.normals))) name(q, "normal", 1);
         const int dimension = scenario_.dimension;
@@ -132,9 +123,10 @@ class Comparison {
 
 }  // namespace
 
-results::AuditRow askAuditor(const Scenario& scenario, const AuditCase& questions,
-                             const adapter::CollisionEngine& engine, const std::string& auditor) {
-    results::AuditRow row;
+AuditAnswers askAuditor(const Scenario& scenario, const AuditCase& questions,
+                        const adapter::CollisionEngine& engine, const std::string& auditor) {
+    AuditAnswers said;
+    results::AuditRow& row = said.row;
     row.auditor = auditor, row.outcome = "completed", row.frames = questions.frames;
     Comparison comparison(scenario, row);
     std::string refusal;
@@ -144,9 +136,12 @@ results::AuditRow askAuditor(const Scenario& scenario, const AuditCase& question
         query.a = {&geometryOf(scenario, q.bodyA, q.shapeA), q.poseA};
         query.b = {&geometryOf(scenario, q.bodyB, q.shapeB), q.poseB};
         query.dimension = scenario.dimension;
+        said.answers.emplace_back();
         try {
             adapter::checkQueryInput(query);
-            comparison.add(q, engine.collide(query));
+            const CollisionAnswer answer = engine.collide(query);
+            comparison.add(q, answer);
+            said.answers.back() = brief(q, answer);
             ++row.queries;
         } catch (const adapter::Unsupported& error) {
             refusal = error.what();
@@ -161,7 +156,7 @@ results::AuditRow askAuditor(const Scenario& scenario, const AuditCase& question
         row.note = std::to_string(refused) + " of " + std::to_string(questions.queries.size()) +
                    " questions not answered: " + refusal;
     if (refused > 0 && row.queries == 0) row.outcome = "unsupported";
-    return row;
+    return said;
 }
 
 results::AuditRow inRunRow(const Scenario& scenario, const AuditCase& questions) {

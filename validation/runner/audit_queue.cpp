@@ -15,6 +15,13 @@ namespace {
 constexpr ProcessLimits kPrepareLimits{120.0, 4096};
 constexpr ProcessLimits kAskLimits{30.0, 4096};
 
+AuditAnswer answerFromJson(const json& j) {
+    AuditAnswer a;
+    a.answered = j.at(0), a.overlap = j.at(1), a.hasContact = j.at(2), a.minimising = j.at(3);
+    a.depth = numberFromJson(j.at(4)), a.normal = {j.at(5).at(0), j.at(5).at(1), j.at(5).at(2)};
+    return a;
+}
+
 AuditRow failedRow(const std::string& auditor, const ProcessResult& result) {
     AuditRow row;
     row.auditor = auditor;
@@ -30,6 +37,7 @@ struct AuditQueue::Batch {
     std::map<std::string, std::string> cases;  ///< id to trajectory
     std::filesystem::path questions;
     std::map<std::string, std::map<std::string, AuditRow>> rows;  ///< by case, by auditor
+    std::map<std::string, std::map<std::string, std::vector<AuditAnswer>>> answers;
     int pending = 0;
 };
 
@@ -95,7 +103,10 @@ void AuditQueue::answered(const std::shared_ptr<Batch>& batch, const std::string
                           const std::filesystem::path& answer) {
     const auto rows = readJsonFile(answer);
     if (result.exitedWith(0) && rows) {
-        for (const auto& [id, row] : rows->items()) batch->rows[id][auditor] = auditFromJson(row);
+        for (const auto& [id, said] : rows->items()) {
+            batch->rows[id][auditor] = auditFromJson(said.at("row"));
+            for (const json& a : said.at("answers")) batch->answers[id][auditor].push_back(answerFromJson(a));
+        }
     } else if (onlyCase.empty() && batch->cases.size() > 1 && !result.timedOut) {
         // One question killed it: the others deserve their answers. (After a hang they would cost too much.)
         for (const auto& [id, file] : batch->cases) ask(batch, auditor, id);
@@ -112,6 +123,11 @@ void AuditQueue::finishOne(const std::shared_ptr<Batch>& batch) {
         std::vector<AuditRow> rows{byAuditor["oracle"], byAuditor[kInRun]};
         for (const auto& auditor : auditors_)
             if (const auto it = byAuditor.find(auditor); it != byAuditor.end()) rows.push_back(it->second);
+        const auto& answers = batch->answers[id];
+        for (auto a = answers.begin(); a != answers.end(); ++a)
+            for (auto b = std::next(a); b != answers.end(); ++b)
+                if (auto row = pairRow(a->first, a->second, b->first, b->second); row.queries > 0)
+                    rows.push_back(std::move(row));
         deliver_(id, std::move(rows));
     }
     std::error_code ignored;

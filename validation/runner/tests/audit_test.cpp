@@ -80,8 +80,52 @@ TEST_F(Audit, AnAuditorThatCrashesCostsItsOwnRowOnly) {
         EXPECT_THAT(rowOf(c, "double_auditor_abort").note, HasSubstr("SIGABRT"));
         EXPECT_EQ(rowOf(c, "double_auditor").outcome, "completed");
         EXPECT_EQ(c.verdict, results::Verdict::Pass) << "the case is not to blame";
-        EXPECT_EQ(c.audit.size(), 9u) << "the oracle, the run and seven auditors";
+        const auto alone = std::count_if(c.audit.begin(), c.audit.end(), [](const AuditRow& row) {
+            return row.auditor.find('|') == std::string::npos;
+        });
+        EXPECT_EQ(alone, 9) << "the oracle, the run and seven auditors";
+        for (const AuditRow& row : c.audit)
+            EXPECT_EQ(row.auditor.find("abort|"), std::string::npos) << "who gave no answers has no pairs";
     }
+}
+
+TEST_F(Audit, AuditorsAreHeldAgainstEachOther) {
+    const auto run = audited("double_free_flight:preset=default");
+    const results::CaseRow& c = run.cases[0];
+    const AuditRow& oracle = rowOf(c, "oracle");
+
+    const AuditRow& flipped = rowOf(c, "double_auditor|double_auditor_flipped");
+    EXPECT_EQ(flipped.queries, oracle.queries);
+    EXPECT_EQ(flipped.overlapping, oracle.overlapping);
+    EXPECT_EQ(flipped.missed + flipped.spurious, 0);
+    EXPECT_NEAR(flipped.normalErrorMedian.value(), std::numbers::pi, 1e-9);
+    EXPECT_EQ(flipped.depthErrorMax.value(), 0.0);
+
+    const AuditRow& deep = rowOf(c, "double_auditor|double_auditor_deep");
+    EXPECT_NEAR(deep.depthErrorMedian.value(), 0.01, 1e-12);
+    EXPECT_EQ(deep.normalErrorMax.value(), 0.0);
+
+    const AuditRow& blind = rowOf(c, "double_auditor|double_auditor_blind");
+    EXPECT_EQ(blind.spurious, oracle.overlapping) << "found by the first alone";
+    EXPECT_EQ(blind.missed, 0);
+    EXPECT_FALSE(blind.normalErrorMax.has_value());
+
+    const AuditRow& anxious = rowOf(c, "double_auditor|double_auditor_anxious");
+    EXPECT_EQ(anxious.missed, oracle.queries - oracle.overlapping) << "found by the second alone";
+}
+
+/// Two of several exact normals are the same answer; two of which one is wrong are not.
+TEST(AuditPairs, EquallyGoodNormalsDoNotDiffer) {
+    const auto answer = [](scenario::Vec3 normal, bool minimising) {
+        return AuditAnswer{true, true, true, minimising, 0.1, normal};
+    };
+    const auto angle = [&](bool one, bool other) {
+        return pairRow("a", {answer({1, 0, 0}, one)}, "b", {answer({0, 1, 0}, other)}).normalErrorMax.value();
+    };
+    EXPECT_EQ(angle(true, true), 0.0);
+    EXPECT_NEAR(angle(true, false), std::numbers::pi / 2, 1e-15);
+    EXPECT_NEAR(angle(false, false), std::numbers::pi / 2, 1e-15);
+    EXPECT_EQ(pairRow("a", {AuditAnswer{}}, "b", {answer({1, 0, 0}, true)}).queries, 0);
 }
 
 /// Shapes that an auditor does not have are counted and told, not errors.
