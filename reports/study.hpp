@@ -30,9 +30,10 @@ struct StudyChart {
     std::vector<StudyPoint> points;  ///< of a line: together, by x
 };
 
-/// From `study.json`. A part's axis is what takes the most numbers in its grid, three at least: a parameter
-/// or an option, the number of bodies, the time step. Values over more than two decades are drawn by their
-/// logarithms.
+/// From `study.json`. Where a part with an axis has a column of time, its other columns are drawn over that,
+/// too: error against cost. A part's axis is what takes the most numbers in its grid, three at least: a
+/// parameter or an option, the number of bodies, the time step. Values over more than two decades are drawn
+/// by their logarithms.
 std::vector<StudyChart> studyCharts(const nlohmann::ordered_json& study);
 
 /// The study with its charts, for the page.

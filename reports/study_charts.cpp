@@ -132,9 +132,39 @@ StudyChart chartOf(const Json& part, const Json& rows, const std::string& scenar
     return chart;
 }
 
+/// The same values over what the runs cost; the axis is only what orders a line's points.
+std::optional<StudyChart> overCost(const StudyChart& chart, const StudyChart& cost) {
+    if (chart.axis.empty() || chart.metric.starts_with("time.")) return std::nullopt;
+    StudyChart over = chart;
+    over.axis = cost.metric + " [s]", over.metric = chart.metric + " against " + cost.metric;
+    over.logarithmicX = true;
+    for (std::size_t i = 0; i < over.points.size(); ++i) {
+        over.points[i].x = cost.points[i].value;
+        if (!over.points[i].x || !(*over.points[i].x > 0.0))
+            over.points[i].value.reset(), over.points[i].x = 0.0;
+    }
+    return over;
+}
+
 bool hasSomething(const StudyChart& chart) {
     return std::any_of(chart.points.begin(), chart.points.end(),
                        [](const auto& p) { return p.value.has_value(); });
+}
+
+/// The columns of some rows, then those that have a cost to stand against.
+void addCharts(const Json& part, const Json& rows, const std::string& scenario,
+               std::vector<StudyChart>& charts) {
+    std::vector<StudyChart> columns;
+    const StudyChart* cost = nullptr;
+    for (const auto& [metric, cell] : rows.front().at("metrics").items())
+        if (auto chart = chartOf(part, rows, scenario, metric); hasSomething(chart))
+            columns.push_back(std::move(chart));
+    for (const auto& chart : columns)
+        if (chart.metric.starts_with("time.")) cost = &chart;
+    charts.insert(charts.end(), columns.begin(), columns.end());
+    if (cost == nullptr) return;
+    for (const auto& chart : columns)
+        if (auto over = overCost(chart, *cost)) charts.push_back(std::move(*over));
 }
 
 }  // namespace
@@ -152,15 +182,12 @@ std::vector<StudyChart> studyCharts(const Json& study) {
                 std::find(bases.begin(), bases.end(), base) == bases.end())
                 bases.push_back(base);
         const bool together = bases.size() >= kLeastPlaces && differentValues(all, bodies) == bases.size();
-        for (const auto& [metric, cell] : all.front().at("metrics").items()) {
-            for (const auto& base : bases) {
-                Json rows = Json::array();
-                for (const auto& row : all)
-                    if (together || row.at("base") == base) rows.push_back(row);
-                auto chart = chartOf(part, rows, together || bases.size() == 1 ? "" : base, metric);
-                if (hasSomething(chart)) charts.push_back(std::move(chart));
-                if (together) break;
-            }
+        for (const auto& base : bases) {
+            Json rows = Json::array();
+            for (const auto& row : all)
+                if (together || row.at("base") == base) rows.push_back(row);
+            addCharts(part, rows, together || bases.size() == 1 ? "" : base, charts);
+            if (together) break;
         }
     }
     return charts;

@@ -55,11 +55,27 @@ TEST(StudyCharts, NamesAreBarsAndScenariosHaveTheirOwn) {
     const auto charts = studyCharts({{"parts", {studyPart("solvers", rows)}}});
     ASSERT_EQ(charts.size(), 4u) << "two columns of two scenarios";
     EXPECT_EQ(charts[0].scenario, "arch");
-    EXPECT_EQ(charts[1].scenario, "stack");
+    EXPECT_EQ(charts[2].scenario, "stack");
     EXPECT_EQ(charts[0].axis, "");
-    EXPECT_TRUE(charts[2].logarithmic);
+    EXPECT_TRUE(charts[1].logarithmic);
     EXPECT_FALSE(charts[0].logarithmic) << "energy_gain: nothing but zeros";
     EXPECT_EQ(charts[0].points[1].label, "nsgs");
+}
+
+/// Error against cost: a point per run, at its time.
+TEST(StudyCharts, ColumnsOfALadderStandOverTheirCost) {
+    Json rows = Json::array();
+    for (const double sweeps : {1.0, 2.0, 4.0})
+        rows.push_back(studyRow("stack", "pgs", 0.01, {{"iterations", std::to_string(int(sweeps))}},
+                                {{"rest_sink", 1.0 / sweeps}, {"time.step", 1e-6 * sweeps}}));
+    rows[1]["metrics"]["time.step"]["value"] = nullptr;
+    const auto charts = studyCharts({{"parts", {studyPart("sweeps", rows)}}});
+    ASSERT_EQ(charts.size(), 3u);
+    EXPECT_EQ(charts[2].metric, "rest_sink against time.step");
+    EXPECT_EQ(charts[2].axis, "time.step [s]");
+    EXPECT_EQ(charts[2].points[2].x, 4e-6);
+    EXPECT_EQ(charts[2].points[2].value, 0.25);
+    EXPECT_FALSE(charts[2].points[1].value.has_value()) << "a run without a time";
 }
 
 TEST(StudyCharts, ARunThatBrokeIsNoPointButIsTold) {
