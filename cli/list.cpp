@@ -15,6 +15,7 @@
 #include "validation/metrics/metric.hpp"
 #include "validation/references/reference.hpp"
 #include "validation/runner/runner.hpp"
+#include "validation/symmetry/symmetry.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -190,6 +191,13 @@ Json references() {
     return list;
 }
 
+Json symmetries() {
+    Json list = Json::array();
+    for (const auto& s : validation::symmetryTable())
+        list.push_back({{"name", s.name}, {"title", s.title}, {"formula", s.formula}});
+    return list;
+}
+
 struct Listing {
     const char* name;
     const char* help;
@@ -211,6 +219,7 @@ const std::vector<Listing>& listings() {
          algorithms,
          {"stage", "name", "summary"}},
         {"metrics", "Metrics with unit and formula", metrics, {"name", "unit", "kind", "title"}},
+        {"symmetries", "Symmetries that a study can hold engines to", symmetries, {"name", "title"}},
         {"references",
          "Reference solutions with formula and source",
          references,

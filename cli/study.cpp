@@ -45,22 +45,28 @@ scenario::Study chosenParts(scenario::Study study, const std::vector<std::string
 
 int runStudy(const Arguments& a) {
     const auto study = chosenParts(scenario::loadStudy(scenario::findStudy(a.study)), a.parts);
-    const auto plan =
-        validation::planStudy(study, [](const std::string& name, const std::vector<std::string>& set) {
+    auto plan = validation::planStudy(
+        study,
+        [](const std::string& name, const std::vector<std::string>& set) {
             return loadWithReference(name, set, false);
-        });
+        },
+        [](const std::string& engine) { return validation::describeEngine(engine, ownBinary()).options; });
 
     validation::RunOptions options;
     options.directory = chooseRunFolder(a.out, a.resume, study.name);
     prepareRunFolder(options.directory, a.resume);
     options.binary = ownBinary(), options.jobs = a.jobs, options.resume = a.resume;
-    options.audit = a.audit || validation::asksForAudit(study), options.suite = study.name, options.command = ownCommandLine();
-    if (options.resume) checkResumed(options.directory, plan.cases);
+    options.audit = a.audit || validation::asksForAudit(study), options.suite = study.name;
+    options.command = ownCommandLine();
+    if (options.resume) {
+        validation::extendFromFolder(plan, options.directory);
+        checkResumed(options.directory, plan.cases);
+    }
     std::signal(SIGINT, onInterruptStudy);
     std::signal(SIGTERM, onInterruptStudy);
     ProgressLine line(a.quiet);
-    const auto run = validation::runCases(
-        plan.cases, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
+    const auto run = validation::runStudyCases(
+        plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
     line.finish();
     if (interrupted) {
         std::fprintf(stderr, "Interrupted: %zu of %zu cases are stored. Go on with --resume --out %s\n",
@@ -92,7 +98,8 @@ void addStudy(CLI::App& app, Action& action) {
     command->add_option("-j,--jobs", a->jobs, "Cases at a time (default 1: timings are taken alone)")
         ->check(CLI::Range(1, 1024));
     command->add_flag("--resume", a->resume, "Go on with an interrupted run (--out, or the latest)");
-    command->add_flag("--audit", a->audit, "Also the contact audit of `validate` (on where a column needs it)");
+    command->add_flag("--audit", a->audit,
+                      "Also the contact audit of `validate` (on where a column needs it)");
     command->add_flag("--json", a->json, "Print the tables as JSON");
     command->add_flag("-q,--quiet", a->quiet, "No progress");
     command->footer(

@@ -10,7 +10,8 @@ Rigor.metricKinds = [
   ['scheme_exact', 'Against the engine’s own scheme', 'bugs: the distance from a perfect run of its own time-stepping formula'],
   ['measured', 'Against the recorded motion', 'a real body: the errors of the model and of the instrument are in it'],
   ['invariant', 'Invariants', 'what physics conserves'], ['contact', 'Contacts', 'penetration, normals, contact law'],
-  ['joint', 'Joints', 'anchor drift and limits'], ['rest', 'Rest', 'what should stand still']];
+  ['joint', 'Joints', 'anchor drift and limits'], ['rest', 'Rest', 'what should stand still'],
+  ['outcome', 'What came of it', 'neither right nor wrong for one start: distributions over many are comparable']];
 
 Rigor.outcomesPanel = function (cases, focus) {
   const {el} = Rigor;

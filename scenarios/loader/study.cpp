@@ -100,10 +100,26 @@ StudySymptom readSymptom(const Node& node, const StudyPart& part) {
     return symptom;
 }
 
+StudyEnsemble readEnsemble(const Node& node) {
+    StudyEnsemble ensemble;
+    if (!node.isObject({"members", "seed", "position", "angle", "velocity", "spin"})) return ensemble;
+    if (const auto n = node.require("members")) ensemble.members = n->integer(2, 1000);
+    if (const auto n = node.require("seed")) ensemble.seed = n->integer(0, 2000000000);
+    if (const auto n = node.find("position")) ensemble.position = n->number(0.0, 10.0);
+    if (const auto n = node.find("angle")) ensemble.angle = n->number(0.0, 3.2);
+    if (const auto n = node.find("velocity")) ensemble.velocity = n->number(0.0, 100.0);
+    if (const auto n = node.find("spin")) ensemble.spin = n->number(0.0, 100.0);
+    if (ensemble.position + ensemble.angle + ensemble.velocity + ensemble.spin <= 0.0)
+        node.problem("study.ensemble", "nothing to be different",
+                     "one of position, angle, velocity, spin above 0");
+    return ensemble;
+}
+
 StudyPart readPart(const Node& node) {
     StudyPart part;
     if (!node.isObject({"name", "title", "description", "scenarios", "set", "parameters", "options",
-                        "variants", "dt", "metrics", "symptom", "findings"}))
+                        "variants", "dt", "metrics", "symmetries", "ensemble", "divergence_threshold",
+                        "symptom", "findings"}))
         return part;
     if (const auto n = node.require("name")) part.name = n->name();
     if (const auto n = node.find("title")) part.title = n->text();
@@ -124,6 +140,9 @@ StudyPart readPart(const Node& node) {
     if (const auto n = node.find("dt"))
         for (const Node& item : n->items()) part.timeSteps.push_back(item.number(1e-7, 1.0));
     if (const auto n = node.require("metrics")) part.metrics = n->texts();
+    if (const auto n = node.find("symmetries")) part.symmetries = n->texts();
+    if (const auto n = node.find("ensemble")) part.ensemble = readEnsemble(*n);
+    if (const auto n = node.find("divergence_threshold")) part.divergenceThreshold = n->number(1e-12, 100.0);
     if (const auto n = node.find("symptom")) {
         part.symptom = readSymptom(*n, part);
         if (std::find(part.metrics.begin(), part.metrics.end(), part.symptom->metric) == part.metrics.end())

@@ -38,6 +38,17 @@ struct StudyFinding {
     std::optional<double> atLeast, atMost;  ///< every such row is within
 };
 
+/// Starts a little beside the scenario's, by which chaotic scenes are compared: each joined group of bodies
+/// is moved as a whole. Uniform within plus and minus these, for each component.
+struct StudyEnsemble {
+    int members = 0;
+    int seed = 0;
+    double position = 0.0;  ///< [m]
+    double angle = 0.0;     ///< [rad]
+    double velocity = 0.0;  ///< [m/s]
+    double spin = 0.0;      ///< [rad/s]
+};
+
 struct StudyPart {
     std::string name, title, description;
     std::vector<std::string> scenarios;  ///< names or files; relative to the study's own file
@@ -47,8 +58,11 @@ struct StudyPart {
     /// Spec keys and their values: every combination is run with every variant.
     std::vector<std::pair<std::string, std::vector<std::string>>> options;
     std::vector<StudyVariant> variants;
-    std::vector<double> timeSteps;     ///< empty: the first of each scenario
-    std::vector<std::string> metrics;  ///< columns; "name" or "name:subject"
+    std::vector<double> timeSteps;        ///< empty: the first of each scenario
+    std::vector<std::string> metrics;     ///< columns; "name" or "name:subject"
+    std::vector<std::string> symmetries;  ///< names of validation's table, or "*"; each row is also run so
+    std::optional<StudyEnsemble> ensemble;
+    double divergenceThreshold = 0.01;  ///< of the scene's length: above it two runs are two
     std::optional<StudySymptom> symptom;
     std::vector<StudyFinding> findings;
 };

@@ -75,7 +75,7 @@ void compareMetrics(const CaseRow& before, const CaseRow& after, const CompareOp
                     SpecChange& spec, RunComparison& all) {
     for (const MetricRow& m : before.metrics) {
         const MetricRow* other = find(after, m);
-        if (m.kind == "cost" || other == nullptr) continue;
+        if (m.kind == "cost" || m.kind == "outcome" || other == nullptr) continue;
         const double ratio = growth(m.value, other->value, options);
         if (m.subject.empty()) ++(ratio > 1.0 ? spec.worse : ratio < 1.0 ? spec.better : spec.same);
         if (ratio != 1.0 && m.subject.empty())

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
+#include <cstdlib>
 
 namespace rigor::validation {
 
@@ -29,6 +30,37 @@ double signTest(int one, int other) {
     if (n == 0) return 1.0;
     const boost::math::binomial distribution(n, 0.5);
     return std::min(1.0, 2.0 * boost::math::cdf(distribution, std::min(one, other)));
+}
+
+KolmogorovSmirnov kolmogorovSmirnov(std::vector<double> one, std::vector<double> other) {
+    std::sort(one.begin(), one.end());
+    std::sort(other.begin(), other.end());
+    const auto n = static_cast<long long>(one.size()), m = static_cast<long long>(other.size());
+    // The distance in units of 1/(n m), an integer.
+    long long largest = 0;
+    for (std::size_t i = 0, j = 0; i < one.size() && j < other.size();) {
+        const double x = std::min(one[i], other[j]);
+        while (i < one.size() && one[i] <= x) ++i;
+        while (j < other.size() && other[j] <= x) ++j;
+        largest = std::max(largest, std::abs(static_cast<long long>(i) * m - static_cast<long long>(j) * n));
+    }
+    // inside[j]: share of the paths to (i, j) that stay nearer to the diagonal.
+    std::vector<double> inside(other.size() + 1, 0.0);
+    for (long long i = 0; i <= n; ++i)
+        for (long long j = 0; j <= m; ++j) {
+            const auto k = static_cast<std::size_t>(j);
+            const double steps = static_cast<double>(i + j);
+            if (i == 0 && j == 0) {
+                inside[k] = 1.0;
+            } else {
+                const double below = j > 0 ? inside[k - 1] * static_cast<double>(j) / steps : 0.0;
+                inside[k] = (i > 0 ? inside[k] * static_cast<double>(i) / steps : 0.0) + below;
+            }
+            if (std::abs(i * m - j * n) >= largest && largest > 0) inside[k] = 0.0;
+        }
+    const double scale = static_cast<double>(n) * static_cast<double>(m);
+    const double p = largest > 0 ? 1.0 - inside.back() : 1.0;
+    return {static_cast<double>(largest) / scale, std::clamp(p, 0.0, 1.0)};
 }
 
 }  // namespace rigor::validation

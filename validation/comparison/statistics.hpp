@@ -25,4 +25,13 @@ std::optional<Interval> medianInterval(std::vector<double> values);
 /// (Conover 1999, 3.4). 1 without a pair.
 double signTest(int one, int other);
 
+struct KolmogorovSmirnov {
+    double distance = 0.0;  ///< largest difference of the two empirical distributions
+    double p = 1.0;         ///< probability of one at least as large when both are of one distribution
+};
+
+/// Two-sample test of equal distributions, neither empty. The probability is exact for continuous ones, by
+/// counting lattice paths (Hodges, Arkiv for Matematik 3, 1957, 469); ties make it larger than it is.
+KolmogorovSmirnov kolmogorovSmirnov(std::vector<double> one, std::vector<double> other);
+
 }  // namespace rigor::validation

@@ -70,23 +70,6 @@ bool hasStops(const Scenario& scenario) {
     return false;
 }
 
-double reachOf(const Body& body) {
-    double reach = 0.0;
-    for (const auto& shape : body.shapes) {
-        double own = 0.0;
-        if (const auto* s = std::get_if<Sphere>(&shape.geometry)) own = s->radius;
-        if (const auto* s = std::get_if<Box>(&shape.geometry)) own = norm(s->halfExtents);
-        if (const auto* s = std::get_if<Capsule>(&shape.geometry)) own = s->radius + s->halfLength;
-        if (const auto* s = std::get_if<Cylinder>(&shape.geometry))
-            own = std::hypot(s->radius, s->halfLength);
-        if (const auto* s = std::get_if<Cone>(&shape.geometry)) own = std::hypot(s->radius, s->halfLength);
-        if (const auto* s = std::get_if<ConvexHull>(&shape.geometry))
-            for (const Vec3 p : s->vertices) own = std::max(own, norm(p));
-        reach = std::max(reach, own + norm(shape.pose.position - body.massProperties.centerOfMass));
-    }
-    return reach;
-}
-
 /// |E(t) - baseline(t)|/scale over the frames; `finalOnly`: the last frame alone.
 std::vector<MetricValue> energyRows(const MetricInput& input, bool finalOnly) {
     const Trajectory& run = input.trajectory;

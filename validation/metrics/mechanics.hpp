@@ -20,6 +20,9 @@ scenario::Vec3 centerOfMassOf(const scenario::Body& body, const BodyState& state
 scenario::Vec3 spinMomentum(const scenario::Scenario& scenario, const scenario::Body& body,
                             const BodyState& state);
 
+/// Radius of a ball about the centre of mass that holds the shapes of a dynamic body [m].
+double reachOf(const scenario::Body& body);
+
 struct Mechanics {
     double mass = 0.0;               ///< of all dynamic bodies [kg]
     double kinetic = 0.0;            ///< [J]

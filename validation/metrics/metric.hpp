@@ -14,8 +14,9 @@
 
 namespace rigor::validation {
 
-/// What the number is compared with.
-enum class MetricKind { Exact, SchemeExact, Measured, Invariant, Contact, Joint, Rest };
+/// What the number is compared with. Outcome: with nothing; what came of a scene without an exact solution,
+/// whose distribution over many starts is what engines can share.
+enum class MetricKind { Exact, SchemeExact, Measured, Invariant, Contact, Joint, Rest, Outcome };
 const char* metricKindName(MetricKind kind);  ///< "exact", "scheme_exact", "measured", ...
 
 struct MetricValue {

@@ -43,6 +43,8 @@ const char* metricKindName(MetricKind kind) {
             return "joint";
         case MetricKind::Rest:
             return "rest";
+        case MetricKind::Outcome:
+            return "outcome";
     }
     return "unknown";
 }

@@ -7,6 +7,8 @@
 
 #include "validation/comparison/order.hpp"
 #include "validation/studies/audit_columns.hpp"
+#include "validation/studies/columns.hpp"
+#include "validation/studies/companion_columns.hpp"
 #include "validation/studies/study.hpp"
 
 namespace rigor::validation {
@@ -98,7 +100,7 @@ void fillOrders(StudyResult& result, const std::map<std::string, const CaseRow*>
                 const auto value = studyValue(*it->second, metrics[i].substr(kOrderPrefix.size()));
                 if (value.value) ladder.push_back({other.row.dt, *value.value});
             }
-            if (const auto fit = observedOrder(ladder)) row.values[i] = {fit->order, "1"};
+            if (const auto fit = observedOrder(ladder)) row.values[i] = {fit->order, "1", ""};
         }
     }
 }
@@ -148,21 +150,21 @@ StudyValue studyValue(const CaseRow& row, const std::string& metric) {
     const std::string timePrefix = "time.";
     if (metric.starts_with(timePrefix)) {
         for (const auto& t : row.timings)
-            if (t.phase == metric.substr(timePrefix.size()) && t.samples > 0) return {t.median, "s"};
-        return {std::nullopt, "s"};
+            if (t.phase == metric.substr(timePrefix.size()) && t.samples > 0) return {t.median, "s", ""};
+        return {std::nullopt, "s", ""};
     }
     if (metric.starts_with(kAuditPrefix)) return auditValue(row, metric.substr(kAuditPrefix.size()));
     const std::string quantityPrefix = "quantity.";
     if (metric.starts_with(quantityPrefix)) {
         for (const auto& q : row.quantities)
-            if (q.name == metric.substr(quantityPrefix.size())) return {q.measured, q.unit};
+            if (q.name == metric.substr(quantityPrefix.size())) return {q.measured, q.unit, ""};
         return {};
     }
     const auto colon = metric.find(':');
     const std::string name = metric.substr(0, colon);
     const std::string subject = colon == std::string::npos ? "" : metric.substr(colon + 1);
     for (const auto& m : row.metrics)
-        if (m.name == name && m.subject == subject) return {m.value, m.unit};
+        if (m.name == name && m.subject == subject) return {m.value, m.unit, ""};
     return {};
 }
 
@@ -179,11 +181,13 @@ StudyResult evaluateStudy(const StudyPlan& plan, const results::Run& run) {
         if (const auto it = cases.find(row.caseId); it != cases.end()) {
             shown.ran = true, shown.outcome = it->second->outcome, shown.reason = it->second->reason;
             for (std::size_t i = 0; i < metrics.size(); ++i)
-                shown.values[i] = studyValue(*it->second, metrics[i]);
+                if (columnOf(metrics[i]).kind == Column::Kind::OfCase)
+                    shown.values[i] = studyValue(*it->second, metrics[i]);
         }
         result.rows.push_back(std::move(shown));
     }
     fillOrders(result, cases);
+    fillCompanions(result, plan, run);
     for (std::size_t part = 0; part < plan.study.parts.size(); ++part)
         for (std::size_t i = 0; i < plan.study.parts[part].findings.size(); ++i)
             result.findings.push_back(judgeFinding(result, part, i));

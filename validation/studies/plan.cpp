@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <algorithm>
-#include <set>
-#include <stdexcept>
+#include <map>
 
-#include "validation/metrics/metric.hpp"
-#include "validation/runner/cost.hpp"
-#include "validation/studies/study.hpp"
+#include "validation/studies/columns.hpp"
+#include "validation/studies/companions.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -75,37 +73,9 @@ std::vector<Placed> placeScenarios(const scenario::StudyPart& part, const Scenar
     return all;
 }
 
-void checkAuditColumn(const scenario::StudyPart& part, const std::string& metric) {
-    std::string known;
-    for (const std::string& field : auditFields()) {
-        if (metric == kAuditPrefix + field) return;
-        known += (known.empty() ? "" : ", ") + field;
-    }
-    throw std::invalid_argument("study part '" + part.name + "': found column '" + metric +
-                                "', expected audit. and one of " + known);
-}
-
-/// A column that no case can fill is a typing error.
-void checkMetrics(const scenario::StudyPart& part) {
-    for (const std::string& metric : part.metrics) {
-        if (metric.starts_with("time.") || metric.starts_with("quantity.")) continue;
-        if (metric.starts_with(kAuditPrefix)) {
-            checkAuditColumn(part, metric);
-            continue;
-        }
-        const std::string asked =
-            metric.starts_with(kOrderPrefix) ? metric.substr(kOrderPrefix.size()) : metric;
-        const std::string name = asked.substr(0, asked.find(':'));
-        if (!isCostMetric(name) && findMetric(name) == nullptr)
-            throw std::invalid_argument("study part '" + part.name + "': found metric '" + metric +
-                                        "', expected a name of `rigor list metrics`, " + costMetricNames() +
-                                        ", order.METRIC, quantity.NAME or time.PHASE");
-    }
-}
-
 void planPart(const scenario::StudyPart& part, std::size_t index, const ScenarioLoader& load, StudyPlan& plan,
-              std::set<std::string>& planned) {
-    checkMetrics(part);
+              CompanionPlanner& companions) {
+    for (const std::string& metric : part.metrics) checkColumn(part, metric);
     const auto options = combinations(part.options);
     for (const Placed& placed : placeScenarios(part, load)) {
         const scenario::Scenario& s = placed.loaded.scenario;
@@ -117,30 +87,39 @@ void planPart(const scenario::StudyPart& part, std::size_t index, const Scenario
                     const auto cases = planCases({{s, placed.loaded.text}}, {spec}, {dt});
                     Assignment parameters = placed.parameters;
                     parameters.insert(parameters.end(), chosen.begin(), chosen.end());
-                    plan.rows.push_back({index, s.name, placed.base, parameters, variant.name,
-                                         cases.front().spec.text(), cases.front().id, dt, movingBodies(s)});
-                    if (planned.insert(cases.front().id).second) plan.cases.push_back(cases.front());
+                    plan.rows.push_back({index,
+                                         s.name,
+                                         placed.base,
+                                         parameters,
+                                         variant.name,
+                                         cases.front().spec.text(),
+                                         cases.front().id,
+                                         dt,
+                                         movingBodies(s),
+                                         "",
+                                         {},
+                                         {}});
+                    companions.add(cases.front());
+                    companions.addTo(plan.rows.back(), part, cases.front());
                 }
     }
 }
 
 }  // namespace
 
-StudyPlan planStudy(const scenario::Study& study, const ScenarioLoader& load) {
+StudyPlan planStudy(const scenario::Study& study, const ScenarioLoader& load, const OptionLookup& options) {
     StudyPlan plan;
     plan.study = study;
-    std::set<std::string> planned;
-    for (std::size_t i = 0; i < study.parts.size(); ++i) planPart(study.parts[i], i, load, plan, planned);
+    CompanionPlanner companions(plan, options);
+    for (std::size_t i = 0; i < study.parts.size(); ++i) {
+        nameSymmetries(plan.study.parts[i]);
+        planPart(plan.study.parts[i], i, load, plan, companions);
+    }
     // The runner audits a scenario after its last case: cases of one scenario stand together.
-    std::vector<std::string> order;
-    for (const CasePlan& c : plan.cases)
-        if (std::find(order.begin(), order.end(), c.scenario.name) == order.end())
-            order.push_back(c.scenario.name);
+    std::map<std::string, std::size_t> place;
+    for (const CasePlan& c : plan.cases) place.emplace(c.scenario.name, place.size());
     std::stable_sort(plan.cases.begin(), plan.cases.end(), [&](const CasePlan& a, const CasePlan& b) {
-        const auto place = [&](const CasePlan& c) {
-            return std::find(order.begin(), order.end(), c.scenario.name) - order.begin();
-        };
-        return place(a) < place(b);
+        return place.at(a.scenario.name) < place.at(b.scenario.name);
     });
     return plan;
 }

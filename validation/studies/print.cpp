@@ -69,7 +69,10 @@ Table partTable(const StudyResult& result, std::size_t part) {
         for (const auto& [key, value] : row->row.parameters) line.push_back(value);
         if (steps) line.push_back(stepText(row->row.dt));
         line.push_back(row->row.variant);
-        for (const StudyValue& value : row->values) line.push_back(value.value ? shown(*value.value) : "-");
+        for (const StudyValue& value : row->values)
+            line.push_back(!value.value         ? "-"
+                           : value.note.empty() ? shown(*value.value)
+                                                : shown(*value.value) + " (" + value.note + ")");
         if (ended) line.push_back(row->ran ? results::outcomeName(row->outcome) : "not run");
     }
     return table;
@@ -159,7 +162,7 @@ std::string parameterText(const StudyRow& row) {
 }
 
 std::string csv(const StudyResult& result) {
-    std::string text = "part,scenario,parameters,dt,variant,spec,case,outcome,metric,value,unit\n";
+    std::string text = "part,scenario,parameters,dt,variant,spec,case,outcome,metric,value,unit,note\n";
     for (const StudyResultRow& row : result.rows) {
         const auto& part = result.study.parts[row.row.part];
         for (std::size_t i = 0; i < part.metrics.size(); ++i)
@@ -169,7 +172,7 @@ std::string csv(const StudyResult& result) {
                     (row.ran ? results::outcomeName(row.outcome) : "not run") + "," +
                     csvField(part.metrics[i]) + "," +
                     (row.values[i].value ? results::exactText(*row.values[i].value) : "") + "," +
-                    row.values[i].unit + "\n";
+                    row.values[i].unit + "," + csvField(row.values[i].note) + "\n";
     }
     return text;
 }
@@ -202,7 +205,8 @@ Json rowJson(const StudyResult& result, const StudyResultRow& row) {
     for (std::size_t i = 0; i < metrics.size(); ++i)
         values[metrics[i]] = {
             {"value", row.values[i].value ? Json(numberToJson(*row.values[i].value)) : Json(nullptr)},
-            {"unit", row.values[i].unit}};
+            {"unit", row.values[i].unit},
+            {"note", row.values[i].note}};
     return {{"scenario", row.row.scenario},
             {"base", row.row.base},
             {"parameters", parameters},

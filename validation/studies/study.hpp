@@ -17,6 +17,14 @@
 
 namespace rigor::validation {
 
+/// The row's case run again in a way that must come back the same.
+struct SymmetricCase {
+    std::string symmetry;
+    std::string caseId;   ///< "" where there is none
+    std::string problem;  ///< why there is none
+    std::function<Trajectory(const Trajectory&)> back;
+};
+
 /// One line of a study's table: a case and where in the grid it stands.
 struct StudyRow {
     std::size_t part = 0;
@@ -26,6 +34,10 @@ struct StudyRow {
     std::string variant, spec, caseId;
     double dt = 0.0;
     int bodies = 0;  ///< of the scenario that move
+    /// The scenario written in full: what symmetric cases are held against, so that the bits are comparable.
+    std::string plainCase;
+    std::vector<SymmetricCase> symmetric;  ///< several of a name: the worst counts
+    std::vector<std::string> members;      ///< cases of the ensemble
 };
 
 struct StudyPlan {
@@ -37,12 +49,29 @@ struct StudyPlan {
 using ScenarioLoader = std::function<scenario::LoadedScenario(const std::string& nameOrFile,
                                                               const std::vector<std::string>& overrides)>;
 
-/// Lays out the grid. A spec without a preset runs in the preset `default`. Throws LoadError and BadInput.
-StudyPlan planStudy(const scenario::Study& study, const ScenarioLoader& load);
+/// Keys of the spec of an engine.
+using OptionLookup = std::function<std::vector<adapter::Option>(const std::string& engine)>;
+
+/// Lays out the grid. A spec without a preset runs in the preset `default`. `options` is asked which engines
+/// have threads, where the study has the symmetry `threads`. Throws LoadError and BadInput.
+StudyPlan planStudy(const scenario::Study& study, const ScenarioLoader& load,
+                    const OptionLookup& options = {});
+
+/// Adds the cases that need to know how others ended (time reversal) and have ended in the folder; false when
+/// there is none to add.
+bool extendPlan(StudyPlan& plan, const results::Run& stored);
+/// The same from a run folder, which may be unfinished or unreadable: then nothing is added.
+void extendFromFolder(StudyPlan& plan, const std::filesystem::path& folder);
+
+/// Runs all cases, then those that follow from them.
+results::Run runStudyCases(StudyPlan& plan, RunOptions options,
+                           const std::function<void(const Progress&)>& onProgress,
+                           const std::atomic<bool>& interrupted);
 
 struct StudyValue {
     std::optional<double> value;
     std::string unit;
+    std::string note = {};  ///< who, an interval, or why there is no value
 };
 
 struct StudyResultRow {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -54,6 +56,48 @@ TEST(Statistics, SignTest) {
     EXPECT_NEAR(signTest(0, 5), 2.0 / 32.0, 1e-15);
     EXPECT_NEAR(signTest(9, 1), 2.0 * 11.0 / 1024.0, 1e-15);
     EXPECT_EQ(signTest(9, 1), signTest(1, 9));
+}
+
+/// Against all ways to deal the ranks into two hands: the definition of the probability.
+TEST(Statistics, KolmogorovSmirnovIsExact) {
+    constexpr int kOne = 4, kAll = 9;
+    const auto distanceOf = [&](unsigned hand) {
+        double d = 0.0;
+        int a = 0, b = 0;
+        for (int rank = 0; rank < kAll; ++rank) {
+            ((hand >> rank) & 1u) != 0 ? ++a : ++b;
+            d = std::max(d, std::abs(a / double(kOne) - b / double(kAll - kOne)));
+        }
+        return d;
+    };
+    std::vector<unsigned> hands;
+    for (unsigned hand = 0; hand < (1u << kAll); ++hand)
+        if (std::popcount(hand) == kOne) hands.push_back(hand);
+    ASSERT_EQ(hands.size(), 126u);
+    for (const unsigned hand : hands) {
+        std::vector<double> one, other;
+        for (int rank = 0; rank < kAll; ++rank) ((hand >> rank) & 1u ? one : other).push_back(rank);
+        const KolmogorovSmirnov test = kolmogorovSmirnov(one, other);
+        const double d = distanceOf(hand);
+        EXPECT_NEAR(test.distance, d, 1e-15);
+        const auto atLeast =
+            std::count_if(hands.begin(), hands.end(), [&](unsigned h) { return distanceOf(h) >= d - 1e-12; });
+        EXPECT_NEAR(test.p, static_cast<double>(atLeast) / 126.0, 1e-14);
+    }
+}
+
+TEST(Statistics, KolmogorovSmirnovTellsDistributionsApart) {
+    std::vector<double> a, b, shifted;
+    for (int i = 0; i < 30; ++i) a.push_back(i), b.push_back(i + 0.5), shifted.push_back(i + 14.5);
+    EXPECT_GT(kolmogorovSmirnov(a, b).p, 0.99);
+    EXPECT_LT(kolmogorovSmirnov(a, shifted).p, 0.003);
+    EXPECT_EQ(kolmogorovSmirnov(a, a).p, 1.0);
+    EXPECT_EQ(kolmogorovSmirnov({1, 1, 1}, {1, 1}).p, 1.0) << "ties are no difference";
+    // Nothing in common: 2 / C(60, 30)
+    std::vector<double> above;
+    for (int i = 0; i < 30; ++i) above.push_back(100 + i);
+    EXPECT_EQ(kolmogorovSmirnov(a, above).distance, 1.0);
+    EXPECT_LT(kolmogorovSmirnov(a, above).p, 1e-14);
 }
 
 }  // namespace

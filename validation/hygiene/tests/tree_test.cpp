@@ -31,11 +31,26 @@ TEST(Tree, FilesAreSmallRooms) {
 }
 
 TEST(Tree, EveryFolderHasAReadme) {
-    for (const char* folder :
-         {"engine", "adapters", "scenarios", "validation", "reports", "cli", "adapters/rigor",
-          "adapters/bullet", "adapters/box2d", "adapters/ode", "adapters/fcl", "adapters/conformance",
-          "validation/references", "validation/metrics", "validation/results", "validation/runner",
-          "validation/collide", "validation/studies", "validation/symmetry"})
+    for (const char* folder : {"engine",
+                               "adapters",
+                               "scenarios",
+                               "validation",
+                               "reports",
+                               "cli",
+                               "adapters/rigor",
+                               "adapters/bullet",
+                               "adapters/box2d",
+                               "adapters/ode",
+                               "adapters/fcl",
+                               "adapters/conformance",
+                               "validation/references",
+                               "validation/metrics",
+                               "validation/results",
+                               "validation/runner",
+                               "validation/collide",
+                               "validation/studies",
+                               "validation/symmetry",
+                               "validation/chaos"})
         EXPECT_TRUE(exists(std::string(folder) + "/README.md")) << folder;
 }
 

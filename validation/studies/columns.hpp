@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Names of columns, taken apart.
+#pragma once
+
+#include <string>
+
+#include "validation/studies/study.hpp"
+
+namespace rigor::validation {
+
+struct Column {
+    enum class Kind {
+        OfCase,    ///< of the row's own case: metric, quantity.NAME, time.PHASE
+        Order,     ///< order.METRIC
+        Symmetry,  ///< symmetry.NAME, symmetry.NAME.angle, .frames, .from, .onset
+        Parting,   ///< onset, growth, split of two runs: of the members, or onset:VARIANT ...
+        Ensemble,  ///< ensemble.METRIC, ensemble.METRIC.low, .high, .p:VARIANT
+    };
+    Kind kind = Kind::OfCase;
+    std::string name;     ///< metric, symmetry, or onset, growth, split
+    std::string aspect;   ///< "angle", "low", "p", ...; "" the value itself
+    std::string variant;  ///< compared with; "" none
+};
+Column columnOf(const std::string& text);
+
+/// Throws std::invalid_argument for a column that no case of the part can fill.
+void checkColumn(const scenario::StudyPart& part, const std::string& column);
+
+/// Replaces "*" by all symmetries and gives each its column. Throws std::invalid_argument for unknown names.
+void nameSymmetries(scenario::StudyPart& part);
+
+}  // namespace rigor::validation
