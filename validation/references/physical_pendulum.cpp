@@ -2,26 +2,21 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Physical pendulum: a rigid body on a hinge, any axis; gravity across the axis counts. With I about the
-// axis, d the distance of the centre of mass from it, W^2 = m g d/I and m = sin^2(th0/2) + th0'^2/(4 W^2):
-//   m < 1: sin(th/2) = sqrt(m) sn(W t + u0 | m), th' = 2 W sqrt(m) cn, period 4 K(m)/W;
-//   m > 1: th = 2 am(sqrt(m) W t + u0 | 1/m), th' = 2 W sqrt(m) dn, period 2 K(1/m)/(W sqrt(m)); m = 1:
-//   separatrix.
-// Source: Whittaker, Analytical Dynamics, 1937, section 44.
-// Stops: at the first limit of its angle (of a ball or cone-twist joint: of its swing) the body loses its
-// speed, and stays where gravity pushes it on; where it swings back instead, the answer ends.
-// Assumes: a hinge (2D: also a ball joint) to a fixed point, initial motion about its axis, nothing else; on
-// a ball or cone-twist joint with a limit, motion about the horizontal across the arm, a principal axis.
-// Quantities: period (mean over the passages through the lowest point), amplitude.
+// axis and d the distance of the centre of mass from it, W^2 = m g d/I in the pendulum's equation
+// (swing.hpp). Source: Whittaker, Analytical Dynamics, 1937, section 44. Stops: at the first limit of its
+// angle (of a ball or cone-twist joint: of its swing) the body loses its speed, and stays where gravity
+// pushes it on; where it swings back instead, the answer ends. Assumes: a hinge (2D: also a ball joint) to a
+// fixed point, initial motion about its axis, nothing else; on a ball or cone-twist joint with a limit,
+// motion about the horizontal across the arm, a principal axis. Quantities: period (mean over the passages
+// through the lowest point), amplitude.
 #include <algorithm>
 #include <cmath>
 
 #include "validation/references/joint_parts.hpp"
-#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/swing.hpp"
 
 namespace rigor::validation {
 namespace {
-
-using numerics::Real;
 
 class PhysicalPendulum : public Reference {
   public:
@@ -50,19 +45,18 @@ class PhysicalPendulum : public Reference {
         const double m = body_.massProperties.mass, d = norm(across_);
         const double moment = dot(a, worldInertia(body_) * a) + m * d * d;
         // Gravity along the axis, or through it: nothing drives the rotation.
+        swing_ = Swing(0, 0.0, rate0_);
         if (negligible(norm(pull), norm(g)) || d == 0.0) return;
         down_ = unit(pull);
-        W_ = std::sqrt(m * norm(pull) * d / moment);
         angle0_ = angleOf(across_);
-        setUp();
+        swing_ = Swing(std::sqrt(m * norm(pull) * d / moment), angle0_, rate0_);
         findStop(swings, horizon(scenario));
     }
     std::vector<int> bodies() const override { return {index_}; }
     double validUntil() const override { return stays_ ? 1e300 : stop_; }
 
     PartialState exact(int, double t) const override {
-        Real angle = 0, rate = 0;
-        solve(std::min(t, stop_), angle, rate);
+        auto [angle, rate] = swing_.at(std::min(t, stop_));
         if (t >= stop_) rate = 0;
         const auto turn = static_cast<double>(angle - angle0_);
         const Quat q = scenario::fromAxisAngle(hinge_.axis, turn);
@@ -73,14 +67,15 @@ class PhysicalPendulum : public Reference {
 
     std::vector<Quantity> quantities(double, adapter::Scheme) const override {
         std::vector<Quantity> result;
-        if (W_ == 0 || m_ == 0 || m_ == 1 || stop_ < duration_) return result;
-        if (firstPassage() + period_ <= duration_) {
-            Quantity q{"period", "s", static_cast<double>(period_), {}, 0.0, {}};
+        const auto m = swing_.parameter(), period = swing_.period();
+        if (swing_.frequency() == 0 || m == 0 || m == 1 || stop_ < duration_) return result;
+        if (swing_.firstPassage() + period <= duration_) {
+            Quantity q{"period", "s", static_cast<double>(period), {}, 0.0, {}};
             q.measure = [this](const Trajectory& run) { return meanPeriod(run); };
             result.push_back(std::move(q));
         }
-        if (m_ < 1 && period_ <= duration_) {
-            Quantity q{"amplitude", "rad", static_cast<double>(2 * std::asin(std::sqrt(m_))), {}, 0.0, {}};
+        if (m < 1 && period <= duration_) {
+            Quantity q{"amplitude", "rad", static_cast<double>(swing_.amplitude()), {}, 0.0, {}};
             q.measure = [this](const Trajectory& run) { return largestAngle(run); };
             result.push_back(std::move(q));
         }
@@ -108,9 +103,7 @@ class PhysicalPendulum : public Reference {
         const double upper = isB || swings ? axis.upper : -axis.lower;
         const double lower = swings ? -axis.upper : isB ? axis.lower : -axis.upper;
         const auto beyond = [&](double t) {
-            Real angle = 0, rate = 0;
-            solve(t, angle, rate);
-            const auto q = static_cast<double>(angle - static_cast<Real>(angle0_));
+            const auto q = static_cast<double>(swing_.at(t).angle - angle0_);
             return std::max(q - upper, lower - q);
         };
         require(beyond(0.0) <= 1e-12, "joint '" + joint.name + "' starts beyond its limits");
@@ -125,54 +118,12 @@ class PhysicalPendulum : public Reference {
             stop_ = high;
         }
         if (stop_ > 1e299) return;
-        Real angle = 0, rate = 0;
-        solve(stop_, angle, rate);
+        const auto [angle, rate] = swing_.at(stop_);
         stays_ = -std::sin(angle) * rate >= 0;
     }
 
     double angleOf(Vec3 arm) const {
         return std::atan2(dot(hinge_.axis, cross(down_, arm)), dot(down_, arm));
-    }
-
-    void setUp() {
-        const Real s = std::sin(static_cast<Real>(angle0_) / 2), r = static_cast<Real>(rate0_) / (2 * W_);
-        m_ = s * s + r * r;
-        if (m_ == 0) return;
-        root_ = std::sqrt(m_);
-        if (m_ < 1) {
-            u0_ = numerics::ellipticF(std::atan2(s / root_, r / root_), m_);
-            period_ = 4 * numerics::ellipticK(m_) / W_;
-        } else if (m_ > 1) {
-            u0_ = numerics::ellipticF(static_cast<Real>(angle0_) / 2, 1 / m_) * (rate0_ < 0 ? -1 : 1);
-            period_ = 2 * numerics::ellipticK(1 / m_) / (W_ * root_);
-        } else {
-            u0_ = std::atanh(rate0_ < 0 ? -s : s);
-        }
-    }
-
-    void solve(double t, Real& angle, Real& rate) const {
-        const Real sign = rate0_ < 0 ? -1 : 1;
-        if (W_ == 0) {
-            angle = static_cast<Real>(angle0_) + static_cast<Real>(rate0_) * t;
-            rate = rate0_;
-        } else if (m_ == 0) {
-            angle = rate = 0;
-        } else if (m_ < 1) {
-            const auto f = numerics::jacobi(W_ * t + u0_, m_);
-            angle = 2 * std::asin(root_ * f.sn);
-            rate = 2 * W_ * root_ * f.cn;
-        } else {
-            const auto f = numerics::jacobi(root_ * W_ * t + u0_, 1 / m_);
-            angle = sign * 2 * f.am;
-            rate = sign * 2 * W_ * root_ * f.dn;
-        }
-    }
-
-    /// First passage through the lowest point after the start, in the direction of growing angle (libration).
-    double firstPassage() const {
-        const Real inU = m_ < 1 ? 4 * numerics::ellipticK(m_) : 2 * numerics::ellipticK(1 / m_);
-        const Real ahead = (std::floor(u0_ / inU) + 1) * inU - u0_;
-        return static_cast<double>(ahead / (W_ * (m_ < 1 ? 1 : root_)));
     }
 
     double angleIn(const Trajectory& run, std::size_t k) const {
@@ -184,7 +135,7 @@ class PhysicalPendulum : public Reference {
     }
 
     std::optional<double> meanPeriod(const Trajectory& run) const {
-        const double sign = m_ > 1 && rate0_ < 0 ? -1.0 : 1.0;
+        const double sign = swing_.parameter() > 1 && rate0_ < 0 ? -1.0 : 1.0;
         std::optional<double> first, last;
         int count = 0;
         for (std::size_t k = 0; k + 1 < run.frames(); ++k) {
@@ -205,7 +156,7 @@ class PhysicalPendulum : public Reference {
     /// Largest turning point: near the top of an arc cos(th_max) = cos(th) - th'^2/(2 W^2).
     std::optional<double> largestAngle(const Trajectory& run) const {
         std::optional<double> largest;
-        const auto W2 = static_cast<double>(W_ * W_);
+        const auto W2 = static_cast<double>(swing_.frequency() * swing_.frequency());
         for (std::size_t k = 0; k < run.frames(); ++k) {
             const double angle = std::abs(angleIn(run, k)), rate = rateIn(run, k);
             if (!(rate * rate < 0.1 * W2 * std::sin(angle))) continue;
@@ -223,7 +174,7 @@ class PhysicalPendulum : public Reference {
     double angle0_ = 0.0, rate0_ = 0.0;
     double stop_ = 1e300;  ///< when it reaches a limit [s]
     bool stays_ = true;    ///< and gravity holds it there
-    Real W_ = 0, m_ = 0, root_ = 0, u0_ = 0, period_ = 0;
+    Swing swing_;
 };
 
 }  // namespace
