@@ -5,6 +5,7 @@
 // Source: Ericson, Real-Time Collision Detection, 2005, chapter 5.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "validation/metrics/closed_forms.hpp"
@@ -58,6 +59,27 @@ double angleBetween(Vec3 a, Vec3 b) {
     return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
+/// Calls `look(contact, angle to the closed form's normal, time)` for every contact that has one. The
+/// contacts of a step are found at the poses before it, or after: either will do.
+template <class Look>
+void overNormals(const MetricInput& input, Look&& look) {
+    const int bodies = static_cast<int>(input.scenario.bodies.size());
+    const std::size_t frames = std::min(input.trajectory.frames(), input.trajectory.contacts.size());
+    for (std::size_t k = 0; k < frames; ++k)
+        for (const auto& contact : input.trajectory.contacts[k]) {
+            if (contact.bodyA < 0 || contact.bodyB < 0 || contact.bodyA >= bodies ||
+                contact.bodyB >= bodies || !shapesAreKnown(input, contact))
+                continue;
+            std::optional<double> error;
+            for (std::size_t back = 0; back <= (k > 0 && input.trajectory.stride == 1 ? 1U : 0U); ++back)
+                if (const auto pair = exactPair(input, contact, k - back)) {
+                    const double angle = angleBetween(contact.normal, pair->normal);
+                    error = error ? std::min(*error, angle) : angle;
+                }
+            if (error) look(contact, *error, input.trajectory.times[k]);
+        }
+}
+
 }  // namespace
 
 std::vector<MetricValue> penetrationMax(const MetricInput& input) {
@@ -106,26 +128,22 @@ std::vector<MetricValue> overlapMax(const MetricInput& input) {
 
 std::vector<MetricValue> normalError(const MetricInput& input) {
     std::map<int, Worst> worst;
-    const std::size_t frames = std::min(input.trajectory.frames(), input.trajectory.contacts.size());
-    for (std::size_t k = 0; k < frames; ++k)
-        for (const auto& contact : input.trajectory.contacts[k]) {
-            if (contact.bodyA < 0 || contact.bodyB < 0 ||
-                contact.bodyA >= static_cast<int>(input.scenario.bodies.size()) ||
-                contact.bodyB >= static_cast<int>(input.scenario.bodies.size()) ||
-                !shapesAreKnown(input, contact))
-                continue;
-            std::optional<double> error;
-            // The contacts of a step are found at the poses before it, or after: either will do.
-            for (std::size_t back = 0; back <= (k > 0 && input.trajectory.stride == 1 ? 1U : 0U); ++back)
-                if (const auto pair = exactPair(input, contact, k - back)) {
-                    const double angle = angleBetween(contact.normal, pair->normal);
-                    error = error ? std::min(*error, angle) : angle;
-                }
-            if (!error) continue;
-            for (const int body : {contact.bodyA, contact.bodyB})
-                if (isDynamic(input.scenario, body)) worst[body].add(*error, input.trajectory.times[k]);
-        }
+    overNormals(input, [&](const ContactPoint& contact, double error, double time) {
+        for (const int body : {contact.bodyA, contact.bodyB})
+            if (isDynamic(input.scenario, body)) worst[body].add(error, time);
+    });
     return bodyRows(input, worst);
+}
+
+std::vector<MetricValue> normalErrorMedian(const MetricInput& input) {
+    std::vector<double> errors;
+    overNormals(input, [&](const ContactPoint&, double error, double) {
+        errors.push_back(std::isnan(error) ? std::numeric_limits<double>::infinity() : error);
+    });
+    if (errors.empty()) return {};
+    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+    std::nth_element(errors.begin(), middle, errors.end());
+    return {{"", *middle, -1.0}};
 }
 
 }  // namespace rigor::validation

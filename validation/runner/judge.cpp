@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "validation/runner/read_back.hpp"
 #include "validation/runner/runner.hpp"
@@ -31,6 +32,18 @@ const Entry* entryFor(const std::vector<Entry>& entries, const std::string& engi
         if (rank > bestRank) best = &e, bestRank = rank;
     }
     return best;
+}
+
+/// What holds wherever it has a value, in every scenario that says nothing else.
+const scenario::Bound* boundEverywhere(const std::string& metric) {
+    static const std::vector<scenario::Bound> bounds = [] {
+        scenario::Bound side;
+        side.engine = "*", side.metric = "normal_error_median", side.max = std::numbers::pi / 4;
+        return std::vector{side};
+    }();
+    const auto it =
+        std::find_if(bounds.begin(), bounds.end(), [&](const auto& b) { return b.metric == metric; });
+    return it == bounds.end() ? nullptr : &*it;
 }
 
 Verdict verdictOf(Outcome outcome) {
@@ -97,6 +110,7 @@ double boundAt(const scenario::Bound& bound, const Scenario& scenario, double dt
 
 void judgeMetric(MetricRow& row, const Scenario& scenario, const CaseRow& judged) {
     const auto* bound = boundFor(scenario, judged, row.name);
+    if (bound == nullptr) bound = boundEverywhere(row.name);
     const auto* known = deviationFor(scenario, judged.engine, judged.preset, row.name);
     if (bound != nullptr) row.bound = boundAt(*bound, scenario, judged.dt);
     if (known != nullptr) row.expectation = known->max;

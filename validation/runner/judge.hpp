@@ -25,8 +25,8 @@ const scenario::KnownDeviation* deviationFor(const scenario::Scenario& scenario,
 /// max * (dt / first dt of the scenario)^order
 double boundAt(const scenario::Bound& bound, const scenario::Scenario& scenario, double dt);
 
-/// Sets bound, expectation, verdict and note of a whole-scene row ("" as subject) from the scenario. A value
-/// that is NaN misses every bound.
+/// Sets bound, expectation, verdict and note of a whole-scene row ("" as subject) from the scenario, or from
+/// what holds everywhere (contact normals on the right side). A value that is NaN misses every bound.
 void judgeMetric(results::MetricRow& row, const scenario::Scenario& scenario, const results::CaseRow& judged);
 
 /// Sets verdict (and reason where it has none) of a case from its outcome, metrics and read-back. A known

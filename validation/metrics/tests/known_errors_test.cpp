@@ -264,6 +264,12 @@ const std::vector<Row>& rows() {
              c.run.contacts[10][0].normal = {std::sin(0.02), std::cos(0.02), 0};
          },
          0.02},
+        {"normal_error_median", "", resting,
+         [](Case& c) {
+             for (std::size_t k = 10; k < 70; ++k)
+                 c.run.contacts[k][0].normal = {std::sin(0.02), std::cos(0.02), 0};
+         },
+         0.02},
         // out and back in one of the 98 triples of frames with contacts
         {"normal_flicker", "ball", resting,
          [](Case& c) {

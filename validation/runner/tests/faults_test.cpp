@@ -170,8 +170,10 @@ const Fault kFaults[] = {
     {"compound_inertia_announced", &kTop, "angular_momentum_drift", "", 0.1, 1.0, kAllOfTheTop},
     {"compound_inertia_hidden", &kTop, "angular_momentum_drift", "", 0.1, 1.0, kAllOfTheTop},
     {"momentum_leak", &kImpact, "linear_momentum_drift", "", 0.99e-6, 1.02e-6, "velocity_final spin_final"},
-    {"normal_flipped", &kImpact, "normal_error", "", 3.13, 3.1416},
-    {"normal_flipped", &kBounce, "normal_error", "", 3.1415, 3.1416, "signorini_residual"},
+    {"normal_flipped", &kImpact, "normal_error", "", 3.13, 3.1416, "normal_error_median"},
+    {"normal_flipped", &kImpact, "normal_error_median", "", 3.13, 3.1416, "normal_error"},
+    {"normal_flipped", &kBounce, "normal_error", "", 3.1415, 3.1416,
+     "signorini_residual normal_error_median"},
     // (e - 0.99 e) |vn| / |v| = 0.005 / sqrt 2
     {"restitution_low", &kBounce, "quantity_error", "normal_velocity", 0.00353, 0.00354,
      "position_max signorini_residual", "tangential_velocity"},
