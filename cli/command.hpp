@@ -43,6 +43,7 @@ void addCheck(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);
 void addRecord(CLI::App& app, Action& action);
+void addImport(CLI::App& app, Action& action);
 
 /// This program's own file.
 std::filesystem::path ownBinary();

@@ -37,6 +37,7 @@ int runCommand(int argc, char** argv) {
     addCompare(app, action);
     addReport(app, action);
     addRecord(app, action);
+    addImport(app, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::RequiredError& error) {

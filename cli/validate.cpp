@@ -63,7 +63,7 @@ void addScenario(Selection& selection, const std::string& name, const std::vecto
 bool isSuite(const std::string& name) {
     for (const auto& suite : scenario::listSuites())
         if (suite.name == name || suite.file == name) return true;
-    return false;
+    return scenario::isSuiteFile(name);
 }
 
 Selection select(const Arguments& arguments) {

@@ -102,6 +102,13 @@ fs::path findStudy(const std::string& nameOrPath) {
     return findEntry(listStudies(), nameOrPath, "study");
 }
 
+bool isSuiteFile(const fs::path& file) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return false;
+    const Json json = Json::parse(readTextFile(file), nullptr, false);
+    return json.is_object() && json.contains("rigor_suite");
+}
+
 Suite loadSuite(const fs::path& file) {
     const JsonDocument document = parseDocument(readTextFile(file), file.string());
     ReadContext context{file.string(), &document, {}, 3};

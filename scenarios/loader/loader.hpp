@@ -58,6 +58,8 @@ struct Suite {
     int maxTimeSteps = 0;                ///< take only the first n of each scenario; 0: all
 };
 Suite loadSuite(const std::filesystem::path& file);
+/// Whether there is such a file and it says that it is a suite.
+bool isSuiteFile(const std::filesystem::path& file);
 
 struct LibraryEntry {
     std::string name, title;

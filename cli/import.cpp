@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "validation/import/importer.hpp"
+
+namespace rigor::cli {
+namespace {
+
+struct Arguments {
+    std::string dataSet, from, out, select = "all", train;
+    std::vector<std::string> options;
+};
+
+int runImport(const Arguments& a) {
+    const auto& importer = validation::findImporter(a.dataSet);
+    std::map<std::string, std::string> given;
+    for (const auto& option : a.options) {
+        const auto equals = option.find('=');
+        if (equals == std::string::npos)
+            throw std::invalid_argument("--option: found '" + option + "', expected KEY=VALUE");
+        given[option.substr(0, equals)] = option.substr(equals + 1);
+    }
+    const auto imported =
+        importer.read({a.from, a.select, a.train, validation::resolveChoices(importer, given)});
+    std::string name = a.dataSet;
+    std::replace(name.begin(), name.end(), '-', '_');
+    const std::filesystem::path folder = a.out.empty() ? name : a.out;
+    validation::writeImported(imported, name, folder);
+    const auto train = std::count_if(imported.scenarios.begin(), imported.scenarios.end(),
+                                     [](const auto& s) { return s.train; });
+    std::printf("%zu scenarios in %s: %td to fit on (train.json), %td to score on (test.json)\n",
+                imported.scenarios.size(), folder.c_str(), train,
+                static_cast<std::ptrdiff_t>(imported.scenarios.size()) - train);
+    if (std::filesystem::exists(folder / "fit.json"))
+        std::printf("Fit and score: ./rigor fit %s\n", (folder / "fit.json").c_str());
+    return kOk;
+}
+
+std::string footer() {
+    std::string text = "Data sets and their --option KEY=VALUE (the first is the default):\n";
+    for (const auto& entry : validation::importerTable()) {
+        text += "  " + std::string(entry.name) + ": " + entry.title + "\n    " + entry.source + "\n";
+        for (const auto& choice : entry.choices())
+            for (const auto& [value, meaning] : choice.values)
+                text += "    " + choice.key + "=" + value + ": " + meaning + "\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+void addImport(CLI::App& app, Action& action) {
+    auto a = std::make_shared<Arguments>();
+    auto* command =
+        app.add_subcommand("import", "Turn measured data into scenarios to score and fit engines on");
+    command->add_option("DATASET", a->dataSet, "Which data set, see below")->required();
+    command->add_option("DIR", a->from, "Its folder")->required();
+    command->add_option("--out", a->out, "New folder for the scenarios (default: the data set's name)");
+    command->add_option("--select", a->select, "Only the recordings of this CSV file (column id), or all");
+    command->add_option("--train", a->train,
+                        "Recordings to fit on: a CSV file (column id) or a share; the others are scored. "
+                        "Default: DIR/selected.csv, else half");
+    command->add_option("--option", a->options, "A choice of the data set's: KEY=VALUE")
+        ->allow_extra_args(false);
+    command->footer(footer());
+    command->callback([a, &action] { action = [a] { return runImport(*a); }; });
+}
+
+}  // namespace rigor::cli

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Tosses of a real cube onto a fixed board: DIR/toss_NNN.csv (or DIR/tosses/), columns t, p, q, v (world), w
+// (body frame), one frame per line; DIR/selected.csv, where there is one, names those to fit on.
+//
+// Lengths in the recordings are about 2 % short: bodies in flight fall at 9.614 m/s^2 and the cube rests at
+// 0.0512 m over the board instead of its 0.0524. So a choice of units:
+//   data       as recorded, with g = 9.614 and half width 0.0512: consistent, nothing is changed
+//   rescaled   lengths times 0.0524/0.0512, with g = 9.81 and half width 0.0524: consistent to 0.3 %
+//   published  lengths as recorded, with g = 9.81 and half width 0.0524: what the published fits did
+// The moment of inertia keeps its ratio to m (half width)^2. The cube is sharp here; the real one has edges
+// rounded by about 2 mm.
+// Source: Pfrommer, Halm, Posa, ContactNets, CoRL 2020; Acosta, Yang, Posa, IEEE RA-L 7 (2022) 6471.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "scenarios/loader/json_text.hpp"
+#include "validation/import/csv.hpp"
+#include "validation/import/importer.hpp"
+#include "validation/import/recording.hpp"
+
+namespace rigor::validation {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace scenario;
+using nlohmann::ordered_json;
+
+constexpr double kMass = 0.37;                            // [kg]
+constexpr double kNominalHalf = 0.0524;                   // [m]
+constexpr double kNominalInertia = 0.00081;               // [kg m^2] at the nominal half width
+constexpr double kFriction = 0.18, kRestitution = 0.125;  // contact-nets' parameters
+constexpr int kStepsPerFrame = 10;                        // 1/1480 s, the step of the published fits
+constexpr double kUnitTolerance = 1e-3;                   // of |q|
+constexpr double kTimeTolerance = 0.01;                   // of a frame
+constexpr std::size_t kLeastFrames = 10;
+
+struct Units {
+    double scale, gravity, half;
+    const char* sentence;
+};
+Units unitsOf(const std::string& name) {
+    if (name == "rescaled")
+        return {kNominalHalf / 0.0512, 9.81, kNominalHalf,
+                "Lengths of the recording times 0.0524/0.0512, so that g = 9.81 and half width 0.0524 hold."};
+    if (name == "published")
+        return {
+            1.0, 9.81, kNominalHalf,
+            "Lengths as recorded (2 % short) with g = 9.81 and half width 0.0524, as in the published fits."};
+    return {1.0, 9.614, 0.0512,
+            "In the recording's own units, whose lengths are 2 % short: g = 9.614, half width 0.0512."};
+}
+
+const std::vector<std::string>& columns() {
+    static const std::vector<std::string> names{"t",  "px", "py", "pz", "qw", "qx", "qy",
+                                                "qz", "vx", "vy", "vz", "wx", "wy", "wz"};
+    return names;
+}
+
+Vec3 vectorOf(const CsvTable& table, std::size_t row, const char* name) {
+    const std::string letter = name;
+    return {table.number(row, letter + "x"), table.number(row, letter + "y"),
+            table.number(row, letter + "z")};
+}
+
+/// Frames at a steady rate, counted from the first time.
+double readRate(const CsvTable& table) {
+    const std::size_t last = table.size() - 1;
+    const double first = table.number(0, "t"),
+                 rate = static_cast<double>(last) / (table.number(last, "t") - first);
+    for (std::size_t row = 0; row <= last; ++row) {
+        const double place = (table.number(row, "t") - first) * rate;
+        if (!(std::abs(place - static_cast<double>(row)) <= kTimeTolerance))
+            throw LoadError({table.problem("import.time", table.line(row), "t = " + table.text(row, "t"),
+                                           "times that rise by the same step from line to line")});
+    }
+    return std::abs(rate - std::round(rate)) < 1e-3 * rate ? std::round(rate) : rate;
+}
+
+Recording readToss(const fs::path& file) {
+    const CsvTable table(file, columns());
+    if (table.size() < kLeastFrames)
+        throw LoadError({table.problem("import.short", 0, std::to_string(table.size()) + " frames",
+                                       "at least " + std::to_string(kLeastFrames))});
+    Recording recording{readRate(table), {}};
+    for (std::size_t row = 0; row < table.size(); ++row) {
+        const Quat q{table.number(row, "qw"), table.number(row, "qx"), table.number(row, "qy"),
+                     table.number(row, "qz")};
+        if (!(std::abs(norm(q) - 1.0) <= kUnitTolerance))
+            throw LoadError({table.problem("import.quaternion", table.line(row),
+                                           "a quaternion of length " + std::to_string(norm(q)), "length 1")});
+        recording.frames.push_back(
+            {vectorOf(table, row, "p"), normalized(q), vectorOf(table, row, "v"), vectorOf(table, row, "w")});
+    }
+    return recording;
+}
+
+void scaleLengths(Recording& recording, double factor) {
+    for (RecordedFrame& f : recording.frames)
+        f.position = factor * f.position, f.velocity = factor * f.velocity;
+}
+
+ordered_json list(Vec3 v) {
+    return {v.x, v.y, v.z};
+}
+ordered_json list(const Quat& q) {
+    return {q.w, q.x, q.y, q.z};
+}
+
+ordered_json recordedMotion(const Recording& recording, std::size_t first) {
+    ordered_json times = ordered_json::array(), positions = times, orientations = times;
+    for (std::size_t k = first; k < recording.frames.size(); ++k) {
+        const RecordedFrame& f = recording.frames[k];
+        times.push_back(static_cast<double>(k - first) / recording.rate);
+        for (const auto& x : list(f.position)) positions.push_back(x);
+        for (const auto& x : list(f.orientation)) orientations.push_back(x);
+    }
+    return {{"body", "cube"}, {"times", times}, {"positions", positions}, {"orientations", orientations}};
+}
+
+std::string tossName(int id) {
+    const std::string digits = std::to_string(id);
+    return "toss_" + std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits;
+}
+
+/// The lists of numbers on one line each, the rest indented.
+std::string scenarioText(ordered_json scenario) {
+    std::vector<std::pair<std::string, std::string>> lists;
+    for (auto& [key, value] : scenario["reference"]["measured_motion"].items())
+        if (value.is_array()) {
+            lists.emplace_back("\"<" + key + ">\"", value.dump());
+            value = "<" + key + ">";
+        }
+    std::string text = scenario.dump(1);
+    for (const auto& [mark, numbers] : lists) text.replace(text.find(mark), mark.size(), numbers);
+    return text + "\n";
+}
+
+std::string scenarioOf(int id, bool train, const Recording& recording, const StartState& start,
+                       const Units& units) {
+    const auto frames = static_cast<double>(recording.frames.size() - 1 - start.frame);
+    const double ratio = units.half / kNominalHalf, inertia = kNominalInertia * ratio * ratio;
+    return scenarioText(
+        {{"rigor", 1},
+         {"name", tossName(id)},
+         {"title", "Measured toss " + std::to_string(id) + " of a cube"},
+         {"description", std::string("A recorded cube flies, hits a board, tumbles and comes to rest. ") +
+                             units.sentence + " Starts at frame " + std::to_string(start.frame) +
+                             " of the recording. " + start.how +
+                             " Friction and restitution of the pair: contact-nets' parameters."},
+         {"source",
+          "ContactNets data, (c) 2020 Dynamic Autonomy and Intelligent Robotics Lab, BSD-3-Clause; "
+          "Pfrommer, Halm, Posa, CoRL 2020"},
+         {"isolates", {"impact", "friction"}},
+         {"tags", {"measured", train ? "train" : "test"}},
+         {"dimension", 3},
+         {"gravity", {0, 0, -units.gravity}},
+         {"duration", frames / recording.rate},
+         {"dt", {1.0 / (kStepsPerFrame * recording.rate)}},
+         {"materials", {{"cube", ordered_json::object()}, {"board", ordered_json::object()}}},
+         {"pairs", {{{"a", "cube"}, {"b", "board"}, {"friction", kFriction}, {"restitution", kRestitution}}}},
+         {"bodies",
+          {{{"name", "board"},
+            {"type", "static"},
+            {"shapes", {{{"half_space", {{"normal", {0, 0, 1}}}}, {"material", "board"}}}}},
+           {{"name", "cube"},
+            {"mass", kMass},
+            {"inertia", {inertia, inertia, inertia}},
+            {"position", list(start.position)},
+            {"orientation", list(start.orientation)},
+            {"velocity", list(start.velocity)},
+            {"angular_velocity", list(start.spin)},
+            {"shapes",
+             {{{"box", {{"half_extents", {units.half, units.half, units.half}}}}, {"material", "cube"}}}}}}},
+         {"observe", {"cube"}},
+         {"reference", {{"measured_motion", recordedMotion(recording, start.frame)}}},
+         {"metrics", {"measured_position_mean", "measured_orientation_mean", "measured_loss"}}});
+}
+
+/// toss_NNN.csv of the folder, by number.
+std::map<int, fs::path> findTosses(const fs::path& from) {
+    const auto refuse = [&](const std::string& found) {
+        throw LoadError({{"import.folder", from.string(), "", 0, found,
+                          "a folder with toss_NNN.csv, or with tosses/ in it"}});
+    };
+    if (!fs::is_directory(from)) refuse("no folder");
+    const fs::path folder = fs::is_directory(from / "tosses") ? from / "tosses" : from;
+    std::map<int, fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().stem().string();
+        if (entry.path().extension() != ".csv" || !name.starts_with("toss_")) continue;
+        int id = -1;
+        const auto [end, error] = std::from_chars(name.data() + 5, name.data() + name.size(), id);
+        if (error != std::errc{} || end != name.data() + name.size() || id < 0)
+            throw LoadError({{"import.name", entry.path().string(), "", 0, "the name " + name, "toss_NNN"}});
+        if (!files.emplace(id, entry.path()).second)
+            throw LoadError({{"import.duplicate", entry.path().string(), "", 0,
+                              "toss " + std::to_string(id) + " a second time", "each number once"}});
+    }
+    if (files.empty()) refuse("no toss_NNN.csv");
+    return files;
+}
+
+/// The heights of a recording tell it from all others; a copy of it turned about z has the same.
+class CopyFinder {
+  public:
+    void check(const Recording& recording, const fs::path& file) {
+        std::vector<double> heights;
+        for (const RecordedFrame& f : recording.frames) heights.push_back(f.position.z);
+        const auto [it, isNew] = seen_.emplace(std::move(heights), file);
+        if (!isNew)
+            throw LoadError(
+                {{"import.copy", file.string(), "", 0,
+                  "the same recording as " + it->second.filename().string() + " (maybe turned about z)",
+                  "each once: a copy would be fitted on and scored (leave it out with --select)"}});
+    }
+
+  private:
+    std::map<std::vector<double>, fs::path> seen_;
+};
+
+}  // namespace
+
+const std::vector<ImportChoice>& cubeTossChoices() {
+    static const std::vector<ImportChoice> choices{
+        {"units",
+         {{"data", "as recorded, g = 9.614, half width 0.0512"},
+          {"rescaled", "lengths times 0.0524/0.0512, g = 9.81, half width 0.0524"},
+          {"published", "as recorded, g = 9.81, half width 0.0524, as the published fits"}}},
+        {"start",
+         {{"rule", "the simulator study's rule for the first frame and its velocities"},
+          {"flight", "the same frame, least squares over the free flight"}}}};
+    return choices;
+}
+
+Imported importCubeToss(const ImportRequest& request) {
+    const auto files = findTosses(request.from);
+    std::vector<int> ids;
+    for (const auto& [id, file] : files) ids.push_back(id);
+    const Units units = unitsOf(request.choices.at("units"));
+    Imported imported;
+    imported.title = "Measured tosses of a cube";
+    CopyFinder copies;
+    std::vector<Problem> problems;
+    for (const Chosen& chosen : chooseRecordings(ids, request, request.from / "selected.csv")) {
+        const fs::path& file = files.at(chosen.id);
+        try {
+            Recording recording = readToss(file);
+            copies.check(recording, file);
+            scaleLengths(recording, units.scale);
+            if (firstFrameBelow(recording, units.half * std::sqrt(3.0)) == recording.frames.size())
+                throw LoadError(
+                    {{"import.no_fall", file.string(), "", 0, "a cube that stays above the board",
+                      "a centre that comes down to " + std::to_string(units.half * std::sqrt(3.0)) + " m"}});
+            const StartState start = request.choices.at("start") == "flight"
+                                         ? startByFlight(recording, units.half, units.gravity)
+                                         : startByRule(recording, units.half, units.gravity);
+            imported.scenarios.push_back({tossName(chosen.id),
+                                          scenarioOf(chosen.id, chosen.train, recording, start, units),
+                                          chosen.train});
+        } catch (const LoadError& error) {
+            problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+        }
+    }
+    if (!problems.empty()) throw LoadError(std::move(problems));
+    imported.parameters = {{"friction", "pairs.0.friction", 0.02, 0.6, kFriction},
+                           {"restitution", "pairs.0.restitution", 0.0, 0.7, kRestitution}};
+    imported.metric = "measured_loss";
+    if (fs::exists(request.from / "LICENSE")) imported.licence = request.from / "LICENSE";
+    return imported;
+}
+
+}  // namespace rigor::validation

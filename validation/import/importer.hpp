@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Measured data sets become scenarios: one file per data set and one line in importers.def. An importer reads
+// a folder of the user's and hands back scenario texts whose reference is `measured_motion`; writing them,
+// with suites for the part to fit on and the part to score on and a fit file ready to use, is the same for
+// all.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace rigor::validation {
+
+/// A choice that an importer leaves to the caller, the default first.
+struct ImportChoice {
+    std::string key;
+    std::vector<std::pair<std::string, std::string>> values;  ///< value and what it means
+};
+
+struct ImportRequest {
+    std::filesystem::path from;  ///< folder of the data set
+    std::string select = "all";  ///< "all", or a CSV file with a column `id`
+    std::string train;           ///< a CSV file with a column `id`, or a share in (0, 1); "": the importer's
+    std::map<std::string, std::string> choices;  ///< complete: every key of the table's choices
+};
+
+struct ImportedScenario {
+    std::string name;  ///< also of the file
+    std::string text;  ///< JSON
+    bool train = false;
+};
+/// A value of the scenarios that a fit may change.
+struct FitProposal {
+    std::string name, key;
+    double low, high, start;
+};
+struct Imported {
+    std::string title;
+    std::vector<ImportedScenario> scenarios;  ///< at least one
+    std::vector<FitProposal> parameters;
+    std::string metric;             ///< what a fit minimises
+    std::filesystem::path licence;  ///< to keep with what is made of the data; may be empty
+};
+
+struct ImporterEntry {
+    const char* name;  ///< "cube-toss"
+    const char* title;
+    const char* source;
+    const std::vector<ImportChoice>& (*choices)();
+    Imported (*read)(const ImportRequest&);
+};
+const std::vector<ImporterEntry>& importerTable();
+/// Throws std::invalid_argument naming the known ones.
+const ImporterEntry& findImporter(const std::string& name);
+
+/// Defaults for keys not given; throws std::invalid_argument for unknown keys and values.
+std::map<std::string, std::string> resolveChoices(const ImporterEntry& importer,
+                                                  const std::map<std::string, std::string>& given);
+
+/// Which of `ids` the request selects, and which of these are for the fit. Throws LoadError for ids that a
+/// list names and the data set does not have, or that it names twice. `defaultTrain`: a list used when the
+/// request names none; may be empty or not exist (then half of them, every other one).
+struct Chosen {
+    int id;
+    bool train;
+};
+std::vector<Chosen> chooseRecordings(const std::vector<int>& ids, const ImportRequest& request,
+                                     const std::filesystem::path& defaultTrain);
+
+/// Writes the scenarios, `train.json`, `test.json` (suites) and `fit.json` to `folder`, which must be new or
+/// empty; every scenario is loaded first. Throws LoadError, std::invalid_argument.
+void writeImported(const Imported& imported, const std::string& name, const std::filesystem::path& folder);
+
+}  // namespace rigor::validation
