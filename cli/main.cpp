@@ -8,6 +8,7 @@
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/collide/exchange.hpp"
+#include "validation/fit/fit.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace {
@@ -38,6 +39,7 @@ int runCommand(int argc, char** argv) {
     addReport(app, action);
     addRecord(app, action);
     addImport(app, action);
+    addFit(app, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::RequiredError& error) {
@@ -59,8 +61,9 @@ int main(int argc, char** argv) {
     try {
         // The program runs itself again for every case; these are not for people.
         if (argc > 1 && std::string_view(argv[1]).starts_with("__"))
-            return rigor::validation::childMain({argv + 1, argv + argc},
-                                                {{"__collide", rigor::validation::collideChild}});
+            return rigor::validation::childMain(
+                {argv + 1, argv + argc},
+                {{"__collide", rigor::validation::collideChild}, {"__fit", rigor::validation::fitChild}});
         return runCommand(argc, argv);
     } catch (const rigor::scenario::LoadError& error) {
         printProblems(error, false);

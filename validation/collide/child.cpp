@@ -3,21 +3,15 @@
 //
 // One engine asked case by case. Every answer is written before the next question, so that a library that
 // ends the process costs one answer; an alarm ends a query that hangs.
-#include <fcntl.h>
-#include <sys/time.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "adapters/interface/input_check.hpp"
 #include "validation/collide/exchange.hpp"
 #include "validation/runner/answer.hpp"
+#include "validation/runner/line_file.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -26,13 +20,6 @@ using adapter::CollisionAnswer;
 using adapter::ContactPoint;
 using nlohmann::json;
 using scenario::Vec3;
-
-void setAlarm(double seconds) {
-    itimerval timer{};
-    timer.it_value.tv_sec = static_cast<time_t>(seconds);
-    timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - std::floor(seconds)));
-    setitimer(ITIMER_REAL, &timer, nullptr);
-}
 
 /// The direction between the closest points of shapes that are apart.
 std::optional<Vec3> directionBetween(const CollisionAnswer& found) {
@@ -96,33 +83,6 @@ CollideAnswer ask(const adapter::CollisionEngine& engine, const adapter::Setting
     }
     return answer;
 }
-
-class LineWriter {
-  public:
-    explicit LineWriter(const std::string& file)
-        : file_(open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)), name_(file) {
-        if (file_ < 0) refuse();
-    }
-    ~LineWriter() { close(file_); }
-    LineWriter(const LineWriter&) = delete;
-    LineWriter& operator=(const LineWriter&) = delete;
-
-    void add(const json& value) {
-        const std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
-        for (std::size_t at = 0; at < text.size();) {
-            const ssize_t n = write(file_, text.data() + at, text.size() - at);
-            if (n > 0)
-                at += static_cast<std::size_t>(n);
-            else if (errno != EINTR)
-                refuse();
-        }
-    }
-
-  private:
-    [[noreturn]] void refuse() const { throw std::runtime_error(name_ + ": " + std::strerror(errno)); }
-    int file_;
-    std::string name_;
-};
 
 json optional(const std::optional<double>& value) {
     return value ? numberToJson(*value) : json(nullptr);

@@ -15,6 +15,7 @@
 #include "validation/collide/exchange.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/describe.hpp"
+#include "validation/runner/line_file.hpp"
 #include "validation/runner/process_pool.hpp"
 
 namespace rigor::validation {
@@ -28,15 +29,10 @@ constexpr std::size_t kMemoryMiB = 4096;  ///< per child
 constexpr double kChunkSeconds = 3600.0;  ///< the alarm of each query comes long before
 constexpr const char* kAlgorithmKey = "narrow_phase";
 
-/// Answers of a child, in the order of its cases; a half-written last line does not count.
+/// Answers of a child, in the order of its cases.
 std::vector<CollideAnswer> readAnswers(const fs::path& file) {
     std::vector<CollideAnswer> answers;
-    std::ifstream in(file);
-    for (std::string line; std::getline(in, line);) {
-        const json value = json::parse(line, nullptr, false);
-        if (value.is_discarded()) break;
-        answers.push_back(answerFromJson(value));
-    }
+    for (const json& value : readJsonLines(file)) answers.push_back(answerFromJson(value));
     return answers;
 }
 

@@ -73,6 +73,17 @@ std::size_t firstContact(const Recording& recording, double halfWidth) {
     return static_cast<std::size_t>(std::find_if(f.begin(), f.end(), touches) - f.begin());
 }
 
+std::size_t flightFrames(const Recording& recording, double halfWidth, double gravity) {
+    const auto& f = recording.frames;
+    const double fall = gravity / (recording.rate * recording.rate);
+    const std::size_t contact = firstContact(recording, halfWidth);
+    // A bounce between two frames shows in the second difference of the height, which is -fall in flight.
+    for (std::size_t k = 2; k < contact; ++k)
+        if (std::abs(f[k].position.z - 2.0 * f[k - 1].position.z + f[k - 2].position.z + fall) > fall)
+            return k;
+    return contact;
+}
+
 StartState startByRule(const Recording& recording, double halfWidth, double gravity) {
     const auto& f = recording.frames;
     const std::size_t i = startFrame(recording, halfWidth);
@@ -94,7 +105,8 @@ StartState startByRule(const Recording& recording, double halfWidth, double grav
 
 StartState startByFlight(const Recording& recording, double halfWidth, double gravity) {
     const auto& f = recording.frames;
-    const std::size_t i = startFrame(recording, halfWidth), count = firstContact(recording, halfWidth);
+    const std::size_t i = startFrame(recording, halfWidth);
+    const std::size_t count = flightFrames(recording, halfWidth, gravity);
     if (count < kLeastFlight) return asRecorded(recording, i);
     const double dt = 1.0 / recording.rate, t = static_cast<double>(i) * dt;
     const auto line = [&](auto&& component) { return fitLine(count, dt, component); };

@@ -39,6 +39,9 @@ std::size_t firstFrameBelow(const Recording& recording, double height);
 /// First frame at which a sharp cube of this half width [m] would touch z = 0; frames.size() if never.
 std::size_t firstContact(const Recording& recording, double halfWidth);
 
+/// How many frames are free flight: up to the first contact, or to a bounce between two frames.
+std::size_t flightFrames(const Recording& recording, double halfWidth, double gravity);
+
 /// The rule of the simulator study: three frames before the centre first falls to halfWidth sqrt(3); from
 /// frame 4 on spin log(q0^-1 qi)/(i dt), vx and vy the chord slope over frames 0..i-1, vz the slope at frame
 /// i-1 of the least-squares parabola of curvature -gravity; before it the recorded velocities.
