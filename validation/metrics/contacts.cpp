@@ -59,6 +59,14 @@ double angleBetween(Vec3 a, Vec3 b) {
     return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
+/// The median as the row of the whole scene; none of nothing.
+std::vector<MetricValue> medianRow(std::vector<double> values) {
+    if (values.empty()) return {};
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return {{"", *middle, -1.0}};
+}
+
 /// Calls `look(contact, angle to the closed form's normal, time)` for every contact that has one. The
 /// contacts of a step are found at the poses before it, or after: either will do.
 template <class Look>
@@ -140,10 +148,19 @@ std::vector<MetricValue> normalErrorMedian(const MetricInput& input) {
     overNormals(input, [&](const ContactPoint&, double error, double) {
         errors.push_back(std::isnan(error) ? std::numeric_limits<double>::infinity() : error);
     });
-    if (errors.empty()) return {};
-    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-    std::nth_element(errors.begin(), middle, errors.end());
-    return {{"", *middle, -1.0}};
+    return medianRow(std::move(errors));
+}
+
+std::vector<MetricValue> contactInconsistency(const MetricInput& input) {
+    constexpr double kShallow = 1e-6;  // [m]
+    std::vector<double> errors;
+    for (const auto& contacts : input.trajectory.contacts)
+        for (const ContactPoint& c : contacts) {
+            if (std::abs(c.depth) < kShallow) continue;
+            const double error = std::abs(dot(c.pointA - c.pointB, c.normal) - c.depth) / std::abs(c.depth);
+            errors.push_back(std::isnan(error) ? std::numeric_limits<double>::infinity() : error);
+        }
+    return medianRow(std::move(errors));
 }
 
 }  // namespace rigor::validation

@@ -37,9 +37,10 @@ const Entry* entryFor(const std::vector<Entry>& entries, const std::string& engi
 /// What holds wherever it has a value, in every scenario that says nothing else.
 const scenario::Bound* boundEverywhere(const std::string& metric) {
     static const std::vector<scenario::Bound> bounds = [] {
-        scenario::Bound side;
-        side.engine = "*", side.metric = "normal_error_median", side.max = std::numbers::pi / 4;
-        return std::vector{side};
+        std::vector<scenario::Bound> all(2);
+        all[0].metric = "normal_error_median", all[0].max = std::numbers::pi / 4;
+        all[1].metric = "contact_inconsistency", all[1].max = 0.5;
+        return all;
     }();
     const auto it =
         std::find_if(bounds.begin(), bounds.end(), [&](const auto& b) { return b.metric == metric; });

@@ -26,7 +26,7 @@ const scenario::KnownDeviation* deviationFor(const scenario::Scenario& scenario,
 double boundAt(const scenario::Bound& bound, const scenario::Scenario& scenario, double dt);
 
 /// Sets bound, expectation, verdict and note of a whole-scene row ("" as subject) from the scenario, or from
-/// what holds everywhere (contact normals on the right side). A value that is NaN misses every bound.
+/// what holds everywhere (what contacts say of themselves). A value that is NaN misses every bound.
 void judgeMetric(results::MetricRow& row, const scenario::Scenario& scenario, const results::CaseRow& judged);
 
 /// Sets verdict (and reason where it has none) of a case from its outcome, metrics and read-back. A known

@@ -138,6 +138,13 @@ std::unique_ptr<Case> pressed() {
     c->run.contacts[10][0].hasImpulse = true, c->run.contacts[10][0].normalImpulse = 2;
     return c;
 }
+/// The same, its contacts 2 mm deep.
+std::unique_ptr<Case> overlapping() {
+    auto c = resting();
+    for (auto& contacts : c->run.contacts)
+        for (auto& touch : contacts) touch.depth = 0.002, touch.pointB = {0, -0.002, 0};
+    return c;
+}
 /// A rod on a hinge about z with stops at 0.1 rad.
 std::unique_ptr<Case> hinged() {
     auto c = std::make_unique<Case>();
@@ -270,6 +277,12 @@ const std::vector<Row>& rows() {
                  c.run.contacts[k][0].normal = {std::sin(0.02), std::cos(0.02), 0};
          },
          0.02},
+        {"contact_inconsistency", "", overlapping,
+         [](Case& c) {
+             for (auto& contacts : c.run.contacts)
+                 for (auto& touch : contacts) touch.depth = -touch.depth;
+         },
+         2.0},
         // out and back in one of the 98 triples of frames with contacts
         {"normal_flicker", "ball", resting,
          [](Case& c) {

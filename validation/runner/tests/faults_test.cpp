@@ -174,6 +174,7 @@ const Fault kFaults[] = {
     {"normal_flipped", &kImpact, "normal_error_median", "", 3.13, 3.1416, "normal_error"},
     {"normal_flipped", &kBounce, "normal_error", "", 3.1415, 3.1416,
      "signorini_residual normal_error_median"},
+    {"points_swapped", &kBounce, "contact_inconsistency", "", 1.9999, 2.0001, "penetration_max"},
     // (e - 0.99 e) |vn| / |v| = 0.005 / sqrt 2
     {"restitution_low", &kBounce, "quantity_error", "normal_velocity", 0.00353, 0.00354,
      "position_max signorini_residual", "tangential_velocity"},
@@ -203,7 +204,7 @@ const Fault kFaults[] = {
     {"creeping", &kRest, "rest_creep", "block", 0.99e-4, 1.01e-4},
     {"turning", &kRest, "rest_turn", "block", 0.99e-3, 1.01e-3},
     {"jitter", &kRest, "rest_jitter", "block", 0.99e-3, 1.01e-3},
-    {"shapes_shrunk", &kRest, "overlap_max", "", 1e-3, 3e-3, "rest_sink penetration_max"},
+    {"shapes_shrunk", &kRest, "overlap_max", "", 1e-3, 3e-3, "rest_sink penetration_max contact_inconsistency"},
     // out and back again; one step of four
     {"normal_flickers", &kRest, "normal_flicker", "block", 0.0199, 0.0201},
     {"contacts_blink", &kRest, "contact_flicker", "block", 0.24, 0.26},

@@ -161,6 +161,15 @@ struct ContactsBlink : RigidWorld {
         if (steps_ % 4 == 0) contacts.clear();
     }
 };
+/// Takes every contact for 2 mm deep, and has its points the wrong way round.
+struct PointsSwapped : RigidWorld {
+    using RigidWorld::RigidWorld;
+    ContactPoint reported(const Contact& c) const override {
+        ContactPoint p = c.point;
+        p.depth = 2e-3, p.pointA = p.pointB - p.depth * p.normal;
+        return p;
+    }
+};
 struct MomentumLeak : RigidWorld {
     using RigidWorld::RigidWorld;
     Vec3 reaction(const Vec3& impulse) const override { return (1.0 - 1e-6) * impulse; }
@@ -256,6 +265,7 @@ const std::map<std::string, Maker> kFaults{{"none", &make<RigidWorld>},
                                            {"normal_flipped", &make<NormalFlipped>},
                                            {"origin_is_centre", &make<OriginIsCentre>},
                                            {"own_step", &make<OwnStep>},
+                                           {"points_swapped", &make<PointsSwapped>},
                                            {"quaternion_drifts", &make<QuaternionDrifts>},
                                            {"quaternion_order", &make<QuaternionOrder>},
                                            {"restitution_high", &make<Restitution<1>>},
