@@ -64,7 +64,7 @@ void addImport(CLI::App& app, Action& action) {
     command->add_option("--select", a->select, "Only the recordings of this CSV file (column id), or all");
     command->add_option("--train", a->train,
                         "Recordings to fit on: a CSV file (column id) or a share; the others are scored. "
-                        "Default: DIR/selected.csv, else half");
+                        "Default: half, spread evenly");
     command->add_option("--option", a->options, "A choice of the data set's: KEY=VALUE")
         ->allow_extra_args(false);
     command->footer(footer());

@@ -3,6 +3,7 @@
 //
 // Reads a fit file; what is wrong is said with file, line, pointer, found and expected.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "scenarios/loader/node.hpp"
@@ -110,7 +111,8 @@ void readValues(const Node& root, FitTask& task, std::vector<adapter::EngineSpec
             if (std::find(task.metrics.begin(), task.metrics.end(), name) == task.metrics.end())
                 task.metrics.push_back(name);
         }
-    if (const auto n = root.find("budget")) task.budget = n->integer(10, 100000);
+    const int least = static_cast<int>(std::pow(3.0, static_cast<double>(task.parameters.size()))) + 1;
+    if (const auto n = root.find("budget")) task.budget = n->integer(least, 100000);
     if (const auto n = root.find("seed")) task.seed = static_cast<std::uint64_t>(n->integer(0, 2147483647));
     if (const auto n = root.find("dt")) task.dt = n->number(1e-7, 1.0);
     if (const auto n = root.require("engines"); n && specs.empty())

@@ -163,8 +163,9 @@ class Search {
     /// An even grid over where resampled recordings put the minimum, a step wider on every side.
     bool survey() {
         result_.resolution = step_;
+        if (left(1.0) < static_cast<int>(std::pow(3.0, static_cast<double>(dimension())))) return true;
         const auto where = minimiserIntervals(result_, parameters_, summary_, seed_);
-        const int count = perAxis(std::max(1, left(1.0)));
+        const int count = perAxis(left(1.0));
         std::vector<std::vector<double>> axes;
         for (std::size_t i = 0; i < dimension(); ++i) {
             const FitParameter& p = parameters_[i];

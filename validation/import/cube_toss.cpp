@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Tosses of a real cube onto a fixed board: DIR/toss_NNN.csv (or DIR/tosses/), columns t, p, q, v (world), w
-// (body frame), one frame per line; DIR/selected.csv, where there is one, names those to fit on.
+// (body frame), one frame per line.
 //
 // Lengths in the recordings are about 2 % short: bodies in flight fall at 9.614 m/s^2 and the cube rests at
 // 0.0512 m over the board instead of its 0.0524. So a choice of units:
@@ -246,7 +246,7 @@ Imported importCubeToss(const ImportRequest& request) {
     imported.title = "Measured tosses of a cube";
     CopyFinder copies;
     std::vector<Problem> problems;
-    for (const Chosen& chosen : chooseRecordings(ids, request, request.from / "selected.csv")) {
+    for (const Chosen& chosen : chooseRecordings(ids, request)) {
         const fs::path& file = files.at(chosen.id);
         try {
             Recording recording = readToss(file);

@@ -23,7 +23,7 @@ struct ImportChoice {
 struct ImportRequest {
     std::filesystem::path from;  ///< folder of the data set
     std::string select = "all";  ///< "all", or a CSV file with a column `id`
-    std::string train;           ///< a CSV file with a column `id`, or a share in (0, 1); "": the importer's
+    std::string train;           ///< a CSV file with a column `id`, or a share in (0, 1); "": half
     std::map<std::string, std::string> choices;  ///< complete: every key of the table's choices
 };
 
@@ -60,15 +60,14 @@ const ImporterEntry& findImporter(const std::string& name);
 std::map<std::string, std::string> resolveChoices(const ImporterEntry& importer,
                                                   const std::map<std::string, std::string>& given);
 
-/// Which of `ids` the request selects, and which of these are for the fit. Throws LoadError for ids that a
-/// list names and the data set does not have, or that it names twice. `defaultTrain`: a list used when the
-/// request names none; may be empty or not exist (then half of them, every other one).
+/// Which of `ids` the request selects, and which of these are for the fit: those that it lists, or a share of
+/// them spread evenly, half without a word. Throws LoadError for ids that a list names and the data set does
+/// not have, or that it names twice.
 struct Chosen {
     int id;
     bool train;
 };
-std::vector<Chosen> chooseRecordings(const std::vector<int>& ids, const ImportRequest& request,
-                                     const std::filesystem::path& defaultTrain);
+std::vector<Chosen> chooseRecordings(const std::vector<int>& ids, const ImportRequest& request);
 
 /// Writes the scenarios, `train.json`, `test.json` (suites) and `fit.json` to `folder`, which must be new or
 /// empty; every scenario is loaded first. Throws LoadError, std::invalid_argument.

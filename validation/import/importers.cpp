@@ -129,8 +129,7 @@ ordered_json fitJson(const Imported& imported, const std::string& name) {
 
 }  // namespace
 
-std::vector<Chosen> chooseRecordings(const std::vector<int>& ids, const ImportRequest& request,
-                                     const fs::path& defaultTrain) {
+std::vector<Chosen> chooseRecordings(const std::vector<int>& ids, const ImportRequest& request) {
     std::vector<int> selected = ids;
     if (request.select != "all") {
         const std::set<int> wanted = readIds(request.select, ids);
@@ -139,8 +138,6 @@ std::vector<Chosen> chooseRecordings(const std::vector<int>& ids, const ImportRe
     std::set<int> train;
     if (!request.train.empty() && fs::exists(request.train))
         train = readIds(request.train, ids);
-    else if (request.train.empty() && request.select == "all" && fs::exists(defaultTrain))
-        train = readIds(defaultTrain, ids);
     else {
         // Spread evenly: neighbours were recorded in one session.
         const double share = request.train.empty() ? 0.5 : readShare(request.train);

@@ -285,6 +285,7 @@ TEST(FitFile, WhatIsWrongIsSaid) {
                 HasSubstr("a lower and a higher"));
     EXPECT_THAT(refusal([](auto& f) { f["parameters"][0]["start"] = 9; }), HasSubstr("/parameters/0/start"));
     EXPECT_THAT(refusal([](auto& f) { f["colour"] = 1; }), HasSubstr("colour"));
+    EXPECT_THAT(refusal([](auto& f) { f["budget"] = 9; }), HasSubstr("/budget"));
     EXPECT_THAT(refusal([](auto& f) { f["train"] = {"gone.json"}; }), HasSubstr("gone.json"));
     EXPECT_THAT(refusal([](auto& f) { f["engines"] = {"no_such_engine"}; }), HasSubstr("no_such_engine"));
     EXPECT_THAT(refusal([](auto& f) { f["parameters"].clear(); }), HasSubstr("one to three parameters"));

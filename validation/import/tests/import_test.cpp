@@ -122,7 +122,7 @@ TEST(Selection, TrainAndTestArePartedAndListsAreChecked) {
     EXPECT_EQ(count(importFrom(folder)), 3) << "half of them without a list";
     EXPECT_EQ(count(importFrom(folder, {}, "all", "0.34")), 2);
     writeText(folder / "selected.csv", "id,why\n2,spin\n10,slide\n");
-    const Imported listed = importFrom(folder);
+    const Imported listed = importFrom(folder, {}, "all", (folder / "selected.csv").string());
     EXPECT_EQ(count(listed), 2);
     EXPECT_TRUE(listed.scenarios[1].train && listed.scenarios[5].train);
     EXPECT_EQ(importFrom(folder, {}, (folder / "selected.csv").string()).scenarios.size(), 2U);
