@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A body slides and spins on a flat face, or on many feet, whose pressure is the same everywhere. Turning
+// makes it easier to push and sliding easier to turn. With eps = v/(R w), mu the friction of the pair:
+//   a disc (cylinder on its end):  v' = -mu g F(eps),  I w' = -mu m g R T(eps),
+//     eps < 1: F = (4/3 pi) [(eps^2 + 1) E + (eps^2 - 1) K]/eps, T = (4/9 pi) [(4 - 2 eps^2) E + (eps^2 - 1)
+//     K], eps > 1: F = (4/3 pi) [(eps^2 + 1) E - (eps^2 - 1) K],
+//              T = (4/9 pi) eps [(4 - 2 eps^2) E + (2 eps^2 - 5 + 3/eps^2) K],
+//     with the parameter eps^2 or 1/eps^2; v and w end together, with eps = 0.653;
+//   n feet at rho_i:  m v' = -(mu m g/n) sum u_i/|u_i|,  I w' = -(mu m g/n) sum rho_i x u_i/|u_i|;
+//     pure spin of feet on one circle: w' = -mu m g a/I whatever the loads.
+// The laws of rigid bodies leave the pressure of more than three points open: this is the answer for equal
+// pressure, which an engine need not choose. A centre of mass above the floor would tilt the pressure: it
+// must lie in the floor's plane, but for pure spin. tripod_slide has loads that follow from statics.
+// Source: Farkas, Bartels, Unger, Wolf, Phys. Rev. Lett. 90 (2003) 248302; Voyenli and Eriksen, Am. J. Phys.
+// 53 (1985) 1149; Howe and Cutkosky, Int. J. Robot. Res. 15 (1996) 557.
+// Assumes: a level floor, velocity along it, spin about its normal, gravity and contact alone. Valid until
+// the slowest foot, or the disc, has almost stopped.
+#include <algorithm>
+#include <cmath>
+
+#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/numerics/ode.hpp"
+#include "validation/references/parts.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using namespace numerics;
+
+struct Friction {
+    Real force = 0, torque = 0;  ///< over mu m g and over mu m g R
+};
+
+/// F and T of a disc of even pressure.
+Friction discFriction(Real eps) {
+    const Real a = 4 / (3 * kPi), b = 4 / (9 * kPi), e2 = eps * eps;
+    if (eps < 1e-4L) return {eps * (1 - e2 / 8), 2.0L / 3 - e2 / 2};
+    if (std::abs(eps - 1) < 1e-12L) return {2 * a, 2 * b};
+    if (eps < 1) {
+        const Real K = ellipticK(e2), E = ellipticE(e2);
+        return {a * ((e2 + 1) * E + (e2 - 1) * K) / eps, b * ((4 - 2 * e2) * E + (e2 - 1) * K)};
+    }
+    if (eps > 1e3L) return {1 - 1 / (8 * e2), 1 / (4 * eps)};
+    const Real K = ellipticK(1 / e2), E = ellipticE(1 / e2);
+    return {a * ((e2 + 1) * E - (e2 - 1) * K), b * eps * ((4 - 2 * e2) * E + (2 * e2 - 5 + 3 / e2) * K)};
+}
+
+class SpinningDisc : public Reference {
+  public:
+    SpinningDisc(const Scenario& scenario, int index, int floor)
+        : scenario_(scenario),
+          index_(index),
+          body_(scenario.bodies[static_cast<std::size_t>(index)]),
+          plane_(planeOf(scenario, floor, centerOfMass(body_) + 1e-3 * sizeOf(body_) * upOf(scenario))) {
+        const std::string who = bodyTitle(scenario, index);
+        require(scenario.dimension == 3, "a spinning disc needs three dimensions");
+        requireUndisturbed(scenario, index);
+        requireContact(scenario, index, floor);
+        requireStill(scenario, floor);
+        const Vec3 n = plane_.normal, com = centerOfMass(body_), w = body_.angularVelocity;
+        const Vec3 g = gravityOn(scenario, index);
+        require(norm(g) > 0.0 && norm(cross(g, n)) <= 1e-9 * norm(g), "the floor is not level");
+        along_ = perpendicular(n), across_ = cross(n, along_);
+        const Footing footing = footingOf(scenario, index, plane_);
+        require(std::abs(footing.gap) <= 1e-4 * sizeOf(body_), who + " does not stand on the floor");
+        require(norm(cross(w, n)) <= 1e-9 * norm(w), who + " does not spin about the normal");
+        require(std::abs(dot(body_.velocity, n)) <= 1e-9 * norm(body_.velocity), who + " leaves the floor");
+        const bool spins = norm(body_.velocity) == 0.0;
+        require(spins || std::abs(plane_.height(com)) <= 1e-3 * sizeOf(body_),
+                "the centre of mass of " + who + " is off the floor: its pressure is not even");
+        findFeet(footing, com, spins);
+        const Vec3 moment = worldInertia(body_) * n;
+        inertia_ = dot(n, moment);
+        require(norm(moment - dot(n, moment) * n) <= 1e-9 * norm(moment),
+                "the normal is not along a principal axis of " + who);
+        mass_ = body_.massProperties.mass;
+        push_ = pairCoefficients(scenario, footing.material, plane_.material).friction * norm(g);
+        follow({0, 0, 0, dot(along_, body_.velocity), dot(across_, body_.velocity), dot(n, w)});
+    }
+    std::vector<int> bodies() const override { return {index_}; }
+    double validUntil() const override { return validUntil_; }
+
+    PartialState exact(int, double t) const override {
+        const OdeState y = solution_.at(t);
+        const auto d = [&](std::size_t i) { return static_cast<double>(y[i]); };
+        return stateOf(
+            body_, centerOfMass(body_) + d(0) * along_ + d(1) * across_,
+            scenario::normalized(scenario::fromAxisAngle(plane_.normal, d(2)) * body_.pose.orientation),
+            d(3) * along_ + d(4) * across_, d(5) * plane_.normal);
+    }
+
+  private:
+    static Vec3 upOf(const Scenario& scenario) { return -1.0 * unit(scenario.gravity); }
+    struct Foot {
+        Real x = 0, y = 0;
+    };
+
+    void findFeet(const Footing& footing, Vec3 com, bool spins) {
+        const std::string who = bodyTitle(scenario_, index_);
+        const auto* cylinder =
+            body_.shapes.size() == 1 ? std::get_if<scenario::Cylinder>(&body_.shapes[0].geometry) : nullptr;
+        if (cylinder) {
+            const Vec3 axis =
+                rotate(body_.pose.orientation, rotate(body_.shapes[0].pose.orientation, {0, 1, 0}));
+            require(norm(cross(axis, plane_.normal)) <= 1e-6, who + " does not stand on its end");
+            const Vec3 middle = body_.pose * body_.shapes[0].pose.position - com;
+            require(norm(middle - dot(middle, plane_.normal) * plane_.normal) <= 1e-9 * cylinder->radius,
+                    "the centre of mass of " + who + " is off its axis");
+            radius_ = cylinder->radius;
+            return;
+        }
+        Foot middle;
+        Real least = 1e30L;
+        for (const Vec3 p : footing.points) {
+            feet_.push_back({dot(along_, p - com), dot(across_, p - com)});
+            middle.x += feet_.back().x, middle.y += feet_.back().y;
+            const Real reach = std::hypot(feet_.back().x, feet_.back().y);
+            radius_ = std::max(radius_, reach), least = std::min(least, reach);
+        }
+        const auto n = static_cast<Real>(feet_.size());
+        require(n >= 3, who + " stands on fewer than three points");
+        require(std::hypot(middle.x, middle.y) <= 1e-6L * n * radius_,
+                "the feet of " + who + " are not balanced about its centre of mass");
+        require(!spins || radius_ - least <= 1e-6L * radius_ || plane_.height(com) <= 1e-3 * sizeOf(body_),
+                "the feet of " + who + " are not on one circle");
+    }
+
+    /// Slowest slip of a foot; of a disc the greater of its two speeds.
+    Real slowest(const OdeState& y) const {
+        if (feet_.empty()) return std::max(std::hypot(y[3], y[4]), std::abs(y[5]) * radius_);
+        Real least = 1e30L;
+        for (const Foot& f : feet_) {
+            const Foot p = turned(f, y[2]);
+            least = std::min(least, std::hypot(y[3] - y[5] * p.y, y[4] + y[5] * p.x));
+        }
+        return least;
+    }
+    static Foot turned(Foot f, Real angle) {
+        const Real c = std::cos(angle), s = std::sin(angle);
+        return {c * f.x - s * f.y, s * f.x + c * f.y};
+    }
+
+    void derivative(const OdeState& y, OdeState& d) const {
+        Real fx = 0, fy = 0, torque = 0;
+        if (feet_.empty()) {
+            const Real v = std::hypot(y[3], y[4]), rim = std::abs(y[5]) * radius_;
+            const Friction f = rim == 0 ? Friction{1, 0} : discFriction(v / rim);
+            if (v > 0) fx = -f.force * y[3] / v, fy = -f.force * y[4] / v;
+            torque = y[5] > 0 ? -f.torque * radius_ : (y[5] < 0 ? f.torque * radius_ : 0);
+        }
+        for (const Foot& foot : feet_) {
+            const Foot p = turned(foot, y[2]);
+            const Foot u{y[3] - y[5] * p.y, y[4] + y[5] * p.x};
+            const Real share = -1 / (std::hypot(u.x, u.y) * static_cast<Real>(feet_.size()));
+            fx += share * u.x, fy += share * u.y;
+            torque += share * (p.x * u.y - p.y * u.x);
+        }
+        d = {y[3], y[4], y[5], push_ * fx, push_ * fy, push_ * mass_ * torque / inertia_};
+    }
+
+    void follow(const OdeState& start) {
+        const auto rhs = [this](Real, const OdeState& y, OdeState& d) { derivative(y, d); };
+        const double whole = horizon(scenario_);
+        const Real least = 0.02L * (std::hypot(start[3], start[4]) + std::abs(start[5]) * radius_);
+        require(slowest(start) > least,
+                "a foot of " + bodyTitle(scenario_, index_) + " does not slide at the start");
+        const int pieces = 400;
+        double end = whole;
+        OdeState y = start;
+        for (int k = 0; k < pieces; ++k) {
+            const OdeState next = integrateOde(rhs, whole * k / pieces, y, whole * (k + 1) / pieces, 1e-10L);
+            if (slowest(next) < least) {
+                end = whole * k / pieces;
+                break;
+            }
+            y = next;
+        }
+        require(end > 0.0, bodyTitle(scenario_, index_) + " stops at once");
+        solution_ = DenseSolution(rhs, 0, start, end, 1e-13L);
+        if (end < whole) validUntil_ = end;
+    }
+
+    const Scenario& scenario_;
+    int index_;
+    const Body& body_;
+    Plane plane_;
+    Vec3 along_, across_;
+    std::vector<Foot> feet_;  ///< none: a disc
+    Real radius_ = 0, inertia_ = 0, mass_ = 0, push_ = 0;
+    DenseSolution solution_;
+    double validUntil_ = 1e300;
+};
+
+}  // namespace
+
+std::unique_ptr<Reference> makeSpinningDisc(const Scenario& scenario, const scenario::ReferenceSpec& spec) {
+    const Parts parts(scenario, spec, {"body", "floor"});
+    const int body = parts.dynamicBody("body");
+    return std::make_unique<SpinningDisc>(scenario, body, parts.support("floor", body));
+}
+
+}  // namespace rigor::validation
