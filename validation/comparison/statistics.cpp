@@ -44,23 +44,20 @@ KolmogorovSmirnov kolmogorovSmirnov(std::vector<double> one, std::vector<double>
         while (j < other.size() && other[j] <= x) ++j;
         largest = std::max(largest, std::abs(static_cast<long long>(i) * m - static_cast<long long>(j) * n));
     }
-    // inside[j]: share of the paths to (i, j) that stay nearer to the diagonal.
-    std::vector<double> inside(other.size() + 1, 0.0);
+    // beyond[j]: share of the paths to (i, j) that have been as far from the diagonal; no difference from one
+    // is taken, so that small probabilities keep their digits.
+    std::vector<double> beyond(other.size() + 1, 0.0);
     for (long long i = 0; i <= n; ++i)
         for (long long j = 0; j <= m; ++j) {
             const auto k = static_cast<std::size_t>(j);
-            const double steps = static_cast<double>(i + j);
-            if (i == 0 && j == 0) {
-                inside[k] = 1.0;
-            } else {
-                const double below = j > 0 ? inside[k - 1] * static_cast<double>(j) / steps : 0.0;
-                inside[k] = (i > 0 ? inside[k] * static_cast<double>(i) / steps : 0.0) + below;
-            }
-            if (std::abs(i * m - j * n) >= largest && largest > 0) inside[k] = 0.0;
+            const double steps = static_cast<double>(std::max(1LL, i + j));
+            const double below = j > 0 ? beyond[k - 1] * static_cast<double>(j) / steps : 0.0;
+            beyond[k] = beyond[k] * static_cast<double>(i) / steps + below;
+            if (std::abs(i * m - j * n) >= largest) beyond[k] = 1.0;
         }
     const double scale = static_cast<double>(n) * static_cast<double>(m);
-    const double p = largest > 0 ? 1.0 - inside.back() : 1.0;
-    return {static_cast<double>(largest) / scale, std::clamp(p, 0.0, 1.0)};
+    const double p = beyond.back();
+    return {static_cast<double>(largest) / scale, std::min(p, 1.0)};
 }
 
 }  // namespace rigor::validation

@@ -83,7 +83,7 @@ TEST_P(ExactMotion, HasTheSymmetry) {
         ASSERT_EQ(back.bodyCount, s.bodies.size());
         const Difference d = differenceOf(s, first, back);
         EXPECT_EQ(d.frames, first.frames());
-        // A thousand metres away a double ends at 1e-13; references integrate to 1e-12.
+        // Nine hundred metres away a double ends at 1e-13; references integrate to 1e-12.
         EXPECT_LT(d.position, 2e-11);
         EXPECT_LT(d.angle, 2e-10);
         for (std::size_t k = 0; k < first.states.size(); ++k) {
