@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scenarios/loader/loader.hpp"
 #include "validation/references/tests/newton_euler.hpp"
 
 namespace rigor::validation::testing {
@@ -336,6 +337,31 @@ TEST(WedgeBlock, RestsBelowTheFrictionAngleAndRefusesTipping) {
     Scenario rough = wedgeScene(2, 0.2, pi / 6);
     rough.materials[1].friction = 0.5;
     EXPECT_THROW(makeReference(rough), AssumptionViolated);
+}
+
+TEST(RollingBody, AChiralBallTurnsItsSpinRoundAndItsMirrorImageDoesNot) {
+    Scenario s = loadScenario(findScenario("chiral_ball")).scenario;
+    const int ball = findBody(s, "ball");
+    const auto spin = [&](const Scenario& scene, double t) {
+        return makeReference(scene)->exact(ball, t).angularVelocity->y;
+    };
+    EXPECT_GT(spin(s, 0), 0.6);
+    EXPECT_LT(spin(s, 2.1), -0.2);
+    const auto r = makeReference(s);
+    for (const double t : {1.0, 2.5}) {
+        EXPECT_NEAR(energyOf(s, *r, t), energyOf(s, *r, 0), 1e-10);
+        // No work at the touch: the contact point is at rest.
+        const auto e = r->exact(ball, t);
+        const Vec3 touch{e.position->x, 0, e.position->z};
+        EXPECT_LT(norm(*e.velocity + cross(*e.angularVelocity, touch - centerAt(s, *r, ball, t))), 1e-10);
+    }
+    // With the inertia mirrored (x to -x) but the start kept, it is another ball and does not turn the same
+    // way.
+    Scenario mirrored = s;
+    Mat3& inertia = mirrored.bodies[static_cast<std::size_t>(ball)].massProperties.inertia;
+    for (const auto& [i, j] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{0, 2}, std::pair{2, 0}})
+        inertia(i, j) = -inertia(i, j);
+    EXPECT_GT(std::abs(spin(mirrored, 2.1) - spin(s, 2.1)), 0.1);
 }
 
 }  // namespace
