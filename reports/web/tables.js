@@ -60,10 +60,11 @@ Rigor.inRunSummary = function () {
   const cell = function (s, column) {
     const seen = s.cases.filter((c) => c.spec === column.spec && c.inRun).map((c) => c.inRun);
     if (!seen.length) return el('td', {class: 'num muted'}, '');
-    const worst = (key) => seen.reduce((w, a) => (a[key] !== null && !(Rigor.number(a[key]) <= w) ? Rigor.number(a[key]) : w), null);
+    const worst = (key) => seen.reduce((w, a) => (a[key] !== null && (w === null || !(Rigor.number(a[key]) <= w)) ? Rigor.number(a[key]) : w), null);
     const sum = (key) => seen.reduce((n, a) => n + a[key], 0);
     const wrong = sum('missed') + sum('spurious'), flicker = worst('contactFlicker');
     if (!sum('overlapping') && !wrong) return el('td', {class: 'small muted', title: `${sum('queries')} pairs asked about`}, 'no overlap');
+    if (!wrong && worst('normal') === null) return el('td', {class: 'small muted', title: 'shapes for which the oracle has no exact answer'}, 'undecided');
     return el('td', {class: 'num', 'data-wrong': wrong, title: `${sum('queries')} pairs, ${sum('overlapping')} overlapping; ${sum('missed')} missed, ${sum('spurious')} spurious; worst normal ${Rigor.full(worst('normal'))} rad, ` +
       `depth ${Rigor.full(worst('depth'))} m, point ${Rigor.full(worst('point'))} m off its surface; normals flicker by ${Rigor.full(worst('normalFlicker'))} rad, ${Rigor.full(flicker)} of contacts blink; ${seen.map((a) => a.worst).filter(Boolean).join('; ')}`},
       wrong ? Rigor.chip('fail', `${wrong} wrong`) : null, Rigor.angle(worst('normal')),
