@@ -122,6 +122,7 @@ Rigor.methodPanel = function () {
       item('One scenario, all engines.', 'A scenario is written once, in SI units. Each engine is given the same bodies, masses, pair friction and restitution; after the build, what it says it was given is read back and compared.'),
       item('Two presets.', '“default” is the engine as it ships, with the scenario’s pair values. “matched” turns sleeping, damping, clamps and margins off or down and uses the same friction and restitution law as nearly as the library allows.'),
       item('Exact and scheme-exact.', 'Exact errors are distances from the physics: they measure accuracy. Scheme-exact errors are distances from what a perfect run of the engine’s own time-stepping formula gives at that time step: they find bugs. A simulator may be far from the first and on the second; the two are never mixed.'),
+      item('Measured.', 'Errors against a recorded motion of a real body are apart from both: the model, its coefficients and the instrument are in them.'),
       item('Same yardstick.', 'Energy, momentum and all errors are computed from the recorded states by one implementation, in double precision, for all engines.'),
       item('Contacts.', 'At sampled frames all collision engines and an exact oracle are asked about the same poses. Equally good normals count as equal.'),
       item('One process per case.', 'An engine that aborts, hangs or returns NaN costs one cell of the table.'),
