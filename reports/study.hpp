@@ -19,6 +19,7 @@ struct StudyPoint {
     std::optional<double> x;          ///< on the axis; none in a chart of bars
     std::optional<double> value;      ///< none where the run gave none
     std::optional<double> low, high;  ///< of its interval, where it has one
+    std::string note;                 ///< who, or why there is no value
     std::string outcome;              ///< how the run ended
 };
 

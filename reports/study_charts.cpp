@@ -116,6 +116,7 @@ StudyChart chartOf(const Json& part, const Json& rows, const std::string& scenar
         if (axis) point.x = asNumber(axis->of(row));
         if (cell.contains("low")) point.low = asNumber(cell.at("low"));
         if (cell.contains("high")) point.high = asNumber(cell.at("high"));
+        point.note = cell.value("note", "");
         if (chart.unit.empty()) chart.unit = cell.at("unit").get<std::string>();
         chart.points.push_back(point);
     }
@@ -203,6 +204,7 @@ std::string studyPageJson(const Json& study) {
                               {"value", number(p.value)},
                               {"low", number(p.low)},
                               {"high", number(p.high)},
+                              {"note", p.note},
                               {"outcome", p.outcome}});
         list.push_back({{"part", chart.part},
                         {"scenario", chart.scenario},

@@ -56,7 +56,7 @@ class BarScale {
         for (const auto& p : chart.points) {
             if (!p.value || !std::isfinite(*p.value)) continue;
             const double size = std::abs(*p.value);
-            greatest_ = std::max(greatest_, size);
+            greatest_ = std::max({greatest_, size, std::abs(p.high.value_or(0.0))});
             if (size > 0.0) least_ = std::min(least_, size);
         }
         if (logarithmic_) floor_ = std::floor(std::log10(least_)) - 0.2;
@@ -76,9 +76,7 @@ class BarScale {
 std::string valueText(const StudyPoint& p) {
     if (p.outcome != "completed") return p.outcome;
     if (!p.value) return "no value";
-    std::string text = shortNumber(*p.value);
-    if (p.low && p.high) text += " (" + shortNumber(*p.low) + " .. " + shortNumber(*p.high) + ")";
-    return text;
+    return shortNumber(*p.value) + (p.note.empty() ? "" : " (" + p.note + ")");
 }
 
 std::string svgBars(const StudyChart& chart) {
@@ -97,7 +95,12 @@ std::string svgBars(const StudyChart& chart) {
         out += words(kBarLeft - 8, y + 15, p.label, "end");
         out += "<rect x=\"" + at(kBarLeft) + "\" y=\"" + at(y + 3) + "\" width=\"" + at(length) +
                "\" height=\"" + at(kBarHeight - 6) + "\" fill=\"" + paletteColour(0) + "\"/>\n";
-        out += words(kBarLeft + length + 6, y + 15, valueText(p), "start");
+        const double end = p.low && p.high ? (kBarWidth - 110) * scale.length(*p.high) : length;
+        if (p.low && p.high)
+            out += "<line x1=\"" + at(kBarLeft + (kBarWidth - 110) * scale.length(*p.low)) + "\" y1=\"" +
+                   at(y + 11) + "\" x2=\"" + at(kBarLeft + end) + "\" y2=\"" + at(y + 11) +
+                   "\" stroke=\"#22272e\" stroke-width=\"1.5\"/>\n";
+        out += words(kBarLeft + std::max(length, end) + 6, y + 15, valueText(p), "start");
         y += kBarHeight;
     }
     out += "<line x1=\"" + at(kBarLeft) + "\" y1=\"" + at(kBarTop) + "\" x2=\"" + at(kBarLeft) + "\" y2=\"" +

@@ -21,6 +21,24 @@ Rigor.studyLines = function (chart) {
   return lines;
 };
 
+/** Lines over the bars from the low to the high end of their intervals. */
+Rigor.intervals = (points, colour) => ({id: 'intervals', afterDatasetsDraw: (drawn) => {
+  const {ctx, scales: {x, y}} = drawn;
+  ctx.save();
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = 1.5;
+  points.forEach((p, i) => {
+    if (p.low === null || p.high === null) return;
+    const at = y.getPixelForValue(i), from = x.getPixelForValue(Rigor.number(p.low)), to = x.getPixelForValue(Rigor.number(p.high));
+    ctx.beginPath();
+    ctx.moveTo(from, at);
+    ctx.lineTo(to, at);
+    for (const end of [from, to]) { ctx.moveTo(end, at - 4); ctx.lineTo(end, at + 4); }
+    ctx.stroke();
+  });
+  ctx.restore();
+}});
+
 Rigor.studyChart = function (chart) {
   const {el} = Rigor;
   const title = Rigor.studyTitle(chart);
@@ -34,7 +52,7 @@ Rigor.studyChart = function (chart) {
   const common = {animation: false, responsive: true, maintainAspectRatio: false};
   const lines = chart.axis ? Rigor.studyLines(chart) : [];
   const text = (value) => `${Rigor.format(value)}${Rigor.unit(chart.unit)}`;
-  const told = (p) => (p.outcome !== 'completed' ? p.outcome : p.value === null ? 'no value' : text(p.value) + (p.low !== null && p.high !== null ? `, ${text(p.low)} to ${text(p.high)}` : ''));
+  const told = (p) => (p.outcome !== 'completed' ? p.outcome : p.value === null ? 'no value' : text(p.value) + (p.note ? ` (${p.note})` : ''));
   const size = chart.axis ? 'box tall' : 'box';
   const make = () => Rigor.liveCharts.push(new Chart(canvas, chart.axis ? {type: 'line',
     data: {datasets: lines.map((line, i) => ({label: line.label, data: line.points, borderColor: colour(i), backgroundColor: 'transparent', pointBackgroundColor: colour(i), borderDash: i < Rigor.palette.length ? [] : [6, 4], borderWidth: 1.6, pointRadius: 3, tension: 0}))},
@@ -42,6 +60,7 @@ Rigor.studyChart = function (chart) {
       plugins: {legend: {display: true, position: 'bottom', labels: {color: style('--muted'), boxWidth: 24, font: {size: 11}}}, tooltip: {callbacks: {label: (item) => `${item.dataset.label}: ${text(item.parsed.y)} at ${Rigor.format(item.parsed.x)}`}}}}}
     : {type: 'bar',
       data: {labels: chart.points.map((p) => p.label), datasets: [{data: chart.points.map((p) => (p.value === null || (chart.logarithmic && !(Rigor.number(p.value) > 0)) ? null : Rigor.number(p.value))), backgroundColor: colour(0), maxBarThickness: 18}]},
+      plugins: [Rigor.intervals(chart.points, style('--text'))],
       options: {...common, indexAxis: 'y', scales: {x: values, y: {grid: {display: false}, ticks: {...tick, autoSkip: false}}}, plugins: {legend: {display: false}, tooltip: {callbacks: {label: (item) => told(chart.points[item.dataIndex])}}}}}));
   const height = chart.axis ? null : `height:${60 + 24 * chart.points.length}px`;
   return {node: el('div', {class: 'chart', 'data-metric': chart.metric, 'data-kind': chart.axis ? 'lines' : 'bars'}, el('h4', {}, title), el('div', {class: size, style: height}, canvas)), make};
@@ -59,7 +78,7 @@ Rigor.studyTable = function (part) {
   const known = new Set(Rigor.run.scenarios.map((s) => s.name));
   const variant = (r) => (known.has(r.scenario) ? el('a', {href: Rigor.scenarioLink(r.scenario, {dt: r.dt, spec: r.spec}), title: r.spec}, r.variant) : r.variant);
   const cell = function (value, unit) {
-    const interval = value.low !== undefined && value.low !== null && value.high !== null ? el('span', {class: 'bound'}, `${Rigor.format(value.low)} … ${Rigor.format(value.high)}`) : null;
+    const interval = value.note ? el('span', {class: 'bound'}, value.note) : null;
     return el('td', {class: 'num', title: Rigor.full(value.value) + (unit ? ' ' + unit : ''), 'data-value': Rigor.full(value.value)}, value.value === null ? '—' : Rigor.format(value.value), interval);
   };
   return Rigor.scroll(el('table', {class: 'full'}, el('thead', {}, el('tr', {}, ['Variant', ...ways.map(([name]) => name)].map((t, i) => el('th', {class: i ? null : 'sticky', scope: 'col'}, t)),

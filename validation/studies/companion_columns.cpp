@@ -39,7 +39,8 @@ StudyValue medianOf(const std::vector<double>& values, const std::string& unit, 
     v.unit = unit;
     if (values.empty()) return v;
     v.value = median(values);
-    if (const auto interval = medianInterval(values)) v.note = intervalText(*interval);
+    if (const auto interval = medianInterval(values))
+        v.note = intervalText(*interval), v.low = interval->low, v.high = interval->high;
     if (values.size() < asked)
         v.note += (v.note.empty() ? "" : " ") + std::string("of ") + std::to_string(values.size()) + "/" +
                   std::to_string(asked);

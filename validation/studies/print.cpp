@@ -161,8 +161,13 @@ std::string parameterText(const StudyRow& row) {
     return text;
 }
 
+std::string optionalText(const std::optional<double>& value) {
+    return value ? results::exactText(*value) : "";
+}
+
 std::string csv(const StudyResult& result) {
-    std::string text = "part,scenario,parameters,dt,variant,spec,case,outcome,metric,value,unit,note\n";
+    std::string text =
+        "part,scenario,parameters,dt,variant,spec,case,outcome,metric,value,unit,low,high,note\n";
     for (const StudyResultRow& row : result.rows) {
         const auto& part = result.study.parts[row.row.part];
         for (std::size_t i = 0; i < part.metrics.size(); ++i)
@@ -170,9 +175,9 @@ std::string csv(const StudyResult& result) {
                     results::exactText(row.row.dt) + "," + csvField(row.row.variant) + "," +
                     csvField(row.row.spec) + "," + row.row.caseId + "," +
                     (row.ran ? results::outcomeName(row.outcome) : "not run") + "," +
-                    csvField(part.metrics[i]) + "," +
-                    (row.values[i].value ? results::exactText(*row.values[i].value) : "") + "," +
-                    row.values[i].unit + "," + csvField(row.values[i].note) + "\n";
+                    csvField(part.metrics[i]) + "," + optionalText(row.values[i].value) + "," +
+                    row.values[i].unit + "," + optionalText(row.values[i].low) + "," +
+                    optionalText(row.values[i].high) + "," + csvField(row.values[i].note) + "\n";
     }
     return text;
 }
@@ -198,15 +203,20 @@ void writeText(const std::filesystem::path& file, const std::string& text) {
     if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
 }
 
+Json optionalJson(const std::optional<double>& value) {
+    return value ? Json(numberToJson(*value)) : Json(nullptr);
+}
+
 Json rowJson(const StudyResult& result, const StudyResultRow& row) {
     const auto& metrics = result.study.parts[row.row.part].metrics;
     Json values = Json::object(), parameters = Json::object();
     for (const auto& [key, value] : row.row.parameters) parameters[key] = value;
     for (std::size_t i = 0; i < metrics.size(); ++i)
-        values[metrics[i]] = {
-            {"value", row.values[i].value ? Json(numberToJson(*row.values[i].value)) : Json(nullptr)},
-            {"unit", row.values[i].unit},
-            {"note", row.values[i].note}};
+        values[metrics[i]] = {{"value", optionalJson(row.values[i].value)},
+                              {"unit", row.values[i].unit},
+                              {"low", optionalJson(row.values[i].low)},
+                              {"high", optionalJson(row.values[i].high)},
+                              {"note", row.values[i].note}};
     return {{"scenario", row.row.scenario},
             {"base", row.row.base},
             {"parameters", parameters},
@@ -224,9 +234,6 @@ Json rowJson(const StudyResult& result, const StudyResultRow& row) {
 Json findingJson(const StudyResult& result, const FindingVerdict& f) {
     const auto& part = result.study.parts[f.part];
     const auto& finding = part.findings[f.finding];
-    const auto number = [](const std::optional<double>& value) {
-        return value ? Json(numberToJson(*value)) : Json(nullptr);
-    };
     Json where = Json::object();
     for (const auto& [key, value] : finding.where) where[key] = value;
     return {{"part", part.name},
@@ -235,10 +242,10 @@ Json findingJson(const StudyResult& result, const FindingVerdict& f) {
             {"variant", finding.variant},
             {"where", where},
             {"metric", finding.metric},
-            {"at_least", number(finding.atLeast)},
-            {"at_most", number(finding.atMost)},
-            {"least", number(f.least)},
-            {"greatest", number(f.greatest)},
+            {"at_least", optionalJson(finding.atLeast)},
+            {"at_most", optionalJson(finding.atMost)},
+            {"least", optionalJson(f.least)},
+            {"greatest", optionalJson(f.greatest)},
             {"holds", f.holds}};
 }
 

@@ -71,7 +71,8 @@ results::Run runStudyCases(StudyPlan& plan, RunOptions options,
 struct StudyValue {
     std::optional<double> value;
     std::string unit;
-    std::string note = {};  ///< who, an interval, or why there is no value
+    std::string note = {};                      ///< who, an interval, or why there is no value
+    std::optional<double> low = {}, high = {};  ///< 95 % interval, where it is a median over runs
 };
 
 struct StudyResultRow {
