@@ -111,7 +111,7 @@ class Batch {
 
 }  // namespace
 
-// ------------------------------------------------------------------------------------------------------ log
+// ---------------------------------------- log
 EvaluationLog::EvaluationLog(const fs::path& file, bool resume) {
     if (resume)
         for (const json& line : readJsonLines(file)) {

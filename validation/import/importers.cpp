@@ -120,11 +120,17 @@ ordered_json fitJson(const Imported& imported, const std::string& name) {
     for (const FitProposal& p : imported.parameters)
         parameters.push_back(
             {{"name", p.name}, {"key", p.key}, {"range", {p.low, p.high}}, {"start", p.start}});
-    return {{"rigor_fit", 1},           {"name", name},
-            {"title", imported.title},  {"train", {"train.json"}},
-            {"test", {"test.json"}},    {"engines", {"rigor", "bullet", "ode"}},
-            {"parameters", parameters}, {"metric", imported.metric},
-            {"summary", "mean"},        {"seed", 1}};
+    return {{"rigor_fit", 1},
+            {"name", name},
+            {"title", imported.title},
+            {"train", {"train.json"}},
+            {"test", {"test.json"}},
+            {"engines", {"rigor", "bullet", "ode"}},
+            {"parameters", parameters},
+            {"metric", imported.metric},
+            {"summary", "mean"},
+            {"report", ordered_json::array({"measured_position_mean", "measured_orientation_mean"})},
+            {"seed", 1}};
 }
 
 }  // namespace

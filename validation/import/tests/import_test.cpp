@@ -39,8 +39,7 @@ double angleBetween(Quat a, Quat b) {
     return norm(turnBetween(a, b));
 }
 
-// ---------------------------------------------------------------------------------------------- initial
-// state
+// ---------------------------------------- initial state
 TEST(Start, BothRulesFindTheStateOfAFlightOfClosedForm) {
     const Flight flight;
     const auto folder = freshFolder("flight");
@@ -107,7 +106,7 @@ TEST(Start, UnitsChangeWhatTheyPromise) {
     for (const Scenario* s : {&own, &scaled, &published}) EXPECT_FALSE(s->description.empty());
 }
 
-// ---------------------------------------------------------------------------------------------- parts
+// ---------------------------------------- parts
 TEST(Selection, TrainAndTestArePartedAndListsAreChecked) {
     const auto folder = freshFolder("parts");
     for (int id : {0, 2, 4, 6, 8, 10}) {
@@ -153,8 +152,7 @@ TEST(Selection, TrainAndTestArePartedAndListsAreChecked) {
     EXPECT_THAT(refused("id\n2.5\n"), HasSubstr("expected a whole number"));
 }
 
-// ---------------------------------------------------------------------------------------------- broken
-// folders
+// ---------------------------------------- broken folders
 std::string refusal(const std::function<void(std::string&)>& spoil) {
     const auto folder = freshFolder("broken");
     std::string text = tossText(Flight{}.lines(30));
@@ -228,8 +226,7 @@ TEST(Broken, FoldersAreRefused) {
     EXPECT_THROW((void)findImporter("teapot"), std::invalid_argument);
 }
 
-// ---------------------------------------------------------------------------------------------- the real
-// tosses
+// ---------------------------------------- the real tosses
 /// A run in which the observed body stays where it starts.
 double frozenLoss(const Scenario& s) {
     const auto reference = makeReference(s);
