@@ -39,6 +39,8 @@ void addRun(CLI::App& app, Action& action);
 void addList(CLI::App& app, Action& action);
 void addStudy(CLI::App& app, Action& action);
 void addCollide(CLI::App& app, Action& action);
+void addFreeze(CLI::App& app, Action& action);
+void addSolve(CLI::App& app, Action& action);
 void addCheck(CLI::App& app, Action& action);
 void addReport(CLI::App& app, Action& action);
 void addCompare(CLI::App& app, Action& action);

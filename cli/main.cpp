@@ -8,6 +8,8 @@
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/collide/exchange.hpp"
+#include "validation/contact_problems/freeze.hpp"
+#include "validation/contact_problems/solve.hpp"
 #include "validation/fit/fit.hpp"
 #include "validation/runner/runner.hpp"
 
@@ -34,6 +36,8 @@ int runCommand(int argc, char** argv) {
     addList(app, action);
     addStudy(app, action);
     addCollide(app, action);
+    addFreeze(app, action);
+    addSolve(app, action);
     addCheck(app, action);
     addCompare(app, action);
     addReport(app, action);
@@ -61,9 +65,11 @@ int main(int argc, char** argv) {
     try {
         // The program runs itself again for every case; these are not for people.
         if (argc > 1 && std::string_view(argv[1]).starts_with("__"))
-            return rigor::validation::childMain(
-                {argv + 1, argv + argc},
-                {{"__collide", rigor::validation::collideChild}, {"__fit", rigor::validation::fitChild}});
+            return rigor::validation::childMain({argv + 1, argv + argc},
+                                                {{"__collide", rigor::validation::collideChild},
+                                                 {"__fit", rigor::validation::fitChild},
+                                                 {"__freeze", rigor::validation::freezeChild},
+                                                 {"__solve", rigor::validation::solveChild}});
         return runCommand(argc, argv);
     } catch (const rigor::scenario::LoadError& error) {
         printProblems(error, false);

@@ -6,6 +6,7 @@
 
 #include "adapters/bullet/broadphase.hpp"
 #include "adapters/bullet/collision.hpp"
+#include "adapters/bullet/contact_solver.hpp"
 #include "adapters/bullet/world.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/options.hpp"
@@ -49,7 +50,7 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
                     "hull",   "half_space", "circle",  "polygon",  "half_plane"};
         c.joints = {"ball",   "hinge",        "hinge.limit",  "hinge.motor",
                     "slider", "slider.limit", "slider.motor", "fixed"};
-        c.contactImpulses = c.signedDistance = true;
+        c.contactImpulses = c.signedDistance = c.contactSolvers = true;
         c.queryOptions = {"sat", "box_margin", "cylinder_margin", "hull_margin", "query_path"};
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         return c;
@@ -100,6 +101,7 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
     const adapter::DynamicsEngine* dynamics() const override { return this; }
     const adapter::CollisionEngine* collision() const override { return &collision_; }
     const adapter::BroadPhaseEngine* broadPhase() const override { return &broadPhase_; }
+    const adapter::ContactSolverEngine* contactSolvers() const override { return &contactSolvers_; }
 
     std::unique_ptr<adapter::World> build(const adapter::Scenario& scenario, double dt,
                                           const adapter::Settings& settings) const override {
@@ -114,6 +116,7 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
   private:
     BulletCollisionEngine collision_;
     BulletBroadPhaseEngine broadPhase_;
+    BulletContactSolvers contactSolvers_;
 };
 
 std::unique_ptr<adapter::Engine> createEngine() {

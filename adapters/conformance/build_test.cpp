@@ -33,6 +33,7 @@ TEST(Describe, FacesAndCapabilitiesAgree) {
     EXPECT_EQ(capabilities.dynamics, engine().dynamics() != nullptr);
     EXPECT_EQ(capabilities.collision, engine().collision() != nullptr);
     EXPECT_EQ(capabilities.broadPhase, engine().broadPhase() != nullptr);
+    EXPECT_EQ(capabilities.contactSolvers, engine().contactSolvers() != nullptr);
     EXPECT_FALSE(queryDimensions().empty());
 }
 

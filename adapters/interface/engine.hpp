@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The three faces of an engine (dynamics, collision, broad phase) and the module that carries them.
+// The faces of an engine (dynamics, collision, broad phase, frozen contact problems) and the module that carries them.
 //
 // An adapter is a shared library `rigor_adapter_<name>.so` (another precision of the same engine:
 // `rigor_adapter_<name>.f32.so`) that exports RIGOR_ADAPTER_MODULE. The process that needs an engine loads
@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/interface/contact_problem.hpp"
 #include "adapters/interface/types.hpp"
 
 namespace rigor::adapter {
@@ -107,10 +108,11 @@ class Engine {
     virtual const DynamicsEngine* dynamics() const { return nullptr; }
     virtual const CollisionEngine* collision() const { return nullptr; }
     virtual const BroadPhaseEngine* broadPhase() const { return nullptr; }
+    virtual const ContactSolverEngine* contactSolvers() const { return nullptr; }
 };
 
 /// Raised with every change of this folder's headers or of scenarios/model that an adapter could notice.
-inline constexpr int kAdapterAbi = 3;
+inline constexpr int kAdapterAbi = 4;
 
 struct Module {
     int abi = 0;

@@ -103,6 +103,7 @@ struct Capabilities {
     /// Keys of options that collision queries heed, `narrow_phase` apart.
     std::vector<std::string> queryOptions;
     bool kinematicBodies = false, damping = false, gravityScale = false, centerOfMassOffset = false;
+    bool contactSolvers = false;  ///< solves frozen contact problems (contact_problem.hpp)
     bool staticFriction = false;  ///< contacts that stick up to a coefficient above that of sliding
 };
 

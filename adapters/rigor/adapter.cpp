@@ -20,7 +20,8 @@ class RigorEngine final : public Engine {
     RigorEngine()
         : dynamics_(makeRigorDynamics()),
           collision_(makeRigorCollision()),
-          broadPhase_(makeRigorBroadPhase()) {}
+          broadPhase_(makeRigorBroadPhase()),
+          contactSolvers_(makeRigorContactSolvers()) {}
 
     EngineInfo info() const override {
         return {"rigor", "0.1.0", "f64", "Rigor's own engine", "checks on, no contraction of multiply-adds"};
@@ -92,11 +93,13 @@ class RigorEngine final : public Engine {
     const DynamicsEngine* dynamics() const override { return dynamics_.get(); }
     const CollisionEngine* collision() const override { return collision_.get(); }
     const BroadPhaseEngine* broadPhase() const override { return broadPhase_.get(); }
+    const ContactSolverEngine* contactSolvers() const override { return contactSolvers_.get(); }
 
   private:
     std::unique_ptr<DynamicsEngine> dynamics_;
     std::unique_ptr<CollisionEngine> collision_;
     std::unique_ptr<BroadPhaseEngine> broadPhase_;
+    std::unique_ptr<ContactSolverEngine> contactSolvers_;
 };
 
 std::unique_ptr<Engine> makeRigor() {
@@ -124,7 +127,7 @@ Capabilities rigorCapabilities() {
                 "segment", "chain",  "triangle_mesh", "height_field"};
     for (const engine::JointEntry<engine::Space3d>& joint : engine::jointTable<engine::Space3d>())
         addJointCapabilities(joint.name, joint.axes > 0, c.joints);
-    c.contactImpulses = true;
+    c.contactImpulses = c.contactSolvers = true;
     c.signedDistance = true;
     c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = c.staticFriction = true;
     return c;

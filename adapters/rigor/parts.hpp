@@ -13,5 +13,6 @@ namespace rigor::adapter {
 std::unique_ptr<DynamicsEngine> makeRigorDynamics();
 std::unique_ptr<CollisionEngine> makeRigorCollision();
 std::unique_ptr<BroadPhaseEngine> makeRigorBroadPhase();
+std::unique_ptr<ContactSolverEngine> makeRigorContactSolvers();
 
 }  // namespace rigor::adapter

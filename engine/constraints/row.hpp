@@ -16,6 +16,7 @@
 //              staticFriction instead where that is more
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -83,6 +84,12 @@ struct ConstraintRows {
 template <class S>
 typename S::Real rowVelocity(const Row<S>& row, const Velocity<S>& a, const Velocity<S>& b) {
     return row.lin.dot(b.v - a.v) + dotAng(row.angA, a.w) + dotAng(row.angB, b.w);
+}
+/// Sum of the sizes of the terms that J v is made of: what its rounding is relative to.
+template <class S>
+typename S::Real rowMotion(const Row<S>& row, const Velocity<S>& a, const Velocity<S>& b) {
+    return std::abs(row.lin.dot(a.v)) + std::abs(row.lin.dot(b.v)) + std::abs(dotAng(row.angA, a.w)) +
+           std::abs(dotAng(row.angB, b.w));
 }
 /// v += M^-1 J^T lambda. Bodies that impulses do not move are not written to: threads share them.
 template <class S>

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/solvers/matrix_space.hpp"
+
 namespace rigor::engine {
 namespace {
 
@@ -39,7 +41,20 @@ void AssembledProblem::assemble(const ConstraintRows<S>& rows, std::size_t bodie
     std::fill_n(W.begin(), n * n, 0.0);
     q.resize(n), lambda.resize(n), lower.resize(n), upper.resize(n), kind.resize(n);
     contacts.clear();
-    // Rows by body, in the order of the rows.
+    if constexpr (OnMatrix<S>)
+        for (std::size_t j = 0; j < n; ++j)
+            for (std::size_t i = 0; i < n; ++i) W[i * n + j] = rows.rows[j].column[i];
+    else
+        sortByBody(rows, bodies);
+    readRows(rows);
+    if constexpr (!OnMatrix<S>) coupleBodies(rows, bodies);
+    for (std::size_t i = 0; i < n; ++i)
+        if (!(W[i * n + i] > 0)) W[i * n + i] = 1;
+}
+
+/// start_, entry_: rows by body, in the order of the rows; after it start_[b] is the end of body b.
+template <class S>
+void AssembledProblem::sortByBody(const ConstraintRows<S>& rows, std::size_t bodies) {
     start_.assign(bodies + 1, 0);
     const auto forEachEnd = [&](auto action) {
         for (const Block<S>& block : rows.blocks)
@@ -57,7 +72,11 @@ void AssembledProblem::assemble(const ConstraintRows<S>& rows, std::size_t bodie
     for (std::size_t b = 0; b < bodies; ++b) start_[b + 1] += start_[b];
     entry_.resize(start_[bodies]);
     forEachEnd([&](std::uint32_t body, std::uint32_t entry) { entry_[start_[body]++] = entry; });
+}
 
+/// Kinds and bounds of the rows, the contacts, and softness on the diagonal.
+template <class S>
+void AssembledProblem::readRows(const ConstraintRows<S>& rows) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     for (const Block<S>& block : rows.blocks) {
         for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
@@ -70,7 +89,7 @@ void AssembledProblem::assemble(const ConstraintRows<S>& rows, std::size_t bodie
                 kind[i] = i == block.first ? RowKind::Normal : RowKind::Tangent;
                 lower[i] = 0;
             }
-            W[i * n + i] = static_cast<double>(row.softness);
+            W[i * n + i] += static_cast<double>(row.softness);
         }
         if (block.kind == BlockKind::Contact) {
             const auto mu = static_cast<double>(block.friction);
@@ -79,7 +98,11 @@ void AssembledProblem::assemble(const ConstraintRows<S>& rows, std::size_t bodie
                                 static_cast<double>(block.appliedNormal)});
         }
     }
-    // After the second pass start_[b] is the end of body b.
+}
+
+/// Adds J M^-1 J^T, body by body.
+template <class S>
+void AssembledProblem::coupleBodies(const ConstraintRows<S>& rows, std::size_t bodies) {
     std::uint32_t begin = 0;
     for (std::size_t b = 0; b < bodies; ++b) {
         for (std::uint32_t e = begin; e < start_[b]; ++e) {
@@ -99,8 +122,6 @@ void AssembledProblem::assemble(const ConstraintRows<S>& rows, std::size_t bodie
         }
         begin = start_[b];
     }
-    for (std::size_t i = 0; i < n; ++i)
-        if (!(W[i * n + i] > 0)) W[i * n + i] = 1;
 }
 
 template <class S>
@@ -127,6 +148,8 @@ RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)
 RIGOR_INSTANTIATE(Space3d)
+RIGOR_INSTANTIATE(MatrixSpace<2>)
+RIGOR_INSTANTIATE(MatrixSpace<3>)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

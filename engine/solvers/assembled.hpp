@@ -67,6 +67,13 @@ class AssembledProblem {
     }
 
   private:
+    template <class S>
+    void sortByBody(const ConstraintRows<S>& rows, std::size_t bodies);
+    template <class S>
+    void readRows(const ConstraintRows<S>& rows);
+    template <class S>
+    void coupleBodies(const ConstraintRows<S>& rows, std::size_t bodies);
+
     std::vector<std::uint32_t> start_, entry_;  ///< rows by body; entry = 2 row + side
     std::vector<double> invMass_;               ///< by body
 };

@@ -31,6 +31,7 @@
 
 #include "engine/solvers/box_lcp.hpp"
 #include "engine/solvers/direct_rounds.hpp"
+#include "engine/solvers/matrix_space.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -194,5 +195,6 @@ std::unique_ptr<Solver<S>> makeDantzig() {
     return std::make_unique<Dantzig<S>>();
 }
 RIGOR_INSTANTIATE_FACTORY(makeDantzig, Solver);
+RIGOR_INSTANTIATE_ON_MATRIX(makeDantzig);
 
 }  // namespace rigor::engine

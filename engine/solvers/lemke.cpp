@@ -29,6 +29,7 @@
 
 #include "engine/solvers/direct_rounds.hpp"
 #include "engine/solvers/lemke_lcp.hpp"
+#include "engine/solvers/matrix_space.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -306,5 +307,6 @@ std::unique_ptr<Solver<S>> makeLemke() {
     return std::make_unique<Lemke<S>>();
 }
 RIGOR_INSTANTIATE_FACTORY(makeLemke, Solver);
+RIGOR_INSTANTIATE_ON_MATRIX(makeLemke);
 
 }  // namespace rigor::engine

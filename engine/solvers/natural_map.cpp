@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/solvers/matrix_space.hpp"
+
 namespace rigor::engine {
 
 template <class R>
@@ -99,8 +101,7 @@ typename S::Real velocityResolution(const ConstraintRows<S>& constraints,
         const Velocity<S>&a = velocities[block.a], &b = velocities[block.b];
         for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
             const Row<S>& row = constraints.rows[i];
-            const Real moving = std::abs(row.lin.dot(a.v)) + std::abs(row.lin.dot(b.v)) +
-                                std::abs(dotAng(row.angA, a.w)) + std::abs(dotAng(row.angB, b.w));
+            const Real moving = rowMotion<S>(row, a, b);
             const Real pushed = row.invK > 0 ? std::abs(row.impulse) / row.invK : Real(0);
             largest = std::max(largest, moving + pushed);
         }
@@ -117,6 +118,8 @@ RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)
 RIGOR_INSTANTIATE(Space3d)
+RIGOR_INSTANTIATE(MatrixSpace<2>)
+RIGOR_INSTANTIATE(MatrixSpace<3>)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/solvers/impulses.hpp"
+#include "engine/solvers/matrix_space.hpp"
 
 namespace rigor::engine {
 
@@ -101,6 +102,8 @@ RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)
 RIGOR_INSTANTIATE(Space3d)
+RIGOR_INSTANTIATE(MatrixSpace<2>)
+RIGOR_INSTANTIATE(MatrixSpace<3>)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

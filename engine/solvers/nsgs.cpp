@@ -38,6 +38,7 @@
 
 #include "engine/solvers/contact_alone.hpp"
 #include "engine/solvers/impulses.hpp"
+#include "engine/solvers/matrix_space.hpp"
 #include "engine/solvers/newton_finish.hpp"
 #include "engine/solvers/solver.hpp"
 
@@ -280,5 +281,6 @@ std::unique_ptr<Solver<S>> makeNsgs() {
     return std::make_unique<Nsgs<S>>();
 }
 RIGOR_INSTANTIATE_FACTORY(makeNsgs, Solver);
+RIGOR_INSTANTIATE_ON_MATRIX(makeNsgs);
 
 }  // namespace rigor::engine

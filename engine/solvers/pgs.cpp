@@ -14,6 +14,7 @@
 // Cost: iterations * rows, the cheapest of all per iteration.
 // Known limits: linear convergence, at a rate that falls with the height of stacks and with the mass ratio
 // [Erleben2004]; corners of a box solved one by one leave it turning, which is what makes tall stacks rock.
+#include "engine/solvers/matrix_space.hpp"
 #include "engine/solvers/row_kernels.hpp"
 
 namespace rigor::engine {
@@ -23,5 +24,6 @@ std::unique_ptr<Solver<S>> makePgs() {
     return std::make_unique<RowByRow<S>>(ContactOrder::FrictionFirst);
 }
 RIGOR_INSTANTIATE_FACTORY(makePgs, Solver);
+RIGOR_INSTANTIATE_ON_MATRIX(makePgs);
 
 }  // namespace rigor::engine

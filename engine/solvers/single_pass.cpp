@@ -23,6 +23,7 @@
 // it cannot be told from the others. Measured (pipeline/tests/solver_test.cpp): a stack of five boxes
 // collapses whatever corrects its positions; a box slides on a slope that holds it; a pendulum on two rows
 // loses most of its energy.
+#include "engine/solvers/matrix_space.hpp"
 #include "engine/solvers/row_kernels.hpp"
 
 namespace rigor::engine {
@@ -102,5 +103,6 @@ std::unique_ptr<Solver<S>> makeSinglePass() {
     return std::make_unique<SinglePass<S>>();
 }
 RIGOR_INSTANTIATE_FACTORY(makeSinglePass, Solver);
+RIGOR_INSTANTIATE_ON_MATRIX(makeSinglePass);
 
 }  // namespace rigor::engine

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/solvers/sweep_order.hpp"
 
+#include "engine/solvers/matrix_space.hpp"
+
 namespace rigor::engine {
 
 void SweepOrder::begin(const Tasks& tasks, std::size_t bodies, std::size_t grain) {
@@ -49,6 +51,8 @@ RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)
 RIGOR_INSTANTIATE(Space3d)
+RIGOR_INSTANTIATE(MatrixSpace<2>)
+RIGOR_INSTANTIATE(MatrixSpace<3>)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -172,6 +172,30 @@ std::vector<int> Hdf5File::readIntegers(const std::string& path, int& columns) c
     return readValues<int>(id_, path, columns, H5T_NATIVE_INT);
 }
 
+void Hdf5File::writeText(const std::string& path, const std::string& text) {
+    const std::string what = "write " + path;
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, what);
+    check(H5Tset_size(type, text.size() + 1), what);
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose, what);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
+    check(H5Pset_obj_track_times(properties, false), what);
+    const Handle set(H5Dcreate2(id_, path.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
+                     H5Dclose, what);
+    check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), what);
+}
+std::string Hdf5File::readText(const std::string& path) const {
+    const std::string what = "read " + path;
+    const Handle set(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose, what);
+    const Handle type(H5Dget_type(set), H5Tclose, what);
+    const Handle space(H5Dget_space(set), H5Sclose, what);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 ||
+        H5Sget_simple_extent_npoints(space) != 1)
+        failed(what + ": it is no plain text");
+    std::string text(H5Tget_size(type), '\0');
+    check(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()), what);
+    return text.substr(0, text.find('\0'));
+}
+
 void Hdf5File::setText(const std::string& path, const char* name, const std::string& text) {
     const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a string type");
     check(H5Tset_size(type, text.size() + 1), "make a string type");  // at least the terminating zero

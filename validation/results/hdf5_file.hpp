@@ -36,6 +36,10 @@ class Hdf5File {
     std::vector<double> readDoubles(const std::string& path, int& columns) const;
     std::vector<int> readIntegers(const std::string& path, int& columns) const;
 
+    /// A text as a dataset of its own, of fixed length.
+    void writeText(const std::string& path, const std::string& text);
+    std::string readText(const std::string& path) const;
+
     /// Attributes of a group or dataset.
     void setText(const std::string& path, const char* name, const std::string& text);
     void setInteger(const std::string& path, const char* name, int value);

@@ -53,6 +53,7 @@ json capabilitiesToJson(const adapter::Capabilities& c) {
             {"damping", c.damping},
             {"gravity_scale", c.gravityScale},
             {"center_of_mass_offset", c.centerOfMassOffset},
+            {"contact_solvers", c.contactSolvers},
             {"static_friction", c.staticFriction}};
 }
 
@@ -67,6 +68,7 @@ adapter::Capabilities capabilitiesFromJson(const json& j) {
     c.queryOptions = j.at("query_options").get<std::vector<std::string>>();
     c.kinematicBodies = j.at("kinematic_bodies"), c.damping = j.at("damping");
     c.gravityScale = j.at("gravity_scale"), c.centerOfMassOffset = j.at("center_of_mass_offset");
+    c.contactSolvers = j.at("contact_solvers");
     c.staticFriction = j.at("static_friction");
     return c;
 }

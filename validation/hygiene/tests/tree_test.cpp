@@ -48,6 +48,7 @@ TEST(Tree, EveryFolderHasAReadme) {
                                "validation/results",
                                "validation/runner",
                                "validation/collide",
+                               "validation/contact_problems",
                                "validation/studies",
                                "validation/symmetry",
                                "validation/chaos"})

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Frozen contact problems for the in-house solvers, through the code that a step runs: rows and bodies made
+// from M and H where these are rigid bodies', else rows on W itself (engine/solvers/matrix_space.hpp) for the
+// solvers that need no bodies.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "adapters/interface/types.hpp"
+#include "adapters/rigor/contact_bodies.hpp"
+#include "adapters/rigor/parts.hpp"
+#include "engine/core/error.hpp"
+#include "engine/solvers/matrix_space.hpp"
+
+namespace rigor::adapter {
+namespace {
+
+using engine::Block;
+using engine::ConstraintRows;
+using engine::MatrixSpace;
+using engine::Row;
+using engine::Space2d;
+using engine::Space3d;
+using engine::Velocity;
+
+/// Solvers whose work is elsewhere than in one velocity-level problem.
+const std::map<std::string, std::string> kNotFrozen{
+    {"pgs_soft", "softens what position errors ask for; a frozen problem has none, and it is pgs then"},
+    {"tgs_soft", "moves the bodies between its sub-steps; a frozen problem has no positions"},
+    {"xpbd", "solves positions; a frozen problem has none"}};
+
+template <class S>
+class Monitor final : public engine::IterationMonitor<S> {
+  public:
+    explicit Monitor(double tolerance) : tolerance_(tolerance) {}
+    void before(std::span<const Velocity<S>>) override {}
+    bool after(std::span<const Velocity<S>>, double change) override {
+        ++iterations;
+        return change <= tolerance_;
+    }
+    double tolerance() const override { return tolerance_; }
+    int iterations = 0;
+
+  private:
+    double tolerance_;
+};
+
+/// Rows, velocities and a solver that has met them.
+template <class S>
+class Frozen : public ContactSolve {
+  public:
+    Frozen(const Settings& settings, std::unique_ptr<engine::Solver<S>> solver)
+        : solver_(std::move(solver)),
+          name_(textSetting(settings, "solver")),
+          frictionName_(textSetting(settings, "friction")),
+          friction_(frictionOf(frictionName_)),
+          directions_(integerSetting(settings, "pyramid_directions")) {}
+
+    ContactSolution run(int iterations, double tolerance) final {
+        velocities_ = start_;
+        for (Row<S>& row : rows_.rows) row.impulse = 0;
+        Monitor<S> monitor(tolerance);
+        solver_->solve(
+            {rows_, velocities_, friction_, monitor, iterations, 1.0, false, tolerance, directions_});
+        ContactSolution found;
+        for (const Row<S>& row : rows_.rows) found.r.push_back(row.impulse);
+        found.iterations = monitor.iterations, found.gaveUp = solver_->gaveUp();
+        return found;
+    }
+    FrictionModel friction() const final {
+        if (name_ == "nsgs") return {};
+        if (name_ == "dantzig") return {FrictionModel::Kind::Box};
+        if (name_ == "lemke") return {FrictionModel::Kind::Polygon, S::dim == 2 ? 2 : directions_};
+        if (frictionName_ == "pyramid") return {FrictionModel::Kind::Box};
+        return {};
+    }
+
+  protected:
+    static engine::FrictionLaw<S> frictionOf(const std::string& name) {
+        if constexpr (S::dim == 2)
+            return engine::findAlgorithm(engine::frictionTable<Space2d>(), "friction", name).make;
+        else
+            return engine::findAlgorithm(engine::frictionTable<Space3d>(), "friction", name).make;
+    }
+
+    std::unique_ptr<engine::Solver<S>> solver_;
+    ConstraintRows<S> rows_;
+    std::vector<Velocity<S>> start_, velocities_;
+
+  private:
+    std::string name_, frictionName_;
+    engine::FrictionLaw<S> friction_;
+    int directions_;
+};
+
+/// What every contact block has, its rows being complete.
+template <class S>
+void finishContact(Block<S>& block, std::vector<Row<S>>& rows, double mu) {
+    block.kind = engine::BlockKind::Contact;
+    block.rows = static_cast<std::uint8_t>(S::dim);
+    block.friction = mu;
+    Row<S>* r = rows.data() + block.first;
+    for (int i = 0; i < block.rows; ++i) {
+        const double K = engine::rowCoupling<S>(r[i], r[i], block);
+        if (!(K > 0.0))
+            throw Unsupported("contact row " + std::to_string(block.first + static_cast<std::uint32_t>(i)) +
+                              " has no K > 0: nothing can follow it");
+        r[i].invK = 1.0 / K;
+    }
+    block.k11 = engine::rowCoupling<S>(r[1], r[1], block);
+    block.k12 = S::tangents > 1 ? engine::rowCoupling<S>(r[1], r[S::tangents], block) : 0.0;
+    block.k22 = S::tangents > 1 ? engine::rowCoupling<S>(r[S::tangents], r[S::tangents], block) : 1.0;
+}
+
+template <class S>
+class OnBodies final : public Frozen<S> {
+  public:
+    OnBodies(const ContactProblem& p, const FrozenBodies& frozen, const Settings& settings)
+        : Frozen<S>(settings,
+                    engine::findAlgorithm(engine::solverTable<S>(), "solver", textSetting(settings, "solver"))
+                        .make()) {
+        const auto none = static_cast<std::uint32_t>(frozen.bodies.size());
+        for (const FrozenBody& body : frozen.bodies) addBody(body);
+        this->start_.emplace_back();  // what does not move
+        for (std::size_t c = 0; c < frozen.contacts.size(); ++c) {
+            const FrozenContact& contact = frozen.contacts[c];
+            Block<S> block;
+            block.first = static_cast<std::uint32_t>(this->rows_.rows.size());
+            block.a = contact.a < 0 ? none : static_cast<std::uint32_t>(contact.a);
+            block.b = static_cast<std::uint32_t>(contact.b);
+            block.invMassA = contact.a < 0 ? 0.0 : 1.0 / frozen.bodies[block.a].mass;
+            block.invMassB = 1.0 / frozen.bodies[block.b].mass;
+            for (std::size_t i = 0; i < static_cast<std::size_t>(S::dim); ++i)
+                addRow(contact, contact.rows[i], p.w[c * static_cast<std::size_t>(S::dim) + i]);
+            finishContact<S>(block, this->rows_.rows, p.mu[c]);
+            this->rows_.blocks.push_back(block);
+        }
+    }
+
+  private:
+    static typename S::Ang angular(const double* x) {
+        if constexpr (S::dim == 2)
+            return x[0];
+        else
+            return {x[0], x[1], x[2]};
+    }
+    void addBody(const FrozenBody& body) {
+        typename S::Inertia inverse;
+        if constexpr (S::dim == 2) {
+            inverse = 1.0 / body.inertia[0][0];
+        } else {
+            typename S::Inertia I;
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j)
+                    I(i, j) = body.inertia[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+            inverse = I.inverse();
+        }
+        invInertia_.push_back(inverse);
+        Velocity<S> v;
+        for (int i = 0; i < S::dim; ++i) v.v[i] = body.freeVelocity[static_cast<std::size_t>(i)];
+        v.w = angular(body.freeVelocity.data() + S::dim);
+        this->start_.push_back(v);
+    }
+    void addRow(const FrozenContact& contact, const FrozenContact::Row& given, double bias) {
+        Row<S> row;
+        for (int i = 0; i < S::dim; ++i) row.lin[i] = given.lin[static_cast<std::size_t>(i)];
+        row.angA = angular(given.angA.data()), row.angB = angular(given.angB.data());
+        if (contact.a >= 0) row.invIAngA = invInertia_[static_cast<std::size_t>(contact.a)] * row.angA;
+        row.invIAngB = invInertia_[static_cast<std::size_t>(contact.b)] * row.angB;
+        row.bias = row.relaxedBias = bias;
+        this->rows_.rows.push_back(row);
+    }
+    std::vector<typename S::Inertia> invInertia_;
+};
+
+template <int D>
+class OnMatrix final : public Frozen<MatrixSpace<D>> {
+  public:
+    using S = MatrixSpace<D>;
+    OnMatrix(const ContactProblem& p, const Settings& settings)
+        : Frozen<S>(settings, engine::findAlgorithm(engine::matrixSolverTable<S>(), "solver",
+                                                    textSetting(settings, "solver"))
+                                  .make()),
+          columns_(p.W.size()) {
+        const std::size_t n = p.size();
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = 0; j < n; ++j) columns_[j * n + i] = p.W[i * n + j];
+        this->start_.resize(1);
+        this->start_[0].w = p.q;
+        this->rows_.rows.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            this->rows_.rows[i].index = i;
+            this->rows_.rows[i].column = columns_.data() + i * n;
+        }
+        for (std::size_t c = 0; c < p.contacts(); ++c) {
+            Block<S> block;
+            block.first = static_cast<std::uint32_t>(c * static_cast<std::size_t>(D));
+            block.invMassB = 1;
+            finishContact<S>(block, this->rows_.rows, p.mu[c]);
+            this->rows_.blocks.push_back(block);
+        }
+    }
+
+  private:
+    std::vector<double> columns_;
+};
+
+bool worksOnMatrix(const std::string& solver) {
+    for (const auto& entry : engine::matrixSolverTable<MatrixSpace<3>>())
+        if (solver == entry.name) return true;
+    return false;
+}
+
+class RigorContactSolvers final : public ContactSolverEngine {
+  public:
+    std::vector<std::string> solvers() const override {
+        std::vector<std::string> names;
+        for (const auto& entry : engine::solverTable<Space3d>()) names.emplace_back(entry.name);
+        return names;
+    }
+    std::unique_ptr<ContactSolve> take(const ContactProblem& p, const Settings& settings) const override {
+        const std::string& name = textSetting(settings, "solver");
+        if (const auto it = kNotFrozen.find(name); it != kNotFrozen.end())
+            throw Unsupported(name + " " + it->second);
+        if (textSetting(settings, "precision") == "f32")
+            throw Unsupported("frozen problems are solved in double precision");
+        try {
+            const FrozenBodies bodies = readBodies(p);
+            if (p.dimension == 2) return std::make_unique<OnBodies<Space2d>>(p, bodies, settings);
+            return std::make_unique<OnBodies<Space3d>>(p, bodies, settings);
+        } catch (const Unsupported& error) {
+            if (!worksOnMatrix(name)) throw Unsupported(name + " " + error.what());
+        }
+        if (p.dimension == 2) return std::make_unique<OnMatrix<2>>(p, settings);
+        return std::make_unique<OnMatrix<3>>(p, settings);
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<ContactSolverEngine> makeRigorContactSolvers() {
+    return std::make_unique<RigorContactSolvers>();
+}
+
+}  // namespace rigor::adapter

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "cli/command.hpp"
+#include "scenarios/loader/loader.hpp"
+#include "validation/contact_problems/freeze.hpp"
+#include "validation/runner/scenario_settings.hpp"
+#include "validation/runner/simulate.hpp"
+
+namespace rigor::cli {
+namespace {
+
+struct Arguments {
+    std::string scenario, engine = "rigor", dt, out;
+    std::vector<std::string> overrides;
+    std::size_t step = 0;
+    double time = -1.0;
+};
+
+int freeze(const Arguments& a) {
+    const auto loaded = loadWithReference(a.scenario, a.overrides, false);
+    validation::FreezeRequest request;
+    request.scenarioText = loaded.text, request.scenarioName = loaded.scenario.name;
+    request.spec = validation::withScenarioSettings(adapter::parseSpec(a.engine), loaded.text);
+    request.dt = a.dt.empty() ? loaded.scenario.timeSteps.front() : parseTimeStep(a.dt);
+    request.step = validation::stepCount(loaded.scenario, request.dt);
+    if (a.step > 0) request.step = a.step;
+    if (a.time >= 0.0)
+        request.step = static_cast<std::size_t>(std::max(1.0, std::round(a.time / request.dt)));
+    const validation::Frozen frozen = validation::freezeToFile(request, ownBinary(), a.out);
+    std::printf("%s: step %zu of %s by %s, to t = %g s: %zu contacts, %zu bodies", a.out.c_str(),
+                request.step, loaded.scenario.name.c_str(), request.spec.text().c_str(), frozen.time,
+                frozen.contacts, frozen.bodies);
+    if (frozen.storedResidual >= 0.0)
+        std::printf(", natural map of the engine's own answer %.1e", frozen.storedResidual);
+    std::printf("\n");
+    return kOk;
+}
+
+}  // namespace
+
+void addFreeze(CLI::App& app, Action& action) {
+    auto a = std::make_shared<Arguments>();
+    auto* command =
+        app.add_subcommand("freeze", "Write one step of a run as a contact problem (FCLIB's HDF5 layout)");
+    command->add_option("SCENARIO", a->scenario, "Name or file")->required();
+    command->add_option("-e,--engine", a->engine, "Engine spec (default: rigor)");
+    command->add_option("--dt", a->dt,
+                        "Time step in seconds (0.004 or 1/240); default: the scenario's first");
+    auto* step = command->add_option("--step", a->step, "The step, from 1 (default: the last)")
+                     ->check(CLI::Range(std::size_t{1}, std::size_t{1000000000}));
+    command->add_option("--time", a->time, "The step that ends nearest to this time [s]")
+        ->check(CLI::NonNegativeNumber)
+        ->excludes(step);
+    command->add_option("--set", a->overrides, "Override a scenario value: KEY=VALUE");
+    command->add_option("--out", a->out, "The file, .hdf5")->required();
+    command->footer(
+        "Exit codes: 0 written, 2 bad command line or scenario, or a step without contacts, 3 the engine "
+        "crashed,\n"
+        "            4 the engine lacks what the scenario needs, or the step has what the form has no place "
+        "for.");
+    command->callback([a, &action] { action = [a] { return freeze(*a); }; });
+}
+
+}  // namespace rigor::cli

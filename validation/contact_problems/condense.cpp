@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Global to local: W = H^T A^-1 H, q = w + H^T A^-1 f, with A = M, or with bilateral constraints
+//     A = | M  -G |   acting on (v, l), H and f continued by 0 and -b.
+//         | G^T 0 |
+// A falls into independent groups of unknowns (bodies, linkages: the connected components of its pattern);
+// each is factored by LU with partial pivoting (Golub and Van Loan, Matrix Computations, 4th ed., section
+// 3.4), since M need not be symmetric. Cost: the sum of the cubes of the groups' sizes.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "validation/contact_problems/problem.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using adapter::BadInput;
+
+std::size_t place(int i) {
+    return static_cast<std::size_t>(i);
+}
+
+/// Dense LU of one group.
+class Lu {
+  public:
+    Lu(std::size_t n, std::vector<double> A) : n_(n), A_(std::move(A)), pivot_(n) {
+        for (std::size_t k = 0; k < n_; ++k) {
+            std::size_t p = k;
+            for (std::size_t i = k + 1; i < n_; ++i)
+                if (std::abs(at(i, k)) > std::abs(at(p, k))) p = i;
+            if (!(std::abs(at(p, k)) > 0.0)) throw BadInput("is singular");
+            pivot_[k] = p;
+            for (std::size_t j = 0; p != k && j < n_; ++j) std::swap(at(p, j), at(k, j));
+            for (std::size_t i = k + 1; i < n_; ++i) {
+                const double factor = at(i, k) /= at(k, k);
+                if (factor == 0.0) continue;
+                for (std::size_t j = k + 1; j < n_; ++j) at(i, j) -= factor * at(k, j);
+            }
+        }
+    }
+    void solve(std::vector<double>& x) const {
+        for (std::size_t k = 0; k < n_; ++k) {
+            std::swap(x[k], x[pivot_[k]]);
+        }
+        for (std::size_t i = 0; i < n_; ++i)
+            for (std::size_t j = 0; j < i; ++j) x[i] -= at(i, j) * x[j];
+        for (std::size_t i = n_; i-- > 0;) {
+            for (std::size_t j = i + 1; j < n_; ++j) x[i] -= at(i, j) * x[j];
+            x[i] /= at(i, i);
+        }
+    }
+
+  private:
+    double& at(std::size_t i, std::size_t j) { return A_[i * n_ + j]; }
+    double at(std::size_t i, std::size_t j) const { return A_[i * n_ + j]; }
+    std::size_t n_;
+    std::vector<double> A_;
+    std::vector<std::size_t> pivot_;
+};
+
+/// A of the equations above, factored group by group.
+class Dynamics {
+  public:
+    explicit Dynamics(const FrozenProblem& frozen) : bodies_(place(frozen.problem.M.rows)) {
+        std::vector<Triplet> A = toTriplets(frozen.problem.M);
+        const int m = frozen.problem.M.rows;
+        for (const Triplet& g : toTriplets(frozen.G)) {
+            A.push_back({g.row, m + g.column, -g.value});
+            A.push_back({m + g.column, g.row, g.value});
+        }
+        size_ = place(m + frozen.G.columns);
+        findGroups(A);
+        factor(A);
+    }
+
+    std::size_t size() const { return size_; }
+    std::size_t groups() const { return members_.size(); }
+    std::size_t groupOf(int unknown) const { return group_[place(unknown)]; }
+    const std::vector<int>& members(std::size_t group) const { return members_[group]; }
+    std::size_t within(int unknown) const { return within_[place(unknown)]; }
+    void solve(std::size_t group, std::vector<double>& x) const { lu_[group].solve(x); }
+    /// x := A^-1 x for a vector over all unknowns.
+    void solveAll(std::vector<double>& x) const {
+        std::vector<double> part;
+        for (std::size_t g = 0; g < groups(); ++g) {
+            part.clear();
+            for (const int i : members_[g]) part.push_back(x[place(i)]);
+            lu_[g].solve(part);
+            for (std::size_t k = 0; k < part.size(); ++k) x[place(members_[g][k])] = part[k];
+        }
+    }
+
+  private:
+    void findGroups(const std::vector<Triplet>& A) {
+        std::vector<std::size_t> root(size_);
+        std::iota(root.begin(), root.end(), 0);
+        const auto find = [&root](std::size_t i) {
+            while (root[i] != i) i = root[i] = root[root[i]];
+            return i;
+        };
+        for (const Triplet& e : A)
+            if (e.value != 0.0) root[find(place(e.row))] = find(place(e.column));
+        group_.assign(size_, size_), within_.assign(size_, 0);
+        std::vector<std::size_t> groupOfRoot(size_, size_);
+        for (std::size_t i = 0; i < size_; ++i) {
+            const std::size_t r = find(i);
+            if (groupOfRoot[r] == size_) groupOfRoot[r] = members_.size(), members_.emplace_back();
+            group_[i] = groupOfRoot[r];
+            within_[i] = members_[group_[i]].size();
+            members_[group_[i]].push_back(static_cast<int>(i));
+        }
+    }
+    void factor(const std::vector<Triplet>& A) {
+        std::vector<std::vector<double>> blocks;
+        for (const auto& group : members_) blocks.emplace_back(group.size() * group.size(), 0.0);
+        for (const Triplet& e : A) {
+            const std::size_t g = groupOf(e.row);
+            if (e.value != 0.0) blocks[g][within(e.row) * members_[g].size() + within(e.column)] += e.value;
+        }
+        for (std::size_t g = 0; g < blocks.size(); ++g) {
+            try {
+                lu_.emplace_back(members_[g].size(), std::move(blocks[g]));
+            } catch (const BadInput& error) {
+                const std::string name = place(members_[g].front()) < bodies_ ? "M (with G)" : "G";
+                throw BadInput(name + " " + error.what() + " in the group of unknown " +
+                               std::to_string(members_[g].front()));
+            }
+        }
+    }
+
+    std::size_t bodies_, size_ = 0;
+    std::vector<std::size_t> group_, within_;
+    std::vector<std::vector<int>> members_;
+    std::vector<Lu> lu_;
+};
+
+/// f, continued by -b.
+std::vector<double> load(const FrozenProblem& frozen) {
+    std::vector<double> x = frozen.problem.f;
+    for (const double b : frozen.b) x.push_back(-b);
+    return x;
+}
+
+void condense(FrozenProblem& frozen) {
+    ContactProblem& p = frozen.problem;
+    const Dynamics dynamics(frozen);
+    const std::size_t n = p.w.size();
+    std::vector<double> free = load(frozen);
+    dynamics.solveAll(free);
+    p.q = p.w;
+    multiplyTransposedAdd(p.H, free, p.q);
+    p.W.assign(n * n, 0.0);
+    // By group: the columns of H that touch it.
+    std::vector<std::vector<int>> touching(dynamics.groups());
+    for (const Triplet& e : toTriplets(p.H)) {
+        auto& columns = touching[dynamics.groupOf(e.row)];
+        if (e.value != 0.0 && (columns.empty() || columns.back() != e.column)) columns.push_back(e.column);
+    }
+    for (std::size_t g = 0; g < dynamics.groups(); ++g) {
+        std::vector<std::vector<double>> h;
+        for (const int j : touching[g]) {
+            h.emplace_back(dynamics.members(g).size(), 0.0);
+            for (int k = p.H.start[place(j)]; k < p.H.start[place(j) + 1]; ++k) {
+                const int row = p.H.row[place(k)];
+                if (dynamics.groupOf(row) == g) h.back()[dynamics.within(row)] += p.H.value[place(k)];
+            }
+        }
+        for (std::size_t b = 0; b < h.size(); ++b) {
+            std::vector<double> x = h[b];
+            dynamics.solve(g, x);
+            for (std::size_t a = 0; a < h.size(); ++a)
+                p.W[place(touching[g][a]) * n + place(touching[g][b])] +=
+                    std::inner_product(x.begin(), x.end(), h[a].begin(), 0.0);
+        }
+    }
+}
+
+void expect(bool holds, const std::string& what, const std::string& part, const std::string& found,
+            const std::string& expected) {
+    if (!holds) throw BadInput(what + ": " + part + " has " + found + ", expected " + expected);
+}
+void expectSize(const std::string& what, const std::string& part, std::size_t found, std::size_t expected) {
+    expect(found == expected, what, part, std::to_string(found) + " values", std::to_string(expected));
+}
+void expectMatrix(const std::string& what, const std::string& part, const SparseMatrix& A, std::size_t rows,
+                  std::size_t columns) {
+    expect(place(A.rows) == rows && place(A.columns) == columns, what, part,
+           std::to_string(A.rows) + " x " + std::to_string(A.columns) + " entries",
+           std::to_string(rows) + " x " + std::to_string(columns));
+}
+void expectFinite(const std::string& what, const std::string& part, const std::vector<double>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+        expect(std::isfinite(values[i]), what, part + "[" + std::to_string(i) + "]",
+               std::to_string(values[i]), "a finite number");
+}
+
+}  // namespace
+
+void complete(FrozenProblem& frozen, const std::string& what) {
+    ContactProblem& p = frozen.problem;
+    expect(p.dimension == 2 || p.dimension == 3, what, "the dimension", std::to_string(p.dimension),
+           "2 or 3");
+    const std::size_t n = p.contacts() * place(p.dimension);
+    expectFinite(what, "mu", p.mu);
+    for (std::size_t i = 0; i < p.mu.size(); ++i)
+        expect(p.mu[i] >= 0.0, what, "mu[" + std::to_string(i) + "]", std::to_string(p.mu[i]),
+               "no less than 0");
+    if (frozen.isGlobal) {
+        const std::size_t m = p.f.size();
+        expectMatrix(what, "M", p.M, m, m);
+        expectMatrix(what, "H", p.H, m, n);
+        expectSize(what, "w", p.w.size(), n);
+        if (frozen.G.columns > 0 || !frozen.b.empty()) expectMatrix(what, "G", frozen.G, m, frozen.b.size());
+        for (const auto& [part, values] :
+             {std::pair{"f", &p.f}, {"w", &p.w}, {"M", &p.M.value}, {"H", &p.H.value}, {"b", &frozen.b}})
+            expectFinite(what, part, *values);
+        p.hasBodies = frozen.b.empty();
+        try {
+            condense(frozen);
+        } catch (const BadInput& error) {
+            throw BadInput(what + ": " + error.what());
+        }
+    }
+    expectSize(what, "q", p.q.size(), n);
+    expectSize(what, "W", p.W.size(), n * n);
+    expectFinite(what, "q", p.q), expectFinite(what, "W", p.W);
+    for (const auto& [part, values, size] :
+         {std::tuple{"the stored r", &frozen.storedR, n}, {"the stored u", &frozen.storedU, n}}) {
+        if (values->empty()) continue;
+        expectSize(what, part, values->size(), size);
+        expectFinite(what, part, *values);
+    }
+}
+
+std::vector<double> velocitiesFor(const FrozenProblem& frozen, const std::vector<double>& r) {
+    std::vector<double> x = load(frozen);
+    multiplyAdd(frozen.problem.H, r, x);
+    Dynamics(frozen).solveAll(x);
+    x.resize(frozen.problem.f.size());
+    return x;
+}
+
+std::vector<double> relativeVelocities(const ContactProblem& problem, const std::vector<double>& r) {
+    std::vector<double> u = problem.q;
+    const std::size_t n = u.size();
+    for (std::size_t i = 0; i < n; ++i)
+        u[i] += std::inner_product(r.begin(), r.end(), problem.W.begin() + static_cast<std::ptrdiff_t>(i * n),
+                                   0.0);
+    return u;
+}
+
+}  // namespace rigor::validation

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Contact problems as JSON: {"form": "local", "dim", "nc", "mu", "q", "W"} or {"form": "global", ..., "f",
+// "w", "M", "H"}, "solution": {"r"}; a matrix is {"n": [rows, columns], "rows", "cols", "vals"}, triplets
+// from 0.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "validation/contact_problems/problem.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using nlohmann::json;
+
+SparseMatrix matrixFrom(const json& j) {
+    const auto rows = j.at("rows").get<std::vector<int>>(), columns = j.at("cols").get<std::vector<int>>();
+    const auto values = j.at("vals").get<std::vector<double>>();
+    if (rows.size() != values.size() || columns.size() != values.size())
+        throw adapter::BadInput("rows, cols and vals differ in length");
+    std::vector<Triplet> entries;
+    for (std::size_t k = 0; k < values.size(); ++k) entries.push_back({rows[k], columns[k], values[k]});
+    return fromTriplets(j.at("n").at(0), j.at("n").at(1), std::move(entries));
+}
+
+std::vector<double> numbers(const json& j, const char* key) {
+    return j.at(key).get<std::vector<double>>();
+}
+
+FrozenProblem fromJson(const json& j) {
+    FrozenProblem frozen;
+    ContactProblem& p = frozen.problem;
+    frozen.title = j.value("name", ""), frozen.description = j.value("source", "");
+    p.dimension = j.at("dim");
+    p.mu = numbers(j, "mu");
+    const std::string form = j.at("form");
+    if (form != "local" && form != "global")
+        throw adapter::BadInput("/form: found \"" + form + "\", expected \"local\" or \"global\"");
+    frozen.isGlobal = form == "global";
+    if (frozen.isGlobal) {
+        p.f = numbers(j, "f"), p.w = numbers(j, "w");
+        p.M = matrixFrom(j.at("M")), p.H = matrixFrom(j.at("H"));
+    } else {
+        p.q = numbers(j, "q");
+        const SparseMatrix W = matrixFrom(j.at("W"));
+        const std::size_t n = p.q.size();
+        if (static_cast<std::size_t>(W.rows) != n || static_cast<std::size_t>(W.columns) != n)
+            throw adapter::BadInput("/W/n: found " + std::to_string(W.rows) + " x " +
+                                    std::to_string(W.columns) + ", expected " + std::to_string(n));
+        p.W.assign(n * n, 0.0);
+        for (const Triplet& e : toTriplets(W))
+            p.W[static_cast<std::size_t>(e.row) * n + static_cast<std::size_t>(e.column)] = e.value;
+    }
+    if (j.contains("solution")) {
+        const json& s = j.at("solution");
+        if (s.contains("r")) frozen.storedR = numbers(s, "r");
+        if (s.contains("v")) frozen.storedV = numbers(s, "v");
+    }
+    return frozen;
+}
+
+}  // namespace
+
+FrozenProblem readJsonProblem(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw adapter::BadInput(name + ": cannot be read");
+    FrozenProblem frozen;
+    try {
+        frozen = fromJson(json::parse(in));
+    } catch (const json::exception& error) {
+        throw adapter::BadInput(name + ": " + error.what());
+    } catch (const adapter::BadInput& error) {
+        throw adapter::BadInput(name + ": " + error.what());
+    }
+    complete(frozen, name);
+    return frozen;
+}
+
+FrozenProblem readContactProblem(const std::filesystem::path& file) {
+    if (!std::filesystem::exists(file)) throw adapter::BadInput(file.string() + ": there is no such file");
+    const std::string ending = file.extension();
+    if (ending == ".json") return readJsonProblem(file);
+    if (ending == ".hdf5" || ending == ".h5") return readFclib(file);
+    throw adapter::BadInput(file.string() + ": expected a contact problem, .hdf5, .h5 or .json");
+}
+
+}  // namespace rigor::validation

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <algorithm>
+#include <tuple>
+
+#include "validation/contact_problems/problem.hpp"
+
+namespace rigor::validation {
+namespace {
+
+std::size_t place(int i) {
+    return static_cast<std::size_t>(i);
+}
+
+}  // namespace
+
+SparseMatrix fromTriplets(int rows, int columns, std::vector<Triplet> entries) {
+    for (const Triplet& e : entries)
+        if (e.row < 0 || e.row >= rows || e.column < 0 || e.column >= columns)
+            throw adapter::BadInput("entry (" + std::to_string(e.row) + ", " + std::to_string(e.column) +
+                                    ") is outside of " + std::to_string(rows) + " x " +
+                                    std::to_string(columns));
+    std::sort(entries.begin(), entries.end(), [](const Triplet& a, const Triplet& b) {
+        return std::tie(a.column, a.row) < std::tie(b.column, b.row);
+    });
+    SparseMatrix A{rows, columns, std::vector<int>(place(columns) + 1, 0), {}, {}};
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        const Triplet& e = entries[k];
+        if (k > 0 && e.row == entries[k - 1].row && e.column == entries[k - 1].column) {
+            A.value.back() += e.value;
+            continue;
+        }
+        ++A.start[place(e.column) + 1];
+        A.row.push_back(e.row), A.value.push_back(e.value);
+    }
+    for (std::size_t j = 0; j < place(columns); ++j) A.start[j + 1] += A.start[j];
+    return A;
+}
+
+std::vector<Triplet> toTriplets(const SparseMatrix& A) {
+    std::vector<Triplet> entries;
+    for (int j = 0; j < A.columns; ++j)
+        for (int k = A.start[place(j)]; k < A.start[place(j) + 1]; ++k)
+            entries.push_back({A.row[place(k)], j, A.value[place(k)]});
+    return entries;
+}
+
+void multiplyAdd(const SparseMatrix& A, const std::vector<double>& x, std::vector<double>& y) {
+    for (const Triplet& e : toTriplets(A)) y[place(e.row)] += e.value * x[place(e.column)];
+}
+void multiplyTransposedAdd(const SparseMatrix& A, const std::vector<double>& x, std::vector<double>& y) {
+    for (const Triplet& e : toTriplets(A)) y[place(e.column)] += e.value * x[place(e.row)];
+}
+
+}  // namespace rigor::validation
