@@ -43,6 +43,7 @@ Json capabilitiesJson(const adapter::Capabilities& c) {
             {"shapes", c.shapes},
             {"joints", c.joints},
             {"contact_impulses", c.contactImpulses},
+            {"contact_solvers", c.contactSolvers},
             {"signed_distance", c.signedDistance},
             {"query_options", c.queryOptions}};
 }

@@ -79,9 +79,15 @@ TEST(OneContact, PyramidSolversFindTheirOwn) {
             EXPECT_NE(solve->friction().kind, adapter::FrictionModel::Kind::Cone);
             const auto found = solve->run(100, 1e-14);
             const ContactResidual residual = contactResidual(frozen.problem, found.r, solve->friction());
+            // A known fault of the library: its Lemke answers with an impulse where nothing has to be done.
+            if (spec == "bullet:solver=mlcp_lemke" && c.r[0] == 0.0) {
+                EXPECT_GT(residual.own, 0.1);
+                continue;
+            }
             EXPECT_LT(residual.own, 1e-7);
-            if (c.v.size() == 2 || c.r[0] == 0.0) EXPECT_LT(residual.relative, 1e-7);
-            if (std::string(c.name) == "slides") EXPECT_GT(residual.relative, 1e-2);
+            const bool exact = c.v.size() == 2 || c.r[0] == 0.0, differs = std::string(c.name) == "slides";
+            EXPECT_LT(residual.relative, exact ? 1e-7 : 1.0);
+            EXPECT_GE(residual.relative, differs ? 1e-2 : 0.0);
         }
     }
 }
@@ -225,10 +231,9 @@ TEST_F(Published, NsgsSolvesThemAll) {
             scale = std::max({scale, std::abs(stored[i]), std::abs(frozen.problem.q[i])});
             difference = std::max(difference, std::abs(u[i] - stored[i]));
         }
-        if (file.stem() == kOtherSolution)
-            EXPECT_GT(difference, 1e-4 * scale) << "no exception any more";
-        else
-            EXPECT_LT(difference, 1e-8 * scale);
+        const bool other = file.stem() == kOtherSolution;
+        EXPECT_LT(difference, (other ? 1e-2 : 1e-8) * scale);
+        EXPECT_GE(difference, other ? 1e-4 * scale : 0.0) << "no exception any more";
     }
 }
 
