@@ -31,7 +31,8 @@ std::optional<nlohmann::ordered_json> readStudy(const fs::path& file) {
 
 std::vector<fs::path> writeReports(const fs::path& runDirectory) {
     const results::Run run = results::readRun(runDirectory);
-    const ViewModel view(run);
+    const results::Run shown = withoutCompanions(run);
+    const ViewModel view(shown);
     const auto study = readStudy(runDirectory / "study.json");
     const TrajectoryLoader load = [&](const results::CaseRow& row) -> std::optional<results::TrajectoryFile> {
         if (row.trajectoryFile.empty()) return std::nullopt;

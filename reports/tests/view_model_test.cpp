@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "reports/writers.hpp"
+
 namespace rigor::report {
 namespace {
 
@@ -46,6 +48,22 @@ TEST(ViewModel, RatiosAreGeometricMeansOverTheBestOfEachScenario) {
     EXPECT_NEAR(mechanisms[0].standings[0].ratio, 3.0, 0.05);
     EXPECT_NEAR(mechanisms[0].standings[1].ratio, 2.0, 0.05);
     EXPECT_EQ(mechanisms[0].best, 1);
+}
+
+TEST(ViewModel, CompanionsHaveNumbersButNoPage) {
+    results::Run run = twoScenarios();
+    run.cases = {makeCase("a", "one", 0.01, 1.0), makeCase("b", "one", 0.01, 9.0)};
+    run.orders = {{"b", "one", "error", "m", 1.0, {}, {}, 3, 0.01, 0.1, ""}};
+    run.plannedCases = 3;
+    run.scenarios[1].tags = {"companion"};
+    const Run shown = withoutCompanions(run);
+    ASSERT_EQ(shown.scenarios.size(), 1u);
+    EXPECT_EQ(shown.scenarios[0].name, "a");
+    ASSERT_EQ(shown.cases.size(), 1u);
+    EXPECT_EQ(shown.cases[0].scenario, "a");
+    EXPECT_TRUE(shown.orders.empty());
+    EXPECT_EQ(shown.plannedCases, 2) << "one of a is still to come";
+    EXPECT_NE(csvReport(run).find("b,one"), std::string::npos);
 }
 
 TEST(ViewModel, AFailureAtAnyTimeStepWeighsMoreThanASmallError) {

@@ -26,6 +26,7 @@ scenario::LoadedScenario asFile(scenario::Scenario s, const std::string& base, c
     s.title += " (" + title + ")";
     s.reference.reset();
     s.accept.clear(), s.knownDeviations.clear();
+    s.tags.push_back("companion");  // reports give it no page of its own
     const std::string text = scenario::scenarioText(s);
     return scenario::loadScenarioText(text, s.name);
 }
