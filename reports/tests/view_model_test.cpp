@@ -56,7 +56,7 @@ TEST(ViewModel, CompanionsHaveNumbersButNoPage) {
     run.orders = {{"b", "one", "error", "m", 1.0, {}, {}, 3, 0.01, 0.1, ""}};
     run.plannedCases = 3;
     run.scenarios[1].tags = {"companion"};
-    const Run shown = withoutCompanions(run);
+    const results::Run shown = withoutCompanions(run);
     ASSERT_EQ(shown.scenarios.size(), 1u);
     EXPECT_EQ(shown.scenarios[0].name, "a");
     ASSERT_EQ(shown.cases.size(), 1u);
