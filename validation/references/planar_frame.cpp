@@ -106,7 +106,13 @@ void PlanarFrame::chooseAxis(const Scenario& scenario) {
             if (height < low - 1e-6 * sizeOf(body_)) low = height, foot = {}, count = 0;
             if (height < low + 1e-6 * sizeOf(body_)) foot += corner.point, ++count;
         }
-        const Vec3 lever = foot / std::max(count, 1) - com, g = scenario.gravity;
+        Vec3 g = scenario.gravity;
+        for (const auto& force : scenario.forces) {
+            const auto* f = std::get_if<scenario::ConstantForce>(&force);
+            if (f && &scenario.bodies[static_cast<std::size_t>(f->body)] == &body_)
+                g += f->force / body_.massProperties.mass;
+        }
+        const Vec3 lever = foot / std::max(count, 1) - com;
         const Vec3 byLever = cross(plane_.normal, lever), byPull = cross(plane_.normal, g);
         const bool leans = norm(byLever) > 1e-9 * sizeOf(body_);
         require(leans || norm(byPull) > 1e-9 * norm(g), "nothing says in which plane the body moves");

@@ -11,6 +11,7 @@
 
 #include "scenarios/loader/loader.hpp"
 #include "validation/references/planar_motion.hpp"
+#include "validation/references/swing.hpp"
 #include "validation/references/tests/newton_euler.hpp"
 
 namespace rigor::validation::testing {
@@ -107,6 +108,42 @@ TEST(PlanarFrame, WithoutSpinALeaningBodyMovesInThePlaneOfItsLean) {
         EXPECT_NEAR(std::abs(dot(unit(*e.angularVelocity), edge)), 1.0, 1e-9);
         EXPECT_GT(dot(*e.angularVelocity, edge) * lean, 0.0);
         EXPECT_NEAR(dot(*e.velocity, edge), 0.0, 1e-12);
+    }
+}
+
+TEST(PlanarFrame, APushAloneSaysInWhichPlaneAnUprightBoxTips) {
+    const Scenario plane = loadScenario(findScenario("tipping_push_2d")).scenario,
+                   space = loadScenario(findScenario("tipping_push")).scenario;
+    const auto a = makeReference(plane), b = makeReference(space);
+    ASSERT_EQ(a->bodies(), b->bodies());
+    for (const int body : a->bodies())
+        for (const double t : {0.3, 0.8}) {
+            expectNear(*a->exact(body, t).position, *b->exact(body, t).position, 1e-9);
+            expectNear(*a->exact(body, t).angularVelocity, *b->exact(body, t).angularVelocity, 1e-9);
+        }
+    EXPECT_GT(norm(*b->exact(findBody(space, "tips"), 0.8).angularVelocity), 0.1);
+}
+
+// --------------------------------------------------------------------------------------------------- swing
+TEST(Swing, TheFirstPassageIsTheFirstTimeAtTheLowestPoint) {
+    for (const auto& [angle, rate] : {std::pair{1.0, 0.5}, std::pair{-0.4, -2.0}, std::pair{0.5, 9.0},
+                                      std::pair{-2.0, 8.0}, std::pair{0.3, -8.5}}) {
+        const Swing swing(3.0L, angle, rate);
+        const bool turns = swing.parameter() > 1;
+        // Towards growing angle; a body that turns over the other way counts the other way.
+        const double sign = turns && rate < 0 ? -1 : 1;
+        const auto round = [&](double t) {
+            return std::remainder(sign * static_cast<double>(swing.at(t).angle), 2 * pi);
+        };
+        double first = 0;
+        for (int k = 1; k < 100000 && first == 0; ++k) {
+            const double a = round((k - 1) * 1e-4), b = round(k * 1e-4);
+            if (a < 0 && b >= 0 && b - a < 3) first = k * 1e-4;
+        }
+        EXPECT_NEAR(swing.firstPassage(), first, 1.1e-4) << angle << " " << rate;
+        EXPECT_NEAR(round(swing.firstPassage()), 0, 1e-12);
+        EXPECT_NEAR(std::remainder(round(swing.firstPassage() + static_cast<double>(swing.period())), 2 * pi),
+                    0, 1e-12);
     }
 }
 

@@ -103,7 +103,7 @@ TEST(SpinningDisc, SlidingAndSpinningEndTogether) {
 Scenario feet(Vec3 velocity, double spin, double above, bool one = false) {
     Scenario s = emptyScene(3, {0, -9.81, 0}, 0.3);
     s.materials[0].friction = 0.4;
-    addFloor(s);
+    addBody(s, "floor", BodyType::Static, Box{{5, 0.5, 5}}, {0, -0.5, 0});
     addBody(s, "ring", BodyType::Dynamic, Sphere{0.02}, {0, 0.1, 0});
     Body& b = s.bodies.back();
     b.shapes.clear();
