@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The faces of an engine (dynamics, collision, broad phase, frozen contact problems) and the module that carries them.
+// The faces of an engine (dynamics, collision, broad phase, frozen contact problems) and the module that
+// carries them.
 //
 // An adapter is a shared library `rigor_adapter_<name>.so` (another precision of the same engine:
 // `rigor_adapter_<name>.f32.so`) that exports RIGOR_ADAPTER_MODULE. The process that needs an engine loads

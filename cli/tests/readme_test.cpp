@@ -56,7 +56,8 @@ TEST(Readme, EveryCommandRuns) {
             ++tests;
             continue;
         }
-        // Commands on measured data, and those on what they make, need the data: they are not part of the repo.
+        // Commands on measured data, and those on what they make, need the data: they are not part of the
+        // repo.
         if (std::getenv("RIGOR_DATA") == nullptr && command.find("toss") != std::string::npos) continue;
         command.starts_with("./rigor validate") ? ++validates : ++others;
         const std::string line = "cd '" + folder.string() + "' && '" + std::string(RIGOR_BINARY_DIR) +

@@ -204,7 +204,8 @@ const Fault kFaults[] = {
     {"creeping", &kRest, "rest_creep", "block", 0.99e-4, 1.01e-4},
     {"turning", &kRest, "rest_turn", "block", 0.99e-3, 1.01e-3},
     {"jitter", &kRest, "rest_jitter", "block", 0.99e-3, 1.01e-3},
-    {"shapes_shrunk", &kRest, "overlap_max", "", 1e-3, 3e-3, "rest_sink penetration_max contact_inconsistency"},
+    {"shapes_shrunk", &kRest, "overlap_max", "", 1e-3, 3e-3,
+     "rest_sink penetration_max contact_inconsistency"},
     // out and back again; one step of four
     {"normal_flickers", &kRest, "normal_flicker", "block", 0.0199, 0.0201},
     {"contacts_blink", &kRest, "contact_flicker", "block", 0.24, 0.26},
