@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "validation/contact_problems/joint_rows.hpp"
 #include "validation/metrics/contact_point.hpp"
 #include "validation/metrics/mechanics.hpp"
 #include "validation/runner/forces.hpp"
@@ -62,6 +63,9 @@ class Freezer {
         p().dimension = s_.dimension;
         p().M = fromTriplets(rows, rows, mass_);
         p().H = fromTriplets(rows, columns, direction_);
+        for (const Joint& joint : s_.joints) addJoint(joint);
+        if (!frozen_.b.empty())
+            frozen_.G = fromTriplets(rows, static_cast<int>(frozen_.b.size()), bilateral_);
         frozen_.isGlobal = true;
         if (told) frozen_.storedR = impulses_;
         storeVelocities();
@@ -105,22 +109,32 @@ class Freezer {
             p().f.push_back(component(turn, i));
         }
     }
-    /// A row of H^T: what direction d at the contact is to one body's velocities.
-    void addDirection(int body, int column, const Vec3& d, const Vec3& arm) {
-        const int first = first_[place(body)];
+    /// A column of H or G: what direction d on an arm, and turning about t, are to one body's velocities.
+    void addColumn(std::vector<Triplet>& matrix, int body, int column, const Vec3& d, const Vec3& arm,
+                   const Vec3& t = {}) const {
+        const int first = body == kNone ? kNone : first_[place(body)];
         if (first == kNone) return;
-        const Vec3 turn = cross(arm, d);
-        for (int i = 0; i < s_.dimension; ++i) direction_.push_back({first + i, column, component(d, i)});
+        const Vec3 turn = cross(arm, d) + t;
+        for (int i = 0; i < s_.dimension; ++i) matrix.push_back({first + i, column, component(d, i)});
         if (s_.dimension == 2)
-            direction_.push_back({first + 2, column, turn.z});
+            matrix.push_back({first + 2, column, turn.z});
         else
-            for (int i = 0; i < 3; ++i) direction_.push_back({first + 3 + i, column, component(turn, i)});
+            for (int i = 0; i < 3; ++i) matrix.push_back({first + 3 + i, column, component(turn, i)});
     }
     /// Velocity of the point on a body that no impulse moves, along d.
-    double carried(int body, const Vec3& d, const Vec3& arm) const {
-        if (first_[place(body)] != kNone) return 0.0;
+    double carried(int body, const Vec3& d, const Vec3& arm, const Vec3& t = {}) const {
+        if (body == kNone || first_[place(body)] != kNone) return 0.0;
         const BodyState& state = step_.before[place(body)];
-        return dot(d, state.velocity + cross(state.angularVelocity, arm));
+        return dot(d, state.velocity + cross(state.angularVelocity, arm)) + dot(t, state.angularVelocity);
+    }
+    void addJoint(const Joint& joint) {
+        for (const JointRow& row : jointRows(s_, joint, step_.before)) {
+            const int column = static_cast<int>(frozen_.b.size());
+            addColumn(bilateral_, joint.bodyA, column, -row.linear, row.armA, -row.angular);
+            addColumn(bilateral_, joint.bodyB, column, row.linear, row.armB, row.angular);
+            frozen_.b.push_back(carried(joint.bodyB, row.linear, row.armB, row.angular) -
+                                carried(joint.bodyA, row.linear, row.armA, row.angular));
+        }
     }
     void addContact(const ContactPoint& contact) {
         const PairCoefficients pair = coefficientsOf(s_, contact);
@@ -134,8 +148,8 @@ class Freezer {
         for (int k = 0; k < s_.dimension; ++k) {
             const Vec3 d = k == 0 ? contact.normal : tangents[place(k - 1)];
             const int column = static_cast<int>(p().w.size());
-            addDirection(contact.bodyA, column, -d, point.armA());
-            addDirection(contact.bodyB, column, d, point.armB());
+            addColumn(direction_, contact.bodyA, column, -d, point.armA());
+            addColumn(direction_, contact.bodyB, column, d, point.armB());
             p().w.push_back(carried(contact.bodyB, d, point.armB()) -
                             carried(contact.bodyA, d, point.armA()));
             impulses_.push_back(dot(d, impulse));
@@ -165,7 +179,7 @@ class Freezer {
     const ToldStep& step_;
     int dofs_, bodies_ = 0;
     std::vector<int> first_;  ///< by scenario body: its first unknown, or kNone
-    std::vector<Triplet> mass_, direction_;
+    std::vector<Triplet> mass_, direction_, bilateral_;
     std::vector<double> impulses_;
     FrozenProblem frozen_;
 };
@@ -180,9 +194,6 @@ std::vector<AppliedLoad> loadsOf(const Scenario& scenario, std::size_t step, dou
 }
 
 FrozenProblem freezeStep(const Scenario& scenario, const ToldStep& step) {
-    if (!scenario.joints.empty())
-        throw Unsupported("joint " + scenario.joints.front().name +
-                          ": freezing a step needs a scenario without joints");
     FrozenProblem frozen = Freezer(scenario, step).make();
     frozen.title = scenario.name;
     return frozen;

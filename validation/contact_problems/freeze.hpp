@@ -11,7 +11,8 @@
 //     mu     of sliding
 // Known limits: gyroscopic torque is that of explicit Euler (an error of h^2 for spinning bodies without
 // symmetry); what an engine does to remove overlap is no part of the problem; static friction above that of
-// sliding has no place in the form (and is refused); joints have none here either (refused).
+// sliding has no place in the form (and is refused). Joints that hold are bilateral constraints; limits,
+// motors and springs are none (refused).
 #pragma once
 
 #include <filesystem>

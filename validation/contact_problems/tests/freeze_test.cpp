@@ -9,6 +9,7 @@
 
 #include "scenarios/loader/loader.hpp"
 #include "validation/contact_problems/freeze.hpp"
+#include "validation/contact_problems/joint_rows.hpp"
 #include "validation/contact_problems/residual.hpp"
 #include "validation/contact_problems/tests/small_problems.hpp"
 
@@ -151,14 +152,40 @@ TEST(Freeze, RestitutionGapsAndMovingGroundAreInTheProblem) {
     EXPECT_THROW(freezeStep(s, step), adapter::BadInput);
 }
 
-TEST(Freeze, JointsAreRefusedByName) {
-    const auto loaded = scenario::loadScenario(scenario::findScenario("rod_pendulum"));
-    ToldStep step;
-    try {
-        freezeStep(loaded.scenario, step);
-        FAIL();
-    } catch (const adapter::Unsupported& error) {
-        EXPECT_THAT(error.what(), ::testing::HasSubstr("joint "));
+/// A rod on a hinge, its other end on a disc: each carries half of it.
+TEST(Freeze, AHingeCarriesHalfOfALever) {
+    const std::string lever =
+        R"({"rigor": 1, "name": "lever", "title": "lever", "dimension": 2, "isolates": ["joints"], "source": "none",
+      "gravity": [0, -10], "duration": 1, "dt": [0.0078125], "materials": {"wood": {"friction": 0, "restitution": 0}},
+      "bodies": [
+        {"name": "post", "type": "static", "position": [1, -0.15], "shapes": [{"circle": {"radius": 0.1}}]},
+        {"name": "rod", "mass": 2, "position": [0.5, 0], "shapes": [{"box": {"half_extents": [0.6, 0.05]}}]}],
+      "joints": [{"name": "pivot", "type": "hinge", "a": "world", "b": "rod", "anchor": [0, 0]}],
+      "metrics": ["penetration_max"]})";
+    for (const char* spec : {"rigor", "ode"}) {
+        SCOPED_TRACE(spec);
+        const FrozenProblem frozen = freeze(request(lever, spec, kDt, 10));
+        ASSERT_EQ(frozen.problem.contacts(), 1u);
+        EXPECT_EQ(frozen.G.columns, 2);
+        EXPECT_FALSE(frozen.problem.hasBodies) << "solvers of rows on bodies know nothing of G";
+        const ContactSolution found = solveNsgs(frozen);
+        EXPECT_LT(contactResidual(frozen.problem, found.r).relative, 1e-10);
+        EXPECT_NEAR(found.r[0], 0.5 * kMass * kGravity * kDt, 1e-5);
+        const auto v = velocitiesFor(frozen, found.r);
+        for (std::size_t i = 0; i < v.size(); ++i) EXPECT_NEAR(v[i], frozen.storedV[i], 1e-4);
+    }
+}
+
+TEST(Freeze, WhatAJointDoesBeyondHoldingIsRefusedByName) {
+    for (const char* name : {"hinge_limit", "slider_motor", "rope"}) {
+        const auto loaded = scenario::loadScenario(scenario::findScenario(name));
+        const auto& s = loaded.scenario;
+        try {
+            for (const auto& joint : s.joints) jointRows(s, joint, std::vector<BodyState>(s.bodies.size()));
+            FAIL() << name;
+        } catch (const adapter::Unsupported& error) {
+            EXPECT_THAT(error.what(), ::testing::HasSubstr("joint " + s.joints.front().name)) << name;
+        }
     }
 }
 
