@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/references/flat_motion.hpp"
 #include "validation/references/numerics/elliptic.hpp"
 #include "validation/references/numerics/ode.hpp"
 #include "validation/references/parts.hpp"
@@ -49,72 +50,44 @@ Friction discFriction(Real eps) {
 
 class SpinningDisc : public Reference {
   public:
-    SpinningDisc(const Scenario& scenario, int index, int floor)
-        : scenario_(scenario),
-          index_(index),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
-          plane_(planeOf(scenario, floor, centerOfMass(body_) + 1e-3 * sizeOf(body_) * upOf(scenario))) {
+    SpinningDisc(const Scenario& scenario, int index, const FlatMotion& motion, double height)
+        : scenario_(scenario), index_(index), body_(motion.body), motion_(motion) {
         const std::string who = bodyTitle(scenario, index);
-        require(scenario.dimension == 3, "a spinning disc needs three dimensions");
-        requireUndisturbed(scenario, index);
-        requireContact(scenario, index, floor);
-        requireStill(scenario, floor);
-        const Vec3 n = plane_.normal, com = centerOfMass(body_), w = body_.angularVelocity;
-        const Vec3 g = gravityOn(scenario, index);
+        const Vec3 n = motion_.normal, g = gravityOn(scenario, index);
         require(norm(g) > 0.0 && norm(cross(g, n)) <= 1e-9 * norm(g), "the floor is not level");
-        along_ = perpendicular(n), across_ = cross(n, along_);
-        const Footing footing = footingOf(scenario, index, plane_);
-        require(std::abs(footing.gap) <= 1e-4 * sizeOf(body_), who + " does not stand on the floor");
-        require(norm(cross(w, n)) <= 1e-9 * norm(w), who + " does not spin about the normal");
-        require(std::abs(dot(body_.velocity, n)) <= 1e-9 * norm(body_.velocity), who + " leaves the floor");
-        const bool spins = norm(body_.velocity) == 0.0;
-        require(spins || std::abs(plane_.height(com)) <= 1e-3 * sizeOf(body_),
+        const bool isFlat = std::abs(height) <= 1e-3 * sizeOf(body_), spins = norm(body_.velocity) == 0.0;
+        require(spins || isFlat,
                 "the centre of mass of " + who + " is off the floor: its pressure is not even");
-        findFeet(footing, com, spins);
-        const Vec3 moment = worldInertia(body_) * n;
-        inertia_ = dot(n, moment);
-        require(norm(moment - dot(n, moment) * n) <= 1e-9 * norm(moment),
-                "the normal is not along a principal axis of " + who);
-        mass_ = body_.massProperties.mass;
-        push_ = pairCoefficients(scenario, footing.material, plane_.material).friction * norm(g);
-        follow({0, 0, 0, dot(along_, body_.velocity), dot(across_, body_.velocity), dot(n, w)});
+        findFeet(isFlat, spins);
+        push_ = motion_.friction * norm(g);
+        follow(motion_.start());
     }
     std::vector<int> bodies() const override { return {index_}; }
     double validUntil() const override { return validUntil_; }
-
-    PartialState exact(int, double t) const override {
-        const OdeState y = solution_.at(t);
-        const auto d = [&](std::size_t i) { return static_cast<double>(y[i]); };
-        return stateOf(
-            body_, centerOfMass(body_) + d(0) * along_ + d(1) * across_,
-            scenario::normalized(scenario::fromAxisAngle(plane_.normal, d(2)) * body_.pose.orientation),
-            d(3) * along_ + d(4) * across_, d(5) * plane_.normal);
-    }
+    PartialState exact(int, double t) const override { return motion_.state(solution_.at(t)); }
 
   private:
-    static Vec3 upOf(const Scenario& scenario) { return -1.0 * unit(scenario.gravity); }
-    struct Foot {
-        Real x = 0, y = 0;
-    };
+    using Foot = FlatMotion::Place;
 
-    void findFeet(const Footing& footing, Vec3 com, bool spins) {
+    void findFeet(bool isFlat, bool spins) {
         const std::string who = bodyTitle(scenario_, index_);
         const auto* cylinder =
             body_.shapes.size() == 1 ? std::get_if<scenario::Cylinder>(&body_.shapes[0].geometry) : nullptr;
         if (cylinder) {
             const Vec3 axis =
                 rotate(body_.pose.orientation, rotate(body_.shapes[0].pose.orientation, {0, 1, 0}));
-            require(norm(cross(axis, plane_.normal)) <= 1e-6, who + " does not stand on its end");
-            const Vec3 middle = body_.pose * body_.shapes[0].pose.position - com;
-            require(norm(middle - dot(middle, plane_.normal) * plane_.normal) <= 1e-9 * cylinder->radius,
+            const Vec3 n = motion_.normal,
+                       middle = body_.pose * body_.shapes[0].pose.position - motion_.centre;
+            require(norm(cross(axis, n)) <= 1e-6, who + " does not stand on its end");
+            require(norm(middle - dot(middle, n) * n) <= 1e-9 * cylinder->radius,
                     "the centre of mass of " + who + " is off its axis");
             radius_ = cylinder->radius;
             return;
         }
         Foot middle;
         Real least = 1e30L;
-        for (const Vec3 p : footing.points) {
-            feet_.push_back({dot(along_, p - com), dot(across_, p - com)});
+        for (const Vec3 p : motion_.footing.points) {
+            feet_.push_back(motion_.place(p));
             middle.x += feet_.back().x, middle.y += feet_.back().y;
             const Real reach = std::hypot(feet_.back().x, feet_.back().y);
             radius_ = std::max(radius_, reach), least = std::min(least, reach);
@@ -123,7 +96,7 @@ class SpinningDisc : public Reference {
         require(n >= 3, who + " stands on fewer than three points");
         require(std::hypot(middle.x, middle.y) <= 1e-6L * n * radius_,
                 "the feet of " + who + " are not balanced about its centre of mass");
-        require(!spins || radius_ - least <= 1e-6L * radius_ || plane_.height(com) <= 1e-3 * sizeOf(body_),
+        require(!spins || radius_ - least <= 1e-6L * radius_ || isFlat,
                 "the feet of " + who + " are not on one circle");
     }
 
@@ -157,7 +130,7 @@ class SpinningDisc : public Reference {
             fx += share * u.x, fy += share * u.y;
             torque += share * (p.x * u.y - p.y * u.x);
         }
-        d = {y[3], y[4], y[5], push_ * fx, push_ * fy, push_ * mass_ * torque / inertia_};
+        d = {y[3], y[4], y[5], push_ * fx, push_ * fy, push_ * motion_.mass * torque / motion_.inertia};
     }
 
     void follow(const OdeState& start) {
@@ -185,10 +158,9 @@ class SpinningDisc : public Reference {
     const Scenario& scenario_;
     int index_;
     const Body& body_;
-    Plane plane_;
-    Vec3 along_, across_;
+    FlatMotion motion_;
     std::vector<Foot> feet_;  ///< none: a disc
-    Real radius_ = 0, inertia_ = 0, mass_ = 0, push_ = 0;
+    Real radius_ = 0, push_ = 0;
     DenseSolution solution_;
     double validUntil_ = 1e300;
 };
@@ -198,7 +170,12 @@ class SpinningDisc : public Reference {
 std::unique_ptr<Reference> makeSpinningDisc(const Scenario& scenario, const scenario::ReferenceSpec& spec) {
     const Parts parts(scenario, spec, {"body", "floor"});
     const int body = parts.dynamicBody("body");
-    return std::make_unique<SpinningDisc>(scenario, body, parts.support("floor", body));
+    const int floor = parts.support("floor", body);
+    const Body& disc = scenario.bodies[static_cast<std::size_t>(body)];
+    const Vec3 centre = centerOfMass(disc), up = -1.0 * unit(scenario.gravity);
+    const Plane plane = planeOf(scenario, floor, centre + 1e-3 * sizeOf(disc) * up);
+    return std::make_unique<SpinningDisc>(scenario, body, FlatMotion(scenario, body, floor, plane),
+                                          plane.height(centre));
 }
 
 }  // namespace rigor::validation

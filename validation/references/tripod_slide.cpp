@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/references/flat_motion.hpp"
 #include "validation/references/numerics/ode.hpp"
 #include "validation/references/numerics/vector.hpp"
 #include "validation/references/parts.hpp"
@@ -25,53 +26,21 @@ using namespace numerics;
 
 class TripodSlide : public Reference {
   public:
-    TripodSlide(const Scenario& scenario, int index, int floor)
-        : scenario_(scenario),
-          index_(index),
-          body_(scenario.bodies[static_cast<std::size_t>(index)]),
-          plane_(planeOf(scenario, floor, centerOfMass(body_))) {
-        const std::string who = bodyTitle(scenario, index);
-        require(scenario.dimension == 3, "a tripod needs three dimensions");
-        requireUndisturbed(scenario, index);
-        requireContact(scenario, index, floor);
-        requireStill(scenario, floor);
-        const Footing footing = footingOf(scenario, index, plane_);
-        require(std::abs(footing.gap) <= 1e-4 * sizeOf(body_), who + " does not stand on the floor");
-        require(footing.points.size() == 3, who + " does not stand on exactly three points");
-        const Vec3 n = plane_.normal, com = centerOfMass(body_), w = body_.angularVelocity;
-        along_ = perpendicular(n);
-        across_ = cross(n, along_);
-        height_ = plane_.height(com);
-        for (const Vec3 p : footing.points) feet_.push_back({dot(along_, p - com), dot(across_, p - com)});
-        require(norm(cross(w, n)) <= 1e-9 * norm(w), who + " does not spin about the normal");
-        require(std::abs(dot(body_.velocity, n)) <= 1e-9 * norm(body_.velocity), who + " leaves the floor");
-        const Vec3 moment = worldInertia(body_) * n;
-        inertia_ = dot(n, moment);
-        require(norm(moment - dot(n, moment) * n) <= 1e-9 * norm(moment),
-                "the normal is not along a principal axis of " + who);
-        mass_ = body_.massProperties.mass;
-        mu_ = pairCoefficients(scenario, footing.material, plane_.material).friction;
+    TripodSlide(const Scenario& scenario, int index, const FlatMotion& motion, double height)
+        : scenario_(scenario), index_(index), motion_(motion), height_(height), mu_(motion.friction) {
+        require(motion_.footing.points.size() == 3,
+                bodyTitle(scenario, index) + " does not stand on exactly three points");
+        for (const Vec3 p : motion_.footing.points) feet_.push_back(motion_.place(p));
         const Vec3 g = gravityOn(scenario, index);
-        pull_ = {dot(g, along_), dot(g, across_), dot(g, n)};
-        const OdeState y{0, 0, 0, dot(along_, body_.velocity), dot(across_, body_.velocity), dot(n, w)};
-        findEnd(y);
+        pull_ = {dot(g, motion_.along), dot(g, motion_.across), dot(g, motion_.normal)};
+        findEnd(motion_.start());
     }
     std::vector<int> bodies() const override { return {index_}; }
     double validUntil() const override { return validUntil_; }
-
-    PartialState exact(int, double t) const override {
-        const OdeState y = solution_.at(t);
-        const auto d = [&](std::size_t i) { return static_cast<double>(y[i]); };
-        return stateOf(
-            body_, centerOfMass(body_) + d(0) * along_ + d(1) * across_,
-            scenario::normalized(scenario::fromAxisAngle(plane_.normal, d(2)) * body_.pose.orientation),
-            d(3) * along_ + d(4) * across_, d(5) * plane_.normal);
-    }
+    PartialState exact(int, double t) const override { return motion_.state(solution_.at(t)); }
 
   private:
-    struct Foot {
-        Real x = 0, y = 0;
-    };
+    using Foot = FlatMotion::Place;
     struct Loads {
         std::vector<Real> normal;
         std::vector<Foot> place, slip;  ///< slip: unit velocity
@@ -94,7 +63,7 @@ class TripodSlide : public Reference {
             m[1][i] = p.y - height_ * mu_ * loads.slip[i].y;
             m[2][i] = -p.x + height_ * mu_ * loads.slip[i].x;
         }
-        loads.normal = {-mass_ * pull_[2], 0, 0};
+        loads.normal = {-motion_.mass * pull_[2], 0, 0};
         solveDense(m, loads.normal);
         return loads;
     }
@@ -108,7 +77,12 @@ class TripodSlide : public Reference {
             fx += x, fy += z;
             torque += loads.place[i].x * z - loads.place[i].y * x;
         }
-        d = {y[3], y[4], y[5], fx / mass_ + pull_[0], fy / mass_ + pull_[1], torque / inertia_};
+        d = {y[3],
+             y[4],
+             y[5],
+             fx / motion_.mass + pull_[0],
+             fy / motion_.mass + pull_[1],
+             torque / motion_.inertia};
     }
 
     void findEnd(const OdeState& start) {
@@ -138,11 +112,9 @@ class TripodSlide : public Reference {
 
     const Scenario& scenario_;
     int index_;
-    const Body& body_;
-    Plane plane_;
-    Vec3 along_, across_;
+    FlatMotion motion_;
+    Real height_, mu_;  ///< height of the centre of mass
     std::vector<Foot> feet_;
-    Real height_ = 0, inertia_ = 0, mass_ = 0, mu_ = 0;
     std::array<Real, 3> pull_{};
     DenseSolution solution_;
     double validUntil_ = 1e300;
@@ -153,7 +125,11 @@ class TripodSlide : public Reference {
 std::unique_ptr<Reference> makeTripodSlide(const Scenario& scenario, const scenario::ReferenceSpec& spec) {
     const Parts parts(scenario, spec, {"body", "floor"});
     const int body = parts.dynamicBody("body");
-    return std::make_unique<TripodSlide>(scenario, body, parts.support("floor", body));
+    const int floor = parts.support("floor", body);
+    const Vec3 centre = centerOfMass(scenario.bodies[static_cast<std::size_t>(body)]);
+    const Plane plane = planeOf(scenario, floor, centre);
+    return std::make_unique<TripodSlide>(scenario, body, FlatMotion(scenario, body, floor, plane),
+                                         plane.height(centre));
 }
 
 }  // namespace rigor::validation
