@@ -53,9 +53,9 @@ TEST(FreezeCommand, AStepGoesToAFileAndIsSolved) {
 
 TEST(FreezeCommand, WhatCannotBeFrozenIsSaid) {
     const std::string out = " --out " + file("none.hdf5");
-    auto result = rigor("freeze rod_pendulum" + out);
+    auto result = rigor("freeze hinge_limit" + out);
     EXPECT_EQ(result.code, 4);
-    EXPECT_THAT(result.out, HasSubstr("freezing a step needs a scenario without joints"));
+    EXPECT_THAT(result.out, HasSubstr("a limit is no equation between velocities"));
     result = rigor("freeze free_flight --step 1" + out);
     EXPECT_EQ(result.code, 2);
     EXPECT_THAT(result.out, HasSubstr("no contacts to freeze"));

@@ -52,6 +52,7 @@ class Freezer {
     FrozenProblem make() {
         for (std::size_t i = 0; i < s_.bodies.size(); ++i)
             if (first_[i] != kNone) addBody(static_cast<int>(i));
+        for (const Joint& joint : s_.joints) addJoint(joint);
         bool told = true;
         for (const ContactPoint& contact : step_.contacts) {
             if (!isKnownContact(s_, contact)) continue;
@@ -63,7 +64,6 @@ class Freezer {
         p().dimension = s_.dimension;
         p().M = fromTriplets(rows, rows, mass_);
         p().H = fromTriplets(rows, columns, direction_);
-        for (const Joint& joint : s_.joints) addJoint(joint);
         if (!frozen_.b.empty())
             frozen_.G = fromTriplets(rows, static_cast<int>(frozen_.b.size()), bilateral_);
         frozen_.isGlobal = true;
