@@ -12,9 +12,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "validation/collide/collide.hpp"
+#include "validation/metrics/metric_parts.hpp"
 #include "validation/oracle/oracle.hpp"
 #include "validation/runner/judge.hpp"
 
@@ -23,17 +23,6 @@ namespace {
 
 using scenario::CollisionCase;
 using scenario::Vec3;
-
-/// atan2 keeps small angles exact.
-double angleBetween(Vec3 a, Vec3 b) {
-    return std::atan2(norm(cross(a, b)), dot(a, b));
-}
-
-double nearestAngle(Vec3 normal, const std::vector<Vec3>& minimisers) {
-    double best = std::numbers::pi;
-    for (const Vec3& n : minimisers) best = std::min(best, angleBetween(normal, n));
-    return best;
-}
 
 double allowedLength(const CollideTruth& truth, const CollideTolerance& tolerance) {
     return std::max(tolerance.touch, tolerance.relative * std::abs(truth.signedDistance)) + truth.accuracy;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "adapters/interface/options.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/contact_problems/freeze.hpp"
 #include "validation/contact_problems/residual.hpp"
@@ -19,12 +20,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string shortNumber(double x) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.6g", x);
-    return text;
-}
-
 Frozen freezeHere(const FreezeRequest& request, const std::filesystem::path& file) {
     const scenario::Scenario s =
         scenario::loadScenarioText(request.scenarioText, request.scenarioName).scenario;
@@ -36,8 +31,8 @@ Frozen freezeHere(const FreezeRequest& request, const std::filesystem::path& fil
     told.time = static_cast<double>(request.step) * request.dt;
     if (!frozen.storedR.empty())
         told.storedResidual = contactResidual(frozen.problem, frozen.storedR).relative;
-    frozen.description = "step " + std::to_string(request.step) + " (to t = " + shortNumber(told.time) +
-                         " s, dt = " + shortNumber(request.dt) + " s) of " + s.name + " by " +
+    frozen.description = "step " + std::to_string(request.step) + " (to t = " + adapter::shown(told.time) +
+                         " s, dt = " + adapter::shown(request.dt) + " s) of " + s.name + " by " +
                          request.spec.text() + "; the stored solution is what that engine did";
     frozen.mathInfo =
         "SI units; per dynamic body velocity of the centre of mass and angular velocity, world axes";

@@ -55,10 +55,6 @@ bool shapesAreKnown(const MetricInput& input, const ContactPoint& contact) {
            input.scenario.bodies[static_cast<std::size_t>(contact.bodyB)].shapes.size() == 1;
 }
 
-double angleBetween(Vec3 a, Vec3 b) {
-    return std::atan2(norm(cross(a, b)), dot(a, b));
-}
-
 /// The median as the row of the whole scene; none of nothing.
 std::vector<MetricValue> medianRow(std::vector<double> values) {
     if (values.empty()) return {};

@@ -7,7 +7,6 @@
 // 2004.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 #include "validation/metrics/metric_parts.hpp"
@@ -30,10 +29,6 @@ Normals deepestNormals(const std::vector<ContactPoint>& contacts) {
     Normals normals;
     for (const auto& [key, contact] : deepest) normals[key] = contact->normal;
     return normals;
-}
-
-double angleBetween(Vec3 a, Vec3 b) {
-    return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
 /// Calls `look(before, now or null, after, key, frame)` for every pair that touches in the first and the last

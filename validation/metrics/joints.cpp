@@ -62,7 +62,7 @@ std::optional<double> axisError(const MetricInput& input, const Joint& joint, st
     if (joint.type == JointType::Hinge) {
         if (input.scenario.dimension == 2) return std::nullopt;
         const Vec3 x = rotate(a.orientation, joint.axisA), y = rotate(b.orientation, joint.axisB);
-        return std::atan2(norm(cross(x, y)), dot(x, y));
+        return angleBetween(x, y);
     }
     if (joint.type != JointType::Slider && joint.type != JointType::Fixed) return std::nullopt;
     const auto initial = [&](int body) {
@@ -102,7 +102,7 @@ std::optional<CoordinateValue> coordinate(const MetricInput& input, const Joint&
     const Vec3 z{0, 0, 1};
     const auto swing = [&] {
         const Vec3 x = joint.axisA, y = rotate(turn, joint.axisA);
-        return std::atan2(norm(cross(x, y)), dot(x, y));
+        return angleBetween(x, y);
     };
     switch (joint.type) {
         case JointType::Hinge:

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace rigor::validation {
 
@@ -59,6 +60,16 @@ std::size_t validFrames(const MetricInput& input) {
     if (!input.reference) return times.size();
     const double until = input.reference->validUntil();
     return static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), until) - times.begin());
+}
+
+double angleBetween(const scenario::Vec3& a, const scenario::Vec3& b) {
+    return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+
+double nearestAngle(const scenario::Vec3& direction, const std::vector<scenario::Vec3>& good) {
+    double best = std::numbers::pi;
+    for (const scenario::Vec3& d : good) best = std::min(best, angleBetween(direction, d));
+    return best;
 }
 
 double rotationAngle(const Quat& a, const Quat& b) {

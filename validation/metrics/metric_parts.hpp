@@ -37,6 +37,11 @@ const std::string& bodyName(const MetricInput& input, int body);
 /// Number of frames that the reference answers for.
 std::size_t validFrames(const MetricInput& input);
 
+/// Angle between two directions [rad, 0..pi]; they need not be unit. Small angles keep their digits.
+double angleBetween(const scenario::Vec3& a, const scenario::Vec3& b);
+/// Angle to the nearest of equally good directions [rad]; pi where there is none.
+double nearestAngle(const scenario::Vec3& direction, const std::vector<scenario::Vec3>& good);
+
 /// Angle of the rotation from a to b [rad, 0..pi]; quaternions need not be unit.
 double rotationAngle(const scenario::Quat& a, const scenario::Quat& b);
 

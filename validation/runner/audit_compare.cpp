@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "adapters/interface/input_check.hpp"
+#include "validation/metrics/metric_parts.hpp"
 #include "validation/oracle/oracle.hpp"
 #include "validation/runner/audit.hpp"
 #include "validation/runner/audit_spread.hpp"
@@ -22,14 +22,6 @@ using scenario::Vec3;
 
 const Geometry& geometryOf(const Scenario& s, int body, int shape) {
     return s.bodies[static_cast<std::size_t>(body)].shapes[static_cast<std::size_t>(shape)].geometry;
-}
-
-/// Angle to the nearest of the equally good normals [rad]; atan2 keeps small angles exact.
-double normalError(Vec3 normal, const std::vector<Vec3>& minimising) {
-    double best = std::numbers::pi;
-    for (const Vec3& n : minimising)
-        best = std::min(best, std::atan2(norm(cross(normal, n)), dot(normal, n)));
-    return best;
 }
 
 /// Distance of a point from the surface of a convex shape [m], by the oracle: a ball of radius r around the
@@ -52,7 +44,7 @@ AuditAnswer brief(const AuditQuery& q, const CollisionAnswer& answer) {
     if (!said.hasContact) return said;
     const ContactPoint& deepest = deepestOf(answer.contacts);
     said.depth = deepest.depth, said.normal = deepest.normal;
-    said.minimising = q.decided && normalError(deepest.normal, q.normals) < kSame;
+    said.minimising = q.decided && nearestAngle(deepest.normal, q.normals) < kSame;
     return said;
 }
 
@@ -96,7 +88,7 @@ class Comparison {
     void compareContacts(const AuditQuery& q, const CollisionAnswer& answer) {
         const ContactPoint& deepest = deepestOf(answer.contacts);
         depth_.add(std::abs(deepest.depth + q.signedDistance));
-        if (normal_.add(normalError(deepest.normal, q.normals))) name(q, "normal", 1);
+        if (normal_.add(nearestAngle(deepest.normal, q.normals))) name(q, "normal", 1);
         const int dimension = scenario_.dimension;
         point_.add(
             surfaceDistance(deepest.pointA, geometryOf(scenario_, q.bodyA, q.shapeA), q.poseA, dimension));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/metrics/metric_parts.hpp"
 #include "validation/runner/audit.hpp"
 #include "validation/runner/audit_spread.hpp"
 
@@ -24,7 +25,7 @@ results::AuditRow pairRow(const std::string& a, const std::vector<AuditAnswer>& 
         row.spurious += x.overlap && !y.overlap ? 1 : 0;
         if (!x.overlap || !y.overlap || !x.hasContact || !y.hasContact) continue;
         const bool equallyGood = x.minimising && y.minimising;
-        normal.add(equallyGood ? 0.0 : std::atan2(norm(cross(x.normal, y.normal)), dot(x.normal, y.normal)));
+        normal.add(equallyGood ? 0.0 : angleBetween(x.normal, y.normal));
         depth.add(std::abs(x.depth - y.depth));
     }
     row.normalErrorMax = normal.max(), row.normalErrorMedian = normal.median();
