@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "adapters/interface/contact_problem.hpp"
+#include "adapters/interface/staged.hpp"
 #include "adapters/interface/types.hpp"
 
 namespace rigor::adapter {
@@ -56,6 +57,16 @@ class World {
 
     virtual StepCounters counters() const { return {}; }
     virtual Scheme scheme() const = 0;
+
+    /// Whether a joint still holds: false once it has broken.
+    virtual bool jointHolds(int joint) const {
+        (void)joint;
+        return true;
+    }
+
+    /// Null for engines whose steps can not be looked into, and whose state can not be taken back.
+    virtual StagedWorld* staged() { return nullptr; }
+    virtual Snapshots* snapshots() { return nullptr; }
 };
 
 class DynamicsEngine {
@@ -113,7 +124,7 @@ class Engine {
 };
 
 /// Raised with every change of this folder's headers or of scenarios/model that an adapter could notice.
-inline constexpr int kAdapterAbi = 4;
+inline constexpr int kAdapterAbi = 5;
 
 struct Module {
     int abi = 0;

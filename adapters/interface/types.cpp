@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "adapters/interface/staged.hpp"
+
 namespace rigor::adapter {
 
 const char* realisationName(Realisation r) {
@@ -15,6 +17,20 @@ const char* realisationName(Realisation r) {
             return "approximate";
         case Realisation::Unsupported:
             return "unsupported";
+    }
+    return "?";
+}
+
+const char* rowKindName(StagedRow::Kind kind) {
+    switch (kind) {
+        case StagedRow::Kind::Normal:
+            return "normal";
+        case StagedRow::Kind::Friction:
+            return "friction";
+        case StagedRow::Kind::Joint:
+            return "joint";
+        case StagedRow::Kind::Limit:
+            return "limit";
     }
     return "?";
 }

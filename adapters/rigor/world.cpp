@@ -7,8 +7,10 @@
 
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/pair_table.hpp"
+#include "adapters/rigor/convert_joint.hpp"
 #include "adapters/rigor/parts.hpp"
 #include "adapters/rigor/settings.hpp"
+#include "adapters/rigor/staged.hpp"
 #include "engine/pipeline/world.hpp"
 
 namespace rigor::adapter {
@@ -79,60 +81,6 @@ engine::BodyType toEngineType(scenario::BodyType type) {
     }
     return engine::BodyType::Dynamic;
 }
-engine::JointType toEngineJoint(scenario::JointType type) {
-    switch (type) {
-        case scenario::JointType::Ball:
-            return engine::JointType::Ball;
-        case scenario::JointType::Hinge:
-            return engine::JointType::Hinge;
-        case scenario::JointType::Slider:
-            return engine::JointType::Slider;
-        case scenario::JointType::Fixed:
-            return engine::JointType::Fixed;
-        case scenario::JointType::ConeTwist:
-            return engine::JointType::ConeTwist;
-        case scenario::JointType::SixDof:
-            return engine::JointType::SixDof;
-        case scenario::JointType::Wheel:
-            return engine::JointType::Wheel;
-        case scenario::JointType::Distance:
-            break;
-    }
-    return engine::JointType::Distance;
-}
-engine::AxisMode toEngineMode(scenario::AxisMode mode) {
-    switch (mode) {
-        case scenario::AxisMode::Free:
-            return engine::AxisMode::Free;
-        case scenario::AxisMode::Locked:
-            return engine::AxisMode::Locked;
-        case scenario::AxisMode::Limited:
-            return engine::AxisMode::Limited;
-        case scenario::AxisMode::Usual:
-            break;
-    }
-    return engine::AxisMode::Usual;
-}
-/// A bound of the format; beyond 1e299 there is none.
-template <class R>
-R toEngineBound(double x) {
-    if (std::abs(x) < 1e299) return static_cast<R>(x);
-    return x < 0 ? -std::numeric_limits<R>::infinity() : std::numeric_limits<R>::infinity();
-}
-template <class R>
-engine::JointAxis<R> toEngineAxis(const scenario::JointAxis& axis) {
-    engine::JointAxis<R> result;
-    result.mode = toEngineMode(axis.mode);
-    result.lower = toEngineBound<R>(axis.lower), result.upper = toEngineBound<R>(axis.upper);
-    result.motorSpeed = static_cast<R>(axis.motorSpeed);
-    result.motorMaxForce = static_cast<R>(axis.motorMaxForce);
-    result.target = static_cast<R>(axis.target);
-    result.frequency = static_cast<R>(axis.frequency);
-    result.dampingRatio = static_cast<R>(axis.dampingRatio);
-    result.stiffness = static_cast<R>(axis.stiffness);
-    result.damping = static_cast<R>(axis.damping);
-    return result;
-}
 
 template <class S>
 class RigorWorld final : public World {
@@ -179,8 +127,8 @@ class RigorWorld final : public World {
             ContactPoint c;
             c.bodyA = static_cast<int>(view.bodyA.index) - 1;
             c.bodyB = static_cast<int>(view.bodyB.index) - 1;
-            c.shapeA = shapeIndex_[view.shapeA.index];
-            c.shapeB = shapeIndex_[view.shapeB.index];
+            c.shapeA = indices_.shape[view.shapeA.index];
+            c.shapeB = indices_.shape[view.shapeB.index];
             c.pointA = fromEngineVec(view.pointA);
             c.pointB = fromEngineVec(view.pointB);
             c.normal = fromEngineVec(view.normal);
@@ -243,6 +191,12 @@ class RigorWorld final : public World {
         if (name == "rk4") return Scheme::RungeKutta4;
         return Scheme::Unknown;
     }
+
+    bool jointHolds(int joint) const override {
+        return world_.contains(indices_.joint[static_cast<std::size_t>(joint)]);
+    }
+    StagedWorld* staged() override { return &staged_; }
+    Snapshots* snapshots() override { return &snapshots_; }
 
   private:
     engine::BodyId id(int body) const {
@@ -314,8 +268,8 @@ class RigorWorld final : public World {
             shape.pose = toEnginePose<S>(body.shapes[i].pose);
             shape.material = material(body.shapes[i].material);
             const engine::ShapeId shapeId = world_.addShape(added, shape);
-            shapeIndex_.resize(shapeId.index + 1);
-            shapeIndex_[shapeId.index] = static_cast<int>(i);
+            indices_.shape.resize(shapeId.index + 1);
+            indices_.shape[shapeId.index] = static_cast<int>(i);
         }
     }
 
@@ -331,7 +285,7 @@ class RigorWorld final : public World {
         for (std::size_t k = 0; k < joint.axes.size(); ++k) def.axes[k] = toEngineAxis<R>(joint.axes[k]);
         def.breakForce = toEngineBound<R>(joint.breakForce);
         def.breakTorque = toEngineBound<R>(joint.breakTorque);
-        world_.addJoint(def);
+        indices_.joint.push_back(world_.addJoint(def));
     }
 
     // Forces on bodies that no force moves are for pictures only.
@@ -365,7 +319,9 @@ class RigorWorld final : public World {
     R dt_;
     engine::World<S> world_;
     std::vector<engine::BodyId> bodies_;
-    std::vector<int> shapeIndex_;  ///< by engine shape: index within its body
+    ScenarioIndices indices_;
+    RigorStaged<S> staged_{world_, dt_, indices_};
+    RigorSnapshots<S> snapshots_{world_};
     mutable std::vector<engine::ContactView<S>> views_;
 };
 

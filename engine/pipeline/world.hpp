@@ -176,6 +176,8 @@ class World {
     void readContacts(std::vector<ContactView<S>>& out) const;
     /// The rows of the last sub-step, solved or not yet.
     const ConstraintRows<S>& rows() const { return rows_; }
+    /// Where a joint's rows stand among them: the first, and how many.
+    std::pair<std::uint32_t, std::uint32_t> jointRows(JointId joint) const;
     /// Impulses of a joint's rows in the last step, summed over its sub-steps [N s] or [N m s].
     std::span<const Real> jointImpulses(JointId joint) const;
     /// Of the contacts and joints of the last step, between dynamic bodies, asleep or not.

@@ -150,6 +150,12 @@ std::span<const typename S::Real> World<S>::jointImpulses(JointId joint) const {
     return {record.total.data(), record.rows};
 }
 
+template <class S>
+std::pair<std::uint32_t, std::uint32_t> World<S>::jointRows(JointId joint) const {
+    const auto& record = joints_.records()[jointIds_.dense(joint)];
+    return {record.firstRow, record.rows};
+}
+
 #define RIGOR_INSTANTIATE(S)                                                           \
     template JointId World<S>::addJoint(const JointDef<S>&);                           \
     template void World<S>::removeJoint(JointId);                                      \
@@ -163,7 +169,8 @@ std::span<const typename S::Real> World<S>::jointImpulses(JointId joint) const {
     template void World<S>::setJointMotor(JointId, int, Real, Real);                   \
     template void World<S>::setJointTarget(JointId, int, Real);                        \
     template const JointAxis<World<S>::Real>& World<S>::jointAxis(JointId, int) const; \
-    template std::span<const World<S>::Real> World<S>::jointImpulses(JointId) const;
+    template std::span<const World<S>::Real> World<S>::jointImpulses(JointId) const;   \
+    template std::pair<std::uint32_t, std::uint32_t> World<S>::jointRows(JointId) const;
 RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)
