@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "reports/data_files.hpp"
+
 namespace rigor::report {
 
 std::vector<std::size_t> evenIndices(std::size_t count, std::size_t most) {
@@ -47,17 +49,7 @@ std::string packSingles(std::span<const double> values) {
         const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
         for (int shift = 0; shift < 32; shift += 8) bytes += static_cast<char>((bits >> shift) & 0xFF);
     }
-    static constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group = (group << 8) | (k < left ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k) out += k <= left ? kAlphabet[(group >> (18 - 6 * k)) & 63] : '=';
-    }
-    return out;
+    return base64(bytes);
 }
 
 }  // namespace rigor::report

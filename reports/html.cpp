@@ -62,13 +62,14 @@ std::string htmlReport(const ViewModel& view, const TrajectoryLoader& load, cons
     std::string page(webAsset("page.html"));
     const auto& suite = view.run().suite;
     fill(page, "<!--title-->", "Rigor report" + (suite.empty() ? "" : ": " + escapeMarkup(suite)));
-    fill(page, "/*style*/", inlined("style.css"));
+    fill(page, "/*style*/", inlined("report.css"));
 
     std::string data = dataElement("run-data", overviewJson(view));
     if (!study.empty()) data += dataElement("study-data", study);
     for (std::size_t i = 0; i < view.run().scenarios.size(); ++i)
         data += dataElement("scenario-data-" + std::to_string(i), scenarioJson(view, i, load));
-    std::string scripts = "<script>" + inlined("chart.min.js") + "</script>\n";
+    std::string scripts =
+        "<script>" + inlined("chart.min.js") + "</script>\n<script>" + inlined("report.js") + "</script>\n";
     for (const char* name : kScripts) scripts += "<script>\n" + inlined(name) + "</script>\n";
     const auto at = page.find("<!--content-->");
     if (at == std::string::npos) throw std::logic_error("report: template without content mark");

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// node build.mjs OUTPUT [--tests]
+// The bundles that are embedded in the program: each is one script and one style sheet, fonts and pictures inside,
+// so that a page fetches nothing. With --tests the tests instead, for `node --test`.
+import { readdirSync } from 'node:fs';
+import { build } from 'esbuild';
+
+const [output = 'dist', mode] = process.argv.slice(2);
+
+const pages = {
+  entryPoints: { report: 'src/report/main.ts', live: 'src/live/main.ts' },
+  format: 'iife',
+  target: ['chrome110', 'firefox115', 'safari16.4'],
+  minify: true,
+  legalComments: 'inline',
+  loader: { '.woff2': 'dataurl', '.woff': 'empty', '.ttf': 'empty' },
+};
+const tests = {
+  entryPoints: ['unit', 'browser'].flatMap((kind) =>
+    readdirSync(`tests/${kind}`)
+      .filter((name) => name.endsWith('.test.ts'))
+      .map((name) => `tests/${kind}/${name}`),
+  ),
+  outbase: 'tests',
+  format: 'cjs', // finds the libraries by NODE_PATH
+  outExtension: { '.js': '.cjs' },
+  platform: 'node',
+  target: 'node18',
+  external: ['playwright-core'],
+};
+
+await build({
+  ...(mode === '--tests' ? tests : pages),
+  outdir: output,
+  bundle: true,
+  charset: 'utf8',
+  logLevel: 'warning',
+});

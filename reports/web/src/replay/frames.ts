@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What the 3D view shows, wherever it comes from: a report's replay file, a stored trajectory, a live run.
+// World frame, SI units; quaternions w x y z; bodies by their place in the scenario.
+
+/** Contacts of one frame, `count` of each; vectors have three numbers a contact. */
+export interface Contacts {
+  count: number;
+  bodyA: ArrayLike<number>;
+  bodyB: ArrayLike<number>;
+  pointA: ArrayLike<number>; // [m] on A
+  pointB: ArrayLike<number>; // [m] on B
+  normal: ArrayLike<number>; // unit, from A to B
+  depth: ArrayLike<number>; // [m], > 0: overlap
+  normalImpulse: ArrayLike<number>; // [N s]; NaN where the engine does not tell
+  frictionImpulse: ArrayLike<number>; // [N s] on B
+}
+
+/** State of all bodies at one time. */
+export interface Frame {
+  time: number; // [s]
+  step: number; // steps since the start
+  position: ArrayLike<number>; // 3 a body [m]; NaN where unknown
+  orientation: ArrayLike<number>; // 4 a body
+  velocity: ArrayLike<number> | null; // 3 a body [m/s]
+  angularVelocity: ArrayLike<number> | null; // 3 a body [rad/s]
+  contacts: Contacts | null; // null: not stored for this frame
+}
+
+/** A sequence of frames with a time axis: one engine's run, or the reference. */
+export interface FrameSource {
+  label: string; // "bullet matched", "reference"
+  spec: string; // engine spec, "" for the reference
+  colour: string; // CSS
+  ghost: boolean; // drawn as an outline over the others
+  times: ArrayLike<number>; // [s], ascending; of a live run: those known so far
+  /** The frame at an index of `times`. May reuse memory: valid until the next call. */
+  frame(index: number): Frame;
+}
+
+/** Index of the last time <= t (with a tolerance of a millionth of a step), at least 0. */
+export function indexAt(times: ArrayLike<number>, t: number): number {
+  let low = 0;
+  let high = times.length - 1;
+  const slack = 1e-9 + 1e-6 * Math.abs((times[1] ?? 0) - (times[0] ?? 0));
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if ((times[middle] as number) <= t + slack) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}

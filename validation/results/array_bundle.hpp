@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Named arrays of numbers with a JSON head in one piece of memory: how frames reach the 3D view, from a
+// report or over a socket. Little-endian:
+//   uint32 length of the head | head (UTF-8 JSON) | padding to 8 | arrays, each padded to 8
+// The head is {"meta": any, "arrays": [{"name", "type", "offset", "count"}]}; offsets [bytes] count from the
+// first array; type is f64, f32, i32, i16 or u8. reports/web/src/common/arrays.ts reads it.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rigor::results {
+
+class ArrayBundle {
+  public:
+    /// Names must differ; the values are copied.
+    void add(std::string_view name, std::span<const double> values);
+    void add(std::string_view name, std::span<const float> values);
+    void add(std::string_view name, std::span<const std::int32_t> values);
+    void add(std::string_view name, std::span<const std::int16_t> values);
+    void add(std::string_view name, std::span<const std::uint8_t> values);
+
+    /// The whole bundle; `meta` is any JSON value.
+    std::string bytes(const nlohmann::ordered_json& meta) const;
+
+  private:
+    struct Entry {
+        std::string name;
+        const char* type;
+        std::size_t offset, count;
+    };
+    template <class T>
+    void append(std::string_view name, const char* type, std::span<const T> values);
+
+    std::vector<Entry> entries_;
+    std::string body_;
+};
+
+}  // namespace rigor::results
