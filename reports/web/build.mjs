@@ -4,7 +4,7 @@
 // node build.mjs OUTPUT [--tests]
 // The bundles that are embedded in the program: each is one script and one style sheet, fonts and pictures inside,
 // so that a page fetches nothing. With --tests the tests instead, for `node --test`.
-import { readdirSync } from 'node:fs';
+import { existsSync, readdirSync } from 'node:fs';
 import { build } from 'esbuild';
 
 const [output = 'dist', mode] = process.argv.slice(2);
@@ -19,7 +19,7 @@ const pages = {
 };
 const tests = {
   entryPoints: ['unit', 'browser'].flatMap((kind) =>
-    readdirSync(`tests/${kind}`)
+    (existsSync(`tests/${kind}`) ? readdirSync(`tests/${kind}`) : [])
       .filter((name) => name.endsWith('.test.ts'))
       .map((name) => `tests/${kind}/${name}`),
   ),

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What curves, tables and the replay of one scenario share: the time looked at, the engine and pair looked at, and
+// which engines are switched off. Each part reads, sets and follows the same observables and knows no other part.
+
+/** A value that tells when it changes. `source`: who set it, so that a listener can leave its own changes alone. */
+export class Observable<T> {
+  #value: T;
+  readonly #listeners = new Set<(value: T, source: unknown) => void>();
+
+  constructor(value: T) {
+    this.#value = value;
+  }
+
+  get value(): T {
+    return this.#value;
+  }
+
+  /** Tells the listeners unless the value is the same. */
+  set(value: T, source?: unknown): void {
+    if (Object.is(value, this.#value)) return;
+    this.#value = value;
+    for (const listener of [...this.#listeners]) listener(value, source);
+  }
+
+  /** Follows from now on; returns what ends it. */
+  follow(listener: (value: T, source: unknown) => void): () => void {
+    this.#listeners.add(listener);
+    return () => this.#listeners.delete(listener);
+  }
+}
+
+/** What a link of a table asks to be shown: of one engine, and of two bodies where the row is about a pair. */
+export interface Focus {
+  spec: string;
+  bodies: string[]; // names; empty: the whole scene
+}
+
+export interface Cursor {
+  time: Observable<number>; // [s], >= 0
+  focus: Observable<Focus | null>;
+  hidden: Observable<ReadonlySet<string>>; // specs that are switched off, in curves and replay alike
+}
+
+export function newCursor(time = 0): Cursor {
+  return {
+    time: new Observable(time),
+    focus: new Observable<Focus | null>(null),
+    hidden: new Observable<ReadonlySet<string>>(new Set()),
+  };
+}
