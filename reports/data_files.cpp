@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 namespace rigor::report {
-namespace {
 
 std::string gzip(std::string_view bytes) {
     constexpr int kGzipWindow = 15 + 16;
@@ -28,8 +27,6 @@ std::string gzip(std::string_view bytes) {
     if (result != Z_STREAM_END) throw std::runtime_error("report: zlib cannot compress a data file");
     return out;
 }
-
-}  // namespace
 
 std::string base64(std::string_view bytes) {
     static constexpr char kAlphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
