@@ -9,6 +9,8 @@ export interface Contacts {
   count: number;
   bodyA: ArrayLike<number>;
   bodyB: ArrayLike<number>;
+  shapeA: ArrayLike<number>; // place among the shapes of A
+  shapeB: ArrayLike<number>;
   pointA: ArrayLike<number>; // [m] on A
   pointB: ArrayLike<number>; // [m] on B
   normal: ArrayLike<number>; // unit, from A to B
@@ -28,13 +30,27 @@ export interface Frame {
   contacts: Contacts | null; // null: not stored for this frame
 }
 
+/** What the view can jump to. */
+export interface ReplayEvent {
+  time: number; // [s]
+  kind: 'divergence' | 'parting' | 'largest' | 'audit' | 'contact_begin' | 'contact_end' | 'nonfinite';
+  what?: string; // metric, auditor or other engine's spec
+  subject?: string; // body, "a|b"
+  value?: number;
+  unit?: string;
+  threshold?: number; // divergence, parting: the distance that was passed [m]
+  text?: string;
+}
+
 /** A sequence of frames with a time axis: one engine's run, or the reference. */
 export interface FrameSource {
   label: string; // "bullet matched", "reference"
   spec: string; // engine spec, "" for the reference
   colour: string; // CSS
-  ghost: boolean; // drawn as an outline over the others
-  times: ArrayLike<number>; // [s], ascending; of a live run: those known so far
+  ghost: boolean; // drawn translucent over the others
+  note: string; // what is missing: "every 4 steps", "crashed: SIGSEGV"; "" nothing
+  events: readonly ReplayEvent[]; // in time order
+  times: ArrayLike<number>; // [s], ascending; of a live run: those known so far; empty: nothing to show
   /** The frame at an index of `times`. May reuse memory: valid until the next call. */
   frame(index: number): Frame;
 }
