@@ -188,7 +188,11 @@ Json metrics() {
 Json references() {
     Json list = Json::array();
     for (const auto& r : validation::referenceTable())
-        list.push_back({{"name", r.name}, {"title", r.title}, {"formula", r.formula}, {"source", r.source}});
+        list.push_back({{"name", r.name},
+                        {"title", r.title},
+                        {"formula", r.formula},
+                        {"tex", r.tex},
+                        {"source", r.source}});
     return list;
 }
 

@@ -88,8 +88,27 @@ Json timingsJson(const CaseRow& row) {
                         {"p90", number(t.p90)},
                         {"total", number(t.total)},
                         {"samples", t.samples},
-                        {"meanContacts", number(t.meanContacts)}});
+                        {"meanContacts", number(t.meanContacts)},
+                        {"low", number(t.low)},
+                        {"high", number(t.high)},
+                        {"bodies", t.bodies}});
     return list;
+}
+
+/// What a step cost, with the medians of what the engine told of its parts.
+Json stepJson(const CaseRow& row, const results::TimingRow& step) {
+    Json phases = Json::object();
+    for (const auto& t : row.timings)
+        if (t.phase != step.phase && t.phase != "build") phases[t.phase] = number(t.median);
+    return {{"median", number(step.median)},
+            {"low", number(step.low)},
+            {"high", number(step.high)},
+            {"p10", number(step.p10)},
+            {"p90", number(step.p90)},
+            {"samples", step.samples},
+            {"contacts", number(step.meanContacts)},
+            {"bodies", step.bodies},
+            {"phases", phases}};
 }
 
 /// One line of the scoreboard and of the timing table.
@@ -105,12 +124,7 @@ Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) 
     brief["value"] = main ? number(main->value) : Json(nullptr);
     brief["bound"] = main ? number(main->bound) : Json(nullptr);
     const auto* timing = stepTiming(row);
-    brief["step"] = timing ? Json{{"median", number(timing->median)},
-                                  {"p10", number(timing->p10)},
-                                  {"p90", number(timing->p90)},
-                                  {"samples", timing->samples},
-                                  {"contacts", number(timing->meanContacts)}}
-                           : Json(nullptr);
+    brief["step"] = timing ? stepJson(row, *timing) : Json(nullptr);
     brief["inRun"] = inRunJson(row);
     return brief;
 }
@@ -140,6 +154,7 @@ Json scenariosJson(const ViewModel& view) {
                         {"reference", s.reference},
                         {"referenceTitle", s.referenceTitle},
                         {"referenceFormula", s.referenceFormula},
+                        {"referenceTex", s.referenceTex},
                         {"referenceSource", s.referenceSource},
                         {"referenceProblem", s.referenceProblem},
                         {"main", {{"name", metric.name}, {"unit", metric.unit}, {"kind", metric.kind}}},

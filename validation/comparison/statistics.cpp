@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
+#include <cmath>
 #include <cstdlib>
 
 namespace rigor::validation {
@@ -19,7 +20,10 @@ std::optional<Interval> medianInterval(std::vector<double> values) {
     const auto n = values.size();
     if (n < 6) return std::nullopt;
     const boost::math::binomial distribution(static_cast<double>(n), 0.5);
-    std::size_t k = 0;  // P(Bin < k + 1) = cdf(k)
+    // P(Bin < k + 1) = cdf(k). Below n/2 - 2 sqrt(n) it is at most e^-8 (Hoeffding): nothing to look at
+    // there.
+    const double size = static_cast<double>(n);
+    auto k = static_cast<std::size_t>(std::max(0.0, size / 2 - 2 * std::sqrt(size)));
     while (boost::math::cdf(distribution, static_cast<double>(k)) <= 0.025) ++k;
     std::sort(values.begin(), values.end());
     return Interval{values[k - 1], values[n - k]};

@@ -78,7 +78,8 @@ class Reference {
 struct ReferenceEntry {
     const char* name;
     const char* title;
-    const char* formula;  ///< plain text for the report
+    const char* formula;  ///< plain text, for the terminal
+    const char* tex;      ///< the same and its symbols as TeX for display mode, several lines in `aligned`
     const char* source;   ///< literature
     std::unique_ptr<Reference> (*make)(const scenario::Scenario&, const scenario::ReferenceSpec&);
 };

@@ -9,14 +9,14 @@
 
 namespace rigor::validation {
 
-#define REFERENCE(name, maker, title, formula, source) \
+#define REFERENCE(name, maker, title, formula, tex, source) \
     std::unique_ptr<Reference> maker(const scenario::Scenario&, const scenario::ReferenceSpec&);
 #include "validation/references/references.def"
 #undef REFERENCE
 
 const std::vector<ReferenceEntry>& referenceTable() {
     static const std::vector<ReferenceEntry> table{
-#define REFERENCE(name, maker, title, formula, source) {#name, title, formula, source, &maker},
+#define REFERENCE(name, maker, title, formula, tex, source) {#name, title, formula, tex, source, &maker},
 #include "validation/references/references.def"
 #undef REFERENCE
     };

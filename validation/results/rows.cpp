@@ -46,8 +46,9 @@ void writeMeasured(SQLite::Database& database, const CaseRow& c) {
           << a.undecided << a.normalErrorMax << a.normalErrorMedian << a.depthErrorMax << a.depthErrorMedian
           << a.pointErrorMax << a.worst << a.note;
     });
-    writeList(database, "timings", 9, c.id, c.timings, [](Binder& b, const TimingRow& t) {
-        b << t.phase << t.median << t.p10 << t.p90 << t.total << t.samples << t.meanContacts;
+    writeList(database, "timings", 12, c.id, c.timings, [](Binder& b, const TimingRow& t) {
+        b << t.phase << t.median << t.p10 << t.p90 << t.total << t.samples << t.meanContacts << t.low
+          << t.high << t.bodies;
     });
 }
 
@@ -123,10 +124,14 @@ void readMeasured(SQLite::Database& database, const CaseIndex& cases) {
                      a.spurious >> a.undecided >> a.normalErrorMax >> a.normalErrorMedian >>
                      a.depthErrorMax >> a.depthErrorMedian >> a.pointErrorMax >> a.worst >> a.note;
              });
-    readList(database, cases, "timings", "phase, median, p10, p90, total, samples, mean_contacts",
+    const bool hasIntervals = schemaVersionOf(database) >= 3;
+    readList(database, cases, "timings",
+             hasIntervals ? "phase, median, p10, p90, total, samples, mean_contacts, low, high, bodies"
+                          : "phase, median, p10, p90, total, samples, mean_contacts, NULL, NULL, 0",
              [](CaseRow& c, Taker& t) {
                  TimingRow& r = c.timings.emplace_back();
-                 t >> r.phase >> r.median >> r.p10 >> r.p90 >> r.total >> r.samples >> r.meanContacts;
+                 t >> r.phase >> r.median >> r.p10 >> r.p90 >> r.total >> r.samples >> r.meanContacts >>
+                     r.low >> r.high >> r.bodies;
              });
 }
 
@@ -164,15 +169,16 @@ void readHeader(SQLite::Database& database, Run& run) {
     }
     SQLite::Statement scenarios(
         database,
-        "SELECT name, title, description, source, isolates, tags, observed, metrics, dimension, duration, "
-        "time_steps, reference, reference_title, reference_formula, reference_source, reference_problem, "
-        "text "
-        "FROM scenarios ORDER BY position");
+        std::string("SELECT name, title, description, source, isolates, tags, observed, metrics, dimension, "
+                    "duration, time_steps, reference, reference_title, reference_formula, reference_source, "
+                    "reference_problem, text, ") +
+            (schemaVersionOf(database) >= 3 ? "reference_tex" : "''") + " FROM scenarios ORDER BY position");
     while (scenarios.executeStep()) {
         ScenarioRow& s = run.scenarios.emplace_back();
         Taker(scenarios) >> s.name >> s.title >> s.description >> s.source >> s.isolates >> s.tags >>
             s.observed >> s.metrics >> s.dimension >> s.duration >> s.timeSteps >> s.reference >>
-            s.referenceTitle >> s.referenceFormula >> s.referenceSource >> s.referenceProblem >> s.text;
+            s.referenceTitle >> s.referenceFormula >> s.referenceSource >> s.referenceProblem >> s.text >>
+            s.referenceTex;
     }
 }
 
@@ -211,13 +217,13 @@ void writeHeaderRows(SQLite::Database& database, const Run& run) {
         (Binder(engines) << position++ << e.name << e.title << e.version << e.precision << e.buildNotes
                          << e.problem)
             .run();
-    SQLite::Statement scenarios(database, insertInto("scenarios", 18));
+    SQLite::Statement scenarios(database, insertInto("scenarios", 19));
     position = 0;
     for (const ScenarioRow& s : run.scenarios)
         (Binder(scenarios) << position++ << s.name << s.title << s.description << s.source << s.isolates
                            << s.tags << s.observed << s.metrics << s.dimension << s.duration << s.timeSteps
                            << s.reference << s.referenceTitle << s.referenceFormula << s.referenceSource
-                           << s.referenceProblem << s.text)
+                           << s.referenceProblem << s.text << s.referenceTex)
             .run();
 }
 

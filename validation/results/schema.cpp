@@ -25,7 +25,8 @@ CREATE TABLE engines (
 CREATE TABLE scenarios (
     position INTEGER PRIMARY KEY, name TEXT UNIQUE, title TEXT, description TEXT, source TEXT, isolates TEXT,
     tags TEXT, observed TEXT, metrics TEXT, dimension INTEGER, duration, time_steps TEXT, reference TEXT,
-    reference_title TEXT, reference_formula TEXT, reference_source TEXT, reference_problem TEXT, text TEXT);
+    reference_title TEXT, reference_formula TEXT, reference_source TEXT, reference_problem TEXT, text TEXT,
+    reference_tex TEXT);
 CREATE TABLE cases (
     id TEXT PRIMARY KEY, position INTEGER, scenario TEXT, spec TEXT, engine TEXT, preset TEXT, dt, outcome TEXT,
     verdict TEXT, reason TEXT, wall_seconds, cpu_seconds, steps INTEGER, peak_memory_kib INTEGER, state_hash TEXT,
@@ -52,7 +53,7 @@ CREATE TABLE audit (
     PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE timings (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, phase TEXT, median, p10, p90, total,
-    samples INTEGER, mean_contacts, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+    samples INTEGER, mean_contacts, low, high, bodies INTEGER, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE INDEX cases_by_scenario ON cases (scenario, engine, preset, dt);
 CREATE INDEX metrics_by_name ON metrics (name, subject);
 )sql";
@@ -65,6 +66,14 @@ CREATE TABLE orders (
 CREATE TABLE fairness (
     position INTEGER PRIMARY KEY, mode TEXT, scenario TEXT, metric TEXT, unit TEXT, competitor TEXT, case_id TEXT,
     spec TEXT, dt, error, cost, budget_or_target);
+)sql";
+
+/// New columns stand at the end of their tables, where an older file gets them.
+constexpr const char* kColumnsOfSchema3 = R"sql(
+ALTER TABLE scenarios ADD COLUMN reference_tex TEXT DEFAULT '';
+ALTER TABLE timings ADD COLUMN low;
+ALTER TABLE timings ADD COLUMN high;
+ALTER TABLE timings ADD COLUMN bodies INTEGER DEFAULT 0;
 )sql";
 
 /// A committed transaction is on the disk: rollback journal, synced. One file, whole at rest, that can be
@@ -88,9 +97,11 @@ void checkVersion(SQLite::Database& database, const std::filesystem::path& file)
 
 /// A run of an older rigor that is gone on with.
 void upgrade(SQLite::Database& database) {
-    if (schemaVersionOf(database) >= 2) return;
+    const int version = schemaVersionOf(database);
+    if (version >= kSchemaVersion) return;
     SQLite::Transaction transaction(database);
-    database.exec(kAnalysisTables);
+    if (version < 2) database.exec(kAnalysisTables);
+    if (version < 3) database.exec(kColumnsOfSchema3);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
 }

@@ -82,6 +82,9 @@ struct TimingRow {
     double median = 0.0, p10 = 0.0, p90 = 0.0, total = 0.0;  ///< per step, except total
     std::int64_t samples = 0;
     double meanContacts = 0.0;
+    /// 95 % interval of the median; none for fewer than six samples and in runs before schema 3.
+    std::optional<double> low = std::nullopt, high = std::nullopt;
+    std::int64_t bodies = 0;  ///< that move; 0 in runs before schema 3
 };
 
 struct CaseRow {
@@ -140,6 +143,7 @@ struct ScenarioRow {
     double duration = 0.0;
     std::vector<double> timeSteps;
     std::string reference, referenceTitle, referenceFormula, referenceSource;  ///< "" when cross-engine only
+    std::string referenceTex;      ///< the formula as TeX, display mode; "" in runs before schema 3
     std::string referenceProblem;  ///< why the reference does not hold for these values; "" when it does
     std::string text;              ///< the scenario file as run (JSON, overrides applied)
 };

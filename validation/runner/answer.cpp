@@ -77,7 +77,10 @@ json timingToJson(const TimingRow& t) {
             numberToJson(t.p90),
             numberToJson(t.total),
             t.samples,
-            numberToJson(t.meanContacts)};
+            numberToJson(t.meanContacts),
+            optional(t.low),
+            optional(t.high),
+            t.bodies};
 }
 TimingRow timingFromJson(const json& j) {
     return {j.at(0),
@@ -86,7 +89,10 @@ TimingRow timingFromJson(const json& j) {
             numberFromJson(j.at(3)),
             numberFromJson(j.at(4)),
             j.at(5),
-            numberFromJson(j.at(6))};
+            numberFromJson(j.at(6)),
+            optionalFrom(j.at(7)),
+            optionalFrom(j.at(8)),
+            j.at(9)};
 }
 
 template <class Row>

@@ -40,7 +40,7 @@ results::ScenarioRow scenarioRow(const CasePlan& plan) {
     row.reference = s.reference->name;
     if (const ReferenceEntry* entry = findReference(s.reference->name); entry != nullptr)
         row.referenceTitle = entry->title, row.referenceFormula = entry->formula,
-        row.referenceSource = entry->source;
+        row.referenceTex = entry->tex, row.referenceSource = entry->source;
     row.referenceProblem = referenceOf(s).problem;
     return row;
 }

@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <string>
@@ -36,6 +37,11 @@ std::int64_t peakMemoryKiB() {
     struct rusage usage {};
     getrusage(RUSAGE_SELF, &usage);
     return usage.ru_maxrss;
+}
+
+std::int64_t movingBodies(const Scenario& scenario) {
+    return std::count_if(scenario.bodies.begin(), scenario.bodies.end(),
+                         [](const scenario::Body& body) { return body.type == scenario::BodyType::Dynamic; });
 }
 
 CaseRow startRow(const Scenario& scenario, const adapter::EngineSpec& spec, double dt) {
@@ -78,6 +84,7 @@ WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec
     row.timings = std::move(run.timings);
     row.timings.insert(row.timings.begin() + 1,
                        {"build", buildSeconds, buildSeconds, buildSeconds, buildSeconds, 1, 0.0});
+    for (auto& timing : row.timings) timing.bodies = movingBodies(scenario);
     whole.live.trajectory = std::move(run.trajectory);
     if (run.nonFinite.empty()) {
         whole.reference = referenceOf(scenario).reference;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "validation/comparison/statistics.hpp"
 #include "validation/hash.hpp"
 #include "validation/runner/cost.hpp"
 #include "validation/runner/forces.hpp"
@@ -25,12 +26,15 @@ double quantile(const std::vector<double>& sorted, double q) {
     return sorted[low] * (1.0 - part) + sorted[high] * part;
 }
 
+/// The interval of the median is that of statistics.hpp: what this run's steps tell of their median. Steps of
+/// one run resemble their neighbours, and another run may find the machine in another mood.
 results::TimingRow timingRow(const std::string& phase, std::vector<double> samples, double meanContacts) {
     results::TimingRow row;
     row.phase = phase, row.meanContacts = meanContacts;
     row.samples = static_cast<std::int64_t>(samples.size());
     if (samples.empty()) return row;
     for (const double s : samples) row.total += s;
+    if (const auto interval = medianInterval(samples)) row.low = interval->low, row.high = interval->high;
     std::sort(samples.begin(), samples.end());
     row.median = quantile(samples, 0.5), row.p10 = quantile(samples, 0.1), row.p90 = quantile(samples, 0.9);
     return row;

@@ -64,7 +64,8 @@ inline CaseRow caseRow(const std::string& id, std::int64_t position) {
                   {"inertia", "block", 1.0, 2.0, 1.0, false}};
     c.audit = {
         {"bullet", "completed", 20, 40, 10, 1, 2, 3, 1e-3, {}, kDenormal, -0.0, {}, "block|floor", "note"}};
-    c.timings = {{"step", 1e-6, 5e-7, 2e-6, 0.5, 360, 4.0}};
+    c.timings = {{"step", 1e-6, 5e-7, 2e-6, 0.5, 360, 4.0, 0.1 + 0.2, kDenormal, 7},
+                 {"build", 1e-6, 5e-7, 2e-6, 0.5, 1, 4.0}};
     return c;
 }
 
@@ -78,7 +79,8 @@ inline Run header() {
     s.isolates = {"friction"}, s.tags = {"a", "b"}, s.observed = {"block"}, s.metrics = {"position_final"};
     s.dimension = 2, s.duration = 1.5, s.timeSteps = {1.0 / 60.0, 1.0 / 240.0};
     s.reference = "sliding_stop", s.referenceTitle = "rt", s.referenceFormula = "x = v0 t - mu g t^2 / 2";
-    s.referenceSource = "rs", s.referenceProblem = "", s.text = "{\"rigor\": 1}";
+    s.referenceTex = "x = v_0 t - \\tfrac12 \\mu g t^2", s.referenceSource = "rs", s.referenceProblem = "",
+    s.text = "{\"rigor\": 1}";
     run.scenarios = {s};
     run.plannedCases = 3;
     return run;

@@ -57,8 +57,10 @@ void expectSameMeasured(const CaseRow& a, const CaseRow& b) {
     ASSERT_EQ(a.timings.size(), b.timings.size());
     for (std::size_t i = 0; i < a.timings.size(); ++i) {
         const TimingRow &m = a.timings[i], &n = b.timings[i];
-        EXPECT_EQ(std::tie(m.phase, m.median, m.p10, m.p90, m.total, m.samples, m.meanContacts),
-                  std::tie(n.phase, n.median, n.p10, n.p90, n.total, n.samples, n.meanContacts));
+        EXPECT_EQ(std::tie(m.phase, m.median, m.p10, m.p90, m.total, m.samples, m.meanContacts, m.low, m.high,
+                           m.bodies),
+                  std::tie(n.phase, n.median, n.p10, n.p90, n.total, n.samples, n.meanContacts, n.low, n.high,
+                           n.bodies));
     }
 }
 
@@ -140,10 +142,10 @@ TEST(Store, EveryFieldSurvivesBitForBit) {
     const ScenarioRow &s = asked.scenarios[0], &r = read.scenarios[0];
     EXPECT_EQ(std::tie(s.name, s.title, s.description, s.source, s.isolates, s.tags, s.observed, s.metrics,
                        s.dimension, s.duration, s.timeSteps, s.reference, s.referenceTitle,
-                       s.referenceFormula, s.referenceSource, s.referenceProblem, s.text),
+                       s.referenceFormula, s.referenceTex, s.referenceSource, s.referenceProblem, s.text),
               std::tie(r.name, r.title, r.description, r.source, r.isolates, r.tags, r.observed, r.metrics,
                        r.dimension, r.duration, r.timeSteps, r.reference, r.referenceTitle,
-                       r.referenceFormula, r.referenceSource, r.referenceProblem, r.text));
+                       r.referenceFormula, r.referenceTex, r.referenceSource, r.referenceProblem, r.text));
     ASSERT_EQ(read.cases.size(), 1u);
     expectSame(caseRow("a", 0), read.cases[0]);
 }
@@ -239,6 +241,16 @@ TEST(Store, AnalysisIsReplacedAsAWhole) {
     expectAnalysed(readRun(folder.path()));
 }
 
+/// Makes the store what an older rigor would have written.
+void takeBackTo(SQLite::Database& database, int version) {
+    database.exec("ALTER TABLE scenarios DROP COLUMN reference_tex");
+    for (const char* column : {"low", "high", "bodies"})
+        database.exec(std::string("ALTER TABLE timings DROP COLUMN ") + column);
+    if (version < 2)
+        for (const char* table : {"orders", "fairness"}) database.exec(std::string("DROP TABLE ") + table);
+    database.exec("PRAGMA user_version = " + std::to_string(version));
+}
+
 TEST(Store, AnOlderSchemaIsReadAndGoneOnWith) {
     const TemporaryFolder folder;
     {
@@ -248,17 +260,51 @@ TEST(Store, AnOlderSchemaIsReadAndGoneOnWith) {
     }
     {
         SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
-        database.exec("DROP TABLE orders");
-        database.exec("DROP TABLE fairness");
-        database.exec("PRAGMA user_version = 1");
+        takeBackTo(database, 1);
     }
-    EXPECT_EQ(readRun(folder.path()).schemaVersion, 1);
-    EXPECT_EQ(readRun(folder.path()).cases.size(), 1u);
-    { RunWriter(folder.path(), true).writeAnalysis(analysed()); }
+    const auto old = readRun(folder.path());
+    EXPECT_EQ(old.schemaVersion, 1);
+    ASSERT_EQ(old.cases.size(), 1u);
+    {
+        RunWriter writer(folder.path(), true);
+        writer.writeCase(caseRow("b", 1));
+        writer.writeAnalysis(analysed());
+    }
     const auto read = readRun(folder.path());
     EXPECT_EQ(read.schemaVersion, kSchemaVersion);
-    EXPECT_EQ(read.cases.size(), 1u);
+    ASSERT_EQ(read.cases.size(), 2u);
+    expectSame(caseRow("b", 1), read.cases[1]);
     expectAnalysed(read);
+}
+
+TEST(Store, WhatOlderSchemasLackedIsEmpty) {
+    const TemporaryFolder folder;
+    {
+        RunWriter writer(folder.path(), false);
+        writer.writeHeader(header());
+        writer.writeCase(caseRow("a", 0));
+    }
+    {
+        SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+        takeBackTo(database, 2);
+    }
+    const auto expectOld = [&](int version) {
+        const auto run = readRun(folder.path());
+        EXPECT_EQ(run.schemaVersion, version);
+        ASSERT_EQ(run.scenarios.size(), 1u);
+        EXPECT_EQ(run.scenarios[0].referenceFormula, header().scenarios[0].referenceFormula);
+        EXPECT_EQ(run.scenarios[0].referenceTex, "");
+        const TimingRow& timing = run.cases.at(0).timings.at(0);
+        EXPECT_EQ(timing.median, caseRow("a", 0).timings[0].median);
+        EXPECT_EQ(timing.low, std::nullopt);
+        EXPECT_EQ(timing.high, std::nullopt);
+        EXPECT_EQ(timing.bodies, 0);
+    };
+    expectOld(2);
+    { RunWriter(folder.path(), true); }
+    expectOld(kSchemaVersion);
+    { RunWriter(folder.path(), true).writeHeader(header()); }
+    EXPECT_EQ(readRun(folder.path()).scenarios[0].referenceTex, header().scenarios[0].referenceTex);
 }
 
 TEST(Store, OneWriterAtATime) {

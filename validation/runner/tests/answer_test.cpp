@@ -37,6 +37,10 @@ TEST(Answer, CasesSurviveTheJourney) {
     EXPECT_EQ(received.audit[0].worst, "block|floor");
     EXPECT_EQ(received.readBack[0].found, std::nextafter(2.0, 3.0));
     EXPECT_EQ(received.timings[0].samples, 360);
+    EXPECT_EQ(received.timings[0].low, 0.1 + 0.2);
+    EXPECT_EQ(received.timings[0].high, results::sample::kDenormal);
+    EXPECT_EQ(received.timings[0].bodies, 7);
+    EXPECT_FALSE(received.timings[1].low.has_value());
     EXPECT_FALSE(received.quantities[0].measured.has_value());
     EXPECT_EQ(received.ledger[0].reason, "the library has no other");
 }

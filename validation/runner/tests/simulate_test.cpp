@@ -128,11 +128,18 @@ TEST(Simulate, TimesStepsAndPhases) {
     EXPECT_LT(step.median, 0.015);
     EXPECT_GE(step.total, 0.19);
     EXPECT_EQ(step.meanContacts, 2.0);
+    ASSERT_TRUE(step.low && step.high);
+    EXPECT_LE(*step.low, step.median);
+    EXPECT_GE(*step.high, step.median);
     const auto& collide = run.timings[1];
     EXPECT_EQ(collide.phase, "collide");
     EXPECT_NEAR(collide.total, 0.25 * 50 * 51 / 2, 1e-9);
     EXPECT_NEAR(collide.median, 0.25 * 25.5, 1e-9);
     EXPECT_NEAR(collide.p90, 0.25 * (1 + 0.9 * 49), 1e-9);
+    // Of fifty samples the 18th and the 33rd: P(Bin(50, 1/2) < 18) = 0.0164, < 19: 0.0325.
+    ASSERT_TRUE(collide.low && collide.high);
+    EXPECT_NEAR(*collide.low, 0.25 * 18, 1e-9);
+    EXPECT_NEAR(*collide.high, 0.25 * 33, 1e-9);
 }
 
 }  // namespace
