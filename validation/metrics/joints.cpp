@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/metrics/joint_coordinates.hpp"
 #include "validation/metrics/metric_parts.hpp"
 
 namespace rigor::validation {
@@ -73,79 +74,6 @@ std::optional<double> axisError(const MetricInput& input, const Joint& joint, st
     return rotationAngle(start, conjugate(a.orientation) * b.orientation);
 }
 
-/// Rotation of B against A since the start, in A's frame (the world's where A is the world).
-Quat turnOf(const MetricInput& input, const Joint& joint, const Pose& a, const Pose& b) {
-    const auto initial = [&](int body) {
-        return body == kNone ? Quat{}
-                             : input.scenario.bodies[static_cast<std::size_t>(body)].pose.orientation;
-    };
-    const Quat start = conjugate(initial(joint.bodyA)) * initial(joint.bodyB);
-    return conjugate(a.orientation) * b.orientation * conjugate(start);
-}
-/// The part of a rotation that is about the unit vector d, in (-pi, pi].
-double twistAbout(const Quat& q, Vec3 d) {
-    const double turn = 2.0 * std::atan2(dot(Vec3{q.x, q.y, q.z}, d), q.w);
-    return std::remainder(turn, 6.283185307179586);
-}
-
-struct CoordinateValue {
-    double value = 0.0;
-    bool turn = false;  ///< an angle about one axis: counted over turns
-};
-/// Coordinate k of a joint as the scenario format counts it, angles within one turn; none where it has none.
-std::optional<CoordinateValue> coordinate(const MetricInput& input, const Joint& joint, std::size_t k,
-                                          std::size_t frame) {
-    const Pose a = poseOf(input, frame, joint.bodyA), b = poseOf(input, frame, joint.bodyB);
-    const Vec3 gap = rotateInverse(a.orientation, b * joint.anchorB - a * joint.anchorA);
-    const Quat turn = turnOf(input, joint, a, b);
-    const bool flat = input.scenario.dimension == 2;
-    const Vec3 z{0, 0, 1};
-    const auto swing = [&] {
-        const Vec3 x = joint.axisA, y = rotate(turn, joint.axisA);
-        return angleBetween(x, y);
-    };
-    switch (joint.type) {
-        case JointType::Hinge:
-            return CoordinateValue{twistAbout(turn, flat ? z : joint.axisA), true};
-        case JointType::Slider:
-            return CoordinateValue{dot(gap, joint.axisA), false};
-        case JointType::Distance:
-            return CoordinateValue{norm(gap), false};
-        case JointType::Ball:
-            return CoordinateValue{swing(), false};
-        case JointType::ConeTwist:
-            if (k == 1) return CoordinateValue{swing(), false};
-            return CoordinateValue{twistAbout(turn, joint.axisA), true};
-        case JointType::Wheel: {
-            if (k == 0) return CoordinateValue{dot(gap, joint.axisA), false};
-            const Quat start =
-                joint.bodyB == kNone
-                    ? Quat{}
-                    : input.scenario.bodies[static_cast<std::size_t>(joint.bodyB)].pose.orientation;
-            const Quat ofA =
-                joint.bodyA == kNone
-                    ? Quat{}
-                    : input.scenario.bodies[static_cast<std::size_t>(joint.bodyA)].pose.orientation;
-            const Vec3 spin = flat ? z : rotateInverse(ofA, rotate(start, joint.spinAxisB));
-            return CoordinateValue{twistAbout(turn, spin), true};
-        }
-        case JointType::SixDof: {
-            const Vec3 x = joint.axisA, y = flat ? Vec3{-x.y, x.x, 0} : joint.normalA;
-            const Vec3 axes[3] = {x, y, flat ? z : cross(x, y)};
-            if (flat ? k < 2 : k < 3) return CoordinateValue{dot(gap, axes[k]), false};
-            // Angles of several free turns depend on their order: only where no other turns.
-            for (std::size_t other = flat ? 2 : 3; jointAxisName(joint.type, flat ? 2 : 3, other); ++other)
-                if (other != k &&
-                    (joint.axes[other].mode == AxisMode::Free || joint.axes[other].mode == AxisMode::Limited))
-                    return std::nullopt;
-            return CoordinateValue{twistAbout(turn, axes[flat ? 2 : k - 3]), true};
-        }
-        case JointType::Fixed:
-            break;
-    }
-    return std::nullopt;
-}
-
 template <class Error>
 std::vector<MetricValue> jointRows(const MetricInput& input, Error error) {
     std::vector<MetricValue> rows;
@@ -183,10 +111,10 @@ std::vector<MetricValue> jointLimitViolation(const MetricInput& input) {
             Worst worst;
             double last = 0.0;
             for (std::size_t i = 0; i < input.trajectory.frames(); ++i) {
-                const auto q = coordinate(input, joint, k, i);
+                const auto q = jointCoordinate(input.scenario, joint, k, poseOf(input, i, joint.bodyA),
+                                               poseOf(input, i, joint.bodyB));
                 if (!q) break;
-                double value = q->value;
-                if (q->turn) value = last + std::remainder(value - last, 6.283185307179586);
+                const double value = q->after(last);
                 last = value;
                 worst.add(std::max({0.0, value - axis.upper, axis.lower - value}), input.trajectory.times[i]);
             }

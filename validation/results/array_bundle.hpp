@@ -26,15 +26,28 @@ class ArrayBundle {
     void add(std::string_view name, std::span<const std::int16_t> values);
     void add(std::string_view name, std::span<const std::uint8_t> values);
 
+    /// Takes over the arrays of another bundle, `prefix` before their names.
+    void take(std::string_view prefix, const ArrayBundle& other);
+
     /// The whole bundle; `meta` is any JSON value.
     std::string bytes(const nlohmann::ordered_json& meta) const;
+    /// What bytes() made, its meta apart. Throws std::runtime_error for anything else.
+    static ArrayBundle parse(std::string_view bytes, nlohmann::ordered_json& meta);
+
+    bool has(std::string_view name) const { return find(name) != nullptr; }
+    /// Throw std::runtime_error where there is no array of this name and type.
+    std::vector<double> doubles(std::string_view name) const;
+    std::vector<std::int32_t> integers(std::string_view name) const;
+    std::size_t size() const { return body_.size(); }  ///< of all arrays [bytes]
 
   private:
     struct Entry {
-        std::string name;
-        const char* type;
+        std::string name, type;
         std::size_t offset, count;
     };
+    const Entry* find(std::string_view name) const;
+    template <class T>
+    std::vector<T> read(std::string_view name, const char* type) const;
     template <class T>
     void append(std::string_view name, const char* type, std::span<const T> values);
 

@@ -4,7 +4,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,65 +14,19 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "validation/runner/start_program.hpp"
+
 namespace rigor::validation {
 namespace {
-
-constexpr std::size_t kTailBytes = 4096;
-constexpr int kExecFailed = 127;
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer);
-#else
-constexpr bool kSanitized = false;
-#endif
-
-/// Between fork and exec only calls that are safe there.
-[[noreturn]] void becomeProgram(char* const* argv, int output, pid_t parent, std::size_t memoryMiB) {
-    setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(kExecFailed);  // it died before prctl took effect
-    struct rlimit none {};
-    setrlimit(RLIMIT_CORE, &none);
-    if (memoryMiB > 0) {
-        const struct rlimit limit { memoryMiB << 20, memoryMiB << 20 };
-        setrlimit(RLIMIT_AS, &limit);
-    }
-    const int null = open("/dev/null", O_RDONLY);
-    if (null >= 0) dup2(null, STDIN_FILENO);
-    dup2(output, STDOUT_FILENO);
-    dup2(output, STDERR_FILENO);
-    execv(argv[0], argv);
-    constexpr char message[] = "cannot run the program itself\n";
-    (void)!write(STDERR_FILENO, message, sizeof message - 1);
-    _exit(kExecFailed);
-}
 
 double seconds(const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
 }
 
-/// Appends what is there; false at the end of the stream.
-bool drain(int file, std::string& tail) {
-    char buffer[4096];
-    for (;;) {
-        const ssize_t n = read(file, buffer, sizeof buffer);
-        if (n > 0) {
-            tail.append(buffer, static_cast<std::size_t>(n));
-            if (tail.size() > 2 * kTailBytes) tail.erase(0, tail.size() - kTailBytes);
-        } else if (n == 0) {
-            return false;
-        } else if (errno != EINTR) {
-            return true;
-        }
-    }
-}
-
 }  // namespace
 
 double timeLimitFactor() {
-    return kSanitized ? 10.0 : 1.0;
+    return isSanitized() ? 10.0 : 1.0;
 }
 
 bool ProcessResult::exitedWith(int code) const {
@@ -81,11 +34,7 @@ bool ProcessResult::exitedWith(int code) const {
 }
 
 std::string ProcessResult::ending() const {
-    if (!WIFSIGNALED(status)) return "exit code " + std::to_string(WEXITSTATUS(status));
-    const int signal = WTERMSIG(status);
-    const char* name = sigabbrev_np(signal);
-    return std::string("SIG") + (name != nullptr ? name : std::to_string(signal).c_str()) + " (" +
-           strsignal(signal) + ")";
+    return endingOf(status);
 }
 
 ProcessPool::~ProcessPool() {
@@ -96,20 +45,14 @@ void ProcessPool::start(ProcessTask task) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
     fcntl(ends[0], F_SETFL, O_NONBLOCK);
-    std::vector<char*> argv;
-    for (auto& argument : task.arguments) argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    const pid_t self = getpid();
-    const std::size_t memory = kSanitized ? 0 : task.limits.memoryMiB;
-    const pid_t pid = fork();
-    if (pid == 0) becomeProgram(argv.data(), ends[1], self, memory);
-    const int problem = errno;
-    close(ends[1]);
-    if (pid < 0) {
-        close(ends[0]);
-        throw std::runtime_error(std::string("fork: ") + std::strerror(problem));
+    pid_t pid = -1;
+    try {
+        pid = startProgram(task.arguments, ends[1], task.limits.memoryMiB);
+    } catch (...) {
+        close(ends[0]), close(ends[1]);
+        throw;
     }
-    setpgid(pid, pid);  // whoever comes first
+    close(ends[1]);
     const auto now = Clock::now();
     const auto limit = std::chrono::duration<double>(task.limits.seconds * timeLimitFactor());
     Running& child = running_.emplace_back();
@@ -133,7 +76,7 @@ void ProcessPool::waitForEvents() {
 /// True when the child has ended and its result is complete.
 bool ProcessPool::collect(Running& child) {
     ProcessResult& result = child.result;
-    if (child.output >= 0 && !drain(child.output, result.outputTail)) {
+    if (child.output >= 0 && !drainOutput(child.output, result.outputTail)) {
         close(child.output);
         child.output = -1;
     }
@@ -148,11 +91,11 @@ bool ProcessPool::collect(Running& child) {
     }
     kill(-child.pid, SIGKILL);  // whatever it may have started
     if (child.output >= 0) {
-        drain(child.output, result.outputTail);
+        drainOutput(child.output, result.outputTail);
         close(child.output);
     }
-    if (result.outputTail.size() > kTailBytes)
-        result.outputTail.erase(0, result.outputTail.size() - kTailBytes);
+    if (result.outputTail.size() > kOutputTailBytes)
+        result.outputTail.erase(0, result.outputTail.size() - kOutputTailBytes);
     result.wallSeconds = std::chrono::duration<double>(Clock::now() - child.started).count();
     result.cpuSeconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     result.peakMemoryKiB = usage.ru_maxrss;

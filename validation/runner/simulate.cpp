@@ -10,7 +10,7 @@
 #include "validation/comparison/statistics.hpp"
 #include "validation/hash.hpp"
 #include "validation/runner/cost.hpp"
-#include "validation/runner/forces.hpp"
+#include "validation/runner/stepper.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -76,19 +76,6 @@ class Stopwatch {
     std::size_t counted_ = 0;
 };
 
-bool isFiniteState(const BodyState& s) {
-    return isFinite(s.position) && isFinite(s.orientation) && isFinite(s.velocity) &&
-           isFinite(s.angularVelocity);
-}
-
-std::string firstNonFinite(const Scenario& scenario, std::span<const BodyState> states, double time) {
-    for (std::size_t i = 0; i < states.size(); ++i)
-        if (!isFiniteState(states[i]))
-            return "the state of " + scenario.bodies[i].name +
-                   " is not finite at t = " + std::to_string(time) + " s";
-    return "";
-}
-
 std::string hashOf(std::span<const BodyState> states) {
     Fnv1a hash;
     for (const BodyState& s : states)
@@ -127,33 +114,28 @@ Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, 
     t.stride = options.stride > 0 ? options.stride : recordingStride(total, bodies);
     const auto stride = static_cast<std::size_t>(t.stride);
 
-    std::vector<BodyState> states(bodies);
+    Stepper stepper(scenario, dt, world);
     std::vector<ContactPoint> contacts;
-    world.readStates(states);
-    appendFrame(t, 0.0, states, {});
-    if (options.onStep) options.onStep(0.0, states, {});
-    run.nonFinite = firstNonFinite(scenario, states, 0.0);
+    appendFrame(t, 0.0, stepper.states(), {});
+    if (options.onStep) options.onStep(0.0, stepper.states(), {});
+    run.nonFinite = stepper.nonFinite();
 
-    const bool needsStates = forcesNeedStates(scenario, world);
-    const bool everyStep = needsStates || static_cast<bool>(options.onStep);
     Stopwatch watch;
-    for (std::size_t step = 0; step < total && run.nonFinite.empty(); ++step) {
-        applyForces(scenario, step, dt, states, world);
+    while (stepper.steps() < total && run.nonFinite.empty()) {
+        stepper.begin();
         watch.measure(world);
-        run.steps = step + 1;
-        const double time = static_cast<double>(step + 1) * dt;
-        const bool isFrame = (step + 1) % stride == 0;
-        if (everyStep || isFrame || step + 1 == total) world.readStates(states);
+        stepper.end();
+        const bool isFrame = stepper.steps() % stride == 0;
         if (isFrame || options.onStep) world.readContacts(contacts);
         if (isFrame) {
-            appendFrame(t, time, states, contacts);
-            run.nonFinite = firstNonFinite(scenario, states, time);
+            appendFrame(t, stepper.time(), stepper.states(), contacts);
+            run.nonFinite = stepper.nonFinite();
         }
-        if (options.onStep) options.onStep(time, states, contacts);
+        if (options.onStep) options.onStep(stepper.time(), stepper.states(), contacts);
     }
-    if (run.nonFinite.empty())
-        run.nonFinite = firstNonFinite(scenario, states, static_cast<double>(run.steps) * dt);
-    run.stateHash = hashOf(states);
+    if (run.nonFinite.empty()) run.nonFinite = stepper.nonFinite();
+    run.steps = stepper.steps();
+    run.stateHash = hashOf(stepper.states());
     run.timings = watch.rows(t);
     run.costs = watch.costs();
     return run;

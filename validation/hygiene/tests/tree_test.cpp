@@ -51,7 +51,8 @@ TEST(Tree, EveryFolderHasAReadme) {
                                "validation/contact_problems",
                                "validation/studies",
                                "validation/symmetry",
-                               "validation/chaos"})
+                               "validation/chaos",
+                               "validation/live"})
         EXPECT_TRUE(exists(std::string(folder) + "/README.md")) << folder;
 }
 

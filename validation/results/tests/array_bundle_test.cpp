@@ -42,6 +42,39 @@ TEST(ArrayBundle, IsAHeadAndAlignedArrays) {
     EXPECT_EQ(bytes.size() % 8, 0u);
 }
 
+TEST(ArrayBundle, IsReadBackAndTakenOver) {
+    ArrayBundle bundle, all;
+    const std::vector<double> times{1.5, -0.0, 1e-310};
+    const std::vector<std::int32_t> bodies{-1, 7, 1 << 30};
+    bundle.add("t", std::span(times));
+    bundle.add("b", std::span(bodies));
+    ordered_json meta;
+    const ArrayBundle back = ArrayBundle::parse(bundle.bytes({{"steps", 3}}), meta);
+    EXPECT_EQ(meta["steps"], 3);
+    EXPECT_EQ(back.doubles("t"), times);
+    all.add("b", std::span(bodies).first(1));
+    all.take("0/", back), all.take("1/", back);
+    const ArrayBundle twice = ArrayBundle::parse(all.bytes(nullptr), meta);
+    EXPECT_EQ(twice.integers("1/b"), bodies);
+    EXPECT_EQ(twice.doubles("0/t"), times);
+    EXPECT_EQ(twice.integers("b"), std::vector<std::int32_t>{-1});
+    EXPECT_FALSE(twice.has("t"));
+    EXPECT_THROW((void)twice.doubles("t"), std::runtime_error);
+    EXPECT_THROW((void)twice.doubles("b"), std::runtime_error) << "another type";
+}
+
+TEST(ArrayBundle, DamagedBytesAreRefused) {
+    ArrayBundle bundle;
+    const std::vector<double> times{1.5, 2.5};
+    bundle.add("t", std::span(times));
+    const std::string bytes = bundle.bytes("meta");
+    ordered_json meta;
+    for (const std::size_t length : {std::size_t{0}, std::size_t{6}, std::size_t{20}, bytes.size() - 1})
+        EXPECT_THROW((void)ArrayBundle::parse(bytes.substr(0, length), meta), std::runtime_error) << length;
+    EXPECT_THROW((void)ArrayBundle::parse("nonsense and more of it", meta), std::runtime_error);
+    EXPECT_NO_THROW((void)ArrayBundle::parse(bytes, meta));
+}
+
 TEST(ArrayBundle, MayHoldNothing) {
     const std::string bytes = ArrayBundle().bytes(nullptr);
     EXPECT_EQ(bytes.size() % 8, 0u);

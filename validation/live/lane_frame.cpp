@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/live/lane_frame.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace rigor::validation {
+namespace {
+
+using adapter::BodyState;
+using adapter::ContactPoint;
+using nlohmann::json;
+using scenario::Vec3;
+
+/// An array in the making.
+class Numbers {
+  public:
+    Numbers& operator<<(const Vec3& v) {
+        values_.insert(values_.end(), {v.x, v.y, v.z});
+        return *this;
+    }
+    Numbers& operator<<(double v) {
+        values_.push_back(v);
+        return *this;
+    }
+    void into(Packet& packet, const char* name) const { packet.arrays.add(name, std::span(values_)); }
+
+  private:
+    std::vector<double> values_;
+};
+class Indices {
+  public:
+    Indices& operator<<(int v) {
+        values_.push_back(v);
+        return *this;
+    }
+    Indices& operator<<(std::size_t v) { return *this << static_cast<int>(v); }
+    Indices& operator<<(const adapter::ShapeName& s) { return *this << s.body << s.shape; }
+    void into(Packet& packet, const char* name) const { packet.arrays.add(name, std::span(values_)); }
+
+  private:
+    std::vector<std::int32_t> values_;
+};
+
+void addStates(Packet& packet, std::span<const BodyState> states) {
+    Numbers position, orientation, velocity, angularVelocity;
+    for (const BodyState& s : states) {
+        position << s.position;
+        orientation << s.orientation.w << s.orientation.x << s.orientation.y << s.orientation.z;
+        velocity << s.velocity;
+        angularVelocity << s.angularVelocity;
+    }
+    position.into(packet, "position"), orientation.into(packet, "orientation");
+    velocity.into(packet, "velocity"), angularVelocity.into(packet, "angular_velocity");
+}
+
+void addContacts(Packet& packet, const std::vector<ContactPoint>& contacts) {
+    Indices bodyA, bodyB, shapes;
+    Numbers pointA, pointB, normal, depth, normalImpulse, frictionImpulse;
+    for (const ContactPoint& c : contacts) {
+        bodyA << c.bodyA, bodyB << c.bodyB, shapes << c.shapeA << c.shapeB;
+        pointA << c.pointA, pointB << c.pointB, normal << c.normal, depth << c.depth;
+        normalImpulse << (c.hasImpulse ? c.normalImpulse : std::numeric_limits<double>::quiet_NaN());
+        frictionImpulse << c.frictionImpulse;
+    }
+    bodyA.into(packet, "contacts/body_a"), bodyB.into(packet, "contacts/body_b");
+    shapes.into(packet, "contacts/shapes");
+    pointA.into(packet, "contacts/point_a"), pointB.into(packet, "contacts/point_b");
+    normal.into(packet, "contacts/normal"), depth.into(packet, "contacts/depth");
+    normalImpulse.into(packet, "contacts/normal_impulse");
+    frictionImpulse.into(packet, "contacts/friction_impulse");
+}
+
+json counters(const adapter::StepCounters& c) {
+    json out = json::object();
+    const auto put = [&](const char* key, std::int64_t value) {
+        if (value >= 0) out[key] = value;
+    };
+    put("pair_tests", c.pairTests), put("pairs", c.pairs), put("contacts", c.contacts);
+    put("islands", c.islands), put("iterations", c.solverIterations);
+    if (c.residual >= 0.0 && std::isfinite(c.residual)) out["residual"] = c.residual;
+    if (!c.phaseSeconds.empty()) out["phase_seconds"] = c.phaseSeconds;
+    return out;
+}
+
+void addManifolds(Packet& packet, const std::vector<adapter::StagedManifold>& manifolds) {
+    Indices between, features, rows;
+    Numbers normals, pointA, pointB, depth, impulse;
+    for (const auto& m : manifolds) {
+        between << m.a << m.b << m.points.size();
+        normals << m.normal;
+        for (const auto& p : m.points) {
+            features << static_cast<int>(p.feature), rows << p.row;
+            pointA << p.pointA, pointB << p.pointB, depth << p.depth, impulse << p.normalImpulse;
+        }
+    }
+    between.into(packet, "manifolds/between"), normals.into(packet, "manifolds/normal");
+    features.into(packet, "manifolds/feature"), rows.into(packet, "manifolds/row");
+    pointA.into(packet, "manifolds/point_a"), pointB.into(packet, "manifolds/point_b");
+    depth.into(packet, "manifolds/depth"), impulse.into(packet, "manifolds/impulse");
+}
+
+void addRows(Packet& packet, const std::vector<adapter::StagedRow>& rows) {
+    Indices names;
+    Numbers impulse, bias, softness, error, effectiveMass;
+    for (const auto& r : rows) {
+        names << static_cast<int>(r.kind) << r.bodyA << r.bodyB << r.joint;
+        impulse << r.impulse, bias << r.bias, softness << r.softness, error << r.error;
+        effectiveMass << r.effectiveMass;
+    }
+    names.into(packet, "rows/names"), impulse.into(packet, "rows/impulse");
+    bias.into(packet, "rows/bias"), softness.into(packet, "rows/softness");
+    error.into(packet, "rows/error"), effectiveMass.into(packet, "rows/effective_mass");
+}
+
+void addIterations(Packet& packet, const std::vector<adapter::StagedIteration>& iterations) {
+    Indices sizes;
+    Numbers residuals, impulses;
+    for (const auto& i : iterations) {
+        sizes << i.substep << i.impulses.size();
+        residuals << i.residual;
+        for (const double v : i.impulses) impulses << v;
+    }
+    sizes.into(packet, "iterations/sizes"), residuals.into(packet, "iterations/residual");
+    impulses.into(packet, "iterations/impulses");
+}
+
+void addStages(Packet& packet, const adapter::StagedWorld& staged) {
+    Indices boxesOf, pairs, islands;
+    Numbers boxes;
+    for (const auto& box : staged.boxes()) boxesOf << box.of, boxes << box.box.min << box.box.max;
+    for (const auto& pair : staged.pairs()) pairs << pair.a << pair.b;
+    for (const auto& island : staged.islands()) {
+        islands << island.size();
+        for (const int body : island) islands << body;
+    }
+    boxesOf.into(packet, "boxes/of"), boxes.into(packet, "boxes/sides");
+    pairs.into(packet, "pairs"), islands.into(packet, "islands");
+    addManifolds(packet, staged.manifolds());
+    addRows(packet, staged.rows());
+    addIterations(packet, staged.iterations());
+}
+
+json vector(const Vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+}  // namespace
+
+Packet laneFrame(LaneWorld& lane, bool stages) {
+    Packet packet;
+    json& header = packet.header;
+    header["step"] = lane.steps();
+    header["time"] = static_cast<double>(lane.steps()) * lane.dt();
+    header["state"] = lane.nonFinite().empty() ? "ready" : "non_finite";
+    header["message"] = lane.nonFinite();
+    addStates(packet, lane.states());
+    std::vector<ContactPoint> contacts;
+    if (lane.steps() > 0) lane.world().readContacts(contacts);
+    addContacts(packet, contacts);
+    header["counters"] = counters(lane.world().counters());
+    if (const auto pull = lane.pull())
+        header["drag"] = {{"body", lane.drag()->body},
+                          {"point", vector(pull->point)},
+                          {"target", vector(lane.drag()->target)},
+                          {"force", vector(pull->force)}};
+    json broken = json::array();
+    for (std::size_t j = 0; j < lane.scenario().joints.size(); ++j)
+        if (!lane.world().jointHolds(static_cast<int>(j))) broken.push_back(j);
+    header["broken_joints"] = broken;
+    const adapter::StagedWorld* staged = lane.world().staged();
+    header["stage"] = {{"in_step", lane.inStep()},
+                       {"done", lane.lastStage()},
+                       {"next", staged != nullptr ? staged->nextStage() : ""},
+                       {"substep", staged != nullptr ? staged->substep() : 0}};
+    header["has_stages"] = stages && staged != nullptr;
+    if (stages && staged != nullptr) addStages(packet, *staged);
+    return packet;
+}
+
+json laneDescription(LaneWorld& lane) {
+    json ledger = json::array();
+    for (const auto& e : lane.world().ledger())
+        ledger.push_back({{"topic", e.topic},
+                          {"requested", e.requested},
+                          {"resolved", e.resolved},
+                          {"realisation", adapter::realisationName(e.realisation)},
+                          {"reason", e.reason}});
+    return {{"settings", lane.settings()},
+            {"ledger", std::move(ledger)},
+            {"dt", lane.dt()},
+            {"has_stages", lane.world().staged() != nullptr},
+            {"has_snapshots", lane.world().snapshots() != nullptr}};
+}
+
+}  // namespace rigor::validation

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One engine on one scenario, under somebody's hands: forwards by steps or stages, backwards, with a body
+// dragged along. In this process; lane.hpp puts it into one of its own.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/interface/registry.hpp"
+#include "validation/live/scene_now.hpp"
+#include "validation/runner/stepper.hpp"
+
+namespace rigor::validation {
+
+/// A spring with a damper from a point of a dynamic body to a point of the world, as a pointer holds it.
+struct Drag {
+    int body = 0;
+    scenario::Vec3 point;    ///< in the body frame [m]
+    scenario::Vec3 target;   ///< in the world [m]
+    double stiffness = 0.0;  ///< [N/m]; <= 0: such that it swings at 2 Hz. Less where a step is too long
+    friend bool operator==(const Drag&, const Drag&) = default;
+};
+
+class LaneWorld {
+  public:
+    /// Builds the world. Throws adapter::Unsupported, adapter::BadInput, and what a library throws.
+    LaneWorld(scenario::Scenario scenario, adapter::EngineSpec spec, double dt);
+
+    const scenario::Scenario& scenario() const { return scenario_; }
+    const adapter::Settings& settings() const { return settings_; }
+    adapter::World& world() { return *world_; }
+    double dt() const { return dt_; }
+    std::size_t steps() const { return stepper_->steps(); }
+    std::span<const adapter::BodyState> states() { return stepper_->states(); }
+    /// A sentence once a state is not finite: the lane goes no further, only back.
+    const std::string& nonFinite() const { return nonFinite_; }
+
+    /// Goes on for `steps` steps, or less: until `seconds` of wall time are over, at least one. A step that
+    /// has begun in stages is ended first and counts.
+    void advance(std::size_t steps, double seconds);
+    /// Runs one stage; begins a step where none has begun. False: the engine has no stages.
+    bool stage();
+    bool inStep() const;
+    const std::string& lastStage() const { return lastStage_; }  ///< run by stage() in this step; "" none
+    /// To the state after `steps` steps from the start, the drags of the time between repeated.
+    void goTo(std::size_t steps);
+
+    /// What acts from the next step on; none: nothing. Throws adapter::BadInput.
+    void drag(const std::optional<Drag>& drag);
+    const std::optional<Drag>& drag() const { return drag_; }
+    /// Where the spring holds the body now [m] and its force [N]; none without one.
+    struct Pull {
+        scenario::Vec3 point, force;
+    };
+    std::optional<Pull> pull();
+
+    SceneNow now();
+
+  private:
+    struct Kept {
+        std::vector<unsigned char> bytes;
+        std::vector<double> coordinates;
+    };
+
+    void build();
+    void beginStep();
+    void endStep();
+    void watch(bool on);
+    void keep();
+    bool restore(std::size_t steps);
+
+    scenario::Scenario scenario_;
+    adapter::EngineSpec spec_;
+    double dt_;
+    adapter::LoadedEngine engine_;
+    adapter::Settings settings_;
+    std::unique_ptr<adapter::World> world_;
+    std::optional<Stepper> stepper_;
+    JointCoordinates coordinates_;
+    std::string nonFinite_, lastStage_;
+    bool watched_ = false;  ///< the iterations of the solver
+
+    std::optional<Drag> drag_;
+    std::map<std::size_t, std::optional<Drag>> drags_;  ///< in force from that step on
+    std::map<std::size_t, Kept> kept_;                  ///< snapshots by steps taken
+    std::size_t keptBytes_ = 0, keepEvery_ = 1;
+};
+
+}  // namespace rigor::validation

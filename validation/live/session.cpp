@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The clock of a session and what it shows. Commands: session_commands.cpp.
+#include "validation/live/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scenarios/loader/loader.hpp"
+#include "scenarios/loader/write.hpp"
+#include "validation/runner/scenario_settings.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kTick = std::chrono::milliseconds(8);
+constexpr double kLongestTick = 0.1;  ///< [s] a process that was stopped does not run after its clock
+
+}  // namespace
+
+Session::Session(SessionOptions options, const std::string& text, std::vector<adapter::EngineSpec> specs)
+    : options_(std::move(options)) {
+    open(text, specs);
+    ticker_ = std::thread([this] { tick(); });
+}
+
+Session::~Session() {
+    close();
+    ending_ = true;
+    clock_.changed.notify_all();
+    ticker_.join();
+    Slots lanes;
+    {
+        const std::lock_guard lock(clock_.mutex);
+        lanes.swap(lanes_);
+    }
+}
+
+void Session::close() {
+    {
+        const std::lock_guard lock(clock_.mutex);
+        closed_ = true;
+    }
+    clock_.changed.notify_all();
+}
+
+/// Replaces the scenario and all lanes.
+void Session::open(const std::string& text, const std::vector<adapter::EngineSpec>& specs) {
+    auto loaded = scenario::loadScenarioText(text, "scenario");
+    Slots old;
+    {
+        const std::lock_guard lock(clock_.mutex);
+        old.swap(lanes_);
+        opened_ = {loaded.text, std::move(loaded.scenario)};
+        dt_ = options_.dt > 0.0 ? options_.dt : opened_.scenario.timeSteps.front();
+        playing_ = false, clock_.target = 0.0, reached_ = 0.0;
+        for (const adapter::EngineSpec& spec : specs) {
+            if (lanes_.size() == kMostLanes) break;
+            lanes_.push_back(makeLane({nextId_++, spec.text(), opened_.text, opened_.text,
+                                       withScenarioSettings(spec, opened_.text), dt_, 0, std::nullopt}));
+        }
+        ++clock_.sequence;
+    }
+    clock_.changed.notify_all();
+}
+
+std::unique_ptr<LaneSlot> Session::makeLane(LanePlan plan) {
+    return std::make_unique<LaneSlot>(std::move(plan), options_.binary, options_.limits, clock_);
+}
+
+/// Real time times the speed, but no faster than the slowest lane that answers in time.
+void Session::advanceClock(double seconds) {
+    const double wanted = seconds * speed_ / dt_;
+    double slowest = std::numeric_limits<double>::infinity();
+    for (const auto& lane : lanes_)
+        if (lane->setsThePace()) slowest = std::min(slowest, static_cast<double>(lane->step()));
+    const bool anybody = std::any_of(lanes_.begin(), lanes_.end(), [](const auto& lane) {
+        return lane->state() == LaneSlot::State::Ready;
+    });
+    const double before = clock_.target;
+    if (anybody)
+        clock_.target =
+            std::max(clock_.target, std::min(clock_.target + wanted, slowest + std::max(1.0, 4.0 * wanted)));
+    const double rate = (clock_.target - before) * dt_ / seconds;
+    reached_ += (rate - reached_) * std::min(1.0, 2.0 * seconds);
+}
+
+void Session::tick() {
+    auto last = Clock::now();
+    while (!ending_) {
+        std::this_thread::sleep_for(kTick);
+        const auto now = Clock::now();
+        const double seconds = std::min(kLongestTick, std::chrono::duration<double>(now - last).count());
+        last = now;
+        bool moved = false;
+        {
+            const std::lock_guard lock(clock_.mutex);
+            const double before = std::floor(clock_.target);
+            if (playing_) advanceClock(seconds);
+            moved = std::floor(clock_.target) != before;
+        }
+        if (moved) clock_.changed.notify_all();
+    }
+}
+
+LaneSlot* Session::find(int id) {
+    const auto it =
+        std::find_if(lanes_.begin(), lanes_.end(), [id](const auto& lane) { return lane->plan.id == id; });
+    return it == lanes_.end() ? nullptr : it->get();
+}
+
+json Session::state() {
+    json lanes = json::array();
+    for (const auto& lane : lanes_) {
+        json one{{"id", lane->plan.id},
+                 {"title", lane->plan.title},
+                 {"spec", lane->plan.spec.text()},
+                 {"engine", lane->plan.spec.engine},
+                 {"options", lane->plan.spec.options},
+                 {"state", laneStateName(lane->state())},
+                 {"message", lane->message()},
+                 {"step", lane->step()},
+                 {"start_step", lane->plan.startStep},
+                 {"has_stages", lane->hasStages()},
+                 {"frames", lane->frames()}};
+        if (lane->plan.branchOf) one["branch_of"] = *lane->plan.branchOf;
+        lanes.push_back(std::move(one));
+    }
+    return {{"scenario", opened_.scenario.name},
+            {"title", opened_.scenario.title},
+            {"dimension", opened_.scenario.dimension},
+            {"duration", opened_.scenario.duration},
+            {"dt", dt_},
+            {"playing", playing_},
+            {"speed", speed_},
+            {"reached_speed", playing_ ? reached_ : 0.0},
+            {"step", std::floor(clock_.target + 1e-9)},
+            {"stages", clock_.stages},
+            {"lanes", std::move(lanes)}};
+}
+
+std::string Session::frames(std::uint64_t after, double seconds) {
+    const auto deadline =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    Packet packet;
+    {
+        std::unique_lock lock(clock_.mutex);
+        clock_.changed.wait_until(lock, deadline, [&] { return closed_ || clock_.sequence > after; });
+        packet.header["sequence"] = clock_.sequence;
+        packet.header["session"] = state();
+        json frames = json::array();
+        for (const auto& lane : lanes_) {
+            if (lane->sequence() <= after || lane->frames() == 0) continue;
+            json frame = lane->frame().header;
+            packet.arrays.take(std::to_string(lane->plan.id) + "/", lane->frame().arrays);
+            frame["lane"] = lane->plan.id;
+            frame["step"] = lane->step();
+            frame["time"] = static_cast<double>(lane->step()) * lane->plan.dt;
+            frames.push_back(std::move(frame));
+        }
+        packet.header["frames"] = std::move(frames);
+    }
+    return packet.encode();
+}
+
+json Session::scene(int id) {
+    std::string text;
+    json description;
+    {
+        const std::lock_guard lock(clock_.mutex);
+        const LaneSlot* lane = find(id);
+        if (lane == nullptr) return nullptr;
+        text = lane->plan.text, description = lane->description();
+    }
+    const scenario::Scenario s = scenario::loadScenarioText(text, "scenario").scenario;
+    return {{"scenario", json::parse(scenario::scenarioText(s))}, {"description", std::move(description)}};
+}
+
+std::size_t Session::keptBytes() {
+    const std::lock_guard lock(clock_.mutex);
+    std::size_t bytes = 0;
+    for (const auto& lane : lanes_) bytes += lane->frame().arrays.size();
+    return bytes;
+}
+
+}  // namespace rigor::validation

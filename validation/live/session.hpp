@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A live session: one scenario, several lanes, one clock. Commands and frames are JSON and packets; README.md
+// lists them. All functions may be called from any thread.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "validation/live/lane_slot.hpp"
+#include "validation/runner/runner.hpp"
+
+namespace rigor::validation {
+
+struct SessionOptions {
+    std::filesystem::path binary;      ///< the program itself, run again as `rigor __lane`
+    std::filesystem::path saveFolder;  ///< where scenarios are saved
+    LaneLimits limits;
+    double dt = 0.0;  ///< [s]; 0: the scenario's first
+};
+
+/// A command that can not be done; what() says why.
+class CommandError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+class Session {
+  public:
+    static constexpr std::size_t kMostLanes = 8;
+
+    /// Opens the scenario (text as LoadedScenario::text) with a lane for every spec. Throws
+    /// scenario::LoadError.
+    Session(SessionOptions options, const std::string& text, std::vector<adapter::EngineSpec> specs);
+    ~Session();
+
+    /// Does {"command": ..., ...}; returns what it answers. Throws CommandError.
+    nlohmann::json command(const nlohmann::json& request);
+
+    /// All that is newer than `after`, as an encoded packet: the session's state and the last frame of every
+    /// lane that has a newer one. Waits for it at most `seconds`; then without lanes.
+    std::string frames(std::uint64_t after, double seconds);
+
+    /// {"scenario": what the lane runs with everything said in full, to draw it from, "description": how its
+    /// engine was set up}; null: no such lane.
+    nlohmann::json scene(int lane);
+    /// Bytes of frames that are kept.
+    std::size_t keptBytes();
+
+    /// Ends all waiting in frames(); further calls return at once.
+    void close();
+
+  private:
+    struct Opened {
+        std::string text;
+        scenario::Scenario scenario;
+    };
+    using Slots = std::vector<std::unique_ptr<LaneSlot>>;
+
+    void open(const std::string& text, const std::vector<adapter::EngineSpec>& specs);
+    void tick();
+    void advanceClock(double seconds);
+    nlohmann::json state();
+    LaneSlot* find(int id);
+    LaneSlot& require(const nlohmann::json& request);
+    std::unique_ptr<LaneSlot> makeLane(LanePlan plan);
+    nlohmann::json insert(LanePlan plan);
+    NowAnswer nowOf(int id);
+
+    void changePace(const nlohmann::json& request);
+    void step(long by);
+    void stage();
+    void reset();
+    void drag(const nlohmann::json& request, bool release);
+    void remove(int id);
+    nlohmann::json add(const nlohmann::json& request);
+    nlohmann::json branch(const nlohmann::json& request);
+    nlohmann::json save(const nlohmann::json& request);
+
+    SessionOptions options_;
+    SessionClock clock_;
+    // --- under the clock's lock
+    Opened opened_;
+    Slots lanes_;
+    bool playing_ = false, closed_ = false;
+    double speed_ = 1.0, dt_ = 0.0;
+    double reached_ = 0.0;  ///< the speed that the lanes allow, smoothed
+    int nextId_ = 0;
+
+    std::atomic<bool> ending_{false};
+    std::thread ticker_;
+};
+
+}  // namespace rigor::validation

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What a session can be told to do.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include "scenarios/loader/loader.hpp"
+#include "validation/live/saved_scene.hpp"
+#include "validation/live/session.hpp"
+#include "validation/runner/scenario_settings.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr long kMostSteps = 100000;  ///< of one command
+constexpr double kSlowest = 1e-3, kFastest = 1e3;
+
+long wholeNumber(const json& request, const char* key, long otherwise) {
+    if (!request.contains(key)) return otherwise;
+    if (!request[key].is_number_integer())
+        throw CommandError(std::string(key) + ": a whole number is needed");
+    return request[key].get<long>();
+}
+
+/// Writes a file that is not there yet.
+void writeNewFile(const fs::path& file, const std::string& text) {
+    const int out = open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (out < 0)
+        throw CommandError(errno == EEXIST ? "there is a file " + file.string() + " already"
+                                           : file.string() + ": " + std::strerror(errno));
+    std::size_t done = 0;
+    while (done < text.size()) {
+        const ssize_t n = write(out, text.data() + done, text.size() - done);
+        if (n <= 0 && errno != EINTR) break;
+        if (n > 0) done += static_cast<std::size_t>(n);
+    }
+    const bool closed = close(out) == 0;
+    if (done < text.size() || !closed) {
+        unlink(file.c_str());
+        throw CommandError(file.string() + ": could not be written");
+    }
+}
+
+/// The spec of a branch: another engine, or the same with other options; null takes an option away.
+adapter::EngineSpec changedSpec(const adapter::EngineSpec& from, const json& request,
+                                const std::string& original) {
+    adapter::EngineSpec spec = from;
+    if (request.contains("spec"))
+        spec = withScenarioSettings(adapter::parseSpec(request["spec"].get<std::string>()), original);
+    const json options = request.value("options", json::object());
+    for (const auto& [key, value] : options.items()) {
+        if (value.is_null())
+            spec.options.erase(key);
+        else
+            spec.options[key] = value.is_string() ? value.get<std::string>() : value.dump();
+    }
+    return spec;
+}
+
+}  // namespace
+
+json Session::command(const json& request) {
+    json answer = json::object();
+    try {
+        const std::string name = request.is_object() ? request.value("command", "") : "";
+        if (name == "play" || name == "pause" || name == "speed" || name == "stages")
+            changePace(request);
+        else if (name == "step")
+            step(wholeNumber(request, "steps", 1));
+        else if (name == "back")
+            step(-wholeNumber(request, "steps", 1));
+        else if (name == "stage")
+            stage();
+        else if (name == "reset")
+            reset();
+        else if (name == "drag" || name == "release")
+            drag(request, name == "release");
+        else if (name == "add")
+            answer = add(request);
+        else if (name == "branch")
+            answer = branch(request);
+        else if (name == "save")
+            answer = save(request);
+        else if (name == "remove")
+            remove(static_cast<int>(wholeNumber(request, "lane", -1)));
+        else
+            throw CommandError("no command '" + name + "'");
+    } catch (const json::exception& error) {
+        throw CommandError(error.what());
+    } catch (const scenario::LoadError& error) {
+        throw CommandError(error.problems().front().text());
+    } catch (const adapter::BadInput& error) {
+        throw CommandError(error.what());
+    }
+    {
+        const std::lock_guard lock(clock_.mutex);
+        ++clock_.sequence;
+    }
+    clock_.changed.notify_all();
+    return answer;
+}
+
+void Session::changePace(const json& request) {
+    const std::lock_guard lock(clock_.mutex);
+    const std::string name = request.at("command");
+    if (name == "stages") {
+        clock_.stages = request.at("on").get<bool>();
+    } else if (name == "speed") {
+        const double factor = request.at("factor").get<double>();
+        if (!(factor >= kSlowest && factor <= kFastest)) throw CommandError("factor: from 0.001 to 1000");
+        speed_ = factor;
+    } else {
+        playing_ = name == "play";
+        reached_ = 0.0;
+        if (!playing_) clock_.target = std::floor(clock_.target + 1e-9);
+    }
+}
+
+void Session::step(long by) {
+    if (by == 0 || std::abs(by) > kMostSteps) throw CommandError("steps: from 1 to 100000");
+    const std::lock_guard lock(clock_.mutex);
+    playing_ = false;
+    double now = std::floor(clock_.target + 1e-9);
+    if (by > 0) {
+        clock_.target = now + static_cast<double>(by);
+        return;
+    }
+    // Out of a step that has begun, back is its start.
+    const bool inStep =
+        std::any_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane->inStep(); });
+    now = std::max(0.0, now + static_cast<double>(by) + (inStep ? 1.0 : 0.0));
+    clock_.target = now;
+    for (const auto& lane : lanes_)
+        if (lane->alive()) lane->wishGoTo(static_cast<std::size_t>(now));
+}
+
+void Session::stage() {
+    const std::lock_guard lock(clock_.mutex);
+    playing_ = false;
+    clock_.target = std::floor(clock_.target + 1e-9);
+    bool anybody = false;
+    for (const auto& lane : lanes_) {
+        if (lane->state() != LaneSlot::State::Ready || !lane->hasStages()) continue;
+        lane->wishStage();
+        anybody = true;
+    }
+    if (!anybody) throw CommandError("no engine here shows the stages of its step");
+}
+
+/// All lanes back to their start; those that have come to an end begin anew.
+void Session::reset() {
+    Slots gone;  // end after the lock
+    const std::lock_guard lock(clock_.mutex);
+    playing_ = false;
+    clock_.target = 0.0;
+    for (auto& lane : lanes_) {
+        if (lane->alive() || lane->state() == LaneSlot::State::Loading) {
+            lane->wishGoTo(0);
+            continue;
+        }
+        auto fresh = makeLane(lane->plan);
+        gone.push_back(std::exchange(lane, std::move(fresh)));
+    }
+}
+
+void Session::drag(const json& request, bool release) {
+    json wish = release ? json()
+                        : json{{"body", request.at("body")},
+                               {"point", request.at("point")},
+                               {"target", request.at("target")},
+                               {"stiffness", request.value("stiffness", 0.0)}};
+    if (!release)
+        for (const char* key : {"point", "target"})
+            if (!wish[key].is_array() || wish[key].size() != 3)
+                throw CommandError(std::string(key) + ": three numbers are needed");
+    const std::lock_guard lock(clock_.mutex);
+    const long only = wholeNumber(request, "lane", -1);
+    for (const auto& lane : lanes_)
+        if (lane->alive() && (only < 0 || lane->plan.id == only)) lane->wishDrag(wish);
+}
+
+void Session::remove(int id) {
+    std::unique_ptr<LaneSlot> gone;  // ends after the lock: its thread needs it
+    const std::lock_guard lock(clock_.mutex);
+    const auto it =
+        std::find_if(lanes_.begin(), lanes_.end(), [id](const auto& lane) { return lane->plan.id == id; });
+    if (it == lanes_.end()) throw CommandError("no such lane");
+    gone = std::move(*it);
+    lanes_.erase(it);
+}
+
+/// A new lane, once it has loaded; what can not be loaded is an error and no lane.
+json Session::insert(LanePlan plan) {
+    const int id = plan.id;
+    {
+        const std::lock_guard lock(clock_.mutex);
+        if (lanes_.size() >= kMostLanes) throw CommandError("no more than 8 lanes");
+        lanes_.push_back(makeLane(std::move(plan)));
+    }
+    std::string problem;
+    {
+        std::unique_lock lock(clock_.mutex);
+        clock_.changed.wait(lock, [&] {
+            const LaneSlot* lane = find(id);
+            return closed_ || lane == nullptr || lane->state() != LaneSlot::State::Loading;
+        });
+        const LaneSlot* lane = find(id);
+        if (lane != nullptr && !lane->alive())
+            problem = std::string(laneStateName(lane->state())) + ": " + lane->message();
+    }
+    if (!problem.empty()) {
+        remove(id);
+        throw CommandError(problem);
+    }
+    return {{"lane", id}};
+}
+
+json Session::add(const json& request) {
+    LanePlan plan;
+    plan.spec = adapter::parseSpec(request.at("spec").get<std::string>());
+    plan.title = plan.spec.text();
+    {
+        const std::lock_guard lock(clock_.mutex);
+        plan.id = nextId_++;
+        plan.text = plan.original = opened_.text;
+        plan.dt = dt_;
+    }
+    plan.spec = withScenarioSettings(plan.spec, plan.original);
+    return insert(std::move(plan));
+}
+
+NowAnswer Session::nowOf(int id) {
+    std::future<NowAnswer> future;
+    {
+        const std::lock_guard lock(clock_.mutex);
+        LaneSlot* lane = find(id);
+        if (lane == nullptr) throw CommandError("no such lane");
+        future = lane->wishNow();
+    }
+    clock_.changed.notify_all();
+    NowAnswer now = future.get();
+    if (!now.error.empty()) throw CommandError(now.error);
+    return now;
+}
+
+json Session::branch(const json& request) {
+    const int id = static_cast<int>(wholeNumber(request, "lane", -1));
+    const NowAnswer now = nowOf(id);
+    LanePlan plan;
+    {
+        const std::lock_guard lock(clock_.mutex);
+        const LaneSlot* from = find(id);
+        if (from == nullptr) throw CommandError("no such lane");
+        plan = from->plan;
+        plan.id = nextId_++;
+    }
+    plan.spec = changedSpec(plan.spec, request, plan.original);
+    const auto overrides = request.value("set", std::vector<std::string>{});
+    plan.text = scenario::loadScenarioText(now.text, "scenario", overrides).text;
+    plan.startStep = now.step, plan.branchOf = id;
+    plan.title = plan.spec.text();
+    for (const std::string& change : overrides) plan.title += " " + change;
+    json answer = insert(std::move(plan));
+    answer["notes"] = now.notes;
+    return answer;
+}
+
+json Session::save(const json& request) {
+    const int id = static_cast<int>(wholeNumber(request, "lane", -1));
+    const NowAnswer now = nowOf(id);
+    SeenScene seen{now.text, now.notes, {}, 0.0};
+    std::string original, name;
+    {
+        const std::lock_guard lock(clock_.mutex);
+        const LaneSlot* lane = find(id);
+        if (lane == nullptr) throw CommandError("no such lane");
+        seen.spec = lane->plan.spec;
+        seen.time = static_cast<double>(now.step) * lane->plan.dt;
+        original = lane->plan.original;
+        name = opened_.scenario.name;
+    }
+    const std::string text = savedScenario(seen, original);
+    json answer{{"text", text}, {"notes", now.notes}, {"name", savedName(name, seen.time) + ".json"}};
+    if (!request.value("write", false)) return answer;
+    const fs::path file = options_.saveFolder / answer["name"].get<std::string>();
+    writeNewFile(file, text);
+    answer["file"] = file.string();
+    return answer;
+}
+
+}  // namespace rigor::validation

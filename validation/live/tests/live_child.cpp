@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/live/lane_child.hpp"
+#include "validation/runner/runner.hpp"
+
+int main(int argc, char** argv) {
+    return rigor::validation::childMain({argv + 1, argv + argc}, {{"__lane", rigor::validation::laneChild}});
+}

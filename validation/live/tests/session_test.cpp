@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/live/session.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "scenarios/loader/loader.hpp"
+#include "validation/live/tests/live_fixtures.hpp"
+#include "validation/runner/describe.hpp"
+
+namespace rigor::validation {
+namespace {
+
+using nlohmann::json;
+
+/// What a page knows: the last state and the last frame of every lane.
+class Viewer {
+  public:
+    explicit Viewer(Session& session) : session_(session) {}
+    void look(double seconds = 0.05) {
+        const Packet packet = Packet::decode(session_.frames(after_, seconds));
+        bytes_ = packet.encode().size();
+        after_ = packet.header["sequence"];
+        state_ = packet.header["session"];
+        for (const json& frame : packet.header["frames"]) {
+            frames_[frame["lane"]] = frame;
+            const std::string lane = std::to_string(frame["lane"].get<int>());
+            poses_[frame["lane"]] = packet.arrays.doubles(lane + "/position");
+        }
+    }
+    bool until(const std::function<bool()>& condition) {
+        return fixtures::eventually([&] {
+            look();
+            return condition();
+        });
+    }
+    const json& lane(std::size_t i) const { return state_["lanes"][i]; }
+    bool allReady() const {
+        return std::all_of(state_["lanes"].begin(), state_["lanes"].end(),
+                           [](const json& lane) { return lane["state"] != "loading"; });
+    }
+    bool allAt(std::size_t step) const {
+        return std::all_of(state_["lanes"].begin(), state_["lanes"].end(),
+                           [&](const json& lane) { return lane["step"] == step; });
+    }
+    json state_;
+    std::map<int, json> frames_;
+    std::map<int, std::vector<double>> poses_;
+    std::size_t bytes_ = 0;
+
+  private:
+    Session& session_;
+    std::uint64_t after_ = 0;
+};
+
+class Sessions : public testing::Test {
+  protected:
+    void open(const std::string& specs, const std::string& text = fixtures::slidingBlock()) {
+        fixtures::useEngines();
+        SessionOptions options;
+        options.binary = fixtures::childProgram();
+        options.saveFolder = scratch_.path();
+        options.limits.answerSeconds = 1.0;
+        session_ = std::make_unique<Session>(options, text, adapter::parseSpecList(specs));
+        viewer_ = std::make_unique<Viewer>(*session_);
+        ASSERT_TRUE(viewer_->until([&] { return viewer_->allReady(); }));
+    }
+    json tell(json request) { return session_->command(request); }
+
+    ScratchFolder scratch_;
+    std::unique_ptr<Session> session_;
+    std::unique_ptr<Viewer> viewer_;
+};
+
+TEST_F(Sessions, LanesStepTogetherForwardsAndBack) {
+    open("rigor,rigor:solver=tgs_soft");
+    tell({{"command", "step"}, {"steps", 7}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(7); }));
+    const auto seven = viewer_->poses_;
+    tell({{"command", "step"}, {"steps", 5}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(12); }));
+    EXPECT_NE(viewer_->poses_, seven);
+    tell({{"command", "back"}, {"steps", 5}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(7); }));
+    EXPECT_EQ(viewer_->poses_, seven);
+    tell({{"command", "reset"}});
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->allAt(0); }));
+}
+
+TEST_F(Sessions, PlayFollowsRealTimeTimesTheSpeed) {
+    open("rigor");
+    tell({{"command", "speed"}, {"factor", 0.5}});
+    const auto begin = std::chrono::steady_clock::now();
+    tell({{"command", "play"}});
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    tell({{"command", "pause"}});
+    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    viewer_->look(0);
+    const double simulated = viewer_->state_["step"].get<double>() / 120;
+    EXPECT_LE(simulated, 0.5 * wall + 0.02);
+    EXPECT_GE(simulated, 0.2 * wall) << "a busy machine may be late, never early";
+    const auto step = viewer_->state_["step"];
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    viewer_->look(0);
+    EXPECT_EQ(viewer_->state_["step"], step) << "paused";
+}
+
+/// One engine aborts, one hangs, one leaves the numbers at step 5: each says so, the others play on.
+TEST_F(Sessions, EnginesThatFailLeaveTheOthersAlone) {
+    open("double_abort,double_hang,double_nan,double_free_flight,no_such_engine");
+    tell({{"command", "play"}});
+    ASSERT_TRUE(viewer_->until(
+        [&] { return viewer_->lane(3)["step"] > 120 && viewer_->lane(1)["state"] == "timeout"; }));
+    EXPECT_EQ(viewer_->lane(0)["state"], "crashed");
+    EXPECT_THAT(viewer_->lane(0)["message"].get<std::string>(), testing::HasSubstr("SIGABRT"));
+    EXPECT_EQ(viewer_->lane(2)["state"], "non_finite");
+    EXPECT_EQ(viewer_->lane(2)["step"], 5);
+    EXPECT_EQ(viewer_->lane(3)["state"], "ready");
+    EXPECT_EQ(viewer_->lane(4)["state"], "bad_input");
+    EXPECT_THAT(viewer_->lane(4)["message"].get<std::string>(), testing::HasSubstr("no_such_engine"));
+    tell({{"command", "reset"}});
+    EXPECT_TRUE(viewer_->until([&] {
+        return viewer_->lane(0)["state"] == "ready" && viewer_->lane(2)["state"] == "ready";
+    })) << "a reset begins anew";
+}
+
+TEST_F(Sessions, StagesStopInsideAStep) {
+    open("rigor,double_free_flight");
+    EXPECT_TRUE(viewer_->lane(0)["has_stages"].get<bool>());
+    EXPECT_FALSE(viewer_->lane(1)["has_stages"].get<bool>());
+    tell({{"command", "step"}, {"steps", 3}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(3); }));
+    tell({{"command", "stage"}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->frames_[0]["stage"]["done"] == "broad_phase"; }));
+    EXPECT_TRUE(viewer_->frames_[0]["has_stages"].get<bool>());
+    EXPECT_THROW(tell({{"command", "save"}, {"lane", 0}}), CommandError) << "in the middle of a step";
+    for (int i = 0; i < 20 && viewer_->lane(0)["step"] == 3; ++i) {
+        const json before = viewer_->frames_[0]["stage"]["done"];
+        tell({{"command", "stage"}});
+        ASSERT_TRUE(viewer_->until([&] { return viewer_->frames_[0]["stage"]["done"] != before; }));
+    }
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->allAt(4); })) << "the other takes the step as a whole";
+    tell({{"command", "stage"}});
+    tell({{"command", "step"}});
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->allAt(5); }));
+    EXPECT_FALSE(viewer_->frames_[0]["stage"]["in_step"].get<bool>());
+}
+
+/// Both branches are seen: the original goes on as it was, the branch with other physics from there.
+TEST_F(Sessions, ABranchLeavesFromWhereItsOriginIs) {
+    open("rigor");
+    tell({{"command", "step"}, {"steps", 40}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(40); }));
+    const auto same = tell({{"command", "branch"}, {"lane", 0}});
+    const auto other = tell({{"command", "branch"}, {"lane", 0}, {"options", {{"solver", "xpbd"}}}});
+    const auto moon = tell({{"command", "branch"}, {"lane", 0}, {"set", {"gravity=[0,-1.6,0]"}}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(40); }));
+    EXPECT_EQ(viewer_->lane(2)["options"]["solver"], "xpbd");
+    EXPECT_EQ(viewer_->lane(3)["branch_of"], 0);
+    for (const json& branch : {same, other, moon})
+        for (std::size_t i = 0; i < 9; ++i)
+            EXPECT_NEAR(viewer_->poses_[branch["lane"]][i], viewer_->poses_[0][i], 1e-12);
+    tell({{"command", "step"}, {"steps", 60}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(100); }));
+    const double height = viewer_->poses_[0][7], onMoon = viewer_->poses_[moon["lane"]][7];
+    EXPECT_GT(onMoon, height + 0.3) << "the ball falls more slowly";
+    for (std::size_t i = 0; i < 9; ++i)
+        EXPECT_NEAR(viewer_->poses_[same["lane"]][i], viewer_->poses_[0][i], 1e-4);
+    tell({{"command", "back"}, {"steps", 80}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->lane(0)["step"] == 20; }));
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->lane(3)["step"] == 40; })) << "not before its start";
+    EXPECT_THROW(tell({{"command", "branch"}, {"lane", 0}, {"options", {{"solver", "hope"}}}}), CommandError);
+    EXPECT_THROW(tell({{"command", "branch"}, {"lane", 0}, {"set", {"bodies.nobody.mass=1"}}}), CommandError);
+    viewer_->look();
+    EXPECT_EQ(viewer_->state_["lanes"].size(), 4u) << "what could not be loaded is no lane";
+    tell({{"command", "remove"}, {"lane", moon["lane"]}});
+    viewer_->look();
+    EXPECT_EQ(viewer_->state_["lanes"].size(), 3u);
+}
+
+TEST_F(Sessions, ADragMovesTheBodyInEveryLane) {
+    open("rigor,double_free_flight");
+    tell({{"command", "drag"}, {"body", 2}, {"point", {0, 0, 0}}, {"target", {3, 5, 2}}});
+    tell({{"command", "step"}, {"steps", 240}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(240); }));
+    for (const int lane : {0, 1}) {
+        EXPECT_NEAR(viewer_->poses_[lane][6], 3.0, 0.05);
+        EXPECT_EQ(viewer_->frames_[lane]["drag"]["body"], 2);
+    }
+    tell({{"command", "release"}});
+    EXPECT_TRUE(viewer_->until([&] { return !viewer_->frames_[0].contains("drag"); }));
+    EXPECT_THROW(tell({{"command", "drag"}, {"body", 2}, {"point", {0}}, {"target", {3, 5, 2}}}),
+                 CommandError);
+}
+
+TEST_F(Sessions, WhatIsSavedCanBeLoadedAndRunsAlike) {
+    open("rigor:solver=tgs_soft,substeps=2");
+    tell({{"command", "step"}, {"steps", 30}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(30); }));
+    const json saved = tell({{"command", "save"}, {"lane", 0}, {"write", true}});
+    EXPECT_EQ(saved["name"], "slide_at_0.25s.json");
+    const auto loaded = scenario::loadScenario(saved["file"].get<std::string>());
+    EXPECT_EQ(loaded.text, saved["text"].get<std::string>());
+    EXPECT_EQ(loaded.scenario.bodies[1].pose.position.x, viewer_->poses_[0][3]);
+    EXPECT_FALSE(loaded.scenario.reference.has_value());
+    EXPECT_THAT(loaded.scenario.description, testing::HasSubstr("tgs_soft"));
+    EXPECT_THAT(loaded.text, testing::HasSubstr("\"substeps\": 2"));
+    EXPECT_THROW(tell({{"command", "save"}, {"lane", 0}, {"write", true}}), CommandError)
+        << "a file that is there stays";
+}
+
+/// Whoever looks rarely gets the newest frame and nothing else: what is kept and what is sent do not grow
+/// with what was missed.
+TEST_F(Sessions, ASlowViewerSkipsFrames) {
+    open("rigor,double_free_flight");
+    tell({{"command", "speed"}, {"factor", 20}});
+    tell({{"command", "play"}});
+    viewer_->until([&] { return viewer_->lane(1)["step"] > 50; });
+    const std::size_t kept = session_->keptBytes();
+    std::size_t least = 1 << 30, most = 0;
+    for (int i = 0; i < 4; ++i) {
+        const double before = viewer_->lane(0)["frames"];
+        std::this_thread::sleep_for(std::chrono::milliseconds(400));
+        viewer_->look();
+        EXPECT_GT(viewer_->lane(0)["frames"].get<double>(), before + 3) << "frames were made meanwhile";
+        EXPECT_EQ(viewer_->frames_.size(), 2u);
+        least = std::min(least, viewer_->bytes_), most = std::max(most, viewer_->bytes_);
+    }
+    EXPECT_LT(most, 2 * least);
+    EXPECT_LT(session_->keptBytes(), 2 * kept);
+    EXPECT_GT(viewer_->lane(1)["step"].get<double>(), 1000) << "and the simulation was not held up";
+}
+
+TEST_F(Sessions, NonsenseIsRefused) {
+    open("double_free_flight");
+    for (const json& request :
+         {json(nullptr), json::array(), json{{"command", "fly"}}, json{{"command", "step"}, {"steps", "x"}},
+          json{{"command", "step"}, {"steps", 0}}, json{{"command", "step"}, {"steps", 1e12}},
+          json{{"command", "speed"}, {"factor", -1}}, json{{"command", "speed"}, {"factor", "fast"}},
+          json{{"command", "remove"}, {"lane", 77}}, json{{"command", "save"}, {"lane", 77}},
+          json{{"command", "branch"}}, json{{"command", "stage"}}, json{{"command", "add"}, {"spec", ":::"}}})
+        EXPECT_THROW(tell(request), CommandError) << request;
+    EXPECT_EQ(session_->scene(77), nullptr);
+    EXPECT_EQ(session_->scene(0)["scenario"]["bodies"].size(), 3u);
+}
+
+TEST_F(Sessions, NoMoreThanEightLanes) {
+    open("double_free_flight");
+    for (std::size_t i = 1; i < Session::kMostLanes; ++i)
+        tell({{"command", "add"}, {"spec", "double_free_flight"}});
+    EXPECT_THROW(tell({{"command", "add"}, {"spec", "double_free_flight"}}), CommandError);
+}
+
+}  // namespace
+}  // namespace rigor::validation

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/runner/start_program.hpp"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <stdexcept>
+
+namespace rigor::validation {
+namespace {
+
+constexpr int kExecFailed = 127;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+constexpr bool kSanitized = __has_feature(address_sanitizer);
+#else
+constexpr bool kSanitized = false;
+#endif
+
+/// Between fork and exec only calls that are safe there.
+[[noreturn]] void becomeProgram(char* const* argv, int output, pid_t parent, std::size_t memoryMiB,
+                                int keepOpen) {
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(kExecFailed);  // it died before prctl took effect
+    struct rlimit none {};
+    setrlimit(RLIMIT_CORE, &none);
+    if (memoryMiB > 0) {
+        const struct rlimit limit { memoryMiB << 20, memoryMiB << 20 };
+        setrlimit(RLIMIT_AS, &limit);
+    }
+    const int null = open("/dev/null", O_RDONLY);
+    if (null >= 0) dup2(null, STDIN_FILENO);
+    dup2(output, STDOUT_FILENO);
+    dup2(output, STDERR_FILENO);
+    if (keepOpen >= 0) fcntl(keepOpen, F_SETFD, 0);
+    execv(argv[0], argv);
+    constexpr char message[] = "cannot run the program itself\n";
+    (void)!write(STDERR_FILENO, message, sizeof message - 1);
+    _exit(kExecFailed);
+}
+
+}  // namespace
+
+bool isSanitized() {
+    return kSanitized;
+}
+
+pid_t startProgram(const std::vector<std::string>& arguments, int output, std::size_t memoryMiB,
+                   int keepOpen) {
+    std::vector<char*> argv;
+    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    const pid_t self = getpid();
+    const std::size_t memory = kSanitized ? 0 : memoryMiB;
+    const pid_t pid = fork();
+    if (pid == 0) becomeProgram(argv.data(), output, self, memory, keepOpen);
+    if (pid < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
+    setpgid(pid, pid);  // whoever comes first
+    return pid;
+}
+
+bool drainOutput(int file, std::string& tail) {
+    char buffer[4096];
+    for (;;) {
+        const ssize_t n = read(file, buffer, sizeof buffer);
+        if (n > 0) {
+            tail.append(buffer, static_cast<std::size_t>(n));
+            if (tail.size() > 2 * kOutputTailBytes) tail.erase(0, tail.size() - kOutputTailBytes);
+        } else if (n == 0) {
+            return false;
+        } else if (errno != EINTR) {
+            return true;
+        }
+    }
+}
+
+std::string endingOf(int status) {
+    if (!WIFSIGNALED(status)) return "exit code " + std::to_string(WEXITSTATUS(status));
+    const int signal = WTERMSIG(status);
+    const char* name = sigabbrev_np(signal);
+    return std::string("SIG") + (name != nullptr ? name : std::to_string(signal).c_str()) + " (" +
+           strsignal(signal) + ")";
+}
+
+}  // namespace rigor::validation

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A child process of ours: it leads its own process group, has no core dump and no input, and dies with this
+// process, however this process ends.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace rigor::validation {
+
+inline constexpr std::size_t kOutputTailBytes = 4096;
+
+bool isSanitized();  ///< this build: slower, and it reserves terabytes of addresses
+
+/// Runs `arguments` (the first is the program's file) with stdout and stderr going to `output`. `memoryMiB`:
+/// limit of its address space, 0: none; not set in sanitizer builds. `keepOpen`: a file it gets under the
+/// same number, or -1. The child dies with the thread that calls this. Throws std::runtime_error.
+pid_t startProgram(const std::vector<std::string>& arguments, int output, std::size_t memoryMiB,
+                   int keepOpen = -1);
+
+/// Appends what is there to read of a child's output, of which the last few KiB are kept; false at its end.
+bool drainOutput(int file, std::string& tail);
+
+/// "SIGSEGV (Segmentation fault)", "exit code 3" for a status as of waitpid.
+std::string endingOf(int status);
+
+}  // namespace rigor::validation
