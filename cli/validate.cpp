@@ -144,7 +144,6 @@ void printResult(const results::Run& run, const fs::path& directory, bool json) 
     std::printf(
         "%s\n",
         report::terminalSummary(run, 40, terminalColumns(STDOUT_FILENO), wantsColour(STDOUT_FILENO)).c_str());
-    std::printf("Report: %s\n", (directory / "index.html").string().c_str());
 }
 
 /// What the run that is resumed was asked for.

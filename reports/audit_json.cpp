@@ -53,8 +53,8 @@ Json inRunJson(const CaseRow& row) {
             {"contactFlicker", value("contact_flicker")}};
 }
 
-Json gatheredAudit(const results::Run& run) {
-    Json list = Json::array();
+std::vector<GatheredAudit> gatherAudit(const results::Run& run) {
+    std::vector<GatheredAudit> list;
     const auto worst = [](std::optional<double>& into, const std::optional<double>& value) {
         if (value && (!into || *value > *into || std::isnan(*value))) into = value;
     };
@@ -81,10 +81,17 @@ Json gatheredAudit(const results::Run& run) {
                 worst(it->pointErrorMax, a.pointErrorMax);
             }
         }
-        if (rows.empty()) continue;
+        if (!rows.empty()) list.push_back({scenario.name, rows});
+    }
+    return list;
+}
+
+Json gatheredAudit(const results::Run& run) {
+    Json list = Json::array();
+    for (const auto& gathered : gatherAudit(run)) {
         CaseRow holder;
-        holder.audit = rows;
-        list.push_back({{"scenario", scenario.name}, {"rows", auditJson(holder)}});
+        holder.audit = gathered.rows;
+        list.push_back({{"scenario", gathered.scenario}, {"rows", auditJson(holder)}});
     }
     return list;
 }

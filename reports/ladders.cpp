@@ -144,9 +144,8 @@ std::vector<NamedPlot> ladderPlots(const ViewModel& view) {
         for (const bool overCost : {false, true}) {
             const Plot plot = ladderPlot(view, ladder, overCost);
             if (plot.lines.empty()) continue;
-            plots.push_back(
-                {fileNamePart(ladder.scenario) + (overCost ? "-work-precision" : "-convergence") + ".svg",
-                 svgPlot(plot)});
+            plots.push_back(namedPlot(
+                fileNamePart(ladder.scenario) + (overCost ? "-work-precision" : "-convergence"), plot));
         }
     return plots;
 }

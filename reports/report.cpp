@@ -7,6 +7,7 @@
 
 #include "reports/study.hpp"
 #include "reports/svg_plot.hpp"
+#include "reports/table.hpp"
 #include "reports/text.hpp"
 #include "reports/writers.hpp"
 #include "validation/results/store.hpp"
@@ -58,7 +59,16 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory) {
     if (study)
         for (auto& plot : studyPlots(*study)) plots.push_back(std::move(plot));
     if (!plots.empty()) fs::create_directories(runDirectory / "plots");
-    for (const auto& plot : plots) write(fs::path("plots") / plot.fileName, plot.svg);
+    for (const auto& plot : plots) {
+        write(fs::path("plots") / (plot.name + ".svg"), plot.svg);
+        write(fs::path("plots") / (plot.name + ".csv"), plot.csv);
+    }
+    fs::create_directories(runDirectory / "tables" / "scenarios");
+    for (const auto& table : allTables(view)) {
+        write(fs::path("tables") / (table.name + ".csv"), tableCsv(table));
+        write(fs::path("tables") / (table.name + ".md"), tableMarkdown(table));
+        write(fs::path("tables") / (table.name + ".tex"), tableLatex(table));
+    }
     return written;
 }
 

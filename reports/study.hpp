@@ -40,7 +40,7 @@ std::vector<StudyChart> studyCharts(const nlohmann::ordered_json& study);
 /// The study with its charts, for the page.
 std::string studyPageJson(const nlohmann::ordered_json& study);
 
-/// `study-<part>-<metric>[-<scenario>].svg`
+/// `study-<part>-<metric>[-<scenario>]`
 std::vector<NamedPlot> studyPlots(const nlohmann::ordered_json& study);
 
 }  // namespace rigor::report

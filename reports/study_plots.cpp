@@ -9,6 +9,7 @@
 
 #include "reports/page_json.hpp"
 #include "reports/study.hpp"
+#include "validation/results/values.hpp"
 
 namespace rigor::report {
 namespace {
@@ -110,14 +111,26 @@ std::string svgBars(const StudyChart& chart) {
            "</svg>\n";
 }
 
+/// A row for each point or bar.
+std::string chartCsv(const StudyChart& chart) {
+    const auto field = [](const std::optional<double>& v) { return v ? results::exactText(*v) : ""; };
+    std::string out = "label," + (chart.axis.empty() ? "" : csvField(chart.axis) + ",") +
+                      csvField(withUnit(chart)) + ",low,high,outcome,note\n";
+    for (const auto& p : chart.points)
+        out += csvField(p.label) + "," + (chart.axis.empty() ? "" : field(p.x) + ",") + field(p.value) + "," +
+               field(p.low) + "," + field(p.high) + "," + csvField(p.outcome) + "," + csvField(p.note) + "\n";
+    return out;
+}
+
 }  // namespace
 
 std::vector<NamedPlot> studyPlots(const Json& study) {
     std::vector<NamedPlot> plots;
     for (const auto& chart : studyCharts(study)) {
         const std::string name = "study-" + fileNamePart(chart.part) + "-" + fileNamePart(chart.metric) +
-                                 (chart.scenario.empty() ? "" : "-" + fileNamePart(chart.scenario)) + ".svg";
-        plots.push_back({name, chart.axis.empty() ? svgBars(chart) : svgPlot(linesOf(chart))});
+                                 (chart.scenario.empty() ? "" : "-" + fileNamePart(chart.scenario));
+        plots.push_back(
+            {name, chart.axis.empty() ? svgBars(chart) : svgPlot(linesOf(chart)), chartCsv(chart)});
     }
     return plots;
 }

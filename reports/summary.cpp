@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <algorithm>
 #include <cmath>
 
 #include "reports/text.hpp"
@@ -9,6 +10,9 @@ namespace rigor::report {
 namespace {
 
 constexpr std::size_t kMostOffenders = 20;
+constexpr int kMostChoices = 3;
+constexpr std::size_t kMostCommand = 1000;
+constexpr std::size_t kMostBytes = 65000;  // a comment holds 65536 characters; bytes are at least as many
 
 std::string totalsLine(const ViewModel& view) {
     std::string line;
@@ -30,25 +34,46 @@ std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t co
     return text;
 }
 
-std::string verdictTable(const ViewModel& view) {
-    std::string out = "| scenario | metric |", rule = "|---|---|";
+std::string scoreboardRow(const ViewModel& view, std::size_t s) {
+    const auto& metric = view.mainMetric(s);
+    std::string out =
+        "| " + markdownCell(view.run().scenarios[s].name) + " | " + markdownCell(metric.name) +
+        (metric.unit.empty() || metric.unit == "1" ? "" : " [" + markdownCell(metric.unit) + "]") + " |";
+    for (std::size_t c = 0; c < view.columns().size(); ++c) out += " " + cellText(view, s, c) + " |";
+    return out + "\n";
+}
+
+/// The scoreboard in at most `budget` bytes: where it does not fit whole, scenarios with trouble come first.
+std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
+    const std::size_t scenarios = view.run().scenarios.size();
+    std::string out = "\n<details><summary>Scoreboard: " + std::to_string(scenarios) + " scenarios, " +
+                      std::to_string(view.columns().size()) + " engine settings</summary>\n\n";
+    std::string rule = "|---|---|";
+    out += "| scenario | metric |";
     for (const auto& column : view.columns()) out += " " + markdownCell(column.label) + " |", rule += "---|";
     out += "\n" + rule + "\n";
-    for (std::size_t s = 0; s < view.run().scenarios.size(); ++s) {
-        const auto& metric = view.mainMetric(s);
-        out += "| " + markdownCell(view.run().scenarios[s].name) + " | " + markdownCell(metric.name) +
-               (metric.unit.empty() || metric.unit == "1" ? "" : " [" + markdownCell(metric.unit) + "]") +
-               " |";
-        for (std::size_t c = 0; c < view.columns().size(); ++c) out += " " + cellText(view, s, c) + " |";
-        out += "\n";
+    const std::string end =
+        "\nA cell shows the worst verdict over all time steps and the metric at the finest "
+        "one.\n\n</details>\n";
+    std::size_t used = out.size() + end.size() + 100, shown = 0;
+    std::vector<std::string> rows(scenarios);
+    for (const std::size_t s : byTrouble(view)) {
+        std::string row = scoreboardRow(view, s);
+        if (used + row.size() > budget) continue;
+        used += row.size(), ++shown;
+        rows[s] = std::move(row);
     }
-    return out;
+    if (shown == 0) return "";
+    for (const auto& row : rows) out += row;
+    if (shown < scenarios)
+        out += "\nand " + std::to_string(scenarios - shown) + " more scenarios in `tables/scoreboard.md`\n";
+    return out + end;
 }
 
 std::string offenderList(const ViewModel& view) {
     const auto offenders = view.offenders();
     if (offenders.empty()) return "";
-    std::string out = "\n### Not good (" + std::to_string(offenders.size()) + ")\n\n";
+    std::string out = "\n### What fails (" + std::to_string(offenders.size()) + ", worst first)\n\n";
     for (std::size_t i = 0; i < std::min(offenders.size(), kMostOffenders); ++i) {
         const auto& row = *offenders[i].row;
         std::string text = offenders[i].text;
@@ -76,34 +101,67 @@ std::string environmentLine(const results::Run& run) {
     return line;
 }
 
-std::string trustList(const ViewModel& view) {
-    std::string out;
+/// Who to trust for what: the first choice of every mechanism and who comes next.
+std::string trustSection(const ViewModel& view) {
+    std::string rows;
     for (const auto& m : view.mechanisms()) {
         if (m.best < 0) continue;
-        const auto best = static_cast<std::size_t>(m.best);
-        const auto& standing = m.standings[best];
-        out += "- " + markdownCell(m.name) + ": **" + markdownCell(view.columns()[best].label) + "**, " +
-               std::to_string(standing.good) + " of " + std::to_string(standing.scenarios) +
-               " scenarios without a failure\n";
+        rows += "| " + markdownCell(m.name) + " | " + std::to_string(m.scenarios.size()) + " |";
+        int named = 0;
+        for (const std::size_t c : ranked(m)) {
+            const Standing& s = m.standings[c];
+            if (named == kMostChoices || !std::isfinite(s.ratio)) break;
+            const std::string label = markdownCell(view.columns()[c].label);
+            rows += " " + (named == 0 ? "**" + label + "**" : label) + " " + std::to_string(s.good) + "/" +
+                    std::to_string(s.scenarios) + ", " + shortNumber(std::round(10 * s.ratio) / 10) + "x |";
+            ++named;
+        }
+        for (; named < kMostChoices; ++named) rows += " |";
+        rows += "\n";
     }
-    return out.empty() ? "" : "\n### Smallest error by mechanism\n\n" + out;
+    if (rows.empty()) return "";
+    return "\n### Who to trust for what\n\n| mechanism | scenarios | first choice | next | then |\n"
+           "|---|---:|---|---|---|\n" +
+           rows +
+           "\nBeside each engine: scenarios without a failure of those it took part in, and its error over "
+           "the "
+           "best engine's (geometric mean).\n";
+}
+
+std::string headline(const ViewModel& view) {
+    const auto& run = view.run();
+    const auto planned = std::max<std::int64_t>(run.plannedCases, view.totals().total);
+    return "## Rigor, " + markdownCell(verdictSentence(view)) + "\n\n" + totalsLine(view) + " — " +
+           std::to_string(view.totals().total) + " of " + std::to_string(planned) + " cases" +
+           (run.finished.empty() ? " (**unfinished**)\n" : "\n");
+}
+
+/// As code, whatever stands in it.
+std::string code(std::string text) {
+    std::erase_if(text, [](char c) { return c == '`' || c == '\n' || c == '\r'; });
+    return "`" + text.substr(0, kMostCommand) + "`";
+}
+
+std::string whereSection(const results::Run& run) {
+    std::string out;
+    if (!run.directory.empty())
+        out = "\nThe whole report: " + code(run.directory + "/index.html") +
+              ", tables in `tables/`, plots in `plots/`; replay: " + code("./rigor view " + run.directory) +
+              "\n";
+    if (!run.command.empty()) out += "\n" + code(run.command) + "\n";
+    return out;
 }
 
 }  // namespace
 
 std::string markdownSummary(const ViewModel& view) {
-    const auto& run = view.run();
-    std::string out = "## Rigor: " + markdownCell(run.suite.empty() ? "run" : run.suite) + "\n\n";
-    out += totalsLine(view) + " — " + std::to_string(view.totals().total) + " of " +
-           std::to_string(std::max<std::int64_t>(run.plannedCases, view.totals().total)) + " cases";
-    out += run.finished.empty() ? " (**unfinished**)\n\n" : "\n\n";
-    out += verdictTable(view);
-    out += "\nA cell shows the worst verdict over all time steps and the metric at the finest one.\n";
-    out += offenderList(view) + trustList(view) + ordersMarkdown(view);
-    if (!run.command.empty()) out += "\n`" + run.command + "`\n";
-    out += "\n" + environmentLine(run) + "\n\n";
-    out += "The authors of this comparison wrote one of the engines in it (rigor).\n";
-    return out;
+    const std::string end = whereSection(view.run()) + "\n" + environmentLine(view.run()) +
+                            "\n\nThe authors of this comparison wrote one of the engines in it (rigor).\n";
+    std::string out = headline(view);
+    // What tells most comes first, and takes its room first; the scoreboard gets what is left.
+    for (const auto& section : {trustSection(view), offenderList(view), ordersMarkdown(view)})
+        if (out.size() + section.size() + end.size() <= kMostBytes) out += section;
+    return out + scoreboardSection(view, kMostBytes - std::min(kMostBytes, out.size() + end.size())) + end;
 }
 
 }  // namespace rigor::report

@@ -10,6 +10,7 @@
 
 #include "reports/curves.hpp"
 #include "reports/text.hpp"
+#include "validation/results/values.hpp"
 
 namespace rigor::report {
 namespace {
@@ -215,6 +216,19 @@ std::string svgPlot(const Plot& plot) {
     return out + legend(plot) + "</svg>\n";
 }
 
+std::string plotCsv(const Plot& plot) {
+    std::string out = "line," + csvField(plot.xLabel) + "," + csvField(plot.yLabel) + "\n";
+    for (const auto& line : plot.lines)
+        for (std::size_t i = 0; i < line.x.size(); ++i)
+            out += csvField(line.label) + "," + results::exactText(line.x[i]) + "," +
+                   results::exactText(line.y[i]) + "\n";
+    return out;
+}
+
+NamedPlot namedPlot(const std::string& name, const Plot& plot) {
+    return {name, svgPlot(plot), plotCsv(plot)};
+}
+
 std::vector<NamedPlot> scenarioPlots(const ViewModel& view, const TrajectoryLoader& load) {
     std::vector<NamedPlot> plots;
     for (std::size_t s = 0; s < view.run().scenarios.size(); ++s) {
@@ -240,7 +254,7 @@ std::vector<NamedPlot> scenarioPlots(const ViewModel& view, const TrajectoryLoad
         plot.title = scenario.title.empty() ? scenario.name : scenario.title;
         plot.xLabel = "t [s]";
         plot.logarithmic = name.find("error") != std::string::npos;
-        plots.push_back({fileNamePart(scenario.name) + "-" + fileNamePart(name) + ".svg", svgPlot(plot)});
+        plots.push_back(namedPlot(fileNamePart(scenario.name) + "-" + fileNamePart(name), plot));
     }
     return plots;
 }

@@ -30,9 +30,16 @@ std::string svgPlot(const Plot& plot);
 /// Round tick values covering [least, greatest]: steps of 1, 2 or 5 times a power of ten.
 std::vector<double> niceTicks(double least, double greatest, int about);
 
+/// The data of a plot as CSV, digits that read back as the same doubles: a row for each point of each line.
+/// Points that a logarithmic axis can not show are there too.
+std::string plotCsv(const Plot& plot);
+
 struct NamedPlot {
-    std::string fileName, svg;
+    std::string name;  ///< of its files, without an ending
+    std::string svg, csv;
 };
+/// The picture and its data.
+NamedPlot namedPlot(const std::string& name, const Plot& plot);
 /// Colours told apart with every common colour vision; they repeat after kPaletteSize.
 inline constexpr std::size_t kPaletteSize = 7;
 const char* paletteColour(std::size_t index);

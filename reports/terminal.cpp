@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <set>
+#include <utility>
 
 #include "reports/report.hpp"
 #include "reports/text.hpp"
@@ -57,6 +60,13 @@ std::string plain(std::string text) {
     return text;
 }
 
+/// An error over the best one's: "1.3x".
+std::string timesText(double ratio) {
+    char text[32];
+    std::snprintf(text, sizeof text, ratio < 9.95 ? "%.1fx" : ratio < 1e4 ? "%.0fx" : "%.0ex", ratio);
+    return text;
+}
+
 /// How a table of this run fits the terminal.
 struct Layout {
     std::size_t nameWidth = 8, cellWidth = 0;
@@ -95,6 +105,7 @@ std::string letter(std::size_t i) {
 std::vector<std::string> headLines(const ViewModel& view, const Layout& layout, std::size_t width,
                                    const Painter& paint) {
     std::vector<std::string> lines;
+    if (view.columns().empty()) return lines;
     if (layout.letters) {
         std::string head = std::string(layout.nameWidth, ' '), key;
         for (std::size_t c = 0; c < view.columns().size(); ++c) {
@@ -139,22 +150,15 @@ std::string scenarioLine(const ViewModel& view, std::size_t s, const Layout& lay
     return line;
 }
 
-/// Scenarios with something to say first when not all of them fit.
+/// In the order of the run where all fit, else scenarios with something to say first.
 std::vector<std::size_t> order(const ViewModel& view, std::size_t room) {
-    std::vector<std::size_t> all(view.run().scenarios.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    if (all.size() <= room) return all;
-    const auto trouble = [&](std::size_t s) {
-        int count = 0;
-        for (std::size_t c = 0; c < view.columns().size(); ++c) {
-            const Shown w = view.cell(s, c).worst;
-            count += w == Shown::Fail || w == Shown::Crashed || w == Shown::Timeout || w == Shown::NonFinite;
-        }
-        return count;
-    };
-    std::stable_sort(all.begin(), all.end(), [&](auto a, auto b) { return trouble(a) > trouble(b); });
-    all.resize(room > 0 ? room - 1 : 0);
-    return all;
+    std::vector<std::size_t> chosen = byTrouble(view);
+    if (chosen.size() <= room) {
+        std::sort(chosen.begin(), chosen.end());
+        return chosen;
+    }
+    chosen.resize(room > 0 ? room - 1 : 0);
+    return chosen;
 }
 
 /// "3 pass   1 fail   of 4 cases", in as many lines as the width asks for.
@@ -188,21 +192,84 @@ std::vector<std::string> totalsLines(const ViewModel& view, std::size_t width, c
     return lines;
 }
 
+/// Who to trust for what: a line for each mechanism, its engines from the most trusted on, as many as fit.
+std::vector<std::string> trustLines(const ViewModel& view, std::size_t most, std::size_t width,
+                                    const Painter& paint) {
+    std::vector<std::string> lines;
+    std::size_t nameWidth = 0;
+    auto mechanisms = view.mechanisms();
+    std::erase_if(mechanisms, [](const Mechanism& m) { return m.best < 0; });
+    if (mechanisms.empty() || most < 2) return lines;
+    lines.push_back(
+        paint(cut("Who to trust for what (scenarios without a failure, error over the best)", width), "1"));
+    if (mechanisms.size() > most - 1) mechanisms.resize(most - 1);
+    for (const auto& m : mechanisms) nameWidth = std::max(nameWidth, displayWidth(plain(m.name)));
+    nameWidth = std::min(nameWidth, width / 3);
+    for (const auto& m : mechanisms) {
+        std::string line = "  " + pad(plain(m.name), nameWidth);
+        bool first = true;
+        for (const std::size_t c : ranked(m)) {
+            const Standing& s = m.standings[c];
+            if (!std::isfinite(s.ratio)) continue;
+            const std::string entry = (first ? "  " : ", ") + plain(view.columns()[c].label) + " " +
+                                      std::to_string(s.good) + "/" + std::to_string(s.scenarios) + " " +
+                                      timesText(s.ratio);
+            if (!first && displayWidth(line) + displayWidth(entry) > width) break;
+            line += entry, first = false;
+        }
+        lines.push_back(cut(line, width));
+    }
+    return lines;
+}
+
 std::vector<std::string> offenderLines(const ViewModel& view, std::size_t most, std::size_t width,
                                        const Painter& paint) {
     std::vector<std::string> lines;
     const auto offenders = view.offenders();
     if (offenders.empty() || most < 2) return lines;
-    lines.push_back(paint("Worst offenders", "1"));
     std::set<std::pair<std::string, std::string>> seen;  // one line per scenario and spec
     for (const auto& o : offenders) {
-        if (lines.size() >= most) break;
-        if (!seen.insert({o.row->scenario, o.row->spec}).second) continue;
+        if (!seen.insert({o.row->scenario, o.row->spec}).second || lines.size() + 1 >= most) continue;
         lines.push_back(cut("  " + std::string(shownText(shownOf(*o.row)).symbol) + " " +
                                 plain(o.row->scenario + "  " + o.row->spec) + "  " +
                                 timeStepLabel(o.row->dt) + "  " + plain(o.text),
                             width));
     }
+    std::string title = "What fails, worst first";
+    if (seen.size() > lines.size())
+        title += " (" + std::to_string(lines.size()) + " of " + std::to_string(seen.size()) + ")";
+    lines.insert(lines.begin(), paint(cut(title, width), "1"));
+    return lines;
+}
+
+/// One sentence, then what became of the cases.
+std::vector<std::string> verdictLines(const ViewModel& view, std::size_t width, const Painter& paint) {
+    const bool bad = !view.offenders().empty();
+    const std::string sentence =
+        plain(verdictSentence(view)) + (view.run().finished.empty() ? ", unfinished" : "");
+    std::vector<std::string> lines{paint(cut(sentence, width), bad ? "1;31" : "1;32")};
+    for (auto& line : totalsLines(view, width, paint)) lines.push_back(line);
+    return lines;
+}
+
+/// Where the whole story stands. Never cut: a path must stay one that can be used.
+std::vector<std::string> whereLines(const results::Run& run) {
+    if (run.directory.empty()) return {};
+    return {"Report: " + plain(run.directory) + "/index.html",
+            "Replay: ./rigor view " + plain(run.directory)};
+}
+
+/// The scoreboard in `most` lines: all scenarios, or those with something to say.
+std::vector<std::string> boardLines(const ViewModel& view, std::size_t most, std::size_t width,
+                                    const Painter& paint) {
+    const Layout layout = layoutOf(view, width);
+    std::vector<std::string> lines = headLines(view, layout, width, paint);
+    if (view.columns().empty() || lines.size() + 2 > most) return {};
+    const std::size_t all = view.run().scenarios.size();
+    const auto chosen = order(view, most - lines.size());
+    for (const std::size_t s : chosen) lines.push_back(scenarioLine(view, s, layout, paint));
+    if (chosen.size() < all)
+        lines.push_back("… and " + std::to_string(all - chosen.size()) + " more scenarios in the report");
     return lines;
 }
 
@@ -213,26 +280,27 @@ std::string terminalSummary(const results::Run& run, int lines, int columns, boo
     const Painter paint{colour};
     const auto width = static_cast<std::size_t>(std::max(columns, 40));
     const auto most = static_cast<std::size_t>(std::max(lines, 6));
-    const Layout layout = layoutOf(view, width);
 
-    std::vector<std::string> out = headLines(view, layout, width, paint);
-    const std::size_t offenderRoom = std::min<std::size_t>(6, most / 4);
-    const auto worst = offenderLines(view, offenderRoom, width, paint);
-    std::vector<std::string> tail = totalsLines(view, width, paint);
-    tail.insert(tail.end(), worst.begin(), worst.end());
+    // What must be there, then the sections in the order of what they tell for their lines.
+    const auto head = verdictLines(view, width, paint);
+    auto where = whereLines(run);
+    if (head.size() + where.size() > most) where.clear();
+    std::size_t room = most - std::min(most, head.size() + where.size());
+    const auto reserve = [&](std::vector<std::string> section) {
+        if (section.size() + 1 > room) section.clear();
+        room -= section.empty() ? 0 : section.size() + 1;  // and an empty line before it
+        return section;
+    };
+    const auto worst = reserve(offenderLines(view, std::min<std::size_t>(8, most / 5), width, paint));
+    const auto trust = reserve(trustLines(view, std::min<std::size_t>(12, most / 4), width, paint));
+    const auto board = reserve(boardLines(view, room > 1 ? room - 2 : 0, width, paint));
 
-    const std::size_t used = out.size() + tail.size() + 1;
-    const std::size_t room = most > used ? most - used : 0;
-    const auto chosen = order(view, room);
-    for (const std::size_t s : chosen) out.push_back(scenarioLine(view, s, layout, paint));
-    if (chosen.size() < view.run().scenarios.size() && room > 0)
-        out.push_back("… and " + std::to_string(view.run().scenarios.size() - chosen.size()) +
-                      " more scenarios in the report");
-    out.push_back("");
-    out.insert(out.end(), tail.begin(), tail.end());
-    if (out.size() > most) out.resize(most);
     std::string text;
-    for (const auto& line : out) text += (text.empty() ? "" : "\n") + line;
+    for (const std::vector<std::string>* section : {&head, &trust, &worst, &board, &std::as_const(where)}) {
+        if (section->empty()) continue;
+        if (!text.empty() && (section != &where || room > 0)) text += "\n";
+        for (const auto& line : *section) text += (text.empty() ? "" : "\n") + line;
+    }
     return text;
 }
 

@@ -17,12 +17,10 @@ std::string print(const char* format, double value) {
     return buffer.data();
 }
 
-/// Length of the well-formed UTF-8 sequence at the start of `text` and its code point; length 0: none.
-struct Decoded {
-    std::size_t length = 0;
-    char32_t point = 0;
-};
-Decoded decode(std::string_view text) {
+}  // namespace
+
+Utf8Character firstCharacter(std::string_view text) {
+    if (text.empty()) return {};
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned first = byte(0);
     if (first < 0x80) return {1, first};
@@ -41,6 +39,8 @@ Decoded decode(std::string_view text) {
     if (point < kLeast[length] || surrogate || point > 0x10FFFF) return {};
     return {length, point};
 }
+
+namespace {
 
 bool allowedInXml(char32_t c) {
     return c == 0x9 || c == 0xA || c == 0xD || (c >= 0x20 && c != 0xFFFE && c != 0xFFFF);
@@ -80,7 +80,7 @@ std::string escapeMarkup(std::string_view text) {
     std::string out;
     out.reserve(text.size());
     while (!text.empty()) {
-        const Decoded c = decode(text);
+        const Utf8Character c = firstCharacter(text);
         if (c.length == 0 || !allowedInXml(c.point)) {
             out += "\xEF\xBF\xBD";
             text.remove_prefix(c.length == 0 ? 1 : c.length);

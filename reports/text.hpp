@@ -22,6 +22,13 @@ std::string timeStepLabel(double dt);
 /// Seconds with a fitting unit: "12.3 µs", "4.56 ms", "1.2 s".
 std::string durationLabel(double seconds);
 
+/// The character at the start of UTF-8 text.
+struct Utf8Character {
+    std::size_t length = 0;  ///< of its bytes; 0: the text starts with no well-formed character
+    char32_t point = 0;
+};
+Utf8Character firstCharacter(std::string_view text);
+
 /// Text inside HTML and XML elements and quoted attributes. Characters that XML 1.0 can not hold, and bytes
 /// that are not UTF-8, become U+FFFD.
 std::string escapeMarkup(std::string_view text);

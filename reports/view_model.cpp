@@ -114,22 +114,17 @@ std::vector<double> ratiosToBest(const std::vector<double>& errors) {
     return ratios;
 }
 
-/// Fewest failing scenarios first, then the smallest error; whoever ran less than half is not ranked.
-int bestOf(const Mechanism& m) {
+/// Whoever ran less than half of what somebody ran, or has no error to show, can not be the best.
+bool isCandidate(const Mechanism& m, std::size_t column) {
     int most = 0;
     for (const auto& s : m.standings) most = std::max(most, s.ran);
-    int best = -1;
-    const auto key = [&](int i) {
-        const auto& s = m.standings[static_cast<std::size_t>(i)];
-        const double share = static_cast<double>(s.bad) / std::max(1, s.scenarios);
-        return std::tuple(share, std::isfinite(s.ratio) ? s.ratio : 1e300);
-    };
-    for (int i = 0; i < static_cast<int>(m.standings.size()); ++i) {
-        const auto& s = m.standings[static_cast<std::size_t>(i)];
-        if (s.ran == 0 || 2 * s.ran < most || !std::isfinite(s.ratio)) continue;
-        if (best < 0 || key(i) < key(best)) best = i;
-    }
-    return best;
+    const Standing& s = m.standings[column];
+    return s.ran > 0 && 2 * s.ran >= most && std::isfinite(s.ratio);
+}
+
+int bestOf(const Mechanism& m) {
+    const auto order = ranked(m);
+    return order.empty() || !isCandidate(m, order.front()) ? -1 : static_cast<int>(order.front());
 }
 
 Offender offenderOf(const CaseRow& row) {
@@ -191,6 +186,46 @@ Shown shownOf(const CaseRow& row) {
     const bool judged = std::any_of(row.metrics.begin(), row.metrics.end(),
                                     [](const MetricRow& m) { return m.bound || m.expectation; });
     return judged ? Shown::Pass : Shown::NoBound;
+}
+
+Shown shownOf(const MetricRow& metric) {
+    if (metric.verdict == Verdict::Fail) return Shown::Fail;
+    if (metric.verdict == Verdict::KnownDeviation) return Shown::KnownDeviation;
+    return metric.bound || metric.expectation ? Shown::Pass : Shown::NoBound;
+}
+
+std::vector<std::size_t> ranked(const Mechanism& mechanism) {
+    std::vector<std::size_t> order;
+    for (std::size_t c = 0; c < mechanism.standings.size(); ++c)
+        if (mechanism.standings[c].scenarios > 0) order.push_back(c);
+    // Fewest failing scenarios first, then the smallest error.
+    const auto key = [&](std::size_t c) {
+        const Standing& s = mechanism.standings[c];
+        return std::tuple(!isCandidate(mechanism, c), static_cast<double>(s.bad) / s.scenarios,
+                          std::isfinite(s.ratio) ? s.ratio : 1e300);
+    };
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
+    return order;
+}
+
+std::string verdictSentence(const ViewModel& view) {
+    const std::string name = view.run().suite.empty() ? "run" : view.run().suite;
+    const auto bad = view.offenders().size();
+    if (bad == 0) return name + ": no case fails";
+    return name + ": " + std::to_string(bad) + " of " + std::to_string(view.totals().total) +
+           (bad == 1 ? " cases fails" : " cases fail");
+}
+
+std::vector<std::size_t> byTrouble(const ViewModel& view) {
+    std::vector<std::size_t> all(view.run().scenarios.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    const auto trouble = [&](std::size_t s) {
+        int count = 0;
+        for (std::size_t c = 0; c < view.columns().size(); ++c) count += isBad(view.cell(s, c).worst);
+        return count;
+    };
+    std::stable_sort(all.begin(), all.end(), [&](auto a, auto b) { return trouble(a) > trouble(b); });
+    return all;
 }
 
 const MetricRow* findMetric(const CaseRow& row, const std::string& name) {

@@ -71,6 +71,13 @@ struct GatheredLedger {
     std::vector<std::string> scenarios;
 };
 
+/// What each auditor found in the runs of one scenario, pairs of auditors left out: numbers added up, errors
+/// the greatest.
+struct GatheredAudit {
+    std::string scenario;
+    std::vector<results::AuditRow> rows;
+};
+
 struct Totals {
     std::map<Shown, int> cases;
     int total = 0;
@@ -101,7 +108,15 @@ class ViewModel {
     Totals totals_;
 };
 
+/// "standard: 12 of 1430 cases fail"; failing, crashed, timed out or not finite. Text of the run, unescaped.
+std::string verdictSentence(const ViewModel& view);
 Shown shownOf(const results::CaseRow& row);
+Shown shownOf(const results::MetricRow& metric);
+/// The columns that took part in a mechanism, the most trusted first: bestOf()'s order, then the others.
+std::vector<std::size_t> ranked(const Mechanism& mechanism);
+/// Scenarios, those in which the most engines fail first.
+std::vector<std::size_t> byTrouble(const ViewModel& view);
+std::vector<GatheredAudit> gatherAudit(const results::Run& run);
 /// Whole-scene row of a metric, or its worst subject; null when the case does not have it.
 const results::MetricRow* findMetric(const results::CaseRow& row, const std::string& name);
 /// Precision of the numbers of a case: from its settings, else from its engine.

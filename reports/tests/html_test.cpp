@@ -59,6 +59,13 @@ void expectOptional(const json& found, const std::optional<double>& wanted, cons
         EXPECT_TRUE(found.is_null()) << what;
 }
 
+void expectTiming(const json& found, const results::TimingRow& wanted, const std::string& what) {
+    expectNumber(found["median"], wanted.median, what);
+    expectOptional(found["low"], wanted.low, what);
+    expectOptional(found["high"], wanted.high, what);
+    EXPECT_EQ(found["bodies"], wanted.bodies) << what;
+}
+
 TEST_F(Page, HoldsEveryNumberOfTheRun) {
     std::size_t compared = 0;
     for (std::size_t s = 0; s < run_->scenarios.size(); ++s) {
@@ -89,10 +96,36 @@ TEST_F(Page, HoldsEveryNumberOfTheRun) {
             for (std::size_t i = 0; i < row.audit.size(); ++i)
                 expectOptional(c["audit"][i]["normalErrorMax"], row.audit[i].normalErrorMax, row.id);
             for (std::size_t i = 0; i < row.timings.size(); ++i)
-                expectNumber(c["timings"][i]["median"], row.timings[i].median, row.id);
+                expectTiming(c["timings"][i], row.timings[i], row.id);
         }
     }
     EXPECT_GT(compared, 2000u);
+}
+
+TEST_F(Page, OverviewHoldsFormulasAndStepTimings) {
+    const json overview = data("run-data");
+    std::size_t timed = 0, phases = 0;
+    for (std::size_t s = 0; s < run_->scenarios.size(); ++s) {
+        const json& scenario = overview["scenarios"][s];
+        EXPECT_EQ(scenario["referenceFormula"], run_->scenarios[s].referenceFormula);
+        EXPECT_EQ(scenario["referenceTex"], run_->scenarios[s].referenceTex);
+        for (const auto& brief : scenario["cases"]) {
+            const auto row = std::find_if(run_->cases.begin(), run_->cases.end(),
+                                          [&](const auto& c) { return brief["id"] == c.id; });
+            ASSERT_NE(row, run_->cases.end());
+            if (row->timings.empty()) {
+                EXPECT_TRUE(brief["step"].is_null());
+                continue;
+            }
+            ++timed;
+            expectTiming(brief["step"], row->timings[0], row->id);
+            for (std::size_t i = 2; i < row->timings.size(); ++i, ++phases)
+                expectNumber(brief["step"]["phases"][row->timings[i].phase], row->timings[i].median, row->id);
+            EXPECT_FALSE(brief["step"]["phases"].contains("build"));
+        }
+    }
+    EXPECT_GT(timed, 100u);
+    EXPECT_GT(phases, 100u);
 }
 
 TEST_F(Page, OverviewTellsEveryVerdict) {

@@ -89,7 +89,7 @@ TEST(StudyCharts, ARunThatBrokeIsNoPointButIsTold) {
     EXPECT_FALSE(only(charts).points[1].value.has_value());
     const auto plots = studyPlots(study);
     ASSERT_EQ(plots.size(), 1u);
-    EXPECT_EQ(plots[0].fileName, "study-broken-rest_sink.svg");
+    EXPECT_EQ(plots[0].name, "study-broken-rest_sink");
     EXPECT_NE(plots[0].svg.find(">non_finite</text>"), std::string::npos);
     EXPECT_NE(plots[0].svg.find(">not run</text>"), std::string::npos);
 

@@ -143,8 +143,12 @@ void fillContext(CaseRow& c, Dice& dice) {
         c.audit.push_back(a);
     }
     const double step = 4e-6 * (1 + 20 * dice());
-    c.timings = {{"step", step, 0.8 * step, 1.7 * step, step * 400, 400, 4.0},
+    c.timings = {{"step", step, 0.8 * step, 1.7 * step, step * 400, 400, 4.0, 0.98 * step, 1.03 * step, 2},
                  {"build", 1e-3, 1e-3, 1e-3, 1e-3, 1, 0.0}};
+    if (c.engine == "rigor")
+        for (const char* phase : {"broad_phase", "narrow_phase", "solve"})
+            c.timings.push_back({phase, 0.3 * step, 0.2 * step, 0.5 * step, step * 120, 400, 4.0, 0.29 * step,
+                                 0.31 * step, 2});
     c.settings = {{"iterations", "20"}, {"solver", "sequential impulses"}, {"sleeping", "off"}};
     c.steps = static_cast<std::int64_t>(2.0 / c.dt), c.peakMemoryKiB = 14336;
     c.wallSeconds = 0.12, c.cpuSeconds = 0.11, c.stateHash = "9f86d081884c7d65";
@@ -201,6 +205,7 @@ ScenarioRow makeScenario(int i) {
     s.dimension = kind.dimension, s.duration = 2.0, s.timeSteps = {1.0 / 60.0, 1.0 / 240.0};
     s.reference = kind.reference, s.referenceTitle = *kind.reference ? kind.title : "";
     s.referenceFormula = kind.formula;
+    s.referenceTex = *kind.reference ? "\\begin{aligned} x &= \\tfrac12 g t^2 \\end{aligned}" : "";
     s.text = "{\"rigor\": 1, \"name\": \"<b>x</b>\"}";
     return s;
 }
@@ -270,6 +275,37 @@ Run makeRun(int scenarios) {
                                              kKinds[static_cast<std::size_t>(i) % kKinds.size()], spec, dt,
                                              static_cast<int>(run.cases.size())));
     run.plannedCases = static_cast<std::int64_t>(run.cases.size());
+    return run;
+}
+
+Run makeHardRun() {
+    Run run = makeRun(10);
+    run.finished.clear();
+    // What ended before its time, each once for sure; then a scenario that nobody survives and one that was
+    // not reached.
+    const struct {
+        Outcome outcome;
+        Verdict verdict;
+        const char* reason;
+    } ends[] = {{Outcome::Crashed, Verdict::Crashed, "SIGSEGV after 12 steps\n\x1b[31m<script>\xff"},
+                {Outcome::Timeout, Verdict::Timeout, "no answer within 60 s"},
+                {Outcome::OutOfMemory, Verdict::Crashed, "more than 4096 MiB"},
+                {Outcome::Error, Verdict::Fail, "the module could not be loaded: | & % $ # _ { } ~ ^ \\"},
+                {Outcome::Unsupported, Verdict::Unsupported, ""}};
+    for (std::size_t i = 0; i < std::size(ends); ++i)
+        spoil(run.cases[3 * i], ends[i].outcome, ends[i].verdict, ends[i].reason);
+    for (auto& c : run.cases)
+        if (c.scenario == run.scenarios[1].name) spoil(c, Outcome::Crashed, Verdict::Crashed, "SIGABRT");
+    std::erase_if(run.cases, [&](const CaseRow& c) { return c.scenario == run.scenarios[9].name; });
+    // Numbers gone wild where numbers are.
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
+                     kInf = std::numeric_limits<double>::infinity();
+    CaseRow& wild = run.cases.back();
+    wild.outcome = Outcome::NonFinite, wild.verdict = Verdict::NonFinite;
+    for (auto& m : wild.metrics) m.value = kNan, m.bound = kInf, m.at = kNan;
+    for (auto& q : wild.quantities) q.exact = -kInf, q.measured = kNan;
+    for (auto& t : wild.timings) t.median = t.p10 = t.p90 = t.total = kNan, t.low = kNan, t.high = kInf;
+    for (auto& a : wild.audit) a.normalErrorMax = kNan, a.depthErrorMax = kInf, a.worst = "";
     return run;
 }
 

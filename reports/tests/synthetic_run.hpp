@@ -15,6 +15,9 @@ inline constexpr const char* kHostileName = "a</script><img src=x onerror=\"wind
 
 /// `scenarios` x nine engine specs x two time steps. Deterministic.
 results::Run makeRun(int scenarios = 25);
+/// An unfinished run in which everything that can go wrong did: crashed, timed out, out of memory, refused,
+/// without a number, with numbers that are none; a scenario without a survivor, one without a case.
+results::Run makeHardRun();
 /// Damped swings for every case that has a trajectory file named.
 TrajectoryLoader makeLoader(const results::Run& run);
 

@@ -4,54 +4,17 @@
 // CSV, JUnit XML, Markdown, SVG and the terminal table, read by parsers of their own.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 
 #include "reports/report.hpp"
 #include "reports/svg_plot.hpp"
+#include "reports/tests/csv_reader.hpp"
 #include "reports/tests/synthetic_run.hpp"
 #include "reports/text.hpp"
 
 namespace rigor::report {
 namespace {
-
-/// RFC 4180, written from its grammar alone.
-std::vector<std::vector<std::string>> parseCsv(const std::string& text) {
-    std::vector<std::vector<std::string>> rows(1, {""});
-    bool quoted = false;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (quoted) {
-            if (c != '"')
-                rows.back().back() += c;
-            else if (i + 1 < text.size() && text[i + 1] == '"')
-                rows.back().back() += '"', ++i;
-            else
-                quoted = false;
-        } else if (c == '"') {
-            quoted = true;
-        } else if (c == ',') {
-            rows.back().emplace_back();
-        } else if (c == '\n') {
-            rows.push_back({""});
-        } else {
-            rows.back().back() += c;
-        }
-    }
-    EXPECT_FALSE(quoted);
-    rows.pop_back();  // after the last line end
-    return rows;
-}
-
-void expectBits(const std::string& text, double wanted) {
-    ASSERT_FALSE(text.empty());
-    const double found = std::strtod(text.c_str(), nullptr);
-    if (std::isnan(wanted))
-        EXPECT_TRUE(std::isnan(found)) << text;
-    else
-        EXPECT_EQ(std::bit_cast<std::uint64_t>(found), std::bit_cast<std::uint64_t>(wanted)) << text;
-}
 
 TEST(Csv, EveryNumberComesBackWithItsBits) {
     const auto run = synthetic::makeRun();
@@ -189,13 +152,35 @@ TEST(Junit, IsWellFormedAndCountsRight) {
 }
 
 TEST(Summary, FitsAPullRequestComment) {
-    const auto run = synthetic::makeRun(60);
+    for (const int scenarios : {60, 190, 1000}) {
+        const auto run = synthetic::makeRun(scenarios);
+        const std::string text = markdownSummary(ViewModel(run));
+        EXPECT_LE(text.size(), 65000u) << scenarios;
+        EXPECT_GT(text.size(), 10000u) << scenarios;
+        EXPECT_EQ(text.find("<img"), std::string::npos);
+        for (const char* word :
+             {"pass", "fail", "known deviation", "crashed", "timeout", "non-finite", "unsupported"})
+            EXPECT_NE(text.find(word), std::string::npos) << word;
+        const auto at = [&](const char* heading) { return text.find(heading); };
+        ASSERT_NE(at("</details>"), std::string::npos) << "the scoreboard is there, and closed";
+        EXPECT_LT(at("### Who to trust for what"), at("### What fails"));
+        EXPECT_LT(at("### What fails"), at("<details>"));
+        EXPECT_NE(at("`./rigor view runs/standard-20260101-000000`"), std::string::npos);
+    }
+}
+
+/// Where not all scenarios fit, those with trouble are there, and the others are counted.
+TEST(Summary, LeavesOutWhatIsNoTrouble) {
+    auto run = synthetic::makeRun(1000);
+    for (auto& c : run.cases) {
+        const bool troubled = c.scenario == "pile_125";  // the last of its kind
+        c.outcome = results::Outcome::Completed;
+        c.verdict = troubled ? results::Verdict::Fail : results::Verdict::Pass;
+    }
     const std::string text = markdownSummary(ViewModel(run));
-    EXPECT_LT(text.size(), 65536u);
-    EXPECT_EQ(text.find("<img"), std::string::npos);
-    for (const char* word :
-         {"pass", "fail", "known deviation", "crashed", "timeout", "non-finite", "unsupported"})
-        EXPECT_NE(text.find(word), std::string::npos) << word;
+    EXPECT_NE(text.find("| pile\\_125 |"), std::string::npos);
+    EXPECT_NE(text.find(" more scenarios in `tables/scoreboard.md`"), std::string::npos);
+    EXPECT_LE(text.size(), 65000u);
 }
 
 TEST(Svg, IsWellFormedWithCurvesInsideTheFrame) {
@@ -203,10 +188,30 @@ TEST(Svg, IsWellFormedWithCurvesInsideTheFrame) {
     const auto plots = scenarioPlots(ViewModel(run), synthetic::makeLoader(run));
     ASSERT_EQ(plots.size(), 4u);
     for (const auto& plot : plots) {
-        EXPECT_EQ(plot.fileName.find('/'), std::string::npos);
+        EXPECT_EQ(plot.name.find('/'), std::string::npos);
         EXPECT_NE(plot.svg.find("<path d=\"M"), std::string::npos);
         EXPECT_EQ(plot.svg.find("nan"), std::string::npos);
         EXPECT_EQ(plot.svg.find("inf"), std::string::npos);
+    }
+}
+
+/// What the picture shows, with all digits.
+TEST(Svg, ComesWithItsData) {
+    Plot plot;
+    plot.title = "x", plot.xLabel = "t [s]", plot.yLabel = "a, b";
+    plot.lines = {{"one", "#000", false, {0.0, 0.1}, {1.0 / 3.0, std::nan("")}},
+                  {"two", "#000", true, {2.0}, {1e-300}}};
+    const auto rows = parseCsv(namedPlot("p", plot).csv);
+    ASSERT_EQ(rows.size(), 4u);
+    EXPECT_EQ(rows[0], (std::vector<std::string>{"line", "t [s]", "a, b"}));
+    EXPECT_EQ(rows[1][0], "one");
+    expectBits(rows[2][1], 0.1);
+    expectBits(rows[1][2], 1.0 / 3.0);
+    expectBits(rows[2][2], std::nan(""));
+    expectBits(rows[3][2], 1e-300);
+    const auto run = synthetic::makeRun(4);
+    for (const auto& drawn : scenarioPlots(ViewModel(run), synthetic::makeLoader(run))) {
+        EXPECT_GT(parseCsv(drawn.csv).size(), 1000u) << "up to 800 points of each line";
     }
 }
 
@@ -244,7 +249,36 @@ TEST(Terminal, KeepsToItsLinesAndColumns) {
                 for (const auto& line : lines)
                     EXPECT_LE(displayWidth(line), static_cast<std::size_t>(columns)) << line;
                 EXPECT_NE(text.find("of " + std::to_string(run.cases.size()) + " cases"), std::string::npos);
+                EXPECT_NE(text.find("Report: runs/standard-20260101-000000/index.html"), std::string::npos);
+                EXPECT_NE(text.find("./rigor view runs/standard-20260101-000000"), std::string::npos);
             }
+}
+
+/// Who to trust for what, what fails, the scoreboard, where to look.
+TEST(Terminal, TellsTheStory) {
+    const auto run = synthetic::makeRun(190);
+    const auto text = terminalSummary(run, 40, 160, false);
+    const auto at = [&](const char* words) { return text.find(words); };
+    ASSERT_NE(at("Where"), 0u);
+    EXPECT_EQ(at("standard: "), 0u);
+    EXPECT_LT(at("Who to trust for what"), at("What fails, worst first"));
+    EXPECT_LT(at("What fails, worst first"), at("more scenarios in the report"));
+    EXPECT_LT(at("more scenarios in the report"), at("Report: "));
+    const ViewModel view(run);
+    const auto mechanisms = view.mechanisms();
+    const auto& best = view.columns()[static_cast<std::size_t>(mechanisms.front().best)];
+    const auto line = text.substr(at(("  " + mechanisms.front().name + " ").c_str()));
+    EXPECT_LT(line.find(best.label), line.find('\n')) << "the first choice stands beside the mechanism";
+    EXPECT_GE(linesOf(text).size(), 36u) << "the lines are used";
+}
+
+TEST(Terminal, AGreenRunSaysSo) {
+    auto run = synthetic::makeRun(3);
+    for (auto& c : run.cases) c.verdict = results::Verdict::Pass;
+    run.finished.clear();
+    const auto text = terminalSummary(run, 40, 160, false);
+    EXPECT_EQ(text.find("standard: no case fails, unfinished"), 0u) << text;
+    EXPECT_EQ(text.find("What fails"), std::string::npos);
 }
 
 TEST(Terminal, ColourChangesNothingButColour) {

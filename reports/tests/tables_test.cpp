@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The tables in their three formats: CSV keeps every bit, Markdown and LaTeX are well formed, and all say the
+// same.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "reports/table.hpp"
+#include "reports/tests/csv_reader.hpp"
+#include "reports/tests/synthetic_run.hpp"
+#include "reports/text.hpp"
+
+namespace rigor::report {
+namespace {
+
+std::vector<std::string> linesOf(const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    return lines;
+}
+
+/// How often `mark` stands in LaTeX without a backslash before it.
+int countBare(const std::string& text, char mark) {
+    int count = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\\')
+            ++i;
+        else
+            count += text[i] == mark;
+    }
+    return count;
+}
+
+/// What pdflatex would refuse: "" when nothing.
+std::string latexFault(const std::string& tex, std::size_t columns) {
+    std::vector<std::string> open;
+    for (std::size_t i = 0; i < tex.size(); ++i) {
+        const auto c = static_cast<unsigned char>(tex[i]);
+        if (c < 0x20 && c != '\n') return "a control character";
+        if (c >= 0xC5 + 1) return "a character that pdflatex does not know";
+        if (tex[i] == '\\') {
+            ++i;
+        } else if (tex[i] == '{') {
+            open.emplace_back("{");
+        } else if (tex[i] == '}') {
+            if (open.empty()) return "a brace too many";
+            open.pop_back();
+        }
+    }
+    if (!open.empty()) return "an open brace";
+    const auto lines = linesOf(tex);
+    if (lines.size() < 12 || lines[1].find("\\begin{longtable}{") != 0 || lines.back() != "\\end{longtable}")
+        return "no longtable";
+    for (const auto& line : lines) {
+        if (line.starts_with("%")) continue;
+        if (countBare(line, '$') % 2 != 0) return "half a formula: " + line;
+        if (countBare(line, '#') + countBare(line, '%') + countBare(line, '~') > 0) return "bare: " + line;
+        const bool isRow = line.ends_with(" \\\\");
+        if (isRow && countBare(line, '&') + 1 != static_cast<int>(columns)) return "cells: " + line;
+        if (!isRow && countBare(line, '&') > 0) return "half a row: " + line;
+    }
+    return "";
+}
+
+Table sample() {
+    Table table{"a/b", "Caption with 50 % & a_b", {}, {}};
+    table.columns = {{"name"},
+                     {"value", ColumnKind::Number, "m"},
+                     {"time", ColumnKind::Duration, "s"},
+                     {"dt", ColumnKind::TimeStep, "s"},
+                     {"ode matched", ColumnKind::Judged}};
+    TableCell good(0.1 + 0.2), lost;
+    good.verdict = Shown::Fail, good.bound = 0.25;
+    lost.verdict = Shown::Crashed;
+    table.rows = {{"x_1 | <b> \"q\", 5 %", 1.25e-7, 4.2e-6, 1.0 / 240.0, good},
+                  {"θ̈ → ∞ 中", std::numeric_limits<double>::quiet_NaN(), {}, 0.0033, lost},
+                  {"", -std::numeric_limits<double>::infinity(), 2.0, 0.5, {}},
+                  {"count", std::int64_t{123456}, 0.0, 0.1, {}}};
+    return table;
+}
+
+TEST(Table, CsvKeepsEveryBitAndEveryVerdict) {
+    const auto rows = parseCsv(tableCsv(sample()));
+    ASSERT_EQ(rows.size(), 5u);
+    EXPECT_EQ(rows[0], (std::vector<std::string>{"name", "value [m]", "time [s]", "dt [s]", "ode matched",
+                                                 "ode matched verdict", "ode matched bound"}));
+    EXPECT_EQ(rows[1][0], "x_1 | <b> \"q\", 5 %");
+    expectBits(rows[1][1], 1.25e-7);
+    expectBits(rows[1][3], 1.0 / 240.0);
+    expectBits(rows[1][4], 0.1 + 0.2);
+    EXPECT_EQ(rows[1][5], "fail");
+    expectBits(rows[1][6], 0.25);
+    expectBits(rows[2][1], std::nan(""));
+    EXPECT_EQ(rows[2][2], "");
+    EXPECT_EQ(rows[2][4], "");
+    EXPECT_EQ(rows[2][5], "crashed");
+    EXPECT_EQ(rows[3][1], "-inf");
+    EXPECT_EQ(rows[4][1], "123456");
+}
+
+TEST(Table, MarkdownIsATable) {
+    const auto lines = linesOf(tableMarkdown(sample()));
+    ASSERT_EQ(lines.size(), 8u);
+    EXPECT_EQ(lines[2], R"(| name | value \[m\] | time | dt | ode matched |)");
+    EXPECT_EQ(lines[3], "|---|---:|---:|---:|---:|");
+    EXPECT_EQ(lines[4], "| x\\_1 \\| &lt;b&gt; \"q\", 5 % | 1.25e-07 | 4.2 µs | 1/240 s | ✗ 0.3 (≤ 0.25) |");
+    EXPECT_NE(lines[5].find("| ! crashed |"), std::string::npos) << lines[5];
+    EXPECT_NE(lines[7].find("| 123456 |"), std::string::npos);
+}
+
+TEST(Table, LatexIsWellFormedAndEscaped) {
+    const std::string tex = tableLatex(sample());
+    EXPECT_EQ(latexFault(tex, 5), "") << tex;
+    EXPECT_NE(tex.find("x\\_1 | <b> \"q\", 5 \\%"), std::string::npos) << tex;
+    EXPECT_NE(tex.find("$1.25 \\times 10^{-7}$"), std::string::npos);
+    EXPECT_NE(tex.find("4.2 $\\mu$s & 1/240 s & $0.3$ ($\\le$ $0.25$) fail"), std::string::npos) << tex;
+    EXPECT_NE(tex.find("$\\theta$\\texttt{U+0308} $\\to$ $\\infty$ \\texttt{U+4E2D}"), std::string::npos)
+        << tex;
+    EXPECT_NE(tex.find("\\caption{Caption with 50 \\% \\& a\\_b}\\label{tab:a-b}"), std::string::npos);
+    EXPECT_NE(latexFault(tex.substr(0, tex.size() - 5), 5), "") << "the check finds faults";
+    EXPECT_NE(latexFault(tex, 4), "");
+}
+
+TEST(Tables, AreWellFormedInEveryFormat) {
+    const auto run = synthetic::makeRun(26);  // with the hostile name
+    const ViewModel view(run);
+    const auto tables = allTables(view);
+    std::set<std::string> names;
+    for (const auto& table : tables) {
+        EXPECT_TRUE(names.insert(table.name).second) << table.name << " twice";
+        EXPECT_FALSE(table.caption.empty());
+        std::size_t csvColumns = table.columns.size();
+        for (const auto& column : table.columns) csvColumns += column.kind == ColumnKind::Judged ? 2 : 0;
+        for (const auto& row : table.rows) ASSERT_EQ(row.size(), table.columns.size()) << table.name;
+        const auto csv = parseCsv(tableCsv(table));
+        ASSERT_EQ(csv.size(), table.rows.size() + 1) << table.name;
+        for (const auto& row : csv) EXPECT_EQ(row.size(), csvColumns) << table.name;
+        EXPECT_EQ(latexFault(tableLatex(table), table.columns.size()), "") << table.name;
+        const auto markdown = linesOf(tableMarkdown(table));
+        ASSERT_EQ(markdown.size(), table.rows.size() + 4) << table.name;
+        EXPECT_EQ(tableMarkdown(table).find("<img"), std::string::npos);
+    }
+    for (const char* name :
+         {"scoreboard", "trust", "timing", "phases", "audit", "contacts", "ledger", "scenarios/free_flight"})
+        EXPECT_TRUE(names.contains(name)) << name;
+}
+
+const Table& named(const std::vector<Table>& tables, const std::string& name) {
+    return *std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.name == name; });
+}
+
+TEST(Tables, SayWhatTheRunSays) {
+    const auto run = synthetic::makeRun(8);
+    const ViewModel view(run);
+    const auto tables = allTables(view);
+    std::size_t timed = 0, phases = 0, inRun = 0;
+    for (const auto& c : run.cases)
+        for (const auto& t : c.timings) t.phase == "step" ? ++timed : ++phases;
+    for (const auto& c : run.cases)
+        inRun += static_cast<std::size_t>(std::count_if(c.audit.begin(), c.audit.end(),
+                                                        [](const auto& a) { return a.auditor == "in_run"; }));
+    EXPECT_EQ(named(tables, "timing").rows.size(), timed);
+    EXPECT_EQ(named(tables, "phases").rows.size(), phases);
+    EXPECT_EQ(named(tables, "contacts").rows.size(), inRun);
+    EXPECT_EQ(named(tables, "ledger").rows.size(), view.ledger().size());
+    const Table& board = named(tables, "scoreboard");
+    ASSERT_EQ(board.rows.size(), run.scenarios.size());
+    for (std::size_t s = 0; s < run.scenarios.size(); ++s)
+        for (std::size_t c = 0; c < view.columns().size(); ++c) {
+            const TableCell& cell = board.rows[s][5 + c];
+            EXPECT_EQ(cell.verdict, view.cell(s, c).worst);
+            const auto& row = *view.cell(s, c).cases.front();
+            const auto* metric = findMetric(row, view.mainMetric(s).name);
+            if (cell.number) {
+                EXPECT_EQ(*cell.number, metric->value);
+            }
+            EXPECT_EQ(cell.number.has_value(), metric != nullptr && *cell.verdict < Shown::NonFinite);
+        }
+    // The first of a mechanism's rows that is one's choice is the view's.
+    const Table& trust = named(tables, "trust");
+    for (const auto& m : view.mechanisms()) {
+        const auto row = std::find_if(trust.rows.begin(), trust.rows.end(),
+                                      [&](const auto& r) { return r[0].text == m.name; });
+        ASSERT_NE(row, trust.rows.end());
+        if (m.best < 0) continue;
+        EXPECT_EQ((*row)[1].text, view.columns()[static_cast<std::size_t>(m.best)].engine);
+    }
+}
+
+/// Where there is a pdflatex, it reads what we write.
+TEST(Tables, CompileWhereThereIsAPdflatex) {
+    if (std::system("command -v pdflatex > /dev/null 2>&1") != 0) GTEST_SKIP() << "no pdflatex here";
+    const auto run = synthetic::makeRun(26);
+    std::string document =
+        "\\documentclass{article}\\usepackage[T1]{fontenc}\\usepackage{booktabs,longtable}\n"
+        "\\begin{document}\\tiny\n" +
+        tableLatex(sample());
+    for (const auto& table : allTables(ViewModel(run)))
+        if (table.rows.size() < 200) document += tableLatex(table);
+    const auto folder = std::filesystem::path(testing::TempDir()) / "rigor-latex";
+    std::filesystem::create_directories(folder);
+    writeFile(folder / "tables.tex", document + "\\end{document}\n");
+    EXPECT_EQ(std::system(("cd " + folder.string() +
+                           " && pdflatex -interaction=batchmode -halt-on-error tables.tex > log.txt 2>&1")
+                              .c_str()),
+              0)
+        << folder;
+}
+
+}  // namespace
+}  // namespace rigor::report
