@@ -186,10 +186,6 @@ double ReplayBudget::allowance() const {
     return std::clamp(kReplayBytesPerCase + saved_ / 4.0, kReplayBytesPerCase / 4.0, kReplayBytesAtMost);
 }
 
-std::string replayName(std::size_t scenario, std::size_t step) {
-    return "replay-" + std::to_string(scenario) + "-" + std::to_string(step);
-}
-
 std::string replayBundle(const ViewModel& view, std::size_t scenario, std::size_t step,
                          const FullTrajectoryLoader& load, ReplayBudget& budget) {
     const auto& shown = view.run().scenarios[scenario];
@@ -229,6 +225,16 @@ std::string replayBundle(const ViewModel& view, std::size_t scenario, std::size_
     addReference(cases, times, bundle, budget, meta);
     meta["cases"] = std::move(list);
     return bundle.bytes(meta);
+}
+
+void replayFiles(const ViewModel& view, const FullTrajectoryLoader& load,
+                 const std::function<void(const std::string& name, const std::string& bundle)>& write) {
+    ReplayBudget budget;
+    const auto& scenarios = view.run().scenarios;
+    for (std::size_t i = 0; i < scenarios.size(); ++i)
+        for (std::size_t j = 0; j < scenarios[i].timeSteps.size(); ++j)
+            if (const std::string bundle = replayBundle(view, i, j, load, budget); !bundle.empty())
+                write("replay-" + std::to_string(i) + "-" + std::to_string(j), bundle);
 }
 
 }  // namespace rigor::report

@@ -44,7 +44,9 @@ class ReplayBudget {
 std::string replayBundle(const ViewModel& view, std::size_t scenario, std::size_t step,
                          const FullTrajectoryLoader& load, ReplayBudget& budget);
 
-/// "replay-<scenario>-<step>": the name of its data file.
-std::string replayName(std::size_t scenario, std::size_t step);
+/// Bundles of all scenarios at all their time steps, one after the other, with the names of their data files:
+/// "replay-<scenario>-<step>".
+void replayFiles(const ViewModel& view, const FullTrajectoryLoader& load,
+                 const std::function<void(const std::string& name, const std::string& bundle)>& write);
 
 }  // namespace rigor::report

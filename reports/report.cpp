@@ -5,6 +5,8 @@
 #include <exception>
 #include <fstream>
 
+#include "reports/data_files.hpp"
+#include "reports/replay_data.hpp"
 #include "reports/study.hpp"
 #include "reports/svg_plot.hpp"
 #include "reports/table.hpp"
@@ -28,6 +30,16 @@ std::optional<nlohmann::ordered_json> readStudy(const fs::path& file) {
     }
 }
 
+std::optional<results::TrajectoryFile> loadTrajectory(const fs::path& runDirectory,
+                                                      const results::CaseRow& row, bool withContacts) {
+    if (row.trajectoryFile.empty()) return std::nullopt;
+    try {
+        return results::readTrajectory(runDirectory / row.trajectoryFile, withContacts);
+    } catch (const std::exception&) {
+        return std::nullopt;  // a lost or damaged file costs its curves, not the report
+    }
+}
+
 }  // namespace
 
 std::vector<fs::path> writeReports(const fs::path& runDirectory) {
@@ -35,13 +47,8 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory) {
     const results::Run shown = withoutCompanions(run);
     const ViewModel view(shown);
     const auto study = readStudy(runDirectory / "study.json");
-    const TrajectoryLoader load = [&](const results::CaseRow& row) -> std::optional<results::TrajectoryFile> {
-        if (row.trajectoryFile.empty()) return std::nullopt;
-        try {
-            return results::readTrajectory(runDirectory / row.trajectoryFile, false);
-        } catch (const std::exception&) {
-            return std::nullopt;  // a lost or damaged file costs its curves, not the report
-        }
+    const TrajectoryLoader load = [&](const results::CaseRow& row) {
+        return loadTrajectory(runDirectory, row, false);
     };
     std::vector<fs::path> written;
     const auto write = [&](const fs::path& name, const std::string& content) {
@@ -69,6 +76,13 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory) {
         write(fs::path("tables") / (table.name + ".md"), tableMarkdown(table));
         write(fs::path("tables") / (table.name + ".tex"), tableLatex(table));
     }
+    fs::create_directories(runDirectory / "data");
+    const FullTrajectoryLoader loadAll = [&](const results::CaseRow& row) {
+        return loadTrajectory(runDirectory, row, true);
+    };
+    replayFiles(view, loadAll, [&](const std::string& name, const std::string& bundle) {
+        write(fs::path("data") / (name + ".js"), dataFile(name, bundle));
+    });
     return written;
 }
 

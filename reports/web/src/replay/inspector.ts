@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Numbers of what the pointer is on, or of a body that was clicked: as they are stored, not as they are drawn.
+import { el } from '../common/elements.ts';
+import type { Frame, FrameSource } from './frames.ts';
+import type { Scene } from './scene.ts';
+
+/** Seven digits: what single precision holds. */
+const text = (x: number) => (Number.isFinite(x) ? String(Number(x.toPrecision(7))).replace(/^-/, '−') : String(x));
+const three = (list: ArrayLike<number>, i: number, n = 3) =>
+  Array.from({ length: n }, (_, k) => text(list[n * i + k] as number)).join(', ');
+
+export interface Inspected {
+  source: FrameSource;
+  frame: Frame;
+  body: number;
+  shape: number;
+  contact: number;
+  island: number;
+}
+
+const row = (name: string, value: string, unit: string, key: string) => [
+  el('dt', {}, name),
+  el('dd', { 'data-quantity': key }, value, unit ? el('span', { class: 'unit' }, ` ${unit}`) : null),
+];
+
+function contactRows(scene: Scene, { frame, contact }: Inspected): HTMLElement[] {
+  const c = frame.contacts;
+  if (!c || contact < 0) return [];
+  const name = (body: number, shape: number) =>
+    `${scene.bodies[body]?.name ?? body}${shape > 0 ? ` (shape ${shape})` : ''}`;
+  const side = (bodies: ArrayLike<number>, shapes: ArrayLike<number>) =>
+    name(bodies[contact] as number, shapes[contact] as number);
+  return [
+    ...row('contact', `${contact} of ${c.count}`, '', 'contact'),
+    ...row('A', side(c.bodyA, c.shapeA), '', 'a'),
+    ...row('B', side(c.bodyB, c.shapeB), '', 'b'),
+    ...row('point on A', three(c.pointA, contact), 'm', 'pointA'),
+    ...row('normal', three(c.normal, contact), '', 'normal'),
+    ...row('depth', text(c.depth[contact] as number), 'm', 'depth'),
+    ...row('normal impulse', text(c.normalImpulse[contact] as number), 'N s', 'normalImpulse'),
+    ...row('friction', three(c.frictionImpulse, contact), 'N s', 'frictionImpulse'),
+  ];
+}
+
+function bodyRows(scene: Scene, { frame, body, shape, island }: Inspected): HTMLElement[] {
+  const b = scene.bodies[body];
+  if (!b) return [];
+  const shapes = b.shapes.length > 1 ? `${b.shapes.length} shapes` : (b.shapes[0]?.name ?? 'no shape');
+  return [
+    ...row('body', `${b.name} (${body})`, '', 'body'),
+    ...row('kind', `${b.type}, ${shapes}`, '', 'kind'),
+    ...(shape >= 0 && b.shapes.length > 1 ? row('shape', `${shape}: ${b.shapes[shape]?.name}`, '', 'shape') : []),
+    ...row('position', three(frame.position, body), 'm', 'position'),
+    ...row('orientation', three(frame.orientation, body, 4), '', 'orientation'),
+    ...(frame.velocity ? row('velocity', three(frame.velocity, body), 'm/s', 'velocity') : []),
+    ...(frame.angularVelocity ? row('spin', three(frame.angularVelocity, body), 'rad/s', 'angularVelocity') : []),
+    ...(island >= 0 ? row('island', scene.bodies[island]?.name ?? String(island), '', 'island') : []),
+  ];
+}
+
+export class Inspector {
+  readonly element = el('aside', { class: 'inspector', hidden: true, 'aria-live': 'off' });
+  readonly #scene: Scene;
+
+  constructor(scene: Scene) {
+    this.#scene = scene;
+  }
+
+  show(what: Inspected | null, pinned: boolean): void {
+    this.element.hidden = what === null;
+    this.element.classList.toggle('pinned', pinned);
+    if (what === null) return;
+    const { source, frame } = what;
+    this.element.replaceChildren(
+      el('div', { class: 'who' }, el('i', { style: `background:${source.colour}` }), source.label),
+      el(
+        'dl',
+        {},
+        row('time', text(frame.time), `s, step ${frame.step}`, 'time'),
+        what.contact >= 0 ? contactRows(this.#scene, what) : bodyRows(this.#scene, what),
+      ),
+    );
+  }
+}

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Where "first divergence", "largest error", "next contact" and "worst normal" are, among the sources that are shown.
+import type { FrameSource, ReplayEvent } from './frames.ts';
+
+export interface Jump {
+  source: FrameSource;
+  event: ReplayEvent;
+}
+
+type Kinds = ReplayEvent['kind'][];
+const contactKinds: Kinds = ['contact_begin', 'contact_end'];
+const slack = 1e-9;
+
+const all = (sources: readonly FrameSource[], kinds: Kinds): Jump[] =>
+  sources.flatMap((source) =>
+    source.events.filter((event) => kinds.includes(event.kind)).map((event) => ({ source, event })),
+  );
+
+const earliest = (jumps: Jump[]): Jump | null =>
+  jumps.reduce<Jump | null>((best, j) => (best === null || j.event.time < best.event.time ? j : best), null);
+
+/** From the reference; where nobody leaves it, or there is none, from another engine. */
+export function firstDivergence(sources: readonly FrameSource[]): Jump | null {
+  return earliest(all(sources, ['divergence'])) ?? earliest(all(sources, ['parting']));
+}
+
+/** Of the metric that comes first in `metrics` and that somebody has; of the whole scene before that of one body. */
+export function largestError(sources: readonly FrameSource[], metrics: readonly string[]): Jump | null {
+  const found = all(sources, ['largest']);
+  const named = metrics.find((name) => found.some((j) => j.event.what === name));
+  const same = found.filter((j) => j.event.what === (named ?? found[0]?.event.what));
+  const whole = same.filter((j) => !j.event.subject);
+  return (whole.length > 0 ? whole : same).reduce<Jump | null>(
+    (best, j) => (best === null || (j.event.value ?? 0) > (best.event.value ?? 0) ? j : best),
+    null,
+  );
+}
+
+/** Nearest contact event after (`forward`) or before a time. */
+export function contactEvent(sources: readonly FrameSource[], time: number, forward: boolean): Jump | null {
+  const found = all(sources, contactKinds).filter((j) =>
+    forward ? j.event.time > time + slack : j.event.time < time - slack,
+  );
+  if (forward) return earliest(found);
+  return found.reduce<Jump | null>((best, j) => (best === null || j.event.time > best.event.time ? j : best), null);
+}
+
+/**
+ * The frame where the audit found a normal furthest from the exact ones. What the run itself acted upon and what the
+ * engine answered comes before what other engines answered about its frames.
+ */
+export function worstNormal(sources: readonly FrameSource[]): Jump | null {
+  const rank = ({ source, event }: Jump) => {
+    const own = event.what === 'in_run' || event.what === source.spec.split(':')[0];
+    return (own ? 1e6 : 0) + (event.value ?? 0);
+  };
+  return all(sources, ['audit'])
+    .filter((j) => j.event.what !== 'oracle' && !j.event.what?.includes('|'))
+    .reduce<Jump | null>((best, j) => (best === null || rank(j) > rank(best) ? j : best), null);
+}
+
+/** Bodies that an event names. */
+export const bodiesOf = (event: ReplayEvent): string[] => (event.subject ? event.subject.split('|') : []);
+
+const kindWords: Record<ReplayEvent['kind'], string> = {
+  divergence: 'leaves the reference',
+  parting: 'leaves',
+  largest: 'largest',
+  audit: 'worst contact geometry by',
+  contact_begin: 'contact begins',
+  contact_end: 'contact ends',
+  nonfinite: 'no longer finite',
+};
+
+/** One line: "largest position_max, ball: 0.12 m". */
+export function describe(event: ReplayEvent): string {
+  const digits = (x: number) => String(Number(x.toPrecision(4)));
+  let text = kindWords[event.kind];
+  if (event.what) text += ` ${event.what}`;
+  if (event.subject) text += `, ${event.subject.replace('|', ' and ')}`;
+  if (event.value !== undefined)
+    text += `: ${digits(event.value)}${event.unit && event.unit !== '1' ? ` ${event.unit}` : ''}`;
+  if (event.threshold) text += ` (more than ${digits(event.threshold)} m)`;
+  return text;
+}
+
+/** Next stored time of the shown sources after (`forward`) or before a time; null at the end. */
+export function neighbourTime(sources: readonly FrameSource[], time: number, forward: boolean): number | null {
+  let best: number | null = null;
+  for (const { times } of sources)
+    for (let low = 0, high = times.length - 1; low <= high; ) {
+      const middle = (low + high) >> 1;
+      const t = times[middle] as number;
+      const beyond = forward ? t > time + slack : t < time - slack;
+      if (beyond && (best === null || (forward ? t < best : t > best))) best = t;
+      if (forward === beyond) high = middle - 1;
+      else low = middle + 1;
+    }
+  return best;
+}

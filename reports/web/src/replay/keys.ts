@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Keyboard control of a replay, while it has the focus, and the overlay that explains it.
+import { el } from '../common/elements.ts';
+import type { LayerName } from './layers.ts';
+import type { ReplayStage } from './stage.ts';
+
+const layerKeys: Record<string, LayerName> = {
+  f: 'faces',
+  l: 'outlines',
+  c: 'contacts',
+  m: 'normals',
+  p: 'penetration',
+  i: 'impulses',
+  v: 'velocities',
+  w: 'spins',
+  j: 'joints',
+  b: 'bounds',
+  t: 'trails',
+  r: 'reference',
+};
+
+const explained: [string, string][] = [
+  ['space', 'play, pause'],
+  ['← →', 'one frame back, on; with shift ten'],
+  ['Home End', 'start, end'],
+  ['+ −', 'faster, slower'],
+  ['d', 'first divergence'],
+  ['e', 'largest error'],
+  ['[ ]', 'previous, next contact event'],
+  ['n', 'worst contact normal'],
+  ['1 … 9', 'engine on, off'],
+  ['o', 'side by side, overlaid'],
+  ['a', 'camera: whole scene'],
+  ['f l', 'faces, outlines'],
+  ['c m p i', 'contacts, normals, penetration, impulses'],
+  ['v w', 'velocities, angular velocities'],
+  ['j b t r', 'joints, AABBs, trails, reference'],
+  ['?', 'this list'],
+];
+
+export function helpOverlay(): HTMLElement {
+  const rows = explained.map(([keys, text]) => [
+    el(
+      'dt',
+      {},
+      keys.split(' ').map((key) => [el('kbd', {}, key), ' ']),
+    ),
+    el('dd', {}, text),
+  ]);
+  return el(
+    'div',
+    { class: 'help', hidden: true, role: 'note' },
+    el('dl', {}, rows),
+    el(
+      'p',
+      {},
+      'Drag turns the picture, with the right button it moves, the wheel zooms. Click a body to keep its numbers.',
+    ),
+  );
+}
+
+/** Returns what ends it. */
+export function bindKeys(root: HTMLElement, stage: ReplayStage): () => void {
+  const simple: Record<string, () => void> = {
+    ' ': () => stage.player.toggle(),
+    Home: () => stage.setTime(0),
+    End: () => stage.setTime(stage.player.end),
+    '+': () => stage.player.shift(1),
+    '-': () => stage.player.shift(-1),
+    d: () => stage.jump('divergence'),
+    e: () => stage.jump('largest'),
+    n: () => stage.jump('normal'),
+    '[': () => stage.jump('previous'),
+    ']': () => stage.jump('next'),
+    a: () => stage.view.frameAll(),
+    o: () => stage.controls.overlay(!stage.view.options.overlaid),
+    '?': () => stage.controls.toggleHelp(),
+  };
+  const press = (event: KeyboardEvent) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const target = event.target as HTMLElement;
+    if (target.matches('select, input:not([type=range])')) return;
+    const { key } = event;
+    const layer = layerKeys[key];
+    if (key === 'ArrowLeft' || key === 'ArrowRight') stage.step(key === 'ArrowRight', event.shiftKey ? 10 : 1);
+    else if (key === ' ' && target.matches('button')) return;
+    else if (simple[key]) simple[key]?.();
+    else if (layer) stage.controls.toggle(layer);
+    else if (/^[1-9]$/.test(key)) {
+      const source = stage.engines[Number(key) - 1];
+      if (source && source.times.length > 0) stage.toggleEngine(source);
+    } else return;
+    event.preventDefault();
+    event.stopPropagation();
+  };
+  root.addEventListener('keydown', press);
+  return () => root.removeEventListener('keydown', press);
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What can be switched on and off in the view, and how it is written into a link.
+
+export const layerNames = {
+  faces: 'Faces',
+  outlines: 'Outlines',
+  contacts: 'Contact points',
+  normals: 'Normals, A to B',
+  penetration: 'Penetration',
+  impulses: 'Contact impulses',
+  velocities: 'Velocities',
+  spins: 'Angular velocities',
+  joints: 'Joints',
+  bounds: 'AABBs',
+  trails: 'Trails',
+  reference: 'Reference',
+} as const;
+export type LayerName = keyof typeof layerNames;
+export type Layers = Record<LayerName, boolean>;
+
+export const colourings = { engine: 'by engine', body: 'by body', island: 'by island' } as const;
+export type Colouring = keyof typeof colourings;
+
+export interface ViewOptions {
+  layers: Layers;
+  colouring: Colouring;
+  overlaid: boolean; // all in one picture; else side by side
+  exaggeration: number; // of penetrations
+  arrows: number; // length of arrows, 1: as framed
+}
+
+export const defaultOptions = (): ViewOptions => ({
+  layers: {
+    faces: true,
+    outlines: true,
+    contacts: true,
+    normals: true,
+    penetration: false,
+    impulses: false,
+    velocities: false,
+    spins: false,
+    joints: true,
+    bounds: false,
+    trails: false,
+    reference: true,
+  },
+  colouring: 'body',
+  overlaid: false,
+  exaggeration: 1,
+  arrows: 1,
+});

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The replay of one scenario at one time step, as the scenario's page and `rigor view` show it:
+//
+//   const replay = mountReplay(element, {scenario, index, step, cursor, colourOf});
+//   replay.focus('bullet:preset=default', 'block', 'floor');
+//
+// The cursor is shared with the curves; the address is kept up to date, so that a link restores the view.
+import type { Cursor } from '../common/cursor.ts';
+import { loadData } from '../common/data_files.ts';
+import { el } from '../common/elements.ts';
+import type { FrameSource } from './frames.ts';
+import { type Replay, readReplay } from './replay_file.ts';
+import { type Json, readScene, type Scene } from './scene.ts';
+import { ReplayStage } from './stage.ts';
+import { NoWebGL } from './view.ts';
+import './style.css';
+
+export interface ReplayContext {
+  scenario: Json; // the scenario file, parsed
+  index: number; // of the scenario in the run
+  step: number; // of the time step in the scenario
+  cursor: Cursor;
+  /** Colour of a spec, as the curves have it; "" is the reference. */
+  colourOf: (spec: string, index: number) => string;
+  metrics?: readonly string[]; // in order of importance: whose largest error counts
+  /** Where the replay file comes from; else from beside the page. */
+  load?: () => Promise<ArrayBuffer>;
+  /** What a link restores, and what is told when that changes; else both are the page's address. */
+  state?: string;
+  onState?: (state: string) => void;
+}
+
+export interface ReplayHandle {
+  /** Settled when everything is there, or a sentence says why not. */
+  ready: Promise<void>;
+  setTime(seconds: number): void;
+  /** Shows one engine, lights two bodies up and moves the camera to them; bodies by name. */
+  focus(spec: string, ...bodies: string[]): void;
+  dispose(): void;
+}
+
+/** Bodies in the order of the stored frames; one that the file does not name is a point. */
+function inOrder(scene: Scene, names: readonly string[]): Scene {
+  const known = new Map(scene.bodies.map((body, i) => [body.name, i]));
+  const place = new Map(names.map((name, i) => [name, i]));
+  const moved = (old: number) => (old < 0 ? -1 : (place.get(scene.bodies[old]?.name ?? '') ?? -1));
+  return {
+    ...scene,
+    bodies: names.map((name) => {
+      const body = scene.bodies[known.get(name) ?? -1];
+      if (body) return body;
+      const first = {
+        position: [0, 0, 0] as [number, number, number],
+        orientation: [1, 0, 0, 0] as [number, number, number, number],
+      };
+      return { name, type: 'dynamic', first, centre: [0, 0, 0], shapes: [], collides: false };
+    }),
+    joints: scene.joints.map((joint) => ({ ...joint, a: moved(joint.a), b: moved(joint.b) })),
+  };
+}
+
+export function mountReplay(element: HTMLElement, context: ReplayContext): ReplayHandle {
+  let stage: ReplayStage | null = null;
+  let disposed = false;
+  const root = el('div', { class: 'replay' }, el('p', { class: 'replay-note' }, 'Loading the frames …'));
+  element.append(root);
+  const say = (text: string) => root.replaceChildren(el('p', { class: 'replay-note' }, text));
+
+  const start = async () => {
+    let replay: Replay;
+    try {
+      const load = context.load ?? (() => loadData(`replay-${context.index}-${context.step}`));
+      replay = readReplay(await load(), context.colourOf);
+    } catch (error) {
+      say(`There is no replay: ${error instanceof Error ? error.message : String(error)}.`);
+      return;
+    }
+    if (disposed) return;
+    const sources: FrameSource[] = [...replay.sources];
+    if (replay.reference) sources.push(replay.reference);
+    try {
+      root.replaceChildren();
+      const scene = inOrder(readScene(context.scenario), replay.head.bodies);
+      stage = new ReplayStage(root, scene, sources, context);
+    } catch (error) {
+      if (!(error instanceof NoWebGL)) console.error(error);
+      say(
+        error instanceof NoWebGL
+          ? 'This browser shows no WebGL, which the replay needs. Curves and tables are complete without it.'
+          : `The replay cannot be shown: ${error instanceof Error ? error.message : String(error)}.`,
+      );
+    }
+  };
+  const ready = start();
+  return {
+    ready,
+    setTime: (seconds) => context.cursor.time.set(seconds),
+    focus: (spec, ...bodies) => {
+      void ready.then(() => stage?.focus(spec, bodies));
+    },
+    dispose: () => {
+      disposed = true;
+      stage?.dispose();
+      root.remove();
+    },
+  };
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The clock of a replay: moves a shared time while it plays.
+import type { Observable } from '../common/cursor.ts';
+
+export const speeds = [0.01, 0.03, 0.1, 0.25, 0.5, 1, 2, 4];
+
+export class Player {
+  readonly #time: Observable<number>;
+  readonly #changed: () => void;
+  #speed = 1;
+  #asked = 0;
+  #last = 0;
+  /** Last time there is [s]. */
+  end = 0;
+
+  /** `changed`: playing or speed is another one. */
+  constructor(time: Observable<number>, changed: () => void) {
+    this.#time = time;
+    this.#changed = changed;
+  }
+
+  get playing(): boolean {
+    return this.#asked !== 0;
+  }
+  get speed(): number {
+    return this.#speed;
+  }
+  set speed(value: number) {
+    this.#speed = value;
+    this.#changed();
+  }
+
+  /** One faster or slower. */
+  shift(by: number): void {
+    const at = speeds.findIndex((s) => s >= this.#speed - 1e-9);
+    this.speed = speeds[Math.min(speeds.length - 1, Math.max(0, (at < 0 ? speeds.length - 1 : at) + by))] as number;
+  }
+
+  /** From the start where it has come to the end. */
+  play(): void {
+    if (this.playing) return;
+    if (this.#time.value >= this.end - 1e-9) this.#time.set(0, this);
+    this.#last = performance.now();
+    this.#asked = requestAnimationFrame(this.#tick);
+    this.#changed();
+  }
+
+  pause(): void {
+    if (!this.playing) return;
+    cancelAnimationFrame(this.#asked);
+    this.#asked = 0;
+    this.#changed();
+  }
+
+  toggle(): void {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  readonly #tick = (now: number) => {
+    // a page that was hidden does not leap
+    const passed = Math.min(0.1, Math.max(0, (now - this.#last) / 1e3));
+    this.#last = now;
+    const time = Math.min(this.end, this.#time.value + passed * this.#speed);
+    this.#asked = requestAnimationFrame(this.#tick);
+    this.#time.set(time, this);
+    if (time >= this.end) this.pause();
+  };
+}

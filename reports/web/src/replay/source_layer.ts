@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Everything of one source in a three.js scene of its own: bodies, overlays, ground and light.
+import { Color, DirectionalLight, HemisphereLight, Scene as ThreeScene } from 'three';
+import { BodyLayer } from './body_layer.ts';
+import { distinctColour, type Theme } from './colours.ts';
+import { type Frame, type FrameSource, indexAt } from './frames.ts';
+import type { Framing } from './framing.ts';
+import { Ground } from './ground.ts';
+import { findIslands, UnionFind } from './islands.ts';
+import type { ViewOptions } from './layers.ts';
+import { type ArrowScales, Overlays } from './overlays.ts';
+import type { Scene } from './scene.ts';
+import type { TemplateCache } from './shape_meshes.ts';
+
+export class SourceLayer {
+  readonly three = new ThreeScene();
+  readonly source: FrameSource;
+  readonly bodies: BodyLayer;
+  readonly #scene: Scene;
+  readonly #overlays: Overlays;
+  readonly #ground: Ground;
+  readonly #sun = new DirectionalLight('#ffffff', 2.1);
+  readonly #sky = new HemisphereLight('#ffffff', '#8a8f98', 1.25);
+  readonly #colours: Float32Array;
+  readonly #islands: Int32Array;
+  readonly #sets: UnionFind;
+  readonly #moves: boolean[];
+  readonly #c = new Color();
+  #shown = -1;
+  #frame: Frame | null = null;
+
+  /** `withStatics`: false where another layer of the same picture draws them. */
+  constructor(scene: Scene, source: FrameSource, templates: TemplateCache, withStatics: boolean) {
+    this.#scene = scene;
+    this.source = source;
+    this.bodies = new BodyLayer(scene, templates, (b) => !withStatics && scene.bodies[b]?.type === 'static');
+    this.#overlays = new Overlays(scene);
+    this.#ground = new Ground(scene);
+    if (!withStatics) this.#ground.group.visible = false;
+    this.#colours = new Float32Array(3 * scene.bodies.length);
+    this.#islands = new Int32Array(scene.bodies.length);
+    this.#sets = new UnionFind(scene.bodies.length);
+    this.#moves = scene.bodies.map((body) => body.type === 'dynamic');
+    this.three.matrixAutoUpdate = false;
+    this.three.add(this.bodies.group, this.#overlays.group, this.#ground.group, this.#sun, this.#sky);
+    this.#sun.position.set(0.45, 1, 0.7);
+  }
+
+  get frame(): Frame | null {
+    return this.#frame;
+  }
+  get index(): number {
+    return this.#shown;
+  }
+
+  build(framing: Framing, theme: Theme, pixelRatio: number): void {
+    this.#ground.build(framing.centre, framing.radius, theme);
+    this.#overlays.pixels = (this.#scene.bodies.length > 60 ? 5 : 8) * pixelRatio;
+    this.#sky.intensity = theme.dark ? 1.0 : 1.35;
+  }
+
+  /** The frame at a time; true when that is another one than before. */
+  seek(time: number): boolean {
+    const { times } = this.source;
+    if (times.length === 0) return false;
+    const index = indexAt(times, time);
+    if (index === this.#shown && this.#frame) return false;
+    this.#shown = index;
+    this.#frame = this.source.frame(index);
+    this.bodies.place(this.#frame);
+    return true;
+  }
+
+  /** Reads the shown frame again: the source has changed it. */
+  forget(): void {
+    this.#shown = -1;
+  }
+
+  /** Colours and overlays of the shown frame. */
+  paint(options: ViewOptions, theme: Theme, scales: ArrowScales, marked: number): void {
+    if (!this.#frame) return;
+    this.#colour(options, theme, marked);
+    this.bodies.paint(this.#colours);
+    const ghost = this.source.ghost !== options.overlaid; // overlaid engines are ghosts on the reference
+    this.bodies.look(
+      {
+        faces: options.layers.faces,
+        outlines: options.layers.outlines || ghost,
+        ghost,
+        behind: this.source.ghost && ghost,
+        ink: theme.ink,
+        dark: theme.dark,
+      },
+      this.#c,
+    );
+    this.#overlays.draw(this.source, this.#frame, this.bodies, options, theme, scales, this.#colours);
+  }
+
+  /** Island of a body at this frame; -1: it belongs to none. */
+  islandOf(body: number): number {
+    return this.#islands[body] ?? -1;
+  }
+
+  #colour(options: ViewOptions, theme: Theme, marked: number): void {
+    const light = theme.dark ? 0.58 : 0.56;
+    findIslands(this.#moves, this.#frame?.contacts ?? null, this.#scene.joints, this.#sets, this.#islands);
+    const byEngine = options.colouring === 'engine' || this.source.ghost;
+    for (let b = 0; b < this.#scene.bodies.length; ++b) {
+      if (this.#scene.bodies[b]?.type === 'static') this.#c.set(theme.still);
+      else if (byEngine) this.#c.set(this.source.ghost ? theme.ghost : this.source.colour);
+      else if (options.colouring === 'island') distinctColour(this.#islands[b] as number, light, this.#c);
+      else distinctColour(b, light, this.#c);
+      if (b === marked) this.#c.lerp(white, theme.dark ? 0.45 : 0.5);
+      this.#colours[3 * b] = this.#c.r;
+      this.#colours[3 * b + 1] = this.#c.g;
+      this.#colours[3 * b + 2] = this.#c.b;
+    }
+  }
+
+  dispose(): void {
+    this.bodies.dispose();
+    this.#overlays.dispose();
+    this.#ground.dispose();
+    this.#sun.dispose();
+    this.#sky.dispose();
+  }
+}
+const white = new Color('#ffffff');

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Picture, controls and keys of a replay, bound together.
+import { el } from '../common/elements.ts';
+import { darkTheme, lightTheme } from './colours.ts';
+import { Controls } from './controls.ts';
+import type { FrameSource } from './frames.ts';
+import { bodyReach } from './framing.ts';
+import { Inspector } from './inspector.ts';
+import {
+  bodiesOf,
+  contactEvent,
+  describe,
+  firstDivergence,
+  type Jump,
+  largestError,
+  neighbourTime,
+  worstNormal,
+} from './jumps.ts';
+import { bindKeys } from './keys.ts';
+import { decodeLink, encodeLink, viewOfHash, withView } from './link.ts';
+import type { ReplayContext } from './mount.ts';
+import { PanelLabels } from './panel_labels.ts';
+import { Player } from './player.ts';
+import type { Scene } from './scene.ts';
+import type { Vec3 } from './vectors.ts';
+import { type Pick, ReplayView } from './view.ts';
+
+/** More pictures than this make each too small to begin with. */
+const mostShownAtFirst = 4;
+
+export class ReplayStage {
+  readonly view: ReplayView;
+  readonly player: Player;
+  readonly sources: FrameSource[];
+  readonly #context: ReplayContext;
+  readonly #scene: Scene;
+  readonly controls: Controls;
+  readonly #inspector: Inspector;
+  readonly #labels: PanelLabels;
+  readonly #stage: HTMLElement;
+  readonly #ends: (() => void)[] = [];
+  #chosen: Set<string>; // specs that have a picture
+  #pinned: { spec: string; body: number } | null = null;
+  #hover: Pick | null = null;
+  #linkTimer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(root: HTMLElement, scene: Scene, sources: FrameSource[], context: ReplayContext) {
+    this.#context = context;
+    this.#scene = scene;
+    this.sources = sources;
+    this.#stage = el('div', { class: 'stage' });
+    root.append(this.#stage);
+    this.view = new ReplayView(this.#stage, scene);
+    this.player = new Player(context.cursor.time, () => this.controls?.refresh());
+    this.#inspector = new Inspector(scene);
+    this.#labels = new PanelLabels();
+    this.#stage.append(this.#labels.element, this.#inspector.element);
+    this.#chosen = this.#firstChoice();
+    this.player.end = Math.max(0, ...sources.map((s) => s.times[s.times.length - 1] ?? 0));
+    if (this.player.end < 1.2) this.player.speed = 0.25;
+    this.controls = new Controls(this);
+    root.append(this.controls.element);
+    this.#ends.push(bindKeys(root, this));
+    this.#follow();
+    this.#restore();
+    this.#choose();
+    this.#seek(context.cursor.time.value);
+  }
+
+  // ---- what the controls ask for ----
+
+  get engines(): FrameSource[] {
+    return this.sources.filter((s) => !s.ghost);
+  }
+  get shown(): FrameSource[] {
+    const { hidden } = this.#context.cursor;
+    return this.engines.filter((s) => this.#chosen.has(s.spec) && !hidden.value.has(s.spec) && s.times.length > 0);
+  }
+  get hasReference(): boolean {
+    return this.sources.some((s) => s.ghost);
+  }
+  get time(): number {
+    return this.#context.cursor.time.value;
+  }
+  isShown(source: FrameSource): boolean {
+    return this.shown.includes(source);
+  }
+
+  /** Switches the picture of an engine. What the curves have switched off comes back here alone with them. */
+  toggleEngine(source: FrameSource): void {
+    const { hidden } = this.#context.cursor;
+    if (hidden.value.has(source.spec)) {
+      hidden.set(new Set([...hidden.value].filter((spec) => spec !== source.spec)));
+      this.#chosen.add(source.spec);
+    } else if (!this.#chosen.delete(source.spec)) this.#chosen.add(source.spec);
+    this.#choose();
+  }
+
+  setTime(seconds: number): void {
+    this.#context.cursor.time.set(Math.min(this.player.end, Math.max(0, seconds)), this);
+    this.#seek(this.time);
+  }
+
+  step(forward: boolean, count = 1): void {
+    this.player.pause();
+    let time = this.time;
+    for (let i = 0; i < count; ++i) time = neighbourTime(this.shown, time, forward) ?? time;
+    this.setTime(time);
+  }
+
+  jump(to: 'divergence' | 'largest' | 'next' | 'previous' | 'normal'): void {
+    const shown = this.shown;
+    const find: Record<typeof to, () => Jump | null> = {
+      divergence: () => firstDivergence(shown),
+      largest: () => largestError(shown, this.#context.metrics ?? []),
+      next: () => contactEvent(shown, this.time, true),
+      previous: () => contactEvent(shown, this.time, false),
+      normal: () => worstNormal(shown),
+    };
+    const found = find[to]();
+    this.player.pause();
+    if (!found) {
+      this.controls.say('There is no such event among the engines that are shown.');
+      return;
+    }
+    this.setTime(found.event.time);
+    this.controls.say(`${found.source.label}: ${describe(found.event)}`);
+    if (to === 'normal') this.#lookAtBodies(bodiesOf(found.event), found.source);
+  }
+
+  focus(spec: string, bodies: string[]): void {
+    const source = this.engines.find((s) => s.spec === spec && s.times.length > 0);
+    if (source && !this.isShown(source)) this.toggleEngine(source);
+    this.#lookAtBodies(bodies, source);
+  }
+
+  setOptions(change: Parameters<ReplayView['setOptions']>[0]): void {
+    this.view.setOptions(change);
+    this.controls.refresh();
+    this.#remember();
+  }
+
+  // ---- inside ----
+
+  /** The engines that are focused or matched; at most a few at first. */
+  #firstChoice(): Set<string> {
+    const able = this.engines.filter((s) => s.times.length > 0);
+    if (able.length <= mostShownAtFirst) return new Set(able.map((s) => s.spec));
+    const wanted = this.#context.cursor.focus.value?.spec;
+    const rank = (s: FrameSource) => (s.spec === wanted ? 0 : s.spec.includes('preset=matched') ? 1 : 2);
+    const first = [...able].sort((a, b) => rank(a) - rank(b)).slice(0, mostShownAtFirst);
+    return new Set(first.map((s) => s.spec));
+  }
+
+  #choose(): void {
+    const shown = new Set(this.shown);
+    this.view.setSources(this.sources.filter((s) => s.ghost || shown.has(s)));
+    this.controls.refresh();
+    this.#remember();
+  }
+
+  #follow(): void {
+    const { cursor } = this.#context;
+    this.#ends.push(
+      cursor.time.follow((time, source) => {
+        if (source !== this) this.#seek(time);
+      }),
+      cursor.hidden.follow(() => this.#choose()),
+      cursor.focus.follow((focus) => {
+        if (focus) this.focus(focus.spec, focus.bodies);
+      }),
+    );
+    this.view.onCamera = () => this.#remember();
+    this.view.onDraw = () => {
+      this.#labels.place(this.view);
+      this.#inspect();
+    };
+    this.#followPointer();
+    const dark = matchMedia('(prefers-color-scheme: dark)');
+    const themed = () => {
+      const asked = document.documentElement.dataset.theme;
+      this.view.setTheme((asked ? asked === 'dark' : dark.matches) ? darkTheme : lightTheme);
+    };
+    const observer = new MutationObserver(themed);
+    observer.observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });
+    dark.addEventListener('change', themed);
+    this.#ends.push(() => observer.disconnect());
+    this.#ends.push(() => dark.removeEventListener('change', themed));
+    themed();
+  }
+
+  #followPointer(): void {
+    const { canvas } = this.view;
+    let asked = 0;
+    let last: PointerEvent | null = null;
+    const look = () => {
+      asked = 0;
+      this.#hover = last ? this.view.pick(last.clientX, last.clientY) : null;
+      canvas.style.cursor = this.#hover ? 'pointer' : '';
+      this.view.mark(this.#hover?.body ?? this.#pinned?.body ?? -1);
+      this.#inspect();
+    };
+    const later = (event: PointerEvent | null) => {
+      last = event;
+      if (asked === 0) asked = requestAnimationFrame(look);
+    };
+    canvas.addEventListener('pointermove', (event) => later(event.buttons === 0 ? event : null));
+    canvas.addEventListener('pointerleave', () => later(null));
+    let down = [0, 0];
+    canvas.addEventListener('pointerdown', (event) => {
+      down = [event.clientX, event.clientY];
+    });
+    canvas.addEventListener('click', (event) => {
+      if (Math.hypot(event.clientX - (down[0] as number), event.clientY - (down[1] as number)) > 4) return;
+      const pick = this.view.pick(event.clientX, event.clientY);
+      this.#pinned = pick && pick.body >= 0 ? { spec: pick.source.spec, body: pick.body } : null;
+      this.view.mark(this.#pinned?.body ?? -1);
+      this.#inspect();
+      this.#remember();
+    });
+    this.#ends.push(() => cancelAnimationFrame(asked));
+  }
+
+  /** What is under the pointer, else the body that was clicked. */
+  #inspect(): void {
+    if (this.#hover) {
+      const now = this.view.frameOf(this.#hover.source);
+      const stale = now !== null && now.frame !== this.#hover.frame;
+      this.#inspector.show(stale ? { ...this.#hover, frame: now.frame, contact: -1 } : this.#hover, false);
+      return;
+    }
+    const pinned = this.#pinned;
+    const source = pinned && this.sources.find((s) => s.spec === pinned.spec);
+    const now = source ? this.view.frameOf(source) : null;
+    const what =
+      pinned && source && now
+        ? { source, frame: now.frame, body: pinned.body, shape: -1, contact: -1, island: -1 }
+        : null;
+    this.#inspector.show(what, true);
+  }
+
+  #seek(time: number): void {
+    this.view.setTime(time);
+    this.controls.time = time;
+    if (!this.player.playing) this.#remember();
+  }
+
+  #lookAtBodies(names: string[], source: FrameSource | undefined): void {
+    const bodies = names.map((name) => this.#scene.bodies.findIndex((b) => b.name === name)).filter((b) => b >= 0);
+    const moving = bodies.filter((b) => this.#scene.bodies[b]?.type !== 'static');
+    const state = source ? this.view.frameOf(source) : null;
+    const frame = state?.frame ?? source?.frame(0);
+    const b = moving[0];
+    if (b === undefined || !frame) return;
+    const at = [0, 1, 2].map((k) => frame.position[3 * b + k] as number) as Vec3;
+    if (!at.every(Number.isFinite)) return;
+    this.view.lookAt(at, Math.max(1e-3, 2.2 * bodyReach(this.#scene, b)));
+    this.#pinned = { spec: source?.spec ?? '', body: b };
+    this.view.mark(b);
+  }
+
+  // ---- the link ----
+
+  #restore(): void {
+    const state = decodeLink(this.#context.state ?? viewOfHash(location.hash));
+    if (state.options) this.view.setOptions(state.options);
+    if (state.shown) {
+      const known = state.shown.filter((spec) => this.engines.some((s) => s.spec === spec));
+      if (known.length > 0) this.#chosen = new Set(known);
+    }
+    if (state.speed !== undefined) this.player.speed = state.speed;
+    if (state.time !== undefined) this.#context.cursor.time.set(Math.min(state.time, this.player.end));
+    if (state.camera) this.view.camera = state.camera;
+    const spec = this.shown[0]?.spec;
+    if (state.body !== undefined && state.body < this.#scene.bodies.length && spec !== undefined)
+      this.#pinned = { spec, body: state.body };
+  }
+
+  /** Writes the address a little later: not while it plays or the camera turns. */
+  #remember(): void {
+    clearTimeout(this.#linkTimer);
+    this.#linkTimer = setTimeout(() => {
+      const text = this.link();
+      if (this.#context.onState) this.#context.onState(text);
+      else history.replaceState(null, '', withView(location.hash, text));
+    }, 300);
+  }
+
+  /** All that is needed to see the same again. */
+  link(): string {
+    return encodeLink({
+      time: this.time,
+      shown: this.shown.map((s) => s.spec),
+      options: this.view.options,
+      camera: this.view.camera,
+      speed: this.player.speed,
+      body: this.#pinned?.body ?? -1,
+    });
+  }
+
+  dispose(): void {
+    clearTimeout(this.#linkTimer);
+    this.player.pause();
+    for (const end of this.#ends) end();
+    this.view.dispose();
+  }
+}
