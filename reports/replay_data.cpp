@@ -32,8 +32,11 @@ constexpr std::array<Thinning, 12> kThinnings{{{kMostReplayFrames, 20, 16, true,
                                                {16, 13, 10, false, 0},
                                                {8, 13, 10, false, 0},
                                                {2, 13, 10, false, 0}}};
-/// gzip of such bytes leaves this share at least: what is larger than allowed even then is not tried.
-constexpr double kBestCompression = 0.04;
+/// A thinning that would need more than this part of what is allowed too much, judged by how well the one
+/// before was compressed, is not tried: compressing costs far more time than encoding.
+constexpr double kHopeless = 1.35;
+/// For estimates: a few percent larger than the strongest and several times faster.
+constexpr int kQuick = 4;
 
 struct CaseFrames {
     const CaseRow* row = nullptr;
@@ -52,13 +55,14 @@ Json eventJson(const ReplayEvent& e) {
     return json;
 }
 
+/// As the data file will be, but for what bodies of other cases have in common with these.
 std::size_t compressedSize(const EncodedFrames& frames) {
     std::string all;
     for (const Bytes* bytes :
          {&frames.steps, &frames.position, &frames.orientation, &frames.velocity, &frames.angularVelocity,
           &frames.contactCounts, &frames.contactIds, &frames.contactNumbers})
         all.append(bytes->begin(), bytes->end());
-    return gzip(all).size();
+    return gzip(all, kQuick).size();
 }
 
 Indices marksOf(const std::vector<ReplayEvent>& events) {
@@ -69,7 +73,7 @@ Indices marksOf(const std::vector<ReplayEvent>& events) {
     return marks;
 }
 
-/// Frames of one case within the allowance, and those of the reference at the same times where asked for.
+/// Frames of one case within the allowance.
 struct Thinned {
     EncodedFrames frames;
     Indices kept;
@@ -78,14 +82,17 @@ struct Thinned {
 
 Thinned thinned(const CaseFrames& c, double allowance) {
     const Indices marks = marksOf(c.events);
+    const auto multiple = static_cast<std::size_t>(std::max(1, c.file.contactStride));
     Thinned out;
+    double ratio = 0.04;  // gzip does no better on such bytes
     for (const Thinning& thinning : kThinnings) {
         const bool last = &thinning == &kThinnings.back();
-        out.kept = keptFrames(c.file.times.size(), thinning.frames,
-                              static_cast<std::size_t>(std::max(1, c.file.contactStride)), marks);
+        out.kept = keptFrames(c.file.times.size(), thinning.frames, multiple, marks);
         out.frames = encodeFrames(c.file, false, c.length, out.kept, marks, thinning);
-        if (!last && static_cast<double>(out.frames.size()) * kBestCompression > allowance) continue;
+        const auto raw = static_cast<double>(out.frames.size());
+        if (!last && raw * ratio > kHopeless * allowance) continue;
         out.bytes = static_cast<double>(compressedSize(out.frames));
+        ratio = out.bytes / std::max(1.0, raw);
         if (last || out.bytes <= allowance) break;
     }
     return out;

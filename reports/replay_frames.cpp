@@ -219,7 +219,8 @@ std::vector<std::size_t> keptFrames(std::size_t frames, std::size_t atMost, std:
     std::vector<std::size_t> out{0, frames - 1};
     atMost = std::max<std::size_t>(2, atMost);
     std::size_t every = std::max<std::size_t>(1, (frames - 1 + atMost - 2) / (atMost - 1));
-    if (multiple > 1 && frames / multiple >= 2) every = (every + multiple - 1) / multiple * multiple;
+    if (every > 1 && multiple > 1 && frames / multiple >= 2)
+        every = (every + multiple - 1) / multiple * multiple;
     for (std::size_t f = every; f + 1 < frames; f += every) out.push_back(f);
     for (const std::size_t f : marked)
         if (f < frames) out.push_back(f);

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Replay files: what is asked for is in them, within the budget, and reads back within half a quantum.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "reports/data_files.hpp"
+#include "reports/replay_codec.hpp"
+#include "reports/replay_data.hpp"
+#include "reports/replay_events.hpp"
+#include "reports/replay_frames.hpp"
+
+namespace rigor::report {
+namespace {
+
+using nlohmann::json;
+using results::CaseRow;
+using results::TrajectoryFile;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// ---- reading back, as the page does it ----
+
+class Codes {
+  public:
+    explicit Codes(std::string bytes) : bytes_(std::move(bytes)) {}
+    std::vector<double> series(std::size_t samples, double quantum) {
+        std::vector<double> out;
+        double last = 0, before = 0;
+        int known = 0;
+        for (std::size_t i = 0; i < samples; ++i) {
+            double difference = 0;
+            if (!next(difference)) {
+                out.push_back(kNaN);
+                continue;
+            }
+            const double value = difference + (known >= 2 ? 2 * last - before : last);
+            before = last, last = value, ++known;
+            out.push_back(value * quantum);
+        }
+        return out;
+    }
+    std::vector<double> linked(const std::vector<std::int64_t>& previous, double quantum) {
+        std::vector<double> kept, out;
+        for (const auto link : previous) {
+            const double predicted = link < 0 ? 0.0 : kept.at(static_cast<std::size_t>(link));
+            double difference = 0;
+            const bool finite = next(difference);
+            kept.push_back(finite ? predicted + difference : predicted);
+            out.push_back(finite ? kept.back() * quantum : kNaN);
+        }
+        return out;
+    }
+
+  private:
+    bool next(double& difference) {
+        std::uint64_t code = 0;
+        for (int shift = 0;; shift += 7) {
+            const auto byte = static_cast<unsigned char>(bytes_.at(at_++));
+            code |= static_cast<std::uint64_t>(byte & 127) << shift;
+            if (byte < 128) break;
+        }
+        if (code == 0) return false;
+        const std::uint64_t z = code - 1;
+        difference =
+            static_cast<double>(static_cast<std::int64_t>(z >> 1) ^ -static_cast<std::int64_t>(z & 1));
+        return true;
+    }
+    std::string bytes_;
+    std::size_t at_ = 0;
+};
+
+struct Bundle {
+    json meta;
+    std::map<std::string, std::string> arrays;
+    explicit Bundle(const std::string& bytes) {
+        std::uint32_t length = 0;
+        std::memcpy(&length, bytes.data(), 4);
+        const json head = json::parse(bytes.substr(4, length));
+        meta = head["meta"];
+        const std::size_t start = (4 + length + 7) / 8 * 8;
+        for (const auto& a : head["arrays"]) {
+            const std::size_t width = a["type"] == "f64" ? 8 : 1;
+            arrays[a["name"]] =
+                bytes.substr(start + a["offset"].get<std::size_t>(), width * a["count"].get<std::size_t>());
+        }
+    }
+    std::vector<double> steps(std::size_t c) {
+        return Codes(arrays.at(std::to_string(c) + ".steps")).series(meta["cases"][c]["frames"], 1.0);
+    }
+};
+
+// ---- a run with two engines ----
+
+/// `bodies` swinging bodies above a floor; contacts with the floor every tenth frame.
+TrajectoryFile makeFile(const CaseRow& row, std::size_t bodies, std::size_t frames, double shift = 0.0) {
+    TrajectoryFile f;
+    f.scenario = row.scenario, f.spec = row.spec, f.caseId = row.id, f.dt = row.dt, f.contactStride = 2;
+    f.bodies.resize(bodies + 1);
+    f.bodies[0].name = "floor";
+    for (std::size_t b = 1; b <= bodies; ++b) f.bodies[b].name = "b" + std::to_string(b);
+    for (std::size_t i = 0; i < frames; ++i) {
+        const double t = static_cast<double>(i) * row.dt;
+        f.times.push_back(t);
+        for (std::size_t b = 0; b <= bodies; ++b) {
+            const double phase = static_cast<double>(b), s = b == 0 ? 0.0 : 1.0;
+            const double turned = s * std::sin(t + phase) / 2.0;
+            const auto add = [](results::Channel& c, std::initializer_list<double> v) {
+                c.columns = static_cast<int>(v.size());
+                c.values.insert(c.values.end(), v);
+            };
+            add(f.bodies[b].position,
+                {s * (std::cos(3 * t + phase) + shift * t), s * std::sin(2 * t * phase), s * t});
+            add(f.bodies[b].orientation, {std::cos(turned), 0, std::sin(turned), 0});
+            add(f.bodies[b].velocity, {-3 * s * std::sin(3 * t), s, s});
+            add(f.bodies[b].angularVelocity, {0, s * std::cos(t), 0});
+        }
+        if (i % 20 != 10) continue;
+        for (int b = 1; b <= static_cast<int>(bodies); ++b) {
+            results::ContactSample c;
+            c.time = t, c.bodyA = 0, c.bodyB = b, c.depth = 1e-4 * std::sin(t + b), c.normal[1] = 1.0;
+            c.pointA[0] = std::cos(t + b), c.pointB[0] = c.pointA[0], c.pointB[1] = -c.depth;
+            c.normalImpulse = b % 2 ? kNaN : 0.02 * b, c.frictionImpulse[2] = 1e-3;
+            f.contacts.push_back(c);
+        }
+    }
+    return f;
+}
+
+class ReplayFiles : public testing::Test {
+  protected:
+    ReplayFiles() {
+        run_.scenarios.push_back({});
+        run_.scenarios[0].name = "swing", run_.scenarios[0].timeSteps = {0.01};
+        for (const char* spec : {"rigor:preset=matched", "ode:preset=matched"}) {
+            CaseRow row;
+            row.id = std::string("id_") + spec, row.scenario = "swing", row.spec = spec, row.dt = 0.01;
+            row.engine = std::string(spec).substr(0, std::string(spec).find(':')), row.preset = "matched";
+            run_.cases.push_back(row);
+            files_.emplace_back(makeFile(row, 3, 401));
+        }
+    }
+    Bundle write() {
+        const ViewModel view(run_);
+        return Bundle(replayBundle(view, 0, 0, loader(), budget_));
+    }
+    FullTrajectoryLoader loader() {
+        return [this](const CaseRow& row) -> std::optional<TrajectoryFile> {
+            for (std::size_t i = 0; i < run_.cases.size(); ++i)
+                if (run_.cases[i].id == row.id) return files_[i];
+            return std::nullopt;
+        };
+    }
+    std::size_t caseOf(const Bundle& bundle, const std::string& spec) {
+        for (std::size_t i = 0; i < bundle.meta["cases"].size(); ++i)
+            if (bundle.meta["cases"][i]["spec"] == spec) return i;
+        ADD_FAILURE() << spec;
+        return 0;
+    }
+    static bool has(const std::vector<double>& steps, double step) {
+        return std::find(steps.begin(), steps.end(), step) != steps.end();
+    }
+
+    results::Run run_;
+    std::vector<std::optional<TrajectoryFile>> files_;
+    ReplayBudget budget_;
+};
+
+TEST(ReplayCodec, ReadsBackWithinHalfAQuantumAndKeepsWhatIsNotFinite) {
+    const std::vector<double> values{0.1,   kNaN, 1e3, -2.5, std::numeric_limits<double>::infinity(),
+                                     1e300, 0.25};
+    for (const double quantum : {0x1.0p-20, 0x1.0p-3}) {
+        Bytes bytes;
+        appendSeries(bytes, values, 1, quantum);
+        const auto back = Codes({bytes.begin(), bytes.end()}).series(values.size(), quantum);
+        const std::vector<std::int64_t> links{-1, 0, 1, 0, 2, 3, 5};
+        Bytes linkedBytes;
+        appendLinked(linkedBytes, values, links, quantum);
+        const auto linked = Codes({linkedBytes.begin(), linkedBytes.end()}).linked(links, quantum);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (std::abs(values[i] / quantum) <= kMostQuanta) {
+                EXPECT_NEAR(back[i], values[i], quantum / 2) << i;
+                EXPECT_NEAR(linked[i], values[i], quantum / 2) << i;
+            } else {
+                EXPECT_TRUE(std::isnan(back[i]) && std::isnan(linked[i])) << i;
+            }
+        }
+    }
+}
+
+TEST(ReplayCodec, StraightLinesCostOneByteAValue) {
+    std::vector<double> values;
+    for (int i = 0; i < 500; ++i) values.push_back(0.125 * i), values.push_back(7.0 - 3.0 * i);
+    Bytes bytes;
+    appendSeries(bytes, values, 2, 0x1.0p-20);
+    EXPECT_LT(bytes.size(), 1020u);
+}
+
+TEST(ReplayCodec, QuantumIsAPowerOfTwo) {
+    EXPECT_EQ(quantumOf(3.0, 10, 1e-12), 0x1.0p-9);
+    EXPECT_EQ(quantumOf(kNaN, 10, 1e-12), 1e-12);
+    EXPECT_EQ(quantumOf(0.0, 10, 1e-12), 1e-12);
+}
+
+TEST(ReplayFrames, KeepsFirstLastMarkedAndMultiples) {
+    const auto kept = keptFrames(1000, 50, 4, {333, 500, 2000});
+    EXPECT_EQ(kept.front(), 0u);
+    EXPECT_EQ(kept.back(), 999u);
+    EXPECT_TRUE(std::binary_search(kept.begin(), kept.end(), 333u));
+    EXPECT_LE(kept.size(), 53u);
+    EXPECT_GE(kept.size(), 30u);
+    for (const auto f : kept) EXPECT_TRUE(f % 4 == 0 || f == 333 || f == 999) << f;
+    EXPECT_EQ(keptFrames(1, 50, 1, {}), std::vector<std::size_t>{0});
+    EXPECT_TRUE(keptFrames(0, 50, 1, {}).empty());
+    EXPECT_EQ(keptFrames(5, 300, 1, {}).size(), 5u);
+}
+
+TEST_F(ReplayFiles, PositionsReadBackWithinTheQuantum) {
+    Bundle bundle = write();
+    EXPECT_EQ(bundle.meta["bodies"], json({"floor", "b1", "b2", "b3"}));
+    const auto& head = bundle.meta["cases"][0];
+    EXPECT_EQ(head["moving"], json({1, 2, 3}));
+    EXPECT_EQ(head["stored"], 401);
+    const auto steps = bundle.steps(0);
+    Codes codes(bundle.arrays.at("0.position"));
+    const double quantum = head["quantum"]["position"];
+    EXPECT_LT(quantum, 1e-5);
+    for (int b = 1; b <= 3; ++b)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto column = codes.series(steps.size(), quantum);
+            for (std::size_t i = 0; i < steps.size(); ++i) {
+                const auto f = static_cast<std::size_t>(steps[i]);
+                EXPECT_NEAR(column[i],
+                            files_[0]->bodies[static_cast<std::size_t>(b)].position.values[3 * f + k],
+                            0.51 * quantum);
+            }
+        }
+}
+
+TEST_F(ReplayFiles, HasTheFramesOfAllEvents) {
+    auto& row = run_.cases[0];
+    row.metrics.push_back({"position_max", "b1", "m", "exact", 0.5, 1.2345, {}, {}, {}, ""});
+    results::AuditRow audit;
+    audit.auditor = "ode", audit.normalErrorMax = 0.7, audit.worst = "b1|floor at t=2.77 (normal)";
+    row.audit.push_back(audit);
+    files_[1] = makeFile(run_.cases[1], 3, 401, 0.05);  // drifts away from the first
+    Bundle bundle = write();
+    const auto c = caseOf(bundle, row.spec);
+    const auto steps = bundle.steps(c);
+    EXPECT_TRUE(has(steps, 0) && has(steps, 400) && has(steps, 123) && has(steps, 277));
+    std::map<std::string, int> kinds;
+    for (const auto& event : bundle.meta["cases"][c]["events"]) {
+        ++kinds[event["kind"]];
+        EXPECT_TRUE(has(steps, std::round(event["time"].get<double>() / 0.01))) << event;
+        if (event["kind"] == "parting") {
+            EXPECT_EQ(event["what"], "ode:preset=matched");
+            EXPECT_GT(event["value"], event["threshold"]);
+        }
+    }
+    EXPECT_EQ(kinds["largest"], 1);
+    EXPECT_EQ(kinds["audit"], 1);
+    EXPECT_EQ(kinds["parting"], 1);
+    EXPECT_EQ(kinds["contact_begin"] + kinds["contact_end"], static_cast<int>(kMostContactEvents));
+}
+
+TEST_F(ReplayFiles, DivergenceFromTheReferenceIsTheFirstFrameBeyondTheThreshold) {
+    auto& file = *files_[0];
+    file.reference = {file.bodies[1]};
+    auto& x = file.bodies[1].position.values;
+    for (std::size_t f = 100; f < 401; ++f) x[3 * f] += 1.0;
+    Bundle bundle = write();
+    const auto c = caseOf(bundle, run_.cases[0].spec);
+    json found;
+    for (const auto& event : bundle.meta["cases"][c]["events"])
+        if (event["kind"] == "divergence") found = event;
+    ASSERT_FALSE(found.is_null());
+    EXPECT_DOUBLE_EQ(found["time"], 1.0);
+    EXPECT_NEAR(found["value"], 1.0, 1e-12);
+    ASSERT_FALSE(bundle.meta["reference"].is_null());
+    EXPECT_EQ(bundle.meta["reference"]["moving"], json({1}));
+    EXPECT_TRUE(bundle.arrays.contains("reference.position"));
+}
+
+TEST_F(ReplayFiles, WhatIsNotFiniteStaysSo) {
+    auto& values = files_[0]->bodies[2].position.values;
+    for (std::size_t i = 3 * 200; i < values.size(); ++i) values[i] = kNaN;
+    Bundle bundle = write();
+    const auto c = caseOf(bundle, run_.cases[0].spec);
+    const auto steps = bundle.steps(c);
+    Codes codes(bundle.arrays.at(std::to_string(c) + ".position"));
+    for (int column = 0; column < 3; ++column) codes.series(steps.size(), 1.0);  // b1
+    const auto x = codes.series(steps.size(), 1.0);
+    for (std::size_t i = 0; i < steps.size(); ++i) EXPECT_EQ(std::isnan(x[i]), steps[i] >= 200) << steps[i];
+    bool told = false;
+    for (const auto& event : bundle.meta["cases"][c]["events"])
+        told = told || (event["kind"] == "nonfinite" && event["subject"] == "b2" && event["time"] == 2.0);
+    EXPECT_TRUE(told);
+}
+
+TEST_F(ReplayFiles, ContactsReadBack) {
+    Bundle bundle = write();
+    const auto& head = bundle.meta["cases"][0];
+    const auto counts = Codes(bundle.arrays.at("0.contactCounts")).series(head["frames"], 1.0);
+    const auto steps = bundle.steps(0);
+    std::size_t total = 0;
+    std::vector<std::size_t> source;  // contact of the file behind each one
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (counts[i] < 0) continue;
+        EXPECT_EQ(counts[i], std::fmod(steps[i], 20) == 10 ? 3 : 0) << steps[i];
+        for (int k = 0; k < counts[i]; ++k)
+            source.push_back(3 * static_cast<std::size_t>((steps[i] - 10) / 20) +
+                             static_cast<std::size_t>(k));
+        total += static_cast<std::size_t>(counts[i]);
+    }
+    ASSERT_EQ(head["contacts"], total);
+    ASSERT_GT(total, 30u);
+    std::vector<std::int64_t> previous, chain;
+    for (std::size_t i = 0; i < total; ++i) {
+        previous.push_back(static_cast<std::int64_t>(i) - 3);
+        chain.push_back(static_cast<std::int64_t>(i) - 1);
+    }
+    for (std::size_t i = 0; i < 3; ++i) previous[i] = -1;
+    Codes ids(bundle.arrays.at("0.contactIds"));
+    ids.linked(chain, 1.0);
+    const auto bodyB = ids.linked(chain, 1.0);
+    Codes numbers(bundle.arrays.at("0.contactNumbers"));
+    const double q = head["contactQuantum"]["point"], dq = head["contactQuantum"]["depth"];
+    const auto x = numbers.linked(previous, q);
+    for (int skip = 0; skip < 8; ++skip) numbers.linked(previous, 1.0);
+    const auto depth = numbers.linked(previous, dq), impulse = numbers.linked(previous, 1.0);
+    for (std::size_t i = 0; i < total; ++i) {
+        const auto& c = files_[0]->contacts[source[i]];
+        EXPECT_EQ(bodyB[i], c.bodyB);
+        EXPECT_NEAR(x[i], c.pointA[0], 0.51 * q);
+        EXPECT_NEAR(depth[i], c.depth, 0.51 * dq);
+        EXPECT_LT(dq, 1e-6);
+        EXPECT_EQ(std::isnan(impulse[i]), c.bodyB % 2 == 1);
+    }
+}
+
+TEST_F(ReplayFiles, ManyBodiesKeepTheBudgetOnAverage) {
+    for (std::size_t i = 0; i < files_.size(); ++i) files_[i] = makeFile(run_.cases[i], 300, 301);
+    const ViewModel view(run_);
+    double bytes = 0.0;
+    constexpr int kTimes = 3;
+    for (int i = 0; i < kTimes; ++i)
+        bytes += static_cast<double>(gzip(replayBundle(view, 0, 0, loader(), budget_)).size());
+    const double cases = static_cast<double>(kTimes * run_.cases.size());
+    // Names and first poses of 300 bodies are no case's: about 6 kB a file.
+    EXPECT_LT(bytes / cases, 1.25 * kReplayBytesPerCase);
+    EXPECT_GT(bytes / cases, 0.3 * kReplayBytesPerCase) << "the budget is not used";
+}
+
+TEST_F(ReplayFiles, SmallCasesLeaveTheirRestToLargeOnes) {
+    EXPECT_DOUBLE_EQ(budget_.allowance(), kReplayBytesPerCase);
+    budget_.spend(0.0);
+    EXPECT_GT(budget_.allowance(), kReplayBytesPerCase);
+    for (int i = 0; i < 1000; ++i) budget_.spend(0.0);
+    EXPECT_DOUBLE_EQ(budget_.allowance(), kReplayBytesAtMost);
+    for (int i = 0; i < 1000; ++i) budget_.spend(1e6);
+    EXPECT_DOUBLE_EQ(budget_.allowance(), kReplayBytesPerCase / 4);
+}
+
+TEST_F(ReplayFiles, CasesWithoutFramesSayWhy) {
+    files_[0].reset();
+    run_.cases[0].outcome = results::Outcome::Crashed, run_.cases[0].reason = "SIGSEGV";
+    Bundle bundle = write();
+    const auto c = caseOf(bundle, run_.cases[0].spec);
+    EXPECT_EQ(bundle.meta["cases"][c]["frames"], 0);
+    EXPECT_EQ(bundle.meta["cases"][c]["outcome"], "crashed");
+    EXPECT_EQ(bundle.meta["cases"][c]["reason"], "SIGSEGV");
+    EXPECT_GT(bundle.meta["cases"][1 - c]["frames"], 100);
+}
+
+TEST_F(ReplayFiles, RunsThatEndEarlyKeepWhatTheyHave) {
+    files_[0] = makeFile(run_.cases[0], 3, 37);
+    run_.cases[0].outcome = results::Outcome::Crashed;
+    Bundle bundle = write();
+    const auto c = caseOf(bundle, run_.cases[0].spec);
+    EXPECT_EQ(bundle.meta["cases"][c]["frames"], 37);
+    EXPECT_EQ(bundle.steps(c).back(), 36);
+}
+
+TEST_F(ReplayFiles, NothingToShowIsNoFile) {
+    files_[0].reset(), files_[1].reset();
+    const ViewModel view(run_);
+    EXPECT_EQ(replayBundle(view, 0, 0, loader(), budget_), "");
+    files_[0] = TrajectoryFile{}, files_[1] = TrajectoryFile{};
+    EXPECT_EQ(replayBundle(view, 0, 0, loader(), budget_), "");
+}
+
+TEST(ReplayEvents, NearestFrame) {
+    EXPECT_EQ(nearestFrame({}, 1.0), 0u);
+    EXPECT_EQ(nearestFrame({0.0, 1.0, 2.0}, 1.4), 1u);
+    EXPECT_EQ(nearestFrame({0.0, 1.0, 2.0}, 1.6), 2u);
+    EXPECT_EQ(nearestFrame({0.0, 1.0, 2.0}, 9.0), 2u);
+    EXPECT_EQ(nearestFrame({0.0, 1.0, 2.0}, -9.0), 0u);
+}
+
+}  // namespace
+}  // namespace rigor::report

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { Matrix4, PerspectiveCamera, Raycaster, Vector2, Vector3 } from 'three';
+import { Observable } from '../../src/common/cursor.ts';
+import { BodyLayer } from '../../src/replay/body_layer.ts';
+import type { Contacts, Frame, FrameSource, ReplayEvent } from '../../src/replay/frames.ts';
+import { frameScene, sampled } from '../../src/replay/framing.ts';
+import { roundNumber } from '../../src/replay/ground.ts';
+import { findIslands, UnionFind } from '../../src/replay/islands.ts';
+import {
+  contactEvent,
+  describe,
+  firstDivergence,
+  largestError,
+  neighbourTime,
+  worstNormal,
+} from '../../src/replay/jumps.ts';
+import { defaultOptions } from '../../src/replay/layers.ts';
+import { decodeLink, encodeLink, viewOfHash, withView } from '../../src/replay/link.ts';
+import { nearestContact, rectAt, tile, toDevice, toPixels } from '../../src/replay/picking.ts';
+import { Player } from '../../src/replay/player.ts';
+import { readScene } from '../../src/replay/scene.ts';
+import { TemplateCache } from '../../src/replay/shape_meshes.ts';
+
+test('islands are joined by contacts and joints, never through what stands still', () => {
+  const moves = [false, true, true, true, true, true];
+  const contacts = { count: 3, bodyA: [0, 0, 1], bodyB: [1, 3, 2] };
+  const out = new Int32Array(6);
+  const sets = new UnionFind(6);
+  findIslands(
+    moves,
+    contacts,
+    [
+      { a: 4, b: 5 },
+      { a: -1, b: 3 },
+    ],
+    sets,
+    out,
+  );
+  assert.deepEqual([...out], [-1, 1, 1, 3, 4, 4]);
+  findIslands(moves, null, [], sets, out);
+  assert.deepEqual([...out], [-1, 1, 2, 3, 4, 5], 'nothing is left of the frame before');
+});
+
+test('union-find keeps the smallest as the root, whatever the order', () => {
+  const sets = new UnionFind(1000);
+  for (let i = 999; i > 0; --i) sets.join(i, i - 1);
+  for (let i = 0; i < 1000; ++i) assert.equal(sets.find(i), 0);
+});
+
+test('pictures fill the canvas', () => {
+  for (const n of [1, 2, 3, 4, 5, 8]) {
+    const rects = tile(n, 1000, 600, 1.25, 2);
+    assert.equal(rects.length, n);
+    for (const r of rects) {
+      assert.ok(r.x >= 0 && r.y >= 0 && r.x + r.width <= 1000.001 && r.y + r.height <= 600.001);
+      assert.equal(rectAt(rects, r.x + r.width / 2, r.y + r.height / 2), rects.indexOf(r));
+    }
+  }
+  assert.equal(
+    tile(4, 1000, 600, 0.3).every((r) => r.y === 0),
+    true,
+    'towers stand in a row',
+  );
+  assert.equal(
+    tile(4, 1000, 600, 4).every((r) => r.x === 0),
+    true,
+    'what is flat lies above each other',
+  );
+  assert.equal(rectAt(tile(1, 100, 100), 500, 5), -1);
+});
+
+test('pixels to device coordinates and back through a camera', () => {
+  const rect = { x: 100, y: 50, width: 400, height: 200 };
+  assert.deepEqual(toDevice(rect, 100, 50), [-1, 1]);
+  assert.deepEqual(toDevice(rect, 300, 150), [0, 0]);
+  const camera = new PerspectiveCamera(40, 2, 0.1, 100);
+  camera.position.set(3, 4, 9);
+  camera.lookAt(0, 1, 0);
+  camera.updateMatrixWorld();
+  const m = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
+  const at = toPixels(rect, m, 0.7, 1.1, -0.4);
+  assert.ok(at);
+  const caster = new Raycaster();
+  caster.setFromCamera(new Vector2(...toDevice(rect, at[0], at[1])), camera);
+  assert.ok(caster.ray.distanceToPoint(new Vector3(0.7, 1.1, -0.4)) < 1e-9);
+  assert.equal(toPixels(rect, m, 6, 8, 30), null, 'behind the camera');
+});
+
+test('the nearest contact within reach', () => {
+  const rect = { x: 0, y: 0, width: 200, height: 200 };
+  const identity = new Matrix4().elements;
+  const pointA = [0, 0, 0, 0.5, 0, 0];
+  const contacts = { count: 2, pointA, pointB: pointA } as unknown as Contacts;
+  assert.equal(nearestContact(contacts, rect, identity, 103, 100, 9), 0);
+  assert.equal(nearestContact(contacts, rect, identity, 148, 104, 9), 1);
+  assert.equal(nearestContact(contacts, rect, identity, 20, 20, 9), -1);
+});
+
+const twoBodies = readScene({
+  dimension: 3,
+  gravity: [0, -10, 0],
+  duration: 1,
+  bodies: [
+    { name: 'ball', shapes: [{ sphere: { radius: 0.5 } }] },
+    { name: 'box', shapes: [{ box: { half_extents: [1, 1, 1] }, position: [0, 0, 1] }] },
+  ],
+});
+const frameAt = (position: number[]): Frame => ({
+  time: 0,
+  step: 0,
+  position,
+  orientation: [1, 0, 0, 0, 1, 0, 0, 0],
+  velocity: null,
+  angularVelocity: null,
+  contacts: null,
+});
+
+test('a ray hits the instance that stands there, after it has moved', () => {
+  const layer = new BodyLayer(twoBodies, new TemplateCache());
+  const caster = new Raycaster(new Vector3(0, 0, 50), new Vector3(0, 0, -1));
+  const hitAt = (x: number) => {
+    caster.ray.origin.setX(x);
+    const hit = caster.intersectObjects(layer.targets, false)[0];
+    return hit ? { body: layer.shapeOf(hit.object, hit.instanceId ?? -1)?.body, z: hit.point.z } : null;
+  };
+  layer.place(frameAt([0, 0, 0, 10, 0, 0]));
+  assert.equal(hitAt(0)?.body, 0);
+  assert.deepEqual(hitAt(10.5), { body: 1, z: 2 }, 'the shape lies off the body');
+  assert.equal(hitAt(5), null);
+  layer.place(frameAt([5, 0, 0, Number.NaN, 0, 0]));
+  assert.equal(hitAt(5)?.body, 0);
+  assert.equal(hitAt(10.5), null, 'what is not finite is nowhere');
+});
+
+const source = (spec: string, times: number[], events: ReplayEvent[] = [], positions?: number[][]): FrameSource => ({
+  label: spec,
+  spec,
+  colour: 'red',
+  ghost: false,
+  note: '',
+  events,
+  times,
+  frame: (i) => frameAt(positions?.[i] ?? [0, 0, 0, 0, 0, 0]),
+});
+
+test('the camera frames what moves, not what has flown away', () => {
+  const positions = Array.from({ length: 20 }, (_, i) => [i / 20, 0, 0, i === 19 ? 1e7 : 3, 0, 0]);
+  const { centre, radius } = frameScene(twoBodies, [
+    source(
+      'a',
+      positions.map((_, i) => i),
+      [],
+      positions,
+    ),
+  ]);
+  assert.ok(radius < 10 && radius > 1, String(radius));
+  assert.ok(Math.abs(centre[0] - 1.9) < 2, String(centre));
+  const nothing = frameScene(twoBodies, []);
+  assert.ok(Number.isFinite(nothing.radius));
+  assert.deepEqual(sampled(5), [0, 1, 2, 3, 4]);
+  assert.equal(sampled(1000).length, 48);
+  assert.equal(sampled(1000).at(-1), 999);
+});
+
+test('jumps', () => {
+  const a = source(
+    'a:preset=matched',
+    [0, 1, 2, 3],
+    [
+      { time: 1, kind: 'contact_begin', subject: 'ball|box' },
+      { time: 2, kind: 'largest', what: 'energy', value: 9 },
+      { time: 2.5, kind: 'largest', what: 'position_max', value: 1, unit: 'm' },
+      { time: 3, kind: 'largest', what: 'position_max', subject: 'ball', value: 7 },
+      { time: 3, kind: 'audit', what: 'b', value: 2 },
+      { time: 1, kind: 'audit', what: 'a', value: 0.5, subject: 'ball|box' },
+      { time: 1, kind: 'audit', what: 'oracle', value: 3 },
+    ],
+  );
+  const b = source(
+    'b',
+    [0, 0.5],
+    [
+      { time: 0.5, kind: 'divergence', subject: 'ball', value: 0.02, unit: 'm', threshold: 0.01 },
+      { time: 0.25, kind: 'parting', what: 'a' },
+      { time: 0.1, kind: 'contact_end', subject: 'ball|box' },
+    ],
+  );
+  assert.equal(firstDivergence([a, b])?.event.time, 0.5, 'the reference comes before other engines');
+  assert.equal(firstDivergence([a]), null);
+  assert.equal(largestError([a, b], ['position_max', 'energy'])?.event.time, 2.5, 'the whole scene before a body');
+  assert.equal(largestError([a], ['nothing'])?.event.what, 'energy');
+  assert.equal(contactEvent([a, b], 0.1, true)?.event.time, 1);
+  assert.equal(contactEvent([a, b], 0.5, false)?.event.time, 0.1);
+  assert.equal(contactEvent([a, b], 1, true), null);
+  assert.equal(worstNormal([a, b])?.event.what, 'a', 'what the engine itself answered comes first');
+  assert.equal(describe(b.events[0] as ReplayEvent), 'leaves the reference, ball: 0.02 m (more than 0.01 m)');
+  assert.equal(neighbourTime([a, b], 0, true), 0.5);
+  assert.equal(neighbourTime([a, b], 1, false), 0.5);
+  assert.equal(neighbourTime([a], 3, true), null);
+});
+
+test('a link restores the view', () => {
+  const options = defaultOptions();
+  options.layers.trails = true;
+  options.layers.faces = false;
+  options.overlaid = true;
+  options.colouring = 'island';
+  options.exaggeration = 64;
+  const state = {
+    time: 0.123456789,
+    shown: ['ode:preset=matched,stepper=quickstep', 'rigor'],
+    options,
+    camera: { position: [1.5, -2, 3e-4], target: [0, 0, 1], zoom: 2 } as const,
+    speed: 0.25,
+    body: 3,
+  };
+  const mutable = {
+    ...state,
+    camera: {
+      ...state.camera,
+      position: [1.5, -2, 3e-4] as [number, number, number],
+      target: [0, 0, 1] as [number, number, number],
+    },
+  };
+  assert.deepEqual(decodeLink(encodeLink(mutable)), mutable);
+  assert.deepEqual(decodeLink('t=abc&cam=1_2&on=&by=nobody&x=-4&s=nan').options?.exaggeration, 1);
+  assert.equal(decodeLink('t=abc').time, undefined);
+  assert.equal(decodeLink('cam=1_2').camera, undefined);
+  const hash = withView('#/scenario/pile?dt=0.01', 't=1&on=faces');
+  assert.equal(viewOfHash(hash), 't=1&on=faces');
+  assert.ok(hash.startsWith('#/scenario/pile?dt=0.01&view='));
+  assert.equal(viewOfHash('#/scenario/pile'), '');
+});
+
+test('speeds go up and down in steps', () => {
+  const player = new Player(new Observable(0), () => {});
+  player.shift(1);
+  assert.equal(player.speed, 2);
+  player.shift(-2);
+  assert.equal(player.speed, 0.5);
+  for (let i = 0; i < 20; ++i) player.shift(-1);
+  assert.equal(player.speed, 0.01);
+});
+
+test('round numbers for grids', () => {
+  assert.deepEqual([0.3, 0.7, 1.4, 2.4, 30].map(roundNumber), [0.2, 0.5, 1, 2, 20]);
+});
