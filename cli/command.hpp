@@ -47,6 +47,7 @@ void addCompare(CLI::App& app, Action& action);
 void addRecord(CLI::App& app, Action& action);
 void addImport(CLI::App& app, Action& action);
 void addFit(CLI::App& app, Action& action);
+void addView(CLI::App& app, Action& action);
 
 /// This program's own file.
 std::filesystem::path ownBinary();

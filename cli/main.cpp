@@ -11,6 +11,7 @@
 #include "validation/contact_problems/freeze.hpp"
 #include "validation/contact_problems/solve.hpp"
 #include "validation/fit/fit.hpp"
+#include "validation/live/lane_child.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace {
@@ -44,6 +45,7 @@ int runCommand(int argc, char** argv) {
     addRecord(app, action);
     addImport(app, action);
     addFit(app, action);
+    addView(app, action);
     try {
         app.parse(argc, argv);
     } catch (const CLI::RequiredError& error) {
@@ -69,6 +71,7 @@ int main(int argc, char** argv) {
                                                 {{"__collide", rigor::validation::collideChild},
                                                  {"__fit", rigor::validation::fitChild},
                                                  {"__freeze", rigor::validation::freezeChild},
+                                                 {"__lane", rigor::validation::laneChild},
                                                  {"__solve", rigor::validation::solveChild}});
         return runCommand(argc, argv);
     } catch (const rigor::scenario::LoadError& error) {

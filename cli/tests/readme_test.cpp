@@ -60,9 +60,12 @@ TEST(Readme, EveryCommandRuns) {
         // repo.
         if (std::getenv("RIGOR_DATA") == nullptr && command.find("toss") != std::string::npos) continue;
         command.starts_with("./rigor validate") ? ++validates : ++others;
-        const std::string line = "cd '" + folder.string() + "' && '" + std::string(RIGOR_BINARY_DIR) +
-                                 "/bin/rigor'" + command.substr(std::string("./rigor").size()) +
-                                 " > output.txt 2>&1";
+        // Servers go on until somebody presses Ctrl-C.
+        const bool serves = command.starts_with("./rigor view");
+        const std::string line = "cd '" + folder.string() + "' && " +
+                                 (serves ? "timeout --preserve-status -s INT 4 " : "") + "'" +
+                                 std::string(RIGOR_BINARY_DIR) + "/bin/rigor'" +
+                                 command.substr(std::string("./rigor").size()) + " > output.txt 2>&1";
         const int status = std::system(line.c_str());
         std::ifstream output(folder / "output.txt");
         std::stringstream text;

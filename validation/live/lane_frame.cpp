@@ -56,16 +56,16 @@ void addStates(Packet& packet, std::span<const BodyState> states) {
 }
 
 void addContacts(Packet& packet, const std::vector<ContactPoint>& contacts) {
-    Indices bodyA, bodyB, shapes;
+    Indices bodyA, bodyB, shapeA, shapeB;
     Numbers pointA, pointB, normal, depth, normalImpulse, frictionImpulse;
     for (const ContactPoint& c : contacts) {
-        bodyA << c.bodyA, bodyB << c.bodyB, shapes << c.shapeA << c.shapeB;
+        bodyA << c.bodyA, bodyB << c.bodyB, shapeA << c.shapeA, shapeB << c.shapeB;
         pointA << c.pointA, pointB << c.pointB, normal << c.normal, depth << c.depth;
         normalImpulse << (c.hasImpulse ? c.normalImpulse : std::numeric_limits<double>::quiet_NaN());
         frictionImpulse << c.frictionImpulse;
     }
     bodyA.into(packet, "contacts/body_a"), bodyB.into(packet, "contacts/body_b");
-    shapes.into(packet, "contacts/shapes");
+    shapeA.into(packet, "contacts/shape_a"), shapeB.into(packet, "contacts/shape_b");
     pointA.into(packet, "contacts/point_a"), pointB.into(packet, "contacts/point_b");
     normal.into(packet, "contacts/normal"), depth.into(packet, "contacts/depth");
     normalImpulse.into(packet, "contacts/normal_impulse");

@@ -38,7 +38,8 @@ struct LanePlan {
     int id = 0;
     std::string title;           ///< for people
     std::string text, original;  ///< the scenario it runs; the one that the session opened
-    adapter::EngineSpec spec;
+    adapter::EngineSpec asked;   ///< as somebody wrote it
+    adapter::EngineSpec spec;    ///< with what the scenario says of its engine
     double dt = 0.0;
     std::size_t startStep = 0;
     std::optional<int> branchOf;

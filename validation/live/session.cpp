@@ -49,6 +49,16 @@ void Session::close() {
     clock_.changed.notify_all();
 }
 
+void Session::open(const std::string& text) {
+    std::vector<adapter::EngineSpec> specs;
+    {
+        const std::lock_guard lock(clock_.mutex);
+        for (const auto& lane : lanes_)
+            if (!lane->plan.branchOf) specs.push_back(lane->plan.asked);
+    }
+    open(text, specs);
+}
+
 /// Replaces the scenario and all lanes.
 void Session::open(const std::string& text, const std::vector<adapter::EngineSpec>& specs) {
     auto loaded = scenario::loadScenarioText(text, "scenario");
@@ -61,7 +71,7 @@ void Session::open(const std::string& text, const std::vector<adapter::EngineSpe
         playing_ = false, clock_.target = 0.0, reached_ = 0.0;
         for (const adapter::EngineSpec& spec : specs) {
             if (lanes_.size() == kMostLanes) break;
-            lanes_.push_back(makeLane({nextId_++, spec.text(), opened_.text, opened_.text,
+            lanes_.push_back(makeLane({nextId_++, spec.text(), opened_.text, opened_.text, spec,
                                        withScenarioSettings(spec, opened_.text), dt_, 0, std::nullopt}));
         }
         ++clock_.sequence;

@@ -40,6 +40,9 @@ class Session {
     Session(SessionOptions options, const std::string& text, std::vector<adapter::EngineSpec> specs);
     ~Session();
 
+    /// Another scenario, for the engines that have a lane now (branches apart). Throws scenario::LoadError.
+    void open(const std::string& text);
+
     /// Does {"command": ..., ...}; returns what it answers. Throws CommandError.
     nlohmann::json command(const nlohmann::json& request);
 

@@ -226,15 +226,15 @@ json Session::insert(LanePlan plan) {
 
 json Session::add(const json& request) {
     LanePlan plan;
-    plan.spec = adapter::parseSpec(request.at("spec").get<std::string>());
-    plan.title = plan.spec.text();
+    plan.asked = adapter::parseSpec(request.at("spec").get<std::string>());
+    plan.title = plan.asked.text();
     {
         const std::lock_guard lock(clock_.mutex);
         plan.id = nextId_++;
         plan.text = plan.original = opened_.text;
         plan.dt = dt_;
     }
-    plan.spec = withScenarioSettings(plan.spec, plan.original);
+    plan.spec = withScenarioSettings(plan.asked, plan.original);
     return insert(std::move(plan));
 }
 

@@ -137,6 +137,7 @@ TEST(IncludeRule, ThirdPartyHeadersStayInTheirRooms) {
         {std::regex(R"(#include\s*<box2d/)"), {"adapters/box2d/"}},
         {std::regex(R"(#include\s*<fcl/)"), {"adapters/fcl/"}},
         {std::regex(R"(#include\s*<(SQLiteCpp/|sqlite3|hdf5))"), {"validation/results/"}},
+        {std::regex(R"(#include\s*<httplib)"), {"cli/view/"}},
         {std::regex(R"(#include\s*<valijson/)"), {"scenarios/loader/"}},
         {std::regex(R"(#include\s*<CLI/)"), {"cli/"}}};
     for (const auto& file : sourceFiles({".hpp", ".cpp"})) {

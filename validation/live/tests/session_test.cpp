@@ -246,6 +246,19 @@ TEST_F(Sessions, NonsenseIsRefused) {
     EXPECT_EQ(session_->scene(0)["scenario"]["bodies"].size(), 3u);
 }
 
+TEST_F(Sessions, AnotherScenarioIsOpenedForTheSameEngines) {
+    open("rigor,double_free_flight");
+    tell({{"command", "step"}, {"steps", 9}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(9); }));
+    tell({{"command", "branch"}, {"lane", 0}});
+    session_->open(scenario::loadScenario(scenario::findScenario("free_flight_2d")).text);
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->state_["lanes"].size() == 2 && viewer_->allReady(); }));
+    EXPECT_EQ(viewer_->state_["scenario"], "free_flight_2d");
+    EXPECT_EQ(viewer_->state_["step"], 0);
+    EXPECT_EQ(viewer_->lane(0)["spec"], "rigor");
+    EXPECT_TRUE(viewer_->allAt(0));
+}
+
 TEST_F(Sessions, NoMoreThanEightLanes) {
     open("double_free_flight");
     for (std::size_t i = 1; i < Session::kMostLanes; ++i)

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "cli/view/live_site.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "reports/web_assets.hpp"
+#include "scenarios/loader/loader.hpp"
+#include "validation/runner/describe.hpp"
+
+namespace rigor::view {
+namespace {
+
+using validation::CommandError;
+using Json = nlohmann::json;
+
+constexpr int kMostWaiting = 8;  ///< so that there are threads left for commands
+constexpr double kLongestWait = 20.0;
+
+constexpr const char* kPage =
+    "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+    "<title>Rigor: live</title>\n<link rel=\"icon\" href=\"data:,\">\n"
+    "<link rel=\"stylesheet\" href=\"/live.css\">\n</head>\n<body>\n"
+    "<noscript>The live view needs JavaScript.</noscript>\n"
+    "<script src=\"/live.js\"></script>\n</body>\n</html>\n";
+
+Json optionJson(const adapter::Option& o) {
+    return {{"key", o.key},
+            {"values", o.values},
+            {"min", o.min},
+            {"max", o.max},
+            {"integer", o.integer},
+            {"default", o.defaultValue},
+            {"matched", o.matchedValue},
+            {"help", o.help}};
+}
+
+Reply scenarios() {
+    Json list = Json::array();
+    for (const scenario::LibraryEntry& entry : scenario::listScenarios())
+        list.push_back({{"name", entry.name}, {"title", entry.title}});
+    return json(list.dump());
+}
+
+/// Only what the library lists: the page is no way to read files.
+std::string libraryText(const std::string& name) {
+    const auto all = scenario::listScenarios();
+    const auto it = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.name == name; });
+    if (it == all.end()) throw CommandError("the library has no scenario '" + name + "'");
+    return scenario::loadScenario(it->file).text;
+}
+
+}  // namespace
+
+LiveSite::LiveSite(validation::Session& session, std::filesystem::path binary)
+    : session_(session), binary_(std::move(binary)) {}
+
+std::string LiveSite::contentSecurityPolicy() const {
+    return "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: "
+           "blob:; font-src 'self' data:; connect-src 'self'; worker-src blob:; base-uri 'none'; form-action "
+           "'none'; frame-ancestors 'none'";
+}
+
+Reply LiveSite::answer(const Question& question) {
+    const std::string& path = question.path;
+    if (question.method == "POST") return path == "/api/command" ? command(question) : notFound();
+    if (path == "/") return {200, "text/html; charset=utf-8", kPage};
+    if (path == "/live.js")
+        return {200, "text/javascript; charset=utf-8", std::string(report::webAsset("live.js"))};
+    if (path == "/live.css")
+        return {200, "text/css; charset=utf-8", std::string(report::webAsset("live.css"))};
+    if (path == "/api/frames") return frames(question);
+    if (path == "/api/engines") return engines();
+    if (path == "/api/scenarios") return scenarios();
+    if (path == "/api/scene") {
+        const Json scene = session_.scene(static_cast<int>(question.number("lane", -1, -1, 1e9)));
+        return scene.is_null() ? notFound() : json(scene.dump());
+    }
+    return notFound();
+}
+
+Reply LiveSite::frames(const Question& question) {
+    const auto after = static_cast<std::uint64_t>(question.number("after", 0, 0, 9e15));
+    double wait = question.number("wait", 0, 0, kLongestWait);
+    if (++waiting_ > kMostWaiting) wait = 0.0;
+    std::string bytes;
+    try {
+        bytes = session_.frames(after, wait);
+    } catch (...) {
+        --waiting_;
+        throw;
+    }
+    --waiting_;
+    return {200, "application/octet-stream", std::move(bytes)};
+}
+
+Reply LiveSite::command(const Question& question) {
+    const Json request = Json::parse(question.body, nullptr, false);
+    if (!request.is_object()) return problem(400, "a JSON object is needed");
+    try {
+        if (request.value("command", Json()) == "open") {
+            session_.open(libraryText(request.at("scenario").get<std::string>()));
+            return json("{}");
+        }
+        return json(session_.command(request).dump(-1, ' ', false, Json::error_handler_t::replace));
+    } catch (const CommandError& error) {
+        return problem(422, error.what());
+    } catch (const scenario::LoadError& error) {
+        return problem(422, error.problems().front().text());
+    } catch (const Json::exception& error) {
+        return problem(400, error.what());
+    }
+}
+
+Reply LiveSite::engines() {
+    const std::lock_guard lock(describing_);
+    if (!engines_.empty()) return json(engines_);
+    Json list = Json::array();
+    for (const validation::EngineDescription& d :
+         validation::describeEngines(adapter::availableEngines(), binary_, 2)) {
+        if (!d.capabilities.dynamics || !d.problem.empty()) continue;
+        Json options = Json::array();
+        for (const adapter::Option& option : d.options) options.push_back(optionJson(option));
+        list.push_back({{"name", d.info.name},
+                        {"title", d.info.title},
+                        {"version", d.info.version},
+                        {"precisions", d.precisions},
+                        {"options", std::move(options)}});
+    }
+    engines_ = list.dump();
+    return json(engines_);
+}
+
+}  // namespace rigor::view

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The live view: its page, and what the page asks.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <mutex>
+#include <string>
+
+#include "cli/view/site.hpp"
+#include "validation/live/session.hpp"
+
+namespace rigor::view {
+
+/// GET  /, /live.js, /live.css   the page
+/// GET  /api/frames?after=N&wait=S   validation/live/README.md; waits for news at most S seconds
+/// GET  /api/scene?lane=N        the scenario of a lane, and how its engine was set up
+/// GET  /api/engines             engines with all options and their values
+/// GET  /api/scenarios           names and titles of the library
+/// POST /api/command             a command of the session, or {"command": "open", "scenario": NAME}
+class LiveSite final : public Site {
+  public:
+    LiveSite(validation::Session& session, std::filesystem::path binary);
+    Reply answer(const Question& question) override;
+    std::string contentSecurityPolicy() const override;
+    void close() override { session_.close(); }
+
+  private:
+    Reply frames(const Question& question);
+    Reply command(const Question& question);
+    Reply engines();
+
+    validation::Session& session_;
+    std::filesystem::path binary_;
+    std::atomic<int> waiting_{0};
+    std::mutex describing_;
+    std::string engines_;  ///< once they have been asked
+};
+
+}  // namespace rigor::view

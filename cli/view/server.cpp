@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "cli/view/server.hpp"
+
+#include <httplib.h>
+
+#include <atomic>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+
+#include "cli/view/gate.hpp"
+
+namespace rigor::view {
+namespace {
+
+constexpr std::size_t kThreads = 16;  ///< requests at a time; each that waits for frames takes one
+constexpr std::size_t kMostBody = 4 << 20;
+constexpr const char* kAddress = "127.0.0.1";
+
+Knock knockOf(const httplib::Request& request) {
+    Knock knock;
+    knock.method = request.method, knock.path = request.path;
+    knock.host = request.get_header_value("Host"), knock.origin = request.get_header_value("Origin");
+    knock.cookie = request.get_header_value("Cookie");
+    knock.contentType = request.get_header_value("Content-Type");
+    knock.fetchSite = request.get_header_value("Sec-Fetch-Site");
+    knock.token = request.get_param_value("token");
+    knock.hosts = static_cast<int>(request.get_header_value_count("Host"));
+    return knock;
+}
+
+Question questionOf(const httplib::Request& request) {
+    Question question{request.method == "POST" ? "POST" : "GET", request.path, {}, request.body};
+    for (const auto& [key, value] : request.params) question.query.emplace(key, value);
+    return question;
+}
+
+}  // namespace
+
+struct Server::Impl {
+    explicit Impl(Site& s) : site(s) {
+        // Without the library's SO_REUSEPORT: nobody else may listen on our port.
+        http.set_socket_options([](auto) {});
+        http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+        http.set_payload_max_length(kMostBody);
+        http.set_keep_alive_timeout(2);
+        http.set_read_timeout(5);
+        http.set_write_timeout(10);
+        http.set_tcp_nodelay(true);
+        http.set_default_headers({{"Content-Security-Policy", site.contentSecurityPolicy()},
+                                  {"X-Content-Type-Options", "nosniff"},
+                                  {"X-Frame-Options", "DENY"},
+                                  {"Referrer-Policy", "no-referrer"},
+                                  {"Cross-Origin-Opener-Policy", "same-origin"},
+                                  {"Cross-Origin-Resource-Policy", "same-origin"},
+                                  {"Cache-Control", "no-store"}});
+        const auto handle = [this](const httplib::Request& request, httplib::Response& response) {
+            answer(request, response);
+        };
+        http.Get(".*", handle);
+        http.Post(".*", handle);
+    }
+
+    void answer(const httplib::Request& request, httplib::Response& response) {
+        const Decision decision = gate->judge(knockOf(request));
+        if (decision.kind == Decision::Kind::Welcome) {
+            response.set_header("Set-Cookie", decision.setCookie);
+            response.set_redirect("/", 303);
+            return;
+        }
+        Reply reply;
+        if (decision.kind == Decision::Kind::Refuse)
+            reply = problem(decision.status, decision.reason);
+        else
+            reply = asked(questionOf(request));
+        response.status = reply.status;
+        response.set_content(std::move(reply.body), reply.type.c_str());
+    }
+
+    Reply asked(const Question& question) {
+        try {
+            return site.answer(question);
+        } catch (const std::invalid_argument& error) {
+            return problem(400, error.what());
+        } catch (const std::exception& error) {
+            return problem(500, error.what());
+        }
+    }
+
+    Site& site;
+    httplib::Server http;
+    std::optional<Gate> gate;
+    int port = 0;
+    std::thread listening;
+};
+
+Server::Server(Site& site, int port) : impl_(std::make_unique<Impl>(site)) {
+    impl_->port = port != 0 ? (impl_->http.bind_to_port(kAddress, port) ? port : -1)
+                            : impl_->http.bind_to_any_port(kAddress);
+    if (impl_->port <= 0)
+        throw std::runtime_error("cannot listen on " + std::string(kAddress) + " port " +
+                                 std::to_string(port));
+    impl_->gate.emplace(impl_->port);
+    impl_->listening = std::thread([this] { impl_->http.listen_after_bind(); });
+    while (!impl_->http.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+Server::~Server() {
+    impl_->site.close();
+    impl_->http.stop();
+    impl_->listening.join();
+}
+
+int Server::port() const {
+    return impl_->port;
+}
+
+std::string Server::url() const {
+    return "http://" + std::string(kAddress) + ":" + std::to_string(impl_->port) +
+           "/?token=" + impl_->gate->token();
+}
+
+}  // namespace rigor::view

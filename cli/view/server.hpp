@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A site on 127.0.0.1, behind a gate.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cli/view/site.hpp"
+
+namespace rigor::view {
+
+class Server {
+  public:
+    /// Listens on `port` of 127.0.0.1 alone; 0: any that is free. Throws std::runtime_error. The site has to
+    /// live longer.
+    Server(Site& site, int port);
+    /// Stops and waits for the answers that are under way.
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    int port() const;
+    /// The link that lets one browser in, once.
+    std::string url() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rigor::view

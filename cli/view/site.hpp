@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What a server serves: questions to answers, without HTTP.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace rigor::view {
+
+struct Question {
+    std::string method;  ///< "GET" or "POST"
+    std::string path;    ///< decoded, begins with '/'
+    std::map<std::string, std::string> query;
+    std::string body;
+
+    /// A number of the query. Throws std::invalid_argument for what is none or out of range.
+    double number(const std::string& key, double otherwise, double min, double max) const;
+};
+
+struct Reply {
+    int status = 200;
+    std::string type = "text/plain; charset=utf-8";
+    std::string body;
+};
+Reply json(const std::string& text);
+Reply problem(int status, const std::string& message);  ///< as {"error": message}
+Reply notFound();
+
+class Site {
+  public:
+    virtual ~Site() = default;
+    /// From any thread. What it throws becomes a 400 (std::invalid_argument) or a 500.
+    virtual Reply answer(const Question& question) = 0;
+    /// Of every answer.
+    virtual std::string contentSecurityPolicy() const = 0;
+    /// Lets everybody go who waits for an answer.
+    virtual void close() {}
+};
+
+}  // namespace rigor::view

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// `rigor view` as a user starts it: link, page, commands, Ctrl-C.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/tests/program.hpp"
+#include "cli/view/tests/http.hpp"
+#include "validation/runner/describe.hpp"
+
+namespace rigor::view {
+namespace {
+
+using cli_test::rigor;
+using nlohmann::json;
+using test::Browser;
+using validation::Packet;
+
+/// A program that runs until it is told to end.
+class Program {
+  public:
+    explicit Program(std::vector<std::string> arguments) {
+        int ends[2];
+        EXPECT_EQ(pipe(ends), 0);
+        pid_ = fork();
+        if (pid_ == 0) {
+            dup2(ends[1], STDOUT_FILENO);
+            close(ends[0]), close(ends[1]);
+            std::vector<char*> argv;
+            arguments.insert(arguments.begin(), RIGOR_BINARY_DIR "/bin/rigor");
+            for (auto& a : arguments) argv.push_back(a.data());
+            argv.push_back(nullptr);
+            execv(argv[0], argv.data());
+            _exit(127);
+        }
+        close(ends[1]);
+        FILE* out = fdopen(ends[0], "r");
+        char line[512];
+        if (fgets(line, sizeof line, out) != nullptr) url_ = json::parse(line).at("url");
+        fclose(out);
+    }
+    ~Program() {
+        if (pid_ > 0) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+    }
+    const std::string& url() const { return url_; }
+    pid_t pid() const { return pid_; }
+    /// Sends the signal and waits; the exit code.
+    int end(int signal) {
+        kill(pid_, signal);
+        int status = 0;
+        waitpid(pid_, &status, 0);
+        pid_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+  private:
+    pid_t pid_ = -1;
+    std::string url_;
+};
+
+/// Processes whose parent is this one.
+std::vector<pid_t> childrenOf(pid_t parent) {
+    std::vector<pid_t> all;
+    for (const auto& task :
+         std::filesystem::directory_iterator("/proc/" + std::to_string(parent) + "/task")) {
+        std::ifstream in(task.path() / "children");
+        for (pid_t pid = 0; in >> pid;) all.push_back(pid);
+    }
+    return all;
+}
+
+class View : public testing::Test {
+  protected:
+    /// Looks until every lane is at `step`.
+    static Packet lanesAt(Browser& browser, std::size_t step) {
+        std::uint64_t after = 0;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        while (std::chrono::steady_clock::now() < end) {
+            const Packet packet = browser.frames(after, 1.0);
+            bool there = true;
+            for (const json& lane : packet.header["session"]["lanes"])
+                there = there && lane["state"] == "ready" && lane["step"] == step;
+            if (there) return browser.frames(0, 0);
+            after = packet.header["sequence"];
+        }
+        ADD_FAILURE() << "the lanes did not come to step " << step;
+        return {};
+    }
+    validation::ScratchFolder scratch_;
+};
+
+TEST_F(View, LiveFromTheLinkToCtrlC) {
+    Program program({"view", "slide_and_stop", "--engines", "rigor,rigor:solver=xpbd", "--json", "--save-to",
+                     scratch_.path().string()});
+    Browser browser(program.url());
+    ASSERT_EQ(browser.status(), 303);
+    EXPECT_THAT(browser.get("/")->body, testing::HasSubstr("/live.js"));
+    EXPECT_EQ(browser.get("/live.js")->status, 200);
+    EXPECT_EQ(browser.get("/live.css")->get_header_value("Content-Type"), "text/css; charset=utf-8");
+    EXPECT_EQ(browser.get("/results.sqlite")->status, 404);
+    EXPECT_EQ(browser.get("/../../etc/passwd")->status, 404);
+    const json engines = json::parse(browser.get("/api/engines")->body);
+    ASSERT_FALSE(engines.empty());
+    EXPECT_TRUE(
+        std::any_of(engines.begin(), engines.end(), [](const json& e) { return e["name"] == "rigor"; }));
+    EXPECT_GT(json::parse(browser.get("/api/scenarios")->body).size(), 10u);
+    const json scene = json::parse(browser.get("/api/scene?lane=0")->body);
+    EXPECT_EQ(scene["scenario"]["name"], "slide_and_stop");
+    EXPECT_EQ(browser.get("/api/scene?lane=99")->status, 404);
+    EXPECT_EQ(browser.get("/api/frames?after=x")->status, 400);
+    EXPECT_EQ(browser.post("/api/command", "[1]")->status, 400);
+    EXPECT_EQ(browser.post("/api/command", R"({"command": "fly"})")->status, 422);
+    EXPECT_EQ(browser.post("/api/command", R"({"command": "open", "scenario": "/etc/passwd"})")->status, 422);
+
+    lanesAt(browser, 0);
+    browser.command({{"command", "step"}, {"steps", 12}});
+    const Packet frames = lanesAt(browser, 12);
+    EXPECT_EQ(frames.header["frames"].size(), 2u);
+    EXPECT_GT(frames.arrays.doubles("0/position")[3], 0.0);
+    const auto lanes = childrenOf(program.pid());
+    EXPECT_EQ(lanes.size(), 2u);
+    EXPECT_EQ(program.end(SIGINT), 0);
+    for (const pid_t pid : lanes) EXPECT_NE(kill(pid, 0), 0) << "a lane outlived the program";
+}
+
+/// What is saved is a scenario for every other command, and its future is that of the live run.
+TEST_F(View, WhatIsSavedIsCheckedAndRuns) {
+    Program program({"view", "slide_and_stop", "--engines", "rigor", "--json", "--dt", "1/240", "--save-to",
+                     scratch_.path().string()});
+    Browser browser(program.url());
+    lanesAt(browser, 0);
+    browser.command({{"command", "step"}, {"steps", 60}});
+    lanesAt(browser, 60);
+    const std::string file = browser.command({{"command", "save"}, {"lane", 0}, {"write", true}})["file"];
+    browser.command({{"command", "step"}, {"steps", 60}});
+    const auto expected = lanesAt(browser, 120).arrays.doubles("0/position");
+    EXPECT_EQ(program.end(SIGTERM), 0);
+
+    EXPECT_EQ(rigor("check '" + file + "'").code, 0);
+    const auto run = rigor("run '" + file + "' --engine rigor --csv -", false);
+    EXPECT_EQ(run.code, 0);
+    std::istringstream lines(run.out);
+    double x = 0.0, y = 0.0;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream fields(line);
+        std::string t, body, px, py;
+        std::getline(fields, t, ','), std::getline(fields, body, ',');
+        std::getline(fields, px, ','), std::getline(fields, py, ',');
+        if (body == "block" && std::abs(std::strtod(t.c_str(), nullptr) - 0.25) < 1e-9)
+            x = std::stod(px), y = std::stod(py);
+    }
+    EXPECT_NEAR(x, expected[3], 1e-6);
+    EXPECT_NEAR(y, expected[4], 1e-6);
+}
+
+TEST_F(View, ARecordedRunIsServedWithItsTrajectories) {
+    const std::string folder = (scratch_.path() / "run").string();
+    ASSERT_EQ(
+        rigor("validate free_flight --engines rigor:preset=default --dt 1/60 -q --out '" + folder + "'").code,
+        0);
+    Program program({"view", folder, "--json"});
+    Browser browser(program.url());
+    EXPECT_THAT(browser.get("/")->body, testing::HasSubstr("<html"));
+    EXPECT_EQ(browser.get("/results.csv")->status, 200);
+    EXPECT_EQ(browser.get("/results.sqlite")->status, 404);
+    EXPECT_EQ(browser.get("/%2e%2e/secret.csv")->status, 404);
+    const auto file = *std::filesystem::directory_iterator(folder + "/trajectories");
+    const Packet frames =
+        Packet::decode(browser.get("/trajectory/" + file.path().stem().string() + "?from=3&count=2")->body);
+    EXPECT_EQ(frames.header["scenario"], "free_flight");
+    EXPECT_EQ(frames.arrays.doubles("time").size(), 2u);
+    EXPECT_EQ(program.end(SIGINT), 0);
+}
+
+TEST_F(View, MistakesAreSaidAtOnce) {
+    EXPECT_EQ(rigor("view no_such_scenario").code, 2);
+    EXPECT_EQ(rigor("view '" + scratch_.path().string() + "'").code, 2);
+    EXPECT_EQ(rigor("view free_flight --engines nobody").code, 2);
+    EXPECT_EQ(rigor("view free_flight --dt 0").code, 2);
+    EXPECT_EQ(rigor("view").code, 2);
+    EXPECT_THAT(rigor("view --help").out, testing::HasSubstr("127.0.0.1"));
+}
+
+}  // namespace
+}  // namespace rigor::view
