@@ -40,6 +40,13 @@ std::optional<results::TrajectoryFile> loadTrajectory(const fs::path& runDirecto
     }
 }
 
+/// An empty folder: what an earlier report left there belongs to other scenarios.
+void clearDataFolder(const fs::path& folder) {
+    fs::create_directories(folder);
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".js") fs::remove(entry.path());
+}
+
 }  // namespace
 
 std::vector<fs::path> writeReports(const fs::path& runDirectory) {
@@ -55,7 +62,13 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory) {
         writeFile(runDirectory / name, content);
         written.push_back(runDirectory / name);
     };
-    write("index.html", htmlReport(view, load, study ? studyPageJson(*study) : ""));
+    const auto writeData = [&](const std::string& name, const std::string& content) {
+        write(fs::path("data") / (name + ".js"), dataFile(name, content));
+    };
+    write("index.html", htmlReport(view, study ? studyPageJson(*study) : ""));
+    clearDataFolder(runDirectory / "data");
+    for (std::size_t i = 0; i < shown.scenarios.size(); ++i)
+        writeData("scenario-" + std::to_string(i), scenarioJson(view, i, load));
     write("results.csv", csvReport(run));
     write("summary.md", markdownSummary(view));
     write("junit.xml", junitReport(run));
@@ -76,13 +89,10 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory) {
         write(fs::path("tables") / (table.name + ".md"), tableMarkdown(table));
         write(fs::path("tables") / (table.name + ".tex"), tableLatex(table));
     }
-    fs::create_directories(runDirectory / "data");
     const FullTrajectoryLoader loadAll = [&](const results::CaseRow& row) {
         return loadTrajectory(runDirectory, row, true);
     };
-    replayFiles(view, loadAll, [&](const std::string& name, const std::string& bundle) {
-        write(fs::path("data") / (name + ".js"), dataFile(name, bundle));
-    });
+    replayFiles(view, loadAll, writeData);
     return written;
 }
 

@@ -31,9 +31,10 @@ std::string ordersCsv(const results::Run& run);
 std::string fairnessCsv(const results::Run& run);
 /// The orders of each scenario's main metric as a section of the summary; empty without any.
 std::string ordersMarkdown(const ViewModel& view);
-/// The self-contained page. `study`: studyPageJson() of a study's run, else empty.
-std::string htmlReport(const ViewModel& view, const TrajectoryLoader& load, const std::string& study = "");
-/// The data behind the page's overview, and behind the page of one scenario, as JSON.
+/// The page with the overview's data in it. `study`: studyPageJson() of a study's run, else empty.
+std::string htmlReport(const ViewModel& view, const std::string& study = "");
+/// The data behind the page's overview, which is in the page, and behind the page of one scenario, which stands
+/// beside it in data/scenario-<index>.js, as JSON.
 std::string overviewJson(const ViewModel& view);
 std::string scenarioJson(const ViewModel& view, std::size_t scenario, const TrajectoryLoader& load);
 

@@ -1,4 +1,81 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Header, theme and routes: "#/scenario/<name>?dt=..&spec=..&t=..&pair=.." is a scenario, "#/engine/<name>" an engine,
+// anything else the overview.
 import './style.css';
-import '../common/data_files.ts';
+import { el } from '../common/elements.ts';
+import { drawAllPlots, dropPlots } from './charts/live_plots.ts';
+import { enginePage } from './engine/page.ts';
+import { navigation, overview } from './overview/page.ts';
+import { run } from './run.ts';
+import { scenarioPage } from './scenario/page.ts';
+import { themeButton } from './theme.ts';
+
+const page = document.getElementById('page') as HTMLElement;
+let shown = ''; // the route without its query: what is on the page
+let leave = () => {}; // what is to be ended with the page
+let visit = 0; // a page that loads slowly is dropped when another one was opened
+
+interface Page {
+  title: string;
+  nodes: HTMLElement[];
+  shown?: () => void;
+  left?: () => void;
+}
+
+async function pageOf(hash: string): Promise<Page> {
+  const [path = '', query = ''] = hash.split('?');
+  const [, kind, name] = /^#\/(scenario|engine)\/(.*)$/.exec(path) ?? [];
+  if (kind === undefined || name === undefined) return { title: '', nodes: overview() };
+  const title = decodeURIComponent(name);
+  if (kind === 'engine') return { title, nodes: enginePage(title) };
+  return { title, ...(await scenarioPage(title, new URLSearchParams(query))) };
+}
+
+async function route(): Promise<void> {
+  const { hash } = location;
+  const path = hash.startsWith('#/') ? (hash.split('?')[0] as string) : '#';
+  const mine = ++visit;
+  const found = await pageOf(hash);
+  if (mine !== visit) return;
+  const stay = path === shown && path !== '#' ? scrollY : 0;
+  leave();
+  leave = found.left ?? (() => {});
+  dropPlots(page);
+  page.replaceChildren(...found.nodes);
+  document.title = `${found.title ? `${found.title} – ` : ''}Rigor report${run.suite ? `: ${run.suite}` : ''}`;
+  shown = path;
+  const anchor = path === '#' && hash.length > 1 ? document.getElementById(hash.slice(1)) : null;
+  if (anchor) anchor.scrollIntoView();
+  else scrollTo(0, stay);
+  found.shown?.();
+  page.dataset.shown = String(mine);
+}
+
+function bars(): void {
+  const links = navigation().map(({ id, title }) => el('a', { href: `#${id}` }, title));
+  const brand = el('a', { class: 'brand', href: '#' }, 'Rigor');
+  const bar = el(
+    'div',
+    { class: 'bar' },
+    brand,
+    el('nav', { 'aria-label': 'Sections' }, links),
+    themeButton(() => void route()),
+  );
+  document.getElementById('top')?.append(bar);
+  document
+    .getElementById('foot')
+    ?.append(
+      'The hosts of this comparison are the authors of one of the engines in it, rigor. ',
+      'Beside this page: results.csv, summary.md, junit.xml, results.sqlite, plots.',
+    );
+}
+
+addEventListener('hashchange', () => {
+  if (shown === '#' && !location.hash.startsWith('#/')) return; // the browser scrolls
+  void route();
+});
+addEventListener('beforeprint', drawAllPlots);
+bars();
+void route();

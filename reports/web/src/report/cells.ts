@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A cell of the scoreboard: the cases of one scenario in one column, their verdict, error and cost.
+import { toNumber } from '../common/format.ts';
+import type { BriefCase, Column, Scenario, Shown } from './data.ts';
+
+/** Which of the time steps a cell speaks of. */
+export type StepChoice = 'all' | 'finest' | 'coarsest';
+
+const order: Shown[] = [
+  'unsupported',
+  'pass',
+  'no_bound',
+  'known_deviation',
+  'fail',
+  'non_finite',
+  'timeout',
+  'crashed',
+];
+/** How bad, for sorting and for the worst of several: unsupported is the mildest. */
+export const severity = (shown: Shown): number => order.indexOf(shown);
+export const isLost = (shown: Shown): boolean => severity(shown) > severity('fail');
+export const isBad = (shown: Shown): boolean => severity(shown) >= severity('fail');
+
+export interface Cell {
+  cases: BriefCase[]; // finest time step first
+  worst: BriefCase;
+  at: BriefCase; // whose numbers are shown
+}
+
+export function cellOf(scenario: Scenario, column: Column, step: StepChoice = 'all'): Cell | null {
+  let cases = scenario.cases.filter((c) => c.spec === column.spec);
+  if (step === 'finest') cases = cases.slice(0, 1);
+  if (step === 'coarsest') cases = cases.slice(-1);
+  const at = cases[0];
+  if (at === undefined) return null;
+  const worst = cases.reduce((a, b) => (severity(b.shown) > severity(a.shown) ? b : a));
+  return { cases, worst, at };
+}
+
+/** The main error; NaN beside a crash, where it would be that of another time step. */
+export const errorOf = (cell: Cell | null): number =>
+  cell === null || isLost(cell.worst.shown) ? NaN : Math.abs(toNumber(cell.at.value));
+
+/** Error in bounds; NaN where nothing was demanded. A bound of zero is met or missed by any factor. */
+export function errorInBounds(cell: Cell | null): number {
+  const error = errorOf(cell);
+  const bound = toNumber(cell?.at.bound);
+  if (bound === 0) return error === 0 ? 0 : Infinity;
+  return error / bound;
+}
+
+export const costOf = (cell: Cell | null): number => toNumber(cell?.at.step?.median);
+
+/**
+ * Where a value stands between `least` and `most` on a logarithmic scale, 0 to 1; NaN for what is no number. Zero
+ * stands at the least.
+ */
+export function logPlace(value: number, least: number, most: number): number {
+  if (Number.isNaN(value)) return NaN;
+  if (value <= least) return 0;
+  return Math.min(1, Math.log(value / least) / Math.log(most / least));
+}

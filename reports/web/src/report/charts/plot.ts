@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One plot in a card: lines over time or over anything else. Drag zooms, double click shows everything again, the
+// pointer reads values out. Over time, a click sets the shared time and a bar follows it.
+import 'uplot/dist/uPlot.min.css';
+import uPlot from 'uplot';
+import type { Cursor } from '../../common/cursor.ts';
+import { type Child, cssValue, el } from '../../common/elements.ts';
+import { format, tick, unitText } from '../../common/format.ts';
+import { addPlot } from './live_plots.ts';
+import { bandOf, logTicks, nearest } from './samples.ts';
+
+export interface Line {
+  key: string; // spec; "" is always shown
+  label: string;
+  colour: string; // CSS, or the name of a CSS variable
+  dash: number[];
+  width: number;
+  points?: boolean; // marks at the samples
+  bare?: boolean; // marks alone
+  x: ArrayLike<number>; // ascending
+  y: (number | null)[];
+  low?: (number | null)[]; // of an interval around y
+  high?: (number | null)[];
+  notes?: string[]; // said of each sample when it is read out
+}
+
+export interface Plot {
+  title: Child;
+  name: string; // for those who do not see it, and for tests
+  unit: string;
+  xTitle: string;
+  xUnit: string;
+  lines: Line[];
+  logX?: boolean;
+  logY?: boolean;
+  tall?: boolean;
+  zeroY?: boolean; // the axis includes zero
+  cursor?: Cursor; // over time
+  focus?: string | null; // spec of the line that stands out
+}
+
+const colourOf = (line: Line) => (line.colour.startsWith('--') ? cssValue(line.colour) : line.colour);
+
+export function plotCard(plot: Plot): HTMLElement {
+  const box = el('div', { class: plot.tall ? 'box tall' : 'box' });
+  let log = plot.logY ?? false;
+  let drawn: uPlot | null = null;
+  let ends: (() => void)[] = [];
+  const drop = () => {
+    for (const end of ends) end();
+    ends = [];
+    drawn?.destroy();
+    drawn = null;
+  };
+  const make = () => {
+    if (drawn) return;
+    drawn = draw(plot, log, box);
+    const size = new ResizeObserver(() => drawn?.setSize(sizeOf(box)));
+    size.observe(box);
+    ends = [() => size.disconnect(), ...connect(plot, drawn)];
+  };
+  const toggle = () => {
+    log = !log;
+    button.setAttribute('aria-pressed', String(log));
+    drop();
+    make();
+  };
+  const button = el('button', { class: 'button noprint', 'aria-pressed': String(log), onclick: toggle }, 'log');
+  const unit = plot.unit && plot.unit !== '1' ? el('span', { class: 'muted' }, ` [${plot.unit}]`) : null;
+  const mayBeLog = plot.lines.every((line) => line.y.every((y) => y === null || y >= 0));
+  const head = el('h4', null, el('span', null, plot.title, unit), mayBeLog ? button : null);
+  const attributes = { class: 'chart', 'data-plot': plot.name, role: 'group', 'aria-label': plot.name };
+  return addPlot({ node: el('div', attributes, head, box), make, drop });
+}
+
+const sizeOf = (box: HTMLElement) => ({ width: box.clientWidth || 420, height: box.clientHeight || 240 });
+
+function draw(plot: Plot, log: boolean, box: HTMLElement): uPlot {
+  const positive = (y: number | null, x: number) =>
+    y === null || (log && !(y > 0)) || (plot.logX && !(x > 0)) ? null : y;
+  const tables = plot.lines.map((line): uPlot.AlignedData => {
+    const x = Array.from(line.x);
+    return [x, line.y.map((y, i) => positive(y, x[i] as number))];
+  });
+  const data = tables.length > 1 ? uPlot.join(tables) : (tables[0] ?? [[], []]);
+  return new uPlot(optionsOf(plot, log, box), data, box);
+}
+
+function optionsOf(plot: Plot, log: boolean, box: HTMLElement): uPlot.Options {
+  const shown = (line: Line) => line.key === '' || !plot.cursor?.hidden.value.has(line.key);
+  const series = plot.lines.map(
+    (line): uPlot.Series => ({
+      label: line.label,
+      stroke: line.bare ? 'transparent' : colourOf(line),
+      width: line.key !== '' && line.key === plot.focus ? line.width + 1.5 : line.width,
+      dash: line.dash,
+      show: shown(line),
+      points: line.points ? { show: true, size: 6, fill: colourOf(line), stroke: colourOf(line) } : { show: false },
+    }),
+  );
+  const axis = (label: string, logarithmic: boolean): uPlot.Axis => ({
+    ...(logarithmic ? { splits: (_u, _i, min, max) => logTicks(min, max), filter: (_u, splits) => splits } : {}),
+    stroke: cssValue('--muted'),
+    grid: { stroke: cssValue('--line'), width: 1 },
+    ticks: { stroke: cssValue('--line'), width: 1, size: 4 },
+    font: '11px system-ui, sans-serif',
+    labelFont: '11px system-ui, sans-serif',
+    values: (_, splits) => splits.map((v) => (v === null || v === undefined ? '' : tick(v))),
+    ...(label ? { label, labelSize: 16 } : {}),
+  });
+  return {
+    ...sizeOf(box),
+    legend: { show: false },
+    scales: {
+      x: { time: false, distr: plot.logX ? 3 : 1 },
+      y: {
+        distr: log ? 3 : 1,
+        ...(plot.zeroY && !log ? { range: { min: { soft: 0, mode: 1 }, max: { pad: 0.1 } } } : {}),
+      },
+    },
+    axes: [
+      { ...axis(plot.xTitle, plot.logX ?? false), size: 26, gap: 2 },
+      { ...axis('', log), size: 58, gap: 3 },
+    ],
+    series: [{}, ...series],
+    cursor: {
+      drag: plot.cursor ? { x: true, y: false } : { x: true, y: true, uni: 30 },
+      points: { show: false },
+      ...(plot.cursor ? { sync: { key: 'time', setSeries: false, scales: ['x', null] } } : {}),
+    },
+    hooks: {
+      draw: [(u) => drawIntervals(u, plot)],
+      setSeries: [],
+    },
+  };
+}
+
+/** Bars from the low to the high end of the samples that have both. */
+function drawIntervals(u: uPlot, plot: Plot): void {
+  const { ctx } = u;
+  plot.lines.forEach((line, i) => {
+    const series = u.series[i + 1];
+    if (!line.low || !line.high || !series?.show) return;
+    ctx.save();
+    ctx.strokeStyle = colourOf(line);
+    ctx.lineWidth = uPlot.pxRatio;
+    ctx.beginPath();
+    for (let k = 0; k < line.x.length; ++k) {
+      const ends = bandOf(line.low[k] ?? null, line.high[k] ?? null, u.scales.y?.distr === 3);
+      if (ends === null) continue;
+      const x = u.valToPos(line.x[k] as number, 'x', true);
+      const [from, to] = ends.map((v) => u.valToPos(v, 'y', true)) as [number, number];
+      ctx.moveTo(x, from);
+      ctx.lineTo(x, to);
+    }
+    ctx.stroke();
+    ctx.restore();
+  });
+}
+
+/** The read-out, and what a plot over time shares with the others; returns what ends it. */
+function connect(plot: Plot, u: uPlot): (() => void)[] {
+  const readOut = el('div', { class: 'readout' });
+  readOut.hidden = true;
+  u.over.append(readOut);
+  const leave = () => {
+    readOut.hidden = true;
+  };
+  u.over.addEventListener('mouseleave', leave);
+  u.over.addEventListener('mousemove', () => showReadOut(plot, u, readOut));
+  const cursor = plot.cursor;
+  if (cursor === undefined) return [];
+
+  const bar = el('div', { class: 'timebar' });
+  u.over.append(bar);
+  const place = () => {
+    const left = u.valToPos(cursor.time.value, 'x');
+    bar.hidden = !(left >= 0 && left <= u.over.clientWidth);
+    bar.style.left = `${left}px`;
+  };
+  (u.hooks.draw as ((u: uPlot) => void)[]).push(place);
+  let pressed = 0;
+  u.over.addEventListener('mousedown', (e) => {
+    pressed = e.clientX;
+  });
+  u.over.addEventListener('click', (e) => {
+    if (Math.abs(e.clientX - pressed) < 3) cursor.time.set(Math.max(0, u.posToVal(u.cursor.left ?? 0, 'x')), u);
+  });
+  place();
+  const show = () =>
+    plot.lines.forEach((line, i) => {
+      const wanted = line.key === '' || !cursor.hidden.value.has(line.key);
+      if (u.series[i + 1]?.show !== wanted) u.setSeries(i + 1, { show: wanted });
+    });
+  return [cursor.time.follow(place), cursor.hidden.follow(show)];
+}
+
+function showReadOut(plot: Plot, u: uPlot, readOut: HTMLElement): void {
+  const { left = -1, top = 0 } = u.cursor;
+  const shown = plot.lines.filter((_, i) => u.series[i + 1]?.show);
+  if (left < 0 || shown.length === 0) {
+    readOut.hidden = true;
+    return;
+  }
+  const at = u.posToVal(left, 'x');
+  const rows = shown.map((line) => {
+    const i = nearest(line.x, at, plot.logX ?? false);
+    const value = `${format(line.y[i] ?? null)}${unitText(plot.unit)}`;
+    const own = plot.cursor ? '' : ` at ${format(line.x[i] ?? null)}${unitText(plot.xUnit)}`;
+    const mark = el('i', { style: `background:${colourOf(line)}` });
+    const note = line.notes?.[i];
+    return el('div', null, mark, `${line.label}: ${value}${own}${note ? `, ${note}` : ''}`);
+  });
+  const head = plot.cursor ? el('b', null, `t = ${format(at)} s`) : null;
+  readOut.replaceChildren(...(head ? [head] : []), ...rows);
+  readOut.hidden = false;
+  const flip = left > u.over.clientWidth / 2;
+  readOut.style.left = flip ? '' : `${left + 12}px`;
+  readOut.style.right = flip ? `${u.over.clientWidth - left + 12}px` : '';
+  readOut.style.top = `${Math.max(0, Math.min(top, u.over.clientHeight - readOut.clientHeight))}px`;
+}

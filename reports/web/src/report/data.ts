@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The page's data as reports/page_data.cpp, audit_json.cpp, ladders.cpp and study_charts.cpp write them. SI units; dt and
+// all costs in seconds. A field that only newer runs have is marked with `?` or may be null.
+import type { Maybe, Stored } from '../common/format.ts';
+
+/** A verdict as shown; the order in the page's `symbols` is from the best to the worst. */
+export type Shown =
+  | 'pass'
+  | 'no_bound'
+  | 'known_deviation'
+  | 'fail'
+  | 'non_finite'
+  | 'timeout'
+  | 'crashed'
+  | 'unsupported';
+
+/** One engine as it took part: a column of the scoreboard. */
+export interface Column {
+  spec: string;
+  engine: string;
+  preset: string;
+  options: string; // of the spec, without the preset
+  label: string;
+}
+
+/** A list of names, or one fact, that an engine tells of itself. */
+export type Capability = string | number | boolean | null | Capability[] | { [key: string]: Capability };
+
+export interface Engine {
+  name: string;
+  title: string;
+  version: string;
+  precision: string;
+  buildNotes: string;
+  problem: string; // why it could not take part; "" when it did
+  capabilities?: Capability;
+}
+
+export interface Step {
+  median: Stored;
+  low?: Maybe; // 95 % interval of the median
+  high?: Maybe;
+  p10: Stored;
+  p90: Stored;
+  samples: number;
+  contacts: Stored; // mean number of contacts
+  bodies?: number; // that move; 0: not stored
+  phases?: Record<string, Stored>; // medians
+}
+
+/** Contacts that a run acted upon, against the exact oracle. */
+export interface InRun {
+  queries: number;
+  overlapping: number;
+  missed: number;
+  spurious: number;
+  normal: Maybe; // [rad]
+  depth: Maybe; // [m]
+  point: Maybe; // [m]
+  worst: string;
+  normalFlicker: Maybe;
+  contactFlicker: Maybe;
+}
+
+/** A case as the overview knows it. */
+export interface BriefCase {
+  id: string;
+  spec: string;
+  dt: number;
+  outcome: string;
+  verdict: string;
+  shown: Shown;
+  reason: string;
+  value: Maybe; // of the scenario's main metric
+  bound: Maybe;
+  step: Step | null;
+  inRun: InRun | null;
+}
+
+export interface MainMetric {
+  name: string;
+  unit: string;
+  kind: string;
+}
+
+export interface Scenario {
+  name: string;
+  title: string;
+  description: string;
+  source: string;
+  isolates: string[];
+  tags: string[];
+  observed: string[];
+  metrics: string[];
+  dimension: number;
+  duration: number;
+  timeSteps: number[];
+  reference: string;
+  referenceTitle: string;
+  referenceFormula: string;
+  referenceTex?: string;
+  referenceSource: string;
+  referenceProblem: string;
+  main: MainMetric;
+  cases: BriefCase[];
+}
+
+export interface Standing {
+  scenarios: number;
+  ran: number;
+  good: number;
+  bad: number;
+  ratio: Stored; // typical error over the best engine's
+}
+
+export interface Mechanism {
+  name: string;
+  scenarios: string[];
+  best: number; // column; -1: nobody
+  standings: Standing[]; // per column
+}
+
+export interface Audit {
+  auditor: string; // engine, "oracle", "in_run" or "a|b"
+  outcome: string;
+  frames: number;
+  queries: number;
+  overlapping: number;
+  missed: number;
+  spurious: number;
+  undecided: number;
+  normalErrorMax: Maybe; // [rad]
+  normalErrorMedian: Maybe;
+  depthErrorMax: Maybe; // [m]
+  depthErrorMedian: Maybe;
+  pointErrorMax: Maybe;
+  worst: string; // "block|floor at t=0.25"
+  note: string;
+}
+
+export interface LedgerLine {
+  topic: string;
+  requested: string;
+  resolved: string;
+  realisation: string; // exact, approximate, unsupported
+  reason: string;
+}
+
+export interface GatheredLedger extends LedgerLine {
+  engine: string;
+  preset: string;
+  scenarios: string[];
+}
+
+/** Of run-data: the overview. */
+export interface Run {
+  suite: string;
+  command: string;
+  started: string;
+  finished: string;
+  planned: number;
+  total: number;
+  environment: Record<string, string>;
+  symbols: Record<Shown, { symbol: string; word: string; count: number }>;
+  columns: Column[];
+  engines: Engine[];
+  scenarios: Scenario[];
+  mechanisms: Mechanism[];
+  audit: { scenario: string; rows: Audit[] }[];
+  ledger: GatheredLedger[];
+}
+
+export interface Metric {
+  name: string;
+  subject: string; // "" the whole scene
+  unit: string;
+  kind: string;
+  value: Stored;
+  at: Maybe; // [s] of the largest contribution; < 0 unknown
+  bound: Maybe;
+  expectation: Maybe;
+  verdict: string;
+  note: string;
+}
+
+export interface Quantity {
+  name: string;
+  unit: string;
+  exact: Stored;
+  schemeExact: Maybe;
+  measured: Maybe;
+}
+
+export interface ReadBack {
+  compared: number;
+  bad: number;
+  differing: { quantity: string; subject: string; expected: Stored; found: Stored; error: Stored }[];
+}
+
+export interface Timing {
+  phase: string;
+  median: Stored;
+  low?: Maybe;
+  high?: Maybe;
+  p10: Stored;
+  p90: Stored;
+  total: Stored;
+  samples: number;
+  meanContacts: Stored;
+  bodies?: number;
+}
+
+export interface BodyCurve {
+  name: string;
+  position: (string | null)[]; // packed singles
+}
+
+export interface Curves {
+  samples: number;
+  t: string; // packed singles
+  bodies: BodyCurve[];
+  reference?: BodyCurve[];
+  series: { name: string; subject: string; unit: string; t?: string; y: string }[];
+}
+
+/** A case with everything that is stored of it. */
+export interface Case {
+  id: string;
+  spec: string;
+  dt: number;
+  outcome: string;
+  verdict: string;
+  shown: Shown;
+  reason: string;
+  wallSeconds: Stored;
+  cpuSeconds: Stored;
+  steps: number;
+  peakMemoryKiB: number;
+  stateHash: string;
+  trajectoryFile: string;
+  command: string;
+  settings: Record<string, string>;
+  metrics: Metric[];
+  quantities: Quantity[];
+  ledger: LedgerLine[];
+  readBack: ReadBack;
+  audit: Audit[];
+  timings: Timing[];
+  curves: Curves | null;
+}
+
+export interface Order {
+  spec: string;
+  metric: string;
+  unit: string;
+  order: Maybe;
+  low: Maybe;
+  high: Maybe;
+  points: number;
+  finest: Stored;
+  coarsest: Stored;
+  note: string;
+}
+
+export interface Fairness {
+  mode: string;
+  metric: string;
+  unit: string;
+  competitor: string;
+  spec: string;
+  dt: Stored;
+  error: Stored;
+  cost: Stored;
+  limit: Maybe;
+}
+
+/** Of data/scenario-<n>.js. */
+export interface ScenarioData {
+  name: string;
+  text: string; // the scenario file as run
+  start?: { position: string; orientation: string } | null; // packed singles of all bodies at the start
+  cases: Case[];
+  orders: Order[];
+  fairness: Fairness[];
+}
+
+export interface StudyPoint {
+  label: string;
+  x: Maybe;
+  value: Maybe;
+  low: Maybe;
+  high: Maybe;
+  note: string;
+  outcome: string;
+}
+
+export interface StudyChart {
+  part: string;
+  scenario: string;
+  metric: string;
+  unit: string;
+  axis: string; // empty: a bar for each point
+  logarithmic: boolean;
+  logarithmicX: boolean;
+  points: StudyPoint[];
+}
+
+export interface StudyRow {
+  variant: string;
+  spec: string;
+  scenario: string;
+  base: string;
+  dt: number;
+  parameters: Record<string, unknown>;
+  ran: boolean;
+  outcome: string;
+  metrics: Record<string, { value: Maybe; unit: string; low?: Maybe; high?: Maybe; note?: string }>;
+}
+
+export interface Finding {
+  statement: string;
+  source: string;
+  variant: string;
+  metric: string;
+  where: Record<string, unknown>;
+  at_least: Maybe;
+  at_most: Maybe;
+  least: Maybe;
+  greatest: Maybe;
+  holds: boolean;
+}
+
+export interface Symptom {
+  name: string;
+  metric: string;
+  growth: unknown;
+  fault: string;
+  fault_value: Maybe;
+  cure: string;
+  cure_value: Maybe;
+  switched: string[];
+  shown: boolean;
+  cured: boolean;
+}
+
+/** Of study-data. */
+export interface Study {
+  name: string;
+  title: string;
+  description: string;
+  findings: Finding[];
+  symptoms: Symptom[];
+  parts: { name: string; title: string; description: string; rows: StudyRow[] }[];
+  charts: StudyChart[];
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// How an engine's contacts compare with the exact oracle over the whole run: those it acted upon, and its answers when it
+// is asked as a collision engine.
+import { type Child, el } from '../../common/elements.ts';
+import { angle, format, type Maybe, toNumber } from '../../common/format.ts';
+import type { Engine } from '../data.ts';
+import { chip, headRow, panel, scroll } from '../parts.ts';
+import { labelOf, run, scenarioLink } from '../run.ts';
+import { worstPlace } from '../worst.ts';
+
+interface Row {
+  scenario: string;
+  who: string;
+  spec: string;
+  dt: number | undefined;
+  wrong: number;
+  normal: Maybe;
+  depth: Maybe;
+  worst: string;
+}
+
+function rowsOf(engine: Engine): { acted: Row[]; asked: Row[] } {
+  const acted = run.scenarios.flatMap((s) =>
+    s.cases
+      .filter((c) => c.inRun && run.columns.some((x) => x.spec === c.spec && x.engine === engine.name))
+      .map((c): Row => {
+        const a = c.inRun as NonNullable<typeof c.inRun>;
+        return {
+          scenario: s.name,
+          who: labelOf(c.spec),
+          spec: c.spec,
+          dt: c.dt,
+          wrong: a.missed + a.spurious,
+          normal: a.normal,
+          depth: a.depth,
+          worst: a.worst,
+        };
+      }),
+  );
+  const asked = run.audit.flatMap((a) =>
+    a.rows
+      .filter((r) => r.auditor === engine.name || r.auditor.startsWith(`${engine.name}:`))
+      .map((r): Row => {
+        const spec = worstPlace(r.worst)?.spec ?? '';
+        return {
+          scenario: a.scenario,
+          who: r.auditor,
+          spec,
+          dt: undefined,
+          wrong: r.missed + r.spurious,
+          normal: r.normalErrorMax,
+          depth: r.depthErrorMax,
+          worst: r.worst,
+        };
+      }),
+  );
+  return { acted, asked };
+}
+
+const shown = 8;
+
+function table(rows: Row[]): Child {
+  const byNormal = [...rows].sort((a, b) => (toNumber(b.normal) || 0) - (toNumber(a.normal) || 0) || b.wrong - a.wrong);
+  const wrong = rows.reduce((n, r) => n + r.wrong, 0);
+  const body = byNormal.slice(0, shown).map((r) => {
+    const place = worstPlace(r.worst);
+    const href = scenarioLink(r.scenario, { spec: r.spec, dt: r.dt, t: place?.time, pair: place?.pair });
+    return el(
+      'tr',
+      null,
+      el('th', { class: 'sticky', scope: 'row' }, el('a', { href: scenarioLink(r.scenario) }, r.scenario)),
+      el('td', null, r.who),
+      el('td', { class: 'num' }, angle(r.normal)),
+      el('td', { class: 'num' }, r.depth === null ? '—' : `${format(r.depth)} m`),
+      el('td', { class: 'num' }, r.wrong ? chip('fail', r.wrong) : 0),
+      el('td', { class: 'small' }, place ? el('a', { href }, r.worst) : r.worst),
+    );
+  });
+  return [
+    el(
+      'p',
+      null,
+      `${rows.length} audits, `,
+      wrong ? chip('fail', `${wrong} overlaps missed or invented`) : chip('pass', 'no overlap missed or invented'),
+      rows.length > shown ? ` The ${shown} with the worst normals:` : '',
+    ),
+    scroll(
+      el(
+        'table',
+        null,
+        headRow(
+          ['Scenario', 'As', 'Normal, worst', 'Depth, worst', 'Wrong', 'Worst at: show this frame'],
+          (i) => i > 1 && i < 5,
+        ),
+        el('tbody', null, body),
+      ),
+    ),
+  ];
+}
+
+export function engineAudit(engine: Engine): HTMLElement | null {
+  const { acted, asked } = rowsOf(engine);
+  if (acted.length + asked.length === 0) return null;
+  return panel(
+    'engine-audit',
+    'Contacts against the exact oracle',
+    acted.length ? [el('h3', null, 'Contacts that its runs acted upon'), table(acted)] : null,
+    asked.length ? [el('h3', null, 'Asked about the poses of all runs'), table(asked)] : null,
+  );
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Contacts over the whole run: those that the runs acted upon, and those that collision engines answer when asked.
+import { el } from '../../common/elements.ts';
+import { angle, format, full, type Maybe, toNumber } from '../../common/format.ts';
+import type { Audit, Column, InRun, Scenario } from '../data.ts';
+import { chip, headRow, panel, scroll, specHead, stickyHead } from '../parts.ts';
+import { run, scenarioLink } from '../run.ts';
+import { worstPlace } from '../worst.ts';
+
+const scenarioHead = (name: string) =>
+  el('th', { class: 'sticky', scope: 'row' }, el('a', { href: scenarioLink(name) }, name));
+
+/** The worst of several: NaN is worse than any number. */
+function worstOf(values: Maybe[]): Maybe {
+  let worst: Maybe = null;
+  for (const v of values) if (v !== null && (worst === null || !(toNumber(v) <= toNumber(worst)))) worst = v;
+  return worst;
+}
+
+function inRunCell(s: Scenario, column: Column): HTMLElement {
+  const cases = s.cases.filter((c) => c.spec === column.spec && c.inRun);
+  if (cases.length === 0) return el('td', { class: 'num muted' });
+  const seen = cases.map((c) => c.inRun as InRun);
+  const worst = (key: 'normal' | 'depth' | 'point' | 'normalFlicker' | 'contactFlicker') =>
+    worstOf(seen.map((a) => a[key]));
+  const sum = (key: 'queries' | 'overlapping' | 'missed' | 'spurious') => seen.reduce((n, a) => n + a[key], 0);
+  const wrong = sum('missed') + sum('spurious');
+  if (!sum('overlapping') && !wrong)
+    return el('td', { class: 'small muted', title: `${sum('queries')} pairs asked about` }, 'no overlap');
+  if (!wrong && worst('normal') === null)
+    return el('td', { class: 'small muted', title: 'shapes for which the oracle has no exact answer' }, 'undecided');
+  const flicker = toNumber(worst('contactFlicker'));
+  const title =
+    `${sum('queries')} pairs, ${sum('overlapping')} overlapping; ${sum('missed')} missed, ${sum('spurious')} spurious; ` +
+    `worst normal ${full(worst('normal'))} rad, depth ${full(worst('depth'))} m, point ${full(worst('point'))} m off its surface; ` +
+    `normals flicker by ${full(worst('normalFlicker'))} rad, ${full(worst('contactFlicker'))} of contacts blink; ` +
+    seen
+      .map((a) => a.worst)
+      .filter(Boolean)
+      .join('; ');
+  const at = cases.find((c) => c.inRun?.normal === worst('normal'));
+  const place = worstPlace(at?.inRun?.worst ?? '');
+  const href = scenarioLink(s.name, { spec: column.spec, dt: at?.dt, t: place?.time, pair: place?.pair });
+  return el(
+    'td',
+    { class: 'num', 'data-wrong': wrong, title },
+    wrong ? chip('fail', `${wrong} wrong`) : null,
+    el('a', { href, title: 'Show this frame' }, angle(worst('normal'))),
+    el('span', { class: 'bound' }, worst('depth') === null ? '' : `${format(worst('depth'))} m`),
+    flicker > 0.01 ? el('span', { class: 'bound' }, `${(100 * flicker).toPrecision(2)} % blink`) : null,
+  );
+}
+
+/** What each run acted upon, worst over its time steps. */
+export function contactsActedUpon(): HTMLElement | null {
+  const rows = run.scenarios.filter((s) => s.cases.some((c) => c.inRun?.overlapping));
+  if (rows.length === 0) return null;
+  const body = rows.map((s) =>
+    el(
+      'tr',
+      null,
+      scenarioHead(s.name),
+      run.columns.map((c) => inRunCell(s, c)),
+    ),
+  );
+  return panel(
+    'in-run',
+    'Contacts acted upon',
+    el(
+      'p',
+      { class: 'muted' },
+      'The contacts that each run itself acted upon, at sampled steps, against the exact oracle at the poses where the step began. Shown: the worst ',
+      'angle to the nearest exact normal, which opens that frame, and the worst depth error; “wrong” counts overlaps that were missed or invented; “blink” is ',
+      'the share of steps in which a touching pair had lost its contact for just that step.',
+    ),
+    scroll(el('table', null, specHead([stickyHead('Scenario')], run.columns), el('tbody', null, body))),
+  );
+}
+
+function queryCell(scenario: string, rows: Audit[], auditor: string): HTMLElement {
+  const r = rows.find((x) => x.auditor === auditor);
+  if (!r) return el('td', { class: 'num muted' });
+  if (r.outcome !== 'completed' && !r.queries) return el('td', { class: 'small muted', title: r.note }, r.outcome);
+  const wrong = r.missed + r.spurious;
+  const title =
+    `${r.queries} pairs in ${r.frames} frames; ${r.overlapping} overlapping; ${r.missed} missed, ${r.spurious} spurious, ${r.undecided} undecided; ` +
+    `worst normal ${full(r.normalErrorMax)} rad, depth ${full(r.depthErrorMax)} m; ${r.worst}`;
+  const place = worstPlace(r.worst);
+  const href = place ? scenarioLink(scenario, { spec: place.spec, t: place.time, pair: place.pair }) : null;
+  const text = angle(r.normalErrorMax);
+  return el(
+    'td',
+    { class: 'num', title },
+    wrong ? chip('fail', `${wrong} wrong`) : null,
+    href ? el('a', { href, title: 'Show this frame' }, text) : text,
+    el('span', { class: 'bound' }, r.depthErrorMax === null ? '' : `${format(r.depthErrorMax)} m`),
+  );
+}
+
+export function contactQueries(): HTMLElement | null {
+  if (run.audit.length === 0) return null;
+  const named = new Set(run.audit.flatMap((a) => a.rows.map((r) => r.auditor)));
+  const auditors = [...named].filter((name) => name !== 'oracle' && name !== 'in_run' && !name.includes('|'));
+  return panel(
+    'audit',
+    'Contact queries',
+    el(
+      'p',
+      { class: 'muted' },
+      'At sampled frames of every run, each collision engine is asked about the same poses and compared with an exact oracle. Shown: the worst angle between ',
+      'its contact normal and the nearest exact one, which opens that frame, and the worst penetration error below; “wrong” counts overlaps that were missed or invented.',
+    ),
+    scroll(
+      el(
+        'table',
+        null,
+        headRow(['Poses of', ...auditors], (i) => i > 0),
+        el(
+          'tbody',
+          null,
+          run.audit.map((a) =>
+            el(
+              'tr',
+              null,
+              scenarioHead(a.scenario),
+              auditors.map((name) => queryCell(a.scenario, a.rows, name)),
+            ),
+          ),
+        ),
+      ),
+    ),
+  );
+}

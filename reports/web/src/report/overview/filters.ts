@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What the scoreboard shows: filters and order. They outlive a visit to another page of the report.
+
+import { Observable } from '../../common/cursor.ts';
+import { toNumber } from '../../common/format.ts';
+import { cellOf, costOf, errorInBounds, errorOf, type StepChoice, severity } from '../cells.ts';
+import type { Column, Scenario } from '../data.ts';
+import { belongs, tasks } from '../tasks.ts';
+
+export interface Filters {
+  text: string;
+  task: string;
+  mechanism: string; // or tag
+  dimension: string;
+  preset: string;
+  verdict: string;
+  step: StepChoice;
+  number: 'error' | 'bounds' | 'cost'; // what the cells say
+  sort: string; // "name", "metric", a spec; "": as stored
+  descending: boolean;
+}
+export const allScenarios: Filters = {
+  text: '',
+  task: '',
+  mechanism: '',
+  dimension: '',
+  preset: '',
+  verdict: '',
+  step: 'all',
+  number: 'error',
+  sort: '',
+  descending: false,
+};
+export const filters = new Observable<Filters>(allScenarios);
+
+/** Sets some filters, resets the rest, and brings the scoreboard into view. */
+export function filterScoreboard(changes: Partial<Filters>): void {
+  filters.set({ ...allScenarios, ...changes });
+  document.getElementById('scoreboard')?.scrollIntoView();
+}
+
+export function matches(s: Scenario, columns: Column[], f: Filters): boolean {
+  const text = [s.name, s.title, s.description, ...s.tags, ...s.isolates].join(' ').toLowerCase();
+  const wanted = f.text.toLowerCase().split(/\s+/);
+  if (!wanted.every((word) => text.includes(word))) return false;
+  if (f.mechanism && !s.isolates.includes(f.mechanism) && !s.tags.includes(f.mechanism)) return false;
+  const task = tasks.find((t) => t.key === f.task);
+  if (task && !belongs(task, s)) return false;
+  if (f.dimension && String(s.dimension) !== f.dimension) return false;
+  return !f.verdict || columns.some((c) => cellOf(s, c, f.step)?.worst.shown === f.verdict);
+}
+
+/** In the order asked for; by a column: by what its cells say, those without a number last. */
+export function ordered(list: Scenario[], columns: Column[], f: Filters): Scenario[] {
+  if (!f.sort) return list;
+  const column = columns.find((c) => c.spec === f.sort);
+  const key = (s: Scenario): (string | number)[] => {
+    if (f.sort === 'name') return [s.name];
+    if (f.sort === 'metric') return [s.main.name];
+    const cell = column ? cellOf(s, column, f.step) : null;
+    if (cell === null) return [Infinity];
+    const value = f.number === 'cost' ? costOf(cell) : f.number === 'bounds' ? errorInBounds(cell) : errorOf(cell);
+    const last = Number.isNaN(value) ? Infinity : value;
+    return f.number === 'cost' ? [last] : [severity(cell.worst.shown), last];
+  };
+  const keyed = list.map((s) => ({ s, key: key(s) }));
+  keyed.sort((a, b) => {
+    for (let i = 0; i < Math.min(a.key.length, b.key.length); ++i) {
+      const [x, y] = [a.key[i] as number, b.key[i] as number];
+      if (x !== y) return x < y ? -1 : 1;
+    }
+    return 0;
+  });
+  if (f.descending) keyed.reverse();
+  return keyed.map((k) => k.s);
+}
+
+/** Of a row: what its bars are measured against. */
+export interface RowScale {
+  bestError: number; // the smallest of the row; NaN when fewer than two have one
+  leastError: number; // of the error bars: three decades below the bound, or below the largest where there is none
+  mostError: number;
+  leastCost: number; // the fastest of the row
+}
+export function rowScale(s: Scenario, columns: Column[], step: StepChoice): RowScale {
+  const cells = columns.map((c) => cellOf(s, c, step));
+  const errors = cells.map(errorOf).filter(Number.isFinite);
+  const costs = cells.map(costOf).filter((c) => c > 0);
+  const bounds = cells.map((c) => toNumber(c?.at.bound)).filter((b) => b > 0 && Number.isFinite(b));
+  const top = bounds.length ? Math.max(...bounds) : Math.max(...errors, 0);
+  return {
+    bestError: errors.length > 1 ? Math.min(...errors) : NaN,
+    leastError: top * 1e-3,
+    mostError: top,
+    leastCost: costs.length ? Math.min(...costs) : NaN,
+  };
+}

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What is measured and how, what the verdicts mean, what cannot be matched, and who wrote this.
+import { el } from '../../common/elements.ts';
+import type { Shown } from '../data.ts';
+import { chip, panel } from '../parts.ts';
+
+const item = (head: string, text: string) => el('li', null, el('b', null, head), ' ', text);
+const verdict = (shown: Shown, text: string) => el('li', null, chip(shown), text);
+
+const measured: [string, string][] = [
+  [
+    'One scenario, all engines.',
+    'A scenario is written once, in SI units. Each engine is given the same bodies, masses, pair friction and restitution; after the build, what it says it was given is read back and compared.',
+  ],
+  [
+    'Two presets.',
+    '“default” is the engine as it ships, with the scenario’s pair values. “matched” turns sleeping, damping, clamps and margins off or down and uses the same friction and restitution law as nearly as the library allows.',
+  ],
+  [
+    'Exact and scheme-exact.',
+    'Exact errors are distances from the physics: they measure accuracy. Scheme-exact errors are distances from what a perfect run of the engine’s own time-stepping formula gives at that time step: they find bugs. A simulator may be far from the first and on the second; the two are never mixed.',
+  ],
+  [
+    'Recorded motions.',
+    'Errors against a recorded motion of a real body are apart from both: the model, its coefficients and the instrument are in them.',
+  ],
+  [
+    'Same yardstick.',
+    'Energy, momentum and all errors are computed from the recorded states by one implementation, in double precision, for all engines.',
+  ],
+  [
+    'Contacts.',
+    'At sampled frames all collision engines and an exact oracle are asked about the same poses; the contacts that a run itself acted upon are held to the same oracle. Equally good normals count as equal.',
+  ],
+  ['One process per case.', 'An engine that aborts, hangs or returns NaN costs one cell of the table.'],
+  [
+    'Time.',
+    'Wall time of a step by the monotonic clock: the median with its 95 % interval, always beside the accuracy of the same run.',
+  ],
+  [
+    'Every number can be checked.',
+    'The page holds thinned curves; full trajectories, every metric and every setting are in the run folder (results.sqlite, trajectories, results.csv), and each case shows the command that reproduces it. A number shows all its digits on hover.',
+  ],
+];
+
+const cannot: [string, string][] = [
+  [
+    'Precision.',
+    'A library built in single precision stays so. Bounds that name an engine are for double precision; a single-precision case is held to the bounds for everyone.',
+  ],
+  [
+    'Laws.',
+    'Some libraries know only a friction pyramid, a collision skin, a velocity clamp or their own restitution rule. The nearest setting is used and the difference is written into the parity ledger, which stands beside the numbers on every page.',
+  ],
+  [
+    'Schemes.',
+    'Engines integrate differently at the same time step; their work per step differs, too. So there are four ways to compare (engine defaults, matched settings, equal time, equal accuracy), and each is labelled.',
+  ],
+  [
+    'Chaos.',
+    'After many impacts two correct runs part. Such scenarios are compared by what is conserved, not by position.',
+  ],
+];
+
+export function method(): HTMLElement {
+  return panel(
+    'method',
+    'Method',
+    el('h3', null, 'What is measured, and how'),
+    el(
+      'ul',
+      null,
+      measured.map(([head, text]) => item(head, text)),
+    ),
+    el('h3', null, 'What the verdicts mean'),
+    el(
+      'ul',
+      { class: 'plain' },
+      verdict('pass', 'every metric with a bound stayed within it'),
+      verdict('no_bound', 'it ran, and nothing was demanded: compare its errors with the others’'),
+      verdict('known_deviation', 'outside a bound, but within what was recorded beforehand, with the reason given'),
+      verdict('fail', 'a bound was missed, or a recorded deviation grew'),
+      verdict('non_finite', 'a state became NaN or infinite'),
+      verdict('timeout', 'no end within the time limit'),
+      verdict('crashed', 'the process died or ran out of memory'),
+      verdict('unsupported', 'the engine lacks what the scenario needs; said by the engine, not found by failing'),
+    ),
+    el('h3', null, 'What cannot be matched'),
+    el(
+      'ul',
+      null,
+      cannot.map(([head, text]) => item(head, text)),
+    ),
+    el('h3', null, 'Conflict of interest'),
+    el(
+      'p',
+      null,
+      'The hosts of this comparison are the authors of one of the engines in it, rigor. Scenarios, bounds, adapters and presets were chosen by them, and ',
+      'bounds named for rigor are tighter than those for everyone because they also serve as its tests. Read its column with that in mind. Everything is in ',
+      'the repository, and every column can be rerun and challenged with the commands given.',
+    ),
+  );
+}

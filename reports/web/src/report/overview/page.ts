@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The overview, top to bottom. A section is one file and one line here, where it shall stand; one with a title stands in
+// the page's navigation.
+import { run } from '../run.ts';
+import { studySection } from '../study/page.ts';
+import { contactQueries, contactsActedUpon } from './contacts.ts';
+import { engines } from './engines.ts';
+import { headline } from './headline.ts';
+import { ledgerSummary } from './ledger.ts';
+import { method } from './method.ts';
+import { scoreboard } from './scoreboard.ts';
+import { timing } from './timing.ts';
+import { trust } from './trust.ts';
+
+interface OverviewSection {
+  id: string; // of its element
+  title: string; // in the navigation; "": not there
+  make: () => HTMLElement | null;
+}
+
+const sections: OverviewSection[] = [
+  { id: 'summary', title: '', make: headline },
+  { id: 'study', title: 'Study', make: studySection },
+  { id: 'trust', title: 'Which engine', make: trust },
+  { id: 'scoreboard', title: 'Scoreboard', make: scoreboard },
+  { id: 'timing', title: 'Cost', make: timing },
+  { id: 'in-run', title: 'Contacts', make: contactsActedUpon },
+  { id: 'audit', title: 'Contact queries', make: contactQueries },
+  { id: 'ledger', title: 'Parity ledger', make: ledgerSummary },
+  { id: 'engines', title: 'Engines', make: engines },
+  { id: 'method', title: 'Method', make: method },
+];
+
+export const overview = (): HTMLElement[] => sections.map((s) => s.make()).filter((node) => node !== null);
+
+/** Sections that this run has something for. */
+export function navigation(): { id: string; title: string }[] {
+  const has: Record<string, boolean> = {
+    study: document.getElementById('study-data') !== null,
+    trust: run.mechanisms.length > 0,
+    timing: run.scenarios.some((s) => s.cases.some((c) => c.step)),
+    'in-run': run.scenarios.some((s) => s.cases.some((c) => c.inRun?.overlapping)),
+    audit: run.audit.length > 0,
+  };
+  return sections.filter((s) => s.title && has[s.id] !== false);
+}

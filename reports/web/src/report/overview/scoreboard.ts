@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Scenario x engine: verdict, main error and cost of a step in one cell; filters and order.
+import { type Child, el } from '../../common/elements.ts';
+import { duration, format, full, ratio, timeStep, toNumber, words } from '../../common/format.ts';
+import { type Cell, cellOf, costOf, errorInBounds, errorOf, isLost, logPlace } from '../cells.ts';
+import type { Column, Scenario, Shown } from '../data.ts';
+import { chip, panel, select, specHead } from '../parts.ts';
+import { isFirstOfEngine, run, scenarioLink, subtitleOf, verdictText } from '../run.ts';
+import { tasks } from '../tasks.ts';
+import { allScenarios, type Filters, filters, matches, ordered, type RowScale, rowScale } from './filters.ts';
+
+const meaning: Record<Shown, string> = {
+  pass: 'within its bounds',
+  no_bound: 'ran, nothing was demanded',
+  known_deviation: 'off, as recorded and explained',
+  fail: 'misses a bound',
+  non_finite: 'NaN or infinity',
+  timeout: 'over the time limit',
+  crashed: 'the process died',
+  unsupported: 'the engine cannot do it',
+};
+
+/** What the cell says in words, for its tooltip and for those who do not see it. */
+function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): string[] {
+  const { at, worst, cases } = cell;
+  const lines = [`${column.label}, ${s.name}: ${verdictText(worst.shown).word}`];
+  if (at.value !== null && !isLost(worst.shown)) {
+    const bound =
+      at.bound === null ? 'nothing demanded' : `bound ${format(at.bound)}, ${format(errorInBounds(cell), 3)} of it`;
+    lines.push(
+      `${words(s.main.name)} ${full(at.value)} ${s.main.unit === '1' ? '' : s.main.unit} at ${timeStep(at.dt)} (${bound})`,
+    );
+  }
+  const cost = costOf(cell);
+  if (cost > 0) lines.push(`${duration(cost)} a step, ${ratio(cost / scale.leastCost)} the fastest here`);
+  if (cases.length > 1) for (const c of cases) lines.push(`${timeStep(c.dt)}: ${verdictText(c.shown).word}`);
+  if (worst.reason) lines.push(worst.reason);
+  return lines;
+}
+
+function said(cell: Cell, number: Filters['number']): string {
+  const { shown } = cell.worst;
+  if (shown === 'unsupported') return 'n/a';
+  if (isLost(shown)) return verdictText(shown).word;
+  if (number === 'cost') return duration(costOf(cell));
+  if (number === 'bounds') return Number.isNaN(errorInBounds(cell)) ? '—' : `${format(errorInBounds(cell), 2)}×`;
+  return cell.at.value === null ? verdictText(shown).word : format(cell.at.value, 3);
+}
+
+const meter = (kind: string, place: number): HTMLElement | null =>
+  Number.isNaN(place) ? null : el('i', { class: `meter ${kind}`, style: `--fill:${(100 * place).toFixed(1)}%` });
+
+function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters): Child {
+  const cell = cellOf(s, column, f.step);
+  if (cell === null) return el('span', { class: 'muted small', title: 'not in the plan' });
+  const lines = sentence(s, column, cell, scale);
+  const { shown } = cell.worst;
+  const best = f.number !== 'cost' && errorOf(cell) === scale.bestError;
+  return el(
+    'a',
+    {
+      class: `cell v v-${shown}`,
+      title: lines.join('\n'),
+      'aria-label': lines.slice(0, 3).join('; '),
+      tabindex: -1,
+      href: scenarioLink(s.name, { spec: column.spec, dt: cell.worst.dt }),
+    },
+    el('span', { class: 'sym', 'aria-hidden': 'true' }, verdictText(shown).symbol),
+    el('span', { class: best ? 'value best' : 'value' }, said(cell, f.number)),
+    meter('error', logPlace(errorOf(cell), scale.leastError, scale.mostError)),
+    meter('cost', logPlace(costOf(cell), scale.leastCost, 1000 * scale.leastCost)),
+  );
+}
+
+function row(s: Scenario, columns: Column[], f: Filters): HTMLElement {
+  const scale = rowScale(s, columns, f.step);
+  const metric = s.main.name
+    ? `${words(s.main.name)}${s.main.unit && s.main.unit !== '1' ? ` [${s.main.unit}]` : ''}`
+    : 'no metric';
+  return el(
+    'tr',
+    { 'data-scenario': s.name },
+    el(
+      'th',
+      { class: 'sticky name', scope: 'row' },
+      el('a', { href: scenarioLink(s.name), title: s.description }, s.name),
+      el('span', { class: 'sub', title: s.title }, s.title),
+      el('span', { class: 'sub metric', title: 'the number shown' }, metric),
+    ),
+    columns.map((c, i) =>
+      el('td', { class: `cell${isFirstOfEngine(columns, i) ? ' first' : ''}` }, cellNode(s, c, scale, f)),
+    ),
+  );
+}
+
+function sortButton(f: Filters, key: string, text: string): HTMLElement {
+  const active = f.sort === key;
+  const next = active && f.descending ? { sort: '', descending: false } : { sort: key, descending: active };
+  const mark = active ? (f.descending ? ' ▼' : ' ▲') : '';
+  return el('button', { title: 'Sort', onclick: () => filters.set({ ...f, ...next }) }, text, mark);
+}
+const ariaSort = (f: Filters, key: string) => (f.sort === key ? (f.descending ? 'descending' : 'ascending') : null);
+
+/** Arrow keys go from cell to cell; one of them is in the order of the Tab key. */
+function arrowKeys(body: HTMLElement): void {
+  const links = (tr: Element | null) => [...(tr?.querySelectorAll<HTMLElement>('td.cell') ?? [])];
+  body.addEventListener('keydown', (e) => {
+    const step = { ArrowUp: [-1, 0], ArrowDown: [1, 0], ArrowLeft: [0, -1], ArrowRight: [0, 1] }[e.key];
+    const td = (e.target as Element).closest('td.cell');
+    if (!step || !td) return;
+    e.preventDefault();
+    const tr = td.parentElement as HTMLElement;
+    const rows = [...body.children];
+    const cells = links(rows[rows.indexOf(tr) + (step[0] as number)] ?? null);
+    const next =
+      cells[links(tr).indexOf(td as HTMLElement) + (step[1] as number)]?.querySelector<HTMLElement>('a.cell');
+    if (!next) return;
+    for (const old of body.querySelectorAll('a.cell[tabindex="0"]')) old.setAttribute('tabindex', '-1');
+    next.setAttribute('tabindex', '0');
+    next.focus();
+  });
+}
+
+function controls(f: Filters): HTMLElement[] {
+  const set = (changes: Partial<Filters>) => filters.set({ ...filters.value, ...changes });
+  const named = [...new Set(run.scenarios.flatMap((s) => [...s.isolates, ...s.tags]))].sort();
+  const presets = [...new Set(run.columns.map((c) => c.preset))].filter(Boolean);
+  const verdicts = Object.entries(run.symbols).map(([k, v]): [string, string] => [k, `${v.symbol} ${v.word}`]);
+  const all = (text: string): [string, string] => ['', text];
+  const search = el('input', {
+    type: 'search',
+    placeholder: 'name, title, tag …',
+    'aria-label': 'Search',
+    value: f.text,
+    oninput: (e: Event) => set({ text: (e.target as HTMLInputElement).value }),
+  });
+  return [
+    el('label', null, 'Search', search),
+    select('Task', [all('all'), ...tasks.map((t): [string, string] => [t.key, t.title])], f.task, (task) =>
+      set({ task }),
+    ),
+    select('Mechanism or tag', [all('all'), ...named.map((w): [string, string] => [w, w])], f.mechanism, (mechanism) =>
+      set({ mechanism }),
+    ),
+    select('Dimension', [all('2D and 3D'), ['2', '2D'], ['3', '3D']], f.dimension, (dimension) => set({ dimension })),
+    select('Preset', [all('all'), ...presets.map((p): [string, string] => [p, p])], f.preset, (preset) =>
+      set({ preset }),
+    ),
+    select('Verdict', [all('all'), ...verdicts], f.verdict, (verdict) => set({ verdict })),
+    select(
+      'Time step',
+      [
+        ['all', 'worst verdict of all'],
+        ['finest', 'finest'],
+        ['coarsest', 'coarsest'],
+      ],
+      f.step,
+      (step) => set({ step: step as Filters['step'] }),
+    ),
+    select(
+      'Number',
+      [
+        ['error', 'error'],
+        ['bounds', 'error ÷ bound'],
+        ['cost', 'time of a step'],
+      ],
+      f.number,
+      (number) => set({ number: number as Filters['number'] }),
+    ),
+    el('button', { class: 'button', onclick: () => filters.set({ ...allScenarios }) }, 'Reset'),
+  ];
+}
+
+function legend(): HTMLElement {
+  const sample = el(
+    'span',
+    { class: 'cell v v-pass sample', 'aria-hidden': 'true' },
+    el('span', { class: 'sym' }, verdictText('pass').symbol),
+    el('span', { class: 'value' }, '1.2e-4'),
+    meter('error', 0.6),
+    meter('cost', 0.3),
+  );
+  return el(
+    'div',
+    { class: 'legend' },
+    sample,
+    el(
+      'span',
+      { class: 'small muted' },
+      'The number is the error of the scenario’s main metric at the finest time step; the best of a row is underlined. ',
+      el('b', null, 'Upper bar: error'),
+      ', empty at a thousandth of the bound, full at the bound. ',
+      el('b', null, 'Lower bar: cost'),
+      ' of a step, empty for the fastest engine of the row, full at a thousand times that. Both logarithmic; short and short is good.',
+    ),
+    el(
+      'div',
+      null,
+      (Object.keys(run.symbols) as Shown[]).map((key) => chip(key, `${verdictText(key).word}: ${meaning[key]}`)),
+    ),
+  );
+}
+
+let unfollow = () => {};
+
+export function scoreboard(): HTMLElement {
+  const table = el('table', { class: 'board' });
+  const count = el('span', { class: 'muted small', role: 'status' });
+  const bar = el('div', { class: 'filters' });
+  const draw = (f: Filters) => {
+    const columns = run.columns.filter((c) => !f.preset || c.preset === f.preset);
+    const list = ordered(
+      run.scenarios.filter((s) => matches(s, columns, f)),
+      run.columns,
+      f,
+    );
+    const name = el(
+      'th',
+      { class: 'sticky sort', scope: 'col', 'aria-sort': ariaSort(f, 'name') },
+      sortButton(f, 'name', 'Scenario'),
+    );
+    const head = specHead([name], columns, (c, i) =>
+      el(
+        'th',
+        {
+          class: `sort${isFirstOfEngine(columns, i) ? ' first' : ''}`,
+          scope: 'col',
+          'aria-sort': ariaSort(f, c.spec),
+          title: c.spec,
+        },
+        sortButton(f, c.spec, subtitleOf(c)),
+      ),
+    );
+    const body = el(
+      'tbody',
+      null,
+      list.map((s) => row(s, columns, f)),
+    );
+    if (list.length === 0)
+      body.append(
+        el('tr', null, el('td', { colspan: columns.length + 1, class: 'empty' }, 'No scenario matches these filters.')),
+      );
+    body.querySelector('a.cell')?.setAttribute('tabindex', '0');
+    arrowKeys(body);
+    table.replaceChildren(head, body);
+    count.textContent =
+      list.length === run.scenarios.length
+        ? `${list.length} scenarios`
+        : `${list.length} of ${run.scenarios.length} scenarios`;
+  };
+  const redraw = (f: Filters) => {
+    // The search field keeps its focus while one types.
+    if (!bar.contains(document.activeElement)) bar.replaceChildren(...controls(f), count);
+    else if (f === allScenarios || Object.entries(allScenarios).every(([k, v]) => f[k as keyof Filters] === v))
+      bar.replaceChildren(...controls(f), count);
+    draw(f);
+  };
+  bar.replaceChildren(...controls(filters.value), count);
+  draw(filters.value);
+  unfollow();
+  unfollow = filters.follow(redraw);
+  return panel(
+    'scoreboard',
+    'Scoreboard',
+    el(
+      'p',
+      { class: 'muted' },
+      'Every cell is one engine in one preset, and opens its case. Its sign is the worst verdict over the time steps.',
+    ),
+    legend(),
+    bar,
+    el('div', { class: 'scroll wide' }, table),
+  );
+}
+
+/** The worst distance from its bound that the run has, for the summary of an engine. */
+export const excessOf = (cell: Cell | null): number => {
+  const excess = errorInBounds(cell);
+  return Number.isNaN(excess) && cell !== null && isLost(cell.worst.shown) ? Infinity : toNumber(excess);
+};

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Timing: how the cost of a step grows with the scene, cost against accuracy, phases; the machine beside it.
+import { el } from '../../common/elements.ts';
+import { duration, format, median, toNumber } from '../../common/format.ts';
+import { cellOf, costOf, errorInBounds } from '../cells.ts';
+import { barList } from '../charts/bars.ts';
+import { type Line, plotCard } from '../charts/plot.ts';
+import type { Column, Step } from '../data.ts';
+import { facts, headRow, panel, scroll, select } from '../parts.ts';
+import { dashOf, engineColour, run } from '../run.ts';
+import { standings } from '../standing.ts';
+import { costTable } from './cost.ts';
+
+interface Sample {
+  x: number;
+  y: number;
+  low: number;
+  high: number;
+  note: string;
+}
+
+const lineOf = (column: Column, samples: Sample[], bare: boolean): Line => {
+  const sorted = samples.filter((s) => s.x > 0 && s.y > 0 && Number.isFinite(s.x + s.y)).sort((a, b) => a.x - b.x);
+  const finite = (v: number) => (Number.isFinite(v) ? v : null);
+  return {
+    key: column.spec,
+    label: column.label,
+    colour: engineColour(column.engine),
+    dash: dashOf(column),
+    width: 1.5,
+    points: true,
+    bare,
+    x: sorted.map((s) => s.x),
+    y: sorted.map((s) => s.y),
+    low: sorted.map((s) => finite(s.low)),
+    high: sorted.map((s) => finite(s.high)),
+    notes: sorted.map((s) => s.note),
+  };
+};
+
+const sampleOf = (step: Step, x: number, note: string): Sample => ({
+  x,
+  y: toNumber(step.median),
+  low: toNumber(step.low ?? step.p10),
+  high: toNumber(step.high ?? step.p90),
+  note,
+});
+
+/** Cost of a step over bodies or contacts, a line per column, a point per scenario. */
+function scalingLines(column: Column, over: (step: Step) => number): Line {
+  const samples = run.scenarios.flatMap((s) => {
+    const at = cellOf(s, column, 'finest')?.at;
+    return at?.step && at.outcome === 'completed' ? [sampleOf(at.step, over(at.step), s.name)] : [];
+  });
+  return lineOf(column, samples, true);
+}
+
+/** Scenarios that differ in their size alone: equal names but for a number. */
+export function families(names: string[]): Map<string, string[]> {
+  const found = new Map<string, string[]>();
+  for (const name of names) {
+    const stem = name.replace(/\d+(?!d\b)/g, '#');
+    if (stem !== name) found.set(stem, [...(found.get(stem) ?? []), name]);
+  }
+  return new Map([...found].filter(([, list]) => list.length > 1));
+}
+
+function accuracyLines(column: Column): Line {
+  const samples = run.scenarios.flatMap((s) => {
+    const cell = cellOf(s, column, 'finest');
+    const error = errorInBounds(cell);
+    return cell && error > 0 ? [{ x: costOf(cell), y: error, low: NaN, high: NaN, note: s.name }] : [];
+  });
+  return lineOf(column, samples, true);
+}
+
+function toggled(plots: (columns: Column[]) => HTMLElement[]): HTMLElement {
+  const presets = [...new Set(run.columns.map((c) => c.preset))].filter(Boolean);
+  const grid = el('div', { class: 'charts' });
+  const draw = (preset: string) =>
+    grid.replaceChildren(...plots(run.columns.filter((c) => !preset || c.preset === preset)));
+  const start = presets.includes('matched') ? 'matched' : '';
+  draw(start);
+  const choice = select('Preset', [['', 'all'], ...presets.map((p): [string, string] => [p, p])], start, draw);
+  return el('div', null, el('div', { class: 'filters' }, choice), keyOf(), grid);
+}
+
+/** Colours of the engines. */
+export function keyOf(): HTMLElement {
+  const engines = [...new Set(run.columns.map((c) => c.engine))];
+  return el(
+    'div',
+    { class: 'lines' },
+    engines.map((e) => el('span', null, el('i', { class: 'swatch', style: `background:${engineColour(e)}` }), e)),
+  );
+}
+
+function scaling(columns: Column[]): HTMLElement[] {
+  const has = (line: Line) => line.x.length > 1;
+  const axes = [
+    ['Cost of a step over moving bodies', 'moving bodies', (s: Step) => s.bodies ?? 0],
+    ['Cost of a step over contacts', 'mean number of contacts', (s: Step) => toNumber(s.contacts)],
+  ] as const;
+  const common = { unit: 's', xUnit: '', logX: true, logY: true, tall: true };
+  const cards = axes.flatMap(([title, xTitle, over]) => {
+    const lines = columns.map((c) => scalingLines(c, over)).filter(has);
+    return lines.length ? [plotCard({ ...common, title, name: title, xTitle, lines })] : [];
+  });
+  for (const [stem, names] of families(run.scenarios.map((s) => s.name))) {
+    const lines = columns.map((c) => {
+      const samples = names.flatMap((name) => {
+        const at = run.scenarios.find((s) => s.name === name)?.cases.find((x) => x.spec === c.spec);
+        return at?.step ? [sampleOf(at.step, at.step.bodies || Number(/\d+/.exec(name)?.[0]), name)] : [];
+      });
+      return lineOf(c, samples, false);
+    });
+    const title = `Family ${stem}`;
+    if (lines.some(has))
+      cards.push(plotCard({ ...common, title, name: title, xTitle: 'moving bodies', lines: lines.filter(has) }));
+  }
+  return cards;
+}
+
+const accuracy = (columns: Column[]): HTMLElement[] => {
+  const lines = columns.map(accuracyLines).filter((line) => line.x.length > 0);
+  const title = 'Error in bounds over the cost of a step: each point a scenario; lower left is better, 1 is the bound';
+  if (lines.length === 0) return [];
+  return [
+    plotCard({
+      title,
+      name: 'accuracy over cost',
+      unit: 'bounds',
+      xTitle: 'time of a step [s]',
+      xUnit: 's',
+      logX: true,
+      logY: true,
+      tall: true,
+      lines,
+    }),
+  ];
+};
+
+/** Medians over the scenarios; what an engine tells of its phases as shares of its step. */
+function summaryTable(): HTMLElement {
+  const list = standings(run.scenarios, run.columns).filter((s) => Number.isFinite(s.cost));
+  const phases = (spec: string) => {
+    const shares = new Map<string, number[]>();
+    for (const s of run.scenarios) {
+      const step = s.cases.find((c) => c.spec === spec)?.step;
+      for (const [phase, cost] of Object.entries(step?.phases ?? {}))
+        shares.set(phase, [...(shares.get(phase) ?? []), toNumber(cost) / toNumber(step?.median)]);
+    }
+    return [...shares].map(([phase, values]) => `${phase} ${(100 * median(values)).toFixed(0)} %`).join(', ');
+  };
+  const told = list.map((s) => phases(s.column.spec));
+  return scroll(
+    el(
+      'table',
+      { class: 'full' },
+      headRow(
+        [
+          'Engine',
+          'Median of a step, over scenarios',
+          'Typically × the fastest',
+          'Error, median of the bound',
+          'Scenarios that fail',
+          'Phases, share of a step',
+        ],
+        (i) => i < 5,
+      ),
+      el(
+        'tbody',
+        null,
+        list.map((s, i) =>
+          el(
+            'tr',
+            null,
+            el('th', { class: 'sticky', scope: 'row' }, s.column.label),
+            el('td', { class: 'num' }, duration(s.cost)),
+            el('td', { class: 'num' }, format(s.costRatio, 3)),
+            el('td', { class: 'num' }, Number.isFinite(s.inBounds) ? `${format(100 * s.inBounds, 3)} %` : '—'),
+            el('td', { class: 'num' }, `${s.bad.length} of ${s.scenarios}`),
+            el('td', { class: 'small' }, told[i] || '—'),
+          ),
+        ),
+      ),
+    ),
+  );
+}
+
+function costBars(): HTMLElement {
+  const list = standings(run.scenarios, run.columns).filter((s) => Number.isFinite(s.costRatio));
+  const bars = list
+    .sort((a, b) => a.costRatio - b.costRatio)
+    .map((s) => ({
+      label: s.column.label,
+      value: s.costRatio,
+      text: `×${format(s.costRatio, 3)}`,
+      colour: engineColour(s.column.engine),
+    }));
+  return el(
+    'div',
+    { class: 'chart' },
+    el('h4', null, 'Time of a step, typically × the fastest engine of the same scenario'),
+    barList(bars, false, 'var(--accent)'),
+  );
+}
+
+export function timing(): HTMLElement | null {
+  const table = costTable();
+  if (table === null) return null;
+  const { environment } = run;
+  const machine = Object.entries(environment).filter(([k]) =>
+    /cpu|core|memory|kernel|os|compiler|flags|build|governor|machine/i.test(k),
+  );
+  const precision = run.engines
+    .filter((e) => run.columns.some((c) => c.engine === e.name))
+    .map((e): [string, string] => [e.name, [e.version, e.precision, e.buildNotes].filter(Boolean).join(', ')]);
+  return panel(
+    'timing',
+    'Cost, beside accuracy',
+    el(
+      'p',
+      { class: 'muted' },
+      'Wall time of one step by the monotonic clock: the median, with its 95 % interval where there are enough samples (else from the 10th to the ',
+      '90th percentile). A fast step that misses its bound is not fast. Times hold for the machine below, and for cases that may have run beside others: ',
+      el('code', null, 'rigor bench'),
+      ' measures alone and interleaved.',
+    ),
+    el('div', { class: 'split' }, facts(machine), facts(precision)),
+    summaryTable(),
+    el('h3', null, 'Scaling, and cost against accuracy'),
+    toggled((columns) => [costBars(), ...accuracy(columns), ...scaling(columns)]),
+    el(
+      'details',
+      null,
+      el('summary', null, 'Every scenario: time of a step, below it the verdict and the main error of the same run'),
+      scroll(table),
+    ),
+  );
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What the sections are made of: panels, chips, number cells, heads of tables with a column per engine.
+import { type Attributes, type Child, el } from '../common/elements.ts';
+import { duration, format, full, type Maybe, timeStep } from '../common/format.ts';
+import type { Column, Shown } from './data.ts';
+import { engineLink, subtitleOf, verdictText } from './run.ts';
+
+export const panel = (id: string, title: string | null, ...children: Child[]): HTMLElement =>
+  el('section', { class: 'panel', id }, title ? el('h2', null, title) : null, children);
+
+export const scroll = (table: HTMLElement): HTMLElement => el('div', { class: 'scroll', tabindex: 0 }, table);
+
+/** A verdict: its symbol, and a text that is its word unless something else is said. */
+export function chip(shown: Shown, text?: Child, title?: string): HTMLElement {
+  const v = verdictText(shown);
+  const symbol = el('span', { class: 'sym', 'aria-hidden': 'true' }, v.symbol);
+  return el('span', { class: `chip v v-${shown}`, title }, symbol, text ?? v.word);
+}
+
+/** A number in a table: short to read, all digits on hover and in `data-value`. */
+export const numberCell = (value: Maybe, unit = '', attributes: Attributes = {}): HTMLElement =>
+  el('td', { class: 'num', title: `${full(value)} ${unit}`.trim(), ...attributes }, format(value));
+export const durationCell = (seconds: Maybe): HTMLElement =>
+  el('td', { class: 'num', title: `${full(seconds)} s` }, duration(seconds));
+export const stepCell = (dt: Maybe): HTMLElement => el('td', { class: 'num' }, timeStep(dt));
+
+/** A row of heads; `numeric` tells which stand over numbers, the first one sticks. */
+export const headRow = (titles: Child[], numeric: (index: number) => boolean = () => false): HTMLElement =>
+  el(
+    'thead',
+    null,
+    el(
+      'tr',
+      null,
+      titles.map((t, i) => el('th', { class: i === 0 ? 'sticky' : numeric(i) ? 'num' : null, scope: 'col' }, t)),
+    ),
+  );
+
+/** Two head rows, engine above preset, for tables with a column per spec. */
+export function specHead(
+  leading: HTMLElement[],
+  columns: Column[],
+  columnHead: (column: Column, index: number) => HTMLElement = (c) =>
+    el('th', { class: 'num', scope: 'col', title: c.spec }, subtitleOf(c)),
+): HTMLElement {
+  const groups: { engine: string; count: number }[] = [];
+  for (const c of columns) {
+    const last = groups.at(-1);
+    if (last?.engine === c.engine) last.count++;
+    else groups.push({ engine: c.engine, count: 1 });
+  }
+  for (const node of leading) node.setAttribute('rowspan', '2');
+  const engines = groups.map((g) =>
+    el(
+      'th',
+      { class: 'group', colspan: g.count, scope: 'colgroup' },
+      el('a', { href: engineLink(g.engine) }, g.engine),
+    ),
+  );
+  return el('thead', null, el('tr', null, leading, engines), el('tr', null, columns.map(columnHead)));
+}
+export const stickyHead = (text: string): HTMLElement => el('th', { class: 'sticky', scope: 'col' }, text);
+
+export function select(
+  label: string,
+  options: [key: string, text: string][],
+  value: string,
+  onchange: (value: string) => void,
+): HTMLElement {
+  const choices = options.map(([key, text]) => el('option', { value: key, selected: key === value }, text));
+  const change = (e: Event) => onchange((e.target as HTMLSelectElement).value);
+  return el('label', null, label, el('select', { 'aria-label': label, onchange: change }, choices));
+}
+
+export function copyButton(text: string): HTMLElement {
+  const copied = (e: Event) => {
+    const button = e.target as HTMLElement;
+    navigator.clipboard?.writeText(text).then(
+      () => {
+        button.textContent = 'copied';
+      },
+      () => {},
+    );
+  };
+  return el('button', { class: 'button noprint', onclick: copied }, 'copy');
+}
+
+export const facts = (entries: [string, Child][]): HTMLElement =>
+  el(
+    'dl',
+    { class: 'facts' },
+    entries.map(([name, value]) => [el('dt', null, name), el('dd', null, value)]),
+  );
+
+/** A command that can be copied. */
+export const command = (text: string): HTMLElement =>
+  el('div', { class: 'command' }, el('code', null, text), copyButton(text));

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The run of this page, and what is asked of it everywhere: columns, verdicts, colours, links.
+import type { Case, Column, Run, Scenario, Shown, Study } from './data.ts';
+
+function embedded<T>(id: string): T | null {
+  const node = document.getElementById(id);
+  return node === null ? null : (JSON.parse(node.textContent ?? '') as T);
+}
+
+export const run = embedded<Run>('run-data') as Run;
+export const study = embedded<Study>('study-data');
+
+export const columnOf = (spec: string): Column | undefined => run.columns.find((c) => c.spec === spec);
+export const labelOf = (spec: string): string => columnOf(spec)?.label ?? spec;
+export const subtitleOf = (c: Column): string => [c.preset, c.options].filter(Boolean).join(' ') || c.spec;
+export const scenarioOf = (name: string): Scenario | undefined => run.scenarios.find((s) => s.name === name);
+export const caseOf = (cases: Case[], column: Column): Case | undefined => cases.find((c) => c.spec === column.spec);
+/** Columns of those who are among the cases. */
+export const columnsAmong = (cases: { spec: string }[]): Column[] =>
+  run.columns.filter((c) => cases.some((x) => x.spec === c.spec));
+export const isFirstOfEngine = (columns: Column[], i: number): boolean =>
+  i === 0 || columns[i - 1]?.engine !== columns[i]?.engine;
+
+/** Symbol and word of a verdict as shown. */
+export const verdictText = (shown: Shown) => run.symbols[shown] ?? { symbol: '?', word: shown, count: 0 };
+export function metricShown(verdict: string): Shown {
+  if (verdict === 'pass' || verdict === 'fail') return verdict;
+  return verdict === 'known deviation' ? 'known_deviation' : 'unsupported';
+}
+
+/** Okabe-Ito: told apart with every common colour vision; by place in the list of engines. */
+export const palette = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#8C6D1F'];
+export function engineColour(engine: string): string {
+  const taking = [...new Set(run.columns.map((c) => c.engine))];
+  const names = [...taking, ...run.engines.map((e) => e.name).filter((name) => !taking.includes(name))];
+  const index = names.indexOf(engine);
+  return palette[(index < 0 ? names.length : index) % palette.length] as string;
+}
+/** Dashes tell presets and options of one engine apart. */
+export function dashOf(column: Column): number[] {
+  const optioned = run.columns.filter((c) => c.engine === column.engine && c.options);
+  const dashes = [
+    [2, 3],
+    [8, 3, 2, 3],
+    [10, 4],
+  ];
+  if (column.options) return dashes[optioned.indexOf(column) % dashes.length] as number[];
+  return column.preset === 'default' ? [6, 4] : [];
+}
+
+type Query = Record<string, string | number | null | undefined>;
+const withQuery = (path: string, query: Query): string => {
+  const parts = Object.entries(query).filter(([, v]) => v !== undefined && v !== null && v !== '');
+  return path + (parts.length ? `?${parts.map(([k, v]) => `${k}=${encodeURIComponent(String(v))}`).join('&')}` : '');
+};
+export const scenarioLink = (name: string, query: Query = {}): string =>
+  withQuery(`#/scenario/${encodeURIComponent(name)}`, query);
+export const engineLink = (name: string): string => `#/engine/${encodeURIComponent(name)}`;

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What the sections of a scenario's page are given, and the links that show a moment of it.
+import type { Cursor } from '../../common/cursor.ts';
+import { type Child, el } from '../../common/elements.ts';
+import { format } from '../../common/format.ts';
+import type { Case, Scenario, ScenarioData } from '../data.ts';
+import { scenarioLink } from '../run.ts';
+
+export interface Context {
+  scenario: Scenario;
+  index: number; // in the run
+  data: ScenarioData;
+  steps: number[]; // coarsest first [s]
+  dt: number; // the one shown
+  cases: Case[]; // at this time step
+  spec: string | null; // what the link that led here speaks of
+  cursor: Cursor; // shared by curves, tables and the replay
+  leaving: (() => void)[]; // called when the page is left
+}
+
+/** A section returns null when it has nothing to say. */
+export type Section = (context: Context) => HTMLElement | null;
+
+/** A link that sets the shared time, the engine and the bodies looked at, and brings them into view. */
+export function moment(context: Context, spec: string, time: number, bodies: string[], text: Child): HTMLElement {
+  const { scenario, dt, cursor } = context;
+  const href = scenarioLink(scenario.name, { dt, spec, t: time, pair: bodies.join('|') });
+  const show = (e: Event) => {
+    e.preventDefault();
+    history.replaceState(null, '', href);
+    showMoment(cursor, spec, time, bodies);
+  };
+  return el(
+    'a',
+    { href, class: 'moment', title: `Show t = ${format(time)} s in curves and replay`, onclick: show },
+    text,
+  );
+}
+
+export function showMoment(cursor: Cursor, spec: string, time: number, bodies: string[]): void {
+  const hidden = new Set(cursor.hidden.value);
+  if (hidden.delete(spec)) cursor.hidden.set(hidden);
+  cursor.focus.set({ spec, bodies });
+  cursor.time.set(time);
+  const stage = document.getElementById('replay') ?? document.getElementById('curves');
+  stage?.scrollIntoView();
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What the scenario is: its statement, the exact solution, the time steps, and how everybody did.
+import { type Child, el } from '../../common/elements.ts';
+import { format, timeStep } from '../../common/format.ts';
+import { formula } from '../formula.ts';
+import { facts, panel } from '../parts.ts';
+import { labelOf, run, scenarioLink, verdictText } from '../run.ts';
+import type { Context } from './context.ts';
+import { drawing } from './drawing.ts';
+
+const tags = (names: string[]) => names.map((t) => el('span', { class: 'tag' }, t));
+
+function prettyText(text: string): string {
+  try {
+    return JSON.stringify(JSON.parse(text), null, 2);
+  } catch {
+    return text; // shown as it is stored
+  }
+}
+
+function neighbours(index: number): Child {
+  const link = (offset: number, text: string) => {
+    const s = run.scenarios[index + offset];
+    return s ? [' · ', el('a', { href: scenarioLink(s.name), title: s.name }, text)] : null;
+  };
+  return el(
+    'p',
+    { class: 'small noprint' },
+    el('a', { href: '#scoreboard' }, '← scoreboard'),
+    link(-1, 'previous'),
+    link(1, 'next'),
+  );
+}
+
+function stepChoice({ scenario, steps, dt, spec }: Context): HTMLElement {
+  const button = (step: number) =>
+    el(
+      'a',
+      {
+        class: 'button',
+        role: 'button',
+        'aria-pressed': String(step === dt),
+        href: scenarioLink(scenario.name, { dt: step, spec }),
+      },
+      timeStep(step),
+    );
+  return el(
+    'div',
+    { class: 'controls noprint' },
+    el('span', { class: 'muted small' }, 'Time step'),
+    el('span', { class: 'seg', role: 'group', 'aria-label': 'Time step' }, steps.map(button)),
+  );
+}
+
+export function head(context: Context): HTMLElement {
+  const { scenario, data, index, dt, spec, cases } = context;
+  const reference = scenario.reference
+    ? [scenario.referenceTitle || scenario.reference, el('span', { class: 'muted' }, ` (${scenario.reference})`)]
+    : 'none: engines are compared with each other';
+  const rows: [string, Child][] = [
+    ['Isolates', tags(scenario.isolates)],
+    ['Reference', reference],
+    ['Source', scenario.source],
+    ['Of the reference', scenario.referenceSource === scenario.source ? '' : scenario.referenceSource],
+    ['Observed', scenario.observed.join(', ')],
+    ['Scene', `${scenario.dimension}D, ${format(scenario.duration)} s`],
+    ['Tags', tags(scenario.tags)],
+  ];
+  const present = rows.filter(([, v]) => v && (v as { length?: number }).length !== 0);
+  const math = formula(scenario.referenceTex ?? '', scenario.referenceFormula);
+  return panel(
+    'scenario',
+    null,
+    neighbours(index),
+    el('h1', null, scenario.title || scenario.name),
+    el('p', { class: 'muted' }, el('code', null, scenario.name), ` at ${timeStep(dt)}`),
+    scenario.description ? el('p', null, scenario.description) : null,
+    el(
+      'div',
+      { class: 'split' },
+      el('div', null, facts(present), math ? [el('div', { class: 'muted small' }, 'Exact solution'), math] : null),
+      drawing(context),
+    ),
+    scenario.referenceProblem
+      ? el('p', { class: 'notice' }, `The reference does not hold for these values: ${scenario.referenceProblem}`)
+      : null,
+    stepChoice(context),
+    el(
+      'div',
+      { class: 'stats' },
+      cases.map((c) =>
+        el(
+          'span',
+          {
+            class: `stat v v-${c.shown}${c.spec === spec ? ' focus' : ''}`,
+            title: c.reason || verdictText(c.shown).word,
+          },
+          verdictText(c.shown).symbol,
+          ' ',
+          labelOf(c.spec),
+        ),
+      ),
+    ),
+    el('details', null, el('summary', null, 'Scenario file as run'), el('pre', null, prettyText(data.text))),
+  );
+}

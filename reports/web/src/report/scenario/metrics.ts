@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One table, engines as columns, metrics as rows under a heading per kind; a number with a time is a link to it.
+import { type Child, el } from '../../common/elements.ts';
+import { format, full, toNumber, words } from '../../common/format.ts';
+import type { Case, Column, Metric } from '../data.ts';
+import { chip, panel, scroll, specHead, stickyHead } from '../parts.ts';
+import { caseOf, metricShown, run, verdictText } from '../run.ts';
+import { type Context, moment } from './context.ts';
+import { bodiesOf } from './outcomes.ts';
+
+const kinds: [kind: string, title: string, meaning: string][] = [
+  ['exact', 'Against the exact solution', 'accuracy: the distance from the physics'],
+  [
+    'scheme_exact',
+    'Against the engine’s own scheme',
+    'bugs: the distance from a perfect run of its own time-stepping formula',
+  ],
+  ['measured', 'Against the recorded motion', 'a real body: the errors of the model and of the instrument are in it'],
+  ['invariant', 'Invariants', 'what physics conserves'],
+  ['contact', 'Contacts', 'penetration, normals, contact law'],
+  ['joint', 'Joints', 'anchor drift and limits'],
+  ['rest', 'Rest', 'what should stand still'],
+  ['outcome', 'What came of it', 'neither right nor wrong for one start: distributions over many are comparable'],
+];
+
+function cell(context: Context, column: Column, name: string, subject: string): HTMLElement {
+  const m = caseOf(context.cases, column)?.metrics.find((x) => x.name === name && x.subject === subject);
+  if (!m) return el('td', { class: 'num muted' });
+  const judged = m.bound !== null || m.expectation !== null;
+  const shown = metricShown(m.verdict);
+  const at = toNumber(m.at);
+  const text: Child =
+    at >= 0 ? moment(context, column.spec, at, bodiesOf(m.subject), format(m.value)) : format(m.value);
+  const title = `${full(m.value)} ${m.unit}${at >= 0 ? ` at t = ${format(at)} s` : ''}${m.note ? `\n${m.note}` : ''}`;
+  const small = (line: string) => el('span', { class: 'bound' }, line);
+  return el(
+    'td',
+    { class: 'num', title, 'data-value': full(m.value), 'data-spec': column.spec },
+    judged ? chip(shown, text, verdictText(shown).word) : text,
+    m.bound !== null ? small(`≤ ${format(m.bound)}`) : null,
+    m.expectation !== null ? small(`expected ${format(m.expectation)}`) : null,
+  );
+}
+
+function rowsOf(cases: Case[], kind: string, whole: boolean): Metric[] {
+  const found = cases.flatMap((c) => c.metrics).filter((m) => m.kind === kind && (m.subject === '') === whole);
+  return [...new Map(found.map((m) => [`${m.name}\n${m.subject}`, m])).values()];
+}
+
+function table(context: Context, columns: Column[], whole: boolean): HTMLElement | null {
+  const unknown = context.cases
+    .flatMap((c) => c.metrics.map((m) => m.kind))
+    .filter((k) => !kinds.some(([kind]) => kind === k));
+  const all = [...kinds, ...[...new Set(unknown)].map((k): [string, string, string] => [k, k, ''])];
+  const parts = all
+    .map(([kind, title, text]) => ({ rows: rowsOf(context.cases, kind, whole), title, text }))
+    .filter((p) => p.rows.length);
+  if (parts.length === 0) return null;
+  const row = (m: Metric) =>
+    el(
+      'tr',
+      { 'data-metric': m.name, 'data-subject': m.subject },
+      el(
+        'th',
+        { class: 'sticky', scope: 'row' },
+        words(m.name),
+        m.subject ? el('span', { class: 'muted' }, ` ${m.subject}`) : '',
+      ),
+      el('td', { class: 'muted' }, m.unit === '1' ? '' : m.unit),
+      columns.map((c) => cell(context, c, m.name, m.subject)),
+    );
+  const body = ({ rows, title, text }: (typeof parts)[number]) =>
+    el(
+      'tbody',
+      null,
+      el(
+        'tr',
+        { class: 'sub' },
+        el(
+          'th',
+          { colspan: columns.length + 2 },
+          title,
+          text ? el('span', { class: 'muted small' }, ` — ${text}`) : '',
+        ),
+      ),
+      rows.map(row),
+    );
+  const heads = specHead([stickyHead('Metric'), el('th', { scope: 'col' }, 'Unit')], columns);
+  return scroll(el('table', null, heads, parts.map(body)));
+}
+
+export function metrics(context: Context): HTMLElement {
+  const columns = run.columns.filter((c) => caseOf(context.cases, c)?.metrics.length);
+  if (columns.length === 0)
+    return panel('metrics', 'Metrics', el('p', { class: 'empty' }, 'No case at this time step has numbers.'));
+  const whole = table(context, columns, true);
+  const single = table(context, columns, false);
+  const about = el(
+    'p',
+    { class: 'muted small' },
+    'All digits on hover. A number that is a link shows the moment where it was worst.',
+  );
+  if (whole === null || single === null) return panel('metrics', 'Metrics', about, whole ?? single);
+  return panel(
+    'metrics',
+    'Metrics',
+    about,
+    whole,
+    el('details', null, el('summary', null, 'By body, joint and quantity'), single),
+  );
+}

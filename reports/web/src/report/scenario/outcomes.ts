@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+import { type Child, el } from '../../common/elements.ts';
+import { format, toNumber, unitText, words } from '../../common/format.ts';
+import type { Case, Metric } from '../data.ts';
+import { chip, panel, scroll } from '../parts.ts';
+import { labelOf } from '../run.ts';
+import { type Context, moment } from './context.ts';
+
+const most = 4; // lines of one case
+
+/** What did not simply pass, and why: with the moment where it was worst. */
+export function outcomes(context: Context): HTMLElement | null {
+  const odd = context.cases.filter((c) => !['pass', 'no_bound', 'unsupported'].includes(c.shown));
+  const unable = context.cases.filter((c) => c.shown === 'unsupported');
+  if (odd.length + unable.length === 0) return null;
+  const line = (c: Case, m: Metric): Child => {
+    const at = toNumber(m.at);
+    return el(
+      'div',
+      null,
+      `${words(m.name)}${m.subject ? ` of ${m.subject}` : ''} ${format(m.value)}${unitText(m.unit)}`,
+      m.bound === null ? '' : ` against a bound of ${format(m.bound)}`,
+      at >= 0 ? [', worst ', moment(context, c.spec, at, bodiesOf(m.subject), `at t = ${format(at)} s`)] : null,
+      m.note ? `: ${m.note}` : '',
+    );
+  };
+  const why = (c: Case): Child => {
+    const missed = c.metrics.filter((m) => m.verdict !== 'pass');
+    const whole = missed.filter((m) => !m.subject);
+    return [
+      c.reason ? el('div', null, c.reason) : null,
+      (whole.length ? whole : missed).slice(0, most).map((m) => line(c, m)),
+    ];
+  };
+  const rows = odd.map((c) =>
+    el(
+      'tr',
+      { class: c.spec === context.spec ? 'focus' : null },
+      el('th', { scope: 'row' }, labelOf(c.spec)),
+      el('td', null, chip(c.shown)),
+      el('td', null, why(c)),
+    ),
+  );
+  const reasons = [...new Set(unable.map((c) => c.reason))].map((reason) => {
+    const who = unable.filter((c) => c.reason === reason).map((c) => labelOf(c.spec));
+    return el('p', null, chip('unsupported', `unsupported by ${who.join(', ')}`), reason);
+  });
+  const table = rows.length ? scroll(el('table', { class: 'full' }, el('tbody', null, rows))) : null;
+  return panel('outcomes', 'What did not simply pass', reasons, table);
+}
+
+/** Bodies that a subject speaks of: "block", "block|floor"; a joint's or quantity's name is none, and does no harm. */
+export const bodiesOf = (subject: string): string[] => (subject ? subject.split('|') : []);

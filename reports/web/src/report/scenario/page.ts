@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The page of one scenario: its data is loaded when it is opened. A section is one file and one line here, where it shall
+// stand.
+import { newCursor } from '../../common/cursor.ts';
+import { loadJson } from '../../common/data_files.ts';
+import { el } from '../../common/elements.ts';
+import type { ScenarioData } from '../data.ts';
+import { panel } from '../parts.ts';
+import { run } from '../run.ts';
+import { caseAudit } from './audit.ts';
+import { commands } from './commands.ts';
+import { type Context, type Section, showMoment } from './context.ts';
+import { curves } from './curves.ts';
+import { head } from './head.ts';
+import { ladder } from './ladder.ts';
+import { metrics } from './metrics.ts';
+import { outcomes } from './outcomes.ts';
+import { parity } from './parity.ts';
+import { quantities } from './quantities.ts';
+import { replay } from './replay.ts';
+import { caseTiming } from './timing.ts';
+
+const sections: Section[] = [
+  head,
+  outcomes,
+  replay,
+  curves,
+  metrics,
+  caseAudit,
+  ladder,
+  quantities,
+  parity,
+  caseTiming,
+  commands,
+];
+
+let hidden: ReadonlySet<string> = new Set(); // engines that are switched off stay so on the next page
+
+function contextOf(index: number, data: ScenarioData, query: URLSearchParams): Context {
+  const scenario = run.scenarios[index] as Context['scenario'];
+  const steps = [...new Set(data.cases.map((c) => c.dt))].sort((a, b) => b - a);
+  const asked = Number(query.get('dt'));
+  const dt = steps.includes(asked) ? asked : (steps.at(-1) ?? 0);
+  const cursor = newCursor(Math.max(0, Number(query.get('t') ?? 0) || 0));
+  cursor.hidden.set(hidden);
+  cursor.hidden.follow((now) => {
+    hidden = now;
+  });
+  const cases = data.cases.filter((c) => c.dt === dt);
+  return { scenario, index, data, steps, dt, cases, spec: query.get('spec'), cursor, leaving: [] };
+}
+
+export interface ShownPage {
+  nodes: HTMLElement[];
+  shown: () => void; // called when they are in the document
+  left: () => void; // and when they go
+}
+
+export async function scenarioPage(name: string, query: URLSearchParams): Promise<ShownPage> {
+  const index = run.scenarios.findIndex((s) => s.name === name);
+  const nothing = () => {};
+  const sorry = (text: string) => ({
+    nodes: [panel('missing', 'Nothing to show', el('p', null, text))],
+    shown: nothing,
+    left: nothing,
+  });
+  if (index < 0) return sorry(`This run has no scenario “${name}”.`);
+  let data: ScenarioData;
+  try {
+    data = await loadJson<ScenarioData>(`scenario-${index}`);
+  } catch (error) {
+    return sorry((error as Error).message);
+  }
+  const context = contextOf(index, data, query);
+  const nodes = sections.map((section) => section(context)).filter((node) => node !== null);
+  const { spec } = context;
+  const shown = () => {
+    if (spec === null || !query.has('t')) return;
+    showMoment(context.cursor, spec, context.cursor.time.value, (query.get('pair') ?? '').split('|').filter(Boolean));
+  };
+  const left = () => {
+    for (const leave of context.leaving) leave();
+  };
+  return { nodes, shown, left };
+}

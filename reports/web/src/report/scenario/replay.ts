@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+import { el } from '../../common/elements.ts';
+import { mountReplay, type ReplayHandle } from '../../replay/mount.ts';
+import { panel } from '../parts.ts';
+import { columnOf, engineColour } from '../run.ts';
+import type { Context } from './context.ts';
+
+/** The replay of this time step; made when it comes into view or when a link asks for a moment. */
+export function replay(context: Context): HTMLElement | null {
+  const { data, scenario, cases, cursor } = context;
+  if (!cases.some((c) => c.trajectoryFile)) return null;
+  const times = [...new Set(data.cases.map((c) => c.dt))].sort((a, b) => b - a);
+  const stepAt = scenario.timeSteps.indexOf(context.dt);
+  const holder = el('div', { class: 'stage' });
+  let handle: ReplayHandle | null = null;
+  const mount = () => {
+    if (handle) return;
+    handle = mountReplay(holder, {
+      scenario: JSON.parse(data.text),
+      index: context.index,
+      step: stepAt < 0 ? times.indexOf(context.dt) : stepAt,
+      cursor,
+      colourOf: (spec) => (spec === '' ? '#808890' : engineColour(columnOf(spec)?.engine ?? spec)),
+      metrics: scenario.metrics,
+    });
+    const wanted = cursor.focus.value;
+    if (wanted) handle.focus(wanted.spec, ...wanted.bodies);
+  };
+  const node = panel('replay', 'Replay', holder);
+  const watcher = new IntersectionObserver(
+    (entries) => {
+      if (node.isConnected && entries.some((e) => e.isIntersecting)) mount();
+    },
+    { rootMargin: '200px' },
+  );
+  watcher.observe(node);
+  cursor.focus.follow((focus) => {
+    mount();
+    if (focus) handle?.focus(focus.spec, ...focus.bodies);
+  });
+  context.leaving.push(() => {
+    watcher.disconnect();
+    handle?.dispose();
+  });
+  return node;
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+import { el } from '../../common/elements.ts';
+import { words } from '../../common/format.ts';
+import type { Case, Timing } from '../data.ts';
+import { chip, durationCell, headRow, numberCell, panel, scroll } from '../parts.ts';
+import { labelOf } from '../run.ts';
+import type { Context } from './context.ts';
+
+/** Cost by phase, beside the accuracy of the same run. */
+export function caseTiming({ scenario, cases }: Context): HTMLElement | null {
+  const timed = cases.filter((c) => c.timings.length);
+  if (timed.length === 0) return null;
+  const hasInterval = timed.some((c) => c.timings.some((t) => (t.low ?? null) !== null));
+  const main = (c: Case) =>
+    c.metrics.find((m) => m.name === scenario.main.name && m.subject === '') ??
+    c.metrics.find((m) => m.name === scenario.main.name);
+  const row = (c: Case, t: Timing, first: boolean) =>
+    el(
+      'tr',
+      { 'data-spec': c.spec, 'data-phase': t.phase },
+      el('th', { class: 'sticky', scope: 'row' }, first ? labelOf(c.spec) : ''),
+      el('td', null, t.phase),
+      durationCell(t.median),
+      hasInterval ? [durationCell(t.low ?? null), durationCell(t.high ?? null)] : null,
+      durationCell(t.p10),
+      durationCell(t.p90),
+      durationCell(t.total),
+      el('td', { class: 'num' }, t.samples),
+      numberCell(t.meanContacts),
+      first ? numberCell(main(c)?.value ?? null, scenario.main.unit) : el('td'),
+      el('td', null, first ? chip(c.shown) : ''),
+    );
+  const interval = hasInterval ? ['95 % from', 'to'] : [];
+  const heads = [
+    'Engine',
+    'Phase',
+    'Median',
+    ...interval,
+    '10 %',
+    '90 %',
+    'Total',
+    'Samples',
+    'Contacts',
+    words(scenario.main.name || 'main metric'),
+    'Verdict',
+  ];
+  return panel(
+    'case-timing',
+    'Cost, beside accuracy',
+    scroll(
+      el(
+        'table',
+        { class: 'full' },
+        headRow(heads, (i) => i > 1 && i < heads.length - 1),
+        el(
+          'tbody',
+          null,
+          timed.map((c) => c.timings.map((t, i) => row(c, t, i === 0))),
+        ),
+      ),
+    ),
+  );
+}
