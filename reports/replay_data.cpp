@@ -21,14 +21,14 @@ using Indices = std::vector<std::size_t>;
 
 /// From everything to the marked frames alone: the first that fits the allowance is taken.
 constexpr std::array<Thinning, 12> kThinnings{{{kMostReplayFrames, 20, 16, true, 1},
-                                               {kMostReplayFrames, 18, 14, true, 2},
-                                               {200, 18, 14, true, 2},
-                                               {150, 17, 13, true, 3},
-                                               {120, 16, 12, false, 4},
-                                               {90, 15, 12, false, 4},
-                                               {60, 15, 11, false, 6},
-                                               {40, 14, 11, false, 8},
-                                               {25, 14, 10, false, 12},
+                                               {kMostReplayFrames, 17, 14, true, 1},
+                                               {200, 16, 13, true, 1},
+                                               {150, 16, 13, true, 1},
+                                               {120, 15, 12, false, 1},
+                                               {100, 15, 12, false, 2},
+                                               {75, 15, 11, false, 2},
+                                               {50, 14, 11, false, 4},
+                                               {30, 14, 10, false, 6},
                                                {16, 13, 10, false, 0},
                                                {8, 13, 10, false, 0},
                                                {2, 13, 10, false, 0}}};

@@ -18,7 +18,7 @@ namespace rigor::report {
 /// Bytes that a case may take once it is compressed, on average over a run.
 inline constexpr double kReplayBytesPerCase = 24e3;
 /// What one case may take at most, where others left theirs.
-inline constexpr double kReplayBytesAtMost = 160e3;
+inline constexpr double kReplayBytesAtMost = 240e3;
 /// More frames than this are not stored, however small.
 inline constexpr std::size_t kMostReplayFrames = 300;
 

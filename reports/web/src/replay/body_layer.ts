@@ -75,17 +75,24 @@ export class BodyLayer {
   readonly #local: Float64Array; // pose of every shape in its body
   readonly #scale: Float32Array;
   readonly #surface: Material;
+  readonly #glass: Material; // of walls before the scene
   readonly #line: LineBasicMaterial;
 
-  /** `skip`: bodies that another layer draws. */
-  constructor(scene: Scene, templates: TemplateCache, skip: (body: number) => boolean = () => false) {
+  /** `skip`: bodies that another layer draws; `glass`: those that are seen through. */
+  constructor(
+    scene: Scene,
+    templates: TemplateCache,
+    skip: (body: number) => boolean = () => false,
+    glass: (body: number) => boolean = () => false,
+  ) {
     const flat = scene.dimension === 2;
     this.#surface = flat ? new MeshBasicMaterial() : new MeshLambertMaterial();
     this.#surface.polygonOffset = true;
     this.#surface.polygonOffsetFactor = 1;
     this.#surface.polygonOffsetUnits = 1;
+    this.#glass = new MeshLambertMaterial({ transparent: true, opacity: 0.16, depthWrite: false });
     this.#line = new LineBasicMaterial();
-    const members = new Map<Template, number[]>();
+    const members = [new Map<Template, number[]>(), new Map<Template, number[]>()] as const;
     const local: number[] = [];
     const scale: number[] = [];
     scene.bodies.forEach((body, b) => {
@@ -96,31 +103,33 @@ export class BodyLayer {
         const shape = this.shapes.push({ body: b, index, geometry }) - 1;
         local.push(...pose.position, ...pose.orientation);
         scale.push(...sized.scale);
-        const list = members.get(sized.template);
+        const alike = members[glass(b) ? 1 : 0];
+        const list = alike.get(sized.template);
         if (list) list.push(shape);
-        else members.set(sized.template, [shape]);
+        else alike.set(sized.template, [shape]);
       });
     });
     this.#local = Float64Array.from(local);
     this.#scale = Float32Array.from(scale);
     this.rigid = new Float32Array(16 * this.shapes.length);
-    for (const [template, list] of members) this.#addBatch(template, list, flat);
+    for (const [template, list] of members[0]) this.#addBatch(template, list, flat, this.#surface);
+    for (const [template, list] of members[1]) this.#addBatch(template, list, flat, this.#glass);
   }
 
-  #addBatch(template: Template, shapes: number[], flat: boolean): void {
+  #addBatch(template: Template, shapes: number[], flat: boolean, material: Material): void {
     const n = shapes.length;
     const matrices = new InstancedBufferAttribute(new Float32Array(16 * n), 16);
     const colours = new InstancedBufferAttribute(new Float32Array(3 * n), 3);
     matrices.setUsage(DynamicDrawUsage);
     let faces: InstancedMesh | null = null;
     if (template.faces) {
-      faces = new InstancedMesh(template.faces, this.#surface, 0);
+      faces = new InstancedMesh(template.faces, material, 0);
       faces.instanceMatrix = matrices;
       faces.instanceColor = colours;
       faces.count = n;
       faces.frustumCulled = false;
       faces.boundingSphere = everywhere; // else a stale one hides shapes from the pointer
-      faces.renderOrder = flat ? 1 : 0;
+      faces.renderOrder = flat ? 1 : material === this.#glass ? 3 : 0;
       this.group.add(faces);
     }
     const edges = new InstancedLines(template.edges, this.#line, matrices);
@@ -189,7 +198,7 @@ export class BodyLayer {
 
   /** Meshes to aim at, and the shape behind an instance of one. */
   get targets(): InstancedMesh[] {
-    return this.#batches.flatMap((batch) => (batch.faces ? [batch.faces] : []));
+    return this.#batches.flatMap(({ faces }) => (faces && faces.material !== this.#glass ? [faces] : []));
   }
   shapeOf(mesh: unknown, instance: number): ShapeOfLayer | null {
     const batch = this.#batches.find((b) => b.faces === mesh);
@@ -200,6 +209,7 @@ export class BodyLayer {
   dispose(): void {
     for (const batch of this.#batches) batch.faces?.dispose();
     this.#surface.dispose();
+    this.#glass.dispose();
     this.#line.dispose();
   }
 }

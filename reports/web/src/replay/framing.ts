@@ -3,8 +3,9 @@
 //
 // Where the camera stands at first: so that what moves is seen all the time, without one body that flies away making
 // everything else small; and what arrows are measured against.
-import { reachOf } from './bounds.ts';
+import { type Bounds, boundsOf, reachOf } from './bounds.ts';
 import type { FrameSource } from './frames.ts';
+import { composeInto } from './matrices.ts';
 import type { ArrowScales } from './overlays.ts';
 import type { Scene } from './scene.ts';
 import type { Vec3 } from './vectors.ts';
@@ -35,40 +36,72 @@ export function bodyReach(scene: Scene, body: number): number {
   return most;
 }
 
+/** Boxes of a body's shapes at one frame, one after the other. */
+class Boxes {
+  readonly #scene: Scene;
+  readonly #local: Float64Array[];
+  readonly #rigid = new Float32Array(16);
+  readonly #box: Bounds = [0, 0, 0, 0, 0, 0];
+
+  constructor(scene: Scene) {
+    this.#scene = scene;
+    this.#local = scene.bodies.map((body) =>
+      Float64Array.from(body.shapes.flatMap(({ pose }) => [...pose.position, ...pose.orientation])),
+    );
+  }
+
+  add(position: ArrayLike<number>, orientation: ArrayLike<number>, b: number, out: Bounds[]): void {
+    const shapes = this.#scene.bodies[b]?.shapes ?? [];
+    const local = this.#local[b] as Float64Array;
+    shapes.forEach(({ geometry }, s) => {
+      if (!composeInto(this.#rigid, 0, position, orientation, b, local, 7 * s)) return;
+      if (boundsOf(geometry, this.#rigid, 0, this.#box)) out.push([...this.#box]);
+    });
+    const at = [0, 1, 2].map((k) => position[3 * b + k] as number);
+    if (shapes.length === 0 && at.every(Number.isFinite)) out.push([...at, ...at] as Bounds);
+  }
+}
+
 export function frameScene(scene: Scene, sources: readonly FrameSource[]): Framing {
   const moving = scene.bodies.flatMap((body, b) => (body.type === 'static' ? [] : [b]));
   const shown = moving.length > 0 ? moving : scene.bodies.map((_, b) => b);
-  const points: { at: Vec3; reach: number }[] = [];
-  const addFrame = (position: ArrayLike<number>) => {
-    for (const b of shown) {
-      const at: Vec3 = [0, 1, 2].map((k) => position[3 * b + k] as number) as Vec3;
-      if (Number.isFinite(at[0] + at[1] + at[2])) points.push({ at, reach: bodyReach(scene, b) });
+  const boxes: Bounds[] = [];
+  const maker = new Boxes(scene);
+  const most = scene.bodies.length > 200 ? 12 : sampledFrames;
+  for (const source of sources)
+    for (const i of sampled(source.times.length, most)) {
+      const { position, orientation } = source.frame(i);
+      for (const b of shown) maker.add(position, orientation, b, boxes);
     }
-  };
-  for (const source of sources) for (const i of sampled(source.times.length)) addFrame(source.frame(i).position);
-  if (points.length === 0) addFrame(scene.bodies.flatMap((body) => body.first.position));
-  for (const joint of scene.joints) if (joint.a < 0) points.push({ at: joint.anchorA, reach: 0 });
-  return around(points);
+  if (boxes.length === 0) {
+    const position = scene.bodies.flatMap((body) => body.first.position);
+    const orientation = scene.bodies.flatMap((body) => body.first.orientation);
+    for (const b of shown) maker.add(position, orientation, b, boxes);
+  }
+  for (const { a, anchorA } of scene.joints) if (a < 0) boxes.push([...anchorA, ...anchorA]);
+  return around(boxes);
 }
 
-/** The box around nearly all points: those far outside the bulk are left out. */
-function around(points: { at: Vec3; reach: number }[]): Framing {
+/** The box around nearly all boxes: those far outside the bulk are left out. */
+function around(boxes: Bounds[]): Framing {
+  const middleOf = (box: Bounds, k: number) => ((box[k] as number) + (box[3 + k] as number)) / 2;
   const middle = [0, 1, 2].map((k) =>
     quantile(
-      points.map((p) => p.at[k] as number).sort((a, b) => a - b),
+      boxes.map((box) => middleOf(box, k)).sort((a, b) => a - b),
       0.5,
     ),
-  ) as Vec3;
-  const distance = (p: Vec3) => Math.hypot(p[0] - middle[0], p[1] - middle[1], p[2] - middle[2]);
-  const sorted = points.map((p) => distance(p.at) + p.reach).sort((a, b) => a - b);
+  );
+  const distance = (box: Bounds) => Math.hypot(...middle.map((m, k) => middleOf(box, k) - m));
+  const size = (box: Bounds) => Math.hypot(box[3] - box[0], box[4] - box[1], box[5] - box[2]) / 2;
+  const sorted = boxes.map((box) => distance(box) + size(box)).sort((a, b) => a - b);
   const limit = 3 * quantile(sorted, 0.85) + 1e-9;
-  const low: Vec3 = [1, 1, 1].map(() => Number.POSITIVE_INFINITY) as Vec3;
-  const high: Vec3 = [1, 1, 1].map(() => Number.NEGATIVE_INFINITY) as Vec3;
-  for (const { at, reach } of points) {
-    if (distance(at) > limit) continue;
+  const low: Vec3 = [Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY, Number.POSITIVE_INFINITY];
+  const high: Vec3 = [Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY, Number.NEGATIVE_INFINITY];
+  for (const box of boxes) {
+    if (distance(box) > limit) continue;
     for (let k = 0; k < 3; ++k) {
-      low[k] = Math.min(low[k] as number, (at[k] as number) - reach);
-      high[k] = Math.max(high[k] as number, (at[k] as number) + reach);
+      low[k] = Math.min(low[k] as number, box[k] as number);
+      high[k] = Math.max(high[k] as number, box[3 + k] as number);
     }
   }
   if (!(low[0] <= high[0])) return { centre: [0, 0, 0], radius: 1, low: [-1, -1, -1], high: [1, 1, 1] };
@@ -104,5 +137,16 @@ export function arrowScales(scene: Scene, sources: readonly FrameSource[], radiu
       list.sort((a, b) => a - b),
       0.9,
     );
-  return { size: radius, speed: typical(speeds), spin: typical(spins), impulse: typical(impulses) };
+  const reaches = scene.bodies.flatMap((body, b) => (body.type === 'static' ? [] : [bodyReach(scene, b)]));
+  const body = quantile(
+    reaches.sort((a, b) => a - b),
+    0.5,
+  );
+  return {
+    size: radius,
+    body: body > 0 ? body : radius,
+    speed: typical(speeds),
+    spin: typical(spins),
+    impulse: typical(impulses),
+  };
 }

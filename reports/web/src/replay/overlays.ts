@@ -16,6 +16,7 @@ import { type Quat, rotate, type Vec3 } from './vectors.ts';
 /** Lengths that belong to the scene, not to a frame: arrows of two frames can be compared. */
 export interface ArrowScales {
   size: number; // of the picture [m]
+  body: number; // reach of a typical body [m]
   speed: number; // that a full arrow stands for [m/s]
   spin: number; // [rad/s]
   impulse: number; // [N s]
@@ -82,8 +83,8 @@ export class Overlays {
 
   #drawContacts(contacts: Contacts, options: ViewOptions, theme: Theme, scales: ArrowScales): void {
     const { layers } = options;
-    const normalLength = 0.09 * scales.size * options.arrows;
-    const head = 0.028 * scales.size;
+    const normalLength = Math.min(0.11 * scales.size, 0.9 * scales.body) * options.arrows;
+    const head = 0.3 * normalLength;
     for (let i = 0; i < contacts.count; ++i) {
       const at = (list: ArrayLike<number>, k: number) => list[3 * i + k] as number;
       const x = (at(contacts.pointA, 0) + at(contacts.pointB, 0)) / 2;

@@ -8,6 +8,17 @@ import type { ReplayView } from './view.ts';
 
 const short = (x: number) => String(Number(x.toPrecision(5)));
 
+const asked = new WeakMap<FrameSource, boolean>();
+/** Whether any frame has contacts, so that their absence is worth a word. */
+function hasContacts(source: FrameSource): boolean {
+  let known = asked.get(source);
+  if (known === undefined) {
+    known = source.events.some((event) => event.kind === 'contact_begin');
+    asked.set(source, known);
+  }
+  return known;
+}
+
 interface Label {
   node: HTMLElement;
   state: HTMLElement;
@@ -40,8 +51,11 @@ export class PanelLabels {
     const now = view.frameOf(first);
     if (!now) return 'no frames';
     const { frame, index } = now;
-    const parts = [`t = ${short(frame.time)} s`, `frame ${index + 1} of ${first.times.length}`];
+    const parts = [`t = ${short(frame.time)} s`, `frame ${index + 1}/${first.times.length}`];
     if (sources.filter((s) => !s.ghost).length === 1 && first.note) parts.push(first.note);
+    const { contacts, normals, penetration, impulses } = view.options.layers;
+    if (!frame.contacts && !first.ghost && hasContacts(first) && (contacts || normals || penetration || impulses))
+      parts.push('contacts are not stored here');
     for (let i = 0; i < frame.position.length; ++i)
       if (!Number.isFinite(frame.position[i] as number) && !first.ghost) {
         parts.push('a body is not finite and not drawn');

@@ -175,7 +175,7 @@ function noteOf(head: CaseHead, table: FrameTable): string {
     parts.push(head.outcome.replaceAll('_', ' ') + (head.reason ? `: ${head.reason}` : ''));
   if (table.steps.length === 0) return parts.join(', ') || 'no frames are stored';
   const every = spacing(table.steps);
-  if (every > 1) parts.push(`frame every ${every} steps`);
+  if (every > 1) parts.push(`every ${every} steps`);
   return parts.join(', ');
 }
 

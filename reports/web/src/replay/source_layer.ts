@@ -31,11 +31,18 @@ export class SourceLayer {
   #shown = -1;
   #frame: Frame | null = null;
 
-  /** `withStatics`: false where another layer of the same picture draws them. */
-  constructor(scene: Scene, source: FrameSource, templates: TemplateCache, withStatics: boolean) {
+  /** `withStatics`: false where another layer of the same picture draws them; `glass`: bodies seen through. */
+  constructor(
+    scene: Scene,
+    source: FrameSource,
+    templates: TemplateCache,
+    withStatics: boolean,
+    glass: ReadonlySet<number>,
+  ) {
     this.#scene = scene;
     this.source = source;
-    this.bodies = new BodyLayer(scene, templates, (b) => !withStatics && scene.bodies[b]?.type === 'static');
+    const skip = (b: number) => !withStatics && scene.bodies[b]?.type === 'static';
+    this.bodies = new BodyLayer(scene, templates, skip, (b) => glass.has(b));
     this.#overlays = new Overlays(scene);
     this.#ground = new Ground(scene);
     if (!withStatics) this.#ground.group.visible = false;

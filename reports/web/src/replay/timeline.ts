@@ -16,6 +16,9 @@ const lanes: Record<ReplayEvent['kind'], { height: number; mark: string }> = {
   nonfinite: { height: 1, mark: 'nonfinite' },
 };
 
+/** Largest errors of single bodies are in the tables; here they would hide the others. */
+const isMarked = (event: ReplayEvent) => event.kind !== 'largest' || !event.subject;
+
 export class Timeline {
   readonly element: HTMLElement;
   readonly #bar: HTMLInputElement;
@@ -43,7 +46,7 @@ export class Timeline {
     this.#end = end || 1;
     this.#marks.replaceChildren(
       ...sources.flatMap((source) =>
-        source.events.map((event) => {
+        source.events.filter(isMarked).map((event) => {
           const { height, mark } = lanes[event.kind];
           const x = (1000 * event.time) / this.#end;
           const y = 24 * (1 - height);

@@ -29,6 +29,7 @@ import type { Scene } from './scene.ts';
 import { TemplateCache } from './shape_meshes.ts';
 import { SourceLayer } from './source_layer.ts';
 import type { Vec3 } from './vectors.ts';
+import { veilingBodies } from './veil.ts';
 
 /** The browser can not draw in three dimensions. */
 export class NoWebGL extends Error {}
@@ -92,12 +93,13 @@ export class ReplayView {
   #pictures: Picture[] = [];
   #theme: Theme = lightTheme;
   #framing: Framing = { centre: [0, 0, 0], radius: 1, low: [-1, -1, -1], high: [1, 1, 1] };
-  #scales: ArrowScales = { size: 1, speed: 1, spin: 1, impulse: 1 };
+  #scales: ArrowScales = { size: 1, body: 1, speed: 1, spin: 1, impulse: 1 };
   #framed = false;
   #byHand = false; // the camera stands where somebody put it
   #wide = 1.25; // width of the scene over its height, as the camera sees it
   #time = 0;
   #marked = -1;
+  #glass: ReadonlySet<number> = new Set();
   #stale = true; // colours and overlays
   #asked = 0;
   #width = 1;
@@ -129,7 +131,10 @@ export class ReplayView {
     this.#controls.addEventListener('start', () => {
       this.#byHand = true;
     });
-    this.#controls.addEventListener('end', () => this.onCamera?.());
+    this.#controls.addEventListener('end', () => {
+      this.#veil();
+      this.onCamera?.();
+    });
     this.#resize = new ResizeObserver(() => this.#measure(element));
     this.#resize.observe(element);
     this.#measure(element);
@@ -200,6 +205,7 @@ export class ReplayView {
     this.#framed = shown.length > 0;
     this.#byHand = false;
     this.#layout();
+    this.#veil();
     for (const { layers } of this.#pictures) for (const layer of layers) this.#dress(layer);
     this.#stale = true;
     this.invalidate();
@@ -373,12 +379,21 @@ export class ReplayView {
       .filter((group) => group.length > 0)
       .map((group) => ({
         panel: { sources: group, rect: { x: 0, y: 0, width: 1, height: 1 } },
-        layers: group.map((source, i) => new SourceLayer(this.#scene, source, this.#templates, i === 0)),
+        layers: group.map((source, i) => new SourceLayer(this.#scene, source, this.#templates, i === 0, this.#glass)),
       }));
     for (const { layers } of this.#pictures) for (const layer of layers) this.#dress(layer);
     this.#layout();
     this.#stale = true;
     this.invalidate();
+  }
+
+  /** Walls before the scene become glass, others stone again. */
+  #veil(): void {
+    if (this.#flat) return;
+    const glass = veilingBodies(this.#scene, this.#framing, this.#camera.position.toArray() as Vec3);
+    if (glass.size === this.#glass.size && [...glass].every((b) => this.#glass.has(b))) return;
+    this.#glass = glass;
+    this.#rebuild();
   }
 
   #dropPictures(): void {

@@ -129,7 +129,7 @@ test('a replay file gives sources with frames, contacts, events and what is miss
   const [ode, crashed] = sources;
   assert.ok(ode && crashed);
   assert.deepEqual([...ode.times], [0, 1, 2]);
-  assert.equal(ode.note, 'non finite: ball, frame every 2 steps');
+  assert.equal(ode.note, 'non finite: ball, every 2 steps');
   assert.equal(ode.events[0]?.what, 'position_max');
   const last = ode.frame(2);
   assert.equal(last.step, 4);

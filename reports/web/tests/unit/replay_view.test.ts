@@ -24,6 +24,7 @@ import { nearestContact, rectAt, tile, toDevice, toPixels } from '../../src/repl
 import { Player } from '../../src/replay/player.ts';
 import { readScene } from '../../src/replay/scene.ts';
 import { TemplateCache } from '../../src/replay/shape_meshes.ts';
+import { crossesBox, veilingBodies } from '../../src/replay/veil.ts';
 
 test('islands are joined by contacts and joints, never through what stands still', () => {
   const moves = [false, true, true, true, true, true];
@@ -248,4 +249,32 @@ test('speeds go up and down in steps', () => {
 
 test('round numbers for grids', () => {
   assert.deepEqual([0.3, 0.7, 1.4, 2.4, 30].map(roundNumber), [0.2, 0.5, 1, 2, 20]);
+});
+
+test('a wall before the scene is seen through, the floor and the wall behind are not', () => {
+  const box = (name: string, position: number[], half_extents: number[]) => ({
+    name,
+    type: 'static',
+    position,
+    shapes: [{ box: { half_extents } }],
+  });
+  const scene = readScene({
+    dimension: 3,
+    gravity: [0, -10, 0],
+    duration: 1,
+    bodies: [
+      box('front', [0, 1, 3], [3, 1, 0.1]),
+      box('back', [0, 1, -3], [3, 1, 0.1]),
+      box('floor', [0, -0.5, 0], [9, 0.5, 9]),
+      { name: 'ball', position: [0, 0.5, 0], shapes: [{ sphere: { radius: 0.5 } }] },
+    ],
+  });
+  const framing = { centre: [0, 0.5, 0], radius: 1, low: [-1, 0, -1], high: [1, 1, 1] } as Parameters<
+    typeof veilingBodies
+  >[1];
+  assert.deepEqual([...veilingBodies(scene, framing, [0, 1, 20])], [0]);
+  assert.deepEqual([...veilingBodies(scene, framing, [0, 20, 0])], []);
+  assert.equal(crossesBox([0, 0, 5], [0, 0, -5], [1, 1, 1]), true);
+  assert.equal(crossesBox([0, 2, 5], [0, 2, -5], [1, 1, 1]), false);
+  assert.equal(crossesBox([0, 0, 5], [0, 0, 2], [1, 1, 1]), false, 'it ends before');
 });
