@@ -174,6 +174,13 @@ export class Controls {
       select.append(el('option', { value: name }, `colours ${text}`));
     select.value = colouring;
     select.addEventListener('change', () => stage.setOptions({ colouring: select.value as Colouring }));
+    const more = this.#chip(
+      'all frames',
+      false,
+      'Frames were thinned for the report; load those of the HDF5 files',
+      () => void stage.loadAll(),
+      'all',
+    );
     this.#modes.replaceChildren(
       this.#chip('side by side', !overlaid, 'One picture each (o)', () => this.overlay(false), 'side'),
       this.#chip('overlaid', overlaid, 'All in one picture (o)', () => this.overlay(true), 'overlaid'),
@@ -185,6 +192,7 @@ export class Controls {
         () => stage.view.frameAll(),
         'frame',
       ),
+      ...(stage.canLoadMore ? [more] : []),
     );
   }
 

@@ -11,9 +11,11 @@ import type { Cursor } from '../common/cursor.ts';
 import { loadData } from '../common/data_files.ts';
 import { el } from '../common/elements.ts';
 import type { FrameSource } from './frames.ts';
+import { type FetchFrames, fetchFrames, fullSource } from './full_frames.ts';
 import { type Replay, readReplay } from './replay_file.ts';
 import { type Json, readScene, type Scene } from './scene.ts';
 import { ReplayStage } from './stage.ts';
+import type { StoredSource } from './stored_source.ts';
 import { NoWebGL } from './view.ts';
 import './style.css';
 
@@ -29,6 +31,8 @@ export interface ReplayContext {
   load?: () => Promise<ArrayBuffer>;
   /** What a link restores, and what is told when that changes; else both are the page's address. */
   state?: string;
+  /** All frames of a case, where somebody serves them; else asked of the server that the page came from. */
+  frames?: (caseId: string) => FetchFrames;
   onState?: (state: string) => void;
 }
 
@@ -83,7 +87,14 @@ export function mountReplay(element: HTMLElement, context: ReplayContext): Repla
     try {
       root.replaceChildren();
       const scene = inOrder(readScene(context.scenario), replay.head.bodies);
-      stage = new ReplayStage(root, scene, sources, context);
+      const served = location.protocol.startsWith('http');
+      const get = context.frames ?? (served ? fetchFrames : null);
+      const full = (i: number, source: StoredSource, from: (id: string) => FetchFrames) =>
+        fullSource(source, from(replay.head.cases[i]?.id ?? ''));
+      const load = get
+        ? (source: FrameSource) => full(replay.sources.indexOf(source as StoredSource), source as StoredSource, get)
+        : null;
+      stage = new ReplayStage(root, scene, sources, context, load);
     } catch (error) {
       if (!(error instanceof NoWebGL)) console.error(error);
       say(

@@ -44,9 +44,19 @@ export class ReplayStage {
   #chosen: Set<string>; // specs that have a picture
   #pinned: { spec: string; body: number } | null = null;
   #hover: Pick | null = null;
+  readonly #loadAll: ((source: FrameSource) => Promise<FrameSource>) | null;
+  readonly #whole = new Set<FrameSource>(); // sources that have all their frames
   #linkTimer: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(root: HTMLElement, scene: Scene, sources: FrameSource[], context: ReplayContext) {
+  /** `loadAll`: the same source with all its frames, where they can be had. */
+  constructor(
+    root: HTMLElement,
+    scene: Scene,
+    sources: FrameSource[],
+    context: ReplayContext,
+    loadAll: ((source: FrameSource) => Promise<FrameSource>) | null = null,
+  ) {
+    this.#loadAll = loadAll;
     this.#context = context;
     this.#scene = scene;
     this.sources = sources;
@@ -95,6 +105,30 @@ export class ReplayStage {
       hidden.set(new Set([...hidden.value].filter((spec) => spec !== source.spec)));
       this.#chosen.add(source.spec);
     } else if (!this.#chosen.delete(source.spec)) this.#chosen.add(source.spec);
+    this.#choose();
+  }
+
+  /** Whether there are frames that are not here yet. */
+  get canLoadMore(): boolean {
+    return this.#loadAll !== null && this.shown.some((s) => !this.#whole.has(s));
+  }
+
+  /** Replaces the thinned frames of the engines that are shown by all that were stored. */
+  async loadAll(): Promise<void> {
+    if (!this.#loadAll) return;
+    for (const source of this.shown) {
+      if (this.#whole.has(source)) continue;
+      this.controls.say(`Loading all frames of ${source.label} …`);
+      try {
+        const whole = await this.#loadAll(source);
+        this.#whole.add(whole);
+        this.sources[this.sources.indexOf(source)] = whole;
+        this.controls.say('');
+      } catch (error) {
+        this.controls.say(`${source.label}: ${error instanceof Error ? error.message : String(error)}`);
+        this.#whole.add(source);
+      }
+    }
     this.#choose();
   }
 

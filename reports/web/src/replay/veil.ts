@@ -30,7 +30,10 @@ export function veilingBodies(scene: Scene, framing: Framing, camera: Vec3): Set
   const points: Vec3[] = [centre];
   for (let i = 0; i < 8; ++i)
     points.push(
-      add(centre, [0, 1, 2].map((k) => ((i >> k) & 1 ? 0.35 : -0.35) * ((high[k] as number) - (low[k] as number))) as Vec3),
+      add(
+        centre,
+        [0, 1, 2].map((k) => ((i >> k) & 1 ? 0.35 : -0.35) * ((high[k] as number) - (low[k] as number))) as Vec3,
+      ),
     );
   const out = new Set<number>();
   scene.bodies.forEach((body, b) => {

@@ -5,6 +5,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { CodeReader } from '../../src/replay/codec.ts';
 import { indexAt } from '../../src/replay/frames.ts';
+import { fullSource } from '../../src/replay/full_frames.ts';
 import { readReplay, spacing } from '../../src/replay/replay_file.ts';
 import { bundleOf, linkedCodes, seriesCodes } from '../replay_bytes.ts';
 
@@ -153,4 +154,56 @@ test('a replay file gives sources with frames, contacts, events and what is miss
 
 test('a file that is cut off is refused', () => {
   assert.throws(() => readReplay(file().slice(0, -40), () => ''), RangeError);
+});
+
+test('all frames of a trajectory arrive in parts', async () => {
+  const frames = 5;
+  const part = (from: number, count: number) => {
+    const at = (columns: number) =>
+      Float64Array.from({ length: count * columns }, (_, i) => 10 * (from + Math.floor(i / columns)) + (i % columns));
+    const touching = [2, 2, 4].filter((f) => f >= from && f < from + count);
+    const n = touching.length;
+    const ids = (k: number) => Int32Array.from({ length: n }, () => k);
+    const three = (k: number) => Float64Array.from({ length: 3 * n }, (_, i) => k + (i % 3));
+    return bundleOf(
+      { dt: 0.1, stride: 2, contact_stride: 2, frames, from, count, bodies: ['a'] },
+      {
+        time: Float64Array.from({ length: count }, (_, i) => (from + i) * 0.2),
+        position: at(3),
+        orientation: at(4),
+        velocity: at(3),
+        angular_velocity: at(3),
+        'contacts/frame': Int32Array.from(touching),
+        'contacts/body_a': ids(0),
+        'contacts/body_b': ids(1),
+        'contacts/shape_a': ids(2),
+        'contacts/shape_b': ids(3),
+        'contacts/point_a': three(0),
+        'contacts/point_b': three(5),
+        'contacts/normal': three(7),
+        'contacts/depth': Float64Array.from({ length: n }, () => 0.5),
+        'contacts/normal_impulse': Float64Array.from({ length: n }, () => Number.NaN),
+        'contacts/friction_impulse': three(9),
+      },
+    );
+  };
+  const look = { label: 'x', spec: 'x', colour: '', ghost: false, note: 'timeout, every 7 steps', events: [] };
+  const asked: number[] = [];
+  const source = await fullSource(look, async (from) => {
+    asked.push(from);
+    return part(from, Math.min(2, frames - from));
+  });
+  assert.deepEqual(asked, [0, 2, 4]);
+  assert.equal(source.note, 'timeout, every 2 steps');
+  assert.equal(source.times.length, frames);
+  assert.deepEqual([...(source.frame(3).position as Float64Array)], [30, 31, 32]);
+  assert.equal(source.frame(3).step, 6);
+  assert.equal(source.frame(1).contacts, null);
+  assert.equal(source.frame(0).contacts?.count, 0);
+  const c = source.frame(2).contacts;
+  assert.ok(c);
+  assert.equal(c.count, 2);
+  assert.deepEqual([...(c.pointB as Float32Array)].slice(0, 3), [5, 6, 7]);
+  assert.equal(source.frame(4).contacts?.count, 1);
+  await assert.rejects(fullSource(look, async (from) => part(from, 0)));
 });
