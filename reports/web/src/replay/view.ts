@@ -73,8 +73,8 @@ interface Picture {
 export class ReplayView {
   readonly canvas: HTMLCanvasElement;
   readonly options: ViewOptions = defaultOptions();
-  /** Seconds of script that the last drawing took: all of ours, without what the driver does later. */
-  scriptSeconds = 0;
+  /** Seconds that the last drawing took: placing, colouring and overlays; and with three.js and the driver. */
+  readonly spent = { own: 0, all: 0, calls: 0 };
   /** After every drawing. */
   onDraw: (() => void) | null = null;
   /** The camera was moved by hand. */
@@ -121,6 +121,7 @@ export class ReplayView {
     this.canvas.tabIndex = 0;
     element.append(this.canvas);
     this.#renderer.autoClear = false;
+    this.#renderer.info.autoReset = false;
     this.#camera = this.#flat ? new OrthographicCamera() : new PerspectiveCamera(2 * halfAngle, 1, 0.01, 1000);
     this.#controls = new OrbitControls(this.#camera, this.canvas);
     this.#controls.enableRotate = !this.#flat;
@@ -322,6 +323,8 @@ export class ReplayView {
     cancelAnimationFrame(this.#asked);
     this.#asked = 0;
     const start = performance.now();
+    this.#renderer.info.reset();
+    let own = 0;
     this.#renderer.setScissorTest(false);
     this.#renderer.setClearColor(this.#clear.set(this.#theme.gap), 1);
     this.#renderer.clear();
@@ -334,12 +337,16 @@ export class ReplayView {
       this.#renderer.setScissor(x, this.#height - y - height, width, height);
       this.#renderer.clear();
       for (const layer of layers) {
+        const before = performance.now();
         if (layer.seek(this.#time) || this.#stale) layer.paint(this.options, this.#theme, this.#scales, this.#marked);
+        own += performance.now() - before;
         if (layer.frame) this.#renderer.render(layer.three, this.#camera);
       }
     }
     this.#stale = false;
-    this.scriptSeconds = (performance.now() - start) / 1e3;
+    this.spent.own = own / 1e3;
+    this.spent.all = (performance.now() - start) / 1e3;
+    this.spent.calls = this.#renderer.info.render.calls;
     this.onDraw?.();
   }
 
