@@ -8,6 +8,7 @@ import type { Audit, Column, InRun, Scenario } from '../data.ts';
 import { chip, headRow, panel, scroll, specHead, stickyHead } from '../parts.ts';
 import { run, scenarioLink } from '../run.ts';
 import { worstPlace } from '../worst.ts';
+import { worstNormals } from './worst_normals.ts';
 
 const scenarioHead = (name: string) =>
   el('th', { class: 'sticky', scope: 'row' }, el('a', { href: scenarioLink(name) }, name));
@@ -75,6 +76,7 @@ export function contactsActedUpon(): HTMLElement | null {
       'angle to the nearest exact normal, which opens that frame, and the worst depth error; “wrong” counts overlaps that were missed or invented; “blink” is ',
       'the share of steps in which a touching pair had lost its contact for just that step.',
     ),
+    worstNormals(),
     scroll(el('table', null, specHead([stickyHead('Scenario')], run.columns), el('tbody', null, body))),
   );
 }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { worstPlace } from '../../src/report/worst.ts';
+
+test('the worst of one audit names pair, time and what was wrong', () => {
+  assert.deepEqual(worstPlace('right|stone_3 at t=0.883333 (normal)'), {
+    pair: 'right|stone_3',
+    bodies: ['right', 'stone_3'],
+    time: 0.883333,
+    what: 'normal',
+    spec: '',
+  });
+});
+
+test('gathered over runs it also names the run', () => {
+  const place = worstPlace('a|b at t=1e-05 (missed) (bullet:preset=default,solver=mlcp)');
+  assert.equal(place?.what, 'missed');
+  assert.equal(place?.spec, 'bullet:preset=default,solver=mlcp');
+  assert.equal(place?.time, 1e-5);
+  assert.equal(worstPlace('a|b at t=2 (ode:preset=matched)')?.spec, 'ode:preset=matched');
+});
+
+test('what names no time is no place', () => {
+  assert.equal(worstPlace(''), null);
+  assert.equal(worstPlace('a|b'), null);
+});
