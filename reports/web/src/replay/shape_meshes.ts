@@ -31,7 +31,8 @@ export interface Sized {
   scale: Vec3;
 }
 
-const round = 40; // segments of a circle
+/** Segments of a circle: fewer where there are many bodies, which are small then. */
+export const roundOf = (bodies: number): number => (bodies > 800 ? 14 : bodies > 150 ? 24 : 40);
 
 function lines(points: number[]): BufferGeometry {
   return new BufferGeometry().setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
@@ -39,7 +40,7 @@ function lines(points: number[]): BufferGeometry {
 
 type Place = (c: number, s: number) => Vec3;
 /** A circle, or the part of it from one angle to another, as line segments. */
-function arc(out: number[], place: Place, from = 0, to = 2 * Math.PI): number[] {
+function arc(round: number, out: number[], place: Place, from = 0, to = 2 * Math.PI): number[] {
   const n = Math.max(4, Math.round((round * Math.abs(to - from)) / (2 * Math.PI)));
   for (let i = 0; i < n; ++i)
     for (const a of [from + ((to - from) * i) / n, from + ((to - from) * (i + 1)) / n])
@@ -54,15 +55,15 @@ function outline(points: Vec3[], loop: boolean): number[] {
   return out;
 }
 
-function sphere(): Template {
-  const circles = arc([], (c, s) => [c, s, 0]);
-  arc(circles, (c, s) => [c, 0, s]);
-  arc(circles, (c, s) => [0, c, s]);
-  return { faces: new SphereGeometry(1, round, 24), edges: lines(circles) };
+function sphere(round: number): Template {
+  const circles = arc(round, [], (c, s) => [c, s, 0]);
+  arc(round, circles, (c, s) => [c, 0, s]);
+  arc(round, circles, (c, s) => [0, c, s]);
+  return { faces: new SphereGeometry(1, round, Math.round(0.6 * round)), edges: lines(circles) };
 }
 
-function disc(): Template {
-  const circle = arc([], (c, s) => [c, s, 0]);
+function disc(round: number): Template {
+  const circle = arc(round, [], (c, s) => [c, s, 0]);
   circle.push(0, 0, 0, 1, 0, 0);
   const shape = new Shape().absarc(0, 0, 1, 0, 2 * Math.PI, false);
   return { faces: new ShapeGeometry(shape, round / 2), edges: lines(circle) };
@@ -83,9 +84,9 @@ function rectangle(): Template {
   return { faces: fan(corners), edges: lines(outline(corners, true)) };
 }
 
-function cylinder(): Template {
-  const edges = arc([], (c, s) => [c, 1, s]);
-  arc(edges, (c, s) => [c, -1, s]);
+function cylinder(round: number): Template {
+  const edges = arc(round, [], (c, s) => [c, 1, s]);
+  arc(round, edges, (c, s) => [c, -1, s]);
   for (const [x, z] of [
     [1, 0],
     [0, 1],
@@ -97,8 +98,8 @@ function cylinder(): Template {
   return { faces: new CylinderGeometry(1, 1, 2, round), edges: lines(edges) };
 }
 
-function cone(): Template {
-  const edges = arc([], (c, s) => [c, -1, s]);
+function cone(round: number): Template {
+  const edges = arc(round, [], (c, s) => [c, -1, s]);
   for (const [x, z] of [
     [1, 0],
     [0, 1],
@@ -110,9 +111,9 @@ function cone(): Template {
 }
 
 /** Of radius 1. */
-function capsule(ratio: number): Template {
+function capsule(round: number, ratio: number): Template {
   const edges: number[] = [];
-  for (const y of [ratio, -ratio]) arc(edges, (c, s) => [c, y, s]);
+  for (const y of [ratio, -ratio]) arc(round, edges, (c, s) => [c, y, s]);
   for (const [x, z] of [
     [1, 0],
     [0, 1],
@@ -121,13 +122,13 @@ function capsule(ratio: number): Template {
   ] as const)
     edges.push(x, ratio, z, x, -ratio, z);
   for (const end of [1, -1]) {
-    arc(edges, (c, s) => [c, end * (ratio + s), 0], 0, Math.PI);
-    arc(edges, (c, s) => [0, end * (ratio + s), c], 0, Math.PI);
+    arc(round, edges, (c, s) => [c, end * (ratio + s), 0], 0, Math.PI);
+    arc(round, edges, (c, s) => [0, end * (ratio + s), c], 0, Math.PI);
   }
-  return { faces: new CapsuleGeometry(1, 2 * ratio, 12, round), edges: lines(edges) };
+  return { faces: new CapsuleGeometry(1, 2 * ratio, Math.round(0.3 * round), round), edges: lines(edges) };
 }
 
-function stadium(ratio: number): Template {
+function stadium(round: number, ratio: number): Template {
   const points: Vec3[] = [];
   for (let i = 0; i <= round; ++i) {
     const a = (Math.PI * i) / (round / 2);
@@ -195,6 +196,11 @@ function heights(spacing: readonly number[], rows: number[][]): Template {
 /** Templates of one view, each made once. */
 export class TemplateCache {
   readonly #made = new Map<string, Template>();
+  readonly #round: number;
+
+  constructor(bodies = 1) {
+    this.#round = roundOf(bodies);
+  }
 
   /** null for half-spaces. */
   of(geometry: Geometry, dimension: 2 | 3): Sized | null {
@@ -202,7 +208,7 @@ export class TemplateCache {
     switch (geometry.kind) {
       case 'sphere': {
         const r = geometry.radius;
-        return this.#sized(flat ? 'disc' : 'sphere', flat ? disc : sphere, [r, r, r]);
+        return this.#sized(flat ? 'disc' : 'sphere', () => (flat ? disc : sphere)(this.#round), [r, r, r]);
       }
       case 'box':
         if (flat) return this.#sized('rectangle', rectangle, [geometry.half[0], geometry.half[1], 1]);
@@ -210,12 +216,16 @@ export class TemplateCache {
       case 'cylinder':
       case 'cone': {
         const make = geometry.kind === 'cone' ? cone : cylinder;
-        return this.#sized(geometry.kind, make, [geometry.radius, geometry.halfLength, geometry.radius]);
+        return this.#sized(geometry.kind, () => make(this.#round), [
+          geometry.radius,
+          geometry.halfLength,
+          geometry.radius,
+        ]);
       }
       case 'capsule': {
         const r = geometry.radius;
         const ratio = geometry.halfLength / r; // the ends stay round: each ratio has its own
-        return this.#sized(`capsule ${ratio}`, () => (flat ? stadium(ratio) : capsule(ratio)), [r, r, r]);
+        return this.#sized(`capsule ${ratio}`, () => (flat ? stadium : capsule)(this.#round, ratio), [r, r, r]);
       }
       case 'hull':
         return this.#own(geometry, () => (flat ? polygon(geometry.vertices) : solid(geometry.vertices)));

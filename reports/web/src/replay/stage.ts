@@ -41,6 +41,7 @@ export class ReplayStage {
   readonly #labels: PanelLabels;
   readonly #stage: HTMLElement;
   readonly #ends: (() => void)[] = [];
+  readonly #leaving = new AbortController();
   #chosen: Set<string>; // specs that have a picture
   #pinned: { spec: string; body: number } | null = null;
   #hover: Pick | null = null;
@@ -227,6 +228,7 @@ export class ReplayStage {
 
   #followPointer(): void {
     const { canvas } = this.view;
+    const { signal } = this.#leaving; // the canvas may serve another view later
     let asked = 0;
     let last: PointerEvent | null = null;
     const look = () => {
@@ -240,20 +242,22 @@ export class ReplayStage {
       last = event;
       if (asked === 0) asked = requestAnimationFrame(look);
     };
-    canvas.addEventListener('pointermove', (event) => later(event.buttons === 0 ? event : null));
-    canvas.addEventListener('pointerleave', () => later(null));
+    canvas.addEventListener('pointermove', (event) => later(event.buttons === 0 ? event : null), { signal });
+    canvas.addEventListener('pointerleave', () => later(null), { signal });
     let down = [0, 0];
-    canvas.addEventListener('pointerdown', (event) => {
+    const press = (event: PointerEvent) => {
       down = [event.clientX, event.clientY];
-    });
-    canvas.addEventListener('click', (event) => {
+    };
+    canvas.addEventListener('pointerdown', press, { signal });
+    const click = (event: MouseEvent) => {
       if (Math.hypot(event.clientX - (down[0] as number), event.clientY - (down[1] as number)) > 4) return;
       const pick = this.view.pick(event.clientX, event.clientY);
       this.#pinned = pick && pick.body >= 0 ? { spec: pick.source.spec, body: pick.body } : null;
       this.view.mark(this.#pinned?.body ?? -1);
       this.#inspect();
       this.#remember();
-    });
+    };
+    canvas.addEventListener('click', click, { signal });
     this.#ends.push(() => cancelAnimationFrame(asked));
   }
 
@@ -336,6 +340,7 @@ export class ReplayStage {
 
   dispose(): void {
     clearTimeout(this.#linkTimer);
+    this.#leaving.abort();
     this.player.pause();
     for (const end of this.#ends) end();
     this.view.dispose();

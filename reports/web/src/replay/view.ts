@@ -34,6 +34,22 @@ import { veilingBodies } from './veil.ts';
 /** The browser can not draw in three dimensions. */
 export class NoWebGL extends Error {}
 
+/** Renderers of views that are gone. A browser gives few contexts and takes long to let one go: they are used again. */
+const idle: WebGLRenderer[] = [];
+
+function takeRenderer(): WebGLRenderer {
+  const known = idle.pop();
+  if (known) return known;
+  try {
+    const made = new WebGLRenderer({ antialias: true, powerPreference: 'high-performance' });
+    made.autoClear = false;
+    made.info.autoReset = false;
+    return made;
+  } catch (error) {
+    throw new NoWebGL(String(error));
+  }
+}
+
 /** One picture of the canvas. */
 export interface Panel {
   sources: FrameSource[]; // the first one gives it its name
@@ -65,6 +81,9 @@ export interface CameraState {
 
 const halfAngle = 15; // of the camera [degrees]
 
+/** Part of a picture's height that the scene may take: labels stand above it. */
+const clearOf = (rect: Rect) => Math.min(0.88, Math.max(0.6, 1 - 100 / rect.height));
+
 interface Picture {
   panel: Panel;
   layers: SourceLayer[];
@@ -82,7 +101,7 @@ export class ReplayView {
 
   readonly #scene: Scene;
   readonly #renderer: WebGLRenderer;
-  readonly #templates = new TemplateCache();
+  readonly #templates: TemplateCache;
   readonly #flat: boolean;
   readonly #camera: PerspectiveCamera | OrthographicCamera;
   readonly #controls: OrbitControls;
@@ -108,20 +127,11 @@ export class ReplayView {
   constructor(element: HTMLElement, scene: Scene) {
     this.#scene = scene;
     this.#flat = scene.dimension === 2;
-    try {
-      this.#renderer = new WebGLRenderer({
-        antialias: true,
-        preserveDrawingBuffer: false,
-        powerPreference: 'high-performance',
-      });
-    } catch (error) {
-      throw new NoWebGL(String(error));
-    }
+    this.#templates = new TemplateCache(scene.bodies.length);
+    this.#renderer = takeRenderer();
     this.canvas = this.#renderer.domElement;
     this.canvas.tabIndex = 0;
     element.append(this.canvas);
-    this.#renderer.autoClear = false;
-    this.#renderer.info.autoReset = false;
     this.#camera = this.#flat ? new OrthographicCamera() : new PerspectiveCamera(2 * halfAngle, 1, 0.01, 1000);
     this.#controls = new OrbitControls(this.#camera, this.canvas);
     this.#controls.enableRotate = !this.#flat;
@@ -306,9 +316,9 @@ export class ReplayView {
     this.#controls.dispose();
     this.#dropPictures();
     this.#templates.dispose();
-    this.#renderer.dispose();
-    this.#renderer.forceContextLoss();
     this.canvas.remove();
+    this.canvas.style.cursor = '';
+    idle.push(this.#renderer);
   }
 
   // ---- drawing ----
@@ -373,7 +383,7 @@ export class ReplayView {
     this.#pictures.forEach((picture, i) => {
       picture.panel.rect = rects[i] as Rect;
     });
-    if (!this.#byHand && rects[0]) this.#approach(rects[0].width / rects[0].height);
+    if (!this.#byHand && rects[0]) this.#approach(rects[0]);
   }
 
   #rebuild(): void {
@@ -444,13 +454,14 @@ export class ReplayView {
     });
   }
 
-  /** As near as a picture of this form still shows the framed box. */
-  #approach(aspect: number): void {
+  /** As near as a picture of this form still shows the framed box below its label. */
+  #approach(rect: Rect): void {
     if (this.#flat) return;
-    const tangent = 0.86 * Math.tan((halfAngle * Math.PI) / 180);
+    const tangent = Math.tan((halfAngle * Math.PI) / 180);
+    const [wide, high] = [(0.9 * tangent * rect.width) / rect.height, tangent * clearOf(rect)];
     let distance = 1e-6;
     for (const p of this.#corners())
-      distance = Math.max(distance, p.z + Math.abs(p.x) / (tangent * aspect), p.z + Math.abs(p.y) / tangent);
+      distance = Math.max(distance, p.z + Math.abs(p.x) / wide, p.z + Math.abs(p.y) / high);
     const away = this.#camera.position.clone().sub(this.#controls.target).setLength(distance);
     this.#camera.position.copy(this.#controls.target).add(away);
     this.#controls.update();
@@ -467,7 +478,7 @@ export class ReplayView {
       this.#camera.far = distance + 40 * radius;
     } else {
       const [w, h] = [(high[0] - low[0]) / 2, (high[1] - low[1]) / 2];
-      const half = 1.18 * Math.max(h, w / aspect, 0.05 * radius);
+      const half = Math.max(h / clearOf(rect), w / aspect / 0.9, 0.05 * radius);
       this.#camera.left = -half * aspect;
       this.#camera.right = half * aspect;
       this.#camera.top = half;

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The replay in the report of a real run: plays, steps, scrubs, jumps, switches; shows the numbers that the engine gave;
+// a link restores the view; screenshots of several scenes.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import type { Browser, Page } from 'playwright-core';
+import { launch, makeRun, open, screenshots, skip, type Watched, watched } from '../browser.ts';
+
+const scenarios = ['box_stack', 'asymmetric_top', 'pendulum_chain', 'slip_to_roll_2d', 'bouncing_disc_2d'];
+
+/** State of a body at a step, from a run of its own: t, body, px, py, pz, qw, ... */
+function stateOf(scenario: string, spec: string, body: string, step: number): number[] {
+  const folder = mkdtempSync(join(tmpdir(), 'rigor-replay-'));
+  const file = join(folder, 'states.csv');
+  const program = join(process.env.RIGOR_BINARY_DIR ?? '', 'bin/rigor');
+  try {
+    execFileSync(program, ['run', scenario, '--engine', spec, '--csv', file], { stdio: 'ignore' });
+    const rows = readFileSync(file, 'utf8').trim().split('\n').slice(1);
+    const own = rows.map((line) => line.split(',')).filter((cells) => cells[1] === body);
+    return (own[step] as string[]).map(Number);
+  } finally {
+    rmSync(folder, { recursive: true, force: true });
+  }
+}
+
+describe('the replay of a real run', { skip }, () => {
+  let browser: Browser;
+  let seen: Watched;
+  let page: Page;
+  let run = '';
+
+  before(async () => {
+    run = makeRun('replay');
+    mkdirSync(screenshots, { recursive: true });
+    browser = await launch();
+    seen = await watched(browser);
+    page = seen.page;
+    page.setDefaultTimeout(60_000);
+  });
+  after(async () => {
+    await seen?.close();
+    await browser?.close();
+  });
+  const clean = () => assert.deepEqual(seen.faults, []);
+  const show = async (scenario: string, more = '') => {
+    await open(page, run, `#/scenario/${scenario}${more}`);
+    await page.locator('#replay').scrollIntoViewIfNeeded();
+    await page.waitForSelector('.replay canvas');
+    await page.waitForSelector('.replay .label small:not(:empty)');
+  };
+  const time = async () => Number.parseFloat((await page.textContent('.replay .clock')) ?? '');
+  const labels = () => page.locator('.replay .label small').allTextContents();
+  const press = async (key: string) => {
+    await page.locator('.replay canvas').focus();
+    await page.keyboard.press(key);
+  };
+  const action = (name: string) => page.click(`.replay [data-action="${name}"]`);
+
+  test('shows a picture for each engine', async () => {
+    await show('box_stack');
+    const labelled = await labels();
+    assert.equal(labelled.length, 4);
+    for (const text of labelled) assert.match(text, /^t = 0 s · frame 1\/\d+/);
+    clean();
+  });
+
+  test('steps, plays, pauses, scrubs', async () => {
+    await show('box_stack');
+    await action('forward');
+    const first = await time();
+    assert.ok(first > 0 && first < 0.05, String(first));
+    await action('forward');
+    await press('ArrowLeft');
+    assert.equal(await time(), first);
+    await press(' ');
+    await page.waitForFunction(
+      () => Number.parseFloat(document.querySelector('.replay .clock')?.textContent ?? '') > 0.2,
+    );
+    await press(' ');
+    const paused = await time();
+    await page.waitForTimeout(300);
+    assert.equal(await time(), paused, 'it stands still');
+    const bar = await page.locator('.replay .timeline input').boundingBox();
+    assert.ok(bar);
+    await page.mouse.click(bar.x + bar.width / 2, bar.y + bar.height / 2);
+    assert.ok(Math.abs((await time()) - 1.5) < 0.1, 'half of three seconds');
+    await press('Home');
+    assert.equal(await time(), 0);
+    clean();
+  });
+
+  test('jumps to the largest error and to contacts', async () => {
+    await show('bouncing_disc_2d');
+    await action('largest');
+    assert.match((await page.textContent('.replay .said')) ?? '', /largest \w+/);
+    assert.ok((await time()) > 0);
+    await press('Home');
+    await press(']');
+    const hit = await time();
+    assert.ok(hit > 0, 'the disc falls first');
+    assert.match((await page.textContent('.replay .said')) ?? '', /contact begins/);
+    await press(']');
+    assert.ok((await time()) > hit);
+    await press('[');
+    assert.equal(await time(), hit);
+    clean();
+  });
+
+  test('numbers of a body are those of the engine', async () => {
+    const spec = 'rigor:preset=matched';
+    const on = 'faces.outlines';
+    const view = new URLSearchParams({ t: '0.5', on, by: 'body', e: spec, b: '1' }).toString();
+    await show('pendulum_chain', `?view=${encodeURIComponent(view)}`);
+    await page.waitForSelector('.replay .inspector [data-quantity="position"]');
+    const cell = async (name: string) =>
+      ((await page.textContent(`.replay .inspector [data-quantity="${name}"]`)) ?? '').replaceAll('−', '-');
+    const numbers = (text: string) => text.split(',').map((part) => Number.parseFloat(part));
+    const body = (await cell('body')).replace(/ \(\d+\)$/, '');
+    const step = Number(/step (\d+)/.exec(await cell('time'))?.[1]);
+    const state = stateOf('pendulum_chain', spec, body, step);
+    assert.ok(Math.abs(Number.parseFloat(await cell('time')) - (state[0] as number)) < 1e-6);
+    numbers(await cell('position')).forEach((shown, k) => {
+      const exact = state[2 + k] as number;
+      assert.ok(Math.abs(shown - exact) < 1e-5, `position ${k}: ${shown} is shown, ${exact} was computed`);
+    });
+    const turned = numbers(await cell('orientation'));
+    const dot = turned.reduce((sum, q, k) => sum + q * (state[5 + k] as number), 0);
+    assert.ok(Math.abs(Math.abs(dot) - 1) < 1e-4);
+    clean();
+  });
+
+  test('the pointer finds bodies', async () => {
+    await show('box_stack');
+    const box = await page.locator('.replay canvas').boundingBox();
+    assert.ok(box);
+    await page.mouse.move(box.x + box.width / 8, box.y + box.height / 2);
+    await page.waitForSelector('.replay .inspector:not([hidden])');
+    assert.match((await page.textContent('.replay .inspector')) ?? '', /box_0_\d_0|contact/);
+    clean();
+  });
+
+  test('a link restores the view', async () => {
+    await show('box_stack');
+    await page.click('.replay [data-switch="trails"]');
+    await page.click('.replay [data-switch="overlaid"]');
+    await press('End');
+    await page.waitForFunction(() => /view=.*over/.test(location.hash));
+    const [hash, end] = [await page.evaluate(() => location.hash), await time()];
+    await show('slip_to_roll_2d');
+    await open(page, run, hash);
+    await page.locator('#replay').scrollIntoViewIfNeeded();
+    await page.waitForSelector('.replay .label small:not(:empty)');
+    assert.equal(await time(), end);
+    assert.equal(await page.getAttribute('.replay [data-switch="trails"]', 'aria-pressed'), 'true');
+    assert.equal(await page.getAttribute('.replay [data-switch="overlaid"]', 'aria-pressed'), 'true');
+    assert.equal((await labels()).length, 1);
+    clean();
+  });
+
+  test('curves and replay share the time', async () => {
+    await show('slip_to_roll_2d');
+    const before = await page.locator('#curves').textContent();
+    await press('End');
+    await page.waitForFunction((old) => document.querySelector('#curves')?.textContent !== old, before);
+    clean();
+  });
+
+  test('every layer draws without a fault, in light and dark', async () => {
+    for (const scenario of scenarios) {
+      await show(scenario);
+      await press('e');
+      for (const name of ['penetration', 'impulses', 'velocities', 'spins', 'bounds', 'trails'])
+        await page.click(`.replay [data-switch="${name}"]`);
+      await page.waitForTimeout(200);
+      await page.locator('#replay').screenshot({ path: join(screenshots, `replay-${scenario}.png`) });
+      await page.emulateMedia({ colorScheme: 'dark' });
+      await page.waitForTimeout(200);
+      await page.locator('#replay').screenshot({ path: join(screenshots, `replay-${scenario}-dark.png`) });
+      await page.emulateMedia({ colorScheme: 'light' });
+      clean();
+    }
+  });
+
+  test('says why where there is no WebGL', async () => {
+    const other = await watched(browser);
+    await other.page.addInitScript(() => {
+      HTMLCanvasElement.prototype.getContext = () => null;
+    });
+    await open(other.page, run, '#/scenario/box_stack');
+    await other.page.locator('#replay').scrollIntoViewIfNeeded();
+    await other.page.waitForSelector('.replay-note:has-text("no WebGL")');
+    await other.close();
+  });
+});
