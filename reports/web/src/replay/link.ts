@@ -83,10 +83,12 @@ export function viewOfHash(hash: string): string {
   return at < 0 ? '' : (new URLSearchParams(hash.slice(at + 1)).get('view') ?? '');
 }
 
-/** The same address with another view. */
+/** The same address with another view, which says more than the moment (time, pair) of the link that led here. */
 export function withView(hash: string, view: string): string {
   const at = hash.indexOf('?');
   const query = new URLSearchParams(at < 0 ? '' : hash.slice(at + 1));
+  query.delete('t');
+  query.delete('pair');
   query.set('view', view);
   return `${(at < 0 ? hash : hash.slice(0, at)) || '#'}?${query}`;
 }

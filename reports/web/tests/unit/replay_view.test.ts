@@ -231,7 +231,7 @@ test('a link restores the view', () => {
   assert.deepEqual(decodeLink('t=abc&cam=1_2&on=&by=nobody&x=-4&s=nan').options?.exaggeration, 1);
   assert.equal(decodeLink('t=abc').time, undefined);
   assert.equal(decodeLink('cam=1_2').camera, undefined);
-  const hash = withView('#/scenario/pile?dt=0.01', 't=1&on=faces');
+  const hash = withView('#/scenario/pile?dt=0.01&t=7', 't=1&on=faces');
   assert.equal(viewOfHash(hash), 't=1&on=faces');
   assert.ok(hash.startsWith('#/scenario/pile?dt=0.01&view='));
   assert.equal(viewOfHash('#/scenario/pile'), '');

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Chromium with the network cut, and reports to open in it. Tests that need it are skipped where it is not installed.
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdirSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+import { type Browser, type BrowserContextOptions, chromium, type Page } from 'playwright-core';
+
+const binaries = process.env.RIGOR_BINARY_DIR ?? '';
+const found = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((path) =>
+  existsSync(path),
+);
+/** Why browser tests cannot run; false when they can. */
+export const skip: string | false =
+  found === undefined ? 'Chromium is not installed' : binaries === '' ? 'RIGOR_BINARY_DIR is not set' : false;
+
+export const launch = (): Promise<Browser> =>
+  chromium.launch({
+    executablePath: found ?? '',
+    args: ['--headless=new', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  });
+
+export const screenshots = join(binaries, 'screenshots');
+
+const program = (name: string, ...args: string[]): string =>
+  execFileSync(join(binaries, name), args, { encoding: 'utf8', maxBuffer: 1 << 28, stdio: ['ignore', 'pipe', 'pipe'] });
+
+/** A run of the smoke suite by the built program, in a folder of the test's own. */
+export function makeRun(name: string): string {
+  const folder = join(binaries, 'web_runs', name);
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(join(binaries, 'web_runs'), { recursive: true });
+  program('bin/rigor', 'validate', 'smoke', '--out', folder, '-j2');
+  return folder;
+}
+
+/** The report of a made-up run with every bad ending, broken off, and of a study. */
+export function makeSynthetic(name: string): string {
+  const folder = join(binaries, 'web_runs', name);
+  rmSync(folder, { recursive: true, force: true });
+  program('tests/report_tool', 'synthetic', folder);
+  return folder;
+}
+
+/** Rows of a run's store. */
+export const query = (run: string, sql: string): unknown[][] =>
+  JSON.parse(program('tests/report_tool', 'query', join(run, 'results.sqlite'), sql)) as unknown[][];
+
+export interface Watched {
+  page: Page;
+  faults: string[]; // errors of the console and of the page, and whatever was asked of the network
+  close: () => Promise<void>;
+}
+
+/** A page that can reach files alone, and tells of every fault. */
+export async function watched(browser: Browser, options: BrowserContextOptions = {}): Promise<Watched> {
+  const context = await browser.newContext({ viewport: { width: 1400, height: 1000 }, offline: true, ...options });
+  const faults: string[] = [];
+  await context.route('**/*', (route) => {
+    const url = route.request().url();
+    if (/^(file|data|blob):/.test(url)) return route.continue();
+    faults.push(`fetched ${url}`);
+    return route.abort();
+  });
+  const page = await context.newPage();
+  page.on('console', (message) => {
+    if (message.type() === 'error') faults.push(`console: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
+  page.on('requestfailed', (request) => faults.push(`failed: ${request.url()}`));
+  return { page, faults, close: () => context.close() };
+}
+
+/** Opens a part of a report and waits until it is drawn. */
+export async function open(page: Page, run: string, hash = ''): Promise<void> {
+  await page.goto('about:blank');
+  await page.goto(`file://${run}/index.html${hash}`);
+  await page.waitForSelector('#page[data-shown]');
+}
