@@ -1,3 +1,180 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The live view: picture, transport, lanes, branches, what a step is made of. The server runs the simulation; this
+// page asks for the newest frames and tells it what the person wants.
+import { el } from '../common/elements.ts';
+import { timeStep } from '../common/format.ts';
+import type { LayerName } from '../replay/layers.ts';
+import { decodeLink, encodeLink, viewOfHash, withView } from '../replay/link.ts';
+import { readScene, type Scene } from '../replay/scene.ts';
+import { NoWebGL } from '../replay/view.ts';
+import * as api from './api.ts';
+import { BranchForm, type Settings } from './branch_form.ts';
+import type { Held } from './drag.ts';
+import { bindKeys, helpDialog } from './keys.ts';
+import { LanesPanel } from './lanes_panel.ts';
+import { Picture } from './picture.ts';
+import { SessionView } from './session_view.ts';
+import { StagesPanel } from './stages_panel.ts';
+import { Arrangement, Transport } from './transport.ts';
+import '../common/theme.css';
+import '../replay/style.css';
 import './style.css';
+
+const session = new SessionView();
+const said = el('p', { class: 'said', role: 'alert' });
+const help = helpDialog();
+const branch = new BranchForm(session);
+const lanes = new LanesPanel(
+  session,
+  (lane) => void openBranch(lane),
+  (lane) => void save(lane),
+);
+const stages = new StagesPanel((on) => void session.tell({ command: 'stages', on }));
+const transport = new Transport(session, switchLayer, () => help.showModal());
+const arrangement = new Arrangement(
+  (options) => {
+    picture?.view.setOptions(options);
+    changed();
+  },
+  () => picture?.frame(),
+);
+const title = el('h1');
+const about = el('p', { class: 'about' });
+const open = el('select', { 'aria-label': 'Another scenario' }, el('option', { value: '' }, 'another scenario …'));
+const stage = el('div', { class: 'replay live-picture' });
+let picture: Picture | null = null;
+let scenario = '';
+let remembering: ReturnType<typeof setTimeout> | undefined;
+
+function changed(): void {
+  transport.refresh(picture?.view ?? null);
+  if (picture) arrangement.refresh(picture.view);
+  clearTimeout(remembering);
+  remembering = setTimeout(() => {
+    if (!picture) return;
+    const camera = picture.byHand ? { camera: picture.view.camera } : {};
+    const state = encodeLink({ options: picture.view.options, ...camera });
+    history.replaceState(null, '', withView(location.hash, state));
+  }, 300);
+}
+
+function switchLayer(name: LayerName): void {
+  if (!picture) return;
+  const { layers } = picture.view.options;
+  picture.view.setOptions({ layers: { ...layers, [name]: !layers[name] } });
+  changed();
+}
+
+const drag = (held: Held | null) =>
+  held ? session.tell({ command: 'drag', ...held }) : session.tell({ command: 'release' });
+
+async function openBranch(lane: api.LaneState): Promise<void> {
+  const { description } = await api.scene(lane.id);
+  branch.open(lane, { ...(description.settings as Settings) });
+}
+
+/** Into the folder that `rigor view` was given, or as a download where it is there already. */
+async function save(lane: api.LaneState): Promise<void> {
+  const answer = await session.tell({ command: 'save', lane: lane.id, write: true });
+  if (!answer) return;
+  const notes = (answer.notes as string[]).length > 0 ? ` Not kept: ${(answer.notes as string[]).join('; ')}.` : '';
+  said.textContent = `Saved as ${answer.file}.${notes}`;
+}
+
+/** The picture of another scenario. */
+async function show(first: number): Promise<void> {
+  let scene: Scene;
+  try {
+    scene = readScene((await api.scene(first)).scenario);
+    picture?.dispose();
+    picture = new Picture(stage, scene, drag);
+  } catch (error) {
+    stage.replaceChildren(
+      el(
+        'p',
+        { class: 'replay-note' },
+        error instanceof NoWebGL
+          ? 'This browser shows no WebGL, which the live view needs.'
+          : `The scene cannot be shown: ${error instanceof Error ? error.message : String(error)}.`,
+      ),
+    );
+    return;
+  }
+  stages.scene = scene;
+  picture.setLanes(session.lanes.filter((lane) => lane.times.length > 0));
+  const link = decodeLink(viewOfHash(location.hash));
+  if (link.options) picture.view.setOptions(link.options);
+  if (link.camera) picture.setCamera(link.camera);
+  picture.onChange = changed;
+  changed();
+}
+
+session.onSay = (text) => {
+  said.textContent = text;
+};
+session.onNews = (others) => {
+  const state = session.state as api.SessionState;
+  const first = state.lanes[0];
+  title.textContent = state.title;
+  about.textContent = `${state.scenario} · ${state.dimension}D · step ${timeStep(state.dt)}`;
+  document.title = `${state.scenario} · Rigor live`;
+  if (state.scenario !== scenario && first) {
+    scenario = state.scenario;
+    void show(first.id);
+  } else if (others) {
+    picture?.setLanes(session.lanes.filter((lane) => lane.times.length > 0));
+  } else {
+    picture?.update();
+  }
+  if (others) stages.setLanes(session.lanes.filter((_, i) => state.lanes[i]?.has_stages));
+  transport.refresh(picture?.view ?? null);
+  lanes.refresh();
+  stages.refresh();
+};
+
+bindKeys({
+  tell: (command, steps) => void session.tell(steps === undefined ? { command } : { command, steps }),
+  toggle: () => transport.toggle(),
+  shiftSpeed: (by) => transport.shiftSpeed(by),
+  layer: switchLayer,
+  overlay: () => {
+    if (picture) picture.view.setOptions({ overlaid: !picture.view.options.overlaid });
+    changed();
+  },
+  frame: () => picture?.frame(),
+  help: () => (help.open ? help.close() : help.showModal()),
+});
+
+open.addEventListener('change', () => {
+  if (open.value !== '') void session.tell({ command: 'open', scenario: open.value });
+  open.value = '';
+});
+
+document.body.append(
+  el('header', {}, el('div', {}, title, about), el('span', { class: 'spring' }), open),
+  el(
+    'main',
+    {},
+    el(
+      'div',
+      { class: 'left replay' },
+      stage,
+      transport.element,
+      el('div', { class: 'switches' }, arrangement.element),
+      said,
+    ),
+    el('aside', {}, lanes.element, stages.element),
+  ),
+  branch.element,
+  help,
+);
+void session.follow();
+void api.engines().then((list) => {
+  branch.setEngines(list);
+  lanes.setEngines(list);
+});
+void api.scenarios().then((list) => {
+  open.append(...list.map(({ name, title: text }) => el('option', { value: name, title: text }, name)));
+});

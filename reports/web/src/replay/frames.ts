@@ -28,6 +28,8 @@ export interface Frame {
   velocity: ArrayLike<number> | null; // 3 a body [m/s]
   angularVelocity: ArrayLike<number> | null; // 3 a body [rad/s]
   contacts: Contacts | null; // null: not stored for this frame
+  /** Boxes that the engine itself compared, 6 a box: low and high corner [m]; may have no end. Else they are drawn exact. */
+  boxes?: ArrayLike<number> | null;
 }
 
 /** What the view can jump to. */

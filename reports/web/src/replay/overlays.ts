@@ -58,7 +58,7 @@ export class Overlays {
     for (const batch of [this.#thin, this.#boxes, this.#fat, this.#dots]) batch.begin();
     const { layers } = options;
     if (!source.ghost) {
-      if (layers.bounds) this.#drawBounds(bodies, theme);
+      if (layers.bounds) this.#drawBounds(bodies, frame, theme);
       if (layers.joints) this.#drawJoints(frame, theme, scales);
       if (frame.contacts) this.#drawContacts(frame.contacts, options, theme, scales);
       if (layers.velocities) this.#drawVectors(frame, frame.velocity, theme.velocity, scales.speed, scales, options);
@@ -68,12 +68,16 @@ export class Overlays {
     for (const batch of [this.#thin, this.#boxes, this.#fat, this.#dots]) batch.end();
   }
 
-  #drawBounds(bodies: BodyLayer, theme: Theme): void {
+  #drawBounds(bodies: BodyLayer, frame: Frame, theme: Theme): void {
     const b = this.#box;
     this.#c.set(theme.bounds);
+    const own = frame.boxes;
+    const count = own ? own.length / 6 : bodies.shapes.length;
     const corner = (i: number, k: number) => b[k + ((i >> k) & 1 ? 3 : 0)] as number;
-    for (let s = 0; s < bodies.shapes.length; ++s) {
-      if (!bodies.bounds(s, b)) continue;
+    for (let s = 0; s < count; ++s) {
+      if (own) for (let k = 0; k < 6; ++k) b[k] = own[6 * s + k] as number;
+      else if (!bodies.bounds(s, b)) continue;
+      if (!b.every((v) => Math.abs(v) < 1e9)) continue; // a half-space has no end
       for (let e = 0; e < edgesOfBox.length; e += 2) {
         const [i, j] = [edgesOfBox[e] as number, edgesOfBox[e + 1] as number];
         this.#boxes.line(corner(i, 0), corner(i, 1), corner(i, 2), corner(j, 0), corner(j, 1), corner(j, 2), this.#c);

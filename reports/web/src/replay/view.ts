@@ -305,6 +305,17 @@ export class ReplayView {
     return { origin: origin.toArray() as Vec3, direction: direction.toArray() as Vec3 };
   }
 
+  /** Where a point of the world is seen in the picture of a source, from the canvas' upper left [px]; null: nowhere. */
+  project(source: FrameSource, point: Vec3): [number, number] | null {
+    const picture = this.#pictures.find(({ panel }) => panel.sources.includes(source));
+    if (!picture) return null;
+    const { rect } = picture.panel;
+    this.#shape(rect);
+    const at = new Vector3(...point).project(this.#camera);
+    if (!(at.z < 1)) return null;
+    return [rect.x + ((at.x + 1) / 2) * rect.width, rect.y + ((1 - at.y) / 2) * rect.height];
+  }
+
   /** While something else uses the pointer. */
   set cameraEnabled(on: boolean) {
     this.#controls.enabled = on;

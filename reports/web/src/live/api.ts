@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What the page asks of `rigor view`: cli/view/README.md has the questions, validation/live/README.md the commands
+// and the arrays of a frame.
+import { ArrayBundle } from '../common/arrays.ts';
+import type { Json } from '../replay/scene.ts';
+
+export type LaneStateName =
+  | 'loading'
+  | 'ready'
+  | 'non_finite'
+  | 'unsupported'
+  | 'bad_input'
+  | 'error'
+  | 'crashed'
+  | 'timeout';
+
+export interface LaneState {
+  id: number;
+  title: string;
+  spec: string;
+  engine: string;
+  options: Record<string, string>;
+  state: LaneStateName;
+  message: string;
+  step: number;
+  start_step: number;
+  has_stages: boolean;
+  frames: number; // that it has made so far
+  branch_of?: number;
+}
+
+export interface SessionState {
+  scenario: string;
+  title: string;
+  dimension: 2 | 3;
+  duration: number;
+  dt: number;
+  playing: boolean;
+  speed: number;
+  reached_speed: number;
+  step: number;
+  stages: boolean;
+  lanes: LaneState[];
+}
+
+export interface StageState {
+  in_step: boolean;
+  done: string; // "" none in this step
+  next: string;
+  substep: number;
+}
+
+export interface DragState {
+  body: number;
+  point: [number, number, number];
+  target: [number, number, number];
+  force: [number, number, number];
+}
+
+export interface FrameHead {
+  lane: number;
+  step: number;
+  time: number;
+  counters: Record<string, number>;
+  stage: StageState;
+  has_stages: boolean; // the arrays of stages are there
+  step_seconds?: number;
+  drag?: DragState;
+  broken_joints: number[];
+}
+
+export interface News {
+  sequence: number;
+  session: SessionState;
+  frames: FrameHead[];
+  arrays: ArrayBundle;
+}
+
+export interface Option {
+  key: string;
+  values: string[]; // empty: a number
+  min: number;
+  max: number;
+  integer: boolean;
+  default: string;
+  matched: string;
+  help: string;
+}
+export interface Engine {
+  name: string;
+  title: string;
+  version: string;
+  precisions: string[];
+  options: Option[];
+}
+
+/** The server said no; the message is for the person. */
+export class Refused extends Error {}
+
+async function read(response: Response): Promise<Json> {
+  const answer = (await response.json().catch(() => ({}))) as Json;
+  if (!response.ok) throw new Refused(String(answer.error ?? `status ${response.status}`));
+  return answer;
+}
+
+const get = async (path: string): Promise<Json> => read(await fetch(path));
+
+export const engines = (): Promise<Engine[]> => get('/api/engines');
+export const scenarios = (): Promise<{ name: string; title: string }[]> => get('/api/scenarios');
+export const scene = (lane: number): Promise<{ scenario: Json; description: Json }> => get(`/api/scene?lane=${lane}`);
+
+export async function command(request: { command: string } & Record<string, unknown>): Promise<Json> {
+  const headers = { 'Content-Type': 'application/json' };
+  return read(await fetch('/api/command', { method: 'POST', headers, body: JSON.stringify(request) }));
+}
+
+/** All that is newer than `after`; waits for it. */
+export async function news(after: number): Promise<News> {
+  const response = await fetch(`/api/frames?after=${after}&wait=15`);
+  if (!response.ok) await read(response);
+  const arrays = new ArrayBundle(await response.arrayBuffer());
+  return { ...(arrays.meta as Omit<News, 'arrays'>), arrays };
+}

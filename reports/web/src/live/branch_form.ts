@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A branch: another lane from where one is now, with other algorithm choices, another engine, or other values of the
+// scenario. The options are those that the engine describes itself with.
+import { el } from '../common/elements.ts';
+import type { Engine, LaneState, Option } from './api.ts';
+import type { SessionView } from './session_view.ts';
+
+/** What the resolved settings of a lane have for an option, or its default. */
+export type Settings = Record<string, string>;
+
+/** Options of the form that differ from what the lane has. */
+export function changes(now: Settings, form: Settings): Settings {
+  return Object.fromEntries(Object.entries(form).filter(([key, value]) => value !== '' && value !== now[key]));
+}
+
+/** Lines "KEY=VALUE" of a text field. */
+export const overrides = (text: string): string[] =>
+  text
+    .split('\n')
+    .map((line) => line.trim())
+    .filter((line) => line !== '');
+
+function field(option: Option, now: string): HTMLElement {
+  const title = option.help;
+  if (option.values.length > 0) {
+    const select = el('select', { name: option.key, title });
+    for (const value of option.values) select.append(el('option', { value, selected: value === now }, value));
+    return select;
+  }
+  const range = `${option.min} to ${option.max}${option.integer ? ', whole' : ''}`;
+  return el('input', { name: option.key, value: now, inputmode: 'decimal', title: `${title} (${range})` });
+}
+
+export class BranchForm {
+  readonly element = el('dialog', { class: 'branch' });
+  readonly #session: SessionView;
+  #engines: Engine[] = [];
+
+  constructor(session: SessionView) {
+    this.#session = session;
+  }
+
+  setEngines(engines: Engine[]): void {
+    this.#engines = engines;
+  }
+
+  /** `settings`: what the lane really runs with. */
+  open(lane: LaneState, settings: Settings): void {
+    const engine = this.#engines.find((e) => e.name === lane.engine);
+    const others = this.#engines.filter((e) => e.name !== lane.engine);
+    const choice = el('select', { name: '', 'aria-label': 'Engine' });
+    choice.append(el('option', { value: '' }, `${lane.engine}, with what is chosen below`));
+    for (const other of others)
+      for (const preset of ['default', 'matched'])
+        choice.append(el('option', { value: `${other.name}:preset=${preset}` }, `${other.title}, ${preset}`));
+    const choices = (engine?.options ?? []).filter((o) => o.values.length > 0);
+    const numbers = (engine?.options ?? []).filter((o) => o.values.length === 0);
+    const labelled = (o: Option) =>
+      el('label', {}, el('span', {}, o.key.replaceAll('_', ' ')), field(o, settings[o.key] ?? o.default));
+    const own = el(
+      'div',
+      { class: 'own' },
+      el('fieldset', {}, el('legend', {}, 'Algorithms'), choices.map(labelled)),
+      el('details', {}, el('summary', {}, `Numbers (${numbers.length})`), el('fieldset', {}, numbers.map(labelled))),
+    );
+    choice.addEventListener('change', () => {
+      own.hidden = choice.value !== '';
+    });
+    const values = el('textarea', {
+      rows: 3,
+      placeholder: 'gravity=[0,-1.6,0]\nbodies.block.mass=5',
+      'aria-label': 'Values of the scenario, KEY=VALUE a line',
+    });
+    const form = el(
+      'form',
+      { method: 'dialog' },
+      el('h2', {}, `Branch from ${lane.title}, step ${lane.step}`),
+      el('p', { class: 'hint' }, 'The lane goes on as it is; the branch starts from what is seen now.'),
+      el('label', {}, el('span', {}, 'engine'), choice),
+      own,
+      el('label', { class: 'wide' }, el('span', {}, 'values of the scenario'), values),
+      el(
+        'div',
+        { class: 'line' },
+        el('button', { type: 'submit', 'data-action': 'branch-now' }, 'Branch from here'),
+        el('button', { type: 'button', onclick: () => this.element.close() }, 'Cancel'),
+      ),
+    );
+    form.addEventListener('submit', () => {
+      const set = overrides(values.value);
+      const request: Record<string, unknown> = { lane: lane.id, set };
+      if (choice.value !== '') request.spec = choice.value;
+      else request.options = changes(settings, Object.fromEntries(this.#chosen(own)));
+      void this.#session.tell({ command: 'branch', ...request });
+    });
+    this.element.replaceChildren(form);
+    this.element.showModal();
+  }
+
+  #chosen(own: HTMLElement): [string, string][] {
+    return [...own.querySelectorAll<HTMLInputElement | HTMLSelectElement>('select, input')].map((input) => [
+      input.name,
+      input.value.trim(),
+    ]);
+  }
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Over each picture: which lane it is, where it stands, and what it does.
+import { el } from '../common/elements.ts';
+import { duration, format } from '../common/format.ts';
+import type { ReplayView } from '../replay/view.ts';
+import type { LaneSource } from './lane_source.ts';
+
+const count = (n: number, what: string) => `${n} ${what}${n === 1 ? '' : 's'}`;
+
+/** "t = 0.5 s · step 60 · 12 contacts · 8 iterations · 0.3 ms a step". */
+export function laneLine(source: LaneSource): string {
+  const head = source.head;
+  if (!head) return source.note || 'no frames yet';
+  const { contacts, iterations, residual } = head.counters;
+  const parts = [`t = ${format(head.time, 6)} s`, `step ${head.step}`];
+  if (head.stage.in_step) parts.push(`inside the next step, after ${head.stage.done.replaceAll('_', ' ')}`);
+  else {
+    if (contacts !== undefined) parts.push(count(contacts, 'contact'));
+    if (iterations !== undefined) parts.push(count(iterations, 'iteration'));
+    if (residual !== undefined) parts.push(`residual ${format(residual, 2)}`);
+  }
+  if (head.step_seconds) parts.push(`${duration(head.step_seconds)} a step`);
+  if (source.note) parts.push(source.note);
+  return parts.join(' · ');
+}
+
+export class LaneLabels {
+  readonly element = el('div', { class: 'labels' });
+  #shown = '';
+
+  place(view: ReplayView): void {
+    const panels = view.panels;
+    const key = panels.map((p) => p.sources.map((s) => s.label).join('|')).join('/');
+    if (key !== this.#shown) {
+      this.#shown = key;
+      this.element.replaceChildren(
+        ...panels.map(({ sources }) =>
+          el(
+            'div',
+            { class: 'label' },
+            sources.map((s) => el('b', {}, el('i', { style: `background:${s.colour}` }), s.label)),
+            el('small'),
+          ),
+        ),
+      );
+    }
+    panels.forEach(({ rect, sources }, i) => {
+      const node = this.element.children[i] as HTMLElement;
+      node.style.transform = `translate(${rect.x}px, ${rect.y}px)`;
+      node.style.maxWidth = `${rect.width}px`;
+      const text = laneLine(sources[0] as LaneSource);
+      const small = node.querySelector('small') as HTMLElement;
+      if (small.textContent !== text) small.textContent = text;
+    });
+  }
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The session as the page knows it: what the server told last, the lanes' frames, and how to tell it something.
+import type { Json } from '../replay/scene.ts';
+import { command, type News, news, Refused, type SessionState } from './api.ts';
+import { LaneSource } from './lane_source.ts';
+
+/** Colours of lanes, those of engines in reports. */
+const palette = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8a6fd1', '#a0791a'];
+
+export class SessionView {
+  state: SessionState | null = null;
+  readonly sources = new Map<number, LaneSource>();
+  /** After everything the server told; `lanes`: there are others than before. */
+  onNews: ((lanes: boolean) => void) | null = null;
+  /** Something to be read by the person; "" takes it away. */
+  onSay: ((text: string) => void) | null = null;
+  #after = 0;
+  #scenario = '';
+  #ended = false;
+
+  /** Tells the server; what it refuses is said. */
+  async tell(request: { command: string } & Record<string, unknown>): Promise<Json | null> {
+    try {
+      const answer = await command(request);
+      this.onSay?.('');
+      return answer;
+    } catch (error) {
+      this.onSay?.(error instanceof Refused ? error.message : 'The server does not answer.');
+      return null;
+    }
+  }
+
+  /** Follows the server until it ends. */
+  async follow(): Promise<void> {
+    for (let failures = 0; !this.#ended; ) {
+      try {
+        this.take(await news(this.#after));
+        failures = 0;
+      } catch (error) {
+        if (error instanceof Refused || ++failures > 5) {
+          this.onSay?.(
+            error instanceof Refused ? error.message : 'rigor view has ended. Start it again and open its new link.',
+          );
+          return;
+        }
+        await new Promise((resolve) => setTimeout(resolve, 400));
+      }
+    }
+  }
+
+  take({ sequence, session, frames, arrays }: News): void {
+    this.#after = sequence;
+    const other = session.scenario !== this.#scenario;
+    this.#scenario = session.scenario;
+    const ids = session.lanes.map((lane) => lane.id).join();
+    const before = this.state?.lanes.map((lane) => lane.id).join();
+    this.state = session;
+    for (const id of [...this.sources.keys()])
+      if (!session.lanes.some((lane) => lane.id === id)) this.sources.delete(id);
+    session.lanes.forEach((lane) => {
+      let source = this.sources.get(lane.id);
+      if (!source) {
+        const colour = palette[lane.id % palette.length] as string;
+        source = new LaneSource(lane.id, `lane ${lane.id}`, lane.title, colour);
+        this.sources.set(lane.id, source);
+      }
+      source.note = lane.state === 'ready' ? '' : `${lane.state.replaceAll('_', '-')}: ${lane.message}`;
+    });
+    const empty = [...this.sources.values()].filter((source) => source.times.length === 0).length;
+    for (const head of frames) this.sources.get(head.lane)?.push(head, arrays);
+    const filled = [...this.sources.values()].filter((source) => source.times.length === 0).length !== empty;
+    this.onNews?.(other || filled || ids !== before);
+  }
+
+  get lanes(): LaneSource[] {
+    return (this.state?.lanes ?? []).map((lane) => this.sources.get(lane.id) as LaneSource);
+  }
+
+  end(): void {
+    this.#ended = true;
+  }
+}

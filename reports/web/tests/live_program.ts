@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// `rigor view` as it was built, and a page that may reach it alone.
+import { spawn } from 'node:child_process';
+import { existsSync, mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
+import { type Browser, type BrowserContext, chromium, type Page } from 'playwright-core';
+
+const binaries = process.env.RIGOR_BINARY_DIR ?? '';
+const found = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((path) =>
+  existsSync(path),
+);
+/** Why these tests cannot run; false when they can. */
+export const skip: string | false =
+  found === undefined ? 'Chromium is not installed' : binaries === '' ? 'RIGOR_BINARY_DIR is not set' : false;
+
+export const launch = (): Promise<Browser> =>
+  chromium.launch({
+    executablePath: found ?? '',
+    args: ['--headless=new', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  });
+
+const screenshots = join(binaries, 'screenshots');
+export async function shoot(page: Page, name: string): Promise<void> {
+  mkdirSync(screenshots, { recursive: true });
+  await page.screenshot({ path: join(screenshots, `${name}.png`) });
+}
+
+export interface Program {
+  url: string;
+  origin: string;
+  /** Ends it as Ctrl-C does; its exit code. */
+  end: () => Promise<number | null>;
+}
+
+export function view(args: string[], environment: Record<string, string> = {}): Promise<Program> {
+  const program = spawn(join(binaries, 'bin/rigor'), ['view', ...args, '--json'], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+    env: { ...process.env, ...environment },
+  });
+  const ended = new Promise<number | null>((resolve) => program.once('exit', resolve));
+  const end = () => {
+    program.kill('SIGINT');
+    return ended;
+  };
+  return new Promise((resolve, reject) => {
+    program.once('exit', (code) => reject(new Error(`rigor view ended with ${code}`)));
+    createInterface({ input: program.stdout }).once('line', (line) => {
+      const url = String(JSON.parse(line).url);
+      resolve({ url, origin: new URL(url).origin, end });
+    });
+  });
+}
+
+export interface Watched {
+  page: Page;
+  context: BrowserContext;
+  faults: string[]; // errors of the console and of the page, and whatever was asked of anybody else
+}
+
+export async function watched(browser: Browser, program: Program): Promise<Watched> {
+  const context = await browser.newContext({ viewport: { width: 1400, height: 1000 } });
+  const faults: string[] = [];
+  await context.route('**/*', (route) => {
+    const url = route.request().url();
+    if (url.startsWith(program.origin) || /^(data|blob):/.test(url)) return route.continue();
+    faults.push(`fetched ${url}`);
+    return route.abort();
+  });
+  const page = await context.newPage();
+  page.on('console', (message) => {
+    if (message.type() === 'error') faults.push(`console: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
+  return { page, context, faults };
+}
