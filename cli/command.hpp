@@ -54,8 +54,10 @@ std::filesystem::path ownBinary();
 /// How this program was called, as one would type it: "./rigor validate smoke -j 2".
 std::string ownCommandLine();
 
-/// Where a terminal reads, and whether it wants colours (NO_COLOR and TERM=dumb are respected).
+/// Where a terminal reads, whether it can take back a line (TERM=dumb can not), and whether it wants colours
+/// (NO_COLOR is respected).
 bool isTerminal(int fileDescriptor);
+bool canRewriteLines(int fileDescriptor);
 bool wantsColour(int fileDescriptor);
 int terminalColumns(int fileDescriptor);
 

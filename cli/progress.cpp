@@ -24,7 +24,7 @@ constexpr int kBarWidth = 24;
 
 }  // namespace
 
-ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), live_(isTerminal(STDERR_FILENO)) {}
+ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), live_(canRewriteLines(STDERR_FILENO)) {}
 
 ProgressLine::~ProgressLine() {
     finish();
@@ -53,10 +53,11 @@ void ProgressLine::update(const validation::Progress& p) {
         shown_ = true;
     } else if (p.finished != nullptr) {
         const auto& c = *p.finished;
-        std::fprintf(stderr, "[%lld/%lld] %s  %s  dt=%.6g  %s  %.2f s%s%s\n", static_cast<long long>(p.done),
-                     static_cast<long long>(p.total), c.scenario.c_str(), c.spec.c_str(), c.dt,
-                     results::verdictName(c.verdict), c.wallSeconds, c.reason.empty() ? "" : "  ",
-                     c.reason.c_str());
+        const std::string eta = p.etaSeconds >= 0.0 && p.done < p.total ? "  ETA " + clock(p.etaSeconds) : "";
+        std::fprintf(stderr, "[%lld/%lld] %s  %s  dt=%.6g  %s  %.2f s%s%s%s\n",
+                     static_cast<long long>(p.done), static_cast<long long>(p.total), c.scenario.c_str(),
+                     c.spec.c_str(), c.dt, results::verdictName(c.verdict), c.wallSeconds, eta.c_str(),
+                     c.reason.empty() ? "" : "  ", c.reason.c_str());
     }
 }
 

@@ -8,7 +8,8 @@
 
 namespace rigor::cli {
 
-/// A live line with counts and ETA on a terminal, one plain line per finished case elsewhere; both on stderr.
+/// A live line with counts and ETA on a terminal, one plain line per finished case, with the ETA, elsewhere;
+/// both on stderr.
 class ProgressLine {
   public:
     explicit ProgressLine(bool quiet);

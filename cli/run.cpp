@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <iostream>
@@ -14,6 +15,7 @@
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/results/values.hpp"
+#include "validation/runner/event_log.hpp"
 #include "validation/runner/runner.hpp"
 #include "validation/runner/scenario_settings.hpp"
 
@@ -39,17 +41,17 @@ void writeCsvRows(std::ostream& out, double time, std::span<const validation::Bo
     }
 }
 
-void logContacts(std::ostream& out, double time, const std::vector<validation::ContactPoint>& contacts,
-                 const scenario::Scenario& s) {
-    for (const auto& c : contacts) {
-        char text[256];
-        const std::string impulse = c.hasImpulse ? " jn=" + results::exactText(c.normalImpulse) : "";
-        std::snprintf(text, sizeof text, " n=(%.6g,%.6g,%.6g) depth=%.6g", c.normal.x, c.normal.y, c.normal.z,
-                      c.depth);
-        out << "t=" << results::exactText(time)
-            << " contact a=" << s.bodies[static_cast<std::size_t>(c.bodyA)].name
-            << " b=" << s.bodies[static_cast<std::size_t>(c.bodyB)].name << text << impulse << '\n';
-    }
+/// What `--log` asks for.
+validation::LogWhat logWhat(const std::string& name) {
+    if (name == "contacts") return validation::LogWhat::Contacts;
+    return name == "events" ? validation::LogWhat::Events : validation::LogWhat::All;
+}
+
+/// On standard error, whole steps at a time, so that a reader at the other end of a pipe follows the run.
+void writeLog(const std::string& lines) {
+    if (lines.empty()) return;
+    std::fwrite(lines.data(), 1, lines.size(), stderr);
+    std::fflush(stderr);
 }
 
 void printCase(const results::CaseRow& row, bool json) {
@@ -133,10 +135,17 @@ int runHere(const Arguments& a) {
     }
     if (csv != nullptr) *csv << "t,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz\n";
     validation::LiveOptions options;
+    validation::EventLog log(s, dt, logWhat(a.log));
+    validation::EventLog::Told told;
+    if (!a.log.empty())
+        options.onWorld = [&](const adapter::World& world) {
+            told = {[&](int body) { return world.isAsleep(body); },
+                    [&](int joint) { return world.jointHolds(joint); }};
+        };
     options.onStep = [&](double time, std::span<const validation::BodyState> states,
                          const std::vector<validation::ContactPoint>& contacts) {
         if (csv != nullptr) writeCsvRows(*csv, time, states, s);
-        if (!a.log.empty()) logContacts(std::cerr, time, contacts, s);
+        if (!a.log.empty()) writeLog(log.step(time, states, contacts, told));
     };
     const auto live = runEngine(
         s, validation::withScenarioSettings(adapter::parseSpec(a.engine), loaded.text), dt, options);
@@ -202,6 +211,7 @@ int runGuarded(const Arguments& arguments, const std::function<int()>& work) {
     }
     const int signal = WTERMSIG(status);
     if (signal == SIGINT) return kInterrupted;
+    if (signal == SIGPIPE) return 128 + SIGPIPE;  // whoever read the output has seen enough
     std::fprintf(stderr, "rigor: %s crashed in %s: %s\n", arguments.engine.c_str(),
                  arguments.scenario.c_str(), strsignal(signal));
     return kCrashed;
@@ -222,7 +232,12 @@ void addRun(CLI::App& app, Action& action) {
         ->allow_extra_args(false);
     command->add_option("--csv", a->csv,
                         "Write every step of every body (t,body,px,...,wz); '-' for standard output");
-    command->add_option("--log", a->log, "Log events on standard error")->check(CLI::IsMember({"contacts"}));
+    command
+        ->add_option(
+            "--log", a->log,
+            "Follow the run on standard error, a line for each event: contacts (begin, persist, end), "
+            "events (begin, end, impact, break, sleep, wake), all")
+        ->check(CLI::IsMember({"contacts", "events", "all"}));
     command->add_flag("--json", a->json, "Print the result as JSON");
     command->callback([a, &action] { action = [a] { return runGuarded(*a, [a] { return runHere(*a); }); }; });
 }

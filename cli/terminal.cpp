@@ -40,12 +40,14 @@ bool isTerminal(int fileDescriptor) {
     return isatty(fileDescriptor) == 1;
 }
 
+bool canRewriteLines(int fileDescriptor) {
+    const char* term = std::getenv("TERM");
+    return isTerminal(fileDescriptor) && (term == nullptr || std::string_view(term) != "dumb");
+}
+
 bool wantsColour(int fileDescriptor) {
     const char* noColour = std::getenv("NO_COLOR");
-    const char* term = std::getenv("TERM");
-    const bool refused =
-        (noColour != nullptr && *noColour != '\0') || (term != nullptr && std::string_view(term) == "dumb");
-    return isTerminal(fileDescriptor) && !refused;
+    return canRewriteLines(fileDescriptor) && (noColour == nullptr || *noColour == '\0');
 }
 
 int terminalColumns(int fileDescriptor) {

@@ -99,6 +99,11 @@ adapter::ReadBack Box2dWorld::readBack() const {
     return back;
 }
 
+bool Box2dWorld::isAsleep(int body) const {
+    const b2Body* object = records_[static_cast<std::size_t>(body)]->body;
+    return object->GetType() == b2_dynamicBody && !object->IsAwake();
+}
+
 adapter::StepCounters Box2dWorld::counters() const {
     adapter::StepCounters counters;
     counters.pairs = world_->GetContactCount();

@@ -26,6 +26,7 @@ class Box2dWorld final : public adapter::World {
     std::vector<adapter::LedgerEntry> ledger() const override;
     adapter::StepCounters counters() const override;
     adapter::Scheme scheme() const override { return adapter::Scheme::SymplecticEuler; }
+    bool isAsleep(int body) const override;
 
   private:
     struct BodyRecord {

@@ -138,6 +138,11 @@ adapter::ReadBack BulletWorld::readBack() const {
     return back;
 }
 
+bool BulletWorld::isAsleep(int body) const {
+    const btRigidBody& object = *records_[static_cast<std::size_t>(body)]->body;
+    return !object.isStaticOrKinematicObject() && object.getActivationState() == ISLAND_SLEEPING;
+}
+
 adapter::StepCounters BulletWorld::counters() const {
     adapter::StepCounters counters;
     counters.pairs = broadphase_->getOverlappingPairCache()->getNumOverlappingPairs();

@@ -32,6 +32,7 @@ class BulletWorld final : public adapter::World {
     std::vector<adapter::LedgerEntry> ledger() const override;
     adapter::StepCounters counters() const override;
     adapter::Scheme scheme() const override { return adapter::Scheme::SymplecticEuler; }
+    bool isAsleep(int body) const override;
 
   private:
     /// What one scenario body is in Bullet. Addresses are stable: Bullet keeps pointers to all of it.

@@ -64,6 +64,12 @@ class World {
         return true;
     }
 
+    /// Whether the engine has put a body to sleep: stopped it and leaves it out of its steps.
+    virtual bool isAsleep(int body) const {
+        (void)body;
+        return false;
+    }
+
     /// Null for engines whose steps can not be looked into, and whose state can not be taken back.
     virtual StagedWorld* staged() { return nullptr; }
     virtual Snapshots* snapshots() { return nullptr; }
@@ -124,7 +130,7 @@ class Engine {
 };
 
 /// Raised with every change of this folder's headers or of scenarios/model that an adapter could notice.
-inline constexpr int kAdapterAbi = 5;
+inline constexpr int kAdapterAbi = 6;
 
 struct Module {
     int abi = 0;

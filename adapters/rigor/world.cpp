@@ -195,6 +195,7 @@ class RigorWorld final : public World {
     bool jointHolds(int joint) const override {
         return world_.contains(indices_.joint[static_cast<std::size_t>(joint)]);
     }
+    bool isAsleep(int body) const override { return isDynamic(body) && world_.isAsleep(id(body)); }
     StagedWorld* staged() override { return &staged_; }
     Snapshots* snapshots() override { return &snapshots_; }
 

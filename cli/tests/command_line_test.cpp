@@ -140,12 +140,55 @@ TEST(CommandLine, BoundsUnderOverridesAreExplainedAndCanBeGiven) {
     EXPECT_EQ(tight.out.find("note:"), std::string::npos) << tight.out;
 }
 
-TEST(CommandLine, ContactLogNamesBodies) {
-    const Result result = rigor("run bouncing_ball --engine rigor --log contacts");
-    EXPECT_EQ(result.code, 0) << result.out;
-    EXPECT_NE(result.out.find("contact a="), std::string::npos);
-    EXPECT_NE(result.out.find(" b="), std::string::npos);
-    EXPECT_NE(result.out.find("depth="), std::string::npos);
+/// Lines of `text` that hold `what`.
+int countLines(const std::string& text, const std::string& what) {
+    int count = 0;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) count += line.find(what) != std::string::npos;
+    return count;
+}
+
+/// The same words for every engine, and as many bounces.
+TEST(CommandLine, EventLogsOfEnginesAgree) {
+    for (const char* engine : {"rigor", "bullet:preset=matched", "ode:preset=matched"}) {
+        const auto result = rigor(std::string("run bouncing_ball --log all --dt 0.002 --engine ") + engine);
+        const int begins = countLines(result.out, " begin contact a=floor b=ball n=(");
+        EXPECT_GE(begins, 3) << engine << result.out.substr(0, 2000);
+        EXPECT_EQ(countLines(result.out, " impact a=floor b=ball n=("), begins) << engine;
+        EXPECT_GE(countLines(result.out, " end contact a=floor b=ball"), begins - 1) << engine;
+    }
+    const auto contacts = rigor("run bouncing_ball --log contacts");
+    EXPECT_EQ(contacts.code, 0);
+    EXPECT_EQ(countLines(contacts.out, " impact "), 0);
+    EXPECT_GT(countLines(contacts.out, " a_id=0 b_id=1 a_shape=0:half_space b_shape=0:sphere"), 3);
+    EXPECT_EQ(rigor("run bouncing_ball --log motions").code, 2);
+}
+
+TEST(CommandLine, EventLogTellsOfSleepAndJointsWhereTheEngineDoes) {
+    EXPECT_EQ(countLines(rigor("run fixed_break --log events").out, " break joint="), 1);
+    const auto sleeper = rigor("run box_stack --log events --set duration=3 --engine bullet:preset=default");
+    EXPECT_GE(countLines(sleeper.out, " sleep body="), 1) << sleeper.out.substr(0, 3000);
+}
+
+/// The log can be followed: lines are there long before the run has ended, and whoever has seen enough may
+/// go.
+TEST(CommandLine, EventLogFlowsThroughAPipe) {
+    const auto few =
+        rigor("run box_stack --log contacts --set duration=2 2>&1 >/dev/null | head -n 3; true", false);
+    EXPECT_EQ(countLines(few.out, " begin contact a="), 3) << few.out;
+    EXPECT_EQ(few.out.find("crashed"), std::string::npos);
+}
+
+/// The example of cli/README.md, word for word.
+TEST(CommandLine, EventLogExampleOfTheReadme) {
+    std::ifstream in(std::filesystem::path(RIGOR_SOURCE_DIR) / "cli/README.md");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string start = "```sh\n$ ./rigor ";
+    const auto command = text.find(start);
+    ASSERT_NE(command, std::string::npos);
+    const auto lineEnd = text.find('\n', command + start.size()), end = text.find("```", lineEnd);
+    const auto result = rigor(text.substr(command + start.size(), lineEnd - command - start.size()), false);
+    EXPECT_EQ(result.out, text.substr(lineEnd + 1, end - lineEnd - 1));
 }
 
 std::filesystem::path freshFolder(const char* name) {

@@ -26,6 +26,13 @@ std::string valueIn(const char* file, const std::string& key, char separator) {
     return "unknown";
 }
 
+/// "unknown" where there is no such file: virtual machines do not tell their clock.
+std::string firstWord(const char* file) {
+    std::ifstream in(file);
+    std::string word;
+    return in >> word ? word : "unknown";
+}
+
 std::string compiler() {
 #if defined(__clang__)
     return "clang " __clang_version__;
@@ -50,6 +57,9 @@ std::map<std::string, std::string> describeEnvironment() {
             {"compiler", compiler()},
             {"build_type", RIGOR_BUILD_TYPE},
             {"flags", RIGOR_BUILD_FLAGS},
+            {"libraries", RIGOR_LIBRARIES},
+            {"governor", firstWord("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor")},
+            {"load", firstWord("/proc/loadavg")},
             {"rigor", RIGOR_VERSION},
             {"date", isoTime()}};
 }

@@ -87,6 +87,8 @@ struct LiveOptions {
     int stride = 0;  ///< 0: chosen from size and duration
     std::function<void(double time, std::span<const BodyState>, const std::vector<ContactPoint>&)>
         onStep;  ///< may be empty
+    /// Called before each onStep with the world, for what only the engine can tell; may be empty.
+    std::function<void(const adapter::World&)> onWorld;
 };
 LiveCase runInProcess(const scenario::Scenario& scenario, const adapter::EngineSpec& spec, double dt,
                       const LiveOptions& options);

@@ -117,6 +117,7 @@ Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, 
     Stepper stepper(scenario, dt, world);
     std::vector<ContactPoint> contacts;
     appendFrame(t, 0.0, stepper.states(), {});
+    if (options.onWorld) options.onWorld(world);
     if (options.onStep) options.onStep(0.0, stepper.states(), {});
     run.nonFinite = stepper.nonFinite();
 
@@ -131,6 +132,7 @@ Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, 
             appendFrame(t, stepper.time(), stepper.states(), contacts);
             run.nonFinite = stepper.nonFinite();
         }
+        if (options.onWorld) options.onWorld(world);
         if (options.onStep) options.onStep(stepper.time(), stepper.states(), contacts);
     }
     if (run.nonFinite.empty()) run.nonFinite = stepper.nonFinite();

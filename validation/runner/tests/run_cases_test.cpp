@@ -90,7 +90,8 @@ TEST_F(RunCases, AGoodCaseHasEverything) {
     EXPECT_NEAR(c.metrics[0].value, 0.5 * gravity * 0.5 * 0.0078125, 1e-12);
     EXPECT_FALSE(run.finished.empty());
     EXPECT_EQ(run.plannedCases, 1);
-    for (const char* key : {"cpu", "cores", "kernel", "compiler", "flags", "rigor"})
+    for (const char* key : {"cpu", "cores", "memory", "kernel", "system", "compiler", "build_type", "flags",
+                            "libraries", "governor", "load", "rigor", "engine_double_free_flight"})
         EXPECT_FALSE(run.environment.at(key).empty()) << key;
 }
 

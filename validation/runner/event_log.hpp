@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What happens in a run, as lines that can be followed and searched while it goes on. The same words for
+// every engine: all but sleeping and breaking is seen from outside, in contacts and states.
+//
+//   t=<s> step=<n> begin contact a=<body> b=<body> n=(..) depth=.. [jn=.. jt=(..)] points=.. p=(..) <ids>
+//   t=<s> step=<n> persist contact ...          the same, in every further step
+//   t=<s> step=<n> end contact a=.. b=.. <ids> since=<s> steps=<n> [jn_sum=..]
+//   t=<s> step=<n> impact a=.. b=.. n=(..) vn=<before> vn_after=.. [jn=..] p=(..) <ids>
+//   t=<s> step=<n> break joint=<name> a=.. b=..
+//   t=<s> step=<n> sleep body=<name> id=..      and wake
+//
+// <ids>: a_id=<scenario index> b_id=.. a_shape=<index>:<geometry> b_shape=..
+// A is the body of lower index, n the normal from A to B at the deepest point, depth [m] there (< 0: apart),
+// p the middle between its two surface points [m]; jn [N s] the normal impulses of all points together, jt [N
+// s] the sum of the friction impulses on B, both only where the engine tells them. vn [m/s]: speed at which B
+// leaves A at p, < 0: they approach.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scenarios/model/scenario.hpp"
+#include "validation/trajectory.hpp"
+
+namespace rigor::validation {
+
+/// Which events are wanted.
+enum class LogWhat {
+    Contacts,  ///< contacts alone: begin, persist, end
+    Events,    ///< what changes: begin, end, impact, break, sleep, wake
+    All
+};
+
+class EventLog {
+  public:
+    /// What an engine tells of bodies and joints, by scenario index; an empty function: it does not tell.
+    struct Told {
+        std::function<bool(int body)> asleep;
+        std::function<bool(int joint)> holds;
+    };
+
+    /// The scenario must outlive the log.
+    EventLog(const scenario::Scenario& scenario, double dt, LogWhat what);
+
+    /// The lines of the step that led to `time`, each ended by a line break; "" when nothing happened. The
+    /// first call is the start, before any step.
+    std::string step(double time, std::span<const BodyState> states,
+                     const std::vector<ContactPoint>& contacts, const Told& told);
+
+  private:
+    using Pair = std::array<int, 4>;  ///< body A, body B, shape A, shape B
+    struct Touch {
+        double since = 0.0;
+        std::size_t steps = 0, seen = 0;
+        double impulseSum = 0.0;
+        bool hasImpulses = true;
+    };
+    /// The points of one pair of shapes in one step.
+    struct Manifold {
+        const ContactPoint* deepest = nullptr;
+        std::size_t points = 0;
+        double normalImpulse = 0.0;
+        scenario::Vec3 frictionImpulse;
+        bool hasImpulses = true;
+    };
+
+    static std::map<Pair, Manifold> gathered(const std::vector<ContactPoint>& contacts);
+    void contactEvents(double time, const std::map<Pair, Manifold>& manifolds);
+    void impactEvents(std::span<const BodyState> states, const std::map<Pair, Manifold>& manifolds);
+    void toldEvents(const Told& told);
+    double separationSpeed(const Pair& pair, const ContactPoint& at, std::span<const BodyState> states) const;
+    std::string pairText(const Pair& pair) const;
+    std::string idText(const Pair& pair) const;
+    void line(const std::string& text);
+
+    const scenario::Scenario& scenario_;
+    double dt_;
+    LogWhat what_;
+    std::size_t step_ = 0;
+    std::string stamp_, out_;
+    std::map<Pair, Touch> touching_;
+    std::vector<BodyState> before_;
+    std::vector<char> asleep_, broken_;
+};
+
+}  // namespace rigor::validation
