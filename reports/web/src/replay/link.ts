@@ -3,9 +3,10 @@
 //
 // What is seen, as text for the part of the address behind "#": time, engines, layers, camera. Unknown or damaged
 // parts are left out, never an error: links live longer than pages.
+
+import type { CameraState } from './camera_rig.ts';
 import { colourings, defaultOptions, type LayerName, layerNames, type ViewOptions } from './layers.ts';
 import type { Vec3 } from './vectors.ts';
-import type { CameraState } from './view.ts';
 
 export interface LinkState {
   time?: number;

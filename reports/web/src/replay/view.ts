@@ -7,21 +7,11 @@
 //   const view = new ReplayView(element, scene);     // throws NoWebGL
 //   view.setSources([...]); view.setTime(0.5); view.setOptions({...});
 // Sources may grow: setTime() looks at their times anew; refresh() after a frame that was shown has changed.
-import {
-  type Camera,
-  Color,
-  Matrix4,
-  OrthographicCamera,
-  PerspectiveCamera,
-  Raycaster,
-  Vector2,
-  Vector3,
-  WebGLRenderer,
-} from 'three';
-import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { Color, Matrix4, Raycaster, Vector2, WebGLRenderer } from 'three';
+import { CameraRig, type CameraState } from './camera_rig.ts';
 import { lightTheme, type Theme } from './colours.ts';
 import type { Frame, FrameSource } from './frames.ts';
-import { arrowScales, type Framing, frameScene } from './framing.ts';
+import { arrowScales, frameScene } from './framing.ts';
 import { defaultOptions, type ViewOptions } from './layers.ts';
 import type { ArrowScales } from './overlays.ts';
 import { nearestContact, type Rect, rectAt, tile, toDevice } from './picking.ts';
@@ -73,17 +63,6 @@ export interface Aim {
   direction: Vec3; // unit
 }
 
-export interface CameraState {
-  position: Vec3;
-  target: Vec3;
-  zoom: number;
-}
-
-const halfAngle = 15; // of the camera [degrees]
-
-/** Part of a picture's height that the scene may take: labels stand above it. */
-const clearOf = (rect: Rect) => Math.min(0.88, Math.max(0.6, 1 - 100 / rect.height));
-
 interface Picture {
   panel: Panel;
   layers: SourceLayer[];
@@ -102,20 +81,15 @@ export class ReplayView {
   readonly #scene: Scene;
   readonly #renderer: WebGLRenderer;
   readonly #templates: TemplateCache;
-  readonly #flat: boolean;
-  readonly #camera: PerspectiveCamera | OrthographicCamera;
-  readonly #controls: OrbitControls;
+  readonly #rig: CameraRig;
   readonly #raycaster = new Raycaster();
   readonly #clear = new Color();
   readonly #resize: ResizeObserver;
   #sources: FrameSource[] = [];
   #pictures: Picture[] = [];
   #theme: Theme = lightTheme;
-  #framing: Framing = { centre: [0, 0, 0], radius: 1, low: [-1, -1, -1], high: [1, 1, 1] };
   #scales: ArrowScales = { size: 1, body: 1, speed: 1, spin: 1, impulse: 1 };
   #framed = false;
-  #byHand = false; // the camera stands where somebody put it
-  #wide = 1.25; // width of the scene over its height, as the camera sees it
   #time = 0;
   #marked = -1;
   #glass: ReadonlySet<number> = new Set();
@@ -126,26 +100,17 @@ export class ReplayView {
 
   constructor(element: HTMLElement, scene: Scene) {
     this.#scene = scene;
-    this.#flat = scene.dimension === 2;
     this.#templates = new TemplateCache(scene.bodies.length);
     this.#renderer = takeRenderer();
     this.canvas = this.#renderer.domElement;
     this.canvas.tabIndex = 0;
     element.append(this.canvas);
-    this.#camera = this.#flat ? new OrthographicCamera() : new PerspectiveCamera(2 * halfAngle, 1, 0.01, 1000);
-    this.#controls = new OrbitControls(this.#camera, this.canvas);
-    this.#controls.enableRotate = !this.#flat;
-    this.#controls.screenSpacePanning = true;
-    this.#controls.zoomSpeed = 1.4;
-    if (this.#flat) this.#controls.mouseButtons = { LEFT: 2, MIDDLE: 1, RIGHT: 2 };
-    this.#controls.addEventListener('change', () => this.invalidate());
-    this.#controls.addEventListener('start', () => {
-      this.#byHand = true;
-    });
-    this.#controls.addEventListener('end', () => {
+    this.#rig = new CameraRig(scene, this.canvas);
+    this.#rig.onChange = () => this.invalidate();
+    this.#rig.onHand = () => {
       this.#veil();
       this.onCamera?.();
-    });
+    };
     this.#resize = new ResizeObserver(() => this.#measure(element));
     this.#resize.observe(element);
     this.#measure(element);
@@ -155,7 +120,7 @@ export class ReplayView {
   setSources(sources: readonly FrameSource[]): void {
     this.#sources = [...sources];
     this.#rebuild();
-    if (!this.#framed && sources.some((s) => s.times.length > 0)) this.frameAll();
+    if (!this.#framed && sources.some((s) => s.times.length > 0)) this.#frame();
   }
 
   setTime(seconds: number): void {
@@ -209,44 +174,22 @@ export class ReplayView {
 
   /** Everything that moves, at any time. */
   frameAll(): void {
-    const shown = this.#sources.filter((s) => s.times.length > 0);
-    const exact = shown.filter((s) => s.ghost);
-    this.#framing = frameScene(this.#scene, [...exact, ...shown.filter((s) => !s.ghost)]);
-    this.#scales = arrowScales(this.#scene, shown, this.#framing.radius);
-    this.#framed = shown.length > 0;
-    this.#byHand = false;
-    this.#layout();
-    this.#veil();
-    for (const { layers } of this.#pictures) for (const layer of layers) this.#dress(layer);
-    this.#stale = true;
-    this.invalidate();
+    this.#rig.release();
+    this.#frame();
   }
 
   /** Brings a point to the middle, as near as a sphere of this radius [m] needs. */
   lookAt(point: Vec3, radius: number): void {
-    this.#byHand = true;
-    const away = this.#camera.position.clone().sub(this.#controls.target);
-    this.#controls.target.set(...point);
-    if (this.#flat) this.#camera.zoom = Math.min(40, (0.8 * this.#framing.radius) / radius);
-    else away.setLength(radius / Math.sin((halfAngle * Math.PI) / 180));
-    this.#camera.position.copy(this.#controls.target).add(away);
-    this.#controls.update();
+    this.#rig.lookAt(point, radius);
+    this.#veil();
     this.invalidate();
   }
 
   get camera(): CameraState {
-    return {
-      position: this.#camera.position.toArray() as Vec3,
-      target: this.#controls.target.toArray() as Vec3,
-      zoom: this.#camera.zoom,
-    };
+    return this.#rig.state;
   }
-  set camera({ position, target, zoom }: CameraState) {
-    this.#byHand = true;
-    this.#camera.position.set(...position);
-    this.#camera.zoom = zoom;
-    this.#controls.target.set(...target);
-    this.#controls.update();
+  set camera(state: CameraState) {
+    this.#rig.state = state;
     this.invalidate();
   }
 
@@ -259,12 +202,10 @@ export class ReplayView {
     const picture = this.#pictures[this.#panelAt(x, y)];
     if (!picture) return null;
     const { rect } = picture.panel;
-    this.#shape(rect);
-    const viewProjection = new Matrix4().multiplyMatrices(
-      this.#camera.projectionMatrix,
-      this.#camera.matrixWorldInverse,
-    );
-    this.#raycaster.setFromCamera(new Vector2(...toDevice(rect, x, y)), this.#camera as Camera);
+    const { camera } = this.#rig;
+    this.#rig.shape(rect);
+    const viewProjection = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    this.#raycaster.setFromCamera(new Vector2(...toDevice(rect, x, y)), camera);
     for (const layer of [...picture.layers].sort((a, b) => Number(a.source.ghost) - Number(b.source.ghost))) {
       const frame = layer.frame;
       if (!frame) continue;
@@ -299,8 +240,8 @@ export class ReplayView {
     const [x, y] = [clientX - box.left, clientY - box.top];
     const picture = this.#pictures[this.#panelAt(x, y)];
     if (!picture) return null;
-    this.#shape(picture.panel.rect);
-    this.#raycaster.setFromCamera(new Vector2(...toDevice(picture.panel.rect, x, y)), this.#camera as Camera);
+    this.#rig.shape(picture.panel.rect);
+    this.#raycaster.setFromCamera(new Vector2(...toDevice(picture.panel.rect, x, y)), this.#rig.camera);
     const { origin, direction } = this.#raycaster.ray;
     return { origin: origin.toArray() as Vec3, direction: direction.toArray() as Vec3 };
   }
@@ -318,13 +259,13 @@ export class ReplayView {
 
   /** While something else uses the pointer. */
   set cameraEnabled(on: boolean) {
-    this.#controls.enabled = on;
+    this.#rig.enabled = on;
   }
 
   dispose(): void {
     cancelAnimationFrame(this.#asked);
     this.#resize.disconnect();
-    this.#controls.dispose();
+    this.#rig.dispose();
     this.#dropPictures();
     this.#templates.dispose();
     this.canvas.remove();
@@ -352,7 +293,7 @@ export class ReplayView {
     this.#renderer.setClearColor(this.#clear.set(this.#theme.background), 1);
     this.#renderer.setScissorTest(true);
     for (const { panel, layers } of this.#pictures) {
-      this.#shape(panel.rect);
+      this.#rig.shape(panel.rect);
       const { x, y, width, height } = panel.rect;
       this.#renderer.setViewport(x, this.#height - y - height, width, height);
       this.#renderer.setScissor(x, this.#height - y - height, width, height);
@@ -361,7 +302,7 @@ export class ReplayView {
         const before = performance.now();
         if (layer.seek(this.#time) || this.#stale) layer.paint(this.options, this.#theme, this.#scales, this.#marked);
         own += performance.now() - before;
-        if (layer.frame) this.#renderer.render(layer.three, this.#camera);
+        if (layer.frame) this.#renderer.render(layer.three, this.#rig.camera);
       }
     }
     this.#stale = false;
@@ -389,12 +330,26 @@ export class ReplayView {
   }
 
   #layout(): void {
-    if (!this.#byHand) this.#turn();
-    const rects = tile(this.#pictures.length, this.#width, this.#height, this.#wide);
+    this.#rig.turn();
+    const rects = tile(this.#pictures.length, this.#width, this.#height, this.#rig.wide);
     this.#pictures.forEach((picture, i) => {
       picture.panel.rect = rects[i] as Rect;
     });
-    if (!this.#byHand && rects[0]) this.#approach(rects[0]);
+    if (rects[0]) this.#rig.fit(rects[0]);
+  }
+
+  /** Measures what moves; the camera follows unless somebody has put it somewhere. */
+  #frame(): void {
+    const shown = this.#sources.filter((s) => s.times.length > 0);
+    const exact = shown.filter((s) => s.ghost);
+    this.#rig.framing = frameScene(this.#scene, [...exact, ...shown.filter((s) => !s.ghost)]);
+    this.#scales = arrowScales(this.#scene, shown, this.#rig.framing.radius);
+    this.#framed = shown.length > 0;
+    this.#layout();
+    this.#veil();
+    for (const { layers } of this.#pictures) for (const layer of layers) this.#dress(layer);
+    this.#stale = true;
+    this.invalidate();
   }
 
   #rebuild(): void {
@@ -417,8 +372,8 @@ export class ReplayView {
 
   /** Walls before the scene become glass, others stone again. */
   #veil(): void {
-    if (this.#flat) return;
-    const glass = veilingBodies(this.#scene, this.#framing, this.#camera.position.toArray() as Vec3);
+    if (this.#scene.dimension === 2) return;
+    const glass = veilingBodies(this.#scene, this.#rig.framing, this.#rig.position);
     if (glass.size === this.#glass.size && [...glass].every((b) => this.#glass.has(b))) return;
     this.#glass = glass;
     this.#rebuild();
@@ -430,74 +385,6 @@ export class ReplayView {
   }
 
   #dress(layer: SourceLayer): void {
-    layer.build(this.#framing, this.#theme, this.#renderer.getPixelRatio());
-  }
-
-  /** First direction of the camera: from the front and a little above, or straight at the plane. */
-  #turn(): void {
-    const target = new Vector3(...this.#framing.centre);
-    const direction = new Vector3(0, 0, 1);
-    if (!this.#flat) {
-      const up = new Vector3(...this.#scene.gravity).negate();
-      if (up.lengthSq() < 1e-12) up.set(0, 1, 0);
-      this.#camera.up.copy(up.normalize());
-      direction.set(0.42, 0, 1).addScaledVector(up, 0.34).normalize();
-      if (Math.abs(direction.dot(up)) > 0.9) direction.set(1, 0.3, 0.2).normalize();
-    }
-    this.#camera.zoom = 1;
-    this.#controls.target.copy(target);
-    this.#camera.position.copy(target).addScaledVector(direction, 10 * this.#framing.radius);
-    this.#controls.update();
-    let [wide, high] = [1e-9, 1e-9];
-    for (const p of this.#corners()) [wide, high] = [Math.max(wide, Math.abs(p.x)), Math.max(high, Math.abs(p.y))];
-    this.#wide = Math.min(4, Math.max(0.3, wide / high));
-  }
-
-  /** Corners of the framed box, from its centre, along the axes of the camera. */
-  #corners(): Vector3[] {
-    const { low, high, centre } = this.#framing;
-    const back = this.#camera.quaternion.clone().invert();
-    return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => {
-      const at = [0, 1, 2].map(
-        (k) => ((i >> k) & 1 ? (high[k] as number) : (low[k] as number)) - (centre[k] as number),
-      );
-      return new Vector3(...(at as Vec3)).applyQuaternion(back);
-    });
-  }
-
-  /** As near as a picture of this form still shows the framed box below its label. */
-  #approach(rect: Rect): void {
-    if (this.#flat) return;
-    const tangent = Math.tan((halfAngle * Math.PI) / 180);
-    const [wide, high] = [(0.9 * tangent * rect.width) / rect.height, tangent * clearOf(rect)];
-    let distance = 1e-6;
-    for (const p of this.#corners())
-      distance = Math.max(distance, p.z + Math.abs(p.x) / wide, p.z + Math.abs(p.y) / high);
-    const away = this.#camera.position.clone().sub(this.#controls.target).setLength(distance);
-    this.#camera.position.copy(this.#controls.target).add(away);
-    this.#controls.update();
-  }
-
-  /** Fits the camera to the form of a picture. */
-  #shape(rect: Rect): void {
-    const aspect = rect.width / rect.height;
-    const { radius, low, high } = this.#framing;
-    if (this.#camera instanceof PerspectiveCamera) {
-      this.#camera.aspect = aspect;
-      const distance = this.#camera.position.distanceTo(this.#controls.target);
-      this.#camera.near = Math.max(distance, radius) / 1000;
-      this.#camera.far = distance + 40 * radius;
-    } else {
-      const [w, h] = [(high[0] - low[0]) / 2, (high[1] - low[1]) / 2];
-      const half = Math.max(h / clearOf(rect), w / aspect / 0.9, 0.05 * radius);
-      this.#camera.left = -half * aspect;
-      this.#camera.right = half * aspect;
-      this.#camera.top = half;
-      this.#camera.bottom = -half;
-      this.#camera.near = 0.001;
-      this.#camera.far = 100 * radius;
-    }
-    this.#camera.updateProjectionMatrix();
-    this.#camera.updateMatrixWorld();
+    layer.build(this.#rig.framing, this.#theme, this.#renderer.getPixelRatio());
   }
 }
