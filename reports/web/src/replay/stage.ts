@@ -5,7 +5,7 @@
 import { el } from '../common/elements.ts';
 import { darkTheme, lightTheme } from './colours.ts';
 import { Controls } from './controls.ts';
-import type { FrameSource } from './frames.ts';
+import { type FrameSource, indexAt } from './frames.ts';
 import { bodyReach } from './framing.ts';
 import { Inspector } from './inspector.ts';
 import {
@@ -288,13 +288,15 @@ export class ReplayStage {
   #lookAtBodies(names: string[], source: FrameSource | undefined): void {
     const bodies = names.map((name) => this.#scene.bodies.findIndex((b) => b.name === name)).filter((b) => b >= 0);
     const moving = bodies.filter((b) => this.#scene.bodies[b]?.type !== 'static');
-    const state = source ? this.view.frameOf(source) : null;
-    const frame = state?.frame ?? source?.frame(0);
     const b = moving[0];
-    if (b === undefined || !frame) return;
-    const at = [0, 1, 2].map((k) => frame.position[3 * b + k] as number) as Vec3;
+    if (b === undefined || !source || source.times.length === 0) return;
+    const { position } = source.frame(indexAt(source.times, this.time)); // the picture may still show another one
+    const places = moving.slice(0, 2).map((m) => [0, 1, 2].map((k) => position[3 * m + k] as number) as Vec3);
+    const at = [0, 1, 2].map((k) => places.reduce((sum, p) => sum + (p[k] as number) / places.length, 0)) as Vec3;
     if (!at.every(Number.isFinite)) return;
-    this.view.lookAt(at, Math.max(1e-3, 2.2 * bodyReach(this.#scene, b)));
+    const apart = Math.hypot(...at.map((v, k) => v - (places[0]?.[k] as number)));
+    const reach = Math.max(...moving.slice(0, 2).map((m) => bodyReach(this.#scene, m)));
+    this.view.lookAt(at, Math.max(1e-3, apart + 2 * reach));
     this.#pinned = { spec: source?.spec ?? '', body: b };
     this.view.mark(b);
   }

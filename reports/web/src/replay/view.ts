@@ -7,7 +7,7 @@
 //   const view = new ReplayView(element, scene);     // throws NoWebGL
 //   view.setSources([...]); view.setTime(0.5); view.setOptions({...});
 // Sources may grow: setTime() looks at their times anew; refresh() after a frame that was shown has changed.
-import { Color, Matrix4, Raycaster, Vector2, WebGLRenderer } from 'three';
+import { Color, Matrix4, Raycaster, Vector2, Vector3, WebGLRenderer } from 'three';
 import { CameraRig, type CameraState } from './camera_rig.ts';
 import { lightTheme, type Theme } from './colours.ts';
 import type { Frame, FrameSource } from './frames.ts';
@@ -251,8 +251,8 @@ export class ReplayView {
     const picture = this.#pictures.find(({ panel }) => panel.sources.includes(source));
     if (!picture) return null;
     const { rect } = picture.panel;
-    this.#shape(rect);
-    const at = new Vector3(...point).project(this.#camera);
+    this.#rig.shape(rect);
+    const at = new Vector3(...point).project(this.#rig.camera);
     if (!(at.z < 1)) return null;
     return [rect.x + ((at.x + 1) / 2) * rect.width, rect.y + ((1 - at.y) / 2) * rect.height];
   }
