@@ -175,7 +175,10 @@ Packet laneFrame(LaneWorld& lane, bool stages) {
                        {"next", staged != nullptr ? staged->nextStage() : ""},
                        {"substep", staged != nullptr ? staged->substep() : 0}};
     header["has_stages"] = stages && staged != nullptr;
-    if (stages && staged != nullptr) addStages(packet, *staged);
+    if (stages && staged != nullptr) {
+        addStages(packet, *staged);
+        packet.arrays.add("iterations/start", std::span(lane.startImpulses()));
+    }
     return packet;
 }
 

@@ -62,6 +62,7 @@ void LaneWorld::beginStep() {
     if (last == drags_.begin() ? drag_.has_value() : std::prev(last)->second != drag_)
         drags_[stepper_->steps()] = drag_;
     lastStage_.clear();
+    startImpulses_.clear();
 }
 
 void LaneWorld::endStep() {
@@ -104,7 +105,12 @@ bool LaneWorld::stage() {
         staged->beginStep();
     }
     lastStage_ = staged->nextStage();
+    const bool untouched = staged->iterations().empty();
+    const std::vector<adapter::StagedRow> before =
+        untouched ? staged->rows() : std::vector<adapter::StagedRow>();
     staged->runStage();
+    if (untouched && !staged->iterations().empty())
+        for (const adapter::StagedRow& row : before) startImpulses_.push_back(row.impulse);
     if (!staged->stepping()) endStep();
     return true;
 }

@@ -46,6 +46,8 @@ class LaneWorld {
     /// Runs one stage; begins a step where none has begun. False: the engine has no stages.
     bool stage();
     bool inStep() const;
+    /// Impulses of the rows before the first iteration of the solver in this step of stages; empty before it.
+    const std::vector<double>& startImpulses() const { return startImpulses_; }
     const std::string& lastStage() const { return lastStage_; }  ///< run by stage() in this step; "" none
     /// To the state after `steps` steps from the start, the drags of the time between repeated.
     void goTo(std::size_t steps);
@@ -84,6 +86,7 @@ class LaneWorld {
     JointCoordinates coordinates_;
     std::string nonFinite_, lastStage_;
     bool watched_ = false;  ///< the iterations of the solver
+    std::vector<double> startImpulses_;
 
     std::optional<Drag> drag_;
     std::map<std::size_t, std::optional<Drag>> drags_;  ///< in force from that step on

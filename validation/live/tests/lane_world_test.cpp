@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "scenarios/loader/loader.hpp"
 #include "validation/live/lane_frame.hpp"
 #include "validation/live/tests/live_fixtures.hpp"
@@ -148,6 +150,9 @@ TEST(Lane, AFrameHasWhatTheWorldHas) {
     std::size_t all = 0;
     for (std::size_t i = 1; i < sizes.size(); i += 2) all += static_cast<std::size_t>(sizes[i]);
     EXPECT_EQ(packet.arrays.doubles("iterations/impulses").size(), all);
+    const auto start = packet.arrays.doubles("iterations/start");
+    EXPECT_EQ(start.size(), static_cast<std::size_t>(sizes[1]));
+    EXPECT_GT(*std::max_element(start.begin(), start.end()), 0.0) << "warm starting";
     EXPECT_EQ(packet.arrays.integers("rows/names").size(), 4u * static_cast<std::size_t>(sizes[1]));
     EXPECT_FALSE(laneFrame(*world, false).arrays.has("rows/names")) << "for those who look";
 }

@@ -14,7 +14,7 @@ const colours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9
 
 export interface Curves {
   rows: number[]; // that are drawn, by their place
-  data: (number | null)[][]; // iterations, one list for each row, the residuals
+  data: (number | null)[][]; // iterations from 0, the start; one list for each row; the residuals
 }
 
 /** Curves of the rows with the largest last impulses. */
@@ -25,9 +25,9 @@ export function curves(data: StageData): Curves {
     .sort((i, j) => Math.abs(last[j] as number) - Math.abs(last[i] as number))
     .slice(0, mostCurves)
     .sort((i, j) => i - j);
-  const of = (row: number) => iterations.map(({ impulses }) => impulses[row] ?? null);
-  const residuals = iterations.map(({ residual }) => (residual > 0 ? residual : null));
-  return { rows, data: [iterations.map((_, i) => i + 1), ...rows.map(of), residuals] };
+  const of = (row: number) => [data.start[row] ?? null, ...iterations.map(({ impulses }) => impulses[row] ?? null)];
+  const residuals = [null, ...iterations.map(({ residual }) => (residual > 0 ? residual : null))];
+  return { rows, data: [[0, ...iterations.map((_, i) => i + 1)], ...rows.map(of), residuals] };
 }
 
 export class ImpulsePlot {
@@ -89,7 +89,7 @@ export class ImpulsePlot {
     );
     const hidden = data.rows.length - rows.length;
     this.#caption.textContent =
-      'Impulse of each row [N s or N m s] after every iteration; dashed, on the right: residual.' +
+      'Impulse of each row [N s or N m s] after every iteration, 0: what it starts with; dashed, on the right: residual.' +
       (hidden > 0 ? ` The ${rows.length} largest of ${data.rows.length} rows.` : '');
   }
 }

@@ -10,7 +10,7 @@ import type { LaneSource } from './lane_source.ts';
 const count = (n: number, what: string) => `${n} ${what}${n === 1 ? '' : 's'}`;
 
 /** "t = 0.5 s · step 60 · 12 contacts · 8 iterations · 0.3 ms a step". */
-export function laneLine(source: LaneSource): string {
+export function laneLine(source: LaneSource, withNote = true): string {
   const head = source.head;
   if (!head) return source.note || 'no frames yet';
   const { contacts, iterations, residual } = head.counters;
@@ -22,7 +22,7 @@ export function laneLine(source: LaneSource): string {
     if (residual !== undefined) parts.push(`residual ${format(residual, 2)}`);
   }
   if (head.step_seconds) parts.push(`${duration(head.step_seconds)} a step`);
-  if (source.note) parts.push(source.note);
+  if (withNote && source.note) parts.push(source.note);
   return parts.join(' · ');
 }
 

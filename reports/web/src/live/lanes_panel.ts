@@ -74,7 +74,7 @@ export class LanesPanel {
     for (const lane of lanes) {
       const source = this.#session.sources.get(lane.id);
       const line = this.#list.querySelector(`[data-lane="${lane.id}"] .where`);
-      if (line && source) line.textContent = laneLine(source);
+      if (line && source) line.textContent = laneLine(source, false);
     }
   }
 

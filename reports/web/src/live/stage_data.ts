@@ -47,6 +47,7 @@ export interface StageData {
   pairs: [ShapeRef, ShapeRef][];
   manifolds: Manifold[];
   rows: Row[];
+  start: Float64Array; // impulses of the rows before the first iteration
   iterations: Iteration[];
   islands: number[][];
 }
@@ -66,6 +67,7 @@ export function stageData(head: FrameHead, arrays: ArrayBundle): StageData | nul
     pairs,
     manifolds: manifolds(d, i),
     rows: rows(d, i),
+    start: d('iterations/start'),
     iterations: iterations(d, i),
     islands: islands(i('islands')),
   };

@@ -91,7 +91,7 @@ export class StagesPanel {
       ),
       this.#part(
         'Broad phase',
-        `${data.boxes} boxes, ${data.pairs.length} pairs`,
+        `boxes: ${data.boxes}, pairs: ${data.pairs.length}`,
         () => this.#pairs(data),
         stage.done === 'broad_phase',
       ),
@@ -141,7 +141,7 @@ export class StagesPanel {
   }
 
   #countPoints(data: StageData): string {
-    return `${data.manifolds.length}, ${data.manifolds.reduce((sum, m) => sum + m.points.length, 0)} points`;
+    return `${data.manifolds.length}, points: ${data.manifolds.reduce((sum, m) => sum + m.points.length, 0)}`;
   }
 
   #pairs(data: StageData): HTMLElement {

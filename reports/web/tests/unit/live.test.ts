@@ -106,6 +106,7 @@ const staged = bundle(
     '3/rows/softness': [0, 0, 0],
     '3/rows/error': [0, 0, 0],
     '3/rows/effective_mass': [1, 2, 3],
+    '3/iterations/start': [0.5, 1, 1.5],
     '3/iterations/residual': [0.5, 0],
     '3/iterations/impulses': [1, 2, 3, 10, 11, 12],
     '3/position': [0, 0, 0],
@@ -169,14 +170,14 @@ test('curves are those of the largest impulses, residuals of nothing are gaps', 
   const { rows, data } = curves(stageData(inStep, staged) as StageData);
   assert.deepEqual(rows, [0, 1, 2]);
   assert.deepEqual(data, [
-    [1, 2],
-    [1, 10],
-    [2, 11],
-    [3, 12],
-    [0.5, null],
+    [0, 1, 2],
+    [0.5, 1, 10],
+    [1, 2, 11],
+    [1.5, 3, 12],
+    [null, 0.5, null],
   ]);
   const impulses = Float64Array.from({ length: 30 }, (_, i) => (i % 2 ? i : -i));
-  const many = { iterations: [{ substep: 0, residual: 1, impulses }] } as unknown as StageData;
+  const many = { start: impulses, iterations: [{ substep: 0, residual: 1, impulses }] } as unknown as StageData;
   assert.deepEqual(
     curves(many).rows,
     Array.from({ length: mostCurves }, (_, i) => 30 - mostCurves + i),
