@@ -3,26 +3,14 @@
 //
 // `rigor view` as it was built, and a page that may reach it alone.
 import { spawn } from 'node:child_process';
-import { existsSync, mkdirSync } from 'node:fs';
+import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
-import { type Browser, type BrowserContext, chromium, type Page } from 'playwright-core';
+import type { Browser, BrowserContext, Page } from 'playwright-core';
+import { screenshots } from './browser.ts';
 
 const binaries = process.env.RIGOR_BINARY_DIR ?? '';
-const found = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((path) =>
-  existsSync(path),
-);
-/** Why these tests cannot run; false when they can. */
-export const skip: string | false =
-  found === undefined ? 'Chromium is not installed' : binaries === '' ? 'RIGOR_BINARY_DIR is not set' : false;
 
-export const launch = (): Promise<Browser> =>
-  chromium.launch({
-    executablePath: found ?? '',
-    args: ['--headless=new', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
-  });
-
-const screenshots = join(binaries, 'screenshots');
 export async function shoot(page: Page, name: string): Promise<void> {
   mkdirSync(screenshots, { recursive: true });
   await page.screenshot({ path: join(screenshots, `${name}.png`) });

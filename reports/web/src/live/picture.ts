@@ -4,11 +4,12 @@
 // The picture of a live session: the view of the replay, fed by lanes, with what the pointer is on and the spring
 // that it pulls.
 import { el, svg } from '../common/elements.ts';
+import type { CameraState } from '../replay/camera_rig.ts';
 import { darkTheme, lightTheme } from '../replay/colours.ts';
 import { Inspector } from '../replay/inspector.ts';
 import type { Scene } from '../replay/scene.ts';
 import type { Vec3 } from '../replay/vectors.ts';
-import { type CameraState, type Pick, ReplayView } from '../replay/view.ts';
+import { type Pick, ReplayView } from '../replay/view.ts';
 import { Dragger, type Held } from './drag.ts';
 import { LaneLabels } from './labels.ts';
 import type { LaneSource } from './lane_source.ts';

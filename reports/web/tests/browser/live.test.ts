@@ -11,7 +11,8 @@ import { after, before, test } from 'node:test';
 import type { Browser, Page } from 'playwright-core';
 import { ArrayBundle } from '../../src/common/arrays.ts';
 import type { News } from '../../src/live/api.ts';
-import { launch, shoot, skip, view, watched } from '../live_program.ts';
+import { launch, skip } from '../browser.ts';
+import { shoot, view, watched } from '../live_program.ts';
 
 const binaries = process.env.RIGOR_BINARY_DIR ?? '';
 let browser: Browser;
