@@ -61,6 +61,15 @@ export class CameraRig {
   get position(): Vec3 {
     return this.#camera.position.toArray() as Vec3;
   }
+  /** What it is meant to see: everything, or what somebody has turned it to. */
+  get looking(): Framing {
+    if (!this.#byHand) return this.framing;
+    const centre = this.#controls.target.toArray() as Vec3;
+    const away = this.#camera.position.distanceTo(this.#controls.target);
+    const radius = Math.min(this.framing.radius, 0.6 * away * Math.tan(halfAngle));
+    const beside = (side: number) => centre.map((v) => v + side * radius) as Vec3;
+    return { centre, radius, low: beside(-1), high: beside(1) };
+  }
   set enabled(on: boolean) {
     this.#controls.enabled = on;
   }

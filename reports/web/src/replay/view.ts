@@ -21,6 +21,8 @@ import { SourceLayer } from './source_layer.ts';
 import type { Vec3 } from './vectors.ts';
 import { veilingBodies } from './veil.ts';
 
+export type { CameraState } from './camera_rig.ts';
+
 /** The browser can not draw in three dimensions. */
 export class NoWebGL extends Error {}
 
@@ -373,7 +375,7 @@ export class ReplayView {
   /** Walls before the scene become glass, others stone again. */
   #veil(): void {
     if (this.#scene.dimension === 2) return;
-    const glass = veilingBodies(this.#scene, this.#rig.framing, this.#rig.position);
+    const glass = veilingBodies(this.#scene, this.#rig.looking, this.#rig.position);
     if (glass.size === this.#glass.size && [...glass].every((b) => this.#glass.has(b))) return;
     this.#glass = glass;
     this.#rebuild();
