@@ -111,6 +111,22 @@ Json stepJson(const CaseRow& row, const results::TimingRow& step) {
             {"phases", phases}};
 }
 
+/// The metric that is furthest outside its bound; null where none is.
+Json worstMiss(const CaseRow& row) {
+    const auto times = [](const results::MetricRow& m) { return m.bound ? m.value / *m.bound : 0.0; };
+    const results::MetricRow* worst = nullptr;
+    for (const auto& m : row.metrics)
+        if (m.bound && m.verdict != results::Verdict::Pass && (!worst || times(m) > times(*worst)))
+            worst = &m;
+    if (!worst) return nullptr;
+    return {{"name", worst->name},
+            {"subject", worst->subject},
+            {"unit", worst->unit},
+            {"value", number(worst->value)},
+            {"bound", number(worst->bound)},
+            {"at", number(worst->at)}};
+}
+
 /// One line of the scoreboard and of the timing table.
 Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) {
     Json brief{{"id", row.id},
@@ -126,6 +142,7 @@ Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) 
     const auto* timing = stepTiming(row);
     brief["step"] = timing ? stepJson(row, *timing) : Json(nullptr);
     brief["inRun"] = inRunJson(row);
+    brief["miss"] = worstMiss(row);
     return brief;
 }
 
@@ -272,6 +289,12 @@ Json curvesJson(const results::ScenarioRow& scenario, const results::TrajectoryF
     return out;
 }
 
+/// What an engine says that it can do; null where that was not stored, or not as JSON.
+Json described(const results::EngineRow& engine) {
+    const Json found = Json::parse(engine.capabilities, nullptr, false);
+    return found.is_object() ? found : Json(nullptr);
+}
+
 }  // namespace
 
 std::string overviewJson(const ViewModel& view) {
@@ -289,7 +312,8 @@ std::string overviewJson(const ViewModel& view) {
                            {"version", e.version},
                            {"precision", e.precision},
                            {"buildNotes", e.buildNotes},
-                           {"problem", e.problem}});
+                           {"problem", e.problem},
+                           {"described", described(e)}});
     for (int i = 0; i <= static_cast<int>(Shown::Unsupported); ++i) {
         const auto shown = static_cast<Shown>(i);
         const auto found = view.totals().cases.find(shown);

@@ -35,6 +35,6 @@ await build({
   ...(mode === '--tests' ? tests : pages),
   outdir: output,
   bundle: true,
-  charset: 'utf8',
+  charset: 'ascii', // no compiler minds what is embedded
   logLevel: 'warning',
 });

@@ -160,12 +160,14 @@ void readHeader(SQLite::Database& database, Run& run) {
     SQLite::Statement environment(database, "SELECT key, value FROM environment");
     while (environment.executeStep())
         run.environment[environment.getColumn(0).getString()] = environment.getColumn(1).getString();
-    SQLite::Statement engines(
-        database,
-        "SELECT name, title, version, precision, build_notes, problem FROM engines ORDER BY position");
+    SQLite::Statement engines(database,
+                              std::string("SELECT name, title, version, precision, build_notes, problem, ") +
+                                  (schemaVersionOf(database) >= 4 ? "capabilities" : "''") +
+                                  " FROM engines ORDER BY position");
     while (engines.executeStep()) {
         EngineRow& e = run.engines.emplace_back();
-        Taker(engines) >> e.name >> e.title >> e.version >> e.precision >> e.buildNotes >> e.problem;
+        Taker(engines) >> e.name >> e.title >> e.version >> e.precision >> e.buildNotes >> e.problem >>
+            e.capabilities;
     }
     SQLite::Statement scenarios(
         database,
@@ -211,11 +213,11 @@ void writeHeaderRows(SQLite::Database& database, const Run& run) {
     (Binder(one) << 1 << run.suite << run.command << run.started << run.finished << run.plannedCases).run();
     SQLite::Statement environment(database, insertInto("environment", 2));
     for (const auto& [key, value] : run.environment) (Binder(environment) << key << value).run();
-    SQLite::Statement engines(database, insertInto("engines", 7));
+    SQLite::Statement engines(database, insertInto("engines", 8));
     int position = 0;
     for (const EngineRow& e : run.engines)
         (Binder(engines) << position++ << e.name << e.title << e.version << e.precision << e.buildNotes
-                         << e.problem)
+                         << e.problem << e.capabilities)
             .run();
     SQLite::Statement scenarios(database, insertInto("scenarios", 19));
     position = 0;

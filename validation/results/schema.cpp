@@ -21,7 +21,8 @@ CREATE TABLE run (
     planned_cases INTEGER);
 CREATE TABLE environment (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;
 CREATE TABLE engines (
-    position INTEGER PRIMARY KEY, name TEXT, title TEXT, version TEXT, precision TEXT, build_notes TEXT, problem TEXT);
+    position INTEGER PRIMARY KEY, name TEXT, title TEXT, version TEXT, precision TEXT, build_notes TEXT, problem TEXT,
+    capabilities TEXT);
 CREATE TABLE scenarios (
     position INTEGER PRIMARY KEY, name TEXT UNIQUE, title TEXT, description TEXT, source TEXT, isolates TEXT,
     tags TEXT, observed TEXT, metrics TEXT, dimension INTEGER, duration, time_steps TEXT, reference TEXT,
@@ -76,6 +77,8 @@ ALTER TABLE timings ADD COLUMN high;
 ALTER TABLE timings ADD COLUMN bodies INTEGER DEFAULT 0;
 )sql";
 
+constexpr const char* kColumnsOfSchema4 = "ALTER TABLE engines ADD COLUMN capabilities TEXT DEFAULT ''";
+
 /// A committed transaction is on the disk: rollback journal, synced. One file, whole at rest, that can be
 /// copied while nobody writes.
 void prepare(SQLite::Database& database) {
@@ -102,6 +105,7 @@ void upgrade(SQLite::Database& database) {
     SQLite::Transaction transaction(database);
     if (version < 2) database.exec(kAnalysisTables);
     if (version < 3) database.exec(kColumnsOfSchema3);
+    if (version < 4) database.exec(kColumnsOfSchema4);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
 }

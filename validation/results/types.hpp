@@ -151,6 +151,9 @@ struct ScenarioRow {
 struct EngineRow {
     std::string name, title, version, precision, buildNotes;
     std::string problem;  ///< "not installed", or why the module could not be loaded
+    /// What it says that it can do, JSON: {"capabilities": {...}, "options": [...]}; "" in runs before
+    /// schema 4.
+    std::string capabilities = {};
 };
 
 struct Run {

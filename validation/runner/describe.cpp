@@ -117,6 +117,13 @@ int describeChild(const std::string& engine, const std::filesystem::path& answer
     return 0;
 }
 
+std::string capabilitiesText(const EngineDescription& description) {
+    if (!description.problem.empty()) return "";
+    json options = json::array();
+    for (const auto& o : description.options) options.push_back(optionToJson(o));
+    return json{{"capabilities", capabilitiesToJson(description.capabilities)}, {"options", options}}.dump();
+}
+
 std::vector<EngineDescription> describeEngines(const std::vector<std::string>& engines,
                                                const std::filesystem::path& binary, int jobs) {
     const ScratchFolder scratch;

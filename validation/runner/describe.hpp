@@ -13,6 +13,10 @@ namespace rigor::validation {
 /// The child's side of describeEngine: `__describe SPEC ANSWER_FILE`.
 int describeChild(const std::string& engine, const std::filesystem::path& answer);
 
+/// Capabilities and options as the store has them (results::EngineRow::capabilities); "" for an engine that
+/// could not be loaded.
+std::string capabilitiesText(const EngineDescription& description);
+
 /// Describes several engines, `jobs` at a time.
 std::vector<EngineDescription> describeEngines(const std::vector<std::string>& engines,
                                                const std::filesystem::path& binary, int jobs);

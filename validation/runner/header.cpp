@@ -7,6 +7,7 @@
 
 #include "scenarios/loader/loader.hpp"
 #include "validation/results/values.hpp"
+#include "validation/runner/describe.hpp"
 #include "validation/runner/environment.hpp"
 #include "validation/runner/evaluate.hpp"
 
@@ -46,7 +47,8 @@ results::ScenarioRow scenarioRow(const CasePlan& plan) {
 }
 
 results::EngineRow engineRow(const EngineDescription& d) {
-    return {d.info.name, d.info.title, d.info.version, d.info.precision, d.info.buildNotes, d.problem};
+    return {d.info.name,       d.info.title, d.info.version,     d.info.precision,
+            d.info.buildNotes, d.problem,    capabilitiesText(d)};
 }
 
 }  // namespace

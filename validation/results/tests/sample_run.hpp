@@ -73,7 +73,8 @@ inline Run header() {
     Run run;
     run.suite = "smoke", run.command = "rigor validate smoke", run.started = "2026-01-01T00:00:00Z";
     run.environment = {{"cpu", "some cpu"}, {"kernel", "6.1"}};
-    run.engines = {{"rigor", "Rigor", "0.1", "f64", "flags", ""}, {"gone", "", "", "", "", "not installed"}};
+    run.engines = {{"rigor", "Rigor", "0.1", "f64", "flags", "", R"({"capabilities":{"planar":true}})"},
+                   {"gone", "", "", "", "", "not installed"}};
     ScenarioRow s;
     s.name = "slide", s.title = "A block", s.description = "d", s.source = "Coulomb 1785";
     s.isolates = {"friction"}, s.tags = {"a", "b"}, s.observed = {"block"}, s.metrics = {"position_final"};

@@ -138,6 +138,7 @@ TEST(Store, EveryFieldSurvivesBitForBit) {
     ASSERT_EQ(read.engines.size(), 2u);
     EXPECT_EQ(read.engines[0].buildNotes, "flags");
     EXPECT_EQ(read.engines[1].problem, "not installed");
+    EXPECT_EQ(read.engines[0].capabilities, R"({"capabilities":{"planar":true}})");
     ASSERT_EQ(read.scenarios.size(), 1u);
     const ScenarioRow &s = asked.scenarios[0], &r = read.scenarios[0];
     EXPECT_EQ(std::tie(s.name, s.title, s.description, s.source, s.isolates, s.tags, s.observed, s.metrics,
@@ -243,9 +244,12 @@ TEST(Store, AnalysisIsReplacedAsAWhole) {
 
 /// Makes the store what an older rigor would have written.
 void takeBackTo(SQLite::Database& database, int version) {
-    database.exec("ALTER TABLE scenarios DROP COLUMN reference_tex");
-    for (const char* column : {"low", "high", "bodies"})
-        database.exec(std::string("ALTER TABLE timings DROP COLUMN ") + column);
+    database.exec("ALTER TABLE engines DROP COLUMN capabilities");
+    if (version < 3) {
+        database.exec("ALTER TABLE scenarios DROP COLUMN reference_tex");
+        for (const char* column : {"low", "high", "bodies"})
+            database.exec(std::string("ALTER TABLE timings DROP COLUMN ") + column);
+    }
     if (version < 2)
         for (const char* table : {"orders", "fairness"}) database.exec(std::string("DROP TABLE ") + table);
     database.exec("PRAGMA user_version = " + std::to_string(version));
@@ -294,6 +298,7 @@ TEST(Store, WhatOlderSchemasLackedIsEmpty) {
         ASSERT_EQ(run.scenarios.size(), 1u);
         EXPECT_EQ(run.scenarios[0].referenceFormula, header().scenarios[0].referenceFormula);
         EXPECT_EQ(run.scenarios[0].referenceTex, "");
+        EXPECT_EQ(run.engines.at(0).capabilities, "");
         const TimingRow& timing = run.cases.at(0).timings.at(0);
         EXPECT_EQ(timing.median, caseRow("a", 0).timings[0].median);
         EXPECT_EQ(timing.low, std::nullopt);
@@ -305,6 +310,20 @@ TEST(Store, WhatOlderSchemasLackedIsEmpty) {
     expectOld(kSchemaVersion);
     { RunWriter(folder.path(), true).writeHeader(header()); }
     EXPECT_EQ(readRun(folder.path()).scenarios[0].referenceTex, header().scenarios[0].referenceTex);
+    EXPECT_EQ(readRun(folder.path()).engines[0].capabilities, header().engines[0].capabilities);
+}
+
+TEST(Store, TheColumnsOfTheSchemaBeforeAreKept) {
+    const TemporaryFolder folder;
+    { RunWriter(folder.path(), false).writeHeader(header()); }
+    {
+        SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+        takeBackTo(database, 3);
+    }
+    { RunWriter(folder.path(), true); }
+    const auto run = readRun(folder.path());
+    EXPECT_EQ(run.schemaVersion, kSchemaVersion);
+    EXPECT_EQ(run.scenarios.at(0).referenceTex, header().scenarios[0].referenceTex);
 }
 
 TEST(Store, OneWriterAtATime) {

@@ -28,6 +28,22 @@ export interface Column {
 /** A list of names, or one fact, that an engine tells of itself. */
 export type Capability = string | number | boolean | null | Capability[] | { [key: string]: Capability };
 
+/** A setting of an engine spec. */
+export interface EngineOption {
+  key: string;
+  values: string[]; // empty: a number
+  min: Maybe;
+  max: Maybe;
+  default: string;
+  matched: string; // value in the preset "matched"
+  help: string;
+}
+
+export interface Described {
+  capabilities: { [key: string]: Capability };
+  options: EngineOption[];
+}
+
 export interface Engine {
   name: string;
   title: string;
@@ -35,7 +51,7 @@ export interface Engine {
   precision: string;
   buildNotes: string;
   problem: string; // why it could not take part; "" when it did
-  capabilities?: Capability;
+  described?: Described | null; // what it says that it can do; null in runs that did not store it
 }
 
 export interface Step {
@@ -64,6 +80,15 @@ export interface InRun {
   contactFlicker: Maybe;
 }
 
+export interface Miss {
+  name: string;
+  subject: string;
+  unit: string;
+  value: Stored;
+  bound: Stored;
+  at: Stored; // [s]; < 0 unknown
+}
+
 /** A case as the overview knows it. */
 export interface BriefCase {
   id: string;
@@ -77,6 +102,7 @@ export interface BriefCase {
   bound: Maybe;
   step: Step | null;
   inRun: InRun | null;
+  miss?: Miss | null; // the metric furthest outside its bound
 }
 
 export interface MainMetric {

@@ -20,14 +20,20 @@ let visit = 0; // a page that loads slowly is dropped when another one was opene
 interface Page {
   title: string;
   nodes: HTMLElement[];
+  more?: (() => HTMLElement | null)[]; // made when the first ones are on the screen
   shown?: () => void;
   left?: () => void;
 }
 
+const atOnce = 3; // sections of the overview
+
 async function pageOf(hash: string): Promise<Page> {
   const [path = '', query = ''] = hash.split('?');
   const [, kind, name] = /^#\/(scenario|engine)\/(.*)$/.exec(path) ?? [];
-  if (kind === undefined || name === undefined) return { title: '', nodes: overview() };
+  if (kind === undefined || name === undefined) {
+    const nodes = overview.slice(0, atOnce).map((make) => make());
+    return { title: '', nodes: nodes.filter((node) => node !== null), more: overview.slice(atOnce) };
+  }
   const title = decodeURIComponent(name);
   if (kind === 'engine') return { title, nodes: enginePage(title) };
   return { title, ...(await scenarioPage(title, new URLSearchParams(query))) };
@@ -46,6 +52,12 @@ async function route(): Promise<void> {
   page.replaceChildren(...found.nodes);
   document.title = `${found.title ? `${found.title} – ` : ''}Rigor report${run.suite ? `: ${run.suite}` : ''}`;
   shown = path;
+  for (const make of found.more ?? []) {
+    await new Promise((done) => setTimeout(done));
+    if (mine !== visit) return;
+    const node = make();
+    if (node) page.append(node);
+  }
   const anchor = path === '#' && hash.length > 1 ? document.getElementById(hash.slice(1)) : null;
   if (anchor) anchor.scrollIntoView();
   else scrollTo(0, stay);
@@ -76,6 +88,20 @@ addEventListener('hashchange', () => {
   if (shown === '#' && !location.hash.startsWith('#/')) return; // the browser scrolls
   void route();
 });
-addEventListener('beforeprint', drawAllPlots);
+/** On paper: light, and plots as wide as a column of it. */
+function printing(now: boolean): void {
+  const { classList, dataset } = document.documentElement;
+  if (now === classList.contains('printing')) return;
+  classList.toggle('printing', now);
+  if (now) {
+    themeBefore = dataset.theme;
+    dataset.theme = 'light';
+  } else if (themeBefore === undefined) delete dataset.theme;
+  else dataset.theme = themeBefore;
+  drawAllPlots();
+}
+let themeBefore: string | undefined;
+addEventListener('beforeprint', () => printing(true));
+addEventListener('afterprint', () => printing(false));
 bars();
 void route();

@@ -94,6 +94,13 @@ export const facts = (entries: [string, Child][]): HTMLElement =>
     entries.map(([name, value]) => [el('dt', null, name), el('dd', null, value)]),
   );
 
+/** Folded content that is made when it is unfolded. */
+export function folded(summary: Child, make: () => Child): HTMLElement {
+  const node = el('details', null, el('summary', null, summary));
+  node.addEventListener('toggle', () => node.append(el('div', null, make())), { once: true });
+  return node;
+}
+
 /** A command that can be copied. */
 export const command = (text: string): HTMLElement =>
   el('div', { class: 'command' }, el('code', null, text), copyButton(text));

@@ -5,14 +5,14 @@
 // cost. The same rules as reports/view_model.cpp: one time step, the finest; differences below single-precision
 // rounding count as none; no reference, no ranking.
 import { median, toNumber } from '../common/format.ts';
-import { cellOf, costOf, errorInBounds, errorOf, isBad } from './cells.ts';
-import type { Column, Scenario } from './data.ts';
+import { cellOf, costOf, errorInBounds, isBad, isLost } from './cells.ts';
+import type { BriefCase, Column, Scenario } from './data.ts';
 
 export interface Summary {
   column: Column;
   scenarios: number; // with a case that the engine can run
   bad: Scenario[]; // with a missed bound, crash, timeout or NaN at any time step
-  known: number; // that are off a bound as recorded
+  known: Scenario[]; // that are off a bound as recorded
   ratio: number; // geometric mean of the error over the best one's; NaN without a number
   inBounds: number; // median of error over bound; NaN without bounds
   cost: number; // median wall time of a step [s]; NaN where not measured
@@ -73,7 +73,7 @@ export function standings(scenarios: Scenario[], columns: Column[]): Summary[] {
     return {
       column,
       scenarios: ran.length,
-      known: ran.filter((s) => worst(s) === 'known_deviation').length,
+      known: ran.filter((s) => worst(s) === 'known_deviation'),
       bad: ran.filter((s) => isBad(worst(s))),
       ratio: geometricMean(ratios[i] ?? []),
       inBounds: median((inBounds[i] ?? []).filter(Number.isFinite)),
@@ -84,7 +84,7 @@ export function standings(scenarios: Scenario[], columns: Column[]): Summary[] {
 }
 
 /** Share of scenarios within every bound. */
-export const within = (s: Summary): number => (s.scenarios - s.bad.length - s.known) / Math.max(1, s.scenarios);
+export const within = (s: Summary): number => (s.scenarios - s.bad.length - s.known.length) / Math.max(1, s.scenarios);
 
 /**
  * Least share of failures first, then most scenarios within their bounds, then the smallest error; who ran less than
@@ -108,16 +108,22 @@ export function ranked(list: Summary[]): Summary[] {
   return list.filter((s) => s.scenarios > 0).sort((a, b) => compare(key(a), key(b)));
 }
 
-/** What the worst miss of a column was, for a "why": [scenario, error in bounds]. */
-export function worstMiss(summary: Summary): { scenario: Scenario; times: number; word: string } | null {
-  let worst: { scenario: Scenario; times: number; word: string } | null = null;
-  for (const scenario of summary.bad) {
-    const cell = cellOf(scenario, summary.column);
-    if (cell === null) continue;
-    const lost = cell.worst.shown !== 'fail';
-    const times = lost ? Infinity : errorOf(cell) / toNumber(cell.at.bound);
-    if (worst === null || times > worst.times || (Number.isNaN(worst.times) && !Number.isNaN(times)))
-      worst = { scenario, times, word: cell.worst.shown };
-  }
+export interface WorstMiss {
+  scenario: Scenario;
+  at: BriefCase;
+  times: number; // value over bound; infinite where the run did not end, NaN where the bound is zero
+}
+
+const excess = (c: BriefCase): number =>
+  isLost(c.shown) ? Infinity : toNumber(c.miss?.value) / toNumber(c.miss?.bound);
+
+/** The worst of what a column missed, failures before recorded deviations. */
+export function worstMiss({ bad, known, column }: Summary): WorstMiss | null {
+  let worst: WorstMiss | null = null;
+  for (const scenario of bad.length ? bad : known)
+    for (const at of scenario.cases.filter((c) => c.spec === column.spec)) {
+      const times = excess(at);
+      if (times > 1 && (worst === null || times > worst.times)) worst = { scenario, at, times };
+    }
   return worst;
 }

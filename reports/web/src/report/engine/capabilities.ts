@@ -1,28 +1,54 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the engine says that it can do, as the run stored it.
+// What the engine says that it can do, and its settings in both presets, as the run stored them.
 import { type Child, el } from '../../common/elements.ts';
-import { words } from '../../common/format.ts';
-import type { Capability, Engine } from '../data.ts';
-import { facts, panel } from '../parts.ts';
+import { format, words } from '../../common/format.ts';
+import type { Capability, Engine, EngineOption } from '../data.ts';
+import { chip, facts, headRow, panel, scroll } from '../parts.ts';
 
 function said(value: Capability): Child {
   if (value === null) return '—';
-  if (value === true) return 'yes';
-  if (value === false) return 'no';
+  if (value === true) return chip('pass', 'yes');
+  if (value === false) return chip('unsupported', 'no');
   if (Array.isArray(value))
-    return value.every((v) => typeof v !== 'object' || v === null)
+    return value.length
       ? value.map((v) => el('span', { class: 'tag' }, String(v)))
-      : value.map((v) => el('div', null, said(v)));
-  if (typeof value === 'object') return facts(Object.entries(value).map(([k, v]) => [words(k), said(v)]));
-  return String(value);
+      : el('span', { class: 'muted' }, 'none');
+  return typeof value === 'object' ? JSON.stringify(value) : String(value);
 }
 
-export function capabilities(engine: Engine): HTMLElement | null {
-  const found = engine.capabilities;
-  if (found === null || found === undefined || typeof found !== 'object' || Array.isArray(found)) return null;
-  const entries = Object.entries(found);
-  if (entries.length === 0) return null;
-  return panel('capabilities', 'Capabilities', facts(entries.map(([k, v]) => [words(k), said(v)])));
+function optionRow(o: EngineOption): HTMLElement {
+  const range = o.values.length ? o.values.join(', ') : `${format(o.min)} … ${format(o.max)}`;
+  return el(
+    'tr',
+    null,
+    el('th', { class: 'sticky', scope: 'row' }, el('code', null, o.key)),
+    el('td', null, o.default),
+    el('td', null, o.matched === o.default ? el('span', { class: 'muted' }, o.matched) : el('b', null, o.matched)),
+    el('td', { class: 'small' }, range),
+    el('td', { class: 'small' }, o.help),
+  );
+}
+
+export function capabilities({ described }: Engine): HTMLElement | null {
+  if (!described) return null;
+  const { capabilities, options } = described;
+  const settings = el(
+    'table',
+    { class: 'full' },
+    headRow(['Setting', 'Default', 'Matched', 'Values', 'Meaning']),
+    el('tbody', null, options.map(optionRow)),
+  );
+  return panel(
+    'capabilities',
+    'Capabilities',
+    el(
+      'p',
+      { class: 'muted' },
+      'As the engine’s adapter says, and as the run stored it. What a scenario needs beyond this is “unsupported”.',
+    ),
+    facts(Object.entries(capabilities).map(([key, value]) => [words(key), said(value)])),
+    options.length ? [el('h3', null, 'Settings, in both presets'), scroll(settings)] : null,
+  );
 }

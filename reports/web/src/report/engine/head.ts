@@ -24,6 +24,7 @@ export function engineHead(engine: Engine): HTMLElement {
       el('th', { class: 'sticky', scope: 'row' }, s.column.label),
       el('td', { class: 'num' }, `${s.scenarios} of ${run.scenarios.length}`),
       el('td', { class: 'num' }, s.bad.length ? chip('fail', s.bad.length) : s.scenarios ? chip('pass', 0) : '—'),
+      el('td', { class: 'num' }, s.known.length ? chip('known_deviation', s.known.length) : 0),
       el('td', { class: 'num' }, ratio(s.ratio) || '—'),
       el('td', { class: 'num' }, Number.isFinite(s.inBounds) ? `${format(100 * s.inBounds, 3)} %` : '—'),
       el('td', { class: 'num' }, duration(s.cost)),
@@ -41,6 +42,7 @@ export function engineHead(engine: Engine): HTMLElement {
     'As',
     'Scenarios it can run',
     'Fails in',
+    'Off as recorded in',
     'Error against the best',
     'Error, median of the bound',
     'Median of a step',
@@ -67,7 +69,7 @@ export function engineHead(engine: Engine): HTMLElement {
           el(
             'table',
             { class: 'full' },
-            headRow(heads, (i) => i > 0 && i < 7),
+            headRow(heads, (i) => i > 0 && i < 8),
             el('tbody', null, list.map(row)),
           ),
         )

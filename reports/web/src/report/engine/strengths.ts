@@ -6,9 +6,10 @@
 import { el } from '../../common/elements.ts';
 import { duration, ratio } from '../../common/format.ts';
 import type { Engine } from '../data.ts';
+import { missText } from '../overview/trust.ts';
 import { chip, panel } from '../parts.ts';
-import { run, scenarioLink } from '../run.ts';
-import { type Summary, standings, worstMiss } from '../standing.ts';
+import { run } from '../run.ts';
+import { type Summary, standings, within } from '../standing.ts';
 
 const nearBest = 1.5; // times the best one's error: as good as the best for the choice of an engine
 const farFromBest = 10;
@@ -29,7 +30,7 @@ function of(engine: Engine): Found[] {
 }
 
 function text({ summary: s }: Found): string {
-  const parts = [`${s.scenarios - s.bad.length} of ${s.scenarios} without a failure`];
+  const parts = [`${s.scenarios - s.bad.length - s.known.length} of ${s.scenarios} within all bounds`];
   if (Number.isFinite(s.ratio)) parts.push(`error ${ratio(s.ratio)} the best one’s`);
   if (Number.isFinite(s.cost)) parts.push(`${duration(s.cost)} a step`);
   return parts.join(', ');
@@ -38,26 +39,18 @@ function text({ summary: s }: Found): string {
 export function strengths(engine: Engine): HTMLElement | null {
   const found = of(engine);
   if (found.length === 0) return null;
-  const strong = found.filter(
-    (f) => f.summary.bad.length === 0 && f.summary.ratio < nearBest && f.summary.scenarios > 1,
-  );
-  const weak = found.filter((f) => f.summary.bad.length > 0 || f.summary.ratio > farFromBest);
+  const strong = found.filter((f) => within(f.summary) === 1 && f.summary.ratio < nearBest && f.summary.scenarios > 1);
+  const weak = found.filter((f) => within(f.summary) < 1 || f.summary.ratio > farFromBest);
+  const failing = (f: Found) => f.summary.bad.length / f.summary.scenarios;
   weak.sort(
-    (a, b) =>
-      b.summary.bad.length / b.summary.scenarios - a.summary.bad.length / a.summary.scenarios ||
-      b.summary.ratio - a.summary.ratio,
+    (a, b) => failing(b) - failing(a) || within(a.summary) - within(b.summary) || b.summary.ratio - a.summary.ratio,
   );
   strong.sort((a, b) => b.summary.scenarios - a.summary.scenarios);
   const presets = [...new Set(found.map((f) => f.summary.column))];
   const list = (items: Found[], isWeak: boolean) =>
     items.slice(0, 12).map((f) => {
-      const miss = isWeak ? worstMiss(f.summary) : null;
-      const where = miss
-        ? [
-            ', worst in ',
-            el('a', { href: scenarioLink(miss.scenario.name, { spec: f.summary.column.spec }) }, miss.scenario.name),
-          ]
-        : null;
+      const miss = isWeak ? missText(f.summary) : null;
+      const where = miss ? [', ', miss] : null;
       return el(
         'li',
         null,
@@ -74,8 +67,8 @@ export function strengths(engine: Engine): HTMLElement | null {
     el(
       'p',
       { class: 'muted small' },
-      `From this run alone, by mechanism. Strong: no failure in two scenarios or more, and typical errors within ×${nearBest} of the best engine. `,
-      `Weak: a failure, or typical errors more than ×${farFromBest} the best one’s.`,
+      `From this run alone, by mechanism. Strong: within all bounds in two scenarios or more, and typical errors within ×${nearBest} of the best engine. `,
+      `Weak: a failure, a recorded deviation, or typical errors more than ×${farFromBest} the best one’s.`,
     ),
     presets.map((column) => {
       const mine = (items: Found[]) => items.filter((f) => f.summary.column === column);

@@ -33,7 +33,7 @@ const sections: OverviewSection[] = [
   { id: 'method', title: 'Method', make: method },
 ];
 
-export const overview = (): HTMLElement[] => sections.map((s) => s.make()).filter((node) => node !== null);
+export const overview: (() => HTMLElement | null)[] = sections.map((s) => s.make);
 
 /** Sections that this run has something for. */
 export function navigation(): { id: string; title: string }[] {

@@ -10,6 +10,7 @@ import { chip, panel, select, specHead } from '../parts.ts';
 import { isFirstOfEngine, run, scenarioLink, subtitleOf, verdictText } from '../run.ts';
 import { tasks } from '../tasks.ts';
 import { allScenarios, type Filters, filters, matches, ordered, type RowScale, rowScale } from './filters.ts';
+import { withPreview } from './preview.ts';
 
 const meaning: Record<Shown, string> = {
   pass: 'within its bounds',
@@ -35,24 +36,32 @@ function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): str
   }
   const cost = costOf(cell);
   if (cost > 0) lines.push(`${duration(cost)} a step, ${ratio(cost / scale.leastCost)} the fastest here`);
+  if (worst.miss) {
+    const times = ratio(toNumber(worst.miss.value) / toNumber(worst.miss.bound));
+    lines.push(
+      `furthest off: ${words(worst.miss.name)} ${worst.miss.subject} ${format(worst.miss.value)}, ${times} its bound`,
+    );
+  }
   if (cases.length > 1) for (const c of cases) lines.push(`${timeStep(c.dt)}: ${verdictText(c.shown).word}`);
   if (worst.reason) lines.push(worst.reason);
   return lines;
 }
 
-function said(cell: Cell, number: Filters['number']): string {
+function said(cell: Cell, number: Filters['number'], digits: number): string {
   const { shown } = cell.worst;
   if (shown === 'unsupported') return 'n/a';
   if (isLost(shown)) return verdictText(shown).word;
   if (number === 'cost') return duration(costOf(cell));
   if (number === 'bounds') return Number.isNaN(errorInBounds(cell)) ? '—' : `${format(errorInBounds(cell), 2)}×`;
-  return cell.at.value === null ? verdictText(shown).word : format(cell.at.value, 3);
+  return cell.at.value === null ? verdictText(shown).word : format(cell.at.value, digits);
 }
+
+const manyColumns = 10; // from here on cells are narrow
 
 const meter = (kind: string, place: number): HTMLElement | null =>
   Number.isNaN(place) ? null : el('i', { class: `meter ${kind}`, style: `--fill:${(100 * place).toFixed(1)}%` });
 
-function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters): Child {
+function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters, digits: number): Child {
   const cell = cellOf(s, column, f.step);
   if (cell === null) return el('span', { class: 'muted small', title: 'not in the plan' });
   const lines = sentence(s, column, cell, scale);
@@ -68,7 +77,7 @@ function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters): Chi
       href: scenarioLink(s.name, { spec: column.spec, dt: cell.worst.dt }),
     },
     el('span', { class: 'sym', 'aria-hidden': 'true' }, verdictText(shown).symbol),
-    el('span', { class: best ? 'value best' : 'value' }, said(cell, f.number)),
+    el('span', { class: best ? 'value best' : 'value' }, said(cell, f.number, digits)),
     meter('error', logPlace(errorOf(cell), scale.leastError, scale.mostError)),
     meter('cost', logPlace(costOf(cell), scale.leastCost, 1000 * scale.leastCost)),
   );
@@ -85,12 +94,16 @@ function row(s: Scenario, columns: Column[], f: Filters): HTMLElement {
     el(
       'th',
       { class: 'sticky name', scope: 'row' },
-      el('a', { href: scenarioLink(s.name), title: s.description }, s.name),
+      withPreview(el('a', { href: scenarioLink(s.name), title: s.description }, s.name), s),
       el('span', { class: 'sub', title: s.title }, s.title),
       el('span', { class: 'sub metric', title: 'the number shown' }, metric),
     ),
     columns.map((c, i) =>
-      el('td', { class: `cell${isFirstOfEngine(columns, i) ? ' first' : ''}` }, cellNode(s, c, scale, f)),
+      el(
+        'td',
+        { class: `cell${isFirstOfEngine(columns, i) ? ' first' : ''}` },
+        cellNode(s, c, scale, f, columns.length > manyColumns ? 2 : 3),
+      ),
     ),
   );
 }
@@ -245,6 +258,7 @@ export function scoreboard(): HTMLElement {
     body.querySelector('a.cell')?.setAttribute('tabindex', '0');
     arrowKeys(body);
     table.replaceChildren(head, body);
+    table.classList.toggle('dense', columns.length > manyColumns);
     count.textContent =
       list.length === run.scenarios.length
         ? `${list.length} scenarios`

@@ -8,7 +8,7 @@ import { cellOf, costOf, errorInBounds } from '../cells.ts';
 import { barList } from '../charts/bars.ts';
 import { type Line, plotCard } from '../charts/plot.ts';
 import type { Column, Step } from '../data.ts';
-import { facts, headRow, panel, scroll, select } from '../parts.ts';
+import { facts, folded, headRow, panel, scroll, select } from '../parts.ts';
 import { dashOf, engineColour, run } from '../run.ts';
 import { standings } from '../standing.ts';
 import { costTable } from './cost.ts';
@@ -43,8 +43,8 @@ const lineOf = (column: Column, samples: Sample[], bare: boolean): Line => {
 const sampleOf = (step: Step, x: number, note: string): Sample => ({
   x,
   y: toNumber(step.median),
-  low: toNumber(step.low ?? step.p10),
-  high: toNumber(step.high ?? step.p90),
+  low: toNumber(step.low),
+  high: toNumber(step.high),
   note,
 });
 
@@ -165,7 +165,7 @@ function summaryTable(): HTMLElement {
           'Median of a step, over scenarios',
           'Typically × the fastest',
           'Error, median of the bound',
-          'Scenarios that fail',
+          'Off a bound',
           'Phases, share of a step',
         ],
         (i) => i < 5,
@@ -181,7 +181,7 @@ function summaryTable(): HTMLElement {
             el('td', { class: 'num' }, duration(s.cost)),
             el('td', { class: 'num' }, format(s.costRatio, 3)),
             el('td', { class: 'num' }, Number.isFinite(s.inBounds) ? `${format(100 * s.inBounds, 3)} %` : '—'),
-            el('td', { class: 'num' }, `${s.bad.length} of ${s.scenarios}`),
+            el('td', { class: 'num' }, `${s.bad.length + s.known.length} of ${s.scenarios}`),
             el('td', { class: 'small' }, told[i] || '—'),
           ),
         ),
@@ -190,8 +190,10 @@ function summaryTable(): HTMLElement {
   );
 }
 
-function costBars(): HTMLElement {
-  const list = standings(run.scenarios, run.columns).filter((s) => Number.isFinite(s.costRatio));
+function costBars(columns: Column[]): HTMLElement {
+  const list = standings(run.scenarios, run.columns).filter(
+    (s) => columns.includes(s.column) && Number.isFinite(s.costRatio),
+  );
   const bars = list
     .sort((a, b) => a.costRatio - b.costRatio)
     .map((s) => ({
@@ -209,8 +211,7 @@ function costBars(): HTMLElement {
 }
 
 export function timing(): HTMLElement | null {
-  const table = costTable();
-  if (table === null) return null;
+  if (!run.scenarios.some((s) => s.cases.some((c) => c.step))) return null;
   const { environment } = run;
   const machine = Object.entries(environment).filter(([k]) =>
     /cpu|core|memory|kernel|os|compiler|flags|build|governor|machine/i.test(k),
@@ -232,12 +233,9 @@ export function timing(): HTMLElement | null {
     el('div', { class: 'split' }, facts(machine), facts(precision)),
     summaryTable(),
     el('h3', null, 'Scaling, and cost against accuracy'),
-    toggled((columns) => [costBars(), ...accuracy(columns), ...scaling(columns)]),
-    el(
-      'details',
-      null,
-      el('summary', null, 'Every scenario: time of a step, below it the verdict and the main error of the same run'),
-      scroll(table),
+    toggled((columns) => [costBars(columns), ...accuracy(columns), ...scaling(columns)]),
+    folded('Every scenario: time of a step, below it the verdict and the main error of the same run', () =>
+      scroll(costTable()),
     ),
   );
 }

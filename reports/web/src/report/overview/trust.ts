@@ -2,51 +2,65 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Which engine for what, and why: a card for each thing that people simulate, then every mechanism in a table.
-import { el } from '../../common/elements.ts';
-import { duration, format, ratio, toNumber } from '../../common/format.ts';
+import { type Child, el } from '../../common/elements.ts';
+import { duration, format, ratio, toNumber, words } from '../../common/format.ts';
+import { isLost } from '../cells.ts';
 import type { Mechanism, Standing } from '../data.ts';
-import { chip, headRow, panel, scroll } from '../parts.ts';
+import { chip, folded, headRow, panel, scroll } from '../parts.ts';
 import { engineLink, run, scenarioLink, verdictText } from '../run.ts';
 import { ranked, type Summary, standings, within, worstMiss } from '../standing.ts';
 import { belongs, type Task, tasks } from '../tasks.ts';
 import { filterScoreboard } from './filters.ts';
 
-/** Typical error where bounds are: in bounds; else against the best. */
-function errorText(s: Summary): string {
-  const parts = [];
-  if (Number.isFinite(s.inBounds))
-    parts.push(
-      s.inBounds < 0.01 ? 'typical error under 1 % of the bound' : `typical error ${percent(s.inBounds)} of the bound`,
-    );
-  const against = ratio(s.ratio);
-  if (against) parts.push(against === '×1' ? 'as accurate as the best' : `error ${against} the best one’s`);
-  return parts.join(', ');
-}
-const percent = (v: number) => (v < 10 ? `${format(100 * v, 2)} %` : `×${format(v, 2)}`);
-
-function why(s: Summary): string {
-  const met = s.scenarios - s.bad.length - s.known;
-  const passed = `${met === s.scenarios && met > 1 ? 'all' : met} of ${s.scenarios} within all bounds`;
-  const known = s.known ? `, ${s.known} off as recorded` : '';
-  const cost = Number.isFinite(s.cost) ? `${duration(s.cost)} a step` : '';
-  return [passed + known, errorText(s), cost].filter(Boolean).join('; ');
-}
-const shownOf = (s: Summary) => (s.bad.length ? 'fail' : s.known ? 'known_deviation' : 'pass');
-
-function poorLine(s: Summary): HTMLElement {
+/** "worst: coulomb residual ×10 its bound in slide_and_stop", with a link to that moment. */
+export function missText(s: Summary): Child {
   const miss = worstMiss(s);
-  const how =
-    miss === null
-      ? ''
-      : miss.word !== 'fail'
-        ? `: ${verdictText(miss.scenario.cases.find((c) => c.spec === s.column.spec && c.shown === miss.word)?.shown ?? 'fail').word} in `
-        : Number.isFinite(miss.times)
-          ? `: ${ratio(miss.times)} the bound in `
-          : ': misses a bound in ';
-  const link = miss
-    ? el('a', { href: scenarioLink(miss.scenario.name, { spec: s.column.spec }) }, miss.scenario.name)
-    : null;
-  return el('li', null, chip('fail', s.column.label), `fails ${s.bad.length} of ${s.scenarios}`, how, link);
+  if (miss === null) return null;
+  const { scenario, at, times } = miss;
+  const t = toNumber(at.miss?.at);
+  const pair = at.miss?.subject ?? '';
+  const href = scenarioLink(scenario.name, { spec: at.spec, dt: at.dt, t: t >= 0 ? t : null, pair });
+  const what = isLost(at.shown)
+    ? verdictText(at.shown).word
+    : `${words(at.miss?.name ?? '')} ${ratio(times)} its bound`;
+  return ['worst: ', what, ' in ', el('a', { href }, scenario.name)];
+}
+
+const shownOf = (s: Summary) => (s.bad.length ? 'fail' : s.known.length ? 'known_deviation' : 'pass');
+const percent = (v: number) => (v < 0.01 ? '< 1 %' : v < 10 ? `${format(100 * v, 2)} %` : `×${format(v, 2)}`);
+
+function line(s: Summary): HTMLElement[] {
+  const met = s.scenarios - s.bad.length - s.known.length;
+  const miss = missText(s);
+  const row = el(
+    'tr',
+    { 'data-spec': s.column.spec },
+    el('th', { scope: 'row' }, chip(shownOf(s), s.column.label)),
+    el('td', { class: 'num' }, `${met} of ${s.scenarios}`),
+    el('td', { class: 'num' }, Number.isFinite(s.inBounds) ? percent(s.inBounds) : '—'),
+    el('td', { class: 'num' }, ratio(s.ratio) || '—'),
+    el('td', { class: 'num' }, duration(s.cost)),
+  );
+  return miss ? [row, el('tr', { class: 'why' }, el('td', { colspan: 5 }, miss))] : [row];
+}
+
+/** The answer in a sentence. */
+function answer(first: Summary[], total: number): Child {
+  const [best] = first;
+  if (best === undefined) return null;
+  const met = best.scenarios - best.bad.length - best.known.length;
+  const share =
+    met === total ? `within all bounds in all ${total}` : `within all bounds in ${met} of ${best.scenarios}`;
+  const others =
+    first.length > 1
+      ? `, as well as ${first
+          .slice(1)
+          .map((s) => s.column.label)
+          .join(', ')}`
+      : '';
+  const error = Number.isFinite(best.inBounds) ? `, typical error ${percent(best.inBounds)} of the bound` : '';
+  const cost = Number.isFinite(best.cost) ? `, ${duration(best.cost)} a step` : '';
+  return el('p', { class: 'answer' }, 'Trust ', el('b', null, best.column.label), others, `: ${share}${error}${cost}.`);
 }
 
 function card(task: Task): HTMLElement | null {
@@ -56,59 +70,33 @@ function card(task: Task): HTMLElement | null {
   const share = (s: Summary) => s.bad.length / Math.max(1, s.scenarios);
   const best = list.find((s) => Number.isFinite(s.ratio));
   if (best === undefined) return null;
+  const most = Math.max(...list.map((s) => s.scenarios));
   // Differences below five per cent are no reason to prefer one of them: then the cheaper one is named first.
-  const first = list
-    .filter((s) => share(s) === share(best) && within(s) === within(best) && s.ratio < 1.05 * best.ratio)
-    .sort((a, b) => (a.cost || Infinity) - (b.cost || Infinity));
-  const next = list.filter((s) => !first.includes(s) && s.bad.length === 0 && Number.isFinite(s.ratio)).slice(0, 3);
-  const poor = list.filter((s) => s.bad.length > 0 && !first.includes(s)).sort((a, b) => share(b) - share(a));
+  const equal = (s: Summary) =>
+    2 * s.scenarios >= most && share(s) === share(best) && within(s) === within(best) && s.ratio < 1.05 * best.ratio;
+  const first = list.filter(equal).sort((a, b) => (a.cost || Infinity) - (b.cost || Infinity));
+  const rest = list.filter((s) => !first.includes(s));
+  const heads = ['Engine', 'In bounds', 'Error/bound', '× best', 'Step'];
   return el(
     'article',
     { class: 'task', 'data-task': task.key },
     el('h3', null, task.title),
     el('p', { class: 'muted small' }, task.about),
-    el('div', { class: 'muted small' }, best.bad.length ? 'Fewest failures' : 'Trust first'),
+    answer(first, scenarios.length),
     el(
-      'ul',
-      { class: 'plain' },
-      first.slice(0, 3).map((s) => el('li', null, chip(shownOf(s), el('b', null, s.column.label)), why(s))),
-      first.length > 3
-        ? el(
-            'li',
-            { class: 'small muted' },
-            `and ${first
-              .slice(3)
-              .map((s) => s.column.label)
-              .join(', ')}`,
-          )
-        : null,
+      'table',
+      { class: 'full ranking' },
+      el(
+        'thead',
+        null,
+        el(
+          'tr',
+          null,
+          heads.map((t, i) => el('th', { class: i ? 'num' : null, scope: 'col' }, t)),
+        ),
+      ),
+      el('tbody', null, [...first, ...rest].map(line)),
     ),
-    next.length
-      ? [
-          el('div', { class: 'muted small' }, 'Also without failure'),
-          el(
-            'ul',
-            { class: 'plain' },
-            next.map((s) => el('li', null, chip(shownOf(s), s.column.label), why(s))),
-          ),
-        ]
-      : null,
-    poor.length
-      ? [
-          el('div', { class: 'muted small' }, 'Be careful with'),
-          el('ul', { class: 'plain' }, poor.slice(0, 3).map(poorLine)),
-          poor.length > 3
-            ? el(
-                'p',
-                { class: 'small muted' },
-                `and ${poor
-                  .slice(3)
-                  .map((s) => `${s.column.label} (${s.bad.length})`)
-                  .join(', ')}`,
-              )
-            : null,
-        ]
-      : null,
     el(
       'button',
       { class: 'button noprint', onclick: () => filterScoreboard({ task: task.key }) },
@@ -177,21 +165,22 @@ function mechanismRow(m: Mechanism): HTMLElement {
 export function trust(): HTMLElement | null {
   if (run.mechanisms.length === 0) return null;
   const cards = tasks.map(card).filter((c) => c !== null);
-  const table = el(
-    'table',
-    { class: 'full trust' },
-    headRow(['Mechanism', 'Scenarios', 'Trust first', 'Also without failure', 'Fails'], (i) => i === 1),
-    el('tbody', null, run.mechanisms.map(mechanismRow)),
-  );
+  const table = () =>
+    el(
+      'table',
+      { class: 'full trust' },
+      headRow(['Mechanism', 'Scenarios', 'Trust first', 'Also without failure', 'Fails'], (i) => i === 1),
+      el('tbody', null, run.mechanisms.map(mechanismRow)),
+    );
   return panel(
     'trust',
     'Which engine for what',
     el(
       'p',
       { class: 'muted' },
-      'Fewest failures first, then most scenarios within all their bounds, then the smallest error at the same time step; several where they ',
-      'agree within 5 %. A failure is a missed bound, crash, timeout or NaN; off as recorded: a bound is missed, as known and explained. Errors under 1e-6 (single-precision rounding) count as equal; ',
-      'scenarios without a reference rank nobody. What is known of an engine over all scenarios: ',
+      'Best first: fewest failures, then most scenarios within all their bounds, then the smallest error at the same time step; differences below 5 % ',
+      'or below single-precision rounding (1e-6) count as none. △ is off as recorded and explained, ✗ a missed bound, crash, timeout or NaN. “Error/bound” ',
+      'is the median of the main error over its bound, “× best” the typical error relative to the most accurate engine. An engine by itself: ',
       [...new Set(run.columns.map((c) => c.engine))].map((e, i) => [
         i ? ', ' : '',
         el('a', { href: engineLink(e) }, e),
@@ -199,12 +188,9 @@ export function trust(): HTMLElement | null {
       '.',
     ),
     el('div', { class: 'tasks' }, cards),
-    el(
-      'details',
-      { open: cards.length === 0 },
-      el('summary', null, `By mechanism: ${run.mechanisms.length} of them`),
+    folded(`By mechanism: ${run.mechanisms.length} of them`, () => [
       el('p', { class: 'muted small' }, '×n is the typical error relative to the most accurate engine.'),
-      scroll(table),
-    ),
+      scroll(table()),
+    ]),
   );
 }

@@ -35,10 +35,7 @@ export function replay(context: Context): HTMLElement | null {
     { rootMargin: '200px' },
   );
   watcher.observe(node);
-  cursor.focus.follow((focus) => {
-    mount();
-    if (focus) handle?.focus(focus.spec, ...focus.bodies);
-  });
+  cursor.focus.follow(mount); // once it is there it follows by itself
   context.leaving.push(() => {
     watcher.disconnect();
     handle?.dispose();

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Help for the tests of the page in a browser (web/tests/browser):
+//   report_tool query FILE SQL    rows of a store as a JSON array of arrays, read by SQLite itself
+//   report_tool synthetic FOLDER  the report of the made-up run, with its bad endings, and of a made-up study
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "reports/data_files.hpp"
+#include "reports/study.hpp"
+#include "reports/tests/synthetic_run.hpp"
+#include "reports/tests/synthetic_study.hpp"
+#include "reports/text.hpp"
+
+namespace {
+
+using namespace rigor::report;
+namespace fs = std::filesystem;
+
+int query(const std::string& file, const std::string& sql) {
+    SQLite::Database database(file, SQLite::OPEN_READONLY);
+    SQLite::Statement statement(database, sql);
+    auto rows = nlohmann::json::array();
+    while (statement.executeStep()) {
+        auto row = nlohmann::json::array();
+        for (int i = 0; i < statement.getColumnCount(); ++i) {
+            const auto column = statement.getColumn(i);
+            if (column.isNull())
+                row.push_back(nullptr);
+            else if (column.isInteger())
+                row.push_back(column.getInt64());
+            else if (column.isFloat())
+                row.push_back(column.getDouble());
+            else
+                row.push_back(column.getString());
+        }
+        rows.push_back(row);
+    }
+    std::printf("%s\n", rows.dump().c_str());
+    return 0;
+}
+
+nlohmann::ordered_json study() {
+    auto rows = nlohmann::ordered_json::array(), bars = nlohmann::ordered_json::array();
+    for (const char* variant : {"pgs", "tgs_soft"})
+        for (const char* iterations : {"10", "20", "40"})
+            rows.push_back(synthetic::studyRow("stack", variant, 0.01, {{"iterations", iterations}},
+                                               {{"penetration_max", 1.0 / std::stod(iterations)}}));
+    for (const char* variant : {"pgs", "tgs_soft", "xpbd"})
+        bars.push_back(synthetic::studyRow("stack", variant, 0.01, {}, {{"penetration_max", 0.5}}));
+    return {{"name", "solvers"},
+            {"title", "Solvers side by side"},
+            {"description", "What iterations buy."},
+            {"findings", nlohmann::ordered_json::array()},
+            {"symptoms", nlohmann::ordered_json::array()},
+            {"parts", {synthetic::studyPart("sweep", rows), synthetic::studyPart("bars", bars)}}};
+}
+
+int synthesise(const fs::path& folder) {
+    auto run = synthetic::makeRun();
+    run.finished.clear(), run.plannedCases += 7;  // broken off
+    const ViewModel view(run);
+    const auto load = synthetic::makeLoader(run);
+    fs::create_directories(folder / "data");
+    writeFile(folder / "index.html", htmlReport(view, studyPageJson(study())));
+    for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
+        const std::string name = "scenario-" + std::to_string(i);
+        writeFile(folder / "data" / (name + ".js"), dataFile(name, scenarioJson(view, i, load)));
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    try {
+        const std::string what = count > 2 ? arguments[1] : "";
+        if (what == "query" && count == 4) return query(arguments[2], arguments[3]);
+        if (what == "synthetic" && count == 3) return synthesise(arguments[2]);
+        std::fputs("report_tool query FILE SQL | synthetic FOLDER\n", stderr);
+        return 2;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "report_tool: %s\n", error.what());
+        return 1;
+    }
+}

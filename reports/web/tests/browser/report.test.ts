@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The report of a real run, from disk, with the network cut: opens quickly, filters, sorts, opens cases, switches
+// engines, and shows the numbers that the store holds.
+import assert from 'node:assert/strict';
+import { mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import type { Browser, Page } from 'playwright-core';
+import { launch, makeRun, open, query, screenshots, skip, type Watched, watched } from '../browser.ts';
+
+describe('the report of a real run', { skip }, () => {
+  let run = '';
+  let browser: Browser;
+  let seen: Watched;
+  let page: Page;
+
+  before(async () => {
+    run = makeRun('report');
+    mkdirSync(screenshots, { recursive: true });
+    browser = await launch();
+    seen = await watched(browser);
+    page = seen.page;
+  });
+  after(async () => {
+    await seen?.close();
+    await browser?.close();
+  });
+  const clean = () => assert.deepEqual(seen.faults, []);
+  const rows = () => page.locator('#scoreboard tbody tr').count();
+  const shown = () => page.waitForSelector('#page[data-shown]');
+
+  test('opens with a row for every scenario and a cell for every engine', async () => {
+    const start = Date.now();
+    await open(page, run);
+    assert.ok(Date.now() - start < 8000, 'opens soon, also on a loaded machine');
+    const names = query(run, 'SELECT name FROM scenarios ORDER BY position').flat();
+    assert.deepEqual(await page.locator('#scoreboard tbody th a').allTextContents(), names);
+    const specs = query(run, 'SELECT count(DISTINCT spec) FROM cases').flat()[0] as number;
+    assert.equal(await page.locator('#scoreboard a.cell').count(), names.length * specs);
+    assert.ok(await page.locator('#trust [data-task="sliding"]').isVisible());
+    assert.match((await page.locator('body').textContent()) ?? '', /authors of one of the engines/);
+    await page.screenshot({ path: join(screenshots, 'overview.png') });
+    clean();
+  });
+
+  test('filters and sorts', async () => {
+    await open(page, run);
+    const all = await rows();
+    const planar = query(run, 'SELECT count(*) FROM scenarios WHERE dimension = 2').flat()[0];
+    await page.getByLabel('Dimension').selectOption('2');
+    assert.equal(await rows(), planar);
+    await page.getByLabel('Dimension').selectOption('');
+    await page.getByLabel('Search').fill('slid');
+    assert.equal(await rows(), 1);
+    await page.getByRole('button', { name: 'Reset' }).click();
+    assert.equal(await rows(), all);
+    await page.locator('#scoreboard').getByLabel('Preset').selectOption('matched');
+    const columns = query(run, "SELECT count(DISTINCT spec) FROM cases WHERE preset = 'matched'").flat()[0];
+    assert.equal(await page.locator('#scoreboard tbody tr').first().locator('a.cell').count(), columns);
+    await page.getByRole('button', { name: 'Reset' }).click();
+    await page.getByLabel('Verdict').selectOption('known_deviation');
+    const deviating = query(
+      run,
+      "SELECT count(DISTINCT scenario) FROM cases WHERE verdict = 'known deviation'",
+    ).flat()[0];
+    assert.equal(await rows(), deviating);
+    await page.getByRole('button', { name: 'Reset' }).click();
+    await page.locator('#scoreboard thead th').first().getByRole('button').click();
+    const sorted = await page.locator('#scoreboard tbody th a').allTextContents();
+    assert.deepEqual(sorted, [...sorted].sort());
+    clean();
+  });
+
+  test('arrow keys go from cell to cell, and Enter opens one', async () => {
+    await open(page, run);
+    await page.getByRole('button', { name: 'Reset' }).click();
+    await page.locator('#scoreboard a.cell').first().focus();
+    await page.keyboard.press('ArrowDown');
+    await page.keyboard.press('ArrowRight');
+    const href = await page.evaluate(() => document.activeElement?.getAttribute('href'));
+    const second = page.locator('#scoreboard tbody tr').nth(1).locator('a.cell').nth(1);
+    assert.equal(href, await second.getAttribute('href'));
+    await page.keyboard.press('Enter');
+    await page.waitForSelector('#metrics, #outcomes');
+    clean();
+  });
+
+  test('a scenario shows what the store holds', async () => {
+    const scenario = 'slide_and_stop';
+    await open(page, run, `#/scenario/${scenario}`);
+    const stored = query(
+      run,
+      `SELECT c.spec, m.name, m.subject, m.value, m.bound FROM metrics m JOIN cases c ON c.id = m.case_id WHERE c.scenario = '${scenario}'`,
+    ) as [string, string, string, number | string, number | null][];
+    assert.ok(stored.length > 50);
+    const cells = await page.locator('#metrics td[data-spec]').evaluateAll((list) =>
+      list.map((td) => {
+        const tr = td.closest('tr') as HTMLElement;
+        const data = (td as HTMLElement).dataset;
+        return [data.spec, tr.dataset.metric, tr.dataset.subject, data.value] as string[];
+      }),
+    );
+    const found = new Map(cells.map(([spec, name, subject, value]) => [`${spec} ${name} ${subject}`, value]));
+    let compared = 0;
+    for (const [spec, name, subject, value] of stored) {
+      const text = found.get(`${spec} ${name} ${subject}`);
+      assert.equal(String(text), String(value), `${spec} ${name} ${subject}`);
+      ++compared;
+    }
+    assert.ok(compared >= 10);
+    const timings = query(
+      run,
+      `SELECT c.spec, t.median FROM timings t JOIN cases c ON c.id = t.case_id WHERE c.scenario = '${scenario}' AND t.phase = 'step'`,
+    ) as [string, number][];
+    for (const [spec, median] of timings) {
+      const title = await page
+        .locator(`#case-timing tr[data-spec="${spec}"][data-phase="step"] td.num`)
+        .first()
+        .getAttribute('title');
+      assert.equal(title, `${median} s`);
+    }
+    const commands = query(run, `SELECT command FROM cases WHERE scenario = '${scenario}'`).flat();
+    const listed = await page.locator('#commands code').allTextContents();
+    assert.deepEqual([...listed].sort(), [...commands].sort());
+    clean();
+  });
+
+  test('a scenario has its formula as mathematics, a drawing and curves that are drawn', async () => {
+    await open(page, run, '#/scenario/slide_and_stop');
+    assert.ok((await page.locator('#scenario .katex').count()) > 0, 'set by KaTeX');
+    assert.ok((await page.locator('#scenario svg.scene polygon').count()) > 5);
+    await page.locator('#curves').scrollIntoViewIfNeeded();
+    const canvas = page.locator('#curves canvas').first();
+    await canvas.waitFor();
+    const inked = await canvas.evaluate((node) => {
+      const c = node as HTMLCanvasElement;
+      return c
+        .getContext('2d')
+        ?.getImageData(0, 0, c.width, c.height)
+        .data.some((v) => v !== 0);
+    });
+    assert.equal(inked, true);
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.screenshot({ path: join(screenshots, 'scenario.png') });
+    clean();
+  });
+
+  test('switching an engine off holds for all charts', async () => {
+    await open(page, run, '#/scenario/slide_and_stop');
+    const box = page.locator('#switches input').first();
+    const ink = () =>
+      page
+        .locator('#curves canvas')
+        .first()
+        .evaluate((node) => (node as HTMLCanvasElement).toDataURL());
+    await page.locator('#curves').scrollIntoViewIfNeeded();
+    await page.locator('#curves canvas').first().waitFor();
+    const before = await ink();
+    await box.uncheck();
+    await page.waitForFunction(
+      (old) => (document.querySelector('#curves canvas') as HTMLCanvasElement).toDataURL() !== old,
+      before,
+    );
+    await page.getByRole('button', { name: 'all', exact: true }).click();
+    assert.equal(await box.isChecked(), true);
+    clean();
+  });
+
+  test('the worst of a contact audit is three clicks away, and sets the time', async () => {
+    await open(page, run);
+    await page.locator('#in-run tbody td a').first().click();
+    await page.waitForSelector('#curves');
+    await shown();
+    const asked = new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]);
+    const read = await page.locator('output.time').textContent();
+    assert.ok(Math.abs(Number(read?.match(/[\d.e-]+/)?.[0]) - Number(asked.get('t'))) < 1e-3, `${read} ${asked}`);
+    const link = page.locator('#case-audit a.moment').last();
+    await link.click();
+    const text = (await link.textContent()) ?? '';
+    const now = await page.locator('output.time').textContent();
+    assert.ok(
+      Math.abs(Number(now?.match(/[\d.e-]+/)?.[0]) - Number.parseFloat(text.split('t=')[1] ?? '')) < 1e-3,
+      `${now} ${text}`,
+    );
+    clean();
+  });
+
+  test('an engine has a page with its capabilities, ledger and failures', async () => {
+    await open(page, run, '#/engine/bullet');
+    for (const id of ['engine', 'strengths', 'deviations', 'engine-ledger', 'capabilities'])
+      assert.ok(await page.locator(`#${id}`).isVisible(), id);
+    const deviating = query(
+      run,
+      "SELECT count(*) FROM cases WHERE engine = 'bullet' AND verdict = 'known deviation'",
+    ).flat()[0];
+    assert.match(
+      (await page.locator('#deviations').textContent()) ?? '',
+      new RegExp(`Deviates as recorded: ${deviating}`),
+    );
+    await page.screenshot({ path: join(screenshots, 'engine.png') });
+    clean();
+  });
+
+  test('a narrow and a dark page have nothing to scroll sideways but their tables', async () => {
+    for (const options of [{ viewport: { width: 420, height: 900 } }, { colorScheme: 'dark' as const }]) {
+      const other = await watched(browser, options);
+      await open(other.page, run);
+      const wider = await other.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      assert.ok(wider <= 0, `${wider} px too wide`);
+      if (options.colorScheme) await other.page.screenshot({ path: join(screenshots, 'overview-dark.png') });
+      assert.deepEqual(other.faults, []);
+      await other.close();
+    }
+  });
+});

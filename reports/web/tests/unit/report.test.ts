@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { newCursor } from '../../src/common/cursor.ts';
+import { angle, duration, format, median, ratio, timeStep, toNumber } from '../../src/common/format.ts';
+import { cellOf, errorInBounds, errorOf, logPlace, severity } from '../../src/report/cells.ts';
+import { barScale } from '../../src/report/charts/bars.ts';
+import { logTicks, nearest, spreadsByDecades, unpack, withGaps } from '../../src/report/charts/samples.ts';
+import type { BriefCase, Column, Scenario } from '../../src/report/data.ts';
+import { ranked, ratiosToBest, standings, worstMiss } from '../../src/report/standing.ts';
+
+test('numbers are read and written', () => {
+  assert.equal(toNumber('inf'), Infinity);
+  assert.ok(Number.isNaN(toNumber(null)) && Number.isNaN(toNumber('nan')));
+  assert.deepEqual(
+    [format(0.00012345), format(-12.3456), format(null), format('nan'), format(0)],
+    ['1.23e-4', '−12.35', '—', 'NaN', '0'],
+  );
+  assert.deepEqual([duration(3.2e-7), duration(0.00123), duration(12)], ['320 ns', '1.23 ms', '12 s']);
+  assert.deepEqual([timeStep(1 / 240), timeStep(0.0033)], ['1/240 s', '0.0033 s']);
+  assert.equal(angle(Math.PI / 2), '90°');
+  assert.deepEqual(
+    [ratio(1.01), ratio(2.44), ratio(130.2), ratio(20000), ratio(null)],
+    ['×1', '×2.4', '×130', '×2e4', ''],
+  );
+  assert.deepEqual([median([3, 1, 2]), median([4, 1, 2, 3])], [2, 2.5]);
+});
+
+test('an observable tells of changes alone, with who made them', () => {
+  const { time } = newCursor(1);
+  const told: unknown[] = [];
+  const end = time.follow((value, source) => told.push([value, source]));
+  time.set(1);
+  time.set(2, 'chart');
+  end();
+  time.set(3);
+  assert.deepEqual(told, [[2, 'chart']]);
+});
+
+const column = (spec: string): Column => ({ spec, engine: spec, preset: '', options: '', label: spec });
+const brief = (spec: string, value: number, more: Partial<BriefCase> = {}): BriefCase => ({
+  id: '',
+  spec,
+  dt: 0.01,
+  outcome: 'completed',
+  verdict: 'pass',
+  shown: 'pass',
+  reason: '',
+  value,
+  bound: 1,
+  step: { median: 1e-6, p10: 1e-6, p90: 1e-6, samples: 9, contacts: 1 },
+  inRun: null,
+  ...more,
+});
+const scenario = (name: string, cases: BriefCase[]) => ({ name, reference: 'exact', cases }) as unknown as Scenario;
+
+test('a cell is the worst of its time steps, with the numbers of the finest', () => {
+  const s = scenario('a', [brief('x', 0.25), brief('x', 2, { dt: 0.1, shown: 'fail' }), brief('y', 1)]);
+  const cell = cellOf(s, column('x'));
+  assert.equal(cell?.worst.shown, 'fail');
+  assert.equal(errorOf(cell), 0.25);
+  assert.equal(errorInBounds(cell), 0.25);
+  assert.equal(cellOf(s, column('z')), null);
+  assert.ok(
+    Number.isNaN(errorOf(cellOf(scenario('b', [brief('x', 1, { shown: 'crashed' })]), column('x')))),
+    'no number beside a crash',
+  );
+  assert.ok(severity('crashed') > severity('fail') && severity('pass') > severity('unsupported'));
+});
+
+test('places on a logarithmic bar', () => {
+  assert.deepEqual(
+    [logPlace(1e-3, 1e-3, 1), logPlace(1, 1e-3, 1), logPlace(7, 1e-3, 1), logPlace(0, 1e-3, 1)],
+    [0, 1, 1, 0],
+  );
+  assert.ok(Math.abs(logPlace(Math.sqrt(1e-3), 1e-3, 1) - 0.5) < 1e-12);
+  assert.ok(Number.isNaN(logPlace(Number.NaN, 1e-3, 1)));
+});
+
+test('errors below rounding count as equal', () => {
+  const [a, b, c] = ratiosToBest([1e-16, 1e-9, 1e-3]) as [number, number, number];
+  assert.ok(b / a < 1.01);
+  assert.ok(c > 100);
+  assert.deepEqual(ratiosToBest([Number.NaN]), [Number.NaN]);
+});
+
+test('who fails least is named first, then who is within bounds, then who is most accurate', () => {
+  const lists = [
+    scenario('one', [brief('good', 0.2), brief('off', 0.1, { shown: 'known_deviation' }), brief('bad', 0.1)]),
+    scenario('two', [
+      brief('good', 0.2),
+      brief('off', 0.1),
+      brief('bad', 5, { shown: 'fail', miss: { name: 'm', subject: '', unit: '', value: 5, bound: 1, at: -1 } }),
+    ]),
+  ];
+  const summary = ranked(standings(lists, ['bad', 'off', 'good'].map(column)));
+  assert.deepEqual(
+    summary.map((s) => s.column.spec),
+    ['good', 'off', 'bad'],
+  );
+  const worst = worstMiss(summary[2] as (typeof summary)[number]);
+  assert.deepEqual([worst?.scenario.name, worst?.times], ['two', 5]);
+});
+
+test('samples', () => {
+  const packed = Buffer.from(new Float32Array([1, -2.5, Number.NaN]).buffer).toString('base64');
+  assert.deepEqual(withGaps(unpack(packed) ?? []), [1, -2.5, null]);
+  assert.equal(unpack(''), null);
+  assert.deepEqual(
+    [-1, 0.4, 0.6, 9].map((v) => nearest([0, 1, 2], v)),
+    [0, 0, 1, 2],
+  );
+  assert.equal(nearest([1, 100], 11, true), 1);
+  assert.equal(spreadsByDecades([1e-6, 1]), true);
+  assert.equal(spreadsByDecades([-1, 1e-6, 1]), false);
+  assert.deepEqual(logTicks(1e-18, 1).length <= 9, true);
+  assert.deepEqual(logTicks(0.1, 2), [0.1, 0.2, 0.5, 1, 2]);
+});
+
+test('bars start at zero, logarithmic ones below the least', () => {
+  const bar = (value: number) => ({ label: '', value, text: '' });
+  assert.equal(barScale([bar(1), bar(4)], false)(1), 0.25);
+  const logarithmic = barScale([bar(0.02), bar(1)], true);
+  assert.ok(logarithmic(0.02) > 0 && logarithmic(1) === 1);
+});
