@@ -23,6 +23,7 @@ class Echo final : public Site {
     Reply answer(const Question& question) override {
         if (question.path == "/bad") throw std::invalid_argument("bad");
         if (question.path == "/broken") throw std::runtime_error("broken");
+        if (question.path == "/large") return {200, "text/plain", std::string(std::size_t{32} << 20, 'x')};
         return {200, "text/plain", question.method + " " + question.path + " " + question.body};
     }
     std::string contentSecurityPolicy() const override { return "default-src 'none'"; }
@@ -96,6 +97,23 @@ TEST_F(Servers, ListensOnLoopbackAlone) {
     close(file);
     Echo site;
     EXPECT_THROW(Server(site, server_.port()), std::runtime_error) << "and nobody shares the port";
+}
+
+/// Somebody who asks and does not read holds up nobody else.
+TEST_F(Servers, ABrowserThatDoesNotReadIsAlone) {
+    Browser browser(server_.url());
+    const int file = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in server{};
+    server.sin_family = AF_INET, server.sin_port = htons(static_cast<std::uint16_t>(server_.port()));
+    inet_pton(AF_INET, "127.0.0.1", &server.sin_addr);
+    ASSERT_EQ(connect(file, reinterpret_cast<sockaddr*>(&server), sizeof server), 0);
+    const std::string request = "GET /large HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server_.port()) +
+                                "\r\nCookie: " + browser.cookie() + "\r\n\r\n";
+    ASSERT_EQ(send(file, request.data(), request.size(), 0), static_cast<ssize_t>(request.size()));
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 0; i < 50; ++i) ASSERT_EQ(browser.get("/a")->status, 200);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+    close(file);
 }
 
 TEST(ServerEnd, DoesNotWaitForIdleBrowsers) {

@@ -180,6 +180,21 @@ TEST_F(Sessions, ABranchLeavesFromWhereItsOriginIs) {
     EXPECT_EQ(viewer_->state_["lanes"].size(), 3u);
 }
 
+TEST_F(Sessions, ABranchIsTakenFromALaneThatPlays) {
+    open("rigor");
+    tell({{"command", "play"}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->lane(0)["step"] > 10; }));
+    tell({{"command", "branch"}, {"lane", 0}, {"options", {{"solver", "tgs_soft"}}}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->state_["lanes"].size() == 2; }));
+    const int start = viewer_->lane(1)["start_step"];
+    EXPECT_GT(start, 10);
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->lane(1)["step"] > start + 30; }));
+    tell({{"command", "pause"}});
+    viewer_->look();
+    const std::size_t step = viewer_->state_["step"];
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->allAt(step); })) << "both at one clock";
+}
+
 TEST_F(Sessions, ADragMovesTheBodyInEveryLane) {
     open("rigor,double_free_flight");
     tell({{"command", "drag"}, {"body", 2}, {"point", {0, 0, 0}}, {"target", {3, 5, 2}}});

@@ -32,7 +32,7 @@ test('a recorded run is served with all its frames', { skip }, async (t) => {
   await page.goto(`${served.origin}/#/scenario/pile`);
   await page.waitForSelector('.replay canvas');
   const asTold = () => page.locator('.replay .label small').first().innerText();
-  const thinned = Number(/frame \d+ of (\d+)/.exec(await asTold())?.[1]);
+  const thinned = Number(/frame \d+\/(\d+)/.exec(await asTold())?.[1]);
   const [answer] = await Promise.all([
     page.waitForResponse((response) => response.url().includes('/trajectory/')),
     page.click('.replay [data-switch="all"]'),
@@ -41,7 +41,7 @@ test('a recorded run is served with all its frames', { skip }, async (t) => {
   await page.waitForFunction(() => document.querySelector('.replay [data-switch="all"]') === null);
   await page.waitForFunction(
     (before) =>
-      Number(/frame \d+ of (\d+)/.exec(document.querySelector('.replay .label small')?.textContent ?? '')?.[1]) >=
+      Number(/frame \d+\/(\d+)/.exec(document.querySelector('.replay .label small')?.textContent ?? '')?.[1]) >=
       before,
     thinned,
   );
