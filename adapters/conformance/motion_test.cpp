@@ -174,6 +174,22 @@ TEST_P(Motion, NothingFallsAsleep) {
     auto world = build(s, 1.0 / 60.0);
     run(*world, 240);
     within("slow_flight", std::abs(stateOf(*world, s, b).velocity.x - 0.004), tol(1e-15, 1e-7));
+    EXPECT_FALSE(world->isAsleep(b));
+}
+
+/// Whoever says of a body that it sleeps has stopped it; what moves is awake.
+TEST_P(Motion, WhatSleepsIsAtRest) {
+    Scenario s = scene();
+    const int still = addBody(s, ball(0.2), {});
+    const int moving = addBody(s, ball(0.2), {5.0, 0.0, 0.0});
+    s.bodies[static_cast<std::size_t>(moving)].velocity = {0.0, 1.0, 0.0};
+    auto world = build(s, 1.0 / 60.0);
+    for (int step = 0; step < 240; ++step) {
+        run(*world, 1);
+        EXPECT_FALSE(world->isAsleep(moving)) << step;
+        if (!world->isAsleep(still)) continue;
+        EXPECT_EQ(norm(stateOf(*world, s, still).velocity), 0.0) << step;
+    }
 }
 
 TEST_P(Motion, KinematicBodiesKeepTheirVelocity) {
