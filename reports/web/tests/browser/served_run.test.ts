@@ -41,8 +41,7 @@ test('a recorded run is served with all its frames', { skip }, async (t) => {
   await page.waitForFunction(() => document.querySelector('.replay [data-switch="all"]') === null);
   await page.waitForFunction(
     (before) =>
-      Number(/frame \d+\/(\d+)/.exec(document.querySelector('.replay .label small')?.textContent ?? '')?.[1]) >=
-      before,
+      Number(/frame \d+\/(\d+)/.exec(document.querySelector('.replay .label small')?.textContent ?? '')?.[1]) >= before,
     thinned,
   );
   assert.deepEqual(faults, []);
