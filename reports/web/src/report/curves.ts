@@ -56,7 +56,8 @@ export function collectCurves(cases: Case[], observed: string[], body: string): 
         });
     for (const s of c.curves.series) {
       if (others.has(s.subject)) continue;
-      const title = words(s.name) + (s.subject ? `: ${s.subject}` : '');
+      const title =
+        (s.name === 'normal_error' ? 'contact normal error' : words(s.name)) + (s.subject ? `: ${s.subject}` : '');
       const curve = { spec: c.spec, x: s.t ? (unpack(s.t) ?? times) : times, y: withGaps(unpack(s.y) ?? []) };
       add(`${s.name}/${s.subject}`, title, s.unit, curve);
     }

@@ -4,6 +4,11 @@
 // Header, theme and routes: "#/scenario/<name>?dt=..&spec=..&t=..&pair=.." is a scenario, "#/engine/<name>" an engine,
 // anything else the overview.
 import './style.css';
+import './board.css';
+import './charts.css';
+import './scene.css';
+import './widths.css';
+import './print.css';
 import { el } from '../common/elements.ts';
 import { drawAllPlots, dropPlots } from './charts/live_plots.ts';
 import { enginePage } from './engine/page.ts';

@@ -213,9 +213,7 @@ function costBars(columns: Column[]): HTMLElement {
 export function timing(): HTMLElement | null {
   if (!run.scenarios.some((s) => s.cases.some((c) => c.step))) return null;
   const { environment } = run;
-  const machine = Object.entries(environment).filter(([k]) =>
-    /cpu|core|memory|kernel|os|compiler|flags|build|governor|machine/i.test(k),
-  );
+  const machine = Object.entries(environment).filter(([k]) => !/^engine_|^date$|^rigor$/.test(k));
   const precision = run.engines
     .filter((e) => run.columns.some((c) => c.engine === e.name))
     .map((e): [string, string] => [e.name, [e.version, e.precision, e.buildNotes].filter(Boolean).join(', ')]);

@@ -76,7 +76,7 @@ function card(task: Task): HTMLElement | null {
     2 * s.scenarios >= most && share(s) === share(best) && within(s) === within(best) && s.ratio < 1.05 * best.ratio;
   const first = list.filter(equal).sort((a, b) => (a.cost || Infinity) - (b.cost || Infinity));
   const rest = list.filter((s) => !first.includes(s));
-  const heads = ['Engine', 'In bounds', 'Error/bound', '× best', 'Step'];
+  const heads = ['Engine', 'In bounds', 'Error / bound', '× best', 'Step'];
   return el(
     'article',
     { class: 'task', 'data-task': task.key },

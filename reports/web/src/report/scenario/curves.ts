@@ -32,6 +32,8 @@ const lineStyle = (spec: string) => {
   return { label: column.label, colour: engineColour(column.engine), dash: dashOf(column), width: 1.5 };
 };
 
+const fewSamples = 50; // have a mark each
+
 function card({ cursor, cases, spec }: Context, plot: CurvePlot): HTMLElement {
   const lines = plot.curves.map((curve) => ({
     ...lineStyle(curve.spec),
@@ -39,6 +41,7 @@ function card({ cursor, cases, spec }: Context, plot: CurvePlot): HTMLElement {
     key: curve.spec,
     x: curve.x,
     y: curve.y,
+    points: curve.x.length < fewSamples,
   }));
   return plotCard({
     title: plot.title,
