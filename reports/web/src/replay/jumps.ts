@@ -78,7 +78,8 @@ const kindWords: Record<ReplayEvent['kind'], string> = {
 export function describe(event: ReplayEvent): string {
   const digits = (x: number) => String(Number(x.toPrecision(4)));
   let text = kindWords[event.kind];
-  if (event.what) text += ` ${event.what}`;
+  if (event.what === 'in_run') text = 'worst contact geometry of its own run';
+  else if (event.what) text += ` ${event.what}`;
   if (event.subject) text += `, ${event.subject.replace('|', ' and ')}`;
   if (event.value !== undefined)
     text += `: ${digits(event.value)}${event.unit && event.unit !== '1' ? ` ${event.unit}` : ''}`;

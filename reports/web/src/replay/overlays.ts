@@ -60,7 +60,9 @@ export class Overlays {
     if (!source.ghost) {
       if (layers.bounds) this.#drawBounds(bodies, frame, theme);
       if (layers.joints) this.#drawJoints(frame, theme, scales);
-      if (frame.contacts) this.#drawContacts(frame.contacts, options, theme, scales);
+      // in one picture, whose contact it is matters more than that it is one
+      const own = options.overlaid ? { ...theme, contact: source.colour, normal: source.colour } : theme;
+      if (frame.contacts) this.#drawContacts(frame.contacts, options, own, scales);
       if (layers.velocities) this.#drawVectors(frame, frame.velocity, theme.velocity, scales.speed, scales, options);
       if (layers.spins) this.#drawVectors(frame, frame.angularVelocity, theme.spin, scales.spin, scales, options);
     }

@@ -5,7 +5,7 @@
 import { el } from '../common/elements.ts';
 import { darkTheme, lightTheme } from './colours.ts';
 import { Controls } from './controls.ts';
-import { type FrameSource, indexAt } from './frames.ts';
+import { type Frame, type FrameSource, indexAt } from './frames.ts';
 import { bodyReach } from './framing.ts';
 import { Inspector } from './inspector.ts';
 import {
@@ -30,6 +30,18 @@ import { type Pick, ReplayView } from './view.ts';
 /** More pictures than this make each too small to begin with. */
 const mostShownAtFirst = 4;
 
+/** The deepest contact of two bodies, -1 where there is none. */
+function contactBetween({ contacts }: Frame, body: number, other: number | undefined): number {
+  let found = -1;
+  if (!contacts || other === undefined) return found;
+  for (let i = 0; i < contacts.count; ++i) {
+    const [a, b] = [contacts.bodyA[i], contacts.bodyB[i]];
+    if (!((a === body && b === other) || (a === other && b === body))) continue;
+    if (found < 0 || (contacts.depth[i] as number) > (contacts.depth[found] as number)) found = i;
+  }
+  return found;
+}
+
 export class ReplayStage {
   readonly view: ReplayView;
   readonly player: Player;
@@ -43,7 +55,7 @@ export class ReplayStage {
   readonly #ends: (() => void)[] = [];
   readonly #leaving = new AbortController();
   #chosen: Set<string>; // specs that have a picture
-  #pinned: { spec: string; body: number } | null = null;
+  #pinned: { spec: string; body: number; other?: number } | null = null; // other: of a contact looked at
   #hover: Pick | null = null;
   readonly #loadAll: ((source: FrameSource) => Promise<FrameSource>) | null;
   readonly #whole = new Set<FrameSource>(); // sources that have all their frames
@@ -272,10 +284,9 @@ export class ReplayStage {
     const pinned = this.#pinned;
     const source = pinned && this.sources.find((s) => s.spec === pinned.spec);
     const now = source ? this.view.frameOf(source) : null;
+    const contact = pinned && now ? contactBetween(now.frame, pinned.body, pinned.other) : -1;
     const what =
-      pinned && source && now
-        ? { source, frame: now.frame, body: pinned.body, shape: -1, contact: -1, island: -1 }
-        : null;
+      pinned && source && now ? { source, frame: now.frame, body: pinned.body, shape: -1, contact, island: -1 } : null;
     this.#inspector.show(what, true);
   }
 
@@ -297,7 +308,9 @@ export class ReplayStage {
     const apart = Math.hypot(...at.map((v, k) => v - (places[0]?.[k] as number)));
     const reach = Math.max(...moving.slice(0, 2).map((m) => bodyReach(this.#scene, m)));
     this.view.lookAt(at, Math.max(1e-3, apart + 2 * reach));
-    this.#pinned = { spec: source?.spec ?? '', body: b };
+    this.#pinned = { spec: source.spec, body: b };
+    const other = bodies.find((body) => body !== b);
+    if (other !== undefined) this.#pinned.other = other;
     this.view.mark(b);
   }
 
