@@ -15,7 +15,6 @@ import { type FetchFrames, fetchFrames, fullSource } from './full_frames.ts';
 import { type Replay, readReplay } from './replay_file.ts';
 import { type Json, readScene, type Scene } from './scene.ts';
 import { ReplayStage } from './stage.ts';
-import type { StoredSource } from './stored_source.ts';
 import { NoWebGL } from './view.ts';
 import './style.css';
 
@@ -89,12 +88,12 @@ export function mountReplay(element: HTMLElement, context: ReplayContext): Repla
       const scene = inOrder(readScene(context.scenario), replay.head.bodies);
       const served = location.protocol.startsWith('http');
       const get = context.frames ?? (served ? fetchFrames : null);
-      const full = (i: number, source: StoredSource, from: (id: string) => FetchFrames) =>
-        fullSource(source, from(replay.head.cases[i]?.id ?? ''));
-      const load = get
-        ? (source: FrameSource) => full(replay.sources.indexOf(source as StoredSource), source as StoredSource, get)
-        : null;
-      stage = new ReplayStage(root, scene, sources, context, load);
+      const thinned = new Map<FrameSource, () => Promise<FrameSource>>();
+      replay.sources.forEach((source, i) => {
+        const { id, frames, stored } = replay.head.cases[i] as (typeof replay.head.cases)[number];
+        if (get && frames < (stored ?? 0)) thinned.set(source, () => fullSource(source, get(id)));
+      });
+      stage = new ReplayStage(root, scene, sources, context, thinned);
     } catch (error) {
       if (!(error instanceof NoWebGL)) console.error(error);
       say(

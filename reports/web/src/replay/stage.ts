@@ -57,19 +57,18 @@ export class ReplayStage {
   #chosen: Set<string>; // specs that have a picture
   #pinned: { spec: string; body: number; other?: number } | null = null; // other: of a contact looked at
   #hover: Pick | null = null;
-  readonly #loadAll: ((source: FrameSource) => Promise<FrameSource>) | null;
-  readonly #whole = new Set<FrameSource>(); // sources that have all their frames
+  readonly #thinned: Map<FrameSource, () => Promise<FrameSource>> | null;
   #linkTimer: ReturnType<typeof setTimeout> | undefined;
 
-  /** `loadAll`: the same source with all its frames, where they can be had. */
+  /** `thinned`: how to get all frames of a source that has not all of them. */
   constructor(
     root: HTMLElement,
     scene: Scene,
     sources: FrameSource[],
     context: ReplayContext,
-    loadAll: ((source: FrameSource) => Promise<FrameSource>) | null = null,
+    thinned: Map<FrameSource, () => Promise<FrameSource>> | null = null,
   ) {
-    this.#loadAll = loadAll;
+    this.#thinned = thinned;
     this.#context = context;
     this.#scene = scene;
     this.sources = sources;
@@ -123,24 +122,23 @@ export class ReplayStage {
 
   /** Whether there are frames that are not here yet. */
   get canLoadMore(): boolean {
-    return this.#loadAll !== null && this.shown.some((s) => !this.#whole.has(s));
+    return this.shown.some((s) => this.#thinned?.has(s));
   }
 
   /** Replaces the thinned frames of the engines that are shown by all that were stored. */
   async loadAll(): Promise<void> {
-    if (!this.#loadAll) return;
     for (const source of this.shown) {
-      if (this.#whole.has(source)) continue;
+      const load = this.#thinned?.get(source);
+      if (!load) continue;
       this.controls.say(`Loading all frames of ${source.label} …`);
       try {
-        const whole = await this.#loadAll(source);
-        this.#whole.add(whole);
+        const whole = await load();
         this.sources[this.sources.indexOf(source)] = whole;
         this.controls.say('');
       } catch (error) {
         this.controls.say(`${source.label}: ${error instanceof Error ? error.message : String(error)}`);
-        this.#whole.add(source);
       }
+      this.#thinned?.delete(source);
     }
     this.#choose();
   }

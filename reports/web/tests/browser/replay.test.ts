@@ -4,7 +4,7 @@
 // The replay in the report of a real run: plays, steps, scrubs, jumps, switches; shows the numbers that the engine gave;
 // a link restores the view; screenshots of several scenes.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawn } from 'node:child_process';
 import { mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -184,6 +184,42 @@ describe('the replay of a real run', { skip }, () => {
       await page.locator('#replay').screenshot({ path: join(screenshots, `replay-${scenario}-dark.png`) });
       await page.emulateMedia({ colorScheme: 'light' });
       clean();
+    }
+  });
+
+  test('a served run brings all frames', async () => {
+    const program = join(process.env.RIGOR_BINARY_DIR ?? '', 'bin/rigor');
+    const folder = mkdtempSync(join(tmpdir(), 'rigor-replay-'));
+    const long = join(folder, 'run');
+    execFileSync(program, ['validate', 'asymmetric_top', '--engines', 'rigor', '--dt', '0.001', '--out', long], {
+      stdio: 'ignore',
+    });
+    const server = spawn(program, ['view', long, '--json', '--no-open']);
+    try {
+      const line = await new Promise<string>((resolve) => {
+        server.stdout.once('data', (data: Buffer) => resolve(data.toString()));
+      });
+      const served = await browser.newPage();
+      const faults: string[] = [];
+      served.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
+      served.on('pageerror', (error) => faults.push(error.message));
+      await served.goto((JSON.parse(line) as { url: string }).url);
+      await served.waitForSelector('#page[data-shown]');
+      await served.evaluate(() => {
+        location.hash = '#/scenario/asymmetric_top';
+      });
+      await served.locator('#replay').scrollIntoViewIfNeeded();
+      await served.waitForSelector('.replay .label small:has-text("every")');
+      await served.click('.replay [data-switch="all"]');
+      await served.waitForSelector('.replay .label small:has-text("frame 1/3001")');
+      await served.click('.replay [data-action="forward"]');
+      assert.match((await served.textContent('.replay .clock')) ?? '', /^0\.0010 s/);
+      assert.equal(await served.locator('.replay [data-switch="all"]').count(), 0, 'there is nothing more');
+      assert.deepEqual(faults, []);
+      await served.close();
+    } finally {
+      server.kill();
+      rmSync(folder, { recursive: true, force: true });
     }
   });
 
