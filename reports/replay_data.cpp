@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include "reports/data_files.hpp"
 #include "reports/page_json.hpp"
@@ -196,7 +198,7 @@ double ReplayBudget::allowance() const {
 std::string replayBundle(const ViewModel& view, std::size_t scenario, std::size_t step,
                          const FullTrajectoryLoader& load, ReplayBudget& budget) {
     const auto& shown = view.run().scenarios[scenario];
-    const double dt = shown.timeSteps.at(step);
+    const double dt = replaySteps(view, scenario).at(step);
     const auto cases = loadCases(view, scenario, dt, load);
     const auto fullest = std::max_element(cases.begin(), cases.end(), [](const auto& a, const auto& b) {
         return a.file.bodies.size() < b.file.bodies.size();
@@ -234,12 +236,19 @@ std::string replayBundle(const ViewModel& view, std::size_t scenario, std::size_
     return bundle.bytes(meta);
 }
 
+std::vector<double> replaySteps(const ViewModel& view, std::size_t scenario) {
+    std::set<double, std::greater<>> steps;
+    for (std::size_t column = 0; column < view.columns().size(); ++column)
+        for (const auto* row : view.cell(scenario, column).cases) steps.insert(row->dt);
+    return {steps.begin(), steps.end()};
+}
+
 void replayFiles(const ViewModel& view, const FullTrajectoryLoader& load,
                  const std::function<void(const std::string& name, const std::string& bundle)>& write) {
     ReplayBudget budget;
     const auto& scenarios = view.run().scenarios;
     for (std::size_t i = 0; i < scenarios.size(); ++i)
-        for (std::size_t j = 0; j < scenarios[i].timeSteps.size(); ++j)
+        for (std::size_t j = 0; j < replaySteps(view, i).size(); ++j)
             if (const std::string bundle = replayBundle(view, i, j, load, budget); !bundle.empty())
                 write("replay-" + std::to_string(i) + "-" + std::to_string(j), bundle);
 }

@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reports/view_model.hpp"
 #include "validation/results/trajectory_file.hpp"
@@ -39,8 +40,11 @@ class ReplayBudget {
     double saved_ = 0.0;
 };
 
-/// Bundle of the scenario at timeSteps[step]; empty when no case of it has a trajectory. Every case has its
-/// first and last frame and the frames of its events, whatever they cost.
+/// Time steps that cases of a scenario were run at [s], coarsest first: the order of its replay files.
+std::vector<double> replaySteps(const ViewModel& view, std::size_t scenario);
+
+/// Bundle of the scenario at replaySteps()[step]; empty when no case of it has a trajectory. Every case has
+/// its first and last frame and the frames of its events, whatever they cost.
 std::string replayBundle(const ViewModel& view, std::size_t scenario, std::size_t step,
                          const FullTrajectoryLoader& load, ReplayBudget& budget);
 

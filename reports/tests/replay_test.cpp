@@ -388,6 +388,19 @@ TEST_F(ReplayFiles, RunsThatEndEarlyKeepWhatTheyHave) {
     EXPECT_EQ(bundle.steps(c).back(), 36);
 }
 
+TEST_F(ReplayFiles, TimeStepsAreThoseThatWereRun) {
+    run_.scenarios[0].timeSteps = {1.0, 0.5};  // the file's; the command line asked for others
+    run_.cases[1].dt = 0.02;
+    const ViewModel view(run_);
+    EXPECT_EQ(replaySteps(view, 0), (std::vector<double>{0.02, 0.01}));
+    std::vector<std::string> names;
+    replayFiles(view, loader(), [&](const std::string& name, const std::string& bundle) {
+        names.push_back(name);
+        EXPECT_EQ(Bundle(bundle).meta["dt"], names.size() == 1 ? 0.02 : 0.01);
+    });
+    EXPECT_EQ(names, (std::vector<std::string>{"replay-0-0", "replay-0-1"}));
+}
+
 TEST_F(ReplayFiles, NothingToShowIsNoFile) {
     files_[0].reset(), files_[1].reset();
     const ViewModel view(run_);

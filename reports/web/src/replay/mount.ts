@@ -21,7 +21,7 @@ import './style.css';
 export interface ReplayContext {
   scenario: Json; // the scenario file, parsed
   index: number; // of the scenario in the run
-  step: number; // of the time step in the scenario
+  step: number; // of the time step among those that were run, coarsest first
   cursor: Cursor;
   /** Colour of a spec, as the curves have it; "" is the reference. */
   colourOf: (spec: string, index: number) => string;

@@ -11,7 +11,6 @@ export function replay(context: Context): HTMLElement | null {
   const { data, scenario, cases, cursor } = context;
   if (!cases.some((c) => c.trajectoryFile)) return null;
   const times = [...new Set(data.cases.map((c) => c.dt))].sort((a, b) => b - a);
-  const stepAt = scenario.timeSteps.indexOf(context.dt);
   const holder = el('div', { class: 'stage' });
   let handle: ReplayHandle | null = null;
   const mount = () => {
@@ -19,7 +18,7 @@ export function replay(context: Context): HTMLElement | null {
     handle = mountReplay(holder, {
       scenario: JSON.parse(data.text),
       index: context.index,
-      step: stepAt < 0 ? times.indexOf(context.dt) : stepAt,
+      step: times.indexOf(context.dt),
       cursor,
       colourOf: (spec) => (spec === '' ? '#808890' : engineColour(columnOf(spec)?.engine ?? spec)),
       metrics: scenario.metrics,
