@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Colours of engines and bodies. Engines take the palette of Okabe and Ito, which the colour-blind can tell apart.
-import type { Color } from 'three';
+import { Color } from 'three';
 
 const palette = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8a6fd1', '#a0791a'];
 
@@ -15,6 +15,17 @@ export function distinctColour(index: number, light: number, out: Color): Color 
   const hue = (0.58 + index * golden) % 1;
   const lighter = (index % 3) * 0.045;
   return out.setHSL(hue, 0.6, light + lighter);
+}
+
+/** Lighter for each one before it in the list that has the same colour: presets of one engine in one picture. */
+export function toldApart(colours: readonly string[]): string[] {
+  const seen = new Map<string, number>();
+  return colours.map((colour) => {
+    const before = seen.get(colour) ?? 0;
+    seen.set(colour, before + 1);
+    const lighter = new Color(colour).lerp(new Color('#ffffff'), 1 - 0.55 ** before);
+    return before === 0 ? colour : `#${lighter.getHexString()}`;
+  });
 }
 
 export interface Theme {

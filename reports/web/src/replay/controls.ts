@@ -148,10 +148,10 @@ export class Controls {
     const chips = (Object.keys(layerNames) as LayerName[])
       .filter((name) => name !== 'reference' || stage.hasReference)
       .map((name) => this.#chip(layerNames[name], layers[name], hints[name] ?? '', () => this.toggle(name), name));
-    const slider = (text: string, value: number, most: number, set: (v: number) => void) => {
+    const slider = (text: string, value: number, least: number, most: number, set: (v: number) => void) => {
       const input = el('input', {
         type: 'range',
-        min: 0,
+        min: least,
         max: most,
         step: 0.25,
         value: Math.log2(value),
@@ -160,9 +160,10 @@ export class Controls {
       input.addEventListener('change', () => set(2 ** Number(input.value)));
       return el('label', { class: 'slider' }, text, input, `×${Number(value.toPrecision(3))}`);
     };
-    if (layers.penetration) chips.push(slider('depth', exaggeration, 12, (v) => stage.setOptions({ exaggeration: v })));
+    if (layers.penetration)
+      chips.push(slider('depth', exaggeration, 0, 12, (v) => stage.setOptions({ exaggeration: v })));
     if (layers.velocities || layers.spins || layers.impulses)
-      chips.push(slider('arrows', arrows, 4, (v) => stage.setOptions({ arrows: v })));
+      chips.push(slider('arrows', arrows, -4, 4, (v) => stage.setOptions({ arrows: v })));
     this.#layers.replaceChildren(...chips);
   }
 

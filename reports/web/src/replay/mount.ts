@@ -10,6 +10,7 @@
 import type { Cursor } from '../common/cursor.ts';
 import { loadData } from '../common/data_files.ts';
 import { el } from '../common/elements.ts';
+import { toldApart } from './colours.ts';
 import type { FrameSource } from './frames.ts';
 import { type FetchFrames, fetchFrames, fullSource } from './full_frames.ts';
 import { type Replay, readReplay } from './replay_file.ts';
@@ -81,6 +82,10 @@ export function mountReplay(element: HTMLElement, context: ReplayContext): Repla
       return;
     }
     if (disposed) return;
+    const own = toldApart(replay.sources.map((source) => source.colour));
+    replay.sources.forEach((source, i) => {
+      source.colour = own[i] as string;
+    });
     const sources: FrameSource[] = [...replay.sources];
     if (replay.reference) sources.push(replay.reference);
     try {

@@ -6,6 +6,7 @@ import { test } from 'node:test';
 import { Matrix4, PerspectiveCamera, Raycaster, Vector2, Vector3 } from 'three';
 import { Observable } from '../../src/common/cursor.ts';
 import { BodyLayer } from '../../src/replay/body_layer.ts';
+import { toldApart } from '../../src/replay/colours.ts';
 import type { Contacts, Frame, FrameSource, ReplayEvent } from '../../src/replay/frames.ts';
 import { frameScene, sampled } from '../../src/replay/framing.ts';
 import { roundNumber } from '../../src/replay/ground.ts';
@@ -279,4 +280,12 @@ test('a wall before the scene is seen through, the floor and the wall behind are
   assert.equal(crossesBox([0, 0, 5], [0, 0, -5], [1, 1, 1]), true);
   assert.equal(crossesBox([0, 2, 5], [0, 2, -5], [1, 1, 1]), false);
   assert.equal(crossesBox([0, 0, 5], [0, 0, 2], [1, 1, 1]), false, 'it ends before');
+});
+
+test('presets of one engine are told apart by lightness', () => {
+  const [a, b, c, d] = toldApart(['#0072b2', '#0072b2', '#d55e00', '#0072b2']);
+  assert.equal(a, '#0072b2');
+  assert.equal(c, '#d55e00');
+  assert.match(b ?? '', /^#[0-9a-f]{6}$/);
+  assert.equal(new Set([a, b, d]).size, 3);
 });
