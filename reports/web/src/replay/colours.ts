@@ -23,7 +23,7 @@ export function toldApart(colours: readonly string[]): string[] {
   return colours.map((colour) => {
     const before = seen.get(colour) ?? 0;
     seen.set(colour, before + 1);
-    const lighter = new Color(colour).lerp(new Color('#ffffff'), 1 - 0.55 ** before);
+    const lighter = new Color(colour).lerp(new Color('#ffffff'), 1 - 0.78 ** before);
     return before === 0 ? colour : `#${lighter.getHexString()}`;
   });
 }

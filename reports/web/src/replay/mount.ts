@@ -82,8 +82,9 @@ export function mountReplay(element: HTMLElement, context: ReplayContext): Repla
       return;
     }
     if (disposed) return;
-    const own = toldApart(replay.sources.map((source) => source.colour));
-    replay.sources.forEach((source, i) => {
+    const lastFirst = [...replay.sources].reverse(); // matched settings come last and keep the engine's colour
+    const own = toldApart(lastFirst.map((source) => source.colour));
+    lastFirst.forEach((source, i) => {
       source.colour = own[i] as string;
     });
     const sources: FrameSource[] = [...replay.sources];
