@@ -119,12 +119,8 @@ Json worstMiss(const CaseRow& row) {
         if (m.bound && m.verdict != results::Verdict::Pass && (!worst || times(m) > times(*worst)))
             worst = &m;
     if (!worst) return nullptr;
-    return {{"name", worst->name},
-            {"subject", worst->subject},
-            {"unit", worst->unit},
-            {"value", number(worst->value)},
-            {"bound", number(worst->bound)},
-            {"at", number(worst->at)}};
+    return {{"name", worst->name},           {"subject", worst->subject},     {"unit", worst->unit},
+            {"value", number(worst->value)}, {"bound", number(worst->bound)}, {"at", number(worst->at)}};
 }
 
 /// One line of the scoreboard and of the timing table.

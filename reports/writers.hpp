@@ -33,8 +33,8 @@ std::string fairnessCsv(const results::Run& run);
 std::string ordersMarkdown(const ViewModel& view);
 /// The page with the overview's data in it. `study`: studyPageJson() of a study's run, else empty.
 std::string htmlReport(const ViewModel& view, const std::string& study = "");
-/// The data behind the page's overview, which is in the page, and behind the page of one scenario, which stands
-/// beside it in data/scenario-<index>.js, as JSON.
+/// The data behind the page's overview, which is in the page, and behind the page of one scenario, which
+/// stands beside it in data/scenario-<index>.js, as JSON.
 std::string overviewJson(const ViewModel& view);
 std::string scenarioJson(const ViewModel& view, std::size_t scenario, const TrajectoryLoader& load);
 
