@@ -48,7 +48,7 @@ const std::vector<Rule>& rules() {
         {"validation/oracle", {"scenarios/model/"}},
         {"validation/results", {}},
         {"validation", {"validation/", "adapters/interface/", "scenarios/"}},
-        {"reports", {"validation/results/"}},
+        {"reports", {"validation/results/", "reports/tests/browser_tool.cpp"}},
         {"cli", {"cli/", "engine/", "adapters/interface/", "scenarios/", "validation/", "reports/"}}};
     return table;
 }
@@ -126,7 +126,8 @@ TEST(IncludeRule, TheRuleItselfRefuses) {
     EXPECT_FALSE(refused("adapters/rigor/world.cpp", "engine/math/space.hpp"));
 }
 
-/// Eigen has one door; engine libraries stay in their adapter's folder.
+/// Eigen has one door; engine libraries stay in their adapter's folder. The page's numbers are held to the
+/// store as SQLite itself reads it.
 TEST(IncludeRule, ThirdPartyHeadersStayInTheirRooms) {
     const std::vector<std::pair<std::regex, std::vector<std::string>>> rooms{
         {std::regex(R"(#include\s*<Eigen/)"),
@@ -136,7 +137,8 @@ TEST(IncludeRule, ThirdPartyHeadersStayInTheirRooms) {
         {std::regex(R"(#include\s*<ode/)"), {"adapters/ode/"}},
         {std::regex(R"(#include\s*<box2d/)"), {"adapters/box2d/"}},
         {std::regex(R"(#include\s*<fcl/)"), {"adapters/fcl/"}},
-        {std::regex(R"(#include\s*<(SQLiteCpp/|sqlite3|hdf5))"), {"validation/results/"}},
+        {std::regex(R"(#include\s*<(SQLiteCpp/|sqlite3|hdf5))"),
+         {"validation/results/", "reports/tests/browser_tool.cpp"}},
         {std::regex(R"(#include\s*<httplib)"), {"cli/view/"}},
         {std::regex(R"(#include\s*<valijson/)"), {"scenarios/loader/"}},
         {std::regex(R"(#include\s*<CLI/)"), {"cli/"}}};
