@@ -257,13 +257,23 @@ Json bodiesJson(const std::vector<results::BodyChannels>& bodies, const std::vec
     return list;
 }
 
+/// The finite ones, where what lies between them is not known rather than not there: a curve of some frames
+/// alone.
+std::vector<std::size_t> sampledIndices(const std::vector<double>& values) {
+    std::vector<std::size_t> finite;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (std::isfinite(values[i])) finite.push_back(i);
+    return finite;
+}
+
 Json seriesJson(const results::TrajectoryFile& file) {
     Json list = Json::array();
     std::map<std::string, std::size_t> subjects;
     for (const auto& series : file.series) {
         const auto values = column(series.channel, 0, file.times.size());
         if (!anyFinite(values) || subjects[series.name]++ >= kMostSubjects) continue;
-        const auto at = outlineIndices(values, kCurvePoints);
+        const auto at =
+            series.name == "normal_error" ? sampledIndices(values) : outlineIndices(values, kCurvePoints);
         Json entry{{"name", series.name}, {"subject", series.subject}, {"unit", series.channel.unit}};
         if (at.size() < file.times.size()) entry["t"] = packed(file.times, at);
         entry["y"] = packed(values, at);

@@ -187,8 +187,33 @@ TEST(PageSize, SixtyScenariosStayUnderThirtyMegabytes) {
 TEST(PageWithoutTrajectories, IsComplete) {
     const auto run = synthetic::makeRun(3);
     const ViewModel view(run);
-    const auto text = scenarioJson(view, 0, [](const auto&) { return std::nullopt; });
-    for (const auto& c : json::parse(text)["cases"]) EXPECT_TRUE(c["curves"].is_null());
+    const json parsed = json::parse(scenarioJson(view, 0, [](const auto&) { return std::nullopt; }));
+    for (const auto& c : parsed["cases"]) EXPECT_TRUE(c["curves"].is_null());
+}
+
+TEST(Curves, OfSomeFramesHaveThoseAlone) {
+    const auto run = synthetic::makeRun(1);
+    const ViewModel view(run);
+    const auto whole = synthetic::makeLoader(run);
+    const json parsed = json::parse(scenarioJson(view, 0, [&](const auto& row) {
+        auto file = whole(row);
+        if (!file) return file;
+        results::SeriesChannel series{"normal_error", "", {"rad", 1, {}}};
+        series.channel.values.assign(file->times.size(), std::nan(""));
+        for (const std::size_t i : {3u, 40u, 99u}) series.channel.values[i] = 0.5;
+        file->series.push_back(series);
+        return file;
+    }));
+    std::size_t seen = 0;
+    for (const auto& c : parsed["cases"])
+        if (!c["curves"].is_null())
+            for (const auto& s : c["curves"]["series"])
+                if (s["name"] == "normal_error") {
+                    ++seen;
+                    EXPECT_EQ(s["y"].get<std::string>().size(), base64(std::string(3 * 4, '0')).size());
+                    EXPECT_EQ(s["t"].get<std::string>().size(), s["y"].get<std::string>().size());
+                }
+    EXPECT_GT(seen, 0u);
 }
 
 TEST(PageOfNothing, IsAPage) {

@@ -12,6 +12,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "adapters/interface/engine.hpp"
@@ -72,6 +73,9 @@ inline constexpr const char* kInRun = "in_run";
 /// are apart is spurious when its depth claims an overlap. Without questions where frames are several steps
 /// apart.
 results::AuditRow inRunRow(const scenario::Scenario& scenario, const AuditCase& questions);
+/// Time [s] and worst angle [rad] between the normals of deepest contacts that the run acted upon and the
+/// nearest exact ones, for each sampled frame with an overlap that it found; in time order.
+std::vector<std::pair<double, double>> normalErrors(const AuditCase& questions);
 /// The oracle's own row: how many questions there were, how many it could decide.
 results::AuditRow oracleRow(const AuditCase& questions);
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "adapters/interface/registry.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "validation/results/trajectory_file.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/audit.hpp"
 
@@ -11,6 +14,7 @@ namespace rigor::validation {
 namespace {
 
 using nlohmann::json;
+constexpr const char* kNormalErrorSeries = "normal_error";
 using scenario::Pose;
 using scenario::Vec3;
 
@@ -61,12 +65,30 @@ scenario::Scenario scenarioOf(const json& request) {
         .scenario;
 }
 
+/// Puts the curve of normal errors beside the other curves of a case, which had no oracle to ask.
+void recordNormalErrors(const AuditCase& found, const std::filesystem::path& trajectory) {
+    const auto errors = normalErrors(found);
+    if (errors.empty()) return;
+    results::TrajectoryFile file = results::readTrajectory(trajectory);
+    results::SeriesChannel series{kNormalErrorSeries, "", {"rad", 1, {}}};
+    series.channel.values.assign(file.times.size(), std::numeric_limits<double>::quiet_NaN());
+    for (const auto& [time, angle] : errors) {
+        const auto frame = std::lower_bound(file.times.begin(), file.times.end(), time);
+        if (frame != file.times.end())
+            series.channel.values[static_cast<std::size_t>(frame - file.times.begin())] = angle;
+    }
+    std::erase_if(file.series, [](const auto& s) { return s.name == kNormalErrorSeries; });
+    file.series.push_back(std::move(series));
+    results::writeTrajectory(trajectory, file);
+}
+
 /// Finds the questions of all cases and the oracle's answers.
 json prepare(const json& request) {
     const scenario::Scenario s = scenarioOf(request);
     json cases = json::array();
     for (const auto& [id, trajectory] : request.at("cases").items()) {
         const AuditCase found = findQueries(s, id, trajectory.get<std::string>());
+        recordNormalErrors(found, trajectory.get<std::string>());
         json queries = json::array();
         for (const AuditQuery& q : found.queries) queries.push_back(queryToJson(q));
         cases.push_back({{"id", id},

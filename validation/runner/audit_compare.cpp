@@ -174,4 +174,17 @@ results::AuditRow inRunRow(const Scenario& scenario, const AuditCase& questions)
     return row;
 }
 
+std::vector<std::pair<double, double>> normalErrors(const AuditCase& questions) {
+    std::vector<std::pair<double, double>> errors;
+    for (const AuditQuery& q : questions.queries) {
+        if (!q.actedUpon || !q.decided || q.own.empty() || !(q.signedDistance < -kTouchTolerance)) continue;
+        const double angle = nearestAngle(deepestOf(q.own).normal, q.normals);
+        if (errors.empty() || errors.back().first != q.time)
+            errors.emplace_back(q.time, angle);
+        else
+            errors.back().second = std::max(errors.back().second, angle);
+    }
+    return errors;
+}
+
 }  // namespace rigor::validation

@@ -101,6 +101,23 @@ TEST_F(InRun, FlippedNormals) {
     EXPECT_LT(row.depthErrorMax.value(), 1e-12);
 }
 
+TEST_F(InRun, TheCurveOfNormalErrorsTellsWhenTheyWereWrong) {
+    const double from = 0.5;  // [s]; of the poses, a step before the contacts
+    for (auto& c : file_.contacts)
+        if (c.time > from + 0.5 * kStep)
+            for (double& x : c.normal) x = -x;
+    const auto path = scratch_.path() / "run.h5";
+    writeTrajectory(path, file_);
+    const auto errors = normalErrors(findQueries(scenario_, "run", path));
+    ASSERT_GE(errors.size(), 10u);
+    EXPECT_LT(errors.front().first, from);
+    EXPECT_GE(errors.back().first, from);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        EXPECT_GT(errors[i].first, i > 0 ? errors[i - 1].first : -1.0);
+        EXPECT_NEAR(errors[i].second, errors[i].first < from ? 0.0 : std::numbers::pi, 1e-9);
+    }
+}
+
 TEST_F(InRun, DepthsWithAMargin) {
     for (auto& c : file_.contacts) c.depth += 0.04;
     EXPECT_NEAR(audited().depthErrorMedian.value(), 0.04, 1e-12);

@@ -147,6 +147,16 @@ describe('the report of a real run', { skip }, () => {
     clean();
   });
 
+  test('the curves that are asked about most are there', async () => {
+    await open(page, run, '#/scenario/box_stack');
+    const plots = await page
+      .locator('#curves .chart')
+      .evaluateAll((list) => list.map((c) => (c as HTMLElement).dataset.plot));
+    for (const name of ['energy', 'penetration', 'contact normal error'])
+      assert.ok(plots.includes(name), `${name} among ${plots}`);
+    clean();
+  });
+
   test('switching an engine off holds for all charts', async () => {
     await open(page, run, '#/scenario/slide_and_stop');
     const box = page.locator('#switches input').first();
@@ -170,10 +180,11 @@ describe('the report of a real run', { skip }, () => {
 
   test('the worst of a contact audit is three clicks away, and sets the time', async () => {
     await open(page, run);
-    await page.locator('#in-run tbody td a').first().click();
+    const worst = page.locator('#in-run tbody td a').first();
+    const asked = new URLSearchParams(((await worst.getAttribute('href')) ?? '').split('?')[1]);
+    await worst.click();
     await page.waitForSelector('#curves');
     await shown();
-    const asked = new URLSearchParams((await page.evaluate(() => location.hash)).split('?')[1]);
     const read = await page.locator('output.time').textContent();
     assert.ok(Math.abs(Number(read?.match(/[\d.e-]+/)?.[0]) - Number(asked.get('t'))) < 1e-3, `${read} ${asked}`);
     const link = page.locator('#case-audit a.moment').last();
