@@ -13,6 +13,7 @@
 #include <string>
 
 #include "reports/data_files.hpp"
+#include "reports/replay_data.hpp"
 #include "reports/study.hpp"
 #include "reports/tests/synthetic_run.hpp"
 #include "reports/tests/synthetic_study.hpp"
@@ -69,10 +70,12 @@ int synthesise(const fs::path& folder) {
     const auto load = synthetic::makeLoader(run);
     fs::create_directories(folder / "data");
     writeFile(folder / "index.html", htmlReport(view, studyPageJson(study())));
-    for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
-        const std::string name = "scenario-" + std::to_string(i);
-        writeFile(folder / "data" / (name + ".js"), dataFile(name, scenarioJson(view, i, load)));
-    }
+    const auto write = [&](const std::string& name, const std::string& content) {
+        writeFile(folder / "data" / (name + ".js"), dataFile(name, content));
+    };
+    for (std::size_t i = 0; i < run.scenarios.size(); ++i)
+        write("scenario-" + std::to_string(i), scenarioJson(view, i, load));
+    replayFiles(view, load, write);
     return 0;
 }
 

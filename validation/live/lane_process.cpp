@@ -18,17 +18,6 @@
 #include "validation/runner/start_program.hpp"
 
 namespace rigor::validation {
-namespace {
-
-std::string lastLine(const std::string& output) {
-    const auto end = output.find_last_not_of(" \n\r");
-    if (end == std::string::npos) return "";
-    const auto newline = output.rfind('\n', end);
-    const auto begin = newline == std::string::npos ? 0 : newline + 1;
-    return output.substr(begin, end - begin + 1);
-}
-
-}  // namespace
 
 LaneProcess::LaneProcess(const std::filesystem::path& binary, std::size_t memoryLimitMiB) {
     auto [channel, childEnd] = makeChannel();

@@ -10,6 +10,7 @@
 
 #include "validation/runner/answer.hpp"
 #include "validation/runner/process_pool.hpp"
+#include "validation/runner/start_program.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -78,15 +79,6 @@ void readDescription(const json& j, EngineDescription& d) {
     d.info = {d.info.name, j.at("version"), j.at("precision"), j.at("title"), j.at("build_notes")};
     d.capabilities = capabilitiesFromJson(j.at("capabilities"));
     for (const json& o : j.at("options")) d.options.push_back(optionFromJson(o));
-}
-
-/// What the child said last, in one line.
-std::string lastLine(const std::string& output) {
-    const auto end = output.find_last_not_of(" \n\r");
-    if (end == std::string::npos) return "";
-    const auto newline = output.rfind('\n', end);
-    const auto begin = newline == std::string::npos ? 0 : newline + 1;
-    return output.substr(begin, end - begin + 1);
 }
 
 }  // namespace

@@ -84,6 +84,14 @@ bool drainOutput(int file, std::string& tail) {
     }
 }
 
+std::string lastLine(const std::string& output) {
+    const auto end = output.find_last_not_of(" \n\r");
+    if (end == std::string::npos) return "";
+    const auto newline = output.rfind('\n', end);
+    const auto begin = newline == std::string::npos ? 0 : newline + 1;
+    return output.substr(begin, end - begin + 1);
+}
+
 std::string endingOf(int status) {
     if (!WIFSIGNALED(status)) return "exit code " + std::to_string(WEXITSTATUS(status));
     const int signal = WTERMSIG(status);

@@ -53,13 +53,13 @@ export interface Watched {
   close: () => Promise<void>;
 }
 
-/** A page that can reach files alone, and tells of every fault. */
-export async function watched(browser: Browser, options: BrowserContextOptions = {}): Promise<Watched> {
-  const context = await browser.newContext({ viewport: { width: 1400, height: 1000 }, offline: true, ...options });
+/** A page that can reach only what it may ask for, and its faults: errors, and what it asked for beside that. */
+export async function faultsOf(browser: Browser, options: BrowserContextOptions, mayAsk: (url: string) => boolean) {
+  const context = await browser.newContext({ viewport: { width: 1400, height: 1000 }, ...options });
   const faults: string[] = [];
   await context.route('**/*', (route) => {
     const url = route.request().url();
-    if (/^(file|data|blob):/.test(url)) return route.continue();
+    if (mayAsk(url)) return route.continue();
     faults.push(`fetched ${url}`);
     return route.abort();
   });
@@ -68,6 +68,13 @@ export async function watched(browser: Browser, options: BrowserContextOptions =
     if (message.type() === 'error') faults.push(`console: ${message.text()}`);
   });
   page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
+  return { page, context, faults };
+}
+
+/** A page that can reach files alone, and tells of every fault. */
+export async function watched(browser: Browser, options: BrowserContextOptions = {}): Promise<Watched> {
+  const mayAsk = (url: string) => /^(file|data|blob):/.test(url);
+  const { page, context, faults } = await faultsOf(browser, { offline: true, ...options }, mayAsk);
   page.on('requestfailed', (request) => faults.push(`failed: ${request.url()}`));
   return { page, faults, close: () => context.close() };
 }

@@ -7,7 +7,7 @@ import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import type { Browser, BrowserContext, Page } from 'playwright-core';
-import { screenshots } from './browser.ts';
+import { faultsOf, screenshots } from './browser.ts';
 
 const binaries = process.env.RIGOR_BINARY_DIR ?? '';
 
@@ -48,19 +48,5 @@ export interface Watched {
   faults: string[]; // errors of the console and of the page, and whatever was asked of anybody else
 }
 
-export async function watched(browser: Browser, program: Program): Promise<Watched> {
-  const context = await browser.newContext({ viewport: { width: 1400, height: 1000 } });
-  const faults: string[] = [];
-  await context.route('**/*', (route) => {
-    const url = route.request().url();
-    if (url.startsWith(program.origin) || /^(data|blob):/.test(url)) return route.continue();
-    faults.push(`fetched ${url}`);
-    return route.abort();
-  });
-  const page = await context.newPage();
-  page.on('console', (message) => {
-    if (message.type() === 'error') faults.push(`console: ${message.text()}`);
-  });
-  page.on('pageerror', (error) => faults.push(`error: ${error.message}`));
-  return { page, context, faults };
-}
+export const watched = (browser: Browser, program: Program): Promise<Watched> =>
+  faultsOf(browser, {}, (url) => url.startsWith(program.origin) || /^(data|blob):/.test(url));

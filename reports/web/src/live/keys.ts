@@ -3,6 +3,7 @@
 //
 // The live view by keyboard. Layers have the keys that they have in the replay.
 import { el } from '../common/elements.ts';
+import { keyList, layerKeys } from '../replay/key_list.ts';
 import type { LayerName } from '../replay/layers.ts';
 
 export interface KeyActions {
@@ -14,20 +15,6 @@ export interface KeyActions {
   frame(): void;
   help(): void;
 }
-
-const layerKeys: Record<string, LayerName> = {
-  f: 'faces',
-  l: 'outlines',
-  c: 'contacts',
-  m: 'normals',
-  p: 'penetration',
-  i: 'impulses',
-  v: 'velocities',
-  w: 'spins',
-  j: 'joints',
-  b: 'bounds',
-  t: 'trails',
-};
 
 const explained: [string, string][] = [
   ['space', 'play, pause'],
@@ -45,19 +32,11 @@ const explained: [string, string][] = [
 ];
 
 export function helpDialog(): HTMLDialogElement {
-  const rows = explained.map(([keys, text]) => [
-    el(
-      'dt',
-      {},
-      keys.split(' ').map((key) => [el('kbd', {}, key), ' ']),
-    ),
-    el('dd', {}, text),
-  ]);
   return el(
     'dialog',
     { class: 'keys' },
     el('h2', {}, 'Keys'),
-    el('dl', {}, rows),
+    keyList(explained),
     el(
       'p',
       { class: 'hint' },

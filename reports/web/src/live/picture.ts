@@ -5,7 +5,7 @@
 // that it pulls.
 import { el, svg } from '../common/elements.ts';
 import type { CameraState } from '../replay/camera_rig.ts';
-import { darkTheme, lightTheme } from '../replay/colours.ts';
+import { followPointer, followTheme, type PointerActions } from '../replay/follow.ts';
 import { Inspector } from '../replay/inspector.ts';
 import type { Scene } from '../replay/scene.ts';
 import type { Vec3 } from '../replay/vectors.ts';
@@ -54,7 +54,7 @@ export class Picture {
       this.#drawSpring();
     };
     this.#followPointer();
-    this.#followTheme();
+    this.#ends.push(followTheme(this.view));
   }
 
   setLanes(sources: LaneSource[]): void {
@@ -96,43 +96,21 @@ export class Picture {
     });
   }
 
-  #followTheme(): void {
-    const dark = matchMedia('(prefers-color-scheme: dark)');
-    const themed = () => this.view.setTheme(dark.matches ? darkTheme : lightTheme);
-    dark.addEventListener('change', themed);
-    this.#ends.push(() => dark.removeEventListener('change', themed));
-    themed();
-  }
-
   #followPointer(): void {
-    const { canvas } = this.view;
-    let asked = 0;
-    let last: PointerEvent | null = null;
-    const look = () => {
-      asked = 0;
-      this.#hover = last ? this.view.pick(last.clientX, last.clientY) : null;
-      canvas.style.cursor = this.#hover ? 'grab' : '';
-      this.view.mark(this.#hover?.body ?? this.#pinned?.body ?? -1);
-      this.#inspect();
+    const actions: PointerActions = {
+      cursor: 'grab',
+      hover: (pick) => {
+        this.#hover = pick;
+        this.view.mark(pick?.body ?? this.#pinned?.body ?? -1);
+        this.#inspect();
+      },
+      click: (pick) => {
+        this.#pinned = pick && pick.body >= 0 ? { source: pick.source as LaneSource, body: pick.body } : null;
+        this.view.mark(this.#pinned?.body ?? -1);
+        this.#inspect();
+      },
     };
-    const later = (event: PointerEvent | null) => {
-      last = event;
-      if (asked === 0) asked = requestAnimationFrame(look);
-    };
-    canvas.addEventListener('pointermove', (event) => later(event.buttons === 0 ? event : null));
-    canvas.addEventListener('pointerleave', () => later(null));
-    let down: [number, number] = [0, 0];
-    canvas.addEventListener('pointerdown', (event) => {
-      down = [event.clientX, event.clientY];
-    });
-    canvas.addEventListener('click', (event) => {
-      if (Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
-      const pick = this.view.pick(event.clientX, event.clientY);
-      this.#pinned = pick && pick.body >= 0 ? { source: pick.source as LaneSource, body: pick.body } : null;
-      this.view.mark(this.#pinned?.body ?? -1);
-      this.#inspect();
-    });
-    this.#ends.push(() => cancelAnimationFrame(asked));
+    this.#ends.push(followPointer(this.view, actions));
   }
 
   /** What is under the pointer, else the body that was clicked, with the numbers of the newest frame. */

@@ -3,23 +3,11 @@
 //
 // Keyboard control of a replay, while it has the focus, and the overlay that explains it.
 import { el } from '../common/elements.ts';
+import { keyList, layerKeys } from './key_list.ts';
 import type { LayerName } from './layers.ts';
 import type { ReplayStage } from './stage.ts';
 
-const layerKeys: Record<string, LayerName> = {
-  f: 'faces',
-  l: 'outlines',
-  c: 'contacts',
-  m: 'normals',
-  p: 'penetration',
-  i: 'impulses',
-  v: 'velocities',
-  w: 'spins',
-  j: 'joints',
-  b: 'bounds',
-  t: 'trails',
-  r: 'reference',
-};
+const layers: Record<string, LayerName> = { ...layerKeys, r: 'reference' };
 
 const explained: [string, string][] = [
   ['space', 'play, pause'],
@@ -41,18 +29,10 @@ const explained: [string, string][] = [
 ];
 
 export function helpOverlay(): HTMLElement {
-  const rows = explained.map(([keys, text]) => [
-    el(
-      'dt',
-      {},
-      keys.split(' ').map((key) => [el('kbd', {}, key), ' ']),
-    ),
-    el('dd', {}, text),
-  ]);
   return el(
     'div',
     { class: 'help', hidden: true, role: 'note' },
-    el('dl', {}, rows),
+    keyList(explained),
     el(
       'p',
       {},
@@ -83,7 +63,7 @@ export function bindKeys(root: HTMLElement, stage: ReplayStage): () => void {
     const target = event.target as HTMLElement;
     if (target.matches('select, input:not([type=range])')) return;
     const { key } = event;
-    const layer = layerKeys[key];
+    const layer = layers[key];
     if (key === 'ArrowLeft' || key === 'ArrowRight') stage.step(key === 'ArrowRight', event.shiftKey ? 10 : 1);
     else if (key === ' ' && target.matches('button')) return;
     else if (simple[key]) simple[key]?.();

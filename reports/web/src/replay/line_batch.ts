@@ -31,12 +31,40 @@ const grown = (array: Numbers, needed: number): Numbers => {
   return larger;
 };
 
+/** Ends and colours of lines, six numbers each. */
+class Segments {
+  points: Numbers;
+  colours: Numbers;
+  count = 0;
+
+  constructor(room: number) {
+    this.points = new Float32Array(6 * room);
+    this.colours = new Float32Array(6 * room);
+  }
+
+  /** `fade`: 0 the colour, 1 the background `to`. */
+  add(ax: number, ay: number, az: number, bx: number, by: number, bz: number, c: Color, to: Color = c, fade = 0): void {
+    const i = 6 * this.count++;
+    this.points = grown(this.points, i + 6);
+    this.colours = grown(this.colours, i + 6);
+    const p = this.points;
+    p[i] = ax;
+    p[i + 1] = ay;
+    p[i + 2] = az;
+    p[i + 3] = bx;
+    p[i + 4] = by;
+    p[i + 5] = bz;
+    const q = this.colours;
+    q[i] = q[i + 3] = c.r + (to.r - c.r) * fade;
+    q[i + 1] = q[i + 4] = c.g + (to.g - c.g) * fade;
+    q[i + 2] = q[i + 5] = c.b + (to.b - c.b) * fade;
+  }
+}
+
 /** Lines one pixel wide. */
 export class ThinLines {
   readonly object: LineSegments<BufferGeometry, LineBasicMaterial>;
-  #points = new Float32Array(6 * 64);
-  #colours = new Float32Array(6 * 64);
-  #count = 0;
+  readonly #segments = new Segments(64);
 
   constructor(order: number, xray: boolean) {
     const material = new LineBasicMaterial({ vertexColors: true, transparent: true, depthTest: !xray });
@@ -46,7 +74,7 @@ export class ThinLines {
   }
 
   begin(): void {
-    this.#count = 0;
+    this.#segments.count = 0;
   }
 
   /** `fade`: 0 the colour, 1 the background `to`. */
@@ -61,28 +89,15 @@ export class ThinLines {
     to: Color = c,
     fade = 0,
   ): void {
-    const i = 6 * this.#count++;
-    this.#points = grown(this.#points, i + 6);
-    this.#colours = grown(this.#colours, i + 6);
-    const p = this.#points;
-    p[i] = ax;
-    p[i + 1] = ay;
-    p[i + 2] = az;
-    p[i + 3] = bx;
-    p[i + 4] = by;
-    p[i + 5] = bz;
-    const q = this.#colours;
-    q[i] = q[i + 3] = c.r + (to.r - c.r) * fade;
-    q[i + 1] = q[i + 4] = c.g + (to.g - c.g) * fade;
-    q[i + 2] = q[i + 5] = c.b + (to.b - c.b) * fade;
+    this.#segments.add(ax, ay, az, bx, by, bz, c, to, fade);
   }
 
   end(): void {
     const { geometry } = this.object;
-    setDynamic(geometry, 'position', this.#points);
-    setDynamic(geometry, 'color', this.#colours);
-    geometry.setDrawRange(0, 2 * this.#count);
-    this.object.visible = this.#count > 0;
+    setDynamic(geometry, 'position', this.#segments.points);
+    setDynamic(geometry, 'color', this.#segments.colours);
+    geometry.setDrawRange(0, 2 * this.#segments.count);
+    this.object.visible = this.#segments.count > 0;
   }
 
   dispose(): void {
@@ -104,9 +119,7 @@ function setDynamic(geometry: BufferGeometry, name: string, array: Float32Array)
 export class FatLines {
   readonly object: LineSegments2;
   readonly heads: InstancedMesh;
-  #points = new Float32Array(6 * 32);
-  #colours = new Float32Array(6 * 32);
-  #count = 0;
+  readonly #segments = new Segments(32);
   #headCount = 0;
   #geometry = new LineSegmentsGeometry();
   readonly #lineMaterial: LineMaterial;
@@ -131,25 +144,12 @@ export class FatLines {
   }
 
   begin(): void {
-    this.#count = 0;
+    this.#segments.count = 0;
     this.#headCount = 0;
   }
 
   line(ax: number, ay: number, az: number, bx: number, by: number, bz: number, c: Color): void {
-    const i = 6 * this.#count++;
-    this.#points = grown(this.#points, i + 6);
-    this.#colours = grown(this.#colours, i + 6);
-    const p = this.#points;
-    p[i] = ax;
-    p[i + 1] = ay;
-    p[i + 2] = az;
-    p[i + 3] = bx;
-    p[i + 4] = by;
-    p[i + 5] = bz;
-    const q = this.#colours;
-    q[i] = q[i + 3] = c.r;
-    q[i + 1] = q[i + 4] = c.g;
-    q[i + 2] = q[i + 5] = c.b;
+    this.#segments.add(ax, ay, az, bx, by, bz, c);
   }
 
   /** From a point along a vector; the head is `head` long, at most half of the arrow. */
@@ -163,11 +163,11 @@ export class FatLines {
   }
 
   end(): void {
-    if (this.#geometry.getAttribute('instanceStart')?.array !== this.#points) this.#bind();
+    if (this.#geometry.getAttribute('instanceStart')?.array !== this.#segments.points) this.#bind();
     for (const name of ['instanceStart', 'instanceColorStart'])
       (this.#geometry.getAttribute(name) as InterleavedBufferAttribute).data.needsUpdate = true;
-    this.#geometry.instanceCount = this.#count;
-    this.object.visible = this.#count > 0;
+    this.#geometry.instanceCount = this.#segments.count;
+    this.object.visible = this.#segments.count > 0;
     this.heads.count = this.#headCount;
     this.heads.visible = this.#headCount > 0;
     this.heads.instanceMatrix.needsUpdate = true;
@@ -191,8 +191,8 @@ export class FatLines {
       this.#geometry.setAttribute(start, new InterleavedBufferAttribute(buffer, 3, 0));
       this.#geometry.setAttribute(end, new InterleavedBufferAttribute(buffer, 3, 3));
     };
-    set('instanceStart', 'instanceEnd', this.#points);
-    set('instanceColorStart', 'instanceColorEnd', this.#colours);
+    set('instanceStart', 'instanceEnd', this.#segments.points);
+    set('instanceColorStart', 'instanceColorEnd', this.#segments.colours);
     this.object.geometry = this.#geometry;
   }
 

@@ -3,8 +3,8 @@
 //
 // Picture, controls and keys of a replay, bound together.
 import { el } from '../common/elements.ts';
-import { darkTheme, lightTheme } from './colours.ts';
 import { Controls } from './controls.ts';
+import { followPointer, followTheme, type PointerActions } from './follow.ts';
 import { type Frame, type FrameSource, indexAt } from './frames.ts';
 import { bodyReach } from './framing.ts';
 import { Inspector } from './inspector.ts';
@@ -53,7 +53,6 @@ export class ReplayStage {
   readonly #labels: PanelLabels;
   readonly #stage: HTMLElement;
   readonly #ends: (() => void)[] = [];
-  readonly #leaving = new AbortController();
   #chosen: Set<string>; // specs that have a picture
   #pinned: { spec: string; body: number; other?: number } | null = null; // other: of a contact looked at
   #hover: Pick | null = null;
@@ -223,52 +222,25 @@ export class ReplayStage {
       this.#inspect();
     };
     this.#followPointer();
-    const dark = matchMedia('(prefers-color-scheme: dark)');
-    const themed = () => {
-      const asked = document.documentElement.dataset.theme;
-      this.view.setTheme((asked ? asked === 'dark' : dark.matches) ? darkTheme : lightTheme);
-    };
-    const observer = new MutationObserver(themed);
-    observer.observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });
-    dark.addEventListener('change', themed);
-    this.#ends.push(() => observer.disconnect());
-    this.#ends.push(() => dark.removeEventListener('change', themed));
-    themed();
+    this.#ends.push(followTheme(this.view));
   }
 
   #followPointer(): void {
-    const { canvas } = this.view;
-    const { signal } = this.#leaving; // the canvas may serve another view later
-    let asked = 0;
-    let last: PointerEvent | null = null;
-    const look = () => {
-      asked = 0;
-      this.#hover = last ? this.view.pick(last.clientX, last.clientY) : null;
-      canvas.style.cursor = this.#hover ? 'pointer' : '';
-      this.view.mark(this.#hover?.body ?? this.#pinned?.body ?? -1);
-      this.#inspect();
+    const actions: PointerActions = {
+      cursor: 'pointer',
+      hover: (pick) => {
+        this.#hover = pick;
+        this.view.mark(pick?.body ?? this.#pinned?.body ?? -1);
+        this.#inspect();
+      },
+      click: (pick) => {
+        this.#pinned = pick && pick.body >= 0 ? { spec: pick.source.spec, body: pick.body } : null;
+        this.view.mark(this.#pinned?.body ?? -1);
+        this.#inspect();
+        this.#remember();
+      },
     };
-    const later = (event: PointerEvent | null) => {
-      last = event;
-      if (asked === 0) asked = requestAnimationFrame(look);
-    };
-    canvas.addEventListener('pointermove', (event) => later(event.buttons === 0 ? event : null), { signal });
-    canvas.addEventListener('pointerleave', () => later(null), { signal });
-    let down = [0, 0];
-    const press = (event: PointerEvent) => {
-      down = [event.clientX, event.clientY];
-    };
-    canvas.addEventListener('pointerdown', press, { signal });
-    const click = (event: MouseEvent) => {
-      if (Math.hypot(event.clientX - (down[0] as number), event.clientY - (down[1] as number)) > 4) return;
-      const pick = this.view.pick(event.clientX, event.clientY);
-      this.#pinned = pick && pick.body >= 0 ? { spec: pick.source.spec, body: pick.body } : null;
-      this.view.mark(this.#pinned?.body ?? -1);
-      this.#inspect();
-      this.#remember();
-    };
-    canvas.addEventListener('click', click, { signal });
-    this.#ends.push(() => cancelAnimationFrame(asked));
+    this.#ends.push(followPointer(this.view, actions));
   }
 
   /** What is under the pointer, else the body that was clicked. */
@@ -353,7 +325,6 @@ export class ReplayStage {
 
   dispose(): void {
     clearTimeout(this.#linkTimer);
-    this.#leaving.abort();
     this.player.pause();
     for (const end of this.#ends) end();
     this.view.dispose();

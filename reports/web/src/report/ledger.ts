@@ -4,7 +4,7 @@
 // Lines of the parity ledger: asked for, given, why.
 import { el } from '../common/elements.ts';
 import type { LedgerLine, Shown } from './data.ts';
-import { chip } from './parts.ts';
+import { chip, looseHeadRow } from './parts.ts';
 import { scenarioLink } from './run.ts';
 
 const mark: Record<string, Shown> = { exact: 'pass', approximate: 'known_deviation', unsupported: 'unsupported' };
@@ -33,15 +33,7 @@ export function ledgerTable(rows: LabelledLine[], who: string): HTMLElement {
   return el(
     'table',
     { class: 'full' },
-    el(
-      'thead',
-      null,
-      el(
-        'tr',
-        null,
-        heads.map((t) => el('th', { scope: 'col' }, t)),
-      ),
-    ),
+    looseHeadRow(heads),
     el(
       'tbody',
       null,

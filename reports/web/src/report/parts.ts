@@ -26,17 +26,22 @@ export const durationCell = (seconds: Maybe): HTMLElement =>
   el('td', { class: 'num', title: `${full(seconds)} s` }, duration(seconds));
 export const stepCell = (dt: Maybe): HTMLElement => el('td', { class: 'num' }, timeStep(dt));
 
-/** A row of heads; `numeric` tells which stand over numbers, the first one sticks. */
-export const headRow = (titles: Child[], numeric: (index: number) => boolean = () => false): HTMLElement =>
+const heads = (titles: Child[], kind: (index: number) => string | null): HTMLElement =>
   el(
     'thead',
     null,
     el(
       'tr',
       null,
-      titles.map((t, i) => el('th', { class: i === 0 ? 'sticky' : numeric(i) ? 'num' : null, scope: 'col' }, t)),
+      titles.map((t, i) => el('th', { class: kind(i), scope: 'col' }, t)),
     ),
   );
+/** A row of heads; `numeric` tells which stand over numbers, the first one sticks. */
+export const headRow = (titles: Child[], numeric: (index: number) => boolean = () => false): HTMLElement =>
+  heads(titles, (i) => (i === 0 ? 'sticky' : numeric(i) ? 'num' : null));
+/** The same where nothing sticks. */
+export const looseHeadRow = (titles: Child[], numeric: (index: number) => boolean = () => false): HTMLElement =>
+  heads(titles, (i) => (numeric(i) ? 'num' : null));
 
 /** Two head rows, engine above preset, for tables with a column per spec. */
 export function specHead(

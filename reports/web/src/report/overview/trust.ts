@@ -6,7 +6,7 @@ import { type Child, el } from '../../common/elements.ts';
 import { duration, format, ratio, toNumber, words } from '../../common/format.ts';
 import { isLost } from '../cells.ts';
 import type { Mechanism, Standing } from '../data.ts';
-import { chip, folded, headRow, panel, scroll } from '../parts.ts';
+import { chip, folded, headRow, looseHeadRow, panel, scroll } from '../parts.ts';
 import { engineLink, run, scenarioLink, verdictText } from '../run.ts';
 import { ranked, type Summary, standings, within, worstMiss } from '../standing.ts';
 import { belongs, type Task, tasks } from '../tasks.ts';
@@ -86,15 +86,7 @@ function card(task: Task): HTMLElement | null {
     el(
       'table',
       { class: 'full ranking' },
-      el(
-        'thead',
-        null,
-        el(
-          'tr',
-          null,
-          heads.map((t, i) => el('th', { class: i ? 'num' : null, scope: 'col' }, t)),
-        ),
-      ),
+      looseHeadRow(heads, (i) => i > 0),
       el('tbody', null, [...first, ...rest].map(line)),
     ),
     el(

@@ -3,26 +3,11 @@
 import { type Child, el } from '../../common/elements.ts';
 import { format, full, type Maybe, timeStep, words } from '../../common/format.ts';
 import type { Finding, Study, StudyRow } from '../data.ts';
-import { chip, numberCell, scroll } from '../parts.ts';
+import { chip, looseHeadRow, numberCell, scroll } from '../parts.ts';
 import { run, scenarioLink } from '../run.ts';
 
 const plain = (heads: string[], rows: HTMLElement[]) =>
-  scroll(
-    el(
-      'table',
-      { class: 'full' },
-      el(
-        'thead',
-        null,
-        el(
-          'tr',
-          null,
-          heads.map((t) => el('th', { scope: 'col' }, t)),
-        ),
-      ),
-      el('tbody', null, rows),
-    ),
-  );
+  scroll(el('table', { class: 'full' }, looseHeadRow(heads), el('tbody', null, rows)));
 
 /** Columns: what varies, the variant, the metrics, and how the run ended where it did not end well. */
 export function rowsTable(rows: StudyRow[]): HTMLElement {
