@@ -47,6 +47,7 @@ TEST(Tree, EveryFolderHasAReadme) {
                                "validation/metrics",
                                "validation/results",
                                "validation/runner",
+                               "validation/bench",
                                "validation/collide",
                                "validation/contact_problems",
                                "validation/studies",
