@@ -8,17 +8,15 @@
 //     is visited: a box then meets its neighbours without the rotation that solving its corners one by one
 //     would leave it with, which is what makes tall stacks rock;
 //   - iterations go forwards and backwards in turn, so that weight travels down a stack as fast as up;
-//   - all equality blocks of joints are solved at once, by a direct method (joint_system.hpp); the normal
-//     goes before the tangents, so that friction has this sweep's limit;
+//   - all joints are a group too, whose equality blocks are solved at once (joint_group.hpp); the normal goes
+//     before the tangents, so that friction has this sweep's limit;
 //   - what the iterations allowed, at least kFinishIterations, leave of a problem of at most kFinishRows rows
 //     is handed to Newton's method (newton_finish.hpp), with friction on the exact cone. Heavy boxes on light
 //     ones are then solved to rounding.
-// Where too many joints meet for the direct method, or joints have bounded rows, the group is swept as
-// contacts are: bounded rows one by one and the equality blocks again after them.
 //
 // Cost: iterations * rows * (1..kInnerSweeps). Known limit: contacts converge linearly, slowly for large mass
 // ratios, where there are more rows than that.
-#include "engine/solvers/joint_system.hpp"
+#include "engine/solvers/joint_group.hpp"
 #include "engine/solvers/natural_map.hpp"
 #include "engine/solvers/newton_finish.hpp"
 #include "engine/solvers/row_kernels.hpp"
@@ -37,7 +35,7 @@ class BlockGaussSeidel final : public Solver<S> {
         applyWarmStart<S>(input);
         findGroups(input.constraints.blocks);
         orderGroups(input);
-        factorJoints(input.constraints);
+        joints_.begin(input.constraints);
         for (int i = 0; i < input.iterations; ++i) {
             input.monitor.before(input.velocities);
             const Real change = sweeps_.template largest<Real>(i % 2 != 0, [&](std::size_t group) {
@@ -85,89 +83,25 @@ class BlockGaussSeidel final : public Solver<S> {
         sweeps_.finish();
     }
 
-    /// All equality blocks are one system. One alone is solved by its own inverse.
-    void factorJoints(const ConstraintRows<S>& constraints) {
-        items_.clear(), joints_.clear();
-        for (std::uint32_t i = 0; i < constraints.blocks.size(); ++i) {
-            const Block<S>& block = constraints.blocks[i];
-            if (block.kind != BlockKind::Joint) continue;
-            joints_.push_back(i);
-            items_.push_back({&block, constraints.rows.data() + block.first});
-        }
-        direct_ = joints_.size() > 1 && system_.factor(items_);
-    }
-
     /// Returns the residual that the group had when it was visited.
     Real solveGroup(const SolverInput<S>& input, std::uint32_t first, std::uint32_t last) {
-        if (direct_ && isJoint(input.constraints.blocks[first])) return solveJoints(input, first, last);
+        if (isJoint(input.constraints.blocks[first]))
+            return joints_.solve(input.constraints, input.velocities);
         Real found = 0;
         const int sweeps = last - first > 1 ? kInnerSweeps : 1;
         for (int sweep = 0; sweep < sweeps; ++sweep) {
             Real largest = 0;
             for (std::uint32_t k = 0; k < last - first; ++k) {
-                // Joints forwards and backwards; contacts always forwards, which measurably calms stacks.
-                const bool backwards = sweep % 2 != 0 && isJoint(input.constraints.blocks[first]);
-                const Block<S>& block = input.constraints.blocks[backwards ? last - 1 - k : first + k];
+                // Always forwards, which measurably calms stacks.
+                const Block<S>& block = input.constraints.blocks[first + k];
                 Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
-                largest = std::max(largest, solveBlock(input, block, a, b));
+                const Real residual = solveNormal(input, block, a, b);
+                largest = std::max({largest, residual, solveFriction(input, block, a, b)});
             }
             if (sweep == 0) found = largest;
             if (largest <= kInnerTolerance * found) break;
         }
         return found;
-    }
-
-    /// The joints of one group: equality blocks by the factors, bounded rows between them one by one.
-    Real solveJoints(const SolverInput<S>& input, std::uint32_t first, std::uint32_t last) {
-        Real found = 0;
-        for (int sweep = 0; sweep < kInnerSweeps; ++sweep) {
-            Real largest = 0;
-            bool bounded = false;
-            for (std::uint32_t k = first; k < last; ++k) {
-                const Block<S>& block = input.constraints.blocks[k];
-                if (block.kind != BlockKind::Bounded) continue;
-                bounded = true;
-                largest = std::max(largest, solveBoundedRow(input, block, input.velocities[block.a],
-                                                            input.velocities[block.b]));
-            }
-            largest = std::max(largest, solveEqualities(input));
-            if (sweep == 0) found = largest;
-            if (!bounded || largest <= kInnerTolerance * found) break;
-        }
-        return found;
-    }
-
-    /// Returns the largest residual there was.
-    Real solveEqualities(const SolverInput<S>& input) {
-        Real largest = 0;
-        for (std::size_t k = 0; k < joints_.size(); ++k) {
-            const Block<S>& block = input.constraints.blocks[joints_[k]];
-            const Row<S>* rows = input.constraints.rows.data() + block.first;
-            const Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
-            BlockVector<S>& right = system_.at(k);
-            for (int i = 0; i < block.rows; ++i) right[i] = -rowError<S>(rows[i], a, b);
-            largest = std::max(largest, right.cwiseAbs().maxCoeff());
-        }
-        system_.solve();
-        for (std::size_t k = 0; k < joints_.size(); ++k) {
-            const Block<S>& block = input.constraints.blocks[joints_[k]];
-            Row<S>* rows = input.constraints.rows.data() + block.first;
-            const BlockVector<S>& lambda = system_.at(k);
-            for (int i = 0; i < block.rows; ++i) {
-                rows[i].impulse += lambda[i];
-                applyRowImpulse<S>(rows[i], block, lambda[i], input.velocities[block.a],
-                                   input.velocities[block.b]);
-            }
-        }
-        return largest;
-    }
-
-    static Real solveBlock(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
-                           Velocity<S>& b) {
-        if (block.kind == BlockKind::Joint) return solveJointBlock(input, block, a, b);
-        if (block.kind == BlockKind::Bounded) return solveBoundedRow(input, block, a, b);
-        const Real residual = solveNormal(input, block, a, b);
-        return std::max(residual, solveFriction(input, block, a, b));
     }
 
     static constexpr std::size_t kFinishRows = 128;  ///< n^3 / 3 is then less than a millisecond
@@ -177,11 +111,8 @@ class BlockGaussSeidel final : public Solver<S> {
     static constexpr Real kInnerTolerance = Real(0.01);  ///< of the first sweep's residual
     std::vector<std::uint32_t> groups_;
     SweepOrder sweeps_;
-    std::vector<std::uint32_t> joints_;  ///< equality blocks
-    std::vector<typename JointSystem<S>::Item> items_;
-    JointSystem<S> system_;
+    JointGroup<S> joints_;
     NewtonFinish<S> newton_;
-    bool direct_ = false;  ///< the factors are those of this solve
 };
 
 }  // namespace

@@ -25,11 +25,10 @@ typename S::Real rowError(const Row<S>& row, const Velocity<S>& a, const Velocit
     return rowVelocity<S>(row, a, b) + row.bias + row.softness * row.impulse;
 }
 
+/// A bounded row, given the velocities of its bodies.
 template <class S>
-typename S::Real solveBoundedRow(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
-                                 Velocity<S>& b) {
+typename S::Real satisfyBoundedRow(Row<S>& row, const Block<S>& block, Velocity<S>& a, Velocity<S>& b) {
     using Real = typename S::Real;
-    Row<S>& row = input.constraints.rows[block.first];
     const Real error = rowError<S>(row, a, b);
     const Real accumulated = std::clamp(row.impulse - row.invK * error, row.lower, row.upper);
     const Real step = accumulated - row.impulse;
@@ -40,17 +39,29 @@ typename S::Real solveBoundedRow(const SolverInput<S>& input, const Block<S>& bl
 
 /// All rows of a joint at once.
 template <class S>
-typename S::Real solveJointBlock(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
-                                 Velocity<S>& b) {
-    Row<S>* rows = input.constraints.rows.data() + block.first;
+typename S::Real satisfyJointBlock(ConstraintRows<S>& constraints, const Block<S>& block, Velocity<S>& a,
+                                   Velocity<S>& b) {
+    Row<S>* rows = constraints.rows.data() + block.first;
     BlockVector<S> error(block.rows);
     for (int i = 0; i < block.rows; ++i) error[i] = rowError<S>(rows[i], a, b);
-    const BlockVector<S> lambda = -(input.constraints.matrices[block.matrix] * error);
+    const BlockVector<S> lambda = -(constraints.matrices[block.matrix] * error);
     for (int i = 0; i < block.rows; ++i) {
         rows[i].impulse += lambda[i];
         applyRowImpulse<S>(rows[i], block, lambda[i], a, b);
     }
     return error.cwiseAbs().maxCoeff();
+}
+
+template <class S>
+typename S::Real solveBoundedRow(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                                 Velocity<S>& b) {
+    return satisfyBoundedRow<S>(input.constraints.rows[block.first], block, a, b);
+}
+
+template <class S>
+typename S::Real solveJointBlock(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                                 Velocity<S>& b) {
+    return satisfyJointBlock<S>(input.constraints, block, a, b);
 }
 
 /// The rows of a joint one after the other.
