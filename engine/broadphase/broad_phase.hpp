@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/core/table.hpp"
+#include "engine/core/tasks.hpp"
 #include "engine/math/space.hpp"
 
 namespace rigor::engine {
@@ -29,9 +30,10 @@ class BroadPhase {
     /// Replaces `pairs` by all pairs of boxes that overlap (touching counts), each once, sorted, except those
     /// of two proxies with movable = 0. Boxes may be unbounded (an extent beyond kUnbounded). Consecutive
     /// calls with the same count are taken as the same proxies that moved; another count starts afresh.
-    /// No allocation once the numbers of boxes and pairs have stopped growing.
+    /// No allocation once the numbers of boxes and pairs have stopped growing. The pairs are a function of
+    /// the boxes alone, whatever the threads of `tasks`, the instruction set and the updates before.
     virtual void update(std::span<const Aabb<S>> boxes, std::span<const std::uint8_t> movable,
-                        std::vector<ProxyPair>& pairs) = 0;
+                        std::vector<ProxyPair>& pairs, const Tasks& tasks = Tasks::one()) = 0;
 
     /// Forgets everything: the next update starts afresh.
     virtual void reset() = 0;

@@ -13,7 +13,7 @@ class BruteForce final : public BroadPhase<S> {
     std::unique_ptr<BroadPhase<S>> clone() const override { return std::make_unique<BruteForce>(*this); }
     void reset() override {}
     void update(std::span<const Aabb<S>> boxes, std::span<const std::uint8_t> movable,
-                std::vector<ProxyPair>& pairs) override {
+                std::vector<ProxyPair>& pairs, const Tasks&) override {
         pairs.clear();
         const auto n = static_cast<std::uint32_t>(boxes.size());
         for (std::uint32_t i = 0; i < n; ++i)

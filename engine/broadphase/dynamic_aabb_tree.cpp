@@ -192,7 +192,7 @@ class DynamicAabbTree final : public BroadPhase<S> {
     void reset() override { count_ = 0; }
 
     void update(std::span<const Box> boxes, std::span<const std::uint8_t> movable,
-                std::vector<ProxyPair>& pairs) override {
+                std::vector<ProxyPair>& pairs, const Tasks&) override {
         if (boxes.size() != count_) restart(boxes.size());
         moveProxies(boxes);
         findNewPairs(movable);

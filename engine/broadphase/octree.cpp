@@ -44,7 +44,7 @@ class Octree final : public BroadPhase<S> {
     void reset() override { proxies_.clear(); }
 
     void update(std::span<const Box> boxes, std::span<const std::uint8_t> movable,
-                std::vector<ProxyPair>& pairs) override {
+                std::vector<ProxyPair>& pairs, const Tasks&) override {
         if (boxes.size() != proxies_.size()) restart(boxes);
         outside_.clear();
         for (std::uint32_t i = 0; i < boxes.size(); ++i) {

@@ -34,7 +34,7 @@ class SweepAndPrune final : public BroadPhase<S> {
     void reset() override { intervals_.clear(), axis_ = 0; }
 
     void update(std::span<const Box> boxes, std::span<const std::uint8_t> movable,
-                std::vector<ProxyPair>& pairs) override {
+                std::vector<ProxyPair>& pairs, const Tasks&) override {
         const int axis = axisOfLargestVariance<S>(boxes, axis_);
         const bool afresh = intervals_.size() != boxes.size() || axis != axis_;
         axis_ = axis;

@@ -43,7 +43,7 @@ class SweepAndPruneAllAxes final : public BroadPhase<S> {
     void reset() override { previous_.clear(); }
 
     void update(std::span<const Box> boxes, std::span<const std::uint8_t> movable,
-                std::vector<ProxyPair>& pairs) override {
+                std::vector<ProxyPair>& pairs, const Tasks&) override {
         if (mustRestart(boxes, movable) || !updateLists(boxes, movable)) restart(boxes, movable);
         previous_.assign(boxes.begin(), boxes.end());
         movable_.assign(movable.begin(), movable.end());

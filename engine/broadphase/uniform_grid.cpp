@@ -40,7 +40,7 @@ class UniformGrid final : public BroadPhase<S> {
     void reset() override {}
 
     void update(std::span<const Box> boxes, std::span<const std::uint8_t> movable,
-                std::vector<ProxyPair>& pairs) override {
+                std::vector<ProxyPair>& pairs, const Tasks&) override {
         pairs.clear();
         chooseCell(boxes);
         fillTable(boxes);

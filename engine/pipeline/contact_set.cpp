@@ -85,7 +85,7 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
         if (!isStatic && ccd.looksAhead()) ccd.growBox(static_cast<std::uint32_t>(i), boxes_[i]);
     });
     boxesValid_ = true;
-    broadPhase.update(boxes_, movable_, proxyPairs_);
+    broadPhase.update(boxes_, movable_, proxyPairs_, tasks);
 }
 
 /// Both bodies at rest and at least one of them asleep: walls, and bodies asleep, do not move.
