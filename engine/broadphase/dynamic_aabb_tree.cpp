@@ -194,7 +194,7 @@ class DynamicAabbTree final : public BroadPhase<S> {
     void update(std::span<const Box> boxes, std::span<const std::uint8_t> movable,
                 std::vector<ProxyPair>& pairs, const Tasks&) override {
         if (boxes.size() != count_) restart(boxes.size());
-        moveProxies(boxes);
+        moveProxies(boxes, movable);
         findNewPairs(movable);
         dropOldPairs();
         mergePairs();
@@ -210,6 +210,7 @@ class DynamicAabbTree final : public BroadPhase<S> {
         tree_.clear(static_cast<std::uint32_t>(count));
         where_.assign(count, Where::Nowhere);
         touchedFlag_.assign(count, 0);
+        movable_.assign(count, 0);
         fatPairs_.clear();
         touched_.reserve(count);
         outside_.clear();
@@ -223,10 +224,12 @@ class DynamicAabbTree final : public BroadPhase<S> {
         return {box.min - m, box.max + m};
     }
 
-    void moveProxies(std::span<const Box> boxes) {
+    void moveProxies(std::span<const Box> boxes, std::span<const std::uint8_t> movable) {
         touched_.clear();
         for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-            if (where_[i] == Where::InTree && tree_.box(i).contains(boxes[i])) continue;
+            const bool sameKind = movable[i] == movable_[i];  // else its pairs begin or end
+            movable_[i] = movable[i];
+            if (where_[i] == Where::InTree && sameKind && tree_.box(i).contains(boxes[i])) continue;
             const bool unbounded = BroadPhase<S>::unbounded(boxes[i]);
             if (where_[i] == Where::Outside && unbounded) continue;
             if (where_[i] == Where::InTree) tree_.remove(i);
@@ -283,7 +286,7 @@ class DynamicAabbTree final : public BroadPhase<S> {
     std::size_t count_ = 0;
     Tree<S> tree_;
     std::vector<Where> where_;
-    std::vector<std::uint8_t> touchedFlag_;
+    std::vector<std::uint8_t> touchedFlag_, movable_;
     std::vector<std::uint32_t> touched_, outside_, stack_;
     std::vector<ProxyPair> fatPairs_, newPairs_, merged_;  ///< sorted
 };

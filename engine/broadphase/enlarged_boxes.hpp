@@ -25,8 +25,8 @@ class EnlargedBoxes {
 
     /// Takes in where the boxes are. `margin` >= 0: by how much a new enlarged box is larger on each side, as
     /// a share of the longest edge; boxes that are not movable, and those without bounds, stay as they are.
-    /// Another count of boxes starts afresh. True when pairs() are not what they were before. The same `broadPhase` in every
-    /// call, and in no other use, until reset().
+    /// Another count of boxes starts afresh. True when pairs() are not what they were before. The same
+    /// `broadPhase` in every call, and in no other use, until reset().
     bool update(BroadPhase<S>& broadPhase, std::span<const Aabb<S>> boxes,
                 std::span<const std::uint8_t> movable, Real margin, const Tasks& tasks = Tasks::one());
 
