@@ -69,7 +69,9 @@ Json engines() {
 
 Json scenarios() {
     Json list = Json::array();
-    for (const auto& entry : scenario::listScenarios()) {
+    auto entries = scenario::listScenarios();
+    for (auto& entry : scenario::listBenchScenarios()) entries.push_back(std::move(entry));
+    for (const auto& entry : entries) {
         const auto s = scenario::loadScenario(entry.file).scenario;
         list.push_back({{"name", s.name},
                         {"title", s.title},

@@ -17,10 +17,10 @@ Generated generateChain(const Node& node) {
                joint = node.require("joint");
     Generated made;
     if (!name || !body || !linksNode || !direction || !lengthNode || !joint) return made;
-    const int links = linksNode->integer(1, 2000);
+    const int links = linksNode->scaledInteger(1, kMaxBodies);
     const double length = lengthNode->positive();
     const Vec3 along = direction->unitVector(),
-               origin = node.has("origin") ? node["origin"].vector() : Vec3{};
+               origin = node.has("origin") ? node["origin"].scaledVector() : Vec3{};
     const bool anchored = !node.has("anchored") || node["anchored"].boolean();
     if (!node.context().problems.empty()) return made;
     std::string before = "world";

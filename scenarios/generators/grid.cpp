@@ -13,21 +13,22 @@ Generated generateGrid(const Node& node) {
                spacing = node.require("spacing");
     Generated made;
     if (!name || !body || !counts || !spacing) return made;
-    const auto n = counts->numbers(static_cast<std::size_t>(node.dimension()));
+    const auto axes = static_cast<std::size_t>(node.dimension());
+    std::vector<int> n;
     double total = 1.0;
-    for (const double count : n) {
-        if (count < 1.0 || count > kMaxBodies || count != static_cast<int>(count))
-            counts->problem("value.range", "whole counts >= 1");
-        total *= count;
-    }
+    if (!counts->json().is_array() || counts->json().size() != axes)
+        counts->problem("schema.type", "array of " + std::to_string(axes) + " numbers");
+    else
+        for (const Node& count : counts->items()) total *= n.emplace_back(count.scaledInteger(1, kMaxBodies));
     if (total > kMaxBodies)
         counts->problem("generator.size", "at most " + std::to_string(kMaxBodies) + " bodies");
-    const Vec3 step = spacing->vector(), origin = node.has("origin") ? node["origin"].vector() : Vec3{};
+    const Vec3 step = spacing->scaledVector(),
+               origin = node.has("origin") ? node["origin"].scaledVector() : Vec3{};
     if (!node.context().problems.empty()) return made;
-    const int layers = node.dimension() == 3 ? static_cast<int>(n[2]) : 1;
+    const int layers = node.dimension() == 3 ? n[2] : 1;
     for (int k = 0; k < layers; ++k)
-        for (int j = 0; j < static_cast<int>(n[1]); ++j)
-            for (int i = 0; i < static_cast<int>(n[0]); ++i) {
+        for (int j = 0; j < n[1]; ++j)
+            for (int i = 0; i < n[0]; ++i) {
                 std::string label = name->name() + "_" + std::to_string(i) + "_" + std::to_string(j);
                 if (node.dimension() == 3) label += "_" + std::to_string(k);
                 made.bodies.push_back(placed(body->json(), label,

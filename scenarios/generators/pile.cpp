@@ -41,9 +41,10 @@ Generated generatePile(const Node& node) {
     const auto templates = bodies->items();
     if (bodies->json().is_array() && templates.empty())
         bodies->problem("generator.empty", "at least one body");
-    const int count = countNode->integer(1, kMaxBodies);
-    const int across = columns->integer(1, 1000), deep = node.dimension() == 3 ? across : 1;
-    const Vec3 step = spacing->vector(), origin = node.has("origin") ? node["origin"].vector() : Vec3{};
+    const int count = countNode->scaledInteger(1, kMaxBodies);
+    const int across = columns->scaledInteger(1, 1000), deep = node.dimension() == 3 ? across : 1;
+    const Vec3 step = spacing->scaledVector(),
+               origin = node.has("origin") ? node["origin"].scaledVector() : Vec3{};
     const double jitter = node.has("jitter") ? node["jitter"].number(0.0, 1e6) : 0.0;
     const bool turned = node.has("turn") && node["turn"].boolean();
     PortableRandom random(static_cast<std::uint64_t>(seed->integer(0, 2000000000)));

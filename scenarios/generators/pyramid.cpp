@@ -14,8 +14,9 @@ Generated generatePyramid(const Node& node) {
                spacing = node.require("spacing");
     Generated made;
     if (!name || !body || !rowsNode || !spacing) return made;
-    const int rows = rowsNode->integer(1, node.dimension() == 2 ? 190 : 38);  // both below kMaxBodies
-    const Vec3 step = spacing->vector(), origin = node.has("origin") ? node["origin"].vector() : Vec3{};
+    const int rows = rowsNode->scaledInteger(1, node.dimension() == 2 ? 315 : 52);  // both below kMaxBodies
+    const Vec3 step = spacing->scaledVector(),
+               origin = node.has("origin") ? node["origin"].scaledVector() : Vec3{};
     if (!node.context().problems.empty()) return made;
     for (int row = 0; row < rows; ++row) {
         const int n = rows - row, depth = node.dimension() == 3 ? n : 1;

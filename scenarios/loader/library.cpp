@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The library of scenarios and suites: <folder>/{2d,3d}/*.json, and
+// The library of scenarios and suites: <folder>/{2d,3d,bench}/*.json, and
 // <folder>/{suites,collision,studies}/*.json.
 #include <algorithm>
 #include <cstdlib>
@@ -80,6 +80,9 @@ fs::path libraryFolder() {
 std::vector<LibraryEntry> listScenarios() {
     return entriesOf({libraryFolder() / "2d", libraryFolder() / "3d"});
 }
+std::vector<LibraryEntry> listBenchScenarios() {
+    return entriesOf({libraryFolder() / "bench"});
+}
 std::vector<LibraryEntry> listSuites() {
     return entriesOf({libraryFolder() / "suites"});
 }
@@ -90,7 +93,8 @@ std::vector<LibraryEntry> listStudies() {
     return entriesOf({libraryFolder() / "studies"});
 }
 fs::path findScenario(const std::string& nameOrPath) {
-    return findEntry(listScenarios(), nameOrPath, "scenario");
+    return findEntry(entriesOf({libraryFolder() / "2d", libraryFolder() / "3d", libraryFolder() / "bench"}),
+                     nameOrPath, "scenario");
 }
 fs::path findSuite(const std::string& nameOrPath) {
     return findEntry(listSuites(), nameOrPath, "suite");

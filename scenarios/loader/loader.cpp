@@ -21,6 +21,7 @@ namespace rigor::scenario {
 namespace {
 
 constexpr int kFormatVersion = 1;
+constexpr int kMaxSize = 1000000;
 
 void readHeader(const Node& root, Scenario& s) {
     if (const auto n = root.require("rigor"); n && n->json() != kFormatVersion)
@@ -33,6 +34,7 @@ void readHeader(const Node& root, Scenario& s) {
     if (const auto n = root.find("tags")) s.tags = n->texts();
     if (const auto n = root.require("gravity")) s.gravity = n->vector();
     if (const auto n = root.require("duration")) s.duration = n->number(1e-6, 3600.0);
+    if (const auto n = root.find("size")) s.size = root.context().size = n->integer(1, kMaxSize);
     if (const auto n = root.find("time_limit")) s.timeLimit = n->number(0.1, 86400.0);
     if (const auto n = root.require("dt"))
         for (const Node& step : n->items()) s.timeSteps.push_back(step.number(1e-7, 1.0));
@@ -154,6 +156,8 @@ Scenario readScenario(const JsonDocument& document, const std::string& file) {
                    "accept",
                    "known_deviations",
                    "engines",
+                   "size",
+                   "bench",
                    "time_limit"});
     std::deque<Json> made;  // generated nodes refer to it
     if (document.value.is_object()) {
@@ -167,6 +171,7 @@ Scenario readScenario(const JsonDocument& document, const std::string& file) {
             if (const auto n = root.find("forces")) readForces(*n, s);
             if (const auto n = root.find("events")) readEvents(*n, s);
             readObserved(root, s);
+            if (const auto n = root.find("bench")) s.bench = readBench(*n);
             if (const auto n = root.find("engines")) checkEngineSettings(*n);
         }
     }

@@ -69,6 +69,9 @@ struct LibraryEntry {
 /// <prefix>/share/rigor/scenarios.
 std::filesystem::path libraryFolder();
 std::vector<LibraryEntry> listScenarios();  ///< sorted by name; unreadable files are left out
+/// The scenes of the bench, which the suites' "*" and listScenarios() leave out: large, timed, without a
+/// reference.
+std::vector<LibraryEntry> listBenchScenarios();
 std::vector<LibraryEntry> listSuites();
 /// A name of the library or a path to a file. Throws LoadError (id "scenario.not_found") listing close names.
 std::filesystem::path findScenario(const std::string& nameOrPath);

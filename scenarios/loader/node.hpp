@@ -22,6 +22,7 @@ struct ReadContext {
     const JsonDocument* document = nullptr;
     std::vector<Problem> problems;
     int dimension = 3;
+    std::optional<int> size{};  ///< of the scene, for Node::scaled
 };
 
 class Node {
@@ -67,7 +68,17 @@ class Node {
     /// A vector in 3D, a number about +z in 2D.
     Vec3 angularVector() const;
 
+    /// A number, or {"size": f, "power": p, "plus": c}, which is f N^p + c with N the scene's size (power 1,
+    /// plus 0 where not given). What it comes to must be within the range. (scaled.cpp)
+    double scaled(double min, double max) const;
+    /// The same, to the nearest whole number.
+    int scaledInteger(int min, int max) const;
+    /// A vector of such numbers.
+    Vec3 scaledVector() const;
+
   private:
+    std::optional<double> ofSize() const;  ///< the object's value; nothing (reported) where it has none
+
     const Json* value_;
     std::string pointer_;
     ReadContext* context_;
@@ -85,6 +96,7 @@ void readJoints(const Node& list, Scenario& scenario);
 void readForces(const Node& list, Scenario& scenario);
 void readEvents(const Node& list, Scenario& scenario);
 void readAcceptance(const Node& root, Scenario& scenario);
+BenchPlan readBench(const Node& node);
 std::optional<ReferenceSpec> readReference(const Node& node);
 /// Index of the body that a text node names; kNone for "world" where `mayBeWorld`; reported otherwise.
 int readBodyName(const Node& node, const Scenario& scenario, bool mayBeWorld);

@@ -47,6 +47,8 @@ class Writer {
                                      {"impulse", vector(e.impulse)},
                                      {"angular_impulse", angular(e.angularImpulse)}});
         for (const int b : s_.observed) out["observe"].push_back(bodyName(b));
+        if (s_.size) out["size"] = *s_.size;
+        if (s_.bench) out["bench"] = bench(*s_.bench);
         return out;
     }
 
@@ -77,6 +79,21 @@ class Writer {
     static Json coefficients(const Surface& m) {
         Json out{{"friction", m.friction}, {"restitution", m.restitution}};
         if (m.staticFriction > 0.0) out["static_friction"] = m.staticFriction;
+        return out;
+    }
+    static Json bench(const BenchPlan& plan) {
+        Json quality = Json::object();
+        for (const QualityBound& bound : plan.quality) {
+            Json range = Json::object();
+            if (std::isfinite(bound.min)) range["min"] = bound.min;
+            if (std::isfinite(bound.max)) range["max"] = bound.max;
+            quality[std::string(nameOf(bound.quantity).key)] = range;
+        }
+        Json out{{"warm_up_steps", plan.warmUpSteps},
+                 {"timed_steps", plan.timedSteps},
+                 {"quality_step", plan.qualityStep}};
+        if (!plan.sizes.empty()) out["sizes"] = plan.sizes;
+        out["quality"] = quality;
         return out;
     }
     Json materials() const {

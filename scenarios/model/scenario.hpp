@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "scenarios/model/bench.hpp"
 #include "scenarios/model/math.hpp"
 
 namespace rigor::scenario {
@@ -279,7 +280,9 @@ struct Scenario {
         metrics;  ///< that matter here, in order of importance; never empty after loading
     std::vector<Bound> accept;
     std::vector<KnownDeviation> knownDeviations;
-    double timeLimit = 60.0;  ///< [s] wall time for one case
+    double timeLimit = 60.0;         ///< [s] wall time for one case
+    std::optional<int> size;         ///< N of a scene that grows with it; bodies are those of this N
+    std::optional<BenchPlan> bench;  ///< of scenes that are timed
 };
 
 /// Friction and restitution of two materials: the pair table's, else sqrt(mu_a mu_b) and min(e_a, e_b).

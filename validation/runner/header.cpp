@@ -55,8 +55,9 @@ results::EngineRow engineRow(const EngineDescription& d) {
 
 bool isLibraryScenario(const std::string& name, const std::string& text) {
     try {
-        for (const auto& entry : scenario::listScenarios())
-            if (entry.name == name) return scenario::loadScenario(entry.file).text == text;
+        for (const auto& list : {scenario::listScenarios(), scenario::listBenchScenarios()})
+            for (const auto& entry : list)
+                if (entry.name == name) return scenario::loadScenario(entry.file).text == text;
     } catch (const std::exception&) {  // an unreadable library: then the stored file is the one to name
     }
     return false;

@@ -137,7 +137,7 @@ const Spoiled kSpoiled[] = {
      R"(bad.json:3: /name: found string "base scene", expected name of 1 to 64 letters, digits, '_', '-', '.' [value.name])"},
     {"HugeGenerator", R"("joints": [)",
      R"("generators": [ { "grid": { "name": "g", "counts": [1000, 1000, 1000], "spacing": [1, 1, 1], "body": {} } } ], "joints": [)",
-     R"(bad.json:16: /generators/0/grid/counts: found array of 3, expected at most 20000 bodies [generator.size])"},
+     R"(bad.json:16: /generators/0/grid/counts: found array of 3, expected at most 50000 bodies [generator.size])"},
     {"UnknownGenerator", R"("joints": [)", R"("generators": [ { "tower": {} } ], "joints": [)",
      R"(bad.json:16: /generators/0: found object with 1 keys, expected an object with one key among grid, pyramid, pile, chain [generator.unknown])"},
 };
