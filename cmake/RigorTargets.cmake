@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The Rigor authors
 #
 # rigor_library(<target> [LIBS ...] SOURCES ...), rigor_adapter(<name> [PRECISION f32] SOURCES ... LIBS ...),
-# rigor_test(<name> SOURCES ... LIBS ... [LABELS ...]): our own targets, with our warnings and flags.
+# rigor_test(<name> SOURCES ... LIBS ... [LABELS ...]), rigor_benchmark(<name> SOURCES ... LIBS ...): our own targets,
+# with our warnings and flags.
 
 add_library(rigor_flags INTERFACE)
 target_include_directories(rigor_flags INTERFACE ${PROJECT_SOURCE_DIR})
@@ -63,4 +64,22 @@ function(rigor_test name)
     if(ARG_LABELS)
         set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}")
     endif()
+endfunction()
+
+# bin/benchmarks/<name>, by Google Benchmark; not part of `all`: `cmake --build BUILD --target rigor_benchmarks` builds
+# all of them.
+find_package(benchmark 1.7 QUIET)
+function(rigor_benchmark name)
+    if(NOT benchmark_FOUND)
+        message(STATUS "Google Benchmark: not found, ${name} skipped")
+        return()
+    endif()
+    cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+    add_executable(${name} EXCLUDE_FROM_ALL ${ARG_SOURCES})
+    target_link_libraries(${name} PRIVATE rigor_flags ${ARG_LIBS} benchmark::benchmark)
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin/benchmarks)
+    if(NOT TARGET rigor_benchmarks)
+        add_custom_target(rigor_benchmarks)
+    endif()
+    add_dependencies(rigor_benchmarks ${name})
 endfunction()

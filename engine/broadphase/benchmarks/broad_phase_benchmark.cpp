@@ -1,67 +1,70 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Time per update of every broad phase of the table. Not a test; build with
-// `ninja engine_broadphase_benchmark` and run it on an idle machine.
-//
-// Scenes, n boxes of edges 0.5 to 1 m over a floor: `slow` moves each box by 1 cm between updates, `fast` by
-// 30 cm, `jump` puts all of them somewhere else; `sizes` is slow with edges from 1 cm to 10 m.
-#include <algorithm>
-#include <chrono>
-#include <cstdio>
-#include <cstring>
-#include <random>
+// Time per update of every broad phase of the table (Google Benchmark; scenes in moving_boxes.hpp). Moving
+// the boxes is not timed.
+#include <benchmark/benchmark.h>
 
-#include "engine/broadphase/broad_phase.hpp"
+#include "engine/broadphase/benchmarks/moving_boxes.hpp"
 
 namespace rigor::engine {
 namespace {
 
-using S = Space3d;
+using benchmark_scene::BoxOrder;
+using benchmark_scene::MovingBoxes;
 
-void bench(const char* name, BroadPhase<S>& broadPhase, int n, const char* scene) {
-    std::mt19937 random(3);
-    const auto uniform = [&](double a, double b) {
-        return std::uniform_real_distribution<double>(a, b)(random);
-    };
-    const double side = 1.5 * std::cbrt(n);  // about one neighbour per box
-    const bool jump = !std::strcmp(scene, "jump"), sizes = !std::strcmp(scene, "sizes");
-    const double step = !std::strcmp(scene, "fast") ? 0.3 : 0.01;
-    const auto make = [&] {
-        const S::Vec c(uniform(0, side), uniform(0, side), uniform(0, side));
-        const double edge = sizes ? std::pow(10, uniform(-2, 1)) : uniform(0.5, 1);
-        return Aabb<S>{c.array() - edge / 2, c.array() + edge / 2};
-    };
-    std::vector<Aabb<S>> boxes(static_cast<std::size_t>(n));
-    for (auto& box : boxes) box = make();
-    boxes[0] = {S::Vec(-side, -1, -side), S::Vec(2 * side, 0, 2 * side)};
-    const std::vector<std::uint8_t> movable(boxes.size(), 1);
+template <class S>
+void update(benchmark::State& state, const AlgorithmEntry<BroadPhaseFactory<S>>& entry, const char* scene,
+            std::size_t count, BoxOrder order) {
+    const auto broadPhase = entry.make();
+    MovingBoxes<S> world(scene, count, order);
     std::vector<ProxyPair> pairs;
-    std::vector<double> times;
-    for (int round = 0; round < 15; ++round) {
-        const auto t0 = std::chrono::steady_clock::now();
-        broadPhase.update(boxes, movable, pairs);
-        const auto t1 = std::chrono::steady_clock::now();
-        if (round >= 4) times.push_back(std::chrono::duration<double, std::micro>(t1 - t0).count());
-        for (std::size_t i = 1; i < boxes.size(); ++i) {
-            const S::Vec d(uniform(-step, step), uniform(-step, step), uniform(-step, step));
-            if (jump)
-                boxes[i] = make();
-            else
-                boxes[i].min += d, boxes[i].max += d;
-        }
+    const auto once = [&] { broadPhase->update(world.boxes, world.movable, pairs); };
+    for (int warmUp = 0; warmUp < 5; ++warmUp) once(), world.advance();
+    const std::size_t before = broadPhase->tests();
+    double found = 0;
+    for (auto _ : state) {
+        once();
+        state.PauseTiming();
+        found += static_cast<double>(pairs.size());
+        world.advance();
+        state.ResumeTiming();
     }
-    std::sort(times.begin(), times.end());
-    std::printf("%-26s %-6s %6d boxes %7zu pairs  median %9.0f us\n", name, scene, n, pairs.size(),
-                times[times.size() / 2]);
+    using benchmark::Counter;
+    state.counters["pairs"] = Counter(found, Counter::kAvgIterations);
+    state.counters["tests"] =
+        Counter(static_cast<double>(broadPhase->tests() - before), Counter::kAvgIterations);
+}
+
+template <class S>
+void registerAll(const std::string& space) {
+    for (const auto& entry : broadPhaseTable<S>())
+        for (const char* scene : {"uniform", "slow", "jump", "sizes"})
+            for (const std::size_t count : {std::size_t{1000}, std::size_t{10000}, std::size_t{100000}})
+                for (const BoxOrder order : {BoxOrder::Random, BoxOrder::Spatial}) {
+                    const bool uniform = std::string(scene) == "uniform";
+                    const bool large = count > 10000, spatial = order == BoxOrder::Spatial;
+                    // n^2 tests; and one order and size will do for scenes of which the first says less.
+                    if ((std::string(entry.name) == "brute_force" && count > 1000) ||
+                        (!uniform && (large || spatial)))
+                        continue;
+                    const std::string name = space + "/" + entry.name + "/" + scene +
+                                             (spatial ? "_spatial/" : "/") + std::to_string(count);
+                    benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+                        update<S>(state, entry, scene, count, order);
+                    })->Unit(benchmark::kMicrosecond);
+                }
 }
 
 }  // namespace
 }  // namespace rigor::engine
 
-int main() {
+int main(int argc, char** argv) {
     using namespace rigor::engine;
-    for (const char* scene : {"slow", "fast", "jump", "sizes"})
-        for (const int n : {1000, 4000, 10000})
-            for (const auto& entry : broadPhaseTable<S>()) bench(entry.name, *entry.make(), n, scene);
+    registerAll<Space3f>("3f");
+    registerAll<Space3d>("3d");
+    registerAll<Space2f>("2f");
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::RunSpecifiedBenchmarks();
 }
