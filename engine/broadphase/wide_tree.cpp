@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Wide tree: eight boxes per node, searched against itself.
+//
+// The boxes stand in the order of a Morton curve (morton_order.hpp); every eight neighbours form a node,
+// every eight nodes one of the next level, up to the root: a bounding volume hierarchy in the manner of
+// [Lauterbach2009], with wide nodes stored level by level, without pointers ([Wald2008] has wide nodes and
+// why they suit vector instructions: one box is tested against the eight of a node at once). All pairs come
+// from one descent of the tree against itself: a pair of nodes whose boxes overlap is opened at both ends, so
+// that the upper levels are looked at once and not once per box ([Gottschalk1996] has the simultaneous
+// descent of two trees; FCL's dynamic tree does the same with a binary tree).
+//
+// Between updates the order stays and the boxes of the nodes that hold a changed box are made anew, from the
+// leaves up. Changed is what differs from the copy of the last update: while few boxes changed, only what
+// overlaps them is searched, and the pairs of the others are kept. The boxes are sorted anew when the nodes
+// have grown by a quarter on average, or a search met half as many pairs of nodes more than the first one
+// after the sort.
+//
+// Deviation: the tree holds boxes in single precision, relative to the middle of the scene. Rounding keeps
+// order (x <= y implies fl(x) <= fl(y)), so that no overlap is lost; in double precision the pairs found are
+// tested again with the boxes themselves. A box that is not a number overlaps nothing. Boxes without bounds
+// are leaves like others, last in the order.
+//
+// Threads share the units of the search and the nodes of a level; who does what does not matter, since the
+// pairs are sorted at the end (pair_sort.hpp) and sums are of integers.
+//
+// Cost per update: O(n + changed log n + pairs). Limits: in double precision a scene wider than 10^7 of its
+// boxes is searched coarsely.
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "engine/broadphase/broad_phase.hpp"
+#include "engine/broadphase/morton_order.hpp"
+#include "engine/broadphase/pair_sort.hpp"
+#include "engine/broadphase/wide_tree_search.hpp"
+
+namespace rigor::engine {
+namespace {
+
+constexpr std::size_t kChildren = 8;
+constexpr std::size_t kNodeGrain = 128;         ///< nodes: some microseconds of work
+constexpr std::uint64_t kGrown = 320;           ///< mean growth of nodes that asks for a sort; 256 is none
+constexpr std::size_t kUnitsWorthSharing = 16;  ///< of 64 boxes each
+
+template <class S>
+class WideTree final : public BroadPhase<S> {
+  public:
+    using Real = typename S::Real;
+    using Box = Aabb<S>;
+
+    std::unique_ptr<BroadPhase<S>> clone() const override { return std::make_unique<WideTree>(*this); }
+    void reset() override { kept_.clear(), pairs_.clear(); }
+
+    void update(std::span<const Box> boxes, std::span<const std::uint8_t> movable,
+                std::vector<ProxyPair>& pairs, const Tasks& tasks) override {
+        if (boxes.empty())
+            reset();
+        else
+            tasks.enter([&] { updateSome(boxes, movable, tasks); });
+        pairs = pairs_;
+    }
+
+  private:
+    static constexpr int kDim = S::dim;
+    static constexpr bool kExact = std::is_same_v<Real, float>;  ///< the tree has the boxes themselves
+    using Node = WideNode<kDim>;
+    struct Level {
+        std::vector<Node> nodes;
+        std::vector<WideMarks> marks;
+    };
+
+    void updateSome(std::span<const Box> boxes, std::span<const std::uint8_t> movable, const Tasks& tasks) {
+        const bool build = boxes.size() != kept_.size() || isWorn_;
+        if (build) sort(boxes, tasks);
+        std::size_t changed = refit(boxes, movable, tasks);
+        if (!build && isGrown()) {
+            sort(boxes, tasks);
+            changed = refit(boxes, movable, tasks);
+        }
+        if (changed * 4 > boxes.size())
+            findAll(boxes, tasks);
+        else if (changed > 0)
+            findChanged(boxes, tasks);
+    }
+
+    /// A new order and levels of the right size; every leaf counts as changed.
+    void sort(std::span<const Box> boxes, const Tasks& tasks) {
+        order_.sort(boxes, proxies_, tasks);
+        if constexpr (!kExact) origin_ = order_.middle();
+        Node none;
+        for (int k = 0; k < kDim; ++k)
+            for (std::size_t j = 0; j < kChildren; ++j)
+                none.lo[k][j] = none.hi[k][j] = std::numeric_limits<float>::quiet_NaN();
+        top_ = 0;
+        for (std::size_t count = boxes.size();; ++top_) {
+            count = (count + kChildren - 1) / kChildren;
+            if (levels_.size() <= top_) levels_.emplace_back();
+            levels_[top_].nodes.assign(count, none);
+            levels_[top_].marks.assign(count, {});
+            if (count == 1) break;
+        }
+        kept_.resize(boxes.size());
+        keptMovable_.resize(boxes.size());
+        size_.assign(levels_[0].nodes.size(), 0.0f);
+        growth_.assign(levels_[0].nodes.size(), 0);
+        isNew_ = true, isWorn_ = false;
+        firstVisits_ = 0;
+    }
+
+    /// Takes in the boxes; returns how many have changed.
+    std::size_t refit(std::span<const Box> boxes, std::span<const std::uint8_t> movable, const Tasks& tasks) {
+        tasks.forEach(levels_[0].nodes.size(), kNodeGrain,
+                      [&](std::size_t g) { refitLeaves(g, boxes, movable); });
+        for (std::size_t l = 1; l <= top_; ++l)
+            tasks.forEach(levels_[l].nodes.size(), kNodeGrain, [&](std::size_t g) { refitNode(l, g); });
+        std::size_t changed = 0;
+        for (const WideMarks marks : levels_[0].marks)
+            changed += static_cast<std::size_t>(std::popcount(marks.changed));
+        isNew_ = false;
+        return changed;
+    }
+
+    void refitLeaves(std::size_t g, std::span<const Box> boxes, std::span<const std::uint8_t> movable) {
+        Node& node = levels_[0].nodes[g];
+        WideMarks& marks = levels_[0].marks[g];
+        marks.changed = 0;
+        const std::size_t first = g * kChildren, count = std::min(kChildren, proxies_.size() - first);
+        for (std::size_t j = 0; j < count; ++j) {
+            const std::uint32_t i = proxies_[first + j];
+            const Box& box = boxes[i];
+            Box& kept = kept_[first + j];
+            if (!isNew_ && box.min == kept.min && box.max == kept.max && movable[i] == keptMovable_[i])
+                continue;
+            kept = box, keptMovable_[i] = movable[i];
+            const auto bit = static_cast<std::uint8_t>(1u << j);
+            marks.changed |= bit;
+            marks.movable =
+                static_cast<std::uint8_t>(movable[i] ? marks.movable | bit : marks.movable & ~bit);
+            for (int k = 0; k < kDim; ++k) node.lo[k][j] = near(box.min, k), node.hi[k][j] = near(box.max, k);
+        }
+        if (!marks.changed) return;
+        const float size = top_ > 0 ? bound(node, levels_[1].nodes[g / kChildren], g % kChildren) : 1.0f;
+        if (isNew_) size_[g] = size;
+        // Of what has no size or no bounds the quotient is not a number: not grown.
+        const float growth = size / size_[g];
+        growth_[g] = growth < 8 ? static_cast<std::uint16_t>(growth * 256) : growth >= 8 ? 2048 : 256;
+    }
+    float near(const typename S::Vec& x, int k) const {
+        if constexpr (kExact)
+            return x[k];
+        else
+            return static_cast<float>(x[k] - origin_[k]);
+    }
+
+    void refitNode(std::size_t level, std::size_t g) {
+        WideMarks& marks = levels_[level].marks[g];
+        const auto& below = levels_[level - 1].marks;
+        marks = {};
+        for (std::size_t j = 0; j < kChildren && g * kChildren + j < below.size(); ++j) {
+            const WideMarks child = below[g * kChildren + j];
+            marks.movable |= static_cast<std::uint8_t>((child.movable != 0) << j);
+            marks.changed |= static_cast<std::uint8_t>((child.changed != 0) << j);
+        }
+        if (marks.changed && level < top_)
+            bound(levels_[level].nodes[g], levels_[level + 1].nodes[g / kChildren], g % kChildren);
+    }
+
+    /// The bounds of a node become child j of the one above; returns the sum of their edges [m]. What is not
+    /// a number is passed over.
+    static float bound(const Node& node, Node& above, std::size_t j) {
+        float sum = 0;
+        for (int k = 0; k < kDim; ++k) {
+            float lo = std::numeric_limits<float>::infinity(), hi = -lo;
+            for (std::size_t i = 0; i < kChildren; ++i) {
+                lo = node.lo[k][i] < lo ? node.lo[k][i] : lo;
+                hi = node.hi[k][i] > hi ? node.hi[k][i] : hi;
+            }
+            above.lo[k][j] = lo, above.hi[k][j] = hi;
+            sum += hi - lo;
+        }
+        return sum;
+    }
+
+    bool isGrown() const {
+        std::uint64_t sum = 0;
+        for (const std::uint16_t growth : growth_) sum += growth;
+        return sum > kGrown * growth_.size();
+    }
+
+    WideTreeView<kDim> view() const {
+        WideTreeView<kDim> tree;
+        for (std::size_t l = 0; l <= top_; ++l)
+            tree.levels[l] = {levels_[l].nodes.data(), levels_[l].marks.data(), levels_[l].nodes.size()};
+        tree.top = top_;
+        tree.proxies = proxies_.data();
+        return tree;
+    }
+
+    /// parts_: the pairs of each part of the search.
+    WideSearchCost search(std::span<const Box> boxes, bool changedOnly, const Tasks& tasks) {
+        const WideTreeView<kDim> tree = view();
+        const std::size_t units = tree.units();
+        const bool shared = tasks.threads() > 1 && units >= kUnitsWorthSharing;
+        const std::size_t parts = shared ? std::min(units, 8 * static_cast<std::size_t>(tasks.threads())) : 1;
+        parts_.resize(std::max(parts_.size(), parts));
+        costs_.assign(parts_.size(), WideSearchCost{});
+        for (auto& part : parts_) part.clear();
+        tasks.forEach(parts, 1, [&](std::size_t p) {
+            costs_[p] =
+                searchWideTree(tree, changedOnly, units * p / parts, units * (p + 1) / parts, parts_[p]);
+            if constexpr (!kExact)
+                std::erase_if(parts_[p],
+                              [&](const ProxyPair& pair) { return !boxes[pair.a].overlaps(boxes[pair.b]); });
+        });
+        WideSearchCost all;
+        for (const WideSearchCost& cost : costs_) all.tests += cost.tests, all.visits += cost.visits;
+        this->tests_ += all.tests;
+        return all;
+    }
+
+    void findAll(std::span<const Box> boxes, const Tasks& tasks) {
+        const std::size_t visits = search(boxes, false, tasks).visits;
+        if (firstVisits_ == 0) firstVisits_ = visits + 1;
+        isWorn_ = 2 * visits > 3 * firstVisits_;
+        pairSort_.sort(parts_, boxes.size(), pairs_, tasks);
+    }
+
+    void findChanged(std::span<const Box> boxes, const Tasks& tasks) {
+        search(boxes, true, tasks);
+        pairSort_.sort(parts_, boxes.size(), found_, tasks);
+        isChanged_.resize(boxes.size());
+        forChanged([&](std::uint32_t i) { isChanged_[i] = 1; });
+        std::erase_if(pairs_, [&](const ProxyPair& p) { return isChanged_[p.a] || isChanged_[p.b]; });
+        forChanged([&](std::uint32_t i) { isChanged_[i] = 0; });
+        merged_.resize(pairs_.size() + found_.size());
+        std::merge(pairs_.begin(), pairs_.end(), found_.begin(), found_.end(), merged_.begin());
+        std::swap(pairs_, merged_);
+    }
+    template <class Visit>
+    void forChanged(Visit visit) const {
+        for (std::size_t g = 0; g < levels_[0].marks.size(); ++g)
+            for (unsigned bits = levels_[0].marks[g].changed; bits; bits &= bits - 1)
+                visit(proxies_[g * kChildren + static_cast<std::size_t>(std::countr_zero(bits))]);
+    }
+
+    MortonOrder<S> order_;
+    std::vector<std::uint32_t> proxies_;     ///< by leaf
+    std::vector<Box> kept_;                  ///< by leaf: the boxes of the last update
+    std::vector<std::uint8_t> keptMovable_;  ///< by proxy
+    std::vector<Level> levels_;              ///< those up to top_ are in use
+    std::size_t top_ = 0;
+    typename S::Vec origin_ = S::Vec::Zero();  ///< of the tree's boxes [m]
+    bool isNew_ = false;                       ///< sorted since the last refit
+    bool isWorn_ = false;                      ///< to be sorted in the next update
+    std::vector<float> size_;                  ///< by node of level 0: the sum of its edges when built [m]
+    std::vector<std::uint16_t> growth_;        ///< since then, in 1/256
+    std::size_t firstVisits_ = 0;              ///< of the first full search after the sort; 0: none yet
+
+    std::vector<std::vector<ProxyPair>> parts_;
+    std::vector<WideSearchCost> costs_;
+    PairSort pairSort_;
+    std::vector<ProxyPair> pairs_, found_, merged_;  ///< sorted
+    std::vector<std::uint8_t> isChanged_;            ///< by proxy; all 0 between updates
+};
+
+}  // namespace
+
+template <class S>
+std::unique_ptr<BroadPhase<S>> makeWideTree() {
+    return std::make_unique<WideTree<S>>();
+}
+RIGOR_INSTANTIATE_FACTORY(makeWideTree, BroadPhase);
+
+}  // namespace rigor::engine
