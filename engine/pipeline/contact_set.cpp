@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Contacts found: boxes and pairs, then the manifolds of pairs that may touch, which threads share; what a
-// contact of the last step knew goes over to the one of this step. Rows: contact_rows.cpp.
+// Which shapes may touch, and the list of those that do: contacts stay where they are from step to step, and
+// only those that are new or gone cost more than finding their points (contact_find.cpp). Rows:
+// contact_rows.cpp; events: contact_events.cpp.
 #include "engine/pipeline/contact_set.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <atomic>
 
 #include "engine/narrowphase/surface_contact.hpp"
 
@@ -52,8 +52,8 @@ void ContactSet<S>::setPair(std::uint32_t a, std::uint32_t b, const PairCoeffici
 
 template <class S>
 void ContactSet<S>::structureChanged(bool indicesChanged) {
-    boxesValid_ = false;
-    if (indicesChanged) contacts_.clear(), previous_.clear();
+    boxesValid_ = candidatesValid_ = false;
+    if (indicesChanged) contacts_.clear();
 }
 
 template <class S>
@@ -88,73 +88,47 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
     broadPhase.update(boxes_, movable_, proxyPairs_, tasks);
 }
 
-/// Both bodies at rest and at least one of them asleep: walls, and bodies asleep, do not move.
-template <class S>
-bool ContactSet<S>::isAsleep(const BodyArrays<S>& bodies, const Contact<S>& contact) {
-    const auto still = [&](std::uint32_t i) {
-        return bodies.asleep[i] || bodies.constants[i].type == BodyType::Static ||
-               (bodies.constants[i].type == BodyType::Kinematic && bodies.velocity[i].v.isZero(0) &&
-                dotAng(bodies.velocity[i].w, bodies.velocity[i].w) == Real(0));
-    };
-    return still(contact.bodyA) && still(contact.bodyB);
-}
-
-/// By feature; points whose feature is new (a face that has become the other body's reference) take the
-/// impulses of the nearest point left over, if it is near compared with its arm.
-template <class S>
-void ContactSet<S>::takeOver(const BodyArrays<S>& bodies, const Contact<S>& old, Contact<S>& contact) const {
-    std::array<bool, S::maxManifoldPoints> used{}, done{};
-    const auto take = [&](std::size_t from, std::size_t to) {
-        used[from] = done[to] = true;
-        if (old.points[from].impact) return;
-        contact.points[to].normalImpulse = old.points[from].normalImpulse;
-        contact.points[to].frictionImpulse = old.points[from].frictionImpulse;
-    };
-    const auto n = static_cast<std::size_t>(contact.manifold.count),
-               m = static_cast<std::size_t>(old.manifold.count);
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < m && !done[i]; ++j)
-            if (!used[j] && contact.manifold.points[i].feature == old.manifold.points[j].feature) take(j, i);
-    const std::uint32_t arm = bodies.invMass[contact.bodyB] > 0 ? contact.bodyB : contact.bodyA;
-    for (std::size_t i = 0; i < n; ++i) {
-        if (done[i]) continue;
-        const Vec& at = contact.manifold.points[i].pointB;
-        Real nearest = Real(0.04) * (at - bodies.pose[arm].p).squaredNorm();
-        std::size_t best = m;
-        for (std::size_t j = 0; j < m; ++j) {
-            const Real distance = (old.manifold.points[j].pointB - at).squaredNorm();
-            if (!used[j] && distance < nearest) nearest = distance, best = j;
-        }
-        if (best < m) take(best, i);
-    }
-}
-
 template <class S>
 void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
                                   ManifoldFunction<S> makeManifold, Real speculativeDistance,
                                   const ContinuousCollision<S>& ccd, const Tasks& tasks) {
-    std::swap(contacts_, previous_);
-    findCandidates(bodies, speculativeDistance);
-    contacts_.resize(candidates_.size());
+    if (!candidatesValid_ || candidatesHavePieces_ || candidatePairs_ != proxyPairs_)
+        findCandidates(bodies, speculativeDistance);
+    if (makeManifold == &manifoldClipped<S>) makeManifold = nullptr;
     const Search search{bodies, narrowPhase, makeManifold, speculativeDistance, ccd};
+    // New contacts take the next free place in fresh_; those that it has no room for are found once more.
+    std::atomic<std::uint32_t> taken = 0;
     const Tasks& those = narrowPhase.manyThreads() ? tasks : Tasks::one();
-    those.forEach(candidates_.size(), kPairGrain,
-                  [&](std::size_t k) { findContact(search, candidates_[k], contacts_[k]); });
-    std::erase_if(contacts_, [](const Contact<S>& contact) { return contact.manifold.count == 0; });
+    those.forEach(candidates_.size(), kPairGrain, [&](std::size_t k) {
+        Candidate& candidate = candidates_[k];
+        if (candidate.contact != kNone) {
+            candidate.found = renewContact(search, candidate, contacts_[candidate.contact]);
+            return;
+        }
+        Contact<S> contact;
+        candidate.found = findContact(search, candidate, contact);
+        if (!candidate.found) return;
+        candidate.fresh = taken.fetch_add(1, std::memory_order_relaxed);
+        if (candidate.fresh < fresh_.size()) fresh_[candidate.fresh] = contact;
+    });
+    settle(search);
+    if (fresh_.size() < taken) fresh_.resize(taken);
 }
 
 /// In the order of contacts: by shape pair and piece.
 template <class S>
 void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, Real speculativeDistance) {
     candidates_.clear();
+    candidatesHavePieces_ = false;
     std::uint32_t old = 0;
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t piece) {
         const auto key = std::pair(pairKey(a, b), piece);
         const auto oldKey = [&] {
-            return std::pair(pairKey(previous_[old].shapeA, previous_[old].shapeB), previous_[old].piece);
+            return std::pair(pairKey(contacts_[old].shapeA, contacts_[old].shapeB), contacts_[old].piece);
         };
-        while (old < previous_.size() && oldKey() < key) ++old;
-        candidates_.push_back({a, b, piece, old < previous_.size() && oldKey() == key ? old : kNone});
+        while (old < contacts_.size() && oldKey() < key) ++old;
+        const bool known = old < contacts_.size() && oldKey() == key;
+        candidates_.push_back({a, b, piece, known ? old : kNone, kNone, false});
     };
     for (const ProxyPair& p : proxyPairs_) {
         if (!mayCollide(bodies, shapes_[p.a].body, shapes_[p.b].body)) continue;
@@ -165,56 +139,12 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, Real speculative
             add(a, b, kNone);
             continue;
         }
+        candidatesHavePieces_ = true;
         findPieces(surfaceA ? a : b, surfaceA ? b : a, speculativeDistance);
         for (const std::uint32_t piece : pieces_) add(a, b, piece);
     }
-}
-
-/// The contact of a candidate; without points where there is none.
-template <class S>
-void ContactSet<S>::findContact(const Search& search, const Candidate& candidate, Contact<S>& contact) const {
-    const BodyArrays<S>& bodies = search.bodies;
-    const std::uint32_t a = candidate.a, b = candidate.b;
-    const Contact<S>* old = candidate.old == kNone ? nullptr : &previous_[candidate.old];
-    if (old && isAsleep(bodies, *old)) {
-        contact = *old;
-        return;
-    }
-    contact = {};
-    if (old) contact.manifold.memory = old->manifold.memory;
-    collide(search, candidate, contact.manifold);
-    contact.shapeA = a, contact.shapeB = b, contact.piece = candidate.piece;
-    contact.bodyA = shapes_[a].body, contact.bodyB = shapes_[b].body;
-    if (contact.manifold.count > 0) {
-        if (old) contact.cache = old->cache;
-        const Real size =
-            std::min((boxes_[a].max - boxes_[a].min).norm(), (boxes_[b].max - boxes_[b].min).norm());
-        search.makeManifold({shapePoses_[a], shapePoses_[b], size, search.speculativeDistance}, contact.cache,
-                            contact.manifold);
-    }
-    placePoints(bodies, contact);
-    // Pieces of a chain, mesh or field are found where they are, not ahead.
-    if (candidate.piece == kNone && search.ccd.looksAhead())
-        search.ccd.findAhead(contact, bodies, *this, search.narrowPhase);
-    if (contact.manifold.count == 0) return;
-    contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
-    if (old) takeOver(bodies, *old, contact);
-}
-
-template <class S>
-void ContactSet<S>::collide(const Search& search, const Candidate& candidate, Manifold<S>& manifold) const {
-    const std::uint32_t a = candidate.a, b = candidate.b;
-    if (candidate.piece == kNone) {
-        search.narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
-                                   search.speculativeDistance, manifold);
-        return;
-    }
-    const bool surfaceA = isComposite<S>(shapes_[a].shape);
-    const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
-    if (!surfaceA) flipManifold(manifold);  // its memory
-    collidePiece<S>(search.narrowPhase, shapes_[surface].shape, candidate.piece, shapePoses_[surface],
-                    shapes_[other].shape, shapePoses_[other], search.speculativeDistance, manifold);
-    if (!surfaceA) flipManifold(manifold);
+    candidatePairs_.assign(proxyPairs_.begin(), proxyPairs_.end());
+    candidatesValid_ = true;
 }
 
 /// Pieces of a chain, mesh or height field near another shape, in ascending order.
@@ -229,20 +159,56 @@ void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other, Real 
     std::sort(pieces_.begin(), pieces_.end());
 }
 
-/// One point for both bodies, or equal and opposite impulses would make a couple; against a body that takes
-/// no momentum the other's own surface, so that its arm does not depend on the overlap.
+/// Contacts that are gone leave, new ones come in; nothing moves where nothing has changed.
 template <class S>
-void ContactSet<S>::placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) const {
-    const std::uint32_t a = contact.bodyA, b = contact.bodyB;
-    for (int i = 0; i < contact.manifold.count; ++i) {
-        const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
-        Vec at = Real(0.5) * (where.pointA + where.pointB);
-        if (bodies.invMass[a] == 0) at = where.pointB;
-        if (bodies.invMass[b] == 0) at = where.pointA;
-        typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
-        point.rA = at - bodies.pose[a].p, point.rB = at - bodies.pose[b].p;
-        point.separation = where.separation;
+void ContactSet<S>::settle(const Search& search) {
+    gone_.clear();
+    std::size_t kept = 0, count = 0;
+    for (const Candidate& candidate : candidates_)
+        kept += candidate.found && candidate.contact != kNone, count += candidate.found;
+    if (kept == contacts_.size() && count == kept) return;
+
+    places_.assign(contacts_.size(), kNone);
+    std::uint32_t place = 0;
+    for (const Candidate& candidate : candidates_) {
+        if (!candidate.found) continue;
+        if (candidate.contact != kNone) places_[candidate.contact] = place;
+        ++place;
     }
+    noteContactsGone();
+    moveContacts(count);
+    place = 0;
+    for (Candidate& candidate : candidates_) {
+        if (candidate.found && candidate.contact == kNone) {
+            if (candidate.fresh < fresh_.size())
+                contacts_[place] = fresh_[candidate.fresh];
+            else
+                findContact(search, candidate, contacts_[place]);
+        }
+        candidate.contact = candidate.found ? place++ : kNone;
+    }
+}
+
+template <class S>
+void ContactSet<S>::noteContactsGone() {
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+        const Contact<S>& c = contacts_[i];
+        if (places_[i] == kNone && c.touching)
+            gone_.push_back({c.bodyA, c.bodyB, c.shapeA, c.shapeB, c.piece});
+    }
+}
+
+/// Each contact to its place, of `count`; those of kNone are left out. Only those move whose place is new:
+/// what lies at the place of one that moves down moves down too, or leaves, and likewise upwards.
+template <class S>
+void ContactSet<S>::moveContacts(std::size_t count) {
+    const std::size_t n = places_.size();
+    if (count > n) contacts_.resize(count);
+    for (std::size_t i = 0; i < n; ++i)
+        if (places_[i] != kNone && places_[i] < i) contacts_[places_[i]] = contacts_[i];
+    for (std::size_t i = n; i-- > 0;)
+        if (places_[i] != kNone && places_[i] > i) contacts_[places_[i]] = contacts_[i];
+    contacts_.resize(count);
 }
 
 template <class S>
@@ -254,40 +220,6 @@ bool ContactSet<S>::hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const {
     if (found == contacts_.end() || pairKey(found->shapeA, found->shapeB) != key) return false;
     return std::any_of(found->points.begin(), found->points.begin() + found->manifold.count,
                        [](const auto& point) { return point.block != Contact<S>::kNoBlock; });
-}
-
-template <class S>
-void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events) {
-    const auto add = [&](EventKind kind, const Contact<S>& contact) {
-        Event<S>& event = events.emplace_back();
-        event.kind = kind;
-        event.bodyA = bodies.id[contact.bodyA], event.bodyB = bodies.id[contact.bodyB];
-        event.shapeA = shapes_[contact.shapeA].id, event.shapeB = shapes_[contact.shapeB].id;
-        if (kind == EventKind::ContactEnds) return;
-        event.normal = contact.manifold.normal;
-        event.depth = -std::numeric_limits<Real>::infinity();
-        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
-            event.depth = std::max(event.depth, -contact.manifold.points[i].separation);
-            event.impulse += contact.points[i].normalTotal;
-        }
-    };
-    const auto key = [](const Contact<S>& c) { return std::pair(pairKey(c.shapeA, c.shapeB), c.piece); };
-    auto old = previous_.begin();
-    const auto endOld = [&] {
-        if (old->touching) add(EventKind::ContactEnds, *old);
-        ++old;
-    };
-    for (Contact<S>& contact : contacts_) {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
-            contact.touching = contact.touching || contact.points[i].normalTotal > 0 ||
-                               contact.manifold.points[i].separation < 0;
-        while (old != previous_.end() && key(*old) < key(contact)) endOld();
-        bool before = false;
-        if (old != previous_.end() && key(*old) == key(contact)) before = old++->touching;
-        if (before != contact.touching)
-            add(before ? EventKind::ContactEnds : EventKind::ContactBegins, contact);
-    }
-    while (old != previous_.end()) endOld();
 }
 
 template class ContactSet<Space2f>;

@@ -17,52 +17,12 @@
 #include "engine/core/clone_ptr.hpp"
 #include "engine/core/tasks.hpp"
 #include "engine/faults/fault.hpp"
-#include "engine/narrowphase/manifolds.hpp"
+#include "engine/pipeline/contact.hpp"
 #include "engine/pipeline/events.hpp"
 #include "engine/solvers/combine_rules.hpp"
 #include "engine/state/world_def.hpp"
 
 namespace rigor::engine {
-
-/// A shape of a body; the dense index is its broad-phase proxy.
-template <class S>
-struct ShapeRecord {
-    Shape<S> shape;
-    Pose<S> local;           ///< in the frame at the body's centre of mass
-    std::uint32_t body = 0;  ///< dense index
-    std::uint32_t material = 0;
-    ShapeId id;
-    typename S::Real reach = 0, inner = 0;  ///< coreReach, innerRadius (ccd/moving_shape.hpp) [m]
-};
-
-/// Two shapes that touch or nearly do. A is the body of lower index.
-template <class S>
-struct Contact {
-    using Real = typename S::Real;
-    static constexpr std::uint32_t kNoBlock = 0xffffffffu;
-    struct Point {
-        Real normalImpulse = 0;                            ///< of the last (sub-)step [N s], >= 0
-        typename S::Vec frictionImpulse = S::Vec::Zero();  ///< on B, world frame [N s]
-        Real normalTotal = 0;                              ///< of all sub-steps of the last step [N s]
-        typename S::Vec frictionTotal = S::Vec::Zero();
-        Real separation = 0;     ///< now: found, and what the bodies' motion since has made of it [m]
-        typename S::Vec rA, rB;  ///< arms of the impulses, as found: world axes, from the centres of mass
-        std::uint32_t block = kNoBlock;  ///< its rows in this step; kNoBlock: let through
-        bool impact = false;             ///< hit, rather than rested, in this step
-        Real rebound = 0;   ///< bias of the normal row once an impact ahead has taken place, < 0 [m/s]
-        Real approach = 0;  ///< normal speed when its rows were planned; < 0: closing [m/s]
-    };
-    std::uint32_t shapeA = 0, shapeB = 0, bodyA = 0, bodyB = 0;  ///< dense indices
-    std::uint32_t piece = 0xffffffffu;  ///< segment or triangle of the chain, mesh or field; none of others
-    PairCoefficients<S> coefficients;
-    bool asleep = false;  ///< neither body takes impulses: it stays as it was, without rows
-    bool ahead = false;   ///< fast for their sizes: must not be let through, however far apart they are
-    Manifold<S> manifold;
-    ManifoldCache<S> cache;  ///< of the manifold choice
-    std::array<Point, S::maxManifoldPoints> points;
-    bool touching = false;  ///< at the end of the step: overlapped when found, or pushed in the step
-    std::uint32_t firstRow = 0, blocks = 0;  ///< of this step, while rows are made
-};
 
 /// What making contact rows needs to know of a step.
 template <class S>
@@ -97,7 +57,10 @@ class ContactSet {
     std::vector<ShapeRecord<S>>& shapes() { return shapes_; }
     const std::vector<ShapeRecord<S>>& shapes() const { return shapes_; }
     /// Bodies that a joint keeps from colliding; sorted keys of pairKey.
-    std::vector<std::uint64_t>& excluded() { return excluded_; }
+    std::vector<std::uint64_t>& excluded() {
+        candidatesValid_ = false;
+        return excluded_;
+    }
     static std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
         return a < b ? (std::uint64_t(a) << 32 | b) : (std::uint64_t(b) << 32 | a);
     }
@@ -145,7 +108,9 @@ class ContactSet {
     /// Two shapes, or one and a piece of the other, that may touch.
     struct Candidate {
         std::uint32_t a, b, piece;  ///< as in Contact
-        std::uint32_t old;          ///< their contact of the last step in previous_, or kNone
+        std::uint32_t contact;      ///< its place in contacts_, or kNone
+        std::uint32_t fresh;        ///< the place of a new one in fresh_, or kNone; while they are found
+        bool found;                 ///< they touch or nearly do in this step
     };
     void findCandidates(const BodyArrays<S>& bodies, Real speculativeDistance);
     void findPieces(std::uint32_t surface, std::uint32_t other, Real speculativeDistance);
@@ -153,14 +118,28 @@ class ContactSet {
     struct Search {
         const BodyArrays<S>& bodies;
         const NarrowPhase<S>& narrowPhase;
-        ManifoldFunction<S> makeManifold;
+        ManifoldFunction<S> makeManifold;  ///< null: the points are left as they are
         Real speculativeDistance;
         const ContinuousCollision<S>& ccd;
     };
-    void findContact(const Search& search, const Candidate& candidate, Contact<S>& contact) const;
+    /// The part of a contact that is looked for in that of the next step.
+    struct OldPoints {
+        std::size_t count;
+        std::array<std::uint32_t, S::maxManifoldPoints> feature;
+        std::array<Vec, S::maxManifoldPoints> pointB;
+    };
+    /// A contact that was there in the last step as it is now. False: there is none any more.
+    bool renewContact(const Search& search, const Candidate& candidate, Contact<S>& contact) const;
+    /// The contact of a candidate that had none. False: it has none now.
+    bool findContact(const Search& search, const Candidate& candidate, Contact<S>& contact) const;
+    bool completeContact(const Search& search, const Candidate& candidate, Contact<S>& contact) const;
     void collide(const Search& search, const Candidate& candidate, Manifold<S>& manifold) const;
     void placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) const;
-    void takeOver(const BodyArrays<S>& bodies, const Contact<S>& old, Contact<S>& contact) const;
+    static void takeOver(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact);
+    static void matchPoints(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact);
+    void settle(const Search& search);
+    void moveContacts(std::size_t count);
+    void noteContactsGone();
     static void planRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact);
     static bool planPoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
                           std::size_t index);
@@ -177,9 +156,17 @@ class ContactSet {
     std::vector<PairCoefficients<S>> pairs_ = std::vector<PairCoefficients<S>>(1);
     std::vector<std::uint64_t> excluded_;
 
-    std::vector<Contact<S>> contacts_, previous_;  ///< sorted by shape pair and piece
-    std::vector<Candidate> candidates_;            ///< in the same order
-    std::vector<std::uint32_t> pieces_;
+    std::vector<Contact<S>> contacts_;       ///< sorted by shape pair and piece
+    std::vector<Candidate> candidates_;      ///< in the same order; a contact belongs to each that found one
+    std::vector<ProxyPair> candidatePairs_;  ///< what they were made of
+    bool candidatesValid_ = false, candidatesHavePieces_ = false;
+    std::vector<Contact<S>> fresh_;  ///< new in this step, in any order
+    std::vector<std::uint32_t> places_, pieces_;
+    /// Of a contact that touched in the last step and is no more.
+    struct Gone {
+        std::uint32_t bodyA, bodyB, shapeA, shapeB, piece;
+    };
+    std::vector<Gone> gone_;
 
     std::vector<Pose<S>> shapePoses_;
     std::vector<Aabb<S>> boxes_;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What began and what ended in a step.
+#include "engine/pipeline/contact_set.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace rigor::engine {
+
+template <class S>
+void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events) {
+    const auto key = [](const auto& c) { return std::pair(pairKey(c.shapeA, c.shapeB), c.piece); };
+    const auto add = [&](EventKind kind, const auto& c) -> Event<S>& {
+        Event<S>& event = events.emplace_back();
+        event.kind = kind;
+        event.bodyA = bodies.id[c.bodyA], event.bodyB = bodies.id[c.bodyB];
+        event.shapeA = shapes_[c.shapeA].id, event.shapeB = shapes_[c.shapeB].id;
+        return event;
+    };
+    const auto begins = [&](const Contact<S>& contact) {
+        Event<S>& event = add(EventKind::ContactBegins, contact);
+        event.normal = contact.manifold.normal;
+        event.depth = -std::numeric_limits<Real>::infinity();
+        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
+            event.depth = std::max(event.depth, -contact.manifold.points[i].separation);
+            event.impulse += contact.points[i].normalTotal;
+        }
+    };
+    auto gone = gone_.begin();
+    for (Contact<S>& contact : contacts_) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+            contact.touching = contact.touching || contact.points[i].normalTotal > 0 ||
+                               contact.manifold.points[i].separation < 0;
+        if (contact.touching == contact.touched) continue;
+        for (; gone != gone_.end() && key(*gone) < key(contact); ++gone) add(EventKind::ContactEnds, *gone);
+        if (contact.touching)
+            begins(contact);
+        else
+            add(EventKind::ContactEnds, contact);
+    }
+    for (; gone != gone_.end(); ++gone) add(EventKind::ContactEnds, *gone);
+}
+
+template class ContactSet<Space2f>;
+template class ContactSet<Space2d>;
+template class ContactSet<Space3f>;
+template class ContactSet<Space3d>;
+
+}  // namespace rigor::engine
