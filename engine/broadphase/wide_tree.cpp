@@ -3,7 +3,7 @@
 //
 // Wide tree: eight boxes per node, searched against itself.
 //
-// The boxes stand in the order of a Morton curve (morton_order.hpp); every eight neighbours form a node,
+// The boxes stand in an order that keeps neighbours together (spatial_order.hpp); every eight form a node,
 // every eight nodes one of the next level, up to the root: a bounding volume hierarchy in the manner of
 // [Lauterbach2009], with wide nodes stored level by level, without pointers ([Wald2008] has wide nodes and
 // why they suit vector instructions: one box is tested against the eight of a node at once). All pairs come
@@ -31,16 +31,17 @@
 #include <bit>
 #include <limits>
 
+#include "engine/broadphase/box_tools.hpp"
 #include "engine/broadphase/broad_phase.hpp"
-#include "engine/broadphase/morton_order.hpp"
 #include "engine/broadphase/pair_sort.hpp"
+#include "engine/broadphase/spatial_order.hpp"
 #include "engine/broadphase/wide_tree_search.hpp"
 
 namespace rigor::engine {
 namespace {
 
 constexpr std::size_t kChildren = 8;
-constexpr std::size_t kNodeGrain = 128;         ///< nodes: some microseconds of work
+constexpr std::size_t kNodeGrain = 256;         ///< nodes: some microseconds of work
 constexpr std::uint64_t kGrown = 320;           ///< mean growth of nodes that asks for a sort; 256 is none
 constexpr std::size_t kUnitsWorthSharing = 16;  ///< of 64 boxes each
 
@@ -72,17 +73,17 @@ class WideTree final : public BroadPhase<S> {
     };
 
     void updateSome(std::span<const Box> boxes, std::span<const std::uint8_t> movable, const Tasks& tasks) {
-        const bool build = boxes.size() != kept_.size() || isWorn_;
-        if (build) sort(boxes, tasks);
+        const bool afresh = boxes.size() != kept_.size();
+        if (afresh) sort(boxes, tasks);
         std::size_t changed = refit(boxes, movable, tasks);
-        if (!build && isGrown()) {
+        if (!afresh && changed > 0 && (isWorn_ || isGrown())) {
             sort(boxes, tasks);
             changed = refit(boxes, movable, tasks);
         }
         if (changed * 4 > boxes.size())
-            findAll(boxes, tasks);
+            findAll(tasks);
         else if (changed > 0)
-            findChanged(boxes, tasks);
+            findChanged(tasks);
     }
 
     /// A new order and levels of the right size; every leaf counts as changed.
@@ -194,43 +195,48 @@ class WideTree final : public BroadPhase<S> {
         for (std::size_t l = 0; l <= top_; ++l)
             tree.levels[l] = {levels_[l].nodes.data(), levels_[l].marks.data(), levels_[l].nodes.size()};
         tree.top = top_;
-        tree.proxies = proxies_.data();
         return tree;
     }
 
-    /// parts_: the pairs of each part of the search.
-    WideSearchCost search(std::span<const Box> boxes, bool changedOnly, const Tasks& tasks) {
+    /// Replaces `pairs` by the proxies of these leaves, where the boxes themselves overlap.
+    void nameProxies(const std::vector<LeafPair>& leaves, std::vector<ProxyPair>& pairs) const {
+        pairs.clear();
+        for (const auto& [a, b] : leaves)
+            if (kExact || kept_[a].overlaps(kept_[b])) pairs.push_back(orderedPair(proxies_[a], proxies_[b]));
+    }
+
+    /// pairParts_: the pairs found by each part of the search.
+    WideSearchCost search(bool changedOnly, const Tasks& tasks) {
         const WideTreeView<kDim> tree = view();
         const std::size_t units = tree.units();
         const bool shared = tasks.threads() > 1 && units >= kUnitsWorthSharing;
         const std::size_t parts = shared ? std::min(units, 8 * static_cast<std::size_t>(tasks.threads())) : 1;
         parts_.resize(std::max(parts_.size(), parts));
-        costs_.assign(parts_.size(), WideSearchCost{});
-        for (auto& part : parts_) part.clear();
-        tasks.forEach(parts, 1, [&](std::size_t p) {
-            costs_[p] =
-                searchWideTree(tree, changedOnly, units * p / parts, units * (p + 1) / parts, parts_[p]);
-            if constexpr (!kExact)
-                std::erase_if(parts_[p],
-                              [&](const ProxyPair& pair) { return !boxes[pair.a].overlaps(boxes[pair.b]); });
+        for (Part& part : parts_) part.leaves.clear(), part.cost = {};
+        pairParts_.resize(parts_.size());
+        tasks.forEach(parts_.size(), 1, [&](std::size_t p) {
+            if (p < parts)
+                parts_[p].cost = searchWideTree(tree, changedOnly, units * p / parts, units * (p + 1) / parts,
+                                                parts_[p].leaves);
+            nameProxies(parts_[p].leaves, pairParts_[p]);
         });
         WideSearchCost all;
-        for (const WideSearchCost& cost : costs_) all.tests += cost.tests, all.visits += cost.visits;
+        for (const Part& part : parts_) all.tests += part.cost.tests, all.visits += part.cost.visits;
         this->tests_ += all.tests;
         return all;
     }
 
-    void findAll(std::span<const Box> boxes, const Tasks& tasks) {
-        const std::size_t visits = search(boxes, false, tasks).visits;
+    void findAll(const Tasks& tasks) {
+        const std::size_t visits = search(false, tasks).visits;
         if (firstVisits_ == 0) firstVisits_ = visits + 1;
         isWorn_ = 2 * visits > 3 * firstVisits_;
-        pairSort_.sort(parts_, boxes.size(), pairs_, tasks);
+        pairSort_.sort(pairParts_, proxies_.size(), pairs_, tasks);
     }
 
-    void findChanged(std::span<const Box> boxes, const Tasks& tasks) {
-        search(boxes, true, tasks);
-        pairSort_.sort(parts_, boxes.size(), found_, tasks);
-        isChanged_.resize(boxes.size());
+    void findChanged(const Tasks& tasks) {
+        search(true, tasks);
+        pairSort_.sort(pairParts_, proxies_.size(), found_, tasks);
+        isChanged_.resize(proxies_.size());
         forChanged([&](std::uint32_t i) { isChanged_[i] = 1; });
         std::erase_if(pairs_, [&](const ProxyPair& p) { return isChanged_[p.a] || isChanged_[p.b]; });
         forChanged([&](std::uint32_t i) { isChanged_[i] = 0; });
@@ -245,7 +251,7 @@ class WideTree final : public BroadPhase<S> {
                 visit(proxies_[g * kChildren + static_cast<std::size_t>(std::countr_zero(bits))]);
     }
 
-    MortonOrder<S> order_;
+    SpatialOrder<S> order_;
     std::vector<std::uint32_t> proxies_;     ///< by leaf
     std::vector<Box> kept_;                  ///< by leaf: the boxes of the last update
     std::vector<std::uint8_t> keptMovable_;  ///< by proxy
@@ -258,8 +264,12 @@ class WideTree final : public BroadPhase<S> {
     std::vector<std::uint16_t> growth_;        ///< since then, in 1/256
     std::size_t firstVisits_ = 0;              ///< of the first full search after the sort; 0: none yet
 
-    std::vector<std::vector<ProxyPair>> parts_;
-    std::vector<WideSearchCost> costs_;
+    struct Part {
+        std::vector<LeafPair> leaves;
+        WideSearchCost cost;
+    };
+    std::vector<Part> parts_;
+    std::vector<std::vector<ProxyPair>> pairParts_;
     PairSort pairSort_;
     std::vector<ProxyPair> pairs_, found_, merged_;  ///< sorted
     std::vector<std::uint8_t> isChanged_;            ///< by proxy; all 0 between updates

@@ -43,7 +43,7 @@ HWY_INLINE std::size_t lowestBit(std::uint32_t bits) {
 template <int dim>
 class Search {
   public:
-    Search(const WideTreeView<dim>& tree, bool changedOnly, std::vector<ProxyPair>& pairs)
+    Search(const WideTreeView<dim>& tree, bool changedOnly, std::vector<LeafPair>& pairs)
         : tree_(tree), unitLevel_(tree.unitLevel()), changedOnly_(changedOnly), pairs_(pairs) {}
 
     WideSearchCost run(std::size_t begin, std::size_t end) {
@@ -66,8 +66,7 @@ class Search {
         return overlapBits<dim>(node, other, i);
     }
     void add(std::size_t leafA, std::size_t leafB) {
-        const std::uint32_t a = tree_.proxies[leafA], b = tree_.proxies[leafB];
-        pairs_.push_back(a < b ? ProxyPair{a, b} : ProxyPair{b, a});
+        pairs_.push_back({static_cast<std::uint32_t>(leafA), static_cast<std::uint32_t>(leafB)});
     }
 
     /// Pairs of leaves below one node.
@@ -129,16 +128,16 @@ class Search {
     const WideTreeView<dim>& tree_;
     std::size_t unitLevel_;
     bool changedOnly_;
-    std::vector<ProxyPair>& pairs_;
+    std::vector<LeafPair>& pairs_;
     WideSearchCost cost_;
 };
 
 WideSearchCost search2(const WideTreeView<2>& tree, bool changedOnly, std::size_t begin, std::size_t end,
-                       std::vector<ProxyPair>& pairs) {
+                       std::vector<LeafPair>& pairs) {
     return Search<2>(tree, changedOnly, pairs).run(begin, end);
 }
 WideSearchCost search3(const WideTreeView<3>& tree, bool changedOnly, std::size_t begin, std::size_t end,
-                       std::vector<ProxyPair>& pairs) {
+                       std::vector<LeafPair>& pairs) {
     return Search<3>(tree, changedOnly, pairs).run(begin, end);
 }
 
@@ -154,11 +153,11 @@ HWY_EXPORT(search2);
 HWY_EXPORT(search3);
 
 WideSearchCost searchWideTree(const WideTreeView<2>& tree, bool changedOnly, std::size_t begin,
-                              std::size_t end, std::vector<ProxyPair>& pairs) {
+                              std::size_t end, std::vector<LeafPair>& pairs) {
     return HWY_DYNAMIC_DISPATCH(search2)(tree, changedOnly, begin, end, pairs);
 }
 WideSearchCost searchWideTree(const WideTreeView<3>& tree, bool changedOnly, std::size_t begin,
-                              std::size_t end, std::vector<ProxyPair>& pairs) {
+                              std::size_t end, std::vector<LeafPair>& pairs) {
     return HWY_DYNAMIC_DISPATCH(search3)(tree, changedOnly, begin, end, pairs);
 }
 

@@ -11,8 +11,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/broadphase/broad_phase.hpp"
-
 namespace rigor::engine {
 
 /// The boxes of the children of a node, axis by axis [m]. A child that is not there is not a number: no test
@@ -38,8 +36,7 @@ struct WideTreeView {
         std::size_t count = 0;
     };
     std::array<Level, kMaxLevels> levels;
-    std::size_t top = 0;                     ///< the level of the root, which is its only node
-    const std::uint32_t* proxies = nullptr;  ///< by leaf
+    std::size_t top = 0;  ///< the level of the root, which is its only node
 
     /// The level whose nodes are the units of a search: each is one part of the work.
     std::size_t unitLevel() const { return top < 1 ? top : 1; }
@@ -52,12 +49,17 @@ struct WideSearchCost {
     std::size_t visits = 0;  ///< pairs of nodes of level 0 that were compared
 };
 
+/// Two leaves.
+struct LeafPair {
+    std::uint32_t a, b;
+};
+
 /// Appends to `pairs` the pairs of leaves that overlap, at least one of them movable (and, with
 /// `changedOnly`, at least one of them changed), with the first in the units [begin, end) and the second in
 /// the same unit or a later one. The same pairs in the same order on every instruction set.
 WideSearchCost searchWideTree(const WideTreeView<2>& tree, bool changedOnly, std::size_t begin,
-                              std::size_t end, std::vector<ProxyPair>& pairs);
+                              std::size_t end, std::vector<LeafPair>& pairs);
 WideSearchCost searchWideTree(const WideTreeView<3>& tree, bool changedOnly, std::size_t begin,
-                              std::size_t end, std::vector<ProxyPair>& pairs);
+                              std::size_t end, std::vector<LeafPair>& pairs);
 
 }  // namespace rigor::engine

@@ -11,8 +11,8 @@
 #include <random>
 
 #include "engine/broadphase/broad_phase.hpp"
-#include "engine/broadphase/morton_order.hpp"
 #include "engine/broadphase/pair_sort.hpp"
+#include "engine/broadphase/spatial_order.hpp"
 #include "engine/core/tests/counting_new.hpp"
 
 namespace rigor::engine {
@@ -187,27 +187,37 @@ TYPED_TEST(LargeScene, EveryInstructionSetDoesTheSameWork) {
     this->RecordProperty("instruction_sets", static_cast<int>(sets));
 }
 
-/// Unit squares on a lattice of 4 x 4: the order is the interleaved bits of their places.
-TEST(MortonOrder, IsTheMortonCurve) {
-    std::vector<Aabb<Space2d>> boxes;
-    std::vector<std::uint32_t> expected(16);
-    for (std::uint32_t i = 0; i < 16; ++i) {
-        const std::uint32_t x = 3 - i % 4, y = i / 4;
-        boxes.push_back({{8.0 * x, 8.0 * y}, {8.0 * x + 1, 8.0 * y + 1}});
-        expected[(x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2] = i;
+/// Unit cubes on a lattice of 4 x 4 x 4, shuffled: every eight in the order are the corners of a cube.
+TEST(SpatialOrder, EightConsecutiveBoxesLieTogether) {
+    std::vector<std::uint32_t> place(64);
+    for (std::uint32_t i = 0; i < 64; ++i) place[i] = i;
+    std::shuffle(place.begin(), place.end(), std::mt19937(4));
+    std::vector<Aabb<Space3d>> boxes;
+    for (const std::uint32_t p : place) {
+        const Space3d::Vec low = 2.0 * Space3d::Vec(p % 4, p / 4 % 4, p / 16);
+        boxes.push_back({low, low + Space3d::Vec::Ones()});
     }
-    boxes.push_back({{-1, -1}, {40, 40}});     // larger than 8 medians: after the small ones
-    boxes.push_back({{-1e30, 0}, {1e30, 1}});  // without bounds: last
-    expected.push_back(16), expected.push_back(17);
+    boxes.push_back({Space3d::Vec::Constant(-1e30), Space3d::Vec::Constant(1e30)});  // without bounds: last
+    boxes.push_back({Space3d::Vec::Constant(-1), Space3d::Vec::Constant(40)});       // larger than 8 medians
     std::vector<std::uint32_t> order;
-    MortonOrder<Space2d>().sort(boxes, order, Tasks::one());
-    EXPECT_EQ(order, expected);
+    SpatialOrder<Space3d>().sort(boxes, order, Tasks::one());
+    ASSERT_EQ(order.size(), 66u);
+    EXPECT_EQ(order[64], 65u);
+    EXPECT_EQ(order[65], 64u);
+    for (std::size_t g = 0; g < 64; g += 8) {
+        Aabb<Space3d> bounds = boxes[order[g]];
+        for (std::size_t i = g; i < g + 8; ++i) {
+            bounds.min = bounds.min.cwiseMin(boxes[order[i]].min);
+            bounds.max = bounds.max.cwiseMax(boxes[order[i]].max);
+        }
+        EXPECT_EQ((bounds.max - bounds.min).maxCoeff(), 3) << "group " << g / 8;
+    }
 }
 
 TEST(PairSort, EqualsASortByComparisons) {
     std::mt19937 random(3);
     PairSort pairSort;
-    for (const std::size_t count : {0u, 3u, 100u, 30000u})
+    for (const std::size_t count : {0u, 3u, 100u, 50000u})
         for (const int threads : {1, 2, 3}) {
             std::vector<std::vector<ProxyPair>> parts(3);
             std::vector<ProxyPair> expected, sorted;

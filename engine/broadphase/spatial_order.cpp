@@ -4,10 +4,11 @@
 // Keys: the bits of the cell's numbers along the axes, interleaved, under two bits of size class. Cells are a
 // quarter of the median edge, or larger where 2^20 of them would not reach from end to end. Sorted by digits
 // of 11 bits, lowest first; a digit that all keys share costs nothing.
-#include "engine/broadphase/morton_order.hpp"
+#include "engine/broadphase/spatial_order.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -16,7 +17,9 @@
 namespace rigor::engine {
 namespace {
 
-constexpr int kMaxBits = 20;  // three axes and two bits of class fit in 64 bits
+constexpr std::size_t kGroup = 8, kBlock = 4096;
+constexpr std::size_t kGrain = 4096;  // keys: some tens of microseconds
+constexpr int kMaxBits = 20;          // three axes and two bits of class fit in 64 bits
 constexpr std::size_t kDigitBits = 11, kDigits = 6, kBuckets = std::size_t(1) << kDigitBits;
 
 /// Spreads the bits of x out to every second (2D) or third (3D) place.
@@ -40,7 +43,7 @@ std::uint64_t spread(std::uint64_t x) {
 }  // namespace
 
 template <class S>
-void MortonOrder<S>::chooseGrid(std::span<const Aabb<S>> boxes) {
+void SpatialOrder<S>::chooseGrid(std::span<const Aabb<S>> boxes) {
     const Aabb<S> all = boundsOfBounded<S>(boxes);
     low_ = all.min;
     middle_ = Real(0.5) * all.min + Real(0.5) * all.max;
@@ -66,7 +69,7 @@ void MortonOrder<S>::chooseGrid(std::span<const Aabb<S>> boxes) {
 }
 
 template <class S>
-std::uint64_t MortonOrder<S>::keyOf(const Aabb<S>& box) const {
+std::uint64_t SpatialOrder<S>::keyOf(const Aabb<S>& box) const {
     const int classShift = S::dim * bits_;
     if (BroadPhase<S>::unbounded(box)) return std::uint64_t(3) << classShift;
     const Real edge = longestEdge<S>(box);
@@ -81,7 +84,7 @@ std::uint64_t MortonOrder<S>::keyOf(const Aabb<S>& box) const {
 }
 
 template <class S>
-void MortonOrder<S>::radixSort() {
+void SpatialOrder<S>::radixSort() {
     std::array<std::array<std::uint32_t, kBuckets>, kDigits> counts;
     for (auto& digit : counts) digit.fill(0);
     const auto bucketOf = [](std::uint64_t key, std::size_t digit) {
@@ -100,22 +103,67 @@ void MortonOrder<S>::radixSort() {
     }
 }
 
+/// Halves of a multiple of eight boxes, the first a power of two times eight.
 template <class S>
-void MortonOrder<S>::sort(std::span<const Aabb<S>> boxes, std::vector<std::uint32_t>& order,
-                          const Tasks& tasks) {
+void SpatialOrder<S>::halve(Center* begin, Center* end) {
+    const auto count = static_cast<std::size_t>(end - begin);
+    if (count <= kGroup) return;
+    std::array<float, S::dim> lo, hi;
+    for (std::size_t k = 0; k < S::dim; ++k) {
+        lo[k] = hi[k] = begin->at[k];
+        for (const Center* c = begin; c < end; ++c)
+            lo[k] = std::min(lo[k], c->at[k]), hi[k] = std::max(hi[k], c->at[k]);
+    }
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < S::dim; ++k)
+        if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
+    const std::size_t half = std::bit_ceil(count) / 2;
+    std::nth_element(begin, begin + half, end, [axis](const Center& a, const Center& b) {
+        return a.at[axis] < b.at[axis] || (a.at[axis] == b.at[axis] && a.box < b.box);
+    });
+    halve(begin, begin + half);
+    halve(begin + half, end);
+}
+
+template <class S>
+void SpatialOrder<S>::sort(std::span<const Aabb<S>> boxes, std::vector<std::uint32_t>& order,
+                           const Tasks& tasks) {
     chooseGrid(boxes);
-    entries_.resize(boxes.size());
-    tasks.forEach(boxes.size(), 4096, [&](std::size_t i) {
+    const std::size_t n = boxes.size();
+    entries_.resize(n);
+    tasks.forEach(n, kGrain, [&](std::size_t i) {
         entries_[i] = {keyOf(boxes[i]), static_cast<std::uint32_t>(i)};
     });
     radixSort();
-    order.resize(boxes.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = entries_[i].box;
+
+    // Blocks do not mix classes, but begin where a group of eight does.
+    blocks_.clear();
+    blocks_.reserve(n / kBlock + 8);
+    for (std::size_t i = 0; i < n; i += kGroup)
+        if (blocks_.empty() || i - blocks_.back() >= kBlock ||
+            classOf(entries_[i]) != classOf(entries_[blocks_.back()]))
+            blocks_.push_back(i);
+    blocks_.push_back(n);
+    centers_.resize(n);
+    order.resize(n);
+    tasks.forEach(blocks_.size() - 1, 1, [&](std::size_t b) {
+        const std::size_t begin = blocks_[b], end = blocks_[b + 1];
+        for (std::size_t i = begin; i < end; ++i) {
+            const Aabb<S>& box = boxes[centers_[i].box = entries_[i].box];
+            const bool placed = !BroadPhase<S>::unbounded(box);
+            for (int k = 0; k < S::dim; ++k)
+                centers_[i].at[k] =
+                    placed ? static_cast<float>(Real(0.5) * box.min[k] + Real(0.5) * box.max[k] - middle_[k])
+                           : 0.0f;
+        }
+        halve(centers_.data() + begin, centers_.data() + end);
+        for (std::size_t i = begin; i < end; ++i) order[i] = centers_[i].box;
+    });
 }
 
-template class MortonOrder<Space2f>;
-template class MortonOrder<Space2d>;
-template class MortonOrder<Space3f>;
-template class MortonOrder<Space3d>;
+template class SpatialOrder<Space2f>;
+template class SpatialOrder<Space2d>;
+template class SpatialOrder<Space3f>;
+template class SpatialOrder<Space3d>;
 
 }  // namespace rigor::engine
