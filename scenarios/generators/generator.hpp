@@ -37,6 +37,12 @@ Generated generateGrid(const Node& node);
 Generated generatePyramid(const Node& node);
 Generated generatePile(const Node& node);
 Generated generateChain(const Node& node);
+Generated generateContainer(const Node& node);
+Generated generateHullPile(const Node& node);
+Generated generateNet(const Node& node);
+Generated generateRain(const Node& node);
+Generated generateRepeat(const Node& node);
+Generated generateTumbler(const Node& node);
 
 /// Uniform numbers that are the same on every platform: the engine is specified by the standard, its
 /// distributions are not.
@@ -50,6 +56,14 @@ class PortableRandom {
   private:
     std::mt19937_64 engine_;
 };
+
+/// A uniformly distributed orientation: "orientation" in 3D (Shoemake, Graphics Gems III, 1992), "angle" in
+/// 2D.
+void turnAtRandom(Json& body, PortableRandom& random, int dimension);
+/// What `pile` does with its templates; also for generators that make their own. The caller has read "seed".
+Generated pileUp(const Node& node, const std::vector<Json>& templates, PortableRandom& random);
+/// A box shape of these half extents at `position` in its body, of the node's "material" where it has one.
+Json boxShape(const Node& node, const Vec3& halfExtents, const Vec3& position);
 
 /// A vector as it stands in a file: three numbers, or two in 2D.
 Json vectorJson(const Vec3& v, int dimension);

@@ -32,7 +32,7 @@ void readHeader(const Node& root, Scenario& s) {
     if (const auto n = root.find("source")) s.source = n->text();
     if (const auto n = root.find("isolates")) s.isolates = n->texts();
     if (const auto n = root.find("tags")) s.tags = n->texts();
-    if (const auto n = root.require("gravity")) s.gravity = n->vector();
+    if (const auto n = root.require("gravity")) s.gravity = root.context().gravity = n->vector();
     if (const auto n = root.require("duration")) s.duration = n->number(1e-6, 3600.0);
     if (const auto n = root.find("size")) s.size = root.context().size = n->integer(1, kMaxSize);
     if (const auto n = root.find("time_limit")) s.timeLimit = n->number(0.1, 86400.0);

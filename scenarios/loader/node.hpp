@@ -22,6 +22,7 @@ struct ReadContext {
     const JsonDocument* document = nullptr;
     std::vector<Problem> problems;
     int dimension = 3;
+    Vec3 gravity{};             ///< of the scene, for generators [m/s^2]
     std::optional<int> size{};  ///< of the scene, for Node::scaled
 };
 
