@@ -17,7 +17,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kGroup = 8, kBlock = 4096;
+constexpr std::size_t kBlock = 4096;
 constexpr std::size_t kGrain = 4096;  // keys: some tens of microseconds
 constexpr int kMaxBits = 20;          // three axes and two bits of class fit in 64 bits
 constexpr std::size_t kDigitBits = 11, kDigits = 6, kBuckets = std::size_t(1) << kDigitBits;
@@ -103,11 +103,11 @@ void SpatialOrder<S>::radixSort() {
     }
 }
 
-/// Halves of a multiple of eight boxes, the first a power of two times eight.
+/// The first half gets a power of two.
 template <class S>
-void SpatialOrder<S>::halve(Center* begin, Center* end) {
+void SpatialOrder<S>::halve(Center* begin, Center* end) const {
     const auto count = static_cast<std::size_t>(end - begin);
-    if (count <= kGroup) return;
+    if (count <= group_) return;
     std::array<float, S::dim> lo, hi;
     for (std::size_t k = 0; k < S::dim; ++k) {
         lo[k] = hi[k] = begin->at[k];
@@ -136,10 +136,10 @@ void SpatialOrder<S>::sort(std::span<const Aabb<S>> boxes, std::vector<std::uint
     });
     radixSort();
 
-    // Blocks do not mix classes, but begin where a group of eight does.
+    // Blocks do not mix classes, but begin where a group does.
     blocks_.clear();
     blocks_.reserve(n / kBlock + 8);
-    for (std::size_t i = 0; i < n; i += kGroup)
+    for (std::size_t i = 0; i < n; i += group_)
         if (blocks_.empty() || i - blocks_.back() >= kBlock ||
             classOf(entries_[i]) != classOf(entries_[blocks_.back()]))
             blocks_.push_back(i);

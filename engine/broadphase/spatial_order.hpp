@@ -21,6 +21,9 @@ namespace rigor::engine {
 template <class S>
 class SpatialOrder {
   public:
+    /// `group`: where the cutting ends, a power of two up to 4096.
+    explicit SpatialOrder(std::size_t group = 8) : group_(group) {}
+
     /// Replaces `order` by the indices of the boxes.
     void sort(std::span<const Aabb<S>> boxes, std::vector<std::uint32_t>& order, const Tasks& tasks);
 
@@ -42,7 +45,9 @@ class SpatialOrder {
         float at[S::dim];  ///< relative to the middle [m]
         std::uint32_t box;
     };
-    static void halve(Center* begin, Center* end);
+    void halve(Center* begin, Center* end) const;
+
+    std::size_t group_;
 
     typename S::Vec middle_ = S::Vec::Zero(), low_ = S::Vec::Zero();
     Real median_ = 0, perCell_ = 1;  ///< edge [m]; cells per metre

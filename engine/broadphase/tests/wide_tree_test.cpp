@@ -92,7 +92,7 @@ TYPED_TEST(LargeScene, ThePairsAreTheSameForAnyNumberOfThreads) {
     for (int round = 0; round < 8; ++round) {
         const std::vector<ProxyPair> expected = this->oracle();
         if (round < 5) {
-            ASSERT_GT(expected.size(), 4096u) << "so many that threads share their order";
+            ASSERT_GT(expected.size(), 4000u) << "or the test looked at little";
         }
         std::size_t testsOfOne = 0;
         for (Run& run : runs) {
@@ -128,7 +128,7 @@ TYPED_TEST(LargeScene, NoAllocationInASteadyStateWithOneThread) {
     const long before = test::allocationCount();
     period();
     EXPECT_EQ(test::allocationCount(), before);
-    EXPECT_GT(pairs.size(), 4096u);
+    EXPECT_GT(pairs.size(), 4000u);
 }
 
 TYPED_TEST(LargeScene, WhatDoesNotChangeIsNotSearched) {
