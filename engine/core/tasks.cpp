@@ -5,8 +5,12 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
 
 namespace rigor::engine {
 
@@ -14,6 +18,11 @@ namespace rigor::engine {
 struct Tasks::Arena {
     explicit Arena(int threads) : arena(threads) {}
     oneapi::tbb::task_arena arena;
+    /// A stage: parts taken, and parts done.
+    struct alignas(64) Count {
+        std::atomic<std::size_t> taken{0}, done{0};
+    };
+    std::vector<Count> stages;
 };
 
 Tasks::Tasks(int threads)
@@ -42,6 +51,31 @@ void Tasks::shared(std::size_t n, std::size_t grain,
         oneapi::tbb::parallel_for(
             Range(0, n, std::max<std::size_t>(part, 1)),
             [&](const Range& range) { work(range.begin(), range.end()); }, oneapi::tbb::simple_partitioner());
+    });
+}
+
+void Tasks::sharedStages(std::size_t count, std::size_t grain,
+                         const std::function<std::size_t(std::size_t)>& size,
+                         const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const {
+    std::vector<Arena::Count>& stages = arena_->stages;
+    if (stages.size() < count) stages = std::vector<Arena::Count>(2 * count);
+    for (std::size_t s = 0; s < count; ++s) stages[s].taken = 0, stages[s].done = 0;
+    // Whoever comes takes part from the stage that is under way; nobody waits for a thread that has not come.
+    const auto takePart = [&] {
+        for (std::size_t s = 0; s < count; ++s) {
+            const std::size_t n = size(s), parts = (n + grain - 1) / grain;
+            for (std::size_t part; (part = stages[s].taken.fetch_add(1)) < parts; stages[s].done.fetch_add(1))
+                work(s, part * grain, std::min(n, (part + 1) * grain));
+            constexpr int kSpins = 2000;  // some microseconds, the length of a part
+            for (int spin = 0; stages[s].done.load() < parts; ++spin)
+                if (spin > kSpins) std::this_thread::yield();
+        }
+    };
+    arena_->arena.execute([&] {
+        oneapi::tbb::task_group others;
+        for (int i = 1; i < threads_; ++i) others.run(takePart);
+        takePart();
+        others.wait();
     });
 }
 

@@ -46,6 +46,18 @@ class Tasks {
             for (std::size_t i = begin; i < end; ++i) work(i);
         });
     }
+    /// Stages 0 .. count - 1 one after the other, each shared as forRanges shares its range: work(stage,
+    /// begin, end) for parts of [0, size(stage)). The next stage begins when the last one has ended; threads
+    /// are not sent for anew in between, so that stages may be short.
+    template <class Size, class Work>
+    void forStages(std::size_t count, std::size_t grain, const Size& size, const Work& work) const {
+        if (threads_ == 1) {
+            for (std::size_t stage = 0; stage < count; ++stage)
+                if (const std::size_t n = size(stage); n > 0) work(stage, std::size_t(0), n);
+            return;
+        }
+        sharedStages(count, grain, std::cref(size), std::cref(work));
+    }
     /// Does `work` among the threads: calls of forRanges from within start at once.
     template <class Work>
     void enter(const Work& work) const {
@@ -57,6 +69,9 @@ class Tasks {
     struct Arena;
     void shared(std::size_t n, std::size_t grain,
                 const std::function<void(std::size_t, std::size_t)>& work) const;
+    void sharedStages(std::size_t count, std::size_t grain,
+                      const std::function<std::size_t(std::size_t)>& size,
+                      const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const;
     void entered(const std::function<void()>& work) const;
 
     int threads_ = 1;

@@ -24,6 +24,11 @@
 
 namespace rigor::engine {
 
+template <class S>
+class Patches;  // solvers/wide/patches.hpp
+template <class S>
+struct PatchBlock;  // solvers/wide/patch.hpp
+
 /// What making contact rows needs to know of a step.
 template <class S>
 struct ContactStep {
@@ -77,6 +82,11 @@ class ContactSet {
     /// Appends the rows of all contacts. The bodies' velocities are those of the start of the step.
     void addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows,
                  const Tasks& tasks);
+    /// All contacts as patches, for a solver that wants those in place of rows (contact_patches.cpp).
+    void addPatches(const BodyArrays<S>& bodies, const ContactStep<S>& step, Patches<S>& patches,
+                    const Tasks& tasks);
+    /// Reads the impulses of the solved patches, of the last sub-step and of all of them.
+    void storePatches(Patches<S>& patches, const Tasks& tasks);
     /// Separations after the bodies have moved by `motion` (translation [m], rotation vector [rad]), to first
     /// order: C += n . (dB + aB x rB - dA - aA x rA), exact for translation and for rolling spheres.
     void advance(std::span<const Velocity<S>> motion);
@@ -145,6 +155,8 @@ class ContactSet {
                           std::size_t index);
     static void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step,
                               const Contact<S>& contact, std::size_t index, Block<S>& block, Row<S>* rows);
+    static void fillPatch(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
+                          PatchBlock<S>& block, std::size_t lane);
     static void pushApart(const ContactStep<S>& step, const Block<S>& block, Real s, Row<S>& normal);
 
     std::vector<ShapeRecord<S>> shapes_;

@@ -16,6 +16,7 @@
 
 #include "engine/pipeline/world.hpp"
 #include "engine/solvers/natural_map.hpp"
+#include "engine/solvers/wide/patches.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -215,6 +216,10 @@ void World<S>::endStep() {
         std::count_if(rows_.blocks.begin(), rows_.blocks.end(),
                       [](const Block<S>& block) { return block.kind == BlockKind::Contact; }));
     result_.rows = rows_.rows.size();
+    if (const Patches<S>* patches = solver_->patches()) {
+        result_.contacts += patches->points();
+        result_.rows += patches->rows();
+    }
     result_.iterations = static_cast<int>(residuals_.size());
     result_.measure = def_.measureResiduals ? ResidualMeasure::NaturalMap : ResidualMeasure::Change;
     result_.residuals = residuals_;
@@ -259,10 +264,20 @@ void World<S>::makeRows() {
     // Twice what gravity adds in a step: a resting contact never approaches that fast.
     const Real gravityStep = h * def_.gravity.norm();
     const Real impactSpeed = std::max(def_.restitutionThreshold, Real(2) * gravityStep);
-    contacts_.addRows(bodies_,
-                      {h, def_.restitutionThreshold, Real(2) * h * gravityStep, impactSpeed, bias, def_.slop,
-                       def_.gapSlop, warmStart, restitution_->bounces()},
-                      rows_, tasks_);
+    const ContactStep<S> contactStep{h,
+                                     def_.restitutionThreshold,
+                                     Real(2) * h * gravityStep,
+                                     impactSpeed,
+                                     bias,
+                                     def_.slop,
+                                     def_.gapSlop,
+                                     warmStart,
+                                     restitution_->bounces()};
+    if (Patches<S>* patches = solver_->patches()) {
+        if (cursor_.substep == 0) contacts_.addPatches(bodies_, contactStep, *patches, tasks_);
+        return patches->beginSubstep(bodies_.velocity, patchPass(), tasks_);
+    }
+    contacts_.addRows(bodies_, contactStep, rows_, tasks_);
     if (restitution_->solvesImpacts()) solveImpacts();
 }
 
@@ -296,6 +311,26 @@ BiasRule<typename S::Real> World<S>::biasRule() const {
 }
 
 template <class S>
+PatchPass<typename S::Real> World<S>::patchPass() const {
+    const Real h = cursor_.substepSize;
+    PatchPass<Real> pass;
+    pass.invH = Real(1) / h;
+    pass.slop = def_.slop, pass.fastestPush = softBiasRule<Real>().fastestPush;
+    pass.threshold = def_.restitutionThreshold;
+    pass.touching = Real(64) * std::numeric_limits<Real>::epsilon();
+    pass.restingGap = std::max(pass.touching, Real(2) * h * h * def_.gravity.norm());
+    return pass;
+}
+
+/// At the end of a sub-step.
+template <class S>
+void World<S>::finishPatches(bool lastSubstep) {
+    Patches<S>& patches = *solver_->patches();
+    if (!lastSubstep) return patches.advance(motion_.used(), cursor_.substepSize);
+    contacts_.storePatches(patches, tasks_);
+}
+
+template <class S>
 void World<S>::solveVelocities(int iterations, bool warmStarted) {
     const Real h = cursor_.substepSize;
     const Real converged =
@@ -304,8 +339,9 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
             : Real(0);
     StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, converged, def_.measureResiduals, observer_,
                            residuals_);
+    const PatchPass<Real> pass = patchPass();
     solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted,
-                    def_.residualTolerance, def_.pyramidDirections, tasks_});
+                    def_.residualTolerance, def_.pyramidDirections, tasks_, &pass});
     result_.solverGaveUp = result_.solverGaveUp || solver_->gaveUp();
     // The aim of joints at the end of the step is renewed with every iteration, which diverges where a step
     // turns light links far: then the linearisation at its start has to do.
@@ -352,7 +388,8 @@ void World<S>::solvePositions() {
 template <class S>
 void World<S>::correct() {
     joints_.storeImpulses(bodies_, rows_);
-    contacts_.storeImpulses(rows_);
+    const bool patches = solver_->patches() != nullptr;
+    if (!patches) contacts_.storeImpulses(rows_);
     const Real h = cursor_.substepSize;
     const bool more = cursor_.substep + 1 < substeps();
     if (!style_.ownsCorrection) {
@@ -360,11 +397,14 @@ void World<S>::correct() {
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
         StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, positionScratch_);
         correction_->correct(positions, def_.positionIterations, def_.slop);
-    } else if (!style_.positions) {
+    } else if (!style_.positions && !patches) {
         StepPositions<S>(bodies_, joints_, rows_, motion_.used(), h, Real(0), positionScratch_);
     }
     motion_.finish(bodies_, h, tasks_);
-    if (more) contacts_.advance(positionScratch_.motion);
+    if (patches)
+        finishPatches(!more);
+    else if (more)
+        contacts_.advance(positionScratch_.motion);
     lastStepSize_ = h;
 }
 

@@ -212,6 +212,8 @@ class World {
     BiasRule<Real> biasRule() const;
     Load<S> load() const;
     void makeRows();
+    PatchPass<Real> patchPass() const;
+    void finishPatches(bool lastSubstep);
     void solveVelocities(int iterations, bool warmStarted);
     void resolveImpacts();
     void relax();

@@ -19,6 +19,11 @@
 
 namespace rigor::engine {
 
+template <class S>
+class Patches;  // solvers/wide/patches.hpp
+template <class R>
+struct PatchPass;  // solvers/wide/patch.hpp
+
 /// Friction of one contact with two tangents: given K of the tangent rows, the accumulated impulse, the
 /// tangential velocity it has led to and the largest magnitude allowed, the new accumulated impulse. With one
 /// tangent (2D) K is diag(k, 1) and the second components are zero.
@@ -61,6 +66,7 @@ struct SolverInput {
     Real residualTolerance = 0;         ///< natural map at which solvers that iterate on it may stop [m/s]
     int pyramidDirections = 4;          ///< generators of the polyhedral friction cone, even (lemke)
     const Tasks& tasks = Tasks::one();  ///< to share the work among; the result is the same
+    const PatchPass<Real>* pass = nullptr;  ///< for a solver of patches: what they need to know
 };
 
 /// What a solver asks of the step around it.
@@ -87,6 +93,8 @@ class Solver {
     virtual ~Solver() = default;
     virtual std::unique_ptr<Solver> clone() const = 0;
     virtual SolverStyle<S> style() const { return {}; }
+    /// Where contacts go in place of rows; null: there, contacts are rows.
+    virtual Patches<S>* patches() { return nullptr; }
     /// Changes impulses and velocities. No allocation in a steady state.
     virtual void solve(const SolverInput<S>& input) = 0;
     /// The last solve() did not reach what it promises and left the best it had.

@@ -41,6 +41,27 @@ TEST(Tasks, TwoThreadsReallyWorkAtTheSameTime) {
     EXPECT_EQ(most, 2);
 }
 
+TEST(Tasks, StagesFollowEachOtherAndVisitEveryIndexOnce) {
+    constexpr std::size_t stages = 40;
+    for (int threads = 1; threads <= 4; ++threads) {
+        const Tasks tasks(threads);
+        std::vector<std::vector<int>> visits(stages);
+        for (std::size_t s = 0; s < stages; ++s) visits[s].assign(s * 7 % 30, 0);
+        std::atomic<bool> early = false;  // a stage began before the last one had ended
+        std::vector<std::atomic<std::size_t>> done(stages);
+        tasks.forStages(
+            stages, 4, [&](std::size_t s) { return visits[s].size(); },
+            [&](std::size_t s, std::size_t begin, std::size_t end) {
+                if (s > 0 && done[s - 1] != visits[s - 1].size()) early = true;
+                for (std::size_t i = begin; i < end; ++i) ++visits[s][i];
+                done[s] += end - begin;
+            });
+        EXPECT_FALSE(early) << threads;
+        for (std::size_t s = 0; s < stages; ++s)
+            EXPECT_EQ(visits[s], std::vector<int>(visits[s].size(), 1)) << threads << " threads, stage " << s;
+    }
+}
+
 TEST(Tasks, ExceptionsReachTheCallerAndCopiesWork) {
     const Tasks tasks(3);
     const Tasks copy = tasks;  // NOLINT: a copy is what is tested

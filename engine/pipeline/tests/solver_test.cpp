@@ -41,6 +41,7 @@ Traits traitsOf(const std::string& name) {
         {.name = "single_pass", .solves = false, .swings = 5},
         // One iteration per sub-step: the sliding box loses a share of a sub-step's friction where it starts.
         {.name = "tgs_soft", .sinks = 0.01, .slips = 0.01, .turns = 1e-5},
+        {.name = "wide", .sinks = 0.01, .slips = 0.01, .turns = 1e-4},
         // Positions linearised along the end of each sub-step, hence the damped swing; stacks rock on.
         {.name = "xpbd", .drifts = 0.05, .slips = 0.01, .swings = 1.0, .turns = 1e-4},
     };

@@ -102,7 +102,7 @@ TEST(ThreadsChoices, DoNotChangeABitOfAnyAlgorithm) {
 TYPED_TEST(Threads, DoNotAllocateInASteadyStep) {
     using S = TypeParam;
     using R = typename S::Real;
-    for (const char* solver : {"block", "jacobi", "tgs_soft"}) {
+    for (const char* solver : {"block", "jacobi", "tgs_soft", "wide"}) {
         WorldDef<S> def = earth<S>();
         def.threads = 2;
         def.solver = solver;

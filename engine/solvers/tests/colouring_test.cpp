@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "engine/solvers/wide/colouring.hpp"
+
+namespace rigor::engine::test {
+namespace {
+
+constexpr std::uint32_t kWidth = 8;
+
+/// Contacts of random bodies; every fifth body is a wall.
+std::vector<PatchPlan> randomPlans(std::size_t count, std::uint32_t bodies, unsigned seed) {
+    std::mt19937 random(seed);
+    std::vector<PatchPlan> plans;
+    while (plans.size() < count) {
+        const std::uint32_t a = random() % bodies, b = random() % bodies;
+        if (a == b || (a % 5 == 0 && b % 5 == 0)) continue;
+        plans.push_back({std::min(a, b), std::max(a, b), std::min(a, b) % 5 != 0, std::max(a, b) % 5 != 0,
+                         static_cast<std::uint8_t>(1 + random() % 4)});
+    }
+    return plans;
+}
+
+/// Every plan has a lane of its own, and no two of a range move the same body.
+void expectProper(const std::vector<PatchPlan>& plans, const Colouring& colouring) {
+    ASSERT_EQ(colouring.places().size(), plans.size());
+    const std::set<std::uint32_t> lanes(colouring.places().begin(), colouring.places().end());
+    EXPECT_EQ(lanes.size(), plans.size()) << "lanes taken twice";
+    std::uint32_t next = 0;
+    std::size_t found = 0;
+    for (const Colouring::Range& range : colouring.ranges()) {
+        EXPECT_EQ(range.first, next) << "ranges follow each other";
+        next = range.last;
+        std::set<std::uint32_t> moved;
+        for (std::size_t k = 0; k < plans.size(); ++k) {
+            const std::uint32_t block = colouring.places()[k] / kWidth;
+            if (block < range.first || block >= range.last) continue;
+            ++found;
+            EXPECT_TRUE(!plans[k].movesA || moved.insert(plans[k].a).second) << "body " << plans[k].a;
+            EXPECT_TRUE(!plans[k].movesB || moved.insert(plans[k].b).second) << "body " << plans[k].b;
+        }
+    }
+    EXPECT_EQ(next, colouring.blocks());
+    EXPECT_EQ(found, plans.size());
+}
+
+TEST(Colouring, NoTwoOfAColourMoveTheSameBody) {
+    for (const std::size_t count : {0u, 1u, 7u, 8u, 9u, 500u})
+        for (unsigned seed = 0; seed < 4; ++seed) {
+            const std::vector<PatchPlan> plans = randomPlans(count, 100, seed);
+            Colouring colouring;
+            colouring.colour(plans, 100, kWidth);
+            expectProper(plans, colouring);
+        }
+}
+
+TEST(Colouring, BodiesOfVeryManyContactsLeaveSomeOver) {
+    // A plate that carries 150 balls and stands on 100 posts.
+    std::vector<PatchPlan> plans;
+    for (std::uint32_t i = 1; i <= 150; ++i) plans.push_back({0, i, true, true, 1});
+    for (std::uint32_t i = 151; i <= 250; ++i) plans.push_back({0, i, true, false, 4});
+    Colouring colouring;
+    colouring.colour(plans, 300, kWidth);
+    expectProper(plans, colouring);
+    EXPECT_EQ(colouring.ranges().size(), 250u) << "nothing can be done side by side";
+}
+
+TEST(Colouring, IsDenseAndPutsWallsLast) {
+    // A chain of 400 bodies on the ground: two colours of 200 and one of 400.
+    std::vector<PatchPlan> plans;
+    for (std::uint32_t i = 1; i < 400; ++i) plans.push_back({i, i + 1, true, true, 2});
+    for (std::uint32_t i = 1; i <= 400; ++i) plans.push_back({0, i, false, true, 2});
+    Colouring colouring;
+    colouring.colour(plans, 401, kWidth);
+    expectProper(plans, colouring);
+    EXPECT_EQ(colouring.ranges().size(), 3u);
+    EXPECT_EQ(colouring.blocks(), 25u + 25u + 50u);
+    EXPECT_GE(colouring.places().back() / kWidth, 50u);
+}
+
+TEST(Colouring, PutsPatchesOfAsManyPointsTogether) {
+    // 64 pairs that share no body: one colour, the patches of four points in the first blocks.
+    std::vector<PatchPlan> plans;
+    for (std::uint32_t i = 0; i < 64; ++i)
+        plans.push_back({2 * i, 2 * i + 1, true, true, static_cast<std::uint8_t>(1 + i % 4)});
+    Colouring colouring;
+    colouring.colour(plans, 128, kWidth);
+    expectProper(plans, colouring);
+    for (std::uint32_t i = 0; i < 64; ++i)
+        EXPECT_EQ(colouring.places()[i] / 16, 4u - plans[i].points) << "16 of each kind";
+}
+
+}  // namespace
+}  // namespace rigor::engine::test

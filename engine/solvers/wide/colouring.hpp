@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Graph colouring of contacts: those of one colour have no moving body in common, so that they can be solved
+// side by side, in lanes and by threads, without a change of the result. Greedy: in their order, the lowest
+// colour that neither body has yet. Contacts between two moving bodies come first, those with a wall after
+// them, which then have the last word. The result depends on the contacts and their order alone.
+//
+// A body with more than kColours contacts leaves the rest over; those are solved one by one, after their
+// kind.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace rigor::engine {
+
+/// A contact to be placed.
+struct PatchPlan {
+    std::uint32_t a, b;   ///< bodies
+    bool movesA, movesB;  ///< they take impulses; one of them does
+    std::uint8_t points;  ///< 1..; contacts of as many points come together in a colour
+};
+
+class Colouring {
+  public:
+    /// Blocks [first, last) of lanes that may be worked on in any order.
+    struct Range {
+        std::uint32_t first, last;
+    };
+
+    /// Places `plans` of a world of `bodies` bodies into blocks of `lanes` lanes.
+    void colour(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes);
+
+    /// Where each plan comes: block * lanes + lane.
+    std::span<const std::uint32_t> places() const { return places_; }
+    std::uint32_t blocks() const { return blocks_; }
+    /// In the order in which they are to be worked on.
+    std::span<const Range> ranges() const { return ranges_; }
+
+  private:
+    static constexpr std::uint32_t kColours = 64;
+    static constexpr std::uint32_t kKinds = 4;  ///< by number of points, at least that many
+
+    void chooseColours(std::span<const PatchPlan> plans, std::size_t bodies);
+    void place(std::span<const PatchPlan> plans, std::uint32_t lanes);
+
+    std::vector<std::uint64_t> taken_;  ///< colours of each body
+    std::vector<std::uint8_t> colour_;  ///< of each plan: moving pairs, their rest, walls, their rest
+    std::vector<std::uint32_t> count_;  ///< by colour and kind
+    std::vector<std::uint32_t> places_;
+    std::vector<Range> ranges_;
+    std::uint32_t blocks_ = 0;
+};
+
+}  // namespace rigor::engine

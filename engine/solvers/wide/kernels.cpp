@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The kernels are compiled once for every instruction set (hwy/foreach_target.h includes this file again).
+#include "engine/solvers/wide/kernels.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/solvers/wide/kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "engine/solvers/wide/prepare-inl.hpp"
+#include "engine/solvers/wide/solve-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace rigor::engine::HWY_NAMESPACE {
+
+#define RIGOR_KERNELS(S)                                                          \
+    void prepare##S(const PatchRange<S>& range, const PatchInertia<S>* inertia) { \
+        prepareAll(range, inertia);                                               \
+    }                                                                             \
+    void warmStart##S(const PatchRange<S>& range) {                               \
+        warmStartAll(range);                                                      \
+    }                                                                             \
+    void solve##S(const PatchRange<S>& range, const PatchPass<S::Real>& pass) {   \
+        solveAll(range, pass);                                                    \
+    }                                                                             \
+    void plan##S(const PatchRange<S>& range, const PatchPass<S::Real>& pass) {    \
+        planAll(range, pass);                                                     \
+    }                                                                             \
+    void share##S(const PatchRange<S>& range) {                                   \
+        shareAll(range);                                                          \
+    }
+RIGOR_KERNELS(Space2f)
+RIGOR_KERNELS(Space2d)
+RIGOR_KERNELS(Space3f)
+RIGOR_KERNELS(Space3d)
+#undef RIGOR_KERNELS
+const char* targetName() {
+    return hwy::TargetName(HWY_TARGET);
+}
+
+}  // namespace rigor::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace rigor::engine {
+
+#define RIGOR_DISPATCH(S)                                                                \
+    HWY_EXPORT(prepare##S);                                                              \
+    HWY_EXPORT(warmStart##S);                                                            \
+    HWY_EXPORT(solve##S);                                                                \
+    HWY_EXPORT(plan##S);                                                                 \
+    HWY_EXPORT(share##S);                                                                \
+    template <>                                                                          \
+    void preparePatches<S>(const PatchRange<S>& range, const PatchInertia<S>* inertia) { \
+        HWY_DYNAMIC_DISPATCH(prepare##S)(range, inertia);                                \
+    }                                                                                    \
+    template <>                                                                          \
+    void warmStartPatches<S>(const PatchRange<S>& range) {                               \
+        HWY_DYNAMIC_DISPATCH(warmStart##S)(range);                                       \
+    }                                                                                    \
+    template <>                                                                          \
+    void solvePatches<S>(const PatchRange<S>& range, const PatchPass<S::Real>& pass) {   \
+        HWY_DYNAMIC_DISPATCH(solve##S)(range, pass);                                     \
+    }                                                                                    \
+    template <>                                                                          \
+    void planPatches<S>(const PatchRange<S>& range, const PatchPass<S::Real>& pass) {    \
+        HWY_DYNAMIC_DISPATCH(plan##S)(range, pass);                                      \
+    }                                                                                    \
+    template <>                                                                          \
+    void sharePatches<S>(const PatchRange<S>& range) {                                   \
+        HWY_DYNAMIC_DISPATCH(share##S)(range);                                           \
+    }
+RIGOR_DISPATCH(Space2f)
+RIGOR_DISPATCH(Space2d)
+RIGOR_DISPATCH(Space3f)
+RIGOR_DISPATCH(Space3d)
+#undef RIGOR_DISPATCH
+
+HWY_EXPORT(targetName);
+const char* simdTarget() {
+    return HWY_DYNAMIC_DISPATCH(targetName)();
+}
+
+}  // namespace rigor::engine
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Contact patches for the solver `wide`: what two shapes that touch have between them, eight pairs side by
+// side. A patch has up to S::maxManifoldPoints normal rows, one at each point of the manifold, and friction
+// of the patch as a whole at the centre of its pressure: S::tangents rows, and in 3D one about the normal
+// (twist). With n the normal from A to B, r the arms from the centres of mass,
+//     normal i   J v = n . (vB - vA) + (rB_i x n) . wB - (rA_i x n) . wA
+//     tangent k  the same with t_k at the centre
+//     twist      n . (wB - wA)
+// Numbers of a block are stored lane by lane (structure of arrays), so that a SIMD register takes the same
+// number of several patches. No two patches of a block move the same body (colouring.hpp).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/math/space.hpp"
+
+namespace rigor::engine {
+
+/// Patches per block, whatever the instruction set: results do not depend on it.
+inline constexpr std::size_t kLanes = 8;
+
+/// One number of each patch of a block.
+template <class R>
+using Lanes = R[kLanes];
+
+/// Sizes that depend on the dimension.
+template <class S>
+struct PatchSize {
+    static constexpr int lin = S::dim;               ///< numbers of a vector
+    static constexpr int ang = S::dim == 3 ? 3 : 1;  ///< of an angular velocity
+    static constexpr int points = S::maxManifoldPoints;
+    static constexpr int tangents = S::tangents;
+    static constexpr int inertia = S::dim == 3 ? 6 : 1;  ///< of a symmetric inertia: xx xy xz yy yz zz
+};
+
+/// The geometry of a row but for its direction: arms times direction, and world inverse inertia times that.
+template <class S>
+struct PatchRow {
+    using Real = typename S::Real;
+    Lanes<Real> jA[PatchSize<S>::ang], jB[PatchSize<S>::ang];
+    Lanes<Real> iA[PatchSize<S>::ang], iB[PatchSize<S>::ang];
+};
+
+template <class S>
+struct PatchPoint {
+    using Real = typename S::Real;
+    Lanes<Real> armA[PatchSize<S>::lin], armB[PatchSize<S>::lin];  ///< [m]
+    PatchRow<S> row;
+    /// The point's share of friction, world axes: to start from, then of the last sub-step and of all [N s].
+    Lanes<Real> rub[PatchSize<S>::lin], rubTotal[PatchSize<S>::lin];
+    Lanes<Real> invK;        ///< 0: no point in this lane; before it is prepared 1 where there is
+    Lanes<Real> separation;  ///< where it was found [m]
+    Lanes<Real> approach;    ///< normal speed at the start of the step [m/s]
+    Lanes<Real> rebound;     ///< where it hits: bias of the sub-step, < 0 [m/s]; read where block.bounces
+    Lanes<Real> open;        ///< 1: let through in this sub-step; likewise
+    Lanes<Real> radius;      ///< distance from the centre, in the tangent plane [m]
+    Lanes<Real> impulse;     ///< of the sub-step [N s], >= 0
+    Lanes<Real> total;       ///< of all sub-steps of the step [N s]
+};
+
+template <class S>
+struct alignas(64) PatchBlock {
+    using Real = typename S::Real;
+    std::uint32_t a[kLanes], b[kLanes];  ///< bodies; of empty lanes 0, the world
+    std::uint32_t movesA, movesB;        ///< bit of each lane: the body takes impulses
+    std::int32_t points;                 ///< most points of a lane
+    std::uint32_t bounces;               ///< bit of each lane: has a restitution
+    alignas(64) Lanes<Real> normal[PatchSize<S>::lin];
+    Lanes<Real> tangent[PatchSize<S>::tangents][PatchSize<S>::lin];
+    Lanes<Real> invMassA, invMassB;
+    Lanes<Real> massScale, impulseScale, biasRate;  ///< softness of overlap, see wide.cpp
+    Lanes<Real> friction, staticFriction, restitution;
+    PatchPoint<S> point[PatchSize<S>::points];
+    Lanes<Real> centre[PatchSize<S>::lin];  ///< of pressure, from the centre of mass of B [m]
+    PatchRow<S> rub[PatchSize<S>::tangents];
+    Lanes<Real> rubInvK;  ///< 1 / the largest eigenvalue of K of friction
+    Lanes<Real> rubImpulse[PatchSize<S>::tangents], rubTotal[PatchSize<S>::tangents];  ///< [N s]
+    Lanes<Real> twistA[PatchSize<S>::ang], twistB[PatchSize<S>::ang];  ///< 3D: inverse inertia times n
+    Lanes<Real> twistImpulse, twistTotal;                              ///< 3D [N m s]
+};
+
+/// A body as the kernels see it, in groups of four numbers that transpose into registers:
+///     3D  v, w, d, t of three numbers and a gap each;  2D  (v, w), (d, t)
+/// with d, t the translation [m] and rotation vector [rad] since the step began.
+template <class S>
+struct alignas(16 * sizeof(typename S::Real)) PatchBody {
+    static constexpr int groups = S::dim == 3 ? 4 : 2;
+    typename S::Real number[4 * groups];
+};
+/// World inverse inertia of a body, the upper triangle; 2D: one number.
+template <class S>
+struct alignas(4 * sizeof(typename S::Real)) PatchInertia {
+    typename S::Real number[S::dim == 3 ? 8 : 4];
+};
+
+/// What all patches of a pass share.
+template <class R>
+struct PatchPass {
+    R invH;             ///< 1 / sub-step [1/s]
+    R slop;             ///< overlap that is left alone [m]
+    R fastestPush;      ///< largest velocity that overlap asks for [m/s]
+    R threshold;        ///< slower approaches do not bounce [m/s]
+    R touching;         ///< gaps up to this are closed [m]
+    R restingGap;       ///< what gravity may close in a sub-step, generously [m]
+    bool soft = true;   ///< overlap pushes; else (relaxation) rows are rigid and it does not
+    bool last = false;  ///< of the sub-step: impulses are added to the totals
+};
+
+}  // namespace rigor::engine

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The patches of a step: placed in blocks, prepared once, and visited in every sub-step. What the blocks
+// hold: patch.hpp; what is done with them: kernels.hpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/core/tasks.hpp"
+#include "engine/solvers/wide/colouring.hpp"
+#include "engine/solvers/wide/kernels.hpp"
+#include "engine/state/body_arrays.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+class Patches {
+  public:
+    using Real = typename S::Real;
+
+    /// The patches of a step are planned, then placed, then filled in by at(k) for each of them.
+    void clear() { plans_.clear(), sources_.clear(); }
+    /// `source`: any number that tells the caller whose patch this is.
+    void plan(const PatchPlan& plan, std::uint32_t source) {
+        plans_.push_back(plan), sources_.push_back(source);
+    }
+    void place(std::size_t bodies);
+    std::uint32_t source(std::size_t k) const { return sources_[k]; }
+    /// Block and lane of plan k.
+    struct Place {
+        PatchBlock<S>& block;
+        std::size_t lane;
+    };
+    Place at(std::size_t k) {
+        const std::uint32_t place = colouring_.places()[k];
+        return {blocks_[place / kLanes], place % kLanes};
+    }
+    std::size_t size() const { return plans_.size(); }
+    /// Points of all patches, and the rows they have: one for each point, and those of friction.
+    std::size_t points() const;
+    std::size_t rows() const;
+    bool empty() const { return size() == 0; }
+
+    /// Rows from what has been filled in, with the bodies at the start of the step.
+    void prepare(const BodyArrays<S>& bodies, const Tasks& tasks);
+    /// Begins a sub-step, before forces: which points bounce in it.
+    void beginSubstep(std::span<const Velocity<S>> velocities, const PatchPass<Real>& pass,
+                      const Tasks& tasks);
+    /// One visit of every patch. `warmStart`: applies their impulses first. Returns the largest change of a
+    /// velocity [m/s or rad/s].
+    Real visit(std::span<Velocity<S>> velocities, const PatchPass<Real>& pass, bool warmStart,
+               const Tasks& tasks);
+    /// Bodies have moved for h [s] with these velocities.
+    void advance(std::span<const Velocity<S>> used, Real h);
+    /// Friction of the points, before it is read.
+    void share(const Tasks& tasks);
+
+  private:
+    void clearLane(PatchBlock<S>& block, std::size_t lane);
+    void load(std::span<const Velocity<S>> velocities);
+    Real unload(std::span<Velocity<S>> velocities) const;
+    template <class Work>
+    void forColours(const Tasks& tasks, const Work& work);
+
+    std::vector<PatchPlan> plans_;
+    std::vector<std::uint32_t> sources_;
+    Colouring colouring_;
+    std::vector<PatchBlock<S>> blocks_;
+    std::vector<PatchBody<S>> bodies_;
+    std::vector<PatchInertia<S>> inertia_;
+};
+
+}  // namespace rigor::engine
