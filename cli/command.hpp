@@ -36,6 +36,7 @@ using Action = std::function<int()>;
 
 void addValidate(CLI::App& app, Action& action);
 void addRun(CLI::App& app, Action& action);
+void addBench(CLI::App& app, Action& action);
 void addList(CLI::App& app, Action& action);
 void addStudy(CLI::App& app, Action& action);
 void addCollide(CLI::App& app, Action& action);

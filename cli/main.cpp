@@ -7,6 +7,7 @@
 #include "adapters/interface/types.hpp"
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "validation/bench/exchange.hpp"
 #include "validation/collide/exchange.hpp"
 #include "validation/contact_problems/freeze.hpp"
 #include "validation/contact_problems/solve.hpp"
@@ -34,6 +35,7 @@ int runCommand(int argc, char** argv) {
     Action action;
     addValidate(app, action);
     addRun(app, action);
+    addBench(app, action);
     addList(app, action);
     addStudy(app, action);
     addCollide(app, action);
@@ -68,7 +70,8 @@ int main(int argc, char** argv) {
         // The program runs itself again for every case; these are not for people.
         if (argc > 1 && std::string_view(argv[1]).starts_with("__"))
             return rigor::validation::childMain({argv + 1, argv + argc},
-                                                {{"__collide", rigor::validation::collideChild},
+                                                {{"__bench", rigor::validation::benchChild},
+                                                 {"__collide", rigor::validation::collideChild},
                                                  {"__fit", rigor::validation::fitChild},
                                                  {"__freeze", rigor::validation::freezeChild},
                                                  {"__lane", rigor::validation::laneChild},

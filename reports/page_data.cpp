@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "reports/bench.hpp"
 #include "reports/curves.hpp"
 #include "reports/page_json.hpp"
 #include "reports/text.hpp"
@@ -334,6 +335,7 @@ std::string overviewJson(const ViewModel& view) {
                  {"planned", run.plannedCases},
                  {"total", view.totals().total},
                  {"environment", run.environment},
+                 {"bench", benchJson(run)},
                  {"symbols", symbols},
                  {"columns", columns},
                  {"engines", engines},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/bench.hpp"
 #include "reports/text.hpp"
 #include "reports/writers.hpp"
 
@@ -159,7 +160,8 @@ std::string markdownSummary(const ViewModel& view) {
                             "\n\nThe authors of this comparison wrote one of the engines in it (rigor).\n";
     std::string out = headline(view);
     // What tells most comes first, and takes its room first; the scoreboard gets what is left.
-    for (const auto& section : {trustSection(view), offenderList(view), ordersMarkdown(view)})
+    for (const auto& section :
+         {benchMarkdown(view.run()), trustSection(view), offenderList(view), ordersMarkdown(view)})
         if (out.size() + section.size() + end.size() <= kMostBytes) out += section;
     return out + scoreboardSection(view, kMostBytes - std::min(kMostBytes, out.size() + end.size())) + end;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "reports/bench.hpp"
 #include "reports/table.hpp"
 #include "reports/text.hpp"
 
@@ -279,7 +280,8 @@ const std::vector<TableEntry>& tableEntries() {
         {"scoreboard", scoreboard}, {"trust", trust},
         {"timing", timing},         {"phases", phases},
         {"audit", audit},           {"contacts", contactsOfRuns},
-        {"ledger", ledger},         {"scenarios", metricsOfScenarios}};
+        {"ledger", ledger},         {"scenarios", metricsOfScenarios},
+        {"bench", benchTables}};
     return entries;
 }
 

@@ -3,6 +3,7 @@
 //
 // Help for the tests of the page in a browser (web/tests/browser):
 //   report_tool query FILE SQL    rows of a store as a JSON array of arrays, read by SQLite itself
+//   report_tool bench FOLDER      the report of a made-up bench
 //   report_tool synthetic FOLDER  the report of the made-up run, with its bad endings, and of a made-up study
 #include <SQLiteCpp/SQLiteCpp.h>
 
@@ -15,6 +16,7 @@
 #include "reports/data_files.hpp"
 #include "reports/replay_data.hpp"
 #include "reports/study.hpp"
+#include "reports/tests/synthetic_bench.hpp"
 #include "reports/tests/synthetic_run.hpp"
 #include "reports/tests/synthetic_study.hpp"
 #include "reports/text.hpp"
@@ -79,6 +81,12 @@ int synthesise(const fs::path& folder) {
     return 0;
 }
 
+int synthesiseBench(const fs::path& folder) {
+    fs::create_directories(folder);
+    writeFile(folder / "index.html", htmlReport(ViewModel(synthetic::makeBench())));
+    return 0;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -86,7 +94,8 @@ int main(int count, char** arguments) {
         const std::string what = count > 2 ? arguments[1] : "";
         if (what == "query" && count == 4) return query(arguments[2], arguments[3]);
         if (what == "synthetic" && count == 3) return synthesise(arguments[2]);
-        std::fputs("report_tool query FILE SQL | synthetic FOLDER\n", stderr);
+        if (what == "bench" && count == 3) return synthesiseBench(arguments[2]);
+        std::fputs("report_tool query FILE SQL | synthetic FOLDER | bench FOLDER\n", stderr);
         return 2;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "report_tool: %s\n", error.what());

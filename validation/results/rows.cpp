@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "validation/results/bench_rows.hpp"
 #include "validation/results/columns.hpp"
 #include "validation/results/schema.hpp"
 
@@ -267,6 +268,7 @@ Run readRows(SQLite::Database& database) {
     readMeasured(database, index);
     readParity(database, index);
     if (schemaVersionOf(database) >= 2) readAnalysis(database, run);
+    if (schemaVersionOf(database) >= 5) run.bench = readBench(database);
     return run;
 }
 

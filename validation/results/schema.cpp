@@ -7,6 +7,7 @@
 
 #include <stdexcept>
 
+#include "validation/results/bench_rows.hpp"
 #include "validation/results/store.hpp"
 
 namespace rigor::results {
@@ -106,6 +107,7 @@ void upgrade(SQLite::Database& database) {
     if (version < 2) database.exec(kAnalysisTables);
     if (version < 3) database.exec(kColumnsOfSchema3);
     if (version < 4) database.exec(kColumnsOfSchema4);
+    if (version < 5) database.exec(kBenchTables);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
 }
@@ -133,6 +135,7 @@ SQLite::Database createDatabase(const std::filesystem::path& file) {
     SQLite::Transaction transaction(database);
     database.exec(kTables);
     database.exec(kAnalysisTables);
+    database.exec(kBenchTables);
     database.exec("PRAGMA application_id = " + std::to_string(kApplicationId));
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();

@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "validation/results/bench_rows.hpp"
 #include "validation/results/columns.hpp"
 #include "validation/results/rows.hpp"
 #include "validation/results/schema.hpp"
@@ -136,6 +137,24 @@ void RunWriter::writeCase(const CaseRow& row) {
 void RunWriter::writeAnalysis(const Run& run) {
     SQLite::Transaction transaction(impl_->database);
     writeAnalysisRows(impl_->database, run);
+    transaction.commit();
+}
+
+void RunWriter::writeBenchPlan(const Bench& bench) {
+    SQLite::Transaction transaction(impl_->database);
+    results::writeBenchPlan(impl_->database, bench);
+    transaction.commit();
+}
+
+void RunWriter::writeBenchRepetition(const std::string& caseId, const BenchRepetition& repetition) {
+    SQLite::Transaction transaction(impl_->database);
+    results::writeBenchRepetition(impl_->database, caseId, repetition);
+    transaction.commit();
+}
+
+void RunWriter::writeBenchAnalysis(const Bench& bench) {
+    SQLite::Transaction transaction(impl_->database);
+    results::writeBenchAnalysis(impl_->database, bench);
     transaction.commit();
 }
 

@@ -11,7 +11,7 @@
 
 namespace rigor::results {
 
-inline constexpr int kSchemaVersion = 4;
+inline constexpr int kSchemaVersion = 5;
 
 /// Reads a run folder. Throws std::runtime_error when it is none or of a newer schema.
 Run readRun(const std::filesystem::path& directory);
@@ -37,6 +37,12 @@ class RunWriter {
     void writeCase(const CaseRow& row);
     /// Replaces the orders and fairness rows of the run; the rest of `run` is ignored.
     void writeAnalysis(const Run& run);
+    /// Settings and cases of a bench; repetitions of cases that are no longer in it are forgotten.
+    void writeBenchPlan(const Bench& bench);
+    /// One repetition of a case of the bench, as soon as it has ended.
+    void writeBenchRepetition(const std::string& caseId, const BenchRepetition& repetition);
+    /// Replaces the summaries and changes of the bench.
+    void writeBenchAnalysis(const Bench& bench);
     void finish(const std::string& isoTime);
 
   private:

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "validation/results/bench_types.hpp"
+
 namespace rigor::results {
 
 /// What became of a case. Text in the store is the snake_case name.
@@ -166,6 +168,7 @@ struct Run {
     std::vector<CaseRow> cases;
     std::vector<OrderRow> orders;       ///< written when the run has ended
     std::vector<FairnessRow> fairness;  ///< likewise
+    Bench bench;                        ///< of `rigor bench`
     std::int64_t plannedCases = 0;
 };
 

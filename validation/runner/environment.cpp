@@ -33,6 +33,19 @@ std::string firstWord(const char* file) {
     return in >> word ? word : "unknown";
 }
 
+/// Caches of the first processor: "L1d 48K, L2 1024K, L3 32768K".
+std::string caches() {
+    std::string text;
+    for (int i = 0; i < 8; ++i) {
+        const std::string folder = "/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(i) + "/";
+        const std::string type = firstWord((folder + "type").c_str());
+        if (type == "unknown" || type == "Instruction") continue;
+        text += (text.empty() ? "L" : ", L") + firstWord((folder + "level").c_str()) +
+                (type == "Data" ? "d " : " ") + firstWord((folder + "size").c_str());
+    }
+    return text.empty() ? "unknown" : text;
+}
+
 std::string compiler() {
 #if defined(__clang__)
     return "clang " __clang_version__;
@@ -51,6 +64,7 @@ std::map<std::string, std::string> describeEnvironment() {
     const long pages = sysconf(_SC_PHYS_PAGES), pageSize = sysconf(_SC_PAGESIZE);
     return {{"cpu", valueIn("/proc/cpuinfo", "model name", ':')},
             {"cores", std::to_string(sysconf(_SC_NPROCESSORS_ONLN))},
+            {"caches", caches()},
             {"memory", std::to_string(pages / 1024 * pageSize / 1024) + " MiB"},
             {"kernel", std::string(system.sysname) + " " + system.release + " " + system.machine},
             {"system", valueIn("/etc/os-release", "PRETTY_NAME", '=')},

@@ -43,6 +43,14 @@ export function makeSynthetic(name: string): string {
   return folder;
 }
 
+/** The report of a made-up bench: growth, threads, an invalid timing, a crash, a baseline. */
+export function makeBench(name: string): string {
+  const folder = join(binaries, 'web_runs', name);
+  rmSync(folder, { recursive: true, force: true });
+  program('tests/report_tool', 'bench', folder);
+  return folder;
+}
+
 /** Rows of a run's store. */
 export const query = (run: string, sql: string): unknown[][] =>
   JSON.parse(program('tests/report_tool', 'query', join(run, 'results.sqlite'), sql)) as unknown[][];

@@ -244,6 +244,9 @@ TEST(Store, AnalysisIsReplacedAsAWhole) {
 
 /// Makes the store what an older rigor would have written.
 void takeBackTo(SQLite::Database& database, int version) {
+    for (const char* table : {"bench_values", "bench_repetitions", "bench_summaries", "bench_changes",
+                              "bench_cases", "bench_settings"})
+        database.exec(std::string("DROP TABLE ") + table);
     database.exec("ALTER TABLE engines DROP COLUMN capabilities");
     if (version < 3) {
         database.exec("ALTER TABLE scenarios DROP COLUMN reference_tex");

@@ -189,6 +189,7 @@ export interface Run {
   planned: number;
   total: number;
   environment: Record<string, string>;
+  bench?: Bench | null; // of `rigor bench`
   symbols: Record<Shown, { symbol: string; word: string; count: number }>;
   columns: Column[];
   engines: Engine[];
@@ -196,6 +197,55 @@ export interface Run {
   mechanisms: Mechanism[];
   audit: { scenario: string; rows: Audit[] }[];
   ledger: GatheredLedger[];
+}
+
+/** What `rigor bench` timed; as reports/bench.cpp writes it. Times in seconds an operation. */
+export interface BenchCase {
+  id: string;
+  part: string; // 'scene', or an isolated part
+  name: string;
+  engine: string; // spec
+  size: Stored;
+  sizeUnit: string; // '' where there is no size
+  threads: number;
+  operation: string;
+  command: string;
+  repetitions: number;
+  clock: string; // of time, low, high and the ratio: 'cpu' or 'wall'
+  time: Maybe; // median
+  low: Maybe;
+  high: Maybe;
+  wall: Stored;
+  cpu: Stored;
+  converged: boolean;
+  valid: boolean;
+  reason: string; // why not
+  base: string; // id
+  ratio: Maybe;
+  ratioLow: Maybe;
+  ratioHigh: Maybe;
+  memoryKiB: Maybe;
+  peakKiB: Maybe;
+  allocations: Maybe; // an operation
+  counts: Record<string, Stored>;
+  phases: Record<string, Stored>;
+  quality: { name: string; unit: string; value: Stored; min: Maybe; max: Maybe; ok: boolean }[];
+}
+export interface BenchChange {
+  id: string;
+  before: Stored;
+  after: Stored;
+  ratio: Stored;
+  low: Stored;
+  high: Stored;
+  p: Stored;
+  verdict: string;
+  reason: string;
+}
+export interface Bench {
+  settings: Record<string, string>;
+  cases: BenchCase[];
+  changes: BenchChange[];
 }
 
 export interface Metric {

@@ -7,6 +7,7 @@
 
 #include <unistd.h>
 
+#include <cstdlib>
 #include <limits>
 #include <memory>
 
@@ -22,6 +23,7 @@ class FreeFlightWorld : public World {
         : scenario_(scenario),
           dt_(dt),
           pause_(static_cast<useconds_t>(integerSetting(settings, "pause_us"))),
+          allocations_(integerSetting(settings, "allocations")),
           states_(scenario.bodies.size()),
           forces_(scenario.bodies.size()) {
         for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -37,6 +39,10 @@ class FreeFlightWorld : public World {
     void step() override {
         ++steps_;
         if (pause_ > 0) usleep(pause_);
+        for (int i = 0; i < allocations_; ++i) {
+            void* volatile memory = std::malloc(64);
+            std::free(memory);
+        }
         for (std::size_t i = 0; i < states_.size(); ++i) {
             const auto& b = scenario_.bodies[i];
             if (b.type != scenario::BodyType::Dynamic) continue;
@@ -74,6 +80,7 @@ class FreeFlightWorld : public World {
     Scenario scenario_;
     double dt_;
     useconds_t pause_;
+    int allocations_;
     std::vector<BodyState> states_;
     std::vector<Vec3> forces_;
     int steps_ = 0;
@@ -104,7 +111,8 @@ inline EngineInfo doubleInfo() {
 }
 
 inline std::vector<Option> doubleOptions() {
-    return {{"pause_us", {}, 0.0, 1e6, true, "0", "0", "microseconds of sleep in each step"}};
+    return {{"pause_us", {}, 0.0, 1e6, true, "0", "0", "microseconds of sleep in each step"},
+            {"allocations", {}, 0.0, 1e6, true, "0", "0", "calls of malloc in each step, of 64 bytes"}};
 }
 
 template <class WorldType>

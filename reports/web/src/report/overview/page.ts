@@ -3,6 +3,7 @@
 //
 // The overview, top to bottom. A section is one file and one line here, where it shall stand; one with a title stands in
 // the page's navigation.
+import { benchSection } from '../bench/section.ts';
 import { run } from '../run.ts';
 import { studySection } from '../study/page.ts';
 import { contactQueries, contactsActedUpon } from './contacts.ts';
@@ -20,17 +21,21 @@ interface OverviewSection {
   make: () => HTMLElement | null;
 }
 
+/** A run of `rigor bench` has no cases to judge: what tells of them is left out. */
+const judged = (make: () => HTMLElement | null) => () => (run.columns.length > 0 ? make() : null);
+
 const sections: OverviewSection[] = [
-  { id: 'summary', title: '', make: headline },
+  { id: 'summary', title: '', make: judged(headline) },
   { id: 'study', title: 'Study', make: studySection },
+  { id: 'bench', title: 'Bench', make: benchSection },
   { id: 'trust', title: 'Which engine', make: trust },
-  { id: 'scoreboard', title: 'Scoreboard', make: scoreboard },
+  { id: 'scoreboard', title: 'Scoreboard', make: judged(scoreboard) },
   { id: 'timing', title: 'Cost', make: timing },
   { id: 'in-run', title: 'Contacts', make: contactsActedUpon },
   { id: 'audit', title: 'Contact queries', make: contactQueries },
-  { id: 'ledger', title: 'Parity ledger', make: ledgerSummary },
+  { id: 'ledger', title: 'Parity ledger', make: judged(ledgerSummary) },
   { id: 'engines', title: 'Engines', make: engines },
-  { id: 'method', title: 'Method', make: method },
+  { id: 'method', title: 'Method', make: judged(method) },
 ];
 
 export const overview: (() => HTMLElement | null)[] = sections.map((s) => s.make);
@@ -38,6 +43,10 @@ export const overview: (() => HTMLElement | null)[] = sections.map((s) => s.make
 /** Sections that this run has something for. */
 export function navigation(): { id: string; title: string }[] {
   const has: Record<string, boolean> = {
+    bench: Boolean(run.bench),
+    scoreboard: run.columns.length > 0,
+    ledger: run.columns.length > 0,
+    method: run.columns.length > 0,
     study: document.getElementById('study-data') !== null,
     trust: run.mechanisms.length > 0,
     timing: run.scenarios.some((s) => s.cases.some((c) => c.step)),

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What is compared with what in a bench, and the numbers of its curves: pure functions of its data.
+import { toNumber } from '../../common/format.ts';
+import type { BenchCase } from '../data.ts';
+
+/** Everything of one name: a scene at all its sizes, with all engines. */
+export interface Subject {
+  part: string;
+  name: string;
+  sizes: { size: number; cases: BenchCase[] }[]; // rising
+}
+
+export function subjectsOf(cases: BenchCase[]): Subject[] {
+  const subjects: Subject[] = [];
+  for (const c of cases) {
+    let subject = subjects.find((s) => s.part === c.part && s.name === c.name);
+    if (!subject) {
+      subject = { part: c.part, name: c.name, sizes: [] };
+      subjects.push(subject);
+    }
+    const size = toNumber(c.size);
+    const at = subject.sizes.find((s) => s.size === size);
+    if (at) at.cases.push(c);
+    else subject.sizes.push({ size, cases: [c] });
+  }
+  for (const s of subjects) s.sizes.sort((a, b) => a.size - b.size);
+  return subjects;
+}
+
+export const engineOf = (c: BenchCase): string => c.engine.split(':')[0] as string;
+/** The spec without the preset that nearly all have. */
+export const labelOf = (c: BenchCase): string => {
+  const options = c.engine.split(':')[1]?.split(',') ?? [];
+  const rest = options.filter((o) => o !== 'preset=matched').join(', ');
+  return engineOf(c) + (rest ? ` ${rest}` : '') + (c.threads > 1 ? `, ${c.threads} threads` : '');
+};
+
+/** Contact points of an operation, or what else tells how much work it is; 0 where nothing does. */
+export function workOf(c: BenchCase): number {
+  for (const name of ['contacts', 'pairs', 'touching_pairs']) {
+    const value = toNumber(c.counts[name]);
+    if (value > 0) return value;
+  }
+  return 0;
+}
+
+export interface CurvePoint {
+  x: number;
+  y: number;
+  low: number;
+  high: number;
+}
+/** Time per contact point over size, a curve per engine and threads; points that are no timing are left out. */
+export function growthCurves(subject: Subject): { of: BenchCase; points: CurvePoint[] }[] {
+  const curves: { of: BenchCase; points: CurvePoint[] }[] = [];
+  for (const { size, cases } of subject.sizes)
+    for (const c of cases) {
+      const work = workOf(c) || size;
+      if (!c.valid || !(work > 0)) continue;
+      let curve = curves.find((k) => k.of.engine === c.engine && k.of.threads === c.threads);
+      if (!curve) {
+        curve = { of: c, points: [] };
+        curves.push(curve);
+      }
+      const per = (v: BenchCase['time']) => toNumber(v) / work;
+      curve.points.push({ x: size, y: per(c.time), low: per(c.low), high: per(c.high) });
+    }
+  return curves.filter((k) => k.points.length > 1);
+}
+
+/** How much faster than on one thread, by the wall; NaN where one of the two is no timing. */
+export function speedUp(c: BenchCase, cases: BenchCase[]): number {
+  const single = cases.find((o) => o.engine === c.engine && o.threads === 1);
+  if (c.threads === 1 || !single?.valid || !c.valid) return NaN;
+  return toNumber(single.wall) / toNumber(c.wall);
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/results/bench_rows.hpp"
+
+#include <set>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "validation/results/columns.hpp"
+
+namespace rigor::results {
+
+const char* const kBenchTables = R"sql(
+CREATE TABLE bench_settings (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;
+CREATE TABLE bench_cases (
+    id TEXT PRIMARY KEY, position INTEGER, part TEXT, name TEXT, engine TEXT, size_unit TEXT, size, threads INTEGER,
+    operation TEXT, command TEXT, parameters TEXT) WITHOUT ROWID;
+CREATE TABLE bench_repetitions (
+    case_id TEXT REFERENCES bench_cases ON DELETE CASCADE, round INTEGER, run_order INTEGER, outcome TEXT, reason TEXT,
+    wall, cpu, samples INTEGER, state_hash TEXT, peak_memory_kib INTEGER, own_memory_kib INTEGER, allocations,
+    allocated_bytes, process_seconds, load, PRIMARY KEY (case_id, round)) WITHOUT ROWID;
+CREATE TABLE bench_values (
+    case_id TEXT, round INTEGER, ordinal INTEGER, kind TEXT, name TEXT, unit TEXT, value, min, max, ok INTEGER,
+    PRIMARY KEY (case_id, round, ordinal),
+    FOREIGN KEY (case_id, round) REFERENCES bench_repetitions ON DELETE CASCADE) WITHOUT ROWID;
+CREATE TABLE bench_summaries (
+    case_id TEXT PRIMARY KEY REFERENCES bench_cases ON DELETE CASCADE, repetitions INTEGER, clock TEXT, wall, cpu, low,
+    high, converged INTEGER, valid INTEGER, reason TEXT, base TEXT, ratio, ratio_low, ratio_high) WITHOUT ROWID;
+CREATE TABLE bench_changes (
+    case_id TEXT PRIMARY KEY REFERENCES bench_cases ON DELETE CASCADE, before, after, ratio, low, high, p, verdict TEXT,
+    reason TEXT) WITHOUT ROWID;
+)sql";
+
+namespace {
+
+constexpr const char* kCount = "count";
+constexpr const char* kPhase = "phase";
+constexpr const char* kQuality = "quality";
+
+using Cases = std::unordered_map<std::string, BenchCase*>;
+
+void writeCase(SQLite::Database& database, const BenchCase& c) {
+    SQLite::Statement insert(
+        database,
+        "INSERT INTO bench_cases VALUES (?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT (id) DO UPDATE SET position = "
+        "excluded.position, command = excluded.command");
+    (Binder(insert) << c.id << c.position << c.part << c.name << c.engine << c.sizeUnit << c.size << c.threads
+                    << c.operation << c.command << c.parameters)
+        .run();
+}
+
+std::vector<std::string> storedCases(SQLite::Database& database) {
+    std::vector<std::string> ids;
+    SQLite::Statement select(database, "SELECT id FROM bench_cases");
+    while (select.executeStep()) ids.push_back(select.getColumn(0).getString());
+    return ids;
+}
+
+void writeValues(SQLite::Database& database, const std::string& caseId, const BenchRepetition& r) {
+    SQLite::Statement insert(database, "INSERT INTO bench_values VALUES (?,?,?,?,?,?,?,?,?,?)");
+    int ordinal = 0;
+    const auto add = [&](const char* kind, const std::string& name, const std::string& unit, double value,
+                         const std::optional<double>& min, const std::optional<double>& max, bool ok) {
+        (Binder(insert) << caseId << r.round << ordinal++ << kind << name << unit << value << min << max
+                        << ok)
+            .run();
+    };
+    for (const BenchCount& c : r.counts) add(kCount, c.name, "1", c.value, {}, {}, true);
+    for (const BenchPhase& p : r.phases) add(kPhase, p.name, "s", p.seconds, {}, {}, true);
+    for (const BenchQuality& q : r.quality) add(kQuality, q.name, q.unit, q.value, q.min, q.max, q.ok);
+}
+
+void readRepetitions(SQLite::Database& database, const Cases& cases) {
+    SQLite::Statement rows(
+        database,
+        "SELECT case_id, round, run_order, outcome, reason, wall, cpu, samples, state_hash, peak_memory_kib, "
+        "own_memory_kib, allocations, allocated_bytes, process_seconds, load FROM bench_repetitions ORDER BY "
+        "case_id, round");
+    while (rows.executeStep()) {
+        std::string id;
+        Taker taker(rows);
+        taker >> id;
+        BenchRepetition& r = cases.at(id)->repetitions.emplace_back();
+        taker >> r.round >> r.order >> r.outcome >> r.reason >> r.wall >> r.cpu >> r.samples >> r.stateHash >>
+            r.peakMemoryKiB >> r.ownMemoryKiB >> r.allocations >> r.allocatedBytes >> r.processSeconds >>
+            r.load;
+    }
+}
+
+BenchRepetition& repetitionOf(BenchCase& c, std::int64_t round) {
+    for (BenchRepetition& r : c.repetitions)
+        if (r.round == round) return r;
+    throw std::runtime_error("bench: values of a repetition that is not there");
+}
+
+void readValues(SQLite::Database& database, const Cases& cases) {
+    SQLite::Statement rows(database,
+                           "SELECT case_id, round, kind, name, unit, value, min, max, ok FROM bench_values "
+                           "ORDER BY case_id, round, ordinal");
+    while (rows.executeStep()) {
+        std::string id, kind;
+        std::int64_t round = 0;
+        BenchQuality q;
+        Taker(rows) >> id >> round >> kind >> q.name >> q.unit >> q.value >> q.min >> q.max >> q.ok;
+        BenchRepetition& r = repetitionOf(*cases.at(id), round);
+        if (kind == kCount)
+            r.counts.push_back({q.name, q.value});
+        else if (kind == kPhase)
+            r.phases.push_back({q.name, q.value});
+        else if (kind == kQuality)
+            r.quality.push_back(q);
+        else
+            throw std::runtime_error("bench: found a value of kind '" + kind + "'");
+    }
+}
+
+void readSummaries(SQLite::Database& database, const Cases& cases) {
+    SQLite::Statement rows(
+        database,
+        "SELECT case_id, repetitions, clock, wall, cpu, low, high, converged, valid, reason, "
+        "base, ratio, ratio_low, ratio_high FROM bench_summaries");
+    while (rows.executeStep()) {
+        std::string id;
+        Taker taker(rows);
+        taker >> id;
+        BenchSummary& s = cases.at(id)->summary;
+        taker >> s.repetitions >> s.clock >> s.wall >> s.cpu >> s.low >> s.high >> s.converged >> s.valid >>
+            s.reason >> s.base >> s.ratio >> s.ratioLow >> s.ratioHigh;
+    }
+}
+
+}  // namespace
+
+void writeBenchPlan(SQLite::Database& database, const Bench& bench) {
+    database.exec("DELETE FROM bench_settings");
+    SQLite::Statement settings(database, "INSERT INTO bench_settings VALUES (?,?)");
+    for (const auto& [key, value] : bench.settings) (Binder(settings) << key << value).run();
+    std::set<std::string> planned;
+    for (const BenchCase& c : bench.cases) planned.insert(c.id);
+    SQLite::Statement forget(database, "DELETE FROM bench_cases WHERE id = ?");
+    for (const std::string& id : storedCases(database))
+        if (!planned.contains(id)) (Binder(forget) << id).run();
+    for (const BenchCase& c : bench.cases) writeCase(database, c);
+}
+
+void writeBenchRepetition(SQLite::Database& database, const std::string& caseId, const BenchRepetition& r) {
+    SQLite::Statement forget(database, "DELETE FROM bench_repetitions WHERE case_id = ? AND round = ?");
+    (Binder(forget) << caseId << r.round).run();
+    SQLite::Statement insert(database,
+                             "INSERT INTO bench_repetitions VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    (Binder(insert) << caseId << r.round << r.order << r.outcome << r.reason << r.wall << r.cpu << r.samples
+                    << r.stateHash << r.peakMemoryKiB << r.ownMemoryKiB << r.allocations << r.allocatedBytes
+                    << r.processSeconds << r.load)
+        .run();
+    writeValues(database, caseId, r);
+}
+
+void writeBenchAnalysis(SQLite::Database& database, const Bench& bench) {
+    for (const char* table : {"bench_summaries", "bench_changes"})
+        database.exec(std::string("DELETE FROM ") + table);
+    SQLite::Statement summary(database, "INSERT INTO bench_summaries VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    for (const BenchCase& c : bench.cases) {
+        const BenchSummary& s = c.summary;
+        (Binder(summary) << c.id << s.repetitions << s.clock << s.wall << s.cpu << s.low << s.high
+                         << s.converged << s.valid << s.reason << s.base << s.ratio << s.ratioLow
+                         << s.ratioHigh)
+            .run();
+    }
+    SQLite::Statement change(database, "INSERT INTO bench_changes VALUES (?,?,?,?,?,?,?,?,?)");
+    for (const BenchChange& c : bench.changes)
+        (Binder(change) << c.caseId << c.before << c.after << c.ratio << c.low << c.high << c.p << c.verdict
+                        << c.reason)
+            .run();
+}
+
+Bench readBench(SQLite::Database& database) {
+    Bench bench;
+    SQLite::Statement settings(database, "SELECT key, value FROM bench_settings");
+    while (settings.executeStep())
+        bench.settings[settings.getColumn(0).getString()] = settings.getColumn(1).getString();
+    SQLite::Statement rows(database,
+                           "SELECT id, position, part, name, engine, size_unit, size, threads, operation, "
+                           "command, parameters FROM bench_cases ORDER BY position, id");
+    while (rows.executeStep()) {
+        BenchCase& c = bench.cases.emplace_back();
+        Taker(rows) >> c.id >> c.position >> c.part >> c.name >> c.engine >> c.sizeUnit >> c.size >>
+            c.threads >> c.operation >> c.command >> c.parameters;
+    }
+    Cases cases;
+    for (BenchCase& c : bench.cases) cases[c.id] = &c;
+    readRepetitions(database, cases);
+    readValues(database, cases);
+    readSummaries(database, cases);
+    SQLite::Statement changes(database,
+                              "SELECT case_id, before, after, ratio, low, high, p, verdict, reason FROM "
+                              "bench_changes JOIN bench_cases ON id = case_id ORDER BY position");
+    while (changes.executeStep()) {
+        BenchChange& c = bench.changes.emplace_back();
+        Taker(changes) >> c.caseId >> c.before >> c.after >> c.ratio >> c.low >> c.high >> c.p >> c.verdict >>
+            c.reason;
+    }
+    return bench;
+}
+
+}  // namespace rigor::results
