@@ -109,6 +109,28 @@ TYPED_TEST(BroadPhases, TouchingCountsAndACopyContinuesAlike) {
     }
 }
 
+/// A row of boxes that touch their neighbours and do not move; one of them changes between fixed and movable.
+TYPED_TEST(BroadPhases, AProxyThatBecomesMovableFindsItsPairsAndLosesThemAgain) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const auto& entry : broadPhaseTable<S>()) {
+        auto broadPhase = entry.make();
+        std::vector<Aabb<S>> boxes(20);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            boxes[i].min.setConstant(0), boxes[i].max.setConstant(1);
+            boxes[i].min[0] = static_cast<R>(i), boxes[i].max[0] = static_cast<R>(i + 1);
+        }
+        std::vector<std::uint8_t> movable(boxes.size(), 0);
+        std::vector<ProxyPair> pairs;
+        for (int round = 0; round < 6; ++round) {
+            broadPhase->update(boxes, movable, pairs);
+            EXPECT_EQ(pairs, oracle<S>(boxes, movable)) << entry.name << " round " << round;
+            EXPECT_EQ(pairs.size(), movable[7] ? 2u : 0u) << entry.name << " round " << round;
+            movable[7] = !movable[7];
+        }
+    }
+}
+
 /// What has wandered off costs no more box tests than what has just arrived: nothing stays where it was put.
 TYPED_TEST(BroadPhases, AfterALongWayTheWorkIsThatOfAFreshStart) {
     using S = TypeParam;
