@@ -10,7 +10,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kContactGrain = 32;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kBlockGrain = 8;  ///< worth sharing: some microseconds of work
 
 template <class V, class R>
 void putVector(Lanes<R>* to, std::size_t lane, const V& v) {
@@ -39,9 +39,13 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
         patches.plan({contact.bodyA, contact.bodyB, movesA, movesB, points}, k);
     }
     patches.place(bodies.size());
-    tasks.forEach(patches.size(), kContactGrain, [&](std::size_t k) {
-        const auto place = patches.at(k);
-        fillPatch(bodies, step, contacts_[patches.source(k)], place.block, place.lane);
+    tasks.forEach(patches.blocks(), kBlockGrain, [&](std::size_t b) {
+        PatchBlock<S>& block = patches.block(b);
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            if (const std::uint32_t source = patches.sourceAt(b, lane); source != Patches<S>::kNobody)
+                fillPatch(bodies, step, contacts_[source], block, lane);
+            else
+                patches.clearLane(b, lane);
     });
     patches.prepare(bodies, tasks);
 }
@@ -53,14 +57,15 @@ void ContactSet<S>::fillPatch(const BodyArrays<S>& bodies, const ContactStep<S>&
     const std::uint32_t a = contact.bodyA, b = contact.bodyB;
     const PairCoefficients<S>& pair = contact.coefficients;
     putVector(block.normal, lane, contact.manifold.normal);
+    block.a[lane] = a, block.b[lane] = b;
+    block.movesA |= std::uint32_t(bodies.invMass[a] > 0) << lane;
+    block.movesB |= std::uint32_t(bodies.invMass[b] > 0) << lane;
+    block.points = std::max(block.points, contact.manifold.count);
     block.invMassA[lane] = bodies.invMass[a], block.invMassB[lane] = bodies.invMass[b];
     block.friction[lane] = pair.friction;
     block.staticFriction[lane] = std::max(pair.friction, pair.staticFriction);
     block.restitution[lane] = step.bounces ? pair.restitution : Real(0);
-    const SoftTerms<Real> terms = softTerms(step.bias.contact, Real(1), step.h);  // of K = 1
-    block.biasRate[lane] = terms.biasRate;
-    block.massScale[lane] = Real(1) / (Real(1) + terms.gamma);
-    block.impulseScale[lane] = terms.gamma / (Real(1) + terms.gamma);
+    block.bounces |= std::uint32_t(block.restitution[lane] > 0) << lane;
     for (std::size_t i = 0; i < contact.points.size(); ++i) {
         PatchPoint<S>& to = block.point[i];
         typename Contact<S>::Point& point = contact.points[i];
@@ -83,19 +88,25 @@ void ContactSet<S>::fillPatch(const BodyArrays<S>& bodies, const ContactStep<S>&
 template <class S>
 void ContactSet<S>::storePatches(Patches<S>& patches, const Tasks& tasks) {
     patches.share(tasks);
-    tasks.forEach(patches.size(), kContactGrain, [&](std::size_t k) {
-        const auto place = patches.at(k);
-        Contact<S>& contact = contacts_[patches.source(k)];
-        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
-            const PatchPoint<S>& from = place.block.point[i];
-            typename Contact<S>::Point& point = contact.points[i];
-            point.normalImpulse = from.impulse[place.lane];
-            point.normalTotal = from.total[place.lane];
-            point.frictionImpulse = takeVector<S>(from.rub, place.lane);
-            point.frictionTotal = takeVector<S>(from.rubTotal, place.lane);
-            point.approach = from.approach[place.lane];
-        }
+    tasks.forEach(patches.blocks(), kBlockGrain, [&](std::size_t b) {
+        const PatchBlock<S>& block = patches.block(b);
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            if (const std::uint32_t source = patches.sourceAt(b, lane); source != Patches<S>::kNobody)
+                storePatch(block, lane, contacts_[source]);
     });
+}
+
+template <class S>
+void ContactSet<S>::storePatch(const PatchBlock<S>& block, std::size_t lane, Contact<S>& contact) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
+        const PatchPoint<S>& from = block.point[i];
+        typename Contact<S>::Point& point = contact.points[i];
+        point.normalImpulse = from.impulse[lane];
+        point.normalTotal = from.total[lane];
+        point.frictionImpulse = takeVector<S>(from.rub, lane);
+        point.frictionTotal = takeVector<S>(from.rubTotal, lane);
+        point.approach = from.approach[lane];
+    }
 }
 
 #define RIGOR_INSTANTIATE(S)                                                                          \

@@ -157,6 +157,7 @@ class ContactSet {
                               const Contact<S>& contact, std::size_t index, Block<S>& block, Row<S>* rows);
     static void fillPatch(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
                           PatchBlock<S>& block, std::size_t lane);
+    static void storePatch(const PatchBlock<S>& block, std::size_t lane, Contact<S>& contact);
     static void pushApart(const ContactStep<S>& step, const Block<S>& block, Real s, Row<S>& normal);
 
     std::vector<ShapeRecord<S>> shapes_;

@@ -315,6 +315,10 @@ PatchPass<typename S::Real> World<S>::patchPass() const {
     const Real h = cursor_.substepSize;
     PatchPass<Real> pass;
     pass.invH = Real(1) / h;
+    const SoftTerms<Real> terms = softTerms(biasRule().contact, Real(1), h);  // of K = 1
+    pass.biasRate = terms.biasRate;
+    pass.massScale = Real(1) / (Real(1) + terms.gamma);
+    pass.impulseScale = terms.gamma / (Real(1) + terms.gamma);
     pass.slop = def_.slop, pass.fastestPush = softBiasRule<Real>().fastestPush;
     pass.threshold = def_.restitutionThreshold;
     pass.touching = Real(64) * std::numeric_limits<Real>::epsilon();

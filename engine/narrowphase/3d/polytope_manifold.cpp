@@ -45,15 +45,18 @@ void clipFaces(const FaceLoop<R>& ref, const HullFace<R>& refPlane, const FaceLo
         emit);
 }
 
-/// Closest points of two segments p + s d, q + t e that are not parallel; clamped to the segments.
+/// Closest points of two segments p + s d, q + t e, clamped to the segments. Of parallel ones, as far as
+/// rounding can tell, points that face each other.
 template <class R>
 void closestOnEdges(const Vec3<R>& p, const Vec3<R>& d, const Vec3<R>& q, const Vec3<R>& e, Vec3<R>& onP,
                     Vec3<R>& onQ) {
     const Vec3<R> r = p - q;
     const R dd = d.dot(d), ee = e.dot(e), de = d.dot(e), dr = d.dot(r), er = e.dot(r);
     const R denominator = dd * ee - de * de;
-    const R s = std::clamp((de * er - ee * dr) / denominator, R(0), R(1));
+    const bool parallel = !(denominator > R(4) * std::numeric_limits<R>::epsilon() * dd * ee);
+    R s = parallel ? R(0.5) : std::clamp((de * er - ee * dr) / denominator, R(0), R(1));
     const R t = std::clamp((de * s + er) / ee, R(0), R(1));
+    if (parallel) s = std::clamp((de * t - dr) / dd, R(0), R(1));
     onP = p + s * d;
     onQ = q + t * e;
 }

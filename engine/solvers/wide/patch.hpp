@@ -71,7 +71,6 @@ struct alignas(64) PatchBlock {
     alignas(64) Lanes<Real> normal[PatchSize<S>::lin];
     Lanes<Real> tangent[PatchSize<S>::tangents][PatchSize<S>::lin];
     Lanes<Real> invMassA, invMassB;
-    Lanes<Real> massScale, impulseScale, biasRate;  ///< softness of overlap, see wide.cpp
     Lanes<Real> friction, staticFriction, restitution;
     PatchPoint<S> point[PatchSize<S>::points];
     Lanes<Real> centre[PatchSize<S>::lin];  ///< of pressure, from the centre of mass of B [m]
@@ -99,12 +98,13 @@ struct alignas(4 * sizeof(typename S::Real)) PatchInertia {
 /// What all patches of a pass share.
 template <class R>
 struct PatchPass {
-    R invH;             ///< 1 / sub-step [1/s]
-    R slop;             ///< overlap that is left alone [m]
-    R fastestPush;      ///< largest velocity that overlap asks for [m/s]
-    R threshold;        ///< slower approaches do not bounce [m/s]
-    R touching;         ///< gaps up to this are closed [m]
-    R restingGap;       ///< what gravity may close in a sub-step, generously [m]
+    R invH;                               ///< 1 / sub-step [1/s]
+    R massScale, impulseScale, biasRate;  ///< the spring of overlap, solve-inl.hpp; rate [1/s]
+    R slop;                               ///< overlap that is left alone [m]
+    R fastestPush;                        ///< largest velocity that overlap asks for [m/s]
+    R threshold;                          ///< slower approaches do not bounce [m/s]
+    R touching;                           ///< gaps up to this are closed [m]
+    R restingGap;                         ///< what gravity may close in a sub-step, generously [m]
     bool soft = true;   ///< overlap pushes; else (relaxation) rows are rigid and it does not
     bool last = false;  ///< of the sub-step: impulses are added to the totals
 };

@@ -29,9 +29,10 @@ void write(typename S::Real* numbers, const Velocity<S>& u) {
 }  // namespace
 
 template <class S>
-void Patches<S>::clearLane(PatchBlock<S>& block, std::size_t lane) {
+void Patches<S>::clearLane(std::size_t b, std::size_t lane) {
     // Everything behind the head is lanes of numbers.
-    auto* lanes = reinterpret_cast<Real*>(&block.normal);
+    PatchBlock<S>& block = blocks_[b];
+    auto* lanes = reinterpret_cast<Real*>(&block) + offsetof(PatchBlock<S>, normal) / sizeof(Real);
     const std::size_t count = (sizeof(block) - offsetof(PatchBlock<S>, normal)) / sizeof(Lanes<Real>);
     for (std::size_t k = 0; k < count; ++k) lanes[k * kLanes + lane] = 0;
     block.a[lane] = block.b[lane] = 0;
@@ -56,28 +57,13 @@ void Patches<S>::place(std::size_t bodies) {
     bodies_.resize(bodies);
     inertia_.resize(bodies);
     for (PatchBlock<S>& block : blocks_) block.movesA = block.movesB = block.bounces = 0, block.points = 0;
-    for (std::size_t k = 0; k < plans_.size(); ++k) {
-        const std::uint32_t place = colouring_.places()[k];
-        PatchBlock<S>& block = blocks_[place / kLanes];
-        const std::uint32_t lane = place % kLanes;
-        block.a[lane] = plans_[k].a, block.b[lane] = plans_[k].b;
-        block.movesA |= std::uint32_t(plans_[k].movesA) << lane;
-        block.movesB |= std::uint32_t(plans_[k].movesB) << lane;
-        block.points = std::max<std::int32_t>(block.points, plans_[k].points);
-    }
-    for (PatchBlock<S>& block : blocks_) {
-        const std::uint32_t filled = block.movesA | block.movesB;
-        for (std::size_t lane = 0; lane < kLanes; ++lane)
-            if (!(filled >> lane & 1)) clearLane(block, lane);
-    }
+    occupant_.assign(blocks_.size() * kLanes, kNobody);
+    for (std::size_t k = 0; k < plans_.size(); ++k) occupant_[colouring_.places()[k]] = sources_[k];
 }
 
 template <class S>
 void Patches<S>::prepare(const BodyArrays<S>& bodies, const Tasks& tasks) {
     load(bodies.velocity);
-    for (PatchBlock<S>& block : blocks_)
-        for (std::uint32_t lane = 0; lane < kLanes; ++lane)
-            block.bounces |= std::uint32_t(block.restitution[lane] > 0) << lane;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         std::fill(bodies_[i].number + kMotion<S>, bodies_[i].number + 4 * PatchBody<S>::groups, Real(0));
         Real* I = inertia_[i].number;

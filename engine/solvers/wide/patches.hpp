@@ -20,23 +20,21 @@ class Patches {
   public:
     using Real = typename S::Real;
 
-    /// The patches of a step are planned, then placed, then filled in by at(k) for each of them.
+    static constexpr std::uint32_t kNobody = 0xffffffffu;
+
+    /// The patches of a step are planned, then placed in blocks, then filled in lane by lane; the head of
+    /// each block (moves, points, bounces) is zero at first.
     void clear() { plans_.clear(), sources_.clear(); }
     /// `source`: any number that tells the caller whose patch this is.
     void plan(const PatchPlan& plan, std::uint32_t source) {
         plans_.push_back(plan), sources_.push_back(source);
     }
     void place(std::size_t bodies);
-    std::uint32_t source(std::size_t k) const { return sources_[k]; }
-    /// Block and lane of plan k.
-    struct Place {
-        PatchBlock<S>& block;
-        std::size_t lane;
-    };
-    Place at(std::size_t k) {
-        const std::uint32_t place = colouring_.places()[k];
-        return {blocks_[place / kLanes], place % kLanes};
-    }
+    std::size_t blocks() const { return blocks_.size(); }
+    PatchBlock<S>& block(std::size_t b) { return blocks_[b]; }
+    /// Whose patch stands there; kNobody's lanes are to be cleared.
+    std::uint32_t sourceAt(std::size_t b, std::size_t lane) const { return occupant_[b * kLanes + lane]; }
+    void clearLane(std::size_t b, std::size_t lane);
     std::size_t size() const { return plans_.size(); }
     /// Points of all patches, and the rows they have: one for each point, and those of friction.
     std::size_t points() const;
@@ -58,14 +56,13 @@ class Patches {
     void share(const Tasks& tasks);
 
   private:
-    void clearLane(PatchBlock<S>& block, std::size_t lane);
     void load(std::span<const Velocity<S>> velocities);
     Real unload(std::span<Velocity<S>> velocities) const;
     template <class Work>
     void forColours(const Tasks& tasks, const Work& work);
 
     std::vector<PatchPlan> plans_;
-    std::vector<std::uint32_t> sources_;
+    std::vector<std::uint32_t> sources_, occupant_;
     Colouring colouring_;
     std::vector<PatchBlock<S>> blocks_;
     std::vector<PatchBody<S>> bodies_;

@@ -107,9 +107,9 @@ HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S:
     const Twist<S> movedA = p.sideA.motion(), movedB = p.sideB.motion();
     const Num<S> moved = dot(p.normal, minus(movedB.v, movedA.v));
     const Num<S> mass = p.massA + p.massB;
-    const Num<S> alpha = pass.soft ? p.at(block.massScale) : one;
-    const Num<S> gamma = pass.soft ? p.at(block.impulseScale) : zero;
-    const Num<S> beta = pass.soft ? p.at(block.biasRate) : zero;
+    const Num<S> alpha = pass.soft ? number<S>(pass.massScale) : one;
+    const Num<S> gamma = pass.soft ? number<S>(pass.impulseScale) : zero;
+    const Num<S> beta = pass.soft ? number<S>(pass.biasRate) : zero;
     const Num<S> slop = number<S>(pass.slop), fastest = number<S>(-pass.fastestPush);
     Num<S> speed = dot(p.normal, minus(p.b.v, p.a.v)), pushed = zero;
     Pressed<S> pressed{zero, zero};
@@ -162,17 +162,19 @@ HWY_INLINE void solveFriction(PatchGroup<S>& p, const Pressed<S>& pressed, bool 
         next[k] = old[k] - (dot(t[k], dv) + turning<S>(jA, jB, p.a.w, p.b.w)) * invK;
     }
     Num<S> size2 = dot(next, next);
+    const Num<S> sticking = p.at(block.staticFriction) * pressed.sum;
     [[maybe_unused]] Num<S> twist = one, oldTwist = one, radius = one;
     if constexpr (S::dim == 3) {
         const auto spread = invertible(pressed.moment);
         radius = pressed.moment / hn::IfThenElse(spread, pressed.sum, one);
         oldTwist = p.at(block.twistImpulse);
         const Num<S> w = dot(p.normal, minus(p.b.w, p.a.w));
-        const Num<S> scaled = oldTwist / hn::IfThenElse(spread, radius, one) - radius * w * invK;
-        twist = hn::IfThenElseZero(spread, scaled);
+        // The pressure may have come together at the centre since the old one was found.
+        const Num<S> before = oldTwist / hn::IfThenElse(spread, radius, one);
+        const Num<S> bounded = hn::Max(hn::Min(before, sticking), hn::Zero(Tag<S>()) - sticking);
+        twist = hn::IfThenElseZero(spread, bounded - radius * w * invK);
         size2 = size2 + twist * twist;
     }
-    const Num<S> sticking = p.at(block.staticFriction) * pressed.sum;
     const auto sticks = size2 <= sticking * sticking;
     // Where it slides size2 > 0.
     const Num<S> size = hn::Sqrt(hn::IfThenElse(sticks, one, size2));
