@@ -64,6 +64,8 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     def.slop = static_cast<R>(numberSetting(settings, "slop"));
     def.gapSlop = static_cast<R>(numberSetting(settings, "gap_slop"));
     def.speculativeDistance = static_cast<R>(numberSetting(settings, "speculative_distance"));
+    def.reuseDistance = static_cast<R>(numberSetting(settings, "reuse_distance"));
+    def.boxMargin = static_cast<R>(numberSetting(settings, "box_margin"));
     return def;
 }
 

@@ -22,6 +22,7 @@ struct ShapeRecord {
     std::uint32_t material = 0;
     ShapeId id;
     typename S::Real reach = 0, inner = 0;  ///< coreReach, innerRadius (ccd/moving_shape.hpp) [m]
+    typename S::Real radius = 0;            ///< no point is further from its own origin [m]
 };
 
 /// Two shapes that touch or nearly do. A is the body of lower index. What a step reads of every contact comes
@@ -54,7 +55,7 @@ struct Contact {
     std::array<Point, S::maxManifoldPoints> points;
     Manifold<S> manifold;
     std::uint32_t firstRow = 0, blocks = 0;  ///< of this step, while rows are made
-    ManifoldCache<S> cache;                  ///< of the manifold choice
+    ManifoldCache<S> cache;  ///< of the manifold choice, or the points of an answer that is kept
 };
 
 }  // namespace rigor::engine

@@ -22,21 +22,27 @@ bool ContactSet<S>::isAsleep(const BodyArrays<S>& bodies, const Contact<S>& cont
 }
 
 template <class S>
-bool ContactSet<S>::renewContact(const Search& search, const Candidate& candidate,
-                                 Contact<S>& contact) const {
-    const bool touched = contact.touching;
-    contact.touched = touched;
+bool ContactSet<S>::renewContact(const Search& search, Candidate& candidate, Contact<S>& contact) const {
+    contact.touched = contact.touching;
     if (isAsleep(search.bodies, contact)) return true;
+    if (stillValid(candidate)) {
+        carry(candidate, contact);
+        clearStep(contact);
+        contact.touching = false;
+        return completeContact(search, candidate, contact);
+    }
     OldPoints old;
     old.count = static_cast<std::size_t>(contact.manifold.count);
     for (std::size_t i = 0; i < old.count; ++i) {
         old.feature[i] = contact.manifold.points[i].feature;
         old.pointB[i] = contact.manifold.points[i].pointB;
     }
+    if (candidate.kept) contact.manifold.memory.normal = contact.manifold.normal;  // it has turned since
     contact.manifold.normal.setZero();
     contact.manifold.count = 0;
-    collide(search, candidate, contact.manifold);
+    ask(search, candidate, contact.manifold);
     if (contact.manifold.count == 0) contact.cache.count = 0;
+    makePoints(search, candidate, contact);
     if (!completeContact(search, candidate, contact)) return false;
     contact.touching = false;
     takeOver(search.bodies, old, contact);
@@ -44,55 +50,71 @@ bool ContactSet<S>::renewContact(const Search& search, const Candidate& candidat
 }
 
 template <class S>
-bool ContactSet<S>::findContact(const Search& search, const Candidate& candidate, Contact<S>& contact) const {
+std::optional<Contact<S>> ContactSet<S>::findContact(const Search& search, Candidate& candidate) const {
     Manifold<S> manifold;
-    collide(search, candidate, manifold);
-    if (manifold.count == 0 && !search.ccd.looksAhead()) return false;
-    contact = {};
+    if (!stillValid(candidate)) {
+        ask(search, candidate, manifold);
+        if (manifold.count == 0) keep(candidate, nullptr);
+    }
+    if (manifold.count == 0 && !search.ccd.looksAhead()) return std::nullopt;
+    std::optional<Contact<S>> found(std::in_place);
+    Contact<S>& contact = *found;
     contact.manifold = manifold;
     contact.shapeA = candidate.a, contact.shapeB = candidate.b, contact.piece = candidate.piece;
     contact.bodyA = shapes_[candidate.a].body, contact.bodyB = shapes_[candidate.b].body;
-    return completeContact(search, candidate, contact);
+    if (manifold.count > 0) makePoints(search, candidate, contact);
+    if (!completeContact(search, candidate, contact)) found.reset();
+    return found;
 }
 
-/// From what the narrow phase has found to what the solver gets. False: nothing.
+/// What the manifold choice makes of the points found, and of no points what is kept of that.
 template <class S>
-bool ContactSet<S>::completeContact(const Search& search, const Candidate& candidate,
-                                    Contact<S>& contact) const {
+void ContactSet<S>::makePoints(const Search& search, Candidate& candidate, Contact<S>& contact) const {
     const std::uint32_t a = candidate.a, b = candidate.b;
     if (contact.manifold.count > 0 && search.makeManifold != nullptr) {
         const Real size =
             std::min((boxes_[a].max - boxes_[a].min).norm(), (boxes_[b].max - boxes_[b].min).norm());
-        search.makeManifold({shapePoses_[a], shapePoses_[b], size, search.speculativeDistance}, contact.cache,
+        search.makeManifold({shapePoses_[a], shapePoses_[b], size, askedDistance(candidate)}, contact.cache,
                             contact.manifold);
     }
+    keep(candidate, &contact);
+}
+
+/// From the points to what the solver gets. False: there are none.
+template <class S>
+bool ContactSet<S>::completeContact(const Search& search, Candidate& candidate, Contact<S>& contact) const {
     placePoints(search.bodies, contact);
     contact.asleep = contact.ahead = false;
     // Pieces of a chain, mesh or field are found where they are, not ahead.
-    if (candidate.piece == kNone && search.ccd.looksAhead())
+    if (candidate.piece == kNone && search.ccd.looksAhead()) {
+        const bool here = contact.manifold.count > 0;
         search.ccd.findAhead(contact, search.bodies, *this, search.narrowPhase);
-    contact.coefficients = pair(shapes_[a].material, shapes_[b].material);
+        if (!here && contact.manifold.count > 0) candidate.kept = false;
+    }
+    contact.coefficients = pair(shapes_[candidate.a].material, shapes_[candidate.b].material);
     return contact.manifold.count > 0;
 }
 
-/// The impulses that points start with, in place of those of the last step; what else that step left is
-/// cleared.
+/// Of what the last step has left in the points, the impulses to start from stay: those of an impact do not.
 template <class S>
-void ContactSet<S>::takeOver(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact) {
-    const auto n = static_cast<std::size_t>(contact.manifold.count);
-    for (std::size_t i = 0; i < old.count; ++i)
-        if (contact.points[i].impact)
-            contact.points[i].normalImpulse = 0, contact.points[i].frictionImpulse.setZero();
-    bool same = n == old.count;
-    for (std::size_t i = 0; i < n && same; ++i) same = contact.manifold.points[i].feature == old.feature[i];
-    if (!same) matchPoints(bodies, old, contact);
-    for (std::size_t i = 0; i < n; ++i) {
-        typename Contact<S>::Point& point = contact.points[i];
+void ContactSet<S>::clearStep(Contact<S>& contact) {
+    for (typename Contact<S>::Point& point : contact.points) {
+        if (point.impact) point.normalImpulse = 0, point.frictionImpulse.setZero();
         point.normalTotal = point.rebound = point.approach = 0;
         point.frictionTotal.setZero();
         point.block = Contact<S>::kNoBlock;
         point.impact = false;
     }
+}
+
+/// The points start with the impulses of the last step.
+template <class S>
+void ContactSet<S>::takeOver(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact) {
+    clearStep(contact);
+    const auto n = static_cast<std::size_t>(contact.manifold.count);
+    bool same = n == old.count;
+    for (std::size_t i = 0; i < n && same; ++i) same = contact.manifold.points[i].feature == old.feature[i];
+    if (!same) matchPoints(bodies, old, contact);
 }
 
 /// By feature; points whose feature is new (a face that has become the other body's reference) take the
@@ -130,18 +152,20 @@ void ContactSet<S>::matchPoints(const BodyArrays<S>& bodies, const OldPoints& ol
 }
 
 template <class S>
-void ContactSet<S>::collide(const Search& search, const Candidate& candidate, Manifold<S>& manifold) const {
+void ContactSet<S>::ask(const Search& search, Candidate& candidate, Manifold<S>& manifold) const {
+    candidate.asked = true;
     const std::uint32_t a = candidate.a, b = candidate.b;
+    const Real distance = askedDistance(candidate);
     if (candidate.piece == kNone) {
         search.narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
-                                   search.speculativeDistance, manifold);
+                                   distance, manifold);
         return;
     }
     const bool surfaceA = isComposite<S>(shapes_[a].shape);
     const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
     if (!surfaceA) flipManifold(manifold);  // its memory
     collidePiece<S>(search.narrowPhase, shapes_[surface].shape, candidate.piece, shapePoses_[surface],
-                    shapes_[other].shape, shapePoses_[other], search.speculativeDistance, manifold);
+                    shapes_[other].shape, shapePoses_[other], distance, manifold);
     if (!surfaceA) flipManifold(manifold);
 }
 

@@ -53,7 +53,8 @@ void ContactSet<S>::setPair(std::uint32_t a, std::uint32_t b, const PairCoeffici
 template <class S>
 void ContactSet<S>::structureChanged(bool indicesChanged) {
     boxesValid_ = candidatesValid_ = false;
-    if (indicesChanged) contacts_.clear();
+    enlarged_.reset();
+    if (indicesChanged) contacts_.clear(), candidates_.clear();
 }
 
 template <class S>
@@ -67,13 +68,14 @@ bool ContactSet<S>::mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std
 
 template <class S>
 void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase,
-                              Real speculativeDistance, const ContinuousCollision<S>& ccd,
+                              const ContactSearch<S>& search, const ContinuousCollision<S>& ccd,
                               const Tasks& tasks) {
+    search_ = search;
     const std::size_t n = shapes_.size();
     shapePoses_.resize(n);
     boxes_.resize(n);
     movable_.resize(n);
-    const Vec margin = Vec::Constant(speculativeDistance);
+    const Vec margin = Vec::Constant(search.speculativeDistance + search.reuseDistance);
     tasks.forEach(n, kShapeGrain, [&](std::size_t i) {
         const ShapeRecord<S>& record = shapes_[i];
         const bool isStatic = bodies.constants[record.body].type == BodyType::Static;
@@ -85,52 +87,70 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
         if (!isStatic && ccd.looksAhead()) ccd.growBox(static_cast<std::uint32_t>(i), boxes_[i]);
     });
     boxesValid_ = true;
-    broadPhase.update(boxes_, movable_, proxyPairs_, tasks);
+    if (search.boxMargin == 0) {
+        broadPhase.update(boxes_, movable_, proxyPairs_, tasks);
+        return;
+    }
+    if (enlarged_.update(broadPhase, boxes_, movable_, search.boxMargin, tasks)) candidatesValid_ = false;
+    proxyPairs_.clear();
+    for (const ProxyPair& pair : enlarged_.pairs())
+        if (boxes_[pair.a].overlaps(boxes_[pair.b])) proxyPairs_.push_back(pair);
 }
 
 template <class S>
 void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
-                                  ManifoldFunction<S> makeManifold, Real speculativeDistance,
-                                  const ContinuousCollision<S>& ccd, const Tasks& tasks) {
-    if (!candidatesValid_ || candidatesHavePieces_ || candidatePairs_ != proxyPairs_)
-        findCandidates(bodies, speculativeDistance);
+                                  ManifoldFunction<S> makeManifold, const ContinuousCollision<S>& ccd,
+                                  const Tasks& tasks) {
+    const bool exact = search_.boxMargin == 0;
+    if (!candidatesValid_ || candidatesHavePieces_ || (exact && candidatePairs_ != proxyPairs_))
+        findCandidates(bodies);
+    forgetOtherAnswers();
     if (makeManifold == &manifoldClipped<S>) makeManifold = nullptr;
-    const Search search{bodies, narrowPhase, makeManifold, speculativeDistance, ccd};
+    const Search search{bodies, narrowPhase, makeManifold, ccd};
     // New contacts take the next free place in fresh_; those that it has no room for are found once more.
     std::atomic<std::uint32_t> taken = 0;
     const Tasks& those = narrowPhase.manyThreads() ? tasks : Tasks::one();
     those.forEach(candidates_.size(), kPairGrain, [&](std::size_t k) {
         Candidate& candidate = candidates_[k];
+        candidate.found = candidate.asked = false;
+        if (!exact && !boxes_[candidate.a].overlaps(boxes_[candidate.b])) {
+            candidate.kept = false;  // as if the pair had not been listed
+            return;
+        }
         if (candidate.contact != kNone) {
             candidate.found = renewContact(search, candidate, contacts_[candidate.contact]);
             return;
         }
-        Contact<S> contact;
-        candidate.found = findContact(search, candidate, contact);
-        if (!candidate.found) return;
-        candidate.fresh = taken.fetch_add(1, std::memory_order_relaxed);
-        if (candidate.fresh < fresh_.size()) fresh_[candidate.fresh] = contact;
+        if (stillValid(candidate) && !ccd.looksAhead()) return;
+        if (const std::optional<Contact<S>> contact = findContact(search, candidate)) {
+            candidate.found = true;
+            candidate.fresh = taken.fetch_add(1, std::memory_order_relaxed);
+            if (candidate.fresh < fresh_.size()) fresh_[candidate.fresh] = *contact;
+        }
     });
     settle(search);
     if (fresh_.size() < taken) fresh_.resize(taken);
 }
 
-/// In the order of contacts: by shape pair and piece.
+/// In the order of contacts: by shape pair and piece. What is known of a candidate goes on.
 template <class S>
-void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, Real speculativeDistance) {
+void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies) {
+    std::swap(candidates_, oldCandidates_);
     candidates_.clear();
     candidatesHavePieces_ = false;
-    std::uint32_t old = 0;
+    std::size_t old = 0;
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t piece) {
         const auto key = std::pair(pairKey(a, b), piece);
         const auto oldKey = [&] {
-            return std::pair(pairKey(contacts_[old].shapeA, contacts_[old].shapeB), contacts_[old].piece);
+            return std::pair(pairKey(oldCandidates_[old].a, oldCandidates_[old].b),
+                             oldCandidates_[old].piece);
         };
-        while (old < contacts_.size() && oldKey() < key) ++old;
-        const bool known = old < contacts_.size() && oldKey() == key;
-        candidates_.push_back({a, b, piece, known ? old : kNone, kNone, false});
+        while (old < oldCandidates_.size() && oldKey() < key) ++old;
+        const bool known = old < oldCandidates_.size() && oldKey() == key;
+        candidates_.push_back(known ? oldCandidates_[old] : makeCandidate(a, b, piece));
     };
-    for (const ProxyPair& p : proxyPairs_) {
+    const std::vector<ProxyPair>& pairs = pairsNear();
+    for (const ProxyPair& p : pairs) {
         if (!mayCollide(bodies, shapes_[p.a].body, shapes_[p.b].body)) continue;
         const bool ordered = shapes_[p.a].body < shapes_[p.b].body;
         const std::uint32_t a = ordered ? p.a : p.b, b = ordered ? p.b : p.a;
@@ -140,19 +160,20 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, Real speculative
             continue;
         }
         candidatesHavePieces_ = true;
-        findPieces(surfaceA ? a : b, surfaceA ? b : a, speculativeDistance);
+        if (!boxes_[a].overlaps(boxes_[b])) continue;
+        findPieces(surfaceA ? a : b, surfaceA ? b : a);
         for (const std::uint32_t piece : pieces_) add(a, b, piece);
     }
-    candidatePairs_.assign(proxyPairs_.begin(), proxyPairs_.end());
+    candidatePairs_.assign(pairs.begin(), pairs.end());
     candidatesValid_ = true;
 }
 
 /// Pieces of a chain, mesh or height field near another shape, in ascending order.
 template <class S>
-void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other, Real speculativeDistance) {
+void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other) {
     pieces_.clear();
-    const Aabb<S> box =
-        boxOnSurface<S>(shapePoses_[surface], shapes_[other].shape, shapePoses_[other], speculativeDistance);
+    const Aabb<S> box = boxOnSurface<S>(shapePoses_[surface], shapes_[other].shape, shapePoses_[other],
+                                        search_.speculativeDistance + search_.reuseDistance);
     withSurface<S>(shapes_[surface].shape, [&](const auto& data) {
         data.query(box, [&](std::uint32_t piece) { pieces_.push_back(piece); });
     });
@@ -163,9 +184,12 @@ void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other, Real 
 template <class S>
 void ContactSet<S>::settle(const Search& search) {
     gone_.clear();
+    asked_ = 0;
     std::size_t kept = 0, count = 0;
-    for (const Candidate& candidate : candidates_)
+    for (const Candidate& candidate : candidates_) {
         kept += candidate.found && candidate.contact != kNone, count += candidate.found;
+        asked_ += candidate.asked;
+    }
     if (kept == contacts_.size() && count == kept) return;
 
     places_.assign(contacts_.size(), kNone);
@@ -180,10 +204,12 @@ void ContactSet<S>::settle(const Search& search) {
     place = 0;
     for (Candidate& candidate : candidates_) {
         if (candidate.found && candidate.contact == kNone) {
-            if (candidate.fresh < fresh_.size())
+            if (candidate.fresh < fresh_.size()) {
                 contacts_[place] = fresh_[candidate.fresh];
-            else
-                findContact(search, candidate, contacts_[place]);
+            } else {
+                candidate.kept = false;  // that there is something is kept, not what
+                contacts_[place] = findContact(search, candidate).value();
+            }
         }
         candidate.contact = candidate.found ? place++ : kNone;
     }

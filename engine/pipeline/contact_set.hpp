@@ -7,10 +7,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engine/broadphase/broad_phase.hpp"
+#include "engine/broadphase/enlarged_boxes.hpp"
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/constraints/row.hpp"
 #include "engine/constraints/soft.hpp"
@@ -43,6 +45,12 @@ struct ContactStep {
     bool bounces = true;                    ///< false: restitution is off
 };
 
+/// How contacts are looked for: WorldDef's settings of the same names.
+template <class S>
+struct ContactSearch {
+    typename S::Real speculativeDistance = 0, reuseDistance = 0, boxMargin = 0;
+};
+
 template <class S>
 class ContactSet {
   public:
@@ -73,12 +81,14 @@ class ContactSet {
     void structureChanged(bool indicesChanged);
 
     /// Broad phase at the bodies' poses, and on their way ahead if `ccd` wants that.
-    void findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase, Real speculativeDistance,
+    void findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase, const ContactSearch<S>& search,
                    const ContinuousCollision<S>& ccd, const Tasks& tasks);
     /// Narrow phase of the pairs; takes over the impulses of contacts that were there in the last step.
     void findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
-                       ManifoldFunction<S> makeManifold, Real speculativeDistance,
-                       const ContinuousCollision<S>& ccd, const Tasks& tasks);
+                       ManifoldFunction<S> makeManifold, const ContinuousCollision<S>& ccd,
+                       const Tasks& tasks);
+    /// Pairs, or pieces, that the last findManifolds has asked the narrow phase about.
+    std::size_t asked() const { return asked_; }
     /// Appends the rows of all contacts. The bodies' velocities are those of the start of the step.
     void addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows,
                  const Tasks& tasks);
@@ -110,26 +120,42 @@ class ContactSet {
     std::vector<Contact<S>>& contacts() { return contacts_; }
     /// True where the contact of two shapes (bodies in order) has rows in this step.
     bool hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const;
+    /// What belongs to a state beside contacts(): which answers of the narrow phase are kept (snapshot.cpp).
+    template <class A, class C>
+    static void visitAnswers(A& archive, C& set);
+    /// After both were restored. False: they do not belong together, or to shapes that are there.
+    bool completeRestored();
     /// True where contacts between the two bodies are possible.
     bool mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b) const;
 
   private:
+    static constexpr std::uint32_t kNone = 0xffffffffu;
     static bool isAsleep(const BodyArrays<S>& bodies, const Contact<S>& contact);
     /// Two shapes, or one and a piece of the other, that may touch.
     struct Candidate {
-        std::uint32_t a, b, piece;  ///< as in Contact
-        std::uint32_t contact;      ///< its place in contacts_, or kNone
-        std::uint32_t fresh;        ///< the place of a new one in fresh_, or kNone; while they are found
-        bool found;                 ///< they touch or nearly do in this step
+        std::uint32_t a = 0, b = 0, piece = kNone;  ///< as in Contact
+        std::uint32_t contact = kNone;              ///< its place in contacts_, or kNone
+        std::uint32_t fresh = kNone;  ///< the place of a new one in fresh_, or kNone; while they are found
+        bool found = false;           ///< they touch or nearly do in this step
+        bool asked = false;           ///< the narrow phase was, in this step
+        // --- what the narrow phase has answered, while that is kept (contact_reuse.cpp)
+        bool kept = false;
+        bool onB = false;          ///< the normal turns with B, else with A
+        bool byA = false;          ///< A is the smaller of the two
+        Real radius = 0;           ///< of the smaller [m]; 0: answers are not kept
+        Pose<S> relative;          ///< the smaller in the frame of the other, then
+        Vec normal = Vec::Zero();  ///< in the frame that it turns with
     };
-    void findCandidates(const BodyArrays<S>& bodies, Real speculativeDistance);
-    void findPieces(std::uint32_t surface, std::uint32_t other, Real speculativeDistance);
+    void findCandidates(const BodyArrays<S>& bodies);
+    void findPieces(std::uint32_t surface, std::uint32_t other);
+    const std::vector<ProxyPair>& pairsNear() const {
+        return search_.boxMargin > 0 ? enlarged_.pairs() : proxyPairs_;
+    }
     /// What finding the manifolds of a step needs to know.
     struct Search {
         const BodyArrays<S>& bodies;
         const NarrowPhase<S>& narrowPhase;
         ManifoldFunction<S> makeManifold;  ///< null: the points are left as they are
-        Real speculativeDistance;
         const ContinuousCollision<S>& ccd;
     };
     /// The part of a contact that is looked for in that of the next step.
@@ -139,12 +165,26 @@ class ContactSet {
         std::array<Vec, S::maxManifoldPoints> pointB;
     };
     /// A contact that was there in the last step as it is now. False: there is none any more.
-    bool renewContact(const Search& search, const Candidate& candidate, Contact<S>& contact) const;
-    /// The contact of a candidate that had none. False: it has none now.
-    bool findContact(const Search& search, const Candidate& candidate, Contact<S>& contact) const;
-    bool completeContact(const Search& search, const Candidate& candidate, Contact<S>& contact) const;
-    void collide(const Search& search, const Candidate& candidate, Manifold<S>& manifold) const;
+    bool renewContact(const Search& search, Candidate& candidate, Contact<S>& contact) const;
+    /// The contact of a candidate that had none, if it has one now.
+    std::optional<Contact<S>> findContact(const Search& search, Candidate& candidate) const;
+    bool completeContact(const Search& search, Candidate& candidate, Contact<S>& contact) const;
+    // --- contact_reuse.cpp
+    Candidate makeCandidate(std::uint32_t a, std::uint32_t b, std::uint32_t piece) const;
+    Real slack(const Candidate& candidate) const;
+    /// How far apart shapes may be for the narrow phase to report them [m].
+    Real askedDistance(const Candidate& candidate) const {
+        return search_.speculativeDistance + slack(candidate);
+    }
+    Pose<S> relative(const Candidate& candidate) const;
+    bool stillValid(const Candidate& candidate) const;
+    void keep(Candidate& candidate, Contact<S>* contact) const;
+    void carry(const Candidate& candidate, Contact<S>& contact) const;
+    void forgetOtherAnswers();
+    void makePoints(const Search& search, Candidate& candidate, Contact<S>& contact) const;
+    void ask(const Search& search, Candidate& candidate, Manifold<S>& manifold) const;
     void placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) const;
+    static void clearStep(Contact<S>& contact);
     static void takeOver(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact);
     static void matchPoints(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact);
     void settle(const Search& search);
@@ -172,6 +212,10 @@ class ContactSet {
     std::vector<Contact<S>> contacts_;       ///< sorted by shape pair and piece
     std::vector<Candidate> candidates_;      ///< in the same order; a contact belongs to each that found one
     std::vector<ProxyPair> candidatePairs_;  ///< what they were made of
+    std::vector<Candidate> oldCandidates_;
+    ContactSearch<S> search_, keptFor_;  ///< of this step; of the answers that are kept
+    EnlargedBoxes<S> enlarged_;
+    std::size_t asked_ = 0;
     bool candidatesValid_ = false, candidatesHavePieces_ = false;
     std::vector<Contact<S>> fresh_;  ///< new in this step, in any order
     std::vector<std::uint32_t> places_, pieces_;

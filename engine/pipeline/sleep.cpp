@@ -7,7 +7,8 @@
 namespace rigor::engine {
 
 template <class S>
-void World<S>::findIslands() {
+void World<S>::findIslands() const {
+    islandsStale_ = false;
     const auto dynamic = [&](std::uint32_t i) { return bodies_.constants[i].type == BodyType::Dynamic; };
     islandMarks_.resize(bodies_.size());
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) islandMarks_[i] = dynamic(i);
@@ -24,7 +25,7 @@ template <class S>
 SleepStep<S> World<S>::sleepStep() {
     return {bodies_,
             contacts_,
-            islands_,
+            islands(),
             islandMarks_,
             cursor_.size,
             def_.sleepLinearVelocity,
@@ -52,7 +53,7 @@ void World<S>::wakeNeighboursOf(std::uint32_t body) {
 }
 
 #define RIGOR_INSTANTIATE(S)                             \
-    template void World<S>::findIslands();               \
+    template void World<S>::findIslands() const;         \
     template SleepStep<S> World<S>::sleepStep();         \
     template void World<S>::wakeIslandOf(std::uint32_t); \
     template void World<S>::wakeNeighboursOf(std::uint32_t);

@@ -19,7 +19,7 @@ namespace rigor::engine {
 namespace {
 
 constexpr char kMagic[8] = {'R', 'I', 'G', 'O', 'R', 'S', 'N', 'P'};
-constexpr std::uint32_t kVersion = 2;  ///< raised with every change of state_fields.def
+constexpr std::uint32_t kVersion = 3;  ///< raised with every change of state_fields.def
 constexpr std::uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -61,6 +61,29 @@ void visitContact(A& archive, C& contact) {
 }  // namespace
 
 template <class S>
+template <class A, class C>
+void ContactSet<S>::visitAnswers(A& archive, C& set) {
+    constexpr bool kReading = !std::is_const_v<C>;
+    visitValue(archive, set.keptFor_.speculativeDistance), visitValue(archive, set.keptFor_.reuseDistance);
+    const auto belongs = [](const Candidate& c) { return c.kept || c.contact != kNone; };
+    const std::size_t count = archive.size(
+        static_cast<std::size_t>(std::count_if(set.candidates_.begin(), set.candidates_.end(), belongs)));
+    if constexpr (kReading) set.candidates_.assign(count, {});
+    std::uint32_t contacts = 0;
+    for (auto& candidate : set.candidates_) {
+        if (!kReading && !belongs(candidate)) continue;
+        bool touches = candidate.contact != kNone;
+        visitValue(archive, touches);
+        if constexpr (kReading) candidate.contact = touches ? contacts++ : kNone;
+#define CANDIDATE_FIELD(member) visitValue(archive, candidate.member);
+#include "engine/state/state_fields.def"
+        if (!candidate.kept) continue;
+#define ANSWER_FIELD(member) visitValue(archive, candidate.member);
+#include "engine/state/state_fields.def"
+    }
+}
+
+template <class S>
 template <class A, class W>
 void World<S>::visitState(A& archive, W& world) {
     auto& bodies = world.bodies_;
@@ -80,6 +103,9 @@ void World<S>::visitState(A& archive, W& world) {
     const std::size_t count = archive.size(contacts.size());
     if constexpr (!std::is_const_v<W>) contacts.resize(count);
     for (auto& contact : contacts) visitContact(archive, contact);
+    // Without answers that are kept, the candidates follow from the rest.
+    if (!std::is_same_v<A, HashArchive> || world.def_.reuseDistance > 0)
+        ContactSet<S>::visitAnswers(archive, world.contacts_);
 }
 
 /// What the world was told when it was built.
@@ -160,6 +186,8 @@ void World<S>::restoreSnapshot(std::span<const unsigned char> bytes) {
     visitState(reader, next);
     reader.end();
     next.checkRestored(bodies_.size());
+    ByteReader::require(next.contacts_.completeRestored(), "contacts and pairs that do not belong together");
+    next.islandsStale_ = true;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {  // what follows from being asleep
         const BodyConstants<S>& constants = next.bodies_.constants[i];
         const bool awake = constants.type == BodyType::Dynamic && !next.bodies_.asleep[i];

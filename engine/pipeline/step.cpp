@@ -147,13 +147,12 @@ void World<S>::runInside(Phase phase) {
         case Phase::BroadPhase:
             ccd_->predict(bodies_, contacts_, def_.gravity, cursor_.size);
             result_.pairTests = broadPhase_->tests();
-            contacts_.findPairs(bodies_, *broadPhase_, def_.speculativeDistance, *ccd_, tasks_);
+            contacts_.findPairs(bodies_, *broadPhase_, contactSearch(), *ccd_, tasks_);
             result_.pairTests = broadPhase_->tests() - result_.pairTests;
             break;
         case Phase::NarrowPhase:
-            contacts_.findManifolds(bodies_, *narrowPhase_, makeManifold_, def_.speculativeDistance, *ccd_,
-                                    tasks_);
-            findIslands();
+            contacts_.findManifolds(bodies_, *narrowPhase_, makeManifold_, *ccd_, tasks_);
+            islandsStale_ = true;
             if (sleeping_.wake) sleeping_.wake(sleepStep());
             break;
         case Phase::Rows:
@@ -220,6 +219,7 @@ void World<S>::endStep() {
         result_.contacts += patches->points();
         result_.rows += patches->rows();
     }
+    result_.narrowPhaseCalls = contacts_.asked();
     result_.iterations = static_cast<int>(residuals_.size());
     result_.measure = def_.measureResiduals ? ResidualMeasure::NaturalMap : ResidualMeasure::Change;
     result_.residuals = residuals_;
@@ -229,6 +229,13 @@ void World<S>::endStep() {
     breakJoints();
     result_.impacts = impacts_;
     result_.sleeping = static_cast<std::size_t>(std::count(bodies_.asleep.begin(), bodies_.asleep.end(), 1));
+}
+
+/// A fault may spoil what would be kept.
+template <class S>
+ContactSearch<S> World<S>::contactSearch() const {
+    if (fault_ != nullptr) return {def_.speculativeDistance, 0, 0};
+    return {def_.speculativeDistance, def_.reuseDistance, def_.boxMargin};
 }
 
 template <class S>

@@ -123,6 +123,12 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     require(def.gapSlop >= 0 && std::isfinite(def.gapSlop), "gap_slop", "gap slop must not be negative");
     require(def.speculativeDistance >= 0 && std::isfinite(def.speculativeDistance), "speculative_distance",
             "speculative distance must not be negative");
+    require(def.reuseDistance >= 0 && std::isfinite(def.reuseDistance), "reuse_distance",
+            "reuse distance must not be negative");
+    require(def.reuseDistance == 0 || def.manifold != "persistent", "reuse_manifold",
+            "the persistent manifold needs the narrow phase in every step: reuse distance must be 0");
+    require(def.boxMargin >= 0 && std::isfinite(def.boxMargin), "box_margin",
+            "box margin must not be negative");
     require(def.residualTolerance >= 0 && std::isfinite(def.residualTolerance), "residual_tolerance",
             "residual tolerance must not be negative");
     require(def.pyramidDirections >= 2 && def.pyramidDirections <= 64 && def.pyramidDirections % 2 == 0,
@@ -171,6 +177,7 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
 template <class S>
 BodyId World<S>::addBody(const BodyDef<S>& def) {
     checkBody<S>(def);
+    islands();  // of the last step
     const bool dynamic = def.type == BodyType::Dynamic;
     BodyConstants<S> constants;
     constants.type = def.type;
@@ -219,6 +226,8 @@ ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
     record.material = def.material;
     record.reach = coreReach<S>(record.shape, record.local);
     record.inner = innerRadius<S>(record.shape);
+    const Aabb<S> box = boundingBox<S>(record.shape, {});
+    record.radius = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).norm();
     record.id = shapeIds_.add(static_cast<std::uint32_t>(contacts_.shapes().size()));
     contacts_.shapes().push_back(record);
     if (sleeping_.wake && bodies_.constants[dense].type != BodyType::Dynamic)
@@ -301,7 +310,7 @@ void World<S>::removeBody(BodyId body) {
     rebuildExclusions();
     contacts_.structureChanged(true);
     broadPhase_->reset();
-    findIslands();
+    islandsStale_ = true;
 }
 
 template <class S>

@@ -54,6 +54,8 @@ struct StepResult {
     bool nonFinite = false;     ///< a velocity or pose has become NaN or infinite
     std::size_t pairTests = 0;  ///< boxes that the broad phase compared
     std::size_t pairs = 0, contacts = 0, rows = 0;
+    std::size_t narrowPhaseCalls =
+        0;               ///< pairs, or pieces of surfaces, that the narrow phase was asked about
     int iterations = 0;  ///< of the solver, in all sub-steps
     /// Collisions that continuous_collision = conservative_advancement has put at their time, in its order.
     std::span<const ImpactEvent<S>> impacts;
@@ -180,8 +182,12 @@ class World {
     std::pair<std::uint32_t, std::uint32_t> jointRows(JointId joint) const;
     /// Impulses of a joint's rows in the last step, summed over its sub-steps [N s] or [N m s].
     std::span<const Real> jointImpulses(JointId joint) const;
-    /// Of the contacts and joints of the last step, between dynamic bodies, asleep or not.
-    const Islands& islands() const { return islands_; }
+    /// Of the contacts and joints of the last step, between dynamic bodies, asleep or not. Found when they
+    /// are asked for, so the first to ask after a step must be alone.
+    const Islands& islands() const {
+        if (islandsStale_) findIslands();
+        return islands_;
+    }
     bool isAsleep(BodyId body) const { return bodies_.asleep[bodyIds_.dense(body)]; }
     /// Of everything that decides the future (state/state_fields.def).
     std::uint64_t stateHash() const;
@@ -218,7 +224,8 @@ class World {
     void resolveImpacts();
     void relax();
     void kick();
-    void findIslands();
+    void findIslands() const;
+    ContactSearch<S> contactSearch() const;
     SleepStep<S> sleepStep();
     void wakeIslandOf(std::uint32_t body);
     void wakeNeighboursOf(std::uint32_t body);
@@ -267,8 +274,9 @@ class World {
     JointStep<S> jointStep_{};
     ConstraintRows<S> rows_;
     PositionScratch<S> positionScratch_;
-    Islands islands_;
-    std::vector<std::uint8_t> islandMarks_;
+    mutable Islands islands_;
+    mutable std::vector<std::uint8_t> islandMarks_;
+    mutable bool islandsStale_ = false;  ///< they are not yet those of contacts_
     std::vector<Real> residuals_, warmStart_;
     std::vector<Event<S>> events_;
     std::vector<JointId> broken_;

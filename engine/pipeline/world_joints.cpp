@@ -24,6 +24,7 @@ template <class S>
 JointId World<S>::addJoint(const JointDef<S>& def) {
     const std::uint32_t a = bodyOrWorld(def.bodyA), b = bodyOrWorld(def.bodyB);
     require(a != b, "joint_bodies", "a joint needs two bodies");
+    islands();  // of the last step
     wakeIslandOf(a), wakeIslandOf(b);
     require(bodies_.invMass[a] > 0 || bodies_.invMass[b] > 0, "joint_bodies", "a joint needs a dynamic body");
     typename JointSet<S>::Record record;
@@ -40,6 +41,7 @@ JointId World<S>::addJoint(const JointDef<S>& def) {
 template <class S>
 void World<S>::removeJoint(JointId joint) {
     require(!stepping(), "step_in_progress", "joints cannot be removed between the phases of a step");
+    islands();  // of the last step
     auto& records = joints_.records();
     const std::uint32_t gone = jointIds_.dense(joint);
     wakeIslandOf(records[gone].joint.a), wakeIslandOf(records[gone].joint.b);

@@ -83,6 +83,13 @@ struct WorldDef {
     Real gapSlop = Real(5e-4);
     /// Contacts are found up to this separation [m], >= 0, so that resting bodies land without overlap.
     Real speculativeDistance = Real(1e-3);
+    /// What the narrow phase has found of two shapes is kept, and moved with them, until they have moved by
+    /// this against each other [m], >= 0; 0: it is asked in every step (pipeline/contact_reuse.cpp). Not with
+    /// manifold = "persistent", which lives from asking.
+    Real reuseDistance = 0;
+    /// The broad phase is asked anew only when a box has left its own of last time grown by this share of its
+    /// longest edge, >= 0; 0: in every step. Results do not depend on it.
+    Real boxMargin = 0;
 };
 
 template <class S>
