@@ -143,7 +143,7 @@ template <class S>
 void expectDepthWithinTheMotion(bool apart) {
     Random<S> random;
     int kept = 0;
-    for (int trial = 0; trial < 400; ++trial) {
+    for (int trial = 0; trial < 2000; ++trial) {
         Pair<S> keeping(kReuse, 0.3), asking(0, 0.3);
         asking.search.speculativeDistance = static_cast<typename S::Real>(apart ? kSpeculative : 0.01);
         Pose<S> start{random.vec(1.0), rotatedBy(Pose<S>{}.q, random.ang(2))};
@@ -165,7 +165,7 @@ void expectDepthWithinTheMotion(bool apart) {
             }
             ASSERT_EQ(with.size(), 1u);
             ASSERT_EQ(without.size(), 1u);
-            EXPECT_NEAR(deepest<S>(with[0]), deepest<S>(without[0]), 2 * kReuse);
+            EXPECT_NEAR(deepest<S>(with[0]), deepest<S>(without[0]), 2.2 * kReuse);
             EXPECT_NEAR(deepest<S>(with[0]), found, 1.01 * kReuse);
         }
     }
@@ -206,7 +206,7 @@ TYPED_TEST(Reuse, MovingFurtherAsksAgain) {
     EXPECT_EQ(pair.find().size(), 1u);
 }
 
-/// Five cubes on the ground, and one that slides into them.
+/// Five cubes on the ground, and one that slides towards them.
 template <class S>
 World<S> stack(double reuse, double boxMargin, int threads = 1, const char* sleeping = "off") {
     WorldDef<S> def = earth<S>();
@@ -218,7 +218,7 @@ World<S> stack(double reuse, double boxMargin, int threads = 1, const char* slee
     const auto wood = world.addMaterial(typename S::Real(0.5), 0);
     addGround<S>(world, wood);
     for (int i = 0; i < 5; ++i) addCube<S>(world, 0.01 * i, 0.25 + 0.5 * i, 0.25, 1, wood);
-    addCube<S>(world, -2, 0.25, 0.25, 1, wood, 4.2);
+    addCube<S>(world, -2, 0.25, 0.25, 1, wood, 3.6);
     return world;
 }
 
@@ -267,6 +267,7 @@ TYPED_TEST(Reuse, ASnapshotHoldsWhatIsKept) {
             ASSERT_EQ(other.step(typename S::Real(1.0 / 60)).narrowPhaseCalls, calls) << i;
             ASSERT_EQ(one.stateHash(), other.stateHash()) << i;
         }
+        if (sleeping == std::string("islands")) continue;  // those asleep are not asked about at all
         // Under other settings nothing that was kept for these holds.
         World<S> third = stack<S>(2 * kReuse, 0, 1, sleeping);
         third.restoreSnapshot(bytes);
