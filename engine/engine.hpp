@@ -7,3 +7,4 @@
 #include "engine/pipeline/algorithms.hpp"
 #include "engine/pipeline/events.hpp"
 #include "engine/pipeline/world.hpp"
+#include "engine/state/prefer_speed.hpp"

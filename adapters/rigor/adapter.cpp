@@ -80,8 +80,9 @@ class RigorEngine final : public Engine {
             number("gap_slop", 0, 1, "5e-4", "5e-4", "gaps of resting contacts that count as closed [m]"));
         options.push_back(number("speculative_distance", 0, 1, "1e-3", "1e-3",
                                  "contacts are found up to this separation [m]"));
-        options.push_back(number("reuse_distance", 0, 1, "0", "0",
-                                 "manifolds are kept until two shapes have moved by this against each other [m]"));
+        options.push_back(
+            number("reuse_distance", 0, 1, "0", "0",
+                   "manifolds are kept until two shapes have moved by this against each other [m]"));
         options.push_back(number("box_margin", 0, 10, "0", "0",
                                  "broad phase: share of a box's longest edge that it may move before it is "
                                  "asked again; no part of the results"));

@@ -33,7 +33,6 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
         Contact<S>& contact = contacts_[k];
         contact.asleep = isAsleep(bodies, contact);
         const bool movesA = bodies.invMass[contact.bodyA] > 0, movesB = bodies.invMass[contact.bodyB] > 0;
-        for (auto& point : contact.points) point.block = Contact<S>::kNoBlock;
         if (contact.asleep || contact.manifold.count == 0 || (!movesA && !movesB)) continue;
         const auto points = static_cast<std::uint8_t>(contact.manifold.count);
         patches.plan({contact.bodyA, contact.bodyB, movesA, movesB, points}, k);

@@ -11,6 +11,7 @@
 
 #include "engine/pipeline/tests/scene.hpp"
 #include "engine/solvers/wide/kernels.hpp"
+#include "engine/state/prefer_speed.hpp"
 
 namespace rigor::engine::test {
 namespace {
@@ -31,7 +32,9 @@ WorldDef<S> wideEarth() {
 template <class S>
 World<S> heap(int columns, int height) {
     using R = typename S::Real;
-    World<S> world(wideEarth<S>());
+    WorldDef<S> def = earth<S>();
+    preferSpeed(def);
+    World<S> world(def);
     const auto wood = world.addMaterial(R(0.5), 0), rubber = world.addMaterial(R(0.8), R(0.6), R(1));
     addGround<S>(world, wood);
     for (int x = 0; x < columns; ++x)
