@@ -37,12 +37,16 @@ void addAnchorRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, Jo
     using Vec = typename S::Vec;
     const Vec rA = rotate(A.q, joint.anchorA), rB = rotate(B.q, joint.anchorB);
     const Vec C = (B.p - A.p) + (rB - rA);
-    for (int i = 0; i < S::dim; ++i) {
-        const Vec e = Vec::Unit(i);
-        Row<S>& row = out.add(C[i]);
-        row.lin = e;
-        row.angA = -cross(rA, e);
-        row.angB = cross(rB, e);
+    // r x e_i for the axes e_i.
+    for (int i = 0; i < S::dim; ++i) out.add(C[i]).lin[i] = typename S::Real(1);
+    Row<S>* const row = &out.row[static_cast<std::size_t>(out.count - S::dim)];
+    if constexpr (S::dim == 2) {
+        row[0].angA = rA.y(), row[1].angA = -rA.x();
+        row[0].angB = -rB.y(), row[1].angB = rB.x();
+    } else {
+        row[0].angA = {0, -rA.z(), rA.y()}, row[0].angB = {0, rB.z(), -rB.y()};
+        row[1].angA = {rA.z(), 0, -rA.x()}, row[1].angB = {-rB.z(), 0, rB.x()};
+        row[2].angA = {-rA.y(), rA.x(), 0}, row[2].angB = {rB.y(), -rB.x(), 0};
     }
 }
 

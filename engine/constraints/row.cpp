@@ -43,7 +43,7 @@ void ConstraintRows<S>::relax() {
             row.invK = K > 0 ? Real(1) / K : Real(0);
             hardened = true;
         }
-        if (hardened && block.kind == BlockKind::Joint)
+        if (hardened && block.kind == BlockKind::Joint && block.matrix < matrices.size())
             invertBlock<S>(rows.data() + block.first, block, matrices[block.matrix]);
     }
 }

@@ -23,8 +23,8 @@ typename S::Real endShare(typename S::Real h, const typename S::Ang& w, const ty
     return std::clamp((Real(kNoSwing) - swing) / Real(kNoSwing - kFullSwing), Real(0), Real(1));
 }
 
-/// The inverse of the block's K alone: soft rows hold as well as hard ones, only later, and what the joint
-/// lets move does not depend on the step by which their softness grows.
+/// The inverse of the block's K without softness: soft rows hold as well as hard ones, only later, and what
+/// the joint lets move does not depend on the step by which their softness grows.
 template <class S>
 BlockMatrix<S> invertHard(const Row<S>* held, const Block<S>& holding) {
     std::array<Row<S>, kMaxJointRows> hard;
@@ -42,9 +42,10 @@ BlockMatrix<S> invertHard(const Row<S>* held, const Block<S>& holding) {
 /// hinge, not about its centre of mass. With c = J M^-1 Jh^T of the rows that hold, Kh = Jh M^-1 Jh^T,
 ///     1/m = K - c Kh^-1 c^T   (the Schur complement of the held rows).
 template <class S>
-void setSpringFrequency(const Row<S>* held, const Block<S>& holding, const BlockMatrix<S>& inverse,
-                        const Softness<typename S::Real>& spring, typename S::Real h, Row<S>& row) {
+void setSpringFrequency(const Row<S>* held, const Block<S>& holding, const Softness<typename S::Real>& spring,
+                        typename S::Real h, Row<S>& row) {
     using Real = typename S::Real;
+    const BlockMatrix<S> inverse = invertHard<S>(held, holding);
     const Real K = rowCoupling<S>(row, row, holding);
     Real taken = 0;
     for (int i = 0; i < holding.rows; ++i) {
@@ -90,6 +91,12 @@ typename S::Real stiffShare(typename S::Real h, typename S::Real push, const typ
                       Real(1));
 }
 
+/// Some coordinate of these is an angle that counts turns.
+constexpr bool countsTurns(JointType type) {
+    return type == JointType::ConeTwist || type == JointType::Hinge || type == JointType::SixDof ||
+           type == JointType::Wheel;
+}
+
 }  // namespace
 
 template <class S>
@@ -106,6 +113,7 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
         record.held = static_cast<std::uint32_t>(made_.held);
         record.block = static_cast<std::uint32_t>(rows.blocks.size());
         record.armB = rotate(bodies.pose[b].q, record.joint.anchorB);
+        rows.rows.resize(record.firstRow + record.rows);
         Block<S> block;
         block.a = a, block.b = b;
         block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
@@ -114,36 +122,32 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
                 block.kind = i < record.held ? BlockKind::Joint : BlockKind::Bounded;
                 block.rows = static_cast<std::uint8_t>(i < record.held ? record.held : 1);
                 block.first = record.firstRow + i;
-                block.matrix = static_cast<std::uint32_t>(rows.matrices.size());
                 rows.blocks.push_back(block);
             }
-            Row<S> row = made_.row[i];
+            Row<S>& row = rows.rows[record.firstRow + i];
+            row.lin = made_.row[i].lin;
+            row.angA = made_.row[i].angA, row.angB = made_.row[i].angB;
             addRow(bodies, step, made_.law[i], made_.error[i], block, row);
-            row.impulse = std::clamp(step.warmStart * record.impulse[i], row.lower, row.upper);
-            rows.rows.push_back(row);
+            row.impulse = step.warmStart * record.impulse[i];
+            if (i >= record.held) row.impulse = std::clamp(row.impulse, row.lower, row.upper);
         }
         if (record.held == 0) continue;
         Row<S>* own = rows.rows.data() + record.firstRow;
-        const Block<S>& holding = rows.blocks[record.block];
-        invertBlock<S>(own, holding, rows.matrices.emplace_back());
         for (std::uint32_t i = record.held; i < record.rows; ++i)
             if (made_.law[i].role == RowRole::Spring && made_.law[i].softness.frequency > 0)
-                setSpringFrequency<S>(own, holding,
-                                      step.bias.soft ? invertHard<S>(own, holding) : rows.matrices.back(),
-                                      made_.law[i].softness, step.h, own[i]);
+                setSpringFrequency<S>(own, rows.blocks[record.block], made_.law[i].softness, step.h, own[i]);
     }
     startBias_.resize(rows.rows.size());
     for (std::size_t i = 0; i < startBias_.size(); ++i) startBias_[i] = rows.rows[i].bias;
 }
 
-/// Everything of a row but its place: products, bias, softness, bounds.
+/// Everything of a row but its directions: products, bias, softness, bounds.
 template <class S>
 void JointSet<S>::addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, const RowLaw<S>& law,
                          Real error, const Block<S>& block, Row<S>& row) const {
     completeRow<S>(row, block, bodies.invInertia);
     const Real K = rowCoupling<S>(row, row, block);
     row.error = error;
-    row.bias = row.relaxedBias = row.softness = row.relaxedSoftness = 0;
     switch (law.role) {
         case RowRole::Motor:
             row.bias = row.relaxedBias = -law.speed;
@@ -232,7 +236,7 @@ void JointSet<S>::storeImpulses(const BodyArrays<S>& bodies, const ConstraintRow
         }
         record.push += push;
         record.twist += moment - cross(record.armB, push);
-        if (joint.axisCount == 0) continue;
+        if (!countsTurns(joint.type)) continue;
         made_.reading = true;
         record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made_);
         made_.reading = false;

@@ -91,13 +91,13 @@ class Ngs final : public PositionCorrection<S> {
             BlockVector<S> error(joint.block.rows);
             for (int r = 0; r < joint.block.rows; ++r)
                 error[r] = joint.row[static_cast<std::size_t>(r)].error;
-            move(problem, joint, -(joint.inverseK * error));
+            const BlockVector<S> lambda = -(joint.inverseK * error);
+            move(problem, joint, lambda.data());
             problem.applyRotations();
         }
     }
 
-    static void move(PositionProblem<S>& problem, const JointPositions<S>& joint,
-                     const BlockVector<S>& lambda) {
+    static void move(PositionProblem<S>& problem, const JointPositions<S>& joint, const Real* lambda) {
         for (int r = 0; r < joint.block.rows; ++r)
             problem.move(joint.block, joint.row[static_cast<std::size_t>(r)], lambda[r]);
     }

@@ -16,6 +16,7 @@
 // Cost: iterations * rows * (1..kInnerSweeps), plus a copy of the rows per step. Known limit: information
 // travels one body per iteration and in parts of 1/n: several times the iterations of pgs for the same
 // residual.
+#include "engine/constraints/joint_inverses.hpp"
 #include "engine/solvers/row_kernels.hpp"
 
 namespace rigor::engine {
@@ -66,7 +67,6 @@ class Jacobi final : public Solver<S> {
         const ConstraintRows<S>& whole = input.constraints;
         split_.rows.assign(whole.rows.begin(), whole.rows.end());
         split_.blocks.assign(whole.blocks.begin(), whole.blocks.end());
-        split_.matrices.resize(whole.matrices.size());
         input.tasks.forEach(split_.blocks.size(), kBlockGrain, [this](std::size_t k) {
             Block<S>& block = split_.blocks[k];
             const Real nA = partners_[block.a], nB = partners_[block.b];
@@ -77,7 +77,6 @@ class Jacobi final : public Solver<S> {
                 const Real K = rowK<S>(rows[i], block);
                 rows[i].invK = K > 0 ? Real(1) / K : Real(0);
             }
-            if (block.kind == BlockKind::Joint) invertBlock<S>(rows, block, split_.matrices[block.matrix]);
             if (block.kind == BlockKind::Contact && block.rows > 1) {
                 const Row<S>&t1 = rows[1], &t2 = rows[S::tangents];
                 block.k11 = rowCoupling<S>(t1, t1, block);
@@ -87,6 +86,7 @@ class Jacobi final : public Solver<S> {
                 }
             }
         });
+        invertJoints<S>(split_);
     }
 
     Real iterate(const SolverInput<S>& split) {

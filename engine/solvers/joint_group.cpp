@@ -4,12 +4,13 @@
 
 #include <algorithm>
 
+#include "engine/constraints/joint_inverses.hpp"
 #include "engine/solvers/row_kernels.hpp"
 
 namespace rigor::engine {
 
 template <class S>
-void JointGroup<S>::begin(const ConstraintRows<S>& constraints) {
+void JointGroup<S>::begin(ConstraintRows<S>& constraints) {
     all_.clear(), equalities_.clear(), bounded_.clear(), items_.clear();
     for (std::uint32_t i = 0; i < constraints.blocks.size(); ++i) {
         const Block<S>& block = constraints.blocks[i];
@@ -23,6 +24,7 @@ void JointGroup<S>::begin(const ConstraintRows<S>& constraints) {
         items_.push_back({&block, constraints.rows.data() + block.first});
     }
     direct_ = equalities_.size() > 1 && system_.factor(items_);
+    if (!direct_) invertJoints<S>(constraints);
 }
 
 template <class S>
@@ -70,18 +72,31 @@ typename S::Real JointGroup<S>::solveEqualities(ConstraintRows<S>& constraints,
         const Block<S>& block = constraints.blocks[equalities_[k]];
         const Row<S>* rows = constraints.rows.data() + block.first;
         const Velocity<S>&a = velocities[block.a], &b = velocities[block.b];
-        BlockVector<S>& right = system_.at(k);
-        for (int i = 0; i < block.rows; ++i) right[i] = -rowError<S>(rows[i], a, b);
-        largest = std::max(largest, right.cwiseAbs().maxCoeff());
+        Real* const right = system_.at(k);
+        for (int i = 0; i < block.rows; ++i) {
+            right[i] = -rowError<S>(rows[i], a, b);
+            largest = std::max(largest, std::abs(right[i]));
+        }
     }
     system_.solve();
     for (std::size_t k = 0; k < equalities_.size(); ++k) {
         const Block<S>& block = constraints.blocks[equalities_[k]];
         Row<S>* rows = constraints.rows.data() + block.first;
-        const BlockVector<S>& lambda = system_.at(k);
+        const Real* const lambda = system_.at(k);
+        typename S::Vec push = S::Vec::Zero();
+        typename S::Ang turnA = zeroAng<S>(), turnB = zeroAng<S>();
         for (int i = 0; i < block.rows; ++i) {
             rows[i].impulse += lambda[i];
-            applyRowImpulse<S>(rows[i], block, lambda[i], velocities[block.a], velocities[block.b]);
+            push += lambda[i] * rows[i].lin;
+            turnA += lambda[i] * rows[i].invIAngA, turnB += lambda[i] * rows[i].invIAngB;
+        }
+        if (block.invMassA > 0) {
+            velocities[block.a].v -= block.invMassA * push;
+            velocities[block.a].w += turnA;
+        }
+        if (block.invMassB > 0) {
+            velocities[block.b].v += block.invMassB * push;
+            velocities[block.b].w += turnB;
         }
     }
     return largest;

@@ -28,7 +28,7 @@ class JointGroup {
 
     /// The joints of these rows, whose directions and softnesses stay until the next begin(). Allocates where
     /// joints came or went.
-    void begin(const ConstraintRows<S>& constraints);
+    void begin(ConstraintRows<S>& constraints);
     bool empty() const { return equalities_.empty() && bounded_.empty(); }
     /// Applies the impulses that the joints' rows start with to the velocities.
     void warmStart(const ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities) const;

@@ -6,89 +6,149 @@
 // K couples two blocks where they share a body that can move, so it is sparse; block LDL^T with a
 // minimum-degree order [GeorgeLiu1989] eliminates chains and trees of joints from their leaves without any
 // fill, in time linear in their number, as [Baraff1996] does with the larger system of M and J. Loops add
-// some fill. The pattern is analysed when it changes, not in every step.
+// some fill. The pattern is analysed when it changes (elimination.hpp), not in every step: what remains are
+// loops over arrays, without a search. Blocks are of one size in all joints that are connected, smaller ones
+// filled up with ones on the diagonal, and stand column by column in columns of kPad numbers, so that they
+// are multiplied by fixed-size loops that compilers turn into vector instructions.
 //
 // Redundant rows (a closed loop of 3D hinges has three) make K singular. Each pivot gets epsilon K_ii on top:
 // a solution exists, tiny in the directions that change nothing. The error this leaves elsewhere goes with
 // repeated solves for what is left: each multiplies it by epsilon / (epsilon + sigma), for sigma the row's
 // relative stiffness (proximal point method). epsilon is the precision to the power 2/3: 3.7e-11 and 2.4e-5.
 //
-// Cost: sum over the columns of L of (blocks in it)^2 products of 6 x 6. Limit: n joints at one body make a
-// dense n x n; beyond kMaxFill blocks per item the caller has to do without.
+// Cost: sum over the columns of L of (blocks in it)^2 / 2 products of blocks. Limit: n joints at one body
+// make a dense n x n; beyond kMaxFill blocks per item the caller has to do without.
 #include "engine/solvers/joint_system.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
+#include <type_traits>
 
 namespace rigor::engine {
 namespace {
 
-/// K of row r1 of one block against r2 of another through a body they share; the signs are those of lin.
-template <class S>
-typename S::Real coupling(const Row<S>& r1, bool isB1, const Row<S>& r2, bool isB2,
-                          typename S::Real invMass) {
-    const typename S::Real linear = invMass * r1.lin.dot(r2.lin);
-    return (isB1 == isB2 ? linear : -linear) +
-           dotAng(isB1 ? r1.angB : r1.angA, isB2 ? r2.invIAngB : r2.invIAngA);
+/// Numbers that a column of a block of N rows takes: whole vectors of 16 bytes where that costs little.
+template <int N, class R>
+constexpr int kPad = N < 3            ? N
+                     : sizeof(R) == 4 ? (N + 3) / 4 * 4
+                                      : (N + 1) / 2 * 2;
+template <int N, class R>
+constexpr int kBlock = N* kPad<N, R>;
+
+int blockSize(int rows, bool single) {
+    const int pad = rows < 3 ? rows : single ? (rows + 3) / 4 * 4 : (rows + 1) / 2 * 2;
+    return rows * pad;
 }
 
-/// Inverse of a symmetric positive definite matrix by Cholesky, whose pivots are kept at `floor` of the
-/// original diagonal or above.
-template <class S>
-void invert(BlockMatrix<S>& m, const BlockVector<S>& floor) {
-    using Real = typename S::Real;
-    const Eigen::Index n = m.rows();
-    BlockMatrix<S> L = BlockMatrix<S>::Zero(n, n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-        Real d = m(j, j);
-        for (Eigen::Index k = 0; k < j; ++k) d -= L(j, k) * L(j, k);
-        L(j, j) = std::sqrt(std::max(d, floor[j]));
-        for (Eigen::Index i = j + 1; i < n; ++i) {
-            Real sum = m(i, j);
-            for (Eigen::Index k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
-            L(i, j) = sum / L(j, j);
+/// A block L of a column times the transpose of one of L D, taken from a third: C -= A B^T.
+template <int N, class R>
+void subtractProduct(const R* __restrict A, const R* __restrict B, R* __restrict C) {
+    constexpr int P = kPad<N, R>;
+    for (int c = 0; c < N; ++c) {
+        R sum[P];
+        for (int r = 0; r < P; ++r) sum[r] = C[c * P + r];
+        for (int k = 0; k < N; ++k) {
+            const R b = B[k * P + c];
+            for (int r = 0; r < P; ++r) sum[r] -= A[k * P + r] * b;
+        }
+        for (int r = 0; r < P; ++r) C[c * P + r] = sum[r];
+    }
+}
+
+/// C = A D for a symmetric D.
+template <int N, class R>
+void multiply(const R* __restrict A, const R* __restrict D, R* __restrict C) {
+    constexpr int P = kPad<N, R>;
+    for (int c = 0; c < N; ++c) {
+        R sum[P] = {};
+        for (int k = 0; k < N; ++k) {
+            const R d = D[c * P + k];
+            for (int r = 0; r < P; ++r) sum[r] += A[k * P + r] * d;
+        }
+        for (int r = 0; r < P; ++r) C[c * P + r] = sum[r];
+    }
+}
+
+/// Inverse of a symmetric positive definite block by L D L^T, whose pivots are kept at `floor` or above.
+template <int N, class R>
+void invert(R* m, const R* floor) {
+    constexpr int P = kPad<N, R>;
+    R inverse[N], L[N][N];  // L: unit lower, its strictly lower part; then L^-1
+    for (int j = 0; j < N; ++j) {
+        R scaled[N];
+        R d = m[j * P + j];
+        for (int k = 0; k < j; ++k) {
+            scaled[k] = L[j][k] / inverse[k];
+            d -= L[j][k] * scaled[k];
+        }
+        inverse[j] = R(1) / std::max(d, floor[j]);
+        for (int i = j + 1; i < N; ++i) {
+            R sum = m[j * P + i];
+            for (int k = 0; k < j; ++k) sum -= L[i][k] * scaled[k];
+            L[i][j] = sum * inverse[j];
         }
     }
-    for (Eigen::Index c = 0; c < n; ++c) {
-        BlockVector<S> x = BlockVector<S>::Zero(n);
-        for (Eigen::Index i = c; i < n; ++i) {
-            Real sum = i == c ? Real(1) : Real(0);
-            for (Eigen::Index k = c; k < i; ++k) sum -= L(i, k) * x[k];
-            x[i] = sum / L(i, i);
+    for (int j = 0; j < N; ++j)
+        for (int i = j + 1; i < N; ++i) {
+            R sum = -L[i][j];
+            for (int k = j + 1; k < i; ++k) sum -= L[i][k] * L[k][j];
+            L[i][j] = sum;
         }
-        for (Eigen::Index i = n - 1; i >= 0; --i) {
-            Real sum = x[i];
-            for (Eigen::Index k = i + 1; k < n; ++k) sum -= L(k, i) * x[k];
-            x[i] = sum / L(i, i);
+    for (int c = 0; c < N; ++c)
+        for (int r = c; r < N; ++r) {
+            R sum = (r == c ? R(1) : L[r][c]) * inverse[r];
+            for (int k = r + 1; k < N; ++k) sum += L[k][r] * inverse[k] * L[k][c];
+            m[c * P + r] = m[r * P + c] = sum;
         }
-        m.col(c) = x;
+}
+
+/// Calls use(std::integral_constant<int, size>) for a size of 1..6.
+template <class Use>
+void withSize(int size, const Use& use) {
+    switch (size) {
+        case 1:
+            return use(std::integral_constant<int, 1>());
+        case 2:
+            return use(std::integral_constant<int, 2>());
+        case 3:
+            return use(std::integral_constant<int, 3>());
+        case 4:
+            return use(std::integral_constant<int, 4>());
+        case 5:
+            return use(std::integral_constant<int, 5>());
+        default:
+            return use(std::integral_constant<int, 6>());
     }
 }
 
 }  // namespace
 
 template <class S>
+typename JointSystem<S>::Place JointSystem<S>::placeOf(const Item& item) {
+    const Block<S>& block = *item.block;
+    return {block.invMassA > 0 ? block.a : kFixed, block.invMassB > 0 ? block.b : kFixed, block.rows};
+}
+
+template <class S>
 bool JointSystem<S>::factor(std::span<const Item> items) {
-    wanted_.clear();
-    for (const Item& item : items) {
-        const Block<S>& block = *item.block;
-        wanted_.push_back(
-            {block.invMassA > 0 ? block.a : kFixed, block.invMassB > 0 ? block.b : kFixed, block.rows});
-    }
-    if (wanted_ != pattern_) {
-        pattern_ = wanted_;
-        fits_ = analyse();
-    }
+    bool same = items.size() == pattern_.size();
+    for (std::size_t i = 0; same && i < items.size(); ++i) same = placeOf(items[i]) == pattern_[i];
+    if (!same) fits_ = analyse(items);
     if (!fits_) return false;
-    assemble(items);
-    eliminate();
+    for (const Part& part : parts_)
+        withSize(part.size, [&](auto size) {
+            assemble<size()>(items, part);
+            eliminate<size()>(part);
+        });
     return true;
 }
 
 /// Order of elimination and pattern of L. Allocates.
 template <class S>
-bool JointSystem<S>::analyse() {
-    const std::size_t n = pattern_.size();
+bool JointSystem<S>::analyse(std::span<const Item> items) {
+    const std::size_t n = items.size();
+    pattern_.clear();
+    for (const Item& item : items) pattern_.push_back(placeOf(item));
     // Who is at each body, so that neighbours are found without looking at all pairs.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> visits;
     for (std::uint32_t i = 0; i < n; ++i)
@@ -96,10 +156,10 @@ bool JointSystem<S>::analyse() {
             if (body != kFixed) visits.push_back({body, i});
     std::sort(visits.begin(), visits.end());
     std::vector<std::vector<std::uint32_t>> near(n);
-    std::size_t fill = 0;
+    std::size_t met = 0;
     for (std::size_t k = 0; k < visits.size(); ++k)
         for (std::size_t l = k + 1; l < visits.size() && visits[l].first == visits[k].first; ++l) {
-            if (++fill > kMaxFill * n) return false;
+            if (++met > kMaxFill * n) return false;
             near[visits[k].second].push_back(visits[l].second);
             near[visits[l].second].push_back(visits[k].second);
         }
@@ -107,38 +167,66 @@ bool JointSystem<S>::analyse() {
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
     }
-    place_.assign(n, kFixed), item_.clear(), start_.assign(1, 0), row_.clear();
-    std::vector<std::vector<std::uint32_t>> columns;
-    for (std::size_t k = 0; k < n; ++k) {
-        std::uint32_t next = kFixed;
-        for (std::uint32_t i = 0; i < n; ++i)
-            if (place_[i] == kFixed && (next == kFixed || near[i].size() < near[next].size())) next = i;
-        place_[next] = static_cast<std::uint32_t>(k);
-        item_.push_back(next);
-        // Eliminating it joins its neighbours to each other.
-        for (const std::uint32_t i : near[next]) {
-            auto& list = near[i];
-            list.erase(std::find(list.begin(), list.end(), next));
-            std::vector<std::uint32_t> both;
-            std::set_union(list.begin(), list.end(), near[next].begin(), near[next].end(),
-                           std::back_inserter(both));
-            both.erase(std::find(both.begin(), both.end(), i));
-            list = both;
-        }
-        columns.push_back(near[next]);
-        fill += near[next].size();
-        if (fill > 2 * kMaxFill * n) return false;
-    }
-    for (auto& column : columns) {
-        for (std::uint32_t& i : column) i = place_[i];
-        std::sort(column.begin(), column.end());
-        row_.insert(row_.end(), column.begin(), column.end());
-        start_.push_back(row_.size());
-    }
-    lower_.resize(row_.size());
-    inverse_.resize(n), x_.resize(n);
-    for (std::size_t k = 0; k < n; ++k) x_[k].setZero(pattern_[item_[k]].rows);
+    Elimination order;
+    if (!findElimination(std::move(near), kMaxFill * n, order)) return false;
+    layOut(order);
+    findMeetings(visits);
     return true;
+}
+
+/// Where everything stands in memory.
+template <class S>
+void JointSystem<S>::layOut(Elimination& order) {
+    item_.swap(order.order), start_.swap(order.start), row_.swap(order.row);
+    const std::size_t n = item_.size();
+    position_.resize(n), place_.resize(n);
+    parts_.clear(), target_.clear();
+    std::size_t lower = 0, diagonal = 0, x = 0, widest = 0;
+    for (std::size_t p = 0; p + 1 < order.part.size(); ++p) {
+        Part part{order.part[p], order.part[p + 1], 1, 0, 0, lower, diagonal, x, target_.size()};
+        for (std::uint32_t k = part.first; k < part.last; ++k)
+            part.size = std::max(part.size, static_cast<int>(pattern_[item_[k]].rows));
+        const auto size = static_cast<std::size_t>(part.size);
+        const auto block = static_cast<std::size_t>(blockSize(part.size, sizeof(Real) == sizeof(float)));
+        for (std::uint32_t k = part.first; k < part.last; ++k) {
+            position_[item_[k]] = k;
+            place_[item_[k]] = x + (k - part.first) * (block / size);
+            widest = std::max(widest, (start_[k + 1] - start_[k]) * block);
+            for (std::size_t e = start_[k]; e < start_[k + 1]; ++e)
+                for (std::size_t f = e + 1; f < start_[k + 1]; ++f)
+                    target_.push_back(
+                        static_cast<std::uint32_t>(entry(row_[e], row_[f]) - start_[part.first]));
+        }
+        lower += (start_[part.last] - start_[part.first]) * block;
+        diagonal += (part.last - part.first) * block;
+        x += (part.last - part.first) * (block / size);
+        parts_.push_back(part);
+    }
+    lower_.assign(lower, Real(0)), diagonal_.assign(diagonal, Real(0)), x_.assign(x, Real(0));
+    column_.assign(widest, Real(0));
+}
+
+/// Pairs of items at a body that impulses move, in the order of the parts.
+template <class S>
+void JointSystem<S>::findMeetings(std::span<const std::pair<std::uint32_t, std::uint32_t>> visits) {
+    meetings_.clear();
+    for (std::size_t k = 0; k < visits.size(); ++k)
+        for (std::size_t l = k + 1; l < visits.size() && visits[l].first == visits[k].first; ++l) {
+            std::uint32_t i = visits[k].second, j = visits[l].second;
+            if (i == j) continue;
+            if (position_[i] < position_[j]) std::swap(i, j);
+            const std::uint32_t body = visits[k].first;
+            meetings_.push_back({static_cast<std::uint32_t>(entry(position_[j], position_[i])), i, j,
+                                 pattern_[i].b == body, pattern_[j].b == body});
+        }
+    std::sort(meetings_.begin(), meetings_.end(),
+              [](const Meeting& a, const Meeting& b) { return a.entry < b.entry; });
+    std::size_t m = 0;
+    for (Part& part : parts_) {
+        part.meeting = m;
+        while (m < meetings_.size() && meetings_[m].entry < start_[part.last]) ++m;
+        part.lastMeeting = m;
+    }
 }
 
 template <class S>
@@ -149,68 +237,110 @@ std::size_t JointSystem<S>::entry(std::size_t column, std::uint32_t row) const {
 }
 
 template <class S>
-void JointSystem<S>::assemble(std::span<const Item> items) {
-    for (std::size_t k = 0; k < item_.size(); ++k) {
+template <int N>
+void JointSystem<S>::assemble(std::span<const Item> items, const Part& part) {
+    constexpr int P = kPad<N, Real>, B = kBlock<N, Real>;
+    Real* m = diagonal_.data() + part.diagonal;
+    for (std::uint32_t k = part.first; k < part.last; ++k, m += B) {
         const Item& own = items[item_[k]];
         const int n = own.block->rows;
-        BlockMatrix<S>& diagonal = inverse_[k];
-        diagonal.resize(n, n);
         for (int i = 0; i < n; ++i)
             for (int j = 0; j <= i; ++j)
-                diagonal(i, j) = diagonal(j, i) = rowCoupling<S>(own.rows[i], own.rows[j], *own.block) +
-                                                  (i == j ? own.rows[i].softness : Real(0));
-        for (std::size_t e = start_[k]; e < start_[k + 1]; ++e) {
-            const Item& other = items[item_[row_[e]]];
-            BlockMatrix<S>& m = lower_[e];
-            m.setZero(other.block->rows, n);
-            for (const bool isB1 : {false, true})
-                for (const bool isB2 : {false, true}) {
-                    const std::uint32_t body = isB1 ? other.block->b : other.block->a;
-                    const Real invMass = isB1 ? other.block->invMassB : other.block->invMassA;
-                    if (!(invMass > 0) || body != (isB2 ? own.block->b : own.block->a)) continue;
-                    for (int i = 0; i < other.block->rows; ++i)
-                        for (int j = 0; j < n; ++j)
-                            m(i, j) += coupling<S>(other.rows[i], isB1, own.rows[j], isB2, invMass);
-                }
+                m[j * P + i] = rowCoupling<S>(own.rows[i], own.rows[j], *own.block) +
+                               (i == j ? own.rows[i].softness : Real(0));
+        for (int i = n; i < N; ++i)
+            for (int j = 0; j <= i; ++j) m[j * P + i] = i == j ? Real(1) : Real(0);
+    }
+    Real* lower = lower_.data() + part.lower;
+    const std::size_t firstEntry = start_[part.first];
+    std::fill(lower, lower + (start_[part.last] - firstEntry) * B, Real(0));
+    for (std::size_t k = part.meeting; k < part.lastMeeting; ++k) {
+        const Meeting& meeting = meetings_[k];
+        const Item &mine = items[meeting.rowItem], &other = items[meeting.columnItem];
+        const Real invMass = meeting.isRowB ? mine.block->invMassB : mine.block->invMassA;
+        const Real linear = meeting.isRowB == meeting.isColumnB ? invMass : -invMass;
+        m = lower + (meeting.entry - firstEntry) * B;
+        for (int j = 0; j < other.block->rows; ++j) {
+            const Row<S>& column = other.rows[j];
+            const typename S::Vec lin = linear * column.lin;
+            const typename S::Ang ang = meeting.isColumnB ? column.invIAngB : column.invIAngA;
+            for (int i = 0; i < mine.block->rows; ++i) {
+                const Row<S>& row = mine.rows[i];
+                m[j * P + i] += row.lin.dot(lin) + dotAng(meeting.isRowB ? row.angB : row.angA, ang);
+            }
         }
     }
 }
 
 template <class S>
-void JointSystem<S>::eliminate() {
-    const Real root = std::cbrt(std::numeric_limits<Real>::epsilon()), epsilon = root * root;
+template <int N>
+void JointSystem<S>::eliminate(const Part& part) {
+    constexpr int P = kPad<N, Real>, B = kBlock<N, Real>;
+    constexpr Real epsilon = sizeof(Real) == sizeof(float) ? Real(2.4e-5) : Real(3.7e-11);
+    Real *const diagonal = diagonal_.data() + part.diagonal, *const x = x_.data() + part.x;
+    Real* const lower = lower_.data() + part.lower;
+    const std::size_t firstEntry = start_[part.first], columns = part.last - part.first;
     // The shift is a share of K's diagonal before elimination.
-    for (std::size_t k = 0; k < item_.size(); ++k) {
-        BlockVector<S> floor = inverse_[k].diagonal() * epsilon;
-        for (Eigen::Index i = 0; i < floor.size(); ++i)
-            floor[i] = std::max(floor[i], std::numeric_limits<Real>::min());
-        inverse_[k].diagonal() += floor;
-        x_[k] = floor;
-    }
-    for (std::size_t k = 0; k < item_.size(); ++k) {
-        invert<S>(inverse_[k], x_[k]);
-        const std::size_t first = start_[k], last = start_[k + 1];
-        if (column_.size() < last - first) column_.resize(last - first);
-        for (std::size_t e = first; e < last; ++e) {
-            column_[e - first] = lower_[e];
-            lower_[e] = column_[e - first] * inverse_[k];
+    for (std::size_t k = 0; k < columns; ++k)
+        for (int i = 0; i < N; ++i) {
+            Real& d = diagonal[k * B + static_cast<std::size_t>(i * P + i)];
+            const Real floor = std::max(d * epsilon, std::numeric_limits<Real>::min());
+            d += floor;
+            x[k * P + static_cast<std::size_t>(i)] = floor;
         }
-        for (std::size_t e = first; e < last; ++e) {
-            const std::size_t j = row_[e];
-            inverse_[j] -= lower_[e] * column_[e - first].transpose();
-            for (std::size_t f = e + 1; f < last; ++f)
-                lower_[entry(j, row_[f])] -= lower_[f] * column_[e - first].transpose();
+    const std::uint32_t* target = target_.data() + part.target;
+    for (std::size_t k = 0; k < columns; ++k) {
+        Real* const D = diagonal + k * B;
+        invert<N>(D, x + k * P);
+        const std::size_t first = start_[part.first + k], count = start_[part.first + k + 1] - first;
+        Real* const L = lower + (first - firstEntry) * B;
+        std::copy_n(L, count * B, column_.data());
+        for (std::size_t e = 0; e < count; ++e) multiply<N>(column_.data() + e * B, D, L + e * B);
+        for (std::size_t e = 0; e < count; ++e) {
+            const Real* const LD = column_.data() + e * B;
+            subtractProduct<N>(L + e * B, LD, diagonal + (row_[first + e] - part.first) * B);
+            for (std::size_t f = e + 1; f < count; ++f)
+                subtractProduct<N>(L + f * B, LD, lower + *target++ * B);
         }
     }
 }
 
 template <class S>
 void JointSystem<S>::solve() {
-    for (std::size_t k = 0; k < item_.size(); ++k)
-        for (std::size_t e = start_[k]; e < start_[k + 1]; ++e) x_[row_[e]] -= lower_[e] * x_[k];
-    for (std::size_t k = item_.size(); k-- > 0;) {
-        x_[k] = BlockVector<S>(inverse_[k] * x_[k]);
-        for (std::size_t e = start_[k]; e < start_[k + 1]; ++e) x_[k] -= lower_[e].transpose() * x_[row_[e]];
+    for (const Part& part : parts_) withSize(part.size, [&](auto size) { substitute<size()>(part); });
+}
+
+template <class S>
+template <int N>
+void JointSystem<S>::substitute(const Part& part) {
+    constexpr int P = kPad<N, Real>, B = kBlock<N, Real>;
+    const Real *const diagonal = diagonal_.data() + part.diagonal, *const lower = lower_.data() + part.lower;
+    Real* const x = x_.data() + part.x;
+    const std::size_t firstEntry = start_[part.first], columns = part.last - part.first;
+    for (std::size_t k = 0; k < columns; ++k) {
+        Real own[N];
+        for (int c = 0; c < N; ++c) own[c] = x[k * P + static_cast<std::size_t>(c)];
+        for (std::size_t e = start_[part.first + k]; e < start_[part.first + k + 1]; ++e) {
+            const Real* const L = lower + (e - firstEntry) * B;
+            Real* const other = x + (row_[e] - part.first) * P;
+            for (int c = 0; c < N; ++c)
+                for (int r = 0; r < P; ++r) other[r] -= L[c * P + r] * own[c];
+        }
+    }
+    for (std::size_t k = columns; k-- > 0;) {
+        Real sum[P] = {};
+        for (int c = 0; c < N; ++c) {
+            const Real right = x[k * P + static_cast<std::size_t>(c)];
+            for (int r = 0; r < P; ++r)
+                sum[r] += diagonal[k * B + static_cast<std::size_t>(c * P + r)] * right;
+        }
+        for (std::size_t e = start_[part.first + k]; e < start_[part.first + k + 1]; ++e) {
+            const Real* const L = lower + (e - firstEntry) * B;
+            const Real* const other = x + (row_[e] - part.first) * P;
+            for (int c = 0; c < N; ++c)
+                for (int r = 0; r < N; ++r) sum[c] -= L[c * P + r] * other[r];
+        }
+        for (int r = 0; r < P; ++r) x[k * P + static_cast<std::size_t>(r)] = sum[r];
     }
 }
 

@@ -4,10 +4,14 @@
 // All blocks of equality rows at once, by a direct method: see joint_system.cpp.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/constraints/row.hpp"
+#include "engine/solvers/elimination.hpp"
 
 namespace rigor::engine {
 
@@ -23,9 +27,11 @@ class JointSystem {
 
     /// Factors K of the items. False: so many blocks meet at the same bodies that the factors would be nearly
     /// dense (more than kMaxFill blocks per item); then there are no factors and solve() may not be called.
+    /// Allocates where the items' bodies or numbers of rows are not those of the call before.
     bool factor(std::span<const Item> items);
-    /// Where the right side of an item stands and the solution is left, in the order of factor().
-    BlockVector<S>& at(std::size_t item) { return x_[place_[item]]; }
+    /// Where the right side of an item stands and the solution is left, a number per row, in the order of
+    /// factor(). All have to be set before each solve().
+    Real* at(std::size_t item) { return x_.data() + place_[item]; }
     /// K x = right side.
     void solve();
 
@@ -39,23 +45,50 @@ class JointSystem {
         friend bool operator==(const Place&, const Place&) = default;
     };
     static constexpr std::uint32_t kFixed = 0xffffffff;
+    /// Two items at a body: there K has a block below its diagonal.
+    struct Meeting {
+        std::uint32_t entry;                ///< of row_
+        std::uint32_t rowItem, columnItem;  ///< the item of the block's rows, and that of its columns
+        bool isRowB, isColumnB;             ///< whether the body is B of these items
+    };
+    /// Items that are connected, as consecutive positions: blocks of one size, that of the largest.
+    struct Part {
+        std::uint32_t first, last;         ///< positions, the last one excluded
+        int size;                          ///< rows of a block
+        std::size_t meeting, lastMeeting;  ///< of its meetings, the last one excluded
+        std::size_t lower, diagonal, x;    ///< where its first numbers stand
+        std::size_t target;                ///< likewise
+    };
 
-    bool analyse();
-    void assemble(std::span<const Item> items);
-    void eliminate();
+    static Place placeOf(const Item& item);
+    bool analyse(std::span<const Item> items);
+    void layOut(Elimination& order);
+    void findMeetings(std::span<const std::pair<std::uint32_t, std::uint32_t>> visits);
     std::size_t entry(std::size_t column, std::uint32_t row) const;
+    template <int N>
+    void assemble(std::span<const Item> items, const Part& part);
+    template <int N>
+    void eliminate(const Part& part);
+    template <int N>
+    void substitute(const Part& part);
 
-    std::vector<Place> pattern_, wanted_;
+    std::vector<Place> pattern_;
     bool fits_ = false;
-    std::vector<std::uint32_t> place_;  ///< item -> position in the elimination
-    std::vector<std::uint32_t> item_;   ///< position -> item
+    std::vector<Part> parts_;
+    std::vector<Meeting> meetings_;
+    std::vector<std::uint32_t> item_;      ///< position -> item
+    std::vector<std::uint32_t> position_;  ///< item -> position
+    std::vector<std::size_t> place_;       ///< item -> where its right side stands in x_
     /// Blocks below the diagonal, column by column; entries of a column by growing row (positions).
     std::vector<std::size_t> start_;
     std::vector<std::uint32_t> row_;
-    std::vector<BlockMatrix<S>> lower_;    ///< K, then L
-    std::vector<BlockMatrix<S>> inverse_;  ///< diagonal blocks of K, then D^-1
-    std::vector<BlockVector<S>> x_;
-    std::vector<BlockMatrix<S>> column_;  ///< scratch: L D of the column being eliminated
+    /// For each column and each pair of its entries e < f: the entry of column row_[e] in row row_[f],
+    /// counted from its part's first.
+    std::vector<std::uint32_t> target_;
+    std::vector<Real> lower_;     ///< K, then L
+    std::vector<Real> diagonal_;  ///< of K, then D^-1
+    std::vector<Real> x_;
+    std::vector<Real> column_;  ///< scratch: L D of the column being eliminated
 };
 
 }  // namespace rigor::engine

@@ -36,6 +36,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/constraints/joint_inverses.hpp"
 #include "engine/solvers/contact_alone.hpp"
 #include "engine/solvers/impulses.hpp"
 #include "engine/solvers/matrix_space.hpp"
@@ -97,6 +98,7 @@ class Nsgs final : public Solver<S> {
 
     void prepare(const SolverInput<S>& input) {
         const ConstraintRows<S>& all = input.constraints;
+        if constexpr (!OnMatrix<S>) invertJoints<S>(input.constraints);
         local_.resize(all.blocks.size());
         for (std::size_t k = 0; k < all.blocks.size(); ++k) {
             const Block<S>& block = all.blocks[k];

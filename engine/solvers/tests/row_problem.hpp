@@ -65,9 +65,8 @@ struct RowProblem {
     void addBall(std::uint32_t a, std::uint32_t b, const Vec& rA, const Vec& rB, double bias = 0) {
         Block<S> block = begin(BlockKind::Joint, a, b);
         for (int i = 0; i < S::dim; ++i) push(block, Vec::Unit(i), rA, rB, bias);
-        block.matrix = static_cast<std::uint32_t>(rows.matrices.size());
-        invertBlock<S>(rows.rows.data() + block.first, block, rows.matrices.emplace_back());
         rows.blocks.push_back(block);
+        rows.matrices.emplace_back();  // room for a solver to invert it in
     }
     void addBounded(std::uint32_t a, std::uint32_t b, const Vec& direction, const Vec& rA, const Vec& rB,
                     double lower, double upper, double bias, double softness) {

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Long chains of light links under a heavy end: they neither come apart nor gain energy, at the
+// rate of a game. A cut chain falls as two, threads do not change a bit, a steady step does not allocate.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/core/tests/counting_new.hpp"
+#include "engine/pipeline/tests/scene.hpp"
+
+namespace rigor::engine::test {
+namespace {
+
+constexpr double kLink = 0.5, kMass = 1, kStep = 1.0 / 60;
+
+template <class S>
+class Chains : public testing::Test {};
+using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
+TYPED_TEST_SUITE(Chains, Spaces);
+
+/// Bodies on ball joints.
+template <class S>
+struct Jointed {
+    using R = typename S::Real;
+    using Vec = typename S::Vec;
+    struct Anchors {
+        BodyId a, b;
+        Vec onA, onB;
+        JointId id;
+    };
+    World<S> world;
+    std::vector<BodyId> bodies;
+    std::vector<Anchors> joints;
+
+    explicit Jointed(const WorldDef<S>& def) : world(def) {}
+
+    BodyId body(const Vec& p, double angle, double mass, double inertia) {
+        BodyDef<S> def;
+        def.pose.p = p, def.pose.q = expMap(spin<S>(angle));
+        def.mass = static_cast<R>(mass), def.inertia = isotropic<S>(inertia);
+        bodies.push_back(world.addBody(def));
+        return bodies.back();
+    }
+    void ball(BodyId a, BodyId b, const Vec& onA, const Vec& onB) {
+        JointDef<S> def;
+        def.bodyA = a, def.bodyB = b, def.anchorA = onA, def.anchorB = onB;
+        joints.push_back({a, b, onA, onB, world.addJoint(def)});
+    }
+    /// Links from (0, 60), 45 degrees from the vertical, and a body of `ratio` links' masses at their end.
+    void chain(int links, double ratio) {
+        const double angle = std::numbers::pi / 4;
+        const Vec along = at<S>(std::sin(angle), -std::cos(angle)), half = at<S>(0, kLink / 2);
+        Vec p = at<S>(0, 60);
+        BodyId last;
+        for (int i = 0; i < links; ++i, p += static_cast<R>(kLink) * along) {
+            const BodyId link =
+                body(p + static_cast<R>(kLink / 2) * along, angle, kMass, kMass * kLink * kLink / 12);
+            ball(last, link, i == 0 ? at<S>(0, 60) : Vec(-half), half);
+            last = link;
+        }
+        const BodyId end = body(p, angle, ratio * kMass, 0.4 * ratio * kMass * 0.09);
+        ball(last, end, -half, Vec::Zero());
+    }
+    /// What the fall from 45 degrees to the bottom sets free [J].
+    static double fall(int links, double ratio) {
+        return (ratio + links / 2.0) * kMass * kGravity * kLink * links * (1 - std::numbers::sqrt2 / 2);
+    }
+    double energy() const {
+        double sum = 0;
+        for (const BodyId id : bodies) {
+            const auto& constants = world.constants(id);
+            const typename S::Ang w = world.angularVelocity(id);
+            sum += double(constants.mass) * (0.5 * double(world.velocity(id).squaredNorm()) +
+                                             kGravity * double(world.pose(id).p[1])) +
+                   0.5 * double(dotAng(w, typename S::Ang(constants.inertia * w)));
+        }
+        return sum;
+    }
+    double gap() const {
+        double most = 0;
+        for (const Anchors& j : joints) {
+            if (!world.contains(j.id)) continue;
+            const Vec a = j.a ? toWorld<S>(world.pose(j.a), j.onA) : j.onA;
+            most = std::max(most, double((toWorld<S>(world.pose(j.b), j.onB) - a).norm()));
+        }
+        return most;
+    }
+};
+
+template <class S>
+WorldDef<S> stepped(int substeps, int threads = 1) {
+    WorldDef<S> def = earth<S>();
+    def.substeps = substeps;
+    def.threads = threads;
+    return def;
+}
+
+TYPED_TEST(Chains, AHundredLinksUnderAHundredTimesTheirMassKeepTheirEnergy) {
+    using S = TypeParam;
+    for (const bool quick : {false, true})
+        for (const auto& [ratio, substeps] : {std::pair{100.0, 2}, std::pair{1000.0, 4}}) {
+            WorldDef<S> def = stepped<S>(quick ? substeps : 2 * substeps);
+            def.curvedJoints = !quick;
+            def.velocityIterations = quick ? 1 : 0;
+            Jointed<S> scene(def);
+            scene.chain(100, ratio);
+            const double start = scene.energy(), fall = Jointed<S>::fall(100, ratio);
+            double most = 0, least = 0, gap = 0;
+            for (int i = 0; i < 180; ++i) {
+                scene.world.step(static_cast<typename S::Real>(kStep));
+                const double change = scene.energy() - start;
+                most = std::max(most, change), least = std::min(least, change);
+                gap = std::max(gap, scene.gap());
+            }
+            EXPECT_LT(most, 1e-3 * fall) << ratio << " " << quick;
+            EXPECT_GT(least, -0.02 * fall) << ratio << " " << quick;
+            EXPECT_LT(gap, 1e-4) << ratio << " " << quick;
+        }
+}
+
+TYPED_TEST(Chains, TheErrorOfTheEnergyFallsWithTheStep) {
+    using S = TypeParam;
+    if (std::is_same_v<typename S::Real, float>) GTEST_SKIP() << "rounding of the energy is of that size";
+    double before = 0;
+    for (const int substeps : {4, 8, 16}) {
+        Jointed<S> scene(stepped<S>(substeps));
+        scene.chain(20, 100);
+        const double start = scene.energy();
+        double error = 0;
+        for (int i = 0; i < 90; ++i) {
+            scene.world.step(static_cast<typename S::Real>(kStep));
+            error = std::max(error, std::abs(scene.energy() - start));
+        }
+        if (before > 0) {
+            EXPECT_LT(error, 0.6 * before) << substeps;
+        }
+        before = error;
+    }
+}
+
+TYPED_TEST(Chains, ACutChainFallsAsTwo) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    Jointed<S> scene(stepped<S>(4));
+    scene.chain(30, 10);
+    for (int i = 0; i < 30; ++i) scene.world.step(static_cast<R>(kStep));
+    scene.world.removeJoint(scene.joints[15].id);
+    // The lower part: its momentum changes by its weight alone.
+    const auto momentum = [&] {
+        double sum = 0;
+        for (std::size_t i = 15; i < scene.bodies.size(); ++i)
+            sum += double(scene.world.constants(scene.bodies[i]).mass) *
+                   double(scene.world.velocity(scene.bodies[i])[1]);
+        return sum;
+    };
+    const double before = momentum(), weight = kGravity * kMass * (15 + 10);
+    for (int i = 0; i < 30; ++i) scene.world.step(static_cast<R>(kStep));
+    EXPECT_NEAR(momentum(), before - 30 * kStep * weight, 1e-4 * weight);
+    EXPECT_LT(scene.gap(), 1e-4);
+    // And joined again, somewhere else.
+    const typename S::Vec half = at<S>(0, kLink / 2);
+    const std::size_t joints = scene.joints.size();
+    scene.ball(scene.bodies[14],
+               scene.body(toWorld<S>(scene.world.pose(scene.bodies[14]), typename S::Vec(-half)), 0, 5, 1),
+               -half, S::Vec::Zero());
+    for (int i = 0; i < 30; ++i) scene.world.step(static_cast<R>(kStep));
+    EXPECT_EQ(scene.joints.size(), joints + 1);
+    EXPECT_LT(scene.gap(), 1e-4);
+}
+
+TYPED_TEST(Chains, SuperfluousJointsChangeNothing) {
+    using S = TypeParam;
+    Jointed<S> once(stepped<S>(4)), twice(stepped<S>(4));
+    once.chain(10, 20), twice.chain(10, 20);
+    const auto joints = twice.joints;
+    for (const auto& j : joints) twice.ball(j.a, j.b, j.onA, j.onB);
+    for (int i = 0; i < 120; ++i) {
+        once.world.step(static_cast<typename S::Real>(kStep));
+        twice.world.step(static_cast<typename S::Real>(kStep));
+    }
+    EXPECT_LT(twice.gap(), 1e-4);
+    const auto where = [](const Jointed<S>& s) { return s.world.pose(s.bodies.back()).p; };
+    const double same = std::is_same_v<typename S::Real, float> ? 2e-2 : 1e-5;
+    EXPECT_LT(double((where(once) - where(twice)).norm()), same);
+}
+
+TYPED_TEST(Chains, ThreadsDoNotChangeABit) {
+    using S = TypeParam;
+    Jointed<S> one(stepped<S>(2)), three(stepped<S>(2, 3));
+    for (auto* scene : {&one, &three})
+        for (int k = 0; k < 6; ++k) scene->chain(12, 5);
+    for (int i = 0; i < 40; ++i) {
+        one.world.step(static_cast<typename S::Real>(kStep));
+        three.world.step(static_cast<typename S::Real>(kStep));
+    }
+    EXPECT_EQ(one.world.stateHash(), three.world.stateHash());
+}
+
+TYPED_TEST(Chains, ASteadyStepDoesNotAllocate) {
+    using S = TypeParam;
+    Jointed<S> scene(stepped<S>(2));
+    scene.chain(40, 100);
+    for (int i = 0; i < 5; ++i) scene.world.step(static_cast<typename S::Real>(kStep));
+    const long before = allocationCount();
+    for (int i = 0; i < 5; ++i) scene.world.step(static_cast<typename S::Real>(kStep));
+    EXPECT_EQ(allocationCount(), before);
+}
+
+}  // namespace
+}  // namespace rigor::engine::test
