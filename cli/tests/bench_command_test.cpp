@@ -158,6 +158,8 @@ TEST_F(BenchCommand, BadCommandLinesAreSaid) {
         EXPECT_FALSE(fs::exists(folder_ / "none/results.sqlite")) << arguments;
     };
     said("--engines nobody", "nobody");
+    said("--engines double_free_flight:speed=9", "key 'speed'");
+    said("--engines double_free_flight:pause_us=much", "pause_us");
     said("--engines double_free_flight --parts nothing", "expected one of all");
     said("--engines double_free_flight --baseline " + (folder_ / "gone").string(), "--baseline");
     said("--engines double_free_flight --width wide", "--width");

@@ -9,6 +9,7 @@
 #include "validation/comparison/compare.hpp"
 #include "validation/hash.hpp"
 #include "validation/runner/answer.hpp"
+#include "validation/runner/describe.hpp"
 #include "validation/runner/scenario_settings.hpp"
 #include "validation/runner/simulate.hpp"
 
@@ -95,6 +96,7 @@ std::vector<BenchWork> planScenes(const SceneRequest& request,
                                              [&](const auto& d) { return d.info.name == asked.engine; });
             if (engine == engines.end() || !couldRun(*engine, scene.scenario)) continue;
             const EngineSpec spec = withScenarioSettings(asked, scene.text);
+            if (engine->problem.empty()) checkSettings(spec, *engine);
             for (const auto& threaded : threadedSpecs(spec, request.preset, request.threads, *engine)) {
                 PlannedBench planned;
                 planned.part = kScenePart, planned.name = scene.scenario.name;

@@ -137,18 +137,6 @@ void judgeAll(CollideRun& run, int jobs, const std::atomic<bool>& interrupted) {
     for (std::thread& thread : others) thread.join();
 }
 
-/// What resolveSettings asks of an engine, from its description: the library stays out of this process.
-class DescribedEngine final : public adapter::Engine {
-  public:
-    explicit DescribedEngine(const EngineDescription& d) : d_(d) {}
-    adapter::EngineInfo info() const override { return d_.info; }
-    adapter::Capabilities capabilities() const override { return d_.capabilities; }
-    std::vector<adapter::Option> options() const override { return d_.options; }
-
-  private:
-    const EngineDescription& d_;
-};
-
 }  // namespace
 
 std::vector<adapter::EngineSpec> allCollisionSpecs(const fs::path& binary, int jobs) {
@@ -184,8 +172,7 @@ void checkCollisionSpec(const adapter::EngineSpec& spec, const fs::path& binary)
     if (!d.problem.empty()) throw adapter::BadInput("engine " + spec.text() + ": " + d.problem);
     if (!d.capabilities.collision)
         throw adapter::BadInput("engine '" + spec.engine + "' has no collision queries");
-    const DescribedEngine described(d);
-    (void)adapter::resolveSettings(spec, described);
+    checkSettings(spec, d);
 }
 
 CollideRun runCollide(const std::vector<scenario::CollisionFile>& files,

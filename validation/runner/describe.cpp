@@ -81,6 +81,18 @@ void readDescription(const json& j, EngineDescription& d) {
     for (const json& o : j.at("options")) d.options.push_back(optionFromJson(o));
 }
 
+/// What resolveSettings asks of an engine, from its description: the library stays out of this process.
+class DescribedEngine final : public adapter::Engine {
+  public:
+    explicit DescribedEngine(const EngineDescription& d) : d_(d) {}
+    adapter::EngineInfo info() const override { return d_.info; }
+    adapter::Capabilities capabilities() const override { return d_.capabilities; }
+    std::vector<adapter::Option> options() const override { return d_.options; }
+
+  private:
+    const EngineDescription& d_;
+};
+
 }  // namespace
 
 ScratchFolder::ScratchFolder() {
@@ -155,6 +167,10 @@ std::vector<EngineDescription> describeEngines(const std::vector<std::string>& e
 
 EngineDescription describeEngine(const std::string& engine, const std::filesystem::path& binary) {
     return describeEngines({engine}, binary, 1).front();
+}
+
+void checkSettings(const adapter::EngineSpec& spec, const EngineDescription& description) {
+    (void)adapter::resolveSettings(spec, DescribedEngine(description));
 }
 
 }  // namespace rigor::validation

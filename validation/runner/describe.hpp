@@ -21,6 +21,10 @@ std::string capabilitiesText(const EngineDescription& description);
 std::vector<EngineDescription> describeEngines(const std::vector<std::string>& engines,
                                                const std::filesystem::path& binary, int jobs);
 
+/// Throws BadInput for keys and values of a spec that the described engine does not have; no library is
+/// loaded.
+void checkSettings(const adapter::EngineSpec& spec, const EngineDescription& description);
+
 /// A folder for requests and answers that goes away with its owner.
 class ScratchFolder {
   public:
