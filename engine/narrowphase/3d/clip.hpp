@@ -109,12 +109,20 @@ const ClipPolygon<R>& clipToPrism(const FaceLoop<R>& ref, const FaceLoop<R>& inc
     return buffers[now];
 }
 
+/// Closest points of two segments p + s d, q + t e, clamped to the segments. Of parallel ones, as far as
+/// rounding can tell, points that face each other.
 template <class R>
-int deepestIndex(const Polytope<R>& p, const Vec3<R>& direction) {
-    int best = 0;
-    for (int i = 1; i < p.vertexCount; ++i)
-        if (p.vertices[i].dot(direction) > p.vertices[best].dot(direction)) best = i;
-    return best;
+void closestOnEdges(const Vec3<R>& p, const Vec3<R>& d, const Vec3<R>& q, const Vec3<R>& e, Vec3<R>& onP,
+                    Vec3<R>& onQ) {
+    const Vec3<R> r = p - q;
+    const R dd = d.dot(d), ee = e.dot(e), de = d.dot(e), dr = d.dot(r), er = e.dot(r);
+    const R denominator = dd * ee - de * de;
+    const bool parallel = !(denominator > R(4) * std::numeric_limits<R>::epsilon() * dd * ee);
+    R s = parallel ? R(0.5) : std::clamp((de * er - ee * dr) / denominator, R(0), R(1));
+    const R t = std::clamp((de * s + er) / ee, R(0), R(1));
+    if (parallel) s = std::clamp((de * t - dr) / dd, R(0), R(1));
+    onP = p + s * d;
+    onQ = q + t * e;
 }
 
 /// Of the faces that meet at the vertex furthest along `direction`, the one that faces it most. (The best of
@@ -122,7 +130,7 @@ int deepestIndex(const Polytope<R>& p, const Vec3<R>& direction) {
 /// where it faces it as well as that, to a milliradian or so, and holds the vertex within kKeep.
 template <class R>
 int incidentFace(const Polytope<R>& p, const Vec3<R>& direction, int last = -1) {
-    const Vec3<R>& v = p.vertices[deepestIndex(p, direction)];
+    const Vec3<R>& v = p.vertices[deepestAlong(p, direction)];
     int best = 0;
     R facing = -2;
     for (int i = 0; i < p.faceCount; ++i) {

@@ -78,6 +78,16 @@ Polytope<R> polytopeOf(const Hull<Space<R, 3>>& hull, BoxStorage<R>&) {
             size};
 }
 
+/// The vertex furthest along `direction`, of equal ones the first.
+template <class R>
+int deepestAlong(const Polytope<R>& p, const Vec3<R>& direction) {
+    int best = 0;
+    R most = p.vertices[0].dot(direction);
+    for (int i = 1; i < p.vertexCount; ++i)
+        if (const R at = p.vertices[i].dot(direction); at > most) most = at, best = i;
+    return best;
+}
+
 /// The best separating axis of two polytopes A and B, in the frame of A.
 template <class R>
 struct PolytopeAxis {
@@ -109,11 +119,6 @@ R axisTolerance(R size, R separation) {
 template <class R>
 bool polytopeAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X, R speculative,
                   PolytopeAxis<R>& best);
-
-/// The same for two boxes, by the fifteen axes in closed form.
-template <class R>
-bool boxAxis(const Vec3<R>& halfA, const Vec3<R>& halfB, const Relative<R>& X, R speculative,
-             PolytopeAxis<R>& best);
 
 /// Puts the axis that `memory` names in the place of `best` where that one is no better than by kKeep of the
 /// smaller polytope: two ways out that are equally deep do not take turns. A face does not give way to

@@ -7,7 +7,12 @@
 // of separated ones.
 //   arcs (a, b) of an edge of A and (-c, -d) of one of B cross iff
 //     (c . ea)(d . ea) < 0,  (a . eb)(b . eb) < 0,  (c . ea)(b . eb) > 0   (signs with the normals negated)
-// Cost O(F V + E E).
+// Most of them are passed over by a bound. With w any vertex of B, a face i of A (n_i . x = o_i) separates by
+// no more than u_i(w) = n_i . w - o_i, and the arc between two faces i and j of A by no more than max(u_i,
+// u_j) where that is not positive: n = (a n_i + b n_j) / |a n_i + b n_j| with a + b >= |a n_i + b n_j|. So
+// faces are tried in the order of their bounds, each with its own deepest vertex as the next w, and of the
+// edges only those count whose bound is above the best face. Cost O(F + V) per face tried, of which there are
+// a few; the worst case (concentric) is O(F V + E E).
 #include "engine/narrowphase/3d/polytope.hpp"
 
 namespace rigor::engine {
@@ -19,22 +24,104 @@ struct FaceAxis {
     R separation = -std::numeric_limits<R>::max();
 };
 
+/// Faces of more than this are not bounded, but all tried.
+constexpr int kBounded = 256;
+/// Vertices of the other polytope that give the bounds of the edges.
+constexpr int kWitnesses = 4;
+
 /// Faces of p against vertices of q, posed by X in the frame of p.
 template <class R>
-FaceAxis<R> bestFace(const Polytope<R>& p, const Polytope<R>& q, const Relative<R>& X, R stopAbove,
-                     R tolerance) {
+struct FaceSearch {
+    const Polytope<R>& p;
+    const Polytope<R>& q;
+    const Relative<R>& X;
     FaceAxis<R> best;
-    for (int i = 0; i < p.faceCount; ++i) {
+    int witnesses = 0;
+    /// u_i of each witness.
+    std::array<std::array<R, kBounded>, kWitnesses> height;
+
+    FaceSearch(const Polytope<R>& own, const Polytope<R>& other, const Relative<R>& pose)
+        : p(own), q(other), X(pose) {}
+
+    /// The separation of face i; `deepest`: the vertex of q that has it.
+    R separation(int i, int& deepest) const {
         const HullFace<R>& f = p.faces[i];
         const Vec3<R> n = X.rotation.transpose() * f.normal;
-        R low = std::numeric_limits<R>::max();
-        for (int j = 0; j < q.vertexCount; ++j) low = std::min(low, n.dot(q.vertices[j]));
-        const R s = low + f.normal.dot(X.translation) - f.offset;
-        if (best.face < 0 || s > best.separation + tolerance) best = {i, s};
-        if (s > stopAbove) return best;
+        R low = n.dot(q.vertices[0]);
+        deepest = 0;
+        for (int j = 1; j < q.vertexCount; ++j)
+            if (const R at = n.dot(q.vertices[j]); at < low) low = at, deepest = j;
+        return low + f.normal.dot(X.translation) - f.offset;
     }
-    return best;
-}
+
+    /// Every face.
+    void tryAll(R stopAbove, R tolerance) {
+        for (int i = 0; i < p.faceCount && !(best.separation > stopAbove); ++i) {
+            int unused;
+            const R s = separation(i, unused);
+            if (best.face < 0 || s > best.separation + tolerance) best = {i, s};
+        }
+    }
+
+    /// The best face, or any that separates by more than `stopAbove`.
+    void run(R stopAbove, R tolerance) {
+        if (p.faceCount > kBounded) return tryAll(stopAbove, tolerance);
+        std::array<R, kBounded> bound, exact;
+        const auto faces = static_cast<std::size_t>(p.faceCount);
+        for (std::size_t i = 0; i < faces; ++i)
+            bound[i] = std::numeric_limits<R>::max(), exact[i] = -std::numeric_limits<R>::max();
+        R most = -std::numeric_limits<R>::max();
+        int next = deepestAlong<R>(q, Vec3<R>(X.rotation.transpose() * -X.translation));
+        for (;;) {
+            const int face = lower(X.point(q.vertices[next]), bound);
+            const auto i = static_cast<std::size_t>(face);
+            if (bound[i] < most - tolerance) break;
+            exact[i] = separation(face, next);
+            bound[i] = -std::numeric_limits<R>::max();
+            most = std::max(most, exact[i]);
+            if (most > stopAbove) break;
+        }
+        for (std::size_t i = 0; i < faces; ++i)
+            if (exact[i] > best.separation + tolerance) best = {static_cast<int>(i), exact[i]};
+    }
+
+    /// Lowers the bounds by one witness; the face of the highest.
+    int lower(const Vec3<R>& witness, std::array<R, kBounded>& bound) {
+        std::array<R, kBounded>& own = height[static_cast<std::size_t>(std::min(witnesses, kWitnesses - 1))];
+        witnesses = std::min(witnesses + 1, kWitnesses);
+        int highest = 0;
+        R most = -std::numeric_limits<R>::max();
+        for (int i = 0; i < p.faceCount; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const HullFace<R>& f = p.faces[i];
+            own[k] = f.normal.dot(witness) - f.offset;
+            bound[k] = std::min(bound[k], own[k]);
+            if (bound[k] > most) most = bound[k], highest = i;
+        }
+        return highest;
+    }
+
+    /// Bit w of a face: witness w shows it to separate by no more than `level` <= 0. Two faces with a bit in
+    /// common have no edge between them that separates by more.
+    void mark(R level, std::array<std::uint8_t, kBounded>& bits) const {
+        const auto faces = static_cast<std::size_t>(std::min(p.faceCount, kBounded));
+        for (std::size_t i = 0; i < faces; ++i) bits[i] = 0;
+        for (int w = 0; w < witnesses; ++w)
+            for (std::size_t i = 0; i < faces; ++i)
+                bits[i] = static_cast<std::uint8_t>(
+                    bits[i] | static_cast<unsigned>(height[static_cast<std::size_t>(w)][i] <= level) << w);
+    }
+};
+
+/// Edges that may separate by more than the best face.
+template <class R>
+struct EdgeFilter {
+    std::array<std::uint8_t, kBounded> bits;
+    bool operator()(const HullEdge& e) const {
+        return e.left >= kBounded || e.right >= kBounded ||
+               (bits[static_cast<std::size_t>(e.left)] & bits[static_cast<std::size_t>(e.right)]) == 0;
+    }
+};
 
 /// The separation along `n` over all vertices: never more than there is, whatever rounding made of n.
 template <class R>
@@ -46,41 +133,60 @@ R separationAlong(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>&
     return low + n.dot(X.translation) - high;
 }
 
+/// Edges of A and B in the frame of B.
 template <class R>
-PolytopeAxis<R> bestEdges(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X) {
+struct EdgeOfA {
+    Vec3<R> p, d, left, right;  ///< start, direction, normals of its faces
+    R squared;
+};
+
+/// One pair: into `best` where it is a facet of the difference and separates more.
+template <class R>
+void tryEdges(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X, const EdgeOfA<R>& ea, int i,
+              int j, PolytopeAxis<R>& best) {
+    const HullEdge& eb = b.edges[j];
+    const R c = -b.faces[eb.left].normal.dot(ea.d), d = -b.faces[eb.right].normal.dot(ea.d);
+    if (c * d >= 0) return;
+    const Vec3<R> db = b.vertices[eb.v1] - b.vertices[eb.v0];
+    const R l = ea.left.dot(db), r = ea.right.dot(db);
+    if (l * r >= 0 || c * r <= 0) return;
+    Vec3<R> n = ea.d.cross(db);
+    const R squared = n.squaredNorm();
+    const R whole = ea.squared * db.squaredNorm();
+    if (squared <= kRounding<R> * kRounding<R> * whole) return;
+    n *= (n.dot(ea.left + ea.right) < 0 ? R(-1) : R(1)) / std::sqrt(squared);
+    R s = n.dot(b.vertices[eb.v0] - ea.p);
+    if (s <= best.separation) return;
+    if (squared <= kParallel<R> * kParallel<R> * whole) {
+        s = separationAlong(a, b, X, Vec3<R>(X.rotation * n));
+        if (s <= best.separation) return;
+    }
+    best.separation = s;
+    best.normal = n;
+    best.featureA = i;
+    best.featureB = j;
+}
+
+template <class R>
+PolytopeAxis<R> bestEdges(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X,
+                          const EdgeFilter<R>& onA, const EdgeFilter<R>& onB) {
     PolytopeAxis<R> best;
     best.kind = PolytopeAxis<R>::Edges;
     best.featureA = -1;
     const Eigen::Matrix<R, 3, 3> toB = X.rotation.transpose();
-    for (int i = 0; i < a.edgeCount; ++i) {
-        const HullEdge& ea = a.edges[i];
-        // The edge of A in the frame of B.
-        const Vec3<R> pa = toB * (a.vertices[ea.v0] - X.translation);
-        const Vec3<R> da = toB * (a.vertices[ea.v1] - a.vertices[ea.v0]);
-        const Vec3<R> left = toB * a.faces[ea.left].normal, right = toB * a.faces[ea.right].normal;
-        const R squaredA = da.squaredNorm();
-        for (int j = 0; j < b.edgeCount; ++j) {
-            const HullEdge& eb = b.edges[j];
-            const R c = -b.faces[eb.left].normal.dot(da), d = -b.faces[eb.right].normal.dot(da);
-            if (c * d >= 0) continue;
-            const Vec3<R> db = b.vertices[eb.v1] - b.vertices[eb.v0];
-            const R l = left.dot(db), r = right.dot(db);
-            if (l * r >= 0 || c * r <= 0) continue;
-            Vec3<R> n = da.cross(db);
-            const R squared = n.squaredNorm();
-            const R whole = squaredA * db.squaredNorm();
-            if (squared <= kRounding<R> * kRounding<R> * whole) continue;
-            n *= (n.dot(left + right) < 0 ? R(-1) : R(1)) / std::sqrt(squared);
-            R s = n.dot(b.vertices[eb.v0] - pa);
-            if (s <= best.separation) continue;
-            if (squared <= kParallel<R> * kParallel<R> * whole) {
-                s = separationAlong(a, b, X, Vec3<R>(X.rotation * n));
-                if (s <= best.separation) continue;
-            }
-            best.separation = s;
-            best.normal = n;
-            best.featureA = i;
-            best.featureB = j;
+    std::array<int, kBounded> ofB;
+    for (int j = 0; j < b.edgeCount;) {
+        int count = 0;
+        for (; j < b.edgeCount && count < kBounded; ++j)
+            if (onB(b.edges[j])) ofB[static_cast<std::size_t>(count++)] = j;
+        if (count == 0) continue;
+        for (int i = 0; i < a.edgeCount; ++i) {
+            const HullEdge& e = a.edges[i];
+            if (!onA(e)) continue;
+            const Vec3<R> d = toB * (a.vertices[e.v1] - a.vertices[e.v0]);
+            const EdgeOfA<R> ea{toB * (a.vertices[e.v0] - X.translation), d, toB * a.faces[e.left].normal,
+                                toB * a.faces[e.right].normal, d.squaredNorm()};
+            for (int k = 0; k < count; ++k) tryEdges(a, b, X, ea, i, ofB[static_cast<std::size_t>(k)], best);
         }
     }
     best.normal = X.rotation * best.normal;
@@ -94,11 +200,19 @@ bool polytopeAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>&
                   PolytopeAxis<R>& best) {
     const R size = std::max({a.size, b.size, X.translation.cwiseAbs().maxCoeff()});
     const R rounding = kRounding<R> * size;
-    const FaceAxis<R> onA = bestFace(a, b, X, speculative, rounding);
+    const Relative<R> inverse = X.inverse();
+    FaceSearch<R> searchA(a, b, X), searchB(b, a, inverse);
+    searchA.run(speculative, rounding);
+    const FaceAxis<R> onA = searchA.best;
     if (onA.separation > speculative) return false;
-    const FaceAxis<R> onB = bestFace(b, a, X.inverse(), speculative, rounding);
+    searchB.run(speculative, rounding);
+    const FaceAxis<R> onB = searchB.best;
     if (onB.separation > speculative) return false;
-    PolytopeAxis<R> edges = bestEdges(a, b, X);
+    EdgeFilter<R> edgesOfA, edgesOfB;
+    const R level = std::min(R(0), std::max(onA.separation, onB.separation));
+    searchA.mark(level, edgesOfA.bits);
+    searchB.mark(level, edgesOfB.bits);
+    PolytopeAxis<R> edges = bestEdges(a, b, X, edgesOfA, edgesOfB);
 
     best.kind = PolytopeAxis<R>::FaceA;
     best.featureA = onA.face;

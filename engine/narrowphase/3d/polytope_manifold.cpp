@@ -45,22 +45,6 @@ void clipFaces(const FaceLoop<R>& ref, const HullFace<R>& refPlane, const FaceLo
         emit);
 }
 
-/// Closest points of two segments p + s d, q + t e, clamped to the segments. Of parallel ones, as far as
-/// rounding can tell, points that face each other.
-template <class R>
-void closestOnEdges(const Vec3<R>& p, const Vec3<R>& d, const Vec3<R>& q, const Vec3<R>& e, Vec3<R>& onP,
-                    Vec3<R>& onQ) {
-    const Vec3<R> r = p - q;
-    const R dd = d.dot(d), ee = e.dot(e), de = d.dot(e), dr = d.dot(r), er = e.dot(r);
-    const R denominator = dd * ee - de * de;
-    const bool parallel = !(denominator > R(4) * std::numeric_limits<R>::epsilon() * dd * ee);
-    R s = parallel ? R(0.5) : std::clamp((de * er - ee * dr) / denominator, R(0), R(1));
-    const R t = std::clamp((de * s + er) / ee, R(0), R(1));
-    if (parallel) s = std::clamp((de * t - dr) / dd, R(0), R(1));
-    onP = p + s * d;
-    onQ = q + t * e;
-}
-
 template <class R>
 int betterFace(const Polytope<R>& p, const HullEdge& e, const Vec3<R>& direction) {
     return p.faces[e.left].normal.dot(direction) >= p.faces[e.right].normal.dot(direction) ? e.left : e.right;
@@ -86,7 +70,7 @@ void deepestVertex(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>
     const bool vertexOnB = axis.kind == PolytopeAxis<R>::FaceA;
     const Polytope<R>& p = vertexOnB ? b : a;
     const Vec3<R> n = vertexOnB ? Vec3<R>(X.rotation.transpose() * -axis.normal) : axis.normal;
-    const int best = deepestIndex<R>(p, n);
+    const int best = deepestAlong<R>(p, n);
     const Vec3<R> x = vertexOnB ? X.point(p.vertices[best]) : p.vertices[best];
     const Vec3<R> shift = axis.separation * axis.normal;
     addPoint<Space<R, 3>>(out, vertexOnB ? Vec3<R>(x - shift) : x, vertexOnB ? x : Vec3<R>(x + shift),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Box and hull against box and hull: the best separating axis, then its contact points, both in the frame of
-// A, so that distance from the world's origin costs no digits. Two boxes have their own axis search.
+// Hull against box and hull: the best separating axis, then its contact points, both in the frame of A, so
+// that distance from the world's origin costs no digits. Two boxes: box_box.cpp.
 #include "engine/narrowphase/3d/polytope.hpp"
 #include "engine/narrowphase/pairs.hpp"
 
@@ -16,24 +16,13 @@ Relative<R> relative(const Pose<Space<R, 3>>& Xa, const Pose<Space<R, 3>>& Xb) {
 }
 
 template <class R, class A, class B>
-bool bestAxis(const A&, const Polytope<R>& pa, const B&, const Polytope<R>& pb, const Relative<R>& X,
-              R speculative, PolytopeAxis<R>& axis) {
-    return polytopeAxis<R>(pa, pb, X, speculative, axis);
-}
-template <class R>
-bool bestAxis(const Box<Space<R, 3>>& a, const Polytope<R>&, const Box<Space<R, 3>>& b, const Polytope<R>&,
-              const Relative<R>& X, R speculative, PolytopeAxis<R>& axis) {
-    return boxAxis<R>(a.halfExtents, b.halfExtents, X, speculative, axis);
-}
-
-template <class R, class A, class B>
 void collidePolytopes(const A& a, const Pose<Space<R, 3>>& Xa, const B& b, const Pose<Space<R, 3>>& Xb,
                       R speculative, Manifold<Space<R, 3>>& out) {
     BoxStorage<R> storeA, storeB;
     const Polytope<R> pa = polytopeOf<R>(a, storeA), pb = polytopeOf<R>(b, storeB);
     const Relative<R> X = relative<R>(Xa, Xb);
     PolytopeAxis<R> axis;
-    if (!bestAxis<R>(a, pa, b, pb, X, speculative, axis)) return;
+    if (!polytopeAxis<R>(pa, pb, X, speculative, axis)) return;
     keepAxis<R>(pa, pb, X, out.memory, axis);
     polytopeManifold<R>(pa, pb, X, axis, speculative, out);
     toWorldFrame<Space<R, 3>>(out, Xa);
@@ -52,7 +41,6 @@ void collidePolytopes(const A& a, const Pose<Space<R, 3>>& Xa, const B& b, const
                                      const Pose<Space3f>&, float, Manifold<Space3f>&);              \
     template void collidePair<double>(const A<Space3d>&, const Pose<Space3d>&, const B<Space3d>&,   \
                                       const Pose<Space3d>&, double, Manifold<Space3d>&);
-PAIR(Box, Box)
 PAIR(Box, Hull)
 PAIR(Hull, Hull)
 #undef PAIR

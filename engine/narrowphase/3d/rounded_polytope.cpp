@@ -7,7 +7,7 @@
 //   cores overlapping: the separating axis of largest separation over the facets of the Minkowski difference:
 //   faces, and edges of the hull whose Gauss arc crosses the great circle of the segment's normals.
 // A segment that lies along a face gets two points: its ends clipped to the prism of the face along the
-// contact normal. Cost O(V + E + sum of face sizes).
+// contact normal. Cost O(F + E), sums and products for most edges.
 #include "engine/narrowphase/3d/polytope.hpp"
 #include "engine/narrowphase/pairs.hpp"
 
@@ -60,11 +60,49 @@ void segmentSegment(const Vec3<R>& p, const Vec3<R>& d, const Vec3<R>& q, const 
     consider<R>(p + s * d, q + t * e, feature, inside ? across : Vec3<R>(Vec3<R>::Zero()), best);
 }
 
+/// The same for the point p.
+template <class R>
+void pointSegment(const Vec3<R>& p, const Vec3<R>& q, const Vec3<R>& e, std::uint32_t feature,
+                  Closest<R>& best) {
+    const R t = std::clamp(R(e.dot(Vec3<R>(p - q)) / e.squaredNorm()), R(0), R(1));
+    consider<R>(p, q + t * e, feature, Vec3<R>(Vec3<R>::Zero()), best);
+}
+
+/// Heights of the two ends of the core over the faces. The closest points, and an axis across the core that
+/// is better than the faces, are at edges whose faces they are above:
+///   closest: x - q = a n_left + b n_right with a, b >= 0, so that x is over one of the two;
+///   axis: its separation is no more than the higher of what either end has over the two faces, where that is
+///   not positive (polytope_axis.cpp).
+template <class R>
+struct CoreHeights {
+    static constexpr int kMost = 256;  ///< edges of faces beyond are always tried
+    std::array<R, kMost> first, second;
+
+    void set(int face, R atFirst, R atSecond) {
+        if (face >= kMost) return;
+        first[static_cast<std::size_t>(face)] = atFirst, second[static_cast<std::size_t>(face)] = atSecond;
+    }
+    /// Is either end higher than `level` over either face?
+    bool over(const HullEdge& e, R level) const {
+        if (e.left >= kMost || e.right >= kMost) return true;
+        const auto l = static_cast<std::size_t>(e.left), r = static_cast<std::size_t>(e.right);
+        return first[l] > level || first[r] > level || second[l] > level || second[r] > level;
+    }
+    /// Has each end more than `level` over one of the faces?
+    bool bothOver(const HullEdge& e, R level) const {
+        if (e.left >= kMost || e.right >= kMost) return true;
+        const auto l = static_cast<std::size_t>(e.left), r = static_cast<std::size_t>(e.right);
+        return (first[l] > level || first[r] > level) && (second[l] > level || second[r] > level);
+    }
+};
+
 /// Core p to p + d (d = 0: a point) outside the polytope.
 template <class R>
-Closest<R> closestFeatures(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d) {
+Closest<R> closestFeatures(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d,
+                           const CoreHeights<R>& heights, R tolerance) {
     Closest<R> best;
-    const int ends = d.squaredNorm() > 0 ? 2 : 1;
+    const bool point = !(d.squaredNorm() > 0);
+    const int ends = point ? 1 : 2;
     for (int i = 0; i < hull.faceCount; ++i) {
         const HullFace<R>& f = hull.faces[i];
         for (int k = 0; k < ends; ++k) {
@@ -76,8 +114,13 @@ Closest<R> closestFeatures(const Polytope<R>& hull, const Vec3<R>& p, const Vec3
     }
     for (int i = 0; i < hull.edgeCount; ++i) {
         const HullEdge& e = hull.edges[i];
+        if (!heights.over(e, -tolerance)) continue;
         const Vec3<R>& q = hull.vertices[e.v0];
-        segmentSegment<R>(p, d, q, hull.vertices[e.v1] - q, crossingFeature(0, edgeName(e.v0, e.v1)), best);
+        const std::uint32_t feature = crossingFeature(0, edgeName(e.v0, e.v1));
+        if (point)
+            pointSegment<R>(p, q, hull.vertices[e.v1] - q, feature, best);
+        else
+            segmentSegment<R>(p, d, q, hull.vertices[e.v1] - q, feature, best);
     }
     return best;
 }
@@ -105,18 +148,25 @@ bool edgeAxis(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, int i
     return true;
 }
 
+/// The axis of largest separation; where a face separates, that of the faces alone. Fills `heights`.
 template <class R>
-CoreAxis<R> bestAxis(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R tolerance) {
+CoreAxis<R> bestAxis(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R tolerance,
+                     CoreHeights<R>& heights) {
     CoreAxis<R> best;
     for (int i = 0; i < hull.faceCount; ++i) {
         const HullFace<R>& f = hull.faces[i];
-        const R s = f.normal.dot(p) - f.offset + std::min(R(0), f.normal.dot(d));
+        const R height = f.normal.dot(p) - f.offset, slope = f.normal.dot(d);
+        heights.set(i, height, height + slope);
+        const R s = height + std::min(R(0), slope);
         if (s > best.separation + tolerance) best = {f.normal, s, i, -1};
     }
-    if (d.squaredNorm() == 0) return best;
+    if (d.squaredNorm() == 0 || best.separation > tolerance) return best;
+    const R level = std::min(R(0), best.separation);
     CoreAxis<R> axis;
     for (int i = 0; i < hull.edgeCount; ++i)
-        if (edgeAxis(hull, p, d, i, axis) && axis.separation > best.separation + tolerance) best = axis;
+        if (heights.bothOver(hull.edges[i], level) && edgeAxis(hull, p, d, i, axis) &&
+            axis.separation > best.separation + tolerance)
+            best = axis;
     return best;
 }
 
@@ -168,7 +218,8 @@ void collideCore(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R 
     using V = Vec3<R>;
     const R size = std::max({hull.size, p.cwiseAbs().maxCoeff(), (p + d).cwiseAbs().maxCoeff()});
     const R tolerance = kRounding<R> * size;
-    CoreAxis<R> axis = bestAxis(hull, p, d, tolerance);
+    CoreHeights<R> heights;
+    CoreAxis<R> axis = bestAxis(hull, p, d, tolerance, heights);
     if (axis.separation - radius > speculative) return;
     using Memory = ManifoldMemory<S>;
     if (axis.separation <= tolerance) {
@@ -183,7 +234,7 @@ void collideCore(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R 
     R distance = axis.separation;
     Closest<R> closest;
     if (axis.separation > tolerance) {
-        closest = closestFeatures(hull, p, d);
+        closest = closestFeatures(hull, p, d, heights, tolerance);
         distance = std::sqrt(closest.squared);
         n = (closest.onCore - closest.onHull) / distance;
         if (const R length = closest.direction.norm(); length > 0)
