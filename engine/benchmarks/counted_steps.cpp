@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <algorithm>
 #include <memory>
 
 #include "engine/benchmarks/counted_work.hpp"
@@ -48,7 +49,7 @@ std::function<void()> jointWork(bool net) {
     const auto work = [problem] {
         problem->system.factor(problem->items);
         for (std::size_t i = 0; i < problem->items.size(); ++i)
-            problem->system.at(i).setOnes(problem->items[i].block->rows);
+            std::fill_n(problem->system.at(i), problem->items[i].block->rows, typename S::Real(1));
         problem->system.solve();
     };
     work();

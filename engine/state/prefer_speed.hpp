@@ -8,10 +8,11 @@
 
 namespace rigor::engine {
 
-/// Sets the choices that cost accuracy for speed, or that only pay in large scenes, and leaves the others: the
-/// solver `wide` with springs of contact twice as stiff as usual, answers of the narrow phase kept while a pair moves
-/// by less than a millimetre, enlarged boxes, and points found 5 mm ahead. What it gives up is what soft contacts
-/// give up (solvers/wide/wide.cpp): bodies overlap by what the springs need to carry the load.
+/// Sets the choices that cost accuracy for speed, or that only pay in large scenes, and leaves the others:
+/// the solver `wide` with springs of contact twice as stiff as usual, answers of the narrow phase kept while
+/// a pair moves by less than a millimetre, enlarged boxes, and points found 5 mm ahead. What it gives up is
+/// what soft contacts give up (solvers/wide/wide.cpp): bodies overlap by what the springs need to carry the
+/// load.
 template <class S>
 void preferSpeed(WorldDef<S>& def) {
     using Real = typename S::Real;
