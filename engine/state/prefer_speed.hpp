@@ -9,16 +9,16 @@
 namespace rigor::engine {
 
 /// Sets the choices that cost accuracy for speed, or that only pay in large scenes, and leaves the others:
-/// the solver `wide` with springs of contact twice as stiff as usual, answers of the narrow phase kept while
-/// a pair moves by less than a millimetre, enlarged boxes, and points found 5 mm ahead. What it gives up is
-/// what soft contacts give up (solvers/wide/wide.cpp): bodies overlap by what the springs need to carry the
-/// load.
+/// the solver `wide` with springs of contact half as stiff again as usual, answers of the narrow phase kept
+/// while a pair moves by less than a millimetre, enlarged boxes, and points found 5 mm ahead. What it gives
+/// up is what soft contacts give up (solvers/wide/wide.cpp): bodies overlap by what the springs need to carry
+/// the load.
 template <class S>
 void preferSpeed(WorldDef<S>& def) {
     using Real = typename S::Real;
     def.solver = "wide";
-    def.substeps = 6;
-    def.contactFrequency = Real(60);
+    def.substeps = 5;
+    def.contactFrequency = Real(45);
     def.reuseDistance = Real(1e-3);
     def.boxMargin = Real(0.05);
     def.speculativeDistance = Real(5e-3);

@@ -99,6 +99,8 @@ struct Pressed {
     Num<S> moment;  ///< of them times their distances from the centre
 };
 
+/// The points of a patch are swept forwards and back: a body that the first corner turns is turned back by
+/// the others before its neighbours see it. One sweep alone makes tall stacks rock.
 template <class S>
 HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S::Real>& pass) {
     const Tag<S> d;
@@ -113,7 +115,10 @@ HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S:
     const Num<S> slop = number<S>(pass.slop), fastest = number<S>(-pass.fastestPush);
     Num<S> speed = dot(p.normal, minus(p.b.v, p.a.v)), pushed = zero;
     Pressed<S> pressed{zero, zero};
-    for (int i = 0; i < block.points; ++i) {
+    const int n = block.points;
+    for (int k = n > 1 ? 0 : n; k < 2 * n; ++k) {
+        const int i = k < n ? k : 2 * n - 1 - k;
+        const bool final = k >= n;
         PatchPoint<S>& point = block.point[i];
         const AngVec<S> jA = p.at(point.row.jA), jB = p.at(point.row.jB);
         const Num<S> s = p.at(point.separation) + moved + turning<S>(jA, jB, movedA.w, movedB.w);
@@ -133,10 +138,11 @@ HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S:
         const Num<S> lambda = hn::Max(old - step, zero);
         const Num<S> change = lambda - old;
         p.at.set(point.impulse, lambda);
-        if (pass.last) p.at.set(point.total, p.at(point.total) + lambda);
+        if (pass.last && final) p.at.set(point.total, p.at(point.total) + lambda);
         speed = speed + change * mass;
         pushed = pushed + change;
         p.turn(change, point.row);
+        if (!final) continue;
         pressed.sum = pressed.sum + lambda;
         if constexpr (S::dim == 3) pressed.moment = pressed.moment + lambda * p.at(point.radius);
     }
