@@ -150,7 +150,11 @@ describe('the replay of a real run', { skip }, () => {
     await page.click('.replay [data-switch="trails"]');
     await page.click('.replay [data-switch="overlaid"]');
     await press('End');
-    await page.waitForFunction(() => /view=.*over/.test(location.hash));
+    await page.waitForFunction(() => {
+      const view = new URLSearchParams(location.hash.split('?')[1]).get('view') ?? '';
+      const told = new URLSearchParams(view);
+      return told.get('over') === '1' && Number(told.get('t')) > 0;
+    });
     const [hash, end] = [await page.evaluate(() => location.hash), await time()];
     await show('slip_to_roll_2d');
     await open(page, run, hash);
