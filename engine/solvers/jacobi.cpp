@@ -16,7 +16,7 @@
 // Cost: iterations * rows * (1..kInnerSweeps), plus a copy of the rows per step. Known limit: information
 // travels one body per iteration and in parts of 1/n: several times the iterations of pgs for the same
 // residual.
-#include "engine/constraints/joint_inverses.hpp"
+#include "engine/solvers/joint_inverses.hpp"
 #include "engine/solvers/row_kernels.hpp"
 
 namespace rigor::engine {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/constraints/joint_inverses.hpp"
+#include "engine/solvers/joint_inverses.hpp"
 #include "engine/solvers/row_kernels.hpp"
 
 namespace rigor::engine {

@@ -36,9 +36,9 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/constraints/joint_inverses.hpp"
 #include "engine/solvers/contact_alone.hpp"
 #include "engine/solvers/impulses.hpp"
+#include "engine/solvers/joint_inverses.hpp"
 #include "engine/solvers/matrix_space.hpp"
 #include "engine/solvers/newton_finish.hpp"
 #include "engine/solvers/solver.hpp"
