@@ -104,7 +104,6 @@ void ContactSet<S>::storePatch(const PatchBlock<S>& block, std::size_t lane, Con
         point.normalTotal = from.total[lane];
         point.frictionImpulse = takeVector<S>(from.rub, lane);
         point.frictionTotal = takeVector<S>(from.rubTotal, lane);
-        point.approach = from.approach[lane];
     }
 }
 

@@ -136,5 +136,17 @@ TYPED_TEST(Wide, SlidingBoxMovesAsWithRows) {
     EXPECT_NEAR(slide("wide"), slide("nsgs"), 0.02);
 }
 
+/// Faults are made to rows, which there are none of.
+TEST(WideFaults, AreRefused) {
+    WorldDef<Space3d> def = wideEarth<Space3d>();
+    def.fault = "flipped_normal";
+    try {
+        World<Space3d> world(def);
+        ADD_FAILURE() << "accepted";
+    } catch (const EngineError& error) {
+        EXPECT_STREQ(error.id().c_str(), "fault_solver");
+    }
+}
+
 }  // namespace
 }  // namespace rigor::engine::test

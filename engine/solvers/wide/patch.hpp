@@ -53,7 +53,6 @@ struct PatchPoint {
     Lanes<Real> rub[PatchSize<S>::lin], rubTotal[PatchSize<S>::lin];
     Lanes<Real> invK;        ///< 0: no point in this lane; before it is prepared 1 where there is
     Lanes<Real> separation;  ///< where it was found [m]
-    Lanes<Real> approach;    ///< normal speed at the start of the step [m/s]
     Lanes<Real> rebound;     ///< where it hits: bias of the sub-step, < 0 [m/s]; read where block.bounces
     Lanes<Real> open;        ///< 1: let through in this sub-step; likewise
     Lanes<Real> radius;      ///< distance from the centre, in the tangent plane [m]

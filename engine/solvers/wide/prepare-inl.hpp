@@ -83,14 +83,13 @@ struct Preparation {
         return mass + dot(jA, iA) + dot(jB, iB);
     }
 
-    HWY_INLINE void normals(const Twist<S>& a, const Twist<S>& b) const {
-        const Num<S> speed = dot(normal, minus(b.v, a.v)), zero = hn::Zero(Tag<S>());
+    HWY_INLINE void normals() const {
+        const Num<S> zero = hn::Zero(Tag<S>());
         for (int i = 0; i < block.points; ++i) {
             PatchPoint<S>& point = block.point[i];
             const auto there = at(point.invK) > zero;
             const Num<S> K = makeRow(at(point.armA), at(point.armB), normal, point.row);
             at.set(point.invK, hn::IfThenElseZero(there, inverseOrZero(K)));
-            at.set(point.approach, speed + turning<S>(at(point.row.jA), at(point.row.jB), a.w, b.w));
             at.set(point.total, zero);
         }
     }
@@ -171,8 +170,7 @@ void prepareAll(const PatchRange<S>& range, const PatchInertia<S>* inertia) {
                                              {inertia, block.b + first},
                                              at(block.invMassA) + at(block.invMassB),
                                              at(block.normal)};
-            preparation.normals(Side<S>{range.bodies, block.a + first, 0}.velocity(),
-                                Side<S>{range.bodies, block.b + first, 0}.velocity());
+            preparation.normals();
             preparation.friction();
         }
 }

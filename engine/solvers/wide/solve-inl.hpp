@@ -92,15 +92,15 @@ HWY_INLINE void warmStart(PatchGroup<S>& p) {
     }
 }
 
-/// All normal rows; returns what friction may lean on.
+/// What friction may lean on.
 template <class S>
 struct Pressed {
     Num<S> sum;     ///< of normal impulses
     Num<S> moment;  ///< of them times their distances from the centre
 };
 
-/// The points of a patch are swept forwards and back: a body that the first corner turns is turned back by
-/// the others before its neighbours see it. One sweep alone makes tall stacks rock.
+/// All normal rows. The points of a patch are swept forwards and back: a body that the first corner turns is
+/// turned back by the others before its neighbours see it. One sweep alone makes tall stacks rock.
 template <class S>
 HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S::Real>& pass) {
     const Tag<S> d;
