@@ -3,24 +3,28 @@
 //
 // Joints all at once. Let J be the rows of all equality blocks and
 //     K = J M^-1 J^T + softness,      K x = right side
-// K couples two blocks where they share a body that can move, so it is sparse; block LDL^T with a
-// minimum-degree order [GeorgeLiu1989] eliminates chains and trees of joints from their leaves without any
+// K couples two blocks where they share a body that can move, so it is sparse; block Cholesky K = L L^T with
+// a minimum-degree order [GeorgeLiu1989] eliminates chains and trees of joints from their leaves without any
 // fill, in time linear in their number, as [Baraff1996] does with the larger system of M and J. Loops add
 // some fill. The pattern is analysed when it changes (elimination.hpp), not in every step: what remains are
 // loops over arrays, without a search. Blocks are of one size in all joints that are connected, smaller ones
 // filled up with ones on the diagonal, and stand column by column in columns of kPad numbers, so that they
 // are multiplied by fixed-size loops that compilers turn into vector instructions.
 //
-// Redundant rows (a closed loop of 3D hinges has three) make K singular. Each pivot gets epsilon K_ii on top:
-// a solution exists, tiny in the directions that change nothing. The error this leaves elsewhere goes with
-// repeated solves for what is left: each multiplies it by epsilon / (epsilon + sigma), for sigma the row's
-// relative stiffness (proximal point method). epsilon is the precision to the power 2/3: 3.7e-11 and 2.4e-5.
+// Redundant rows (a closed loop of 3D hinges has three, a flat net of n x n balls some n^2) make K singular.
+// Each pivot gets epsilon K_ii on top: a solution exists, tiny in the directions that change nothing. The
+// error this leaves elsewhere goes with repeated solves for what is left: each multiplies it by
+// epsilon / (epsilon + sigma), for sigma the row's relative stiffness (proximal point method). epsilon is the
+// precision to the power 2/3: 3.7e-11 and 2.4e-5. Cholesky's rounding stays far below that whatever K is
+// [GolubVanLoan2013, section 4.2]. That of inverses of the blocks on the diagonal would not: it is multiplied
+// by up to 1 / epsilon, and flat nets of 5 x 5 bodies and more lose all their digits.
 //
 // Cost: sum over the columns of L of (blocks in it)^2 / 2 products of blocks. Limit: n joints at one body
 // make a dense n x n; beyond kMaxFill blocks per item the caller has to do without.
 #include "engine/solvers/joint_system.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -40,7 +44,7 @@ int blockSize(int rows, bool single) {
     return rows * pad;
 }
 
-/// A block L of a column times the transpose of one of L D, taken from a third: C -= A B^T.
+/// Two blocks of a column, the product of one and the other's transpose taken from a third: C -= A B^T.
 template <int N, class R>
 void subtractProduct(const R* __restrict A, const R* __restrict B, R* __restrict C) {
     constexpr int P = kPad<N, R>;
@@ -55,51 +59,35 @@ void subtractProduct(const R* __restrict A, const R* __restrict B, R* __restrict
     }
 }
 
-/// C = A D for a symmetric D.
+/// Cholesky factor of a symmetric block, in its lower triangle, with the reciprocals of its diagonal. A pivot
+/// at `floor` or below is one that rounding has spoilt: its unknown is left out, with zeros in its column.
 template <int N, class R>
-void multiply(const R* __restrict A, const R* __restrict D, R* __restrict C) {
+void factorBlock(R* m, const R* floor) {
     constexpr int P = kPad<N, R>;
-    for (int c = 0; c < N; ++c) {
-        R sum[P] = {};
-        for (int k = 0; k < N; ++k) {
-            const R d = D[c * P + k];
-            for (int r = 0; r < P; ++r) sum[r] += A[k * P + r] * d;
-        }
-        for (int r = 0; r < P; ++r) C[c * P + r] = sum[r];
+    for (int j = 0; j < N; ++j) {
+        R* const column = m + j * P;
+        for (int k = 0; k < j; ++k)
+            for (int i = j; i < N; ++i) column[i] -= m[k * P + i] * m[k * P + j];
+        const R inverse = column[j] > floor[j] ? R(1) / std::sqrt(column[j]) : R(0);
+        for (int i = j + 1; i < N; ++i) column[i] *= inverse;
+        column[j] = inverse;
     }
 }
 
-/// Inverse of a symmetric positive definite block by L D L^T, whose pivots are kept at `floor` or above.
+/// A block A below the diagonal becomes that of the factor: A L^-T, for the factor L of its column's
+/// diagonal.
 template <int N, class R>
-void invert(R* m, const R* floor) {
+void divide(R* __restrict A, const R* __restrict L) {
     constexpr int P = kPad<N, R>;
-    R inverse[N], L[N][N];  // L: unit lower, its strictly lower part; then L^-1
-    for (int j = 0; j < N; ++j) {
-        R scaled[N];
-        R d = m[j * P + j];
-        for (int k = 0; k < j; ++k) {
-            scaled[k] = L[j][k] / inverse[k];
-            d -= L[j][k] * scaled[k];
+    for (int c = 0; c < N; ++c) {
+        R sum[P];
+        for (int r = 0; r < P; ++r) sum[r] = A[c * P + r];
+        for (int k = 0; k < c; ++k) {
+            const R l = L[k * P + c];
+            for (int r = 0; r < P; ++r) sum[r] -= A[k * P + r] * l;
         }
-        inverse[j] = R(1) / std::max(d, floor[j]);
-        for (int i = j + 1; i < N; ++i) {
-            R sum = m[j * P + i];
-            for (int k = 0; k < j; ++k) sum -= L[i][k] * scaled[k];
-            L[i][j] = sum * inverse[j];
-        }
+        for (int r = 0; r < P; ++r) A[c * P + r] = sum[r] * L[c * P + c];
     }
-    for (int j = 0; j < N; ++j)
-        for (int i = j + 1; i < N; ++i) {
-            R sum = -L[i][j];
-            for (int k = j + 1; k < i; ++k) sum -= L[i][k] * L[k][j];
-            L[i][j] = sum;
-        }
-    for (int c = 0; c < N; ++c)
-        for (int r = c; r < N; ++r) {
-            R sum = (r == c ? R(1) : L[r][c]) * inverse[r];
-            for (int k = r + 1; k < N; ++k) sum += L[k][r] * inverse[k] * L[k][c];
-            m[c * P + r] = m[r * P + c] = sum;
-        }
 }
 
 /// Calls use(std::integral_constant<int, size>) for a size of 1..6.
@@ -181,7 +169,7 @@ void JointSystem<S>::layOut(Elimination& order) {
     const std::size_t n = item_.size();
     position_.resize(n), place_.resize(n);
     parts_.clear(), target_.clear();
-    std::size_t lower = 0, diagonal = 0, x = 0, widest = 0;
+    std::size_t lower = 0, diagonal = 0, x = 0;
     for (std::size_t p = 0; p + 1 < order.part.size(); ++p) {
         Part part{order.part[p], order.part[p + 1], 1, 0, 0, lower, diagonal, x, target_.size()};
         for (std::uint32_t k = part.first; k < part.last; ++k)
@@ -191,7 +179,6 @@ void JointSystem<S>::layOut(Elimination& order) {
         for (std::uint32_t k = part.first; k < part.last; ++k) {
             position_[item_[k]] = k;
             place_[item_[k]] = x + (k - part.first) * (block / size);
-            widest = std::max(widest, (start_[k + 1] - start_[k]) * block);
             for (std::size_t e = start_[k]; e < start_[k + 1]; ++e)
                 for (std::size_t f = e + 1; f < start_[k + 1]; ++f)
                     target_.push_back(
@@ -203,7 +190,6 @@ void JointSystem<S>::layOut(Elimination& order) {
         parts_.push_back(part);
     }
     lower_.assign(lower, Real(0)), diagonal_.assign(diagonal, Real(0)), x_.assign(x, Real(0));
-    column_.assign(widest, Real(0));
 }
 
 /// Pairs of items at a body that impulses move, in the order of the parts.
@@ -286,21 +272,19 @@ void JointSystem<S>::eliminate(const Part& part) {
             Real& d = diagonal[k * B + static_cast<std::size_t>(i * P + i)];
             const Real floor = std::max(d * epsilon, std::numeric_limits<Real>::min());
             d += floor;
-            x[k * P + static_cast<std::size_t>(i)] = floor;
+            x[k * P + static_cast<std::size_t>(i)] = floor / 2;
         }
     const std::uint32_t* target = target_.data() + part.target;
     for (std::size_t k = 0; k < columns; ++k) {
         Real* const D = diagonal + k * B;
-        invert<N>(D, x + k * P);
+        factorBlock<N>(D, x + k * P);
         const std::size_t first = start_[part.first + k], count = start_[part.first + k + 1] - first;
         Real* const L = lower + (first - firstEntry) * B;
-        std::copy_n(L, count * B, column_.data());
-        for (std::size_t e = 0; e < count; ++e) multiply<N>(column_.data() + e * B, D, L + e * B);
+        for (std::size_t e = 0; e < count; ++e) divide<N>(L + e * B, D);
         for (std::size_t e = 0; e < count; ++e) {
-            const Real* const LD = column_.data() + e * B;
-            subtractProduct<N>(L + e * B, LD, diagonal + (row_[first + e] - part.first) * B);
+            subtractProduct<N>(L + e * B, L + e * B, diagonal + (row_[first + e] - part.first) * B);
             for (std::size_t f = e + 1; f < count; ++f)
-                subtractProduct<N>(L + f * B, LD, lower + *target++ * B);
+                subtractProduct<N>(L + f * B, L + e * B, lower + *target++ * B);
         }
     }
 }
@@ -318,8 +302,12 @@ void JointSystem<S>::substitute(const Part& part) {
     Real* const x = x_.data() + part.x;
     const std::size_t firstEntry = start_[part.first], columns = part.last - part.first;
     for (std::size_t k = 0; k < columns; ++k) {
-        Real own[N];
-        for (int c = 0; c < N; ++c) own[c] = x[k * P + static_cast<std::size_t>(c)];
+        const Real* const D = diagonal + k * B;
+        Real* const own = x + k * P;
+        for (int c = 0; c < N; ++c) {
+            own[c] *= D[c * P + c];
+            for (int r = c + 1; r < N; ++r) own[r] -= D[c * P + r] * own[c];
+        }
         for (std::size_t e = start_[part.first + k]; e < start_[part.first + k + 1]; ++e) {
             const Real* const L = lower + (e - firstEntry) * B;
             Real* const other = x + (row_[e] - part.first) * P;
@@ -328,19 +316,18 @@ void JointSystem<S>::substitute(const Part& part) {
         }
     }
     for (std::size_t k = columns; k-- > 0;) {
-        Real sum[P] = {};
-        for (int c = 0; c < N; ++c) {
-            const Real right = x[k * P + static_cast<std::size_t>(c)];
-            for (int r = 0; r < P; ++r)
-                sum[r] += diagonal[k * B + static_cast<std::size_t>(c * P + r)] * right;
-        }
+        const Real* const D = diagonal + k * B;
+        Real* const own = x + k * P;
         for (std::size_t e = start_[part.first + k]; e < start_[part.first + k + 1]; ++e) {
             const Real* const L = lower + (e - firstEntry) * B;
             const Real* const other = x + (row_[e] - part.first) * P;
             for (int c = 0; c < N; ++c)
-                for (int r = 0; r < N; ++r) sum[c] -= L[c * P + r] * other[r];
+                for (int r = 0; r < N; ++r) own[c] -= L[c * P + r] * other[r];
         }
-        for (int r = 0; r < P; ++r) x[k * P + static_cast<std::size_t>(r)] = sum[r];
+        for (int c = N; c-- > 0;) {
+            for (int r = c + 1; r < N; ++r) own[c] -= D[c * P + r] * own[r];
+            own[c] *= D[c * P + c];
+        }
     }
 }
 

@@ -85,10 +85,10 @@ class JointSystem {
     /// For each column and each pair of its entries e < f: the entry of column row_[e] in row row_[f],
     /// counted from its part's first.
     std::vector<std::uint32_t> target_;
-    std::vector<Real> lower_;     ///< K, then L
-    std::vector<Real> diagonal_;  ///< of K, then D^-1
+    std::vector<Real> lower_;  ///< K, then L
+    /// Of K, then of L, with the reciprocals of its own diagonal.
+    std::vector<Real> diagonal_;
     std::vector<Real> x_;
-    std::vector<Real> column_;  ///< scratch: L D of the column being eliminated
 };
 
 }  // namespace rigor::engine

@@ -49,6 +49,28 @@ class JointSystems : public testing::Test {
         }
         blocks.push_back(block), rows.push_back(made);
     }
+    /// A joint of as many rows as there are dimensions that holds two points together, at `arm` from A and at
+    /// `-arm` from B, with unit masses and the inertia of small balls.
+    void ball(std::uint32_t a, std::uint32_t b, const typename S::Vec& arm) {
+        join(a, b, S::dim);
+        Block<S>& block = blocks.back();
+        for (int i = 0; i < S::dim; ++i) {
+            Row<S>& row = rows.back()[static_cast<std::size_t>(i)];
+            row.lin = S::Vec::Unit(i);
+            row.angA = -cross(arm, row.lin), row.angB = cross(typename S::Vec(-arm), row.lin);
+            row.invIAngA = Real(3) * block.invMassA * row.angA;
+            row.invIAngB = Real(3) * block.invMassB * row.angB;
+        }
+    }
+    /// A flat net of side x side bodies that hangs from body 0 by its first row.
+    void flatNet(std::uint32_t side) {
+        invMass.assign(side * side + 1, 1), invMass[0] = 0;
+        const typename S::Vec right = S::Vec::Unit(0) * Real(0.25), down = S::Vec::Unit(1) * Real(-0.25);
+        for (std::uint32_t i = 0; i < side * side; ++i) {
+            ball(i < side ? 0 : i + 1 - side, i + 1, down);
+            if (i % side > 0) ball(i, i + 1, right);
+        }
+    }
     /// K by its definition, over all bodies' velocities.
     Dense dense() const {
         const int angular = S::dim == 2 ? 1 : 3, size = S::dim + angular;
@@ -133,6 +155,16 @@ TYPED_TEST(JointSystems, RedundantRowsAreNoTrouble) {
     dead = {};
     JointSystem<TypeParam> system;
     EXPECT_LT(this->residual(system, 4), isDouble(typename TypeParam::Real()) ? 1e-10 : 1e-4);
+}
+
+/// In the net's plane there are more rows than motions.
+TYPED_TEST(JointSystems, FlatNetsAreNoTrouble) {
+    for (const std::uint32_t side : {3u, 5u, 9u, 14u}) {
+        this->blocks.clear(), this->rows.clear();
+        this->flatNet(side);
+        JointSystem<TypeParam> system;
+        EXPECT_LT(this->residual(system, 4), isDouble(typename TypeParam::Real()) ? 1e-9 : 1e-3) << side;
+    }
 }
 
 TYPED_TEST(JointSystems, TooManyJointsAtOneBodyAreRefused) {
