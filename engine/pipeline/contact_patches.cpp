@@ -23,6 +23,55 @@ typename S::Vec takeVector(const Lanes<typename S::Real>* from, std::size_t lane
     return v;
 }
 
+template <class S>
+void fillPoint(PatchPoint<S>& point, typename PatchRest<S>::Point& rest, std::size_t lane,
+               typename S::Real warmStart, const typename Contact<S>::Point* from) {
+    using Vec = typename S::Vec;
+    using Real = typename S::Real;
+    point.invK[lane] = from ? Real(1) : Real(0);
+    point.separation[lane] = from ? from->separation : Real(0);
+    point.impulse[lane] = from ? warmStart * from->normalImpulse : Real(0);
+    putVector(rest.armB, lane, from ? from->rB : Vec(Vec::Zero()));
+    putVector(rest.rub, lane, from ? Vec(warmStart * from->frictionImpulse) : Vec(Vec::Zero()));
+}
+
+/// What the narrow phase knows of a contact; the rest is made of it in SIMD (Patches::prepare). Null: zeros.
+template <class S>
+void fillLane(PatchBlock<S>& block, PatchRest<S>& rest, std::size_t lane, const BodyArrays<S>& bodies,
+              const ContactStep<S>& step, Contact<S>* contact) {
+    using Vec = typename S::Vec;
+    using Real = typename S::Real;
+    const std::uint32_t a = contact ? contact->bodyA : 0, b = contact ? contact->bodyB : 0;
+    const PairCoefficients<S> pair = contact ? contact->coefficients : PairCoefficients<S>{};
+    const auto count = static_cast<std::size_t>(contact ? contact->manifold.count : 0);
+    block.a[lane] = a, block.b[lane] = b;
+    const auto lanes = [&](bool x) { return static_cast<std::uint32_t>(x && contact) << lane; };
+    block.movesA |= lanes(bodies.invMass[a] > 0), block.movesB |= lanes(bodies.invMass[b] > 0);
+    block.points = std::max(block.points, static_cast<std::int32_t>(count));
+    putVector(block.normal, lane, contact ? contact->manifold.normal : Vec(Vec::Zero()));
+    putVector(block.offset, lane, Vec(bodies.pose[b].p - bodies.pose[a].p));
+    block.invMassA[lane] = bodies.invMass[a], block.invMassB[lane] = bodies.invMass[b];
+    block.friction[lane] = pair.friction;
+    block.staticFriction[lane] = std::max(pair.friction, pair.staticFriction);
+    rest.restitution[lane] = step.bounces ? pair.restitution : Real(0);
+    block.bounces |= lanes(rest.restitution[lane] > 0);
+    for (std::size_t i = 0; i < PatchSize<S>::points; ++i)
+        fillPoint<S>(block.point[i], rest.point[i], lane, step.warmStart,
+                     i < count ? &contact->points[i] : nullptr);
+    for (std::size_t i = 0; i < count; ++i) contact->points[i].block = 0;
+}
+
+template <class S>
+void readLane(const PatchBlock<S>& block, const PatchRest<S>& rest, std::size_t lane, Contact<S>& contact) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
+        typename Contact<S>::Point& point = contact.points[i];
+        point.normalImpulse = block.point[i].impulse[lane];
+        point.normalTotal = block.point[i].total[lane];
+        point.frictionImpulse = takeVector<S>(rest.point[i].rub, lane);
+        point.frictionTotal = takeVector<S>(rest.point[i].rubTotal, lane);
+    }
+}
+
 }  // namespace
 
 template <class S>
@@ -37,74 +86,25 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
         const auto points = static_cast<std::uint8_t>(contact.manifold.count);
         patches.plan({contact.bodyA, contact.bodyB, movesA, movesB, points}, k);
     }
-    patches.place(bodies.size());
+    patches.place(bodies, tasks);
     tasks.forEach(patches.blocks(), kBlockGrain, [&](std::size_t b) {
-        PatchBlock<S>& block = patches.block(b);
-        for (std::size_t lane = 0; lane < kLanes; ++lane)
-            if (const std::uint32_t source = patches.sourceAt(b, lane); source != Patches<S>::kNobody)
-                fillPatch(bodies, step, contacts_[source], block, lane);
-            else
-                patches.clearLane(b, lane);
-    });
-    patches.prepare(bodies, tasks);
-}
-
-/// What the narrow phase knows of a contact; the rest is made of it in SIMD (Patches::prepare).
-template <class S>
-void ContactSet<S>::fillPatch(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
-                              PatchBlock<S>& block, std::size_t lane) {
-    const std::uint32_t a = contact.bodyA, b = contact.bodyB;
-    const PairCoefficients<S>& pair = contact.coefficients;
-    putVector(block.normal, lane, contact.manifold.normal);
-    block.a[lane] = a, block.b[lane] = b;
-    block.movesA |= std::uint32_t(bodies.invMass[a] > 0) << lane;
-    block.movesB |= std::uint32_t(bodies.invMass[b] > 0) << lane;
-    block.points = std::max(block.points, contact.manifold.count);
-    block.invMassA[lane] = bodies.invMass[a], block.invMassB[lane] = bodies.invMass[b];
-    block.friction[lane] = pair.friction;
-    block.staticFriction[lane] = std::max(pair.friction, pair.staticFriction);
-    block.restitution[lane] = step.bounces ? pair.restitution : Real(0);
-    block.bounces |= std::uint32_t(block.restitution[lane] > 0) << lane;
-    for (std::size_t i = 0; i < contact.points.size(); ++i) {
-        PatchPoint<S>& to = block.point[i];
-        typename Contact<S>::Point& point = contact.points[i];
-        const bool there = i < static_cast<std::size_t>(contact.manifold.count);
-        to.invK[lane] = there ? Real(1) : Real(0);
-        if (there) point.block = 0;
-        if (there) {
-            putVector(to.armA, lane, point.rA), putVector(to.armB, lane, point.rB);
-            to.separation[lane] = point.separation;
-            to.impulse[lane] = step.warmStart * point.normalImpulse;
-            putVector(to.rub, lane, Vec(step.warmStart * point.frictionImpulse));
-        } else {
-            const Vec zero = Vec::Zero();
-            putVector(to.armA, lane, zero), putVector(to.armB, lane, zero), putVector(to.rub, lane, zero);
-            to.separation[lane] = to.impulse[lane] = 0;
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const std::uint32_t source = patches.sourceAt(b, lane);
+            fillLane(patches.block(b), patches.rest(b), lane, bodies, step,
+                     source == Patches<S>::kNobody ? nullptr : &contacts_[source]);
         }
-    }
+        patches.prepare(b);
+    });
 }
 
 template <class S>
 void ContactSet<S>::storePatches(Patches<S>& patches, const Tasks& tasks) {
-    patches.share(tasks);
     tasks.forEach(patches.blocks(), kBlockGrain, [&](std::size_t b) {
-        const PatchBlock<S>& block = patches.block(b);
+        patches.share(b);
         for (std::size_t lane = 0; lane < kLanes; ++lane)
             if (const std::uint32_t source = patches.sourceAt(b, lane); source != Patches<S>::kNobody)
-                storePatch(block, lane, contacts_[source]);
+                readLane(patches.block(b), patches.rest(b), lane, contacts_[source]);
     });
-}
-
-template <class S>
-void ContactSet<S>::storePatch(const PatchBlock<S>& block, std::size_t lane, Contact<S>& contact) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
-        const PatchPoint<S>& from = block.point[i];
-        typename Contact<S>::Point& point = contact.points[i];
-        point.normalImpulse = from.impulse[lane];
-        point.normalTotal = from.total[lane];
-        point.frictionImpulse = takeVector<S>(from.rub, lane);
-        point.frictionTotal = takeVector<S>(from.rubTotal, lane);
-    }
 }
 
 #define RIGOR_INSTANTIATE(S)                                                                          \

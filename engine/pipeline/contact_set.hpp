@@ -28,8 +28,6 @@ namespace rigor::engine {
 
 template <class S>
 class Patches;  // solvers/wide/patches.hpp
-template <class S>
-struct PatchBlock;  // solvers/wide/patch.hpp
 
 /// What making contact rows needs to know of a step.
 template <class S>
@@ -195,9 +193,6 @@ class ContactSet {
                           std::size_t index);
     static void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step,
                               const Contact<S>& contact, std::size_t index, Block<S>& block, Row<S>* rows);
-    static void fillPatch(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
-                          PatchBlock<S>& block, std::size_t lane);
-    static void storePatch(const PatchBlock<S>& block, std::size_t lane, Contact<S>& contact);
     static void pushApart(const ContactStep<S>& step, const Block<S>& block, Real s, Row<S>& normal);
 
     std::vector<ShapeRecord<S>> shapes_;

@@ -337,7 +337,7 @@ PatchPass<typename S::Real> World<S>::patchPass() const {
 template <class S>
 void World<S>::finishPatches(bool lastSubstep) {
     Patches<S>& patches = *solver_->patches();
-    if (!lastSubstep) return patches.advance(motion_.used(), cursor_.substepSize);
+    if (!lastSubstep) return patches.advance(motion_.used(), cursor_.substepSize, tasks_);
     contacts_.storePatches(patches, tasks_);
 }
 

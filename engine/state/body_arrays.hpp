@@ -17,11 +17,28 @@ namespace rigor::engine {
 
 enum class BodyType : std::uint8_t { Static, Kinematic, Dynamic };
 
-/// Velocity of the centre of mass [m/s] and angular velocity [rad/s], world frame.
+/// Velocity of the centre of mass [m/s] and angular velocity [rad/s], world frame. In memory groups of four
+/// numbers, the gaps 0, that SIMD takes as they are: (v, gap), (w, gap) in space, (v, w, gap) in the plane.
 template <class S>
-struct Velocity {
+struct Velocity;
+template <class R>
+struct alignas(4 * sizeof(R)) Velocity<Space<R, 3>> {
+    using S = Space<R, 3>;
+    Velocity() = default;
+    Velocity(const typename S::Vec& linear, const typename S::Ang& angular) : v(linear), w(angular) {}
+    typename S::Vec v = S::Vec::Zero();
+    R gapV = 0;
+    typename S::Ang w = zeroAng<S>();
+    R gapW = 0;
+};
+template <class R>
+struct alignas(4 * sizeof(R)) Velocity<Space<R, 2>> {
+    using S = Space<R, 2>;
+    Velocity() = default;
+    Velocity(const typename S::Vec& linear, const typename S::Ang& angular) : v(linear), w(angular) {}
     typename S::Vec v = S::Vec::Zero();
     typename S::Ang w = zeroAng<S>();
+    R gap = 0;
 };
 
 /// Force [N] at the centre of mass and torque [N m], world frame.

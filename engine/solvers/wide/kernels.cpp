@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "engine/solvers/wide/prepare-inl.hpp"
+#include "engine/solvers/wide/share-inl.hpp"
 #include "engine/solvers/wide/solve-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "engine/solvers/wide/patch.hpp"
+#include "engine/state/body_arrays.hpp"
 
 namespace rigor::engine {
 
@@ -14,8 +15,11 @@ namespace rigor::engine {
 template <class S>
 struct PatchRange {
     PatchBlock<S>* blocks;
+    PatchRest<S>* rests;
     std::size_t count;
-    PatchBody<S>* bodies;
+    Velocity<S>* velocities;
+    /// Translations [m] and rotation vectors [rad] since the step began.
+    const Velocity<S>* motions;
 };
 
 /// From normals, arms and the impulses of the last step to rows. Bodies have the velocities of the start of

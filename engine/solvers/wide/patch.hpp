@@ -8,6 +8,9 @@
 //     normal i   J v = n . (vB - vA) + (rB_i x n) . wB - (rA_i x n) . wA
 //     tangent k  the same with t_k at the centre
 //     twist      n . (wB - wA)
+// The two bodies' arms of a point differ by the vector between their centres, c = xB - xA, so that with
+// w = wB - wA a normal row is  n . (vB - vA) - (c x n) . wA + (rB_i x n) . w:  what a visit reads of a point is
+// three numbers of its arm, and what the points do to each other (K).
 // Numbers of a block are stored lane by lane (structure of arrays), so that a SIMD register takes the same
 // number of several patches. No two patches of a block move the same body (colouring.hpp).
 #pragma once
@@ -34,60 +37,70 @@ struct PatchSize {
     static constexpr int points = S::maxManifoldPoints;
     static constexpr int tangents = S::tangents;
     static constexpr int inertia = S::dim == 3 ? 6 : 1;  ///< of a symmetric inertia: xx xy xz yy yz zz
+    static constexpr int pairs = points * (points + 1) / 2;
 };
-
-/// The geometry of a row but for its direction: arms times direction, and world inverse inertia times that.
-template <class S>
-struct PatchRow {
-    using Real = typename S::Real;
-    Lanes<Real> jA[PatchSize<S>::ang], jB[PatchSize<S>::ang];
-    Lanes<Real> iA[PatchSize<S>::ang], iB[PatchSize<S>::ang];
-};
+/// Where the symmetric matrix of `points` points keeps its element (i, k).
+constexpr int pairAt(int i, int k) {
+    return i >= k ? i * (i + 1) / 2 + k : k * (k + 1) / 2 + i;
+}
 
 template <class S>
 struct PatchPoint {
     using Real = typename S::Real;
-    Lanes<Real> armA[PatchSize<S>::lin], armB[PatchSize<S>::lin];  ///< [m]
-    PatchRow<S> row;
-    /// The point's share of friction, world axes: to start from, then of the last sub-step and of all [N s].
-    Lanes<Real> rub[PatchSize<S>::lin], rubTotal[PatchSize<S>::lin];
+    Lanes<Real> jB[PatchSize<S>::ang];  ///< arm from B times the normal; A's is that plus offset x n
     Lanes<Real> invK;        ///< 0: no point in this lane; before it is prepared 1 where there is
     Lanes<Real> separation;  ///< where it was found [m]
-    Lanes<Real> rebound;     ///< where it hits: bias of the sub-step, < 0 [m/s]; read where block.bounces
-    Lanes<Real> open;        ///< 1: let through in this sub-step; likewise
-    Lanes<Real> radius;      ///< distance from the centre, in the tangent plane [m]
     Lanes<Real> impulse;     ///< of the sub-step [N s], >= 0
     Lanes<Real> total;       ///< of all sub-steps of the step [N s]
 };
 
+/// What only patches in space have.
 template <class S>
-struct alignas(64) PatchBlock {
+struct PatchTwist {
+    using Real = typename S::Real;
+    Lanes<Real> tangent[3];                    ///< the first; the second is n x that
+    Lanes<Real> radius[PatchSize<S>::points];  ///< of points from the centre, in the tangent plane [m]
+    Lanes<Real> twistImpulse, twistTotal;      ///< [N m s]
+};
+template <class R>
+struct PatchTwist<Space<R, 2>> {};
+
+/// What each visit reads.
+template <class S>
+struct alignas(64) PatchBlock : PatchTwist<S> {
     using Real = typename S::Real;
     std::uint32_t a[kLanes], b[kLanes];  ///< bodies; of empty lanes 0, the world
     std::uint32_t movesA, movesB;        ///< bit of each lane: the body takes impulses
     std::int32_t points;                 ///< most points of a lane
     std::uint32_t bounces;               ///< bit of each lane: has a restitution
     alignas(64) Lanes<Real> normal[PatchSize<S>::lin];
-    Lanes<Real> tangent[PatchSize<S>::tangents][PatchSize<S>::lin];
-    Lanes<Real> invMassA, invMassB;
-    Lanes<Real> friction, staticFriction, restitution;
-    PatchPoint<S> point[PatchSize<S>::points];
+    Lanes<Real> offset[PatchSize<S>::lin];  ///< from the centre of mass of A to that of B [m]
     Lanes<Real> centre[PatchSize<S>::lin];  ///< of pressure, from the centre of mass of B [m]
-    PatchRow<S> rub[PatchSize<S>::tangents];
-    Lanes<Real> rubInvK;  ///< 1 / the largest eigenvalue of K of friction
+    Lanes<Real> invMassA, invMassB;
+    Lanes<Real> invInertiaA[PatchSize<S>::inertia], invInertiaB[PatchSize<S>::inertia];
+    Lanes<Real> friction, staticFriction;
+    PatchPoint<S> point[PatchSize<S>::points];
+    Lanes<Real> K[PatchSize<S>::pairs];  ///< of the normal rows: what an impulse at k does at i (pairAt)
+    Lanes<Real> rubInvK;                 ///< 1 / the largest eigenvalue of K of friction
     Lanes<Real> rubImpulse[PatchSize<S>::tangents], rubTotal[PatchSize<S>::tangents];  ///< [N s]
-    Lanes<Real> twistA[PatchSize<S>::ang], twistB[PatchSize<S>::ang];  ///< 3D: inverse inertia times n
-    Lanes<Real> twistImpulse, twistTotal;                              ///< 3D [N m s]
 };
 
-/// A body as the kernels see it, in groups of four numbers that transpose into registers:
-///     3D  v, w, d, t of three numbers and a gap each;  2D  (v, w), (d, t)
-/// with d, t the translation [m] and rotation vector [rad] since the step began.
+/// What is read at the beginning and at the end of a step, and of points that bounce.
 template <class S>
-struct alignas(16 * sizeof(typename S::Real)) PatchBody {
-    static constexpr int groups = S::dim == 3 ? 4 : 2;
-    typename S::Real number[4 * groups];
+struct alignas(64) PatchRest {
+    using Real = typename S::Real;
+    struct Point {
+        Lanes<Real> armB[PatchSize<S>::lin];  ///< from the centre of mass of B [m]
+        /// The point's share of friction, world axes: to start from, then of the last sub-step and of all
+        /// [N s].
+        Lanes<Real> rub[PatchSize<S>::lin], rubTotal[PatchSize<S>::lin];
+        Lanes<Real> rebound;  ///< where it hits: bias of the sub-step, < 0 [m/s]; read where block.bounces
+        Lanes<Real> open;     ///< 1: let through in this sub-step; likewise
+    };
+    Point point[PatchSize<S>::points];
+    Lanes<Real> restitution;
 };
+
 /// World inverse inertia of a body, the upper triangle; 2D: one number.
 template <class S>
 struct alignas(4 * sizeof(typename S::Real)) PatchInertia {

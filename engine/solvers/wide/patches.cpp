@@ -3,40 +3,35 @@
 #include "engine/solvers/wide/patches.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
+#include <atomic>
+#include <type_traits>
 
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kBlockGrain = 8;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kBlockGrain = 8, kBodyGrain = 512;  ///< worth sharing: some microseconds of work
 
-/// Where the groups of a PatchBody hold velocity and motion, and in them the angular part.
-template <class S>
-constexpr int kMotion = 2 * PatchBody<S>::groups;
-template <class S>
-constexpr int kAngular = S::dim == 3 ? 4 : 2;
+/// The numbers of velocities [first, last), gaps and all.
+template <class V>
+auto numbers(V* velocities, std::size_t first, std::size_t last) {
+    using S = typename V::S;
+    using Real = std::conditional_t<std::is_const_v<V>, const typename S::Real, typename S::Real>;
+    using Array = Eigen::Array<typename S::Real, Eigen::Dynamic, 1>;
+    using Numbers = std::conditional_t<std::is_const_v<V>, const Array, Array>;
+    constexpr std::size_t each = sizeof(V) / sizeof(Real);
+    return Eigen::Map<Numbers, Eigen::Aligned16>(reinterpret_cast<Real*>(velocities + first),
+                                                 static_cast<Eigen::Index>((last - first) * each));
+}
 
-template <class S>
-void write(typename S::Real* numbers, const Velocity<S>& u) {
-    for (int k = 0; k < S::dim; ++k) numbers[k] = u.v[k];
-    if constexpr (S::dim == 3)
-        for (int k = 0; k < 3; ++k) numbers[kAngular<S> + k] = u.w[k];
-    else
-        numbers[kAngular<S>] = u.w;
+/// Raises `largest` to at least x.
+template <class R>
+void raise(std::atomic<R>& largest, R x) {
+    R seen = largest.load();
+    while (seen < x && !largest.compare_exchange_weak(seen, x)) {
+    }
 }
 
 }  // namespace
-
-template <class S>
-void Patches<S>::clearLane(std::size_t b, std::size_t lane) {
-    // Everything behind the head is lanes of numbers.
-    PatchBlock<S>& block = blocks_[b];
-    auto* lanes = reinterpret_cast<Real*>(&block) + offsetof(PatchBlock<S>, normal) / sizeof(Real);
-    const std::size_t count = (sizeof(block) - offsetof(PatchBlock<S>, normal)) / sizeof(Lanes<Real>);
-    for (std::size_t k = 0; k < count; ++k) lanes[k * kLanes + lane] = 0;
-    block.a[lane] = block.b[lane] = 0;
-}
 
 template <class S>
 std::size_t Patches<S>::points() const {
@@ -51,109 +46,84 @@ std::size_t Patches<S>::rows() const {
 }
 
 template <class S>
-void Patches<S>::place(std::size_t bodies) {
-    colouring_.colour(plans_, bodies, kLanes);
+void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
+    const std::size_t n = bodies.size();
+    colouring_.colour(plans_, n, kLanes);
     blocks_.resize(colouring_.blocks());
-    bodies_.resize(bodies);
-    inertia_.resize(bodies);
+    rests_.resize(colouring_.blocks());
     for (PatchBlock<S>& block : blocks_) block.movesA = block.movesB = block.bounces = 0, block.points = 0;
     occupant_.assign(blocks_.size() * kLanes, kNobody);
     for (std::size_t k = 0; k < plans_.size(); ++k) occupant_[colouring_.places()[k]] = sources_[k];
-}
-
-template <class S>
-void Patches<S>::prepare(const BodyArrays<S>& bodies, const Tasks& tasks) {
-    load(bodies.velocity);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        std::fill(bodies_[i].number + kMotion<S>, bodies_[i].number + 4 * PatchBody<S>::groups, Real(0));
+    inertia_.resize(n), motions_.resize(n), before_.resize(n), gained_.resize(n);
+    gainedHolds_ = false;
+    tasks.forEach(n, kBodyGrain, [&](std::size_t i) {
+        motions_[i] = {};
         Real* I = inertia_[i].number;
         const bool moves = bodies.invMass[i] > 0;
         if constexpr (S::dim == 3) {
-            int next = 0;
             for (int row = 0; row < 3; ++row)
                 for (int column = row; column < 3; ++column)
-                    I[next++] = moves ? bodies.invInertia[i](row, column) : Real(0);
+                    *I++ = moves ? bodies.invInertia[i](row, column) : Real(0);
         } else {
-            I[0] = moves ? bodies.invInertia[i] : Real(0);
+            *I = moves ? bodies.invInertia[i] : Real(0);
         }
-    }
-    tasks.forRanges(blocks_.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
-        preparePatches<S>({blocks_.data() + first, last - first, bodies_.data()}, inertia_.data());
     });
-}
-
-template <class S>
-void Patches<S>::load(std::span<const Velocity<S>> velocities) {
-    for (std::size_t i = 0; i < velocities.size(); ++i) write<S>(bodies_[i].number, velocities[i]);
-}
-
-template <class S>
-typename S::Real Patches<S>::unload(std::span<Velocity<S>> velocities) const {
-    Real change = 0;
-    for (std::size_t i = 0; i < velocities.size(); ++i) {
-        const Real* numbers = bodies_[i].number;
-        const auto take = [&change](Real& to, Real from) {
-            change = std::max(change, std::abs(from - to));
-            to = from;
-        };
-        for (int k = 0; k < S::dim; ++k) take(velocities[i].v[k], numbers[k]);
-        if constexpr (S::dim == 3)
-            for (int k = 0; k < 3; ++k) take(velocities[i].w[k], numbers[kAngular<S> + k]);
-        else
-            take(velocities[i].w, numbers[kAngular<S>]);
-    }
-    return change;
 }
 
 /// Colour by colour: work on a range of blocks.
 template <class S>
 template <class Work>
-void Patches<S>::forColours(const Tasks& tasks, const Work& work) {
+void Patches<S>::forColours(Velocity<S>* velocities, const Tasks& tasks, const Work& work) {
     const std::span<const Colouring::Range> ranges = colouring_.ranges();
     tasks.forStages(
         ranges.size(), kBlockGrain,
         [&](std::size_t c) -> std::size_t { return ranges[c].last - ranges[c].first; },
         [&](std::size_t c, std::size_t first, std::size_t last) {
-            work(PatchRange<S>{blocks_.data() + ranges[c].first + first, last - first, bodies_.data()});
+            work(range(ranges[c].first + first, ranges[c].first + last, velocities));
         });
 }
 
 template <class S>
 typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const PatchPass<Real>& pass,
                                    bool warmStart, const Tasks& tasks) {
-    load(velocities);
-    if (warmStart) forColours(tasks, [](const PatchRange<S>& range) { warmStartPatches<S>(range); });
-    forColours(tasks, [&pass](const PatchRange<S>& range) { solvePatches<S>(range, pass); });
-    return unload(velocities);
-}
-
-template <class S>
-void Patches<S>::advance(std::span<const Velocity<S>> used, Real h) {
-    for (std::size_t i = 0; i < used.size(); ++i) {
-        Real* motion = bodies_[i].number + kMotion<S>;
-        for (int k = 0; k < S::dim; ++k) motion[k] += h * used[i].v[k];
-        if constexpr (S::dim == 3)
-            for (int k = 0; k < 3; ++k) motion[kAngular<S> + k] += h * used[i].w[k];
+    Velocity<S>* const v = velocities.data();
+    const bool addGained = warmStart && gainedHolds_;
+    tasks.forRanges(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+        numbers(before_.data(), first, last) = numbers(v, first, last);
+        if (addGained) numbers(v, first, last) += numbers(gained_.data(), first, last);
+    });
+    if (warmStart && !addGained)
+        forColours(v, tasks, [](const PatchRange<S>& range) { warmStartPatches<S>(range); });
+    forColours(v, tasks, [&pass](const PatchRange<S>& range) { solvePatches<S>(range, pass); });
+    std::atomic<Real> change = 0;
+    tasks.forRanges(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+        auto gained = numbers(gained_.data(), first, last);
+        const auto made = numbers(v, first, last) - numbers(before_.data(), first, last);
+        raise(change, made.abs().maxCoeff());
+        if (warmStart)
+            gained = made;
         else
-            motion[kAngular<S>] += h * used[i].w;
-    }
+            gained += made;
+    });
+    gainedHolds_ = gainedHolds_ || warmStart;
+    return change;
 }
 
 template <class S>
-void Patches<S>::beginSubstep(std::span<const Velocity<S>> velocities, const PatchPass<Real>& pass,
-                              const Tasks& tasks) {
-    if (std::none_of(blocks_.begin(), blocks_.end(), [](const auto& block) { return block.bounces != 0; }))
-        return;
-    load(velocities);
-    tasks.forRanges(blocks_.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
-        planPatches<S>({blocks_.data() + first, last - first, bodies_.data()}, pass);
+void Patches<S>::advance(std::span<const Velocity<S>> used, Real h, const Tasks& tasks) {
+    tasks.forRanges(used.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+        numbers(motions_.data(), first, last) += h * numbers(used.data(), first, last);
     });
 }
 
 template <class S>
-void Patches<S>::share(const Tasks& tasks) {
+void Patches<S>::beginSubstep(std::span<Velocity<S>> velocities, const PatchPass<Real>& pass,
+                              const Tasks& tasks) {
+    if (std::none_of(blocks_.begin(), blocks_.end(), [](const auto& block) { return block.bounces != 0; }))
+        return;
+    gainedHolds_ = false;  // impulses may change
     tasks.forRanges(blocks_.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
-        sharePatches<S>({blocks_.data() + first, last - first, bodies_.data()});
+        planPatches<S>(range(first, last, velocities.data()), pass);
     });
 }
 

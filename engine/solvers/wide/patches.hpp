@@ -22,51 +22,59 @@ class Patches {
 
     static constexpr std::uint32_t kNobody = 0xffffffffu;
 
-    /// The patches of a step are planned, then placed in blocks, then filled in lane by lane; the head of
-    /// each block (moves, points, bounces) is zero at first.
+    /// The patches of a step are planned, then placed in blocks; then each block is filled in lane by lane,
+    /// also those of nobody, and prepared. The head of a block (moves, points, bounces) is zero at first.
     void clear() { plans_.clear(), sources_.clear(); }
     /// `source`: any number that tells the caller whose patch this is.
     void plan(const PatchPlan& plan, std::uint32_t source) {
         plans_.push_back(plan), sources_.push_back(source);
     }
-    void place(std::size_t bodies);
+    void place(const BodyArrays<S>& bodies, const Tasks& tasks);
     std::size_t blocks() const { return blocks_.size(); }
     PatchBlock<S>& block(std::size_t b) { return blocks_[b]; }
-    /// Whose patch stands there; kNobody's lanes are to be cleared.
+    PatchRest<S>& rest(std::size_t b) { return rests_[b]; }
+    /// Whose patch stands there; kNobody's lanes are filled with zeros.
     std::uint32_t sourceAt(std::size_t b, std::size_t lane) const { return occupant_[b * kLanes + lane]; }
-    void clearLane(std::size_t b, std::size_t lane);
+    /// Rows from what has been filled in.
+    void prepare(std::size_t b) { preparePatches<S>(range(b, b + 1), inertia_.data()); }
+
     std::size_t size() const { return plans_.size(); }
     /// Points of all patches, and the rows they have: one for each point, and those of friction.
     std::size_t points() const;
     std::size_t rows() const;
     bool empty() const { return size() == 0; }
 
-    /// Rows from what has been filled in, with the bodies at the start of the step.
-    void prepare(const BodyArrays<S>& bodies, const Tasks& tasks);
     /// Begins a sub-step, before forces: which points bounce in it.
-    void beginSubstep(std::span<const Velocity<S>> velocities, const PatchPass<Real>& pass,
-                      const Tasks& tasks);
+    void beginSubstep(std::span<Velocity<S>> velocities, const PatchPass<Real>& pass, const Tasks& tasks);
     /// One visit of every patch. `warmStart`: applies their impulses first. Returns the largest change of a
     /// velocity [m/s or rad/s].
     Real visit(std::span<Velocity<S>> velocities, const PatchPass<Real>& pass, bool warmStart,
                const Tasks& tasks);
     /// Bodies have moved for h [s] with these velocities.
-    void advance(std::span<const Velocity<S>> used, Real h);
-    /// Friction of the points, before it is read.
-    void share(const Tasks& tasks);
+    void advance(std::span<const Velocity<S>> used, Real h, const Tasks& tasks);
+    /// Friction of the points of a block, before it is read.
+    void share(std::size_t b) { sharePatches<S>(range(b, b + 1)); }
 
   private:
-    void load(std::span<const Velocity<S>> velocities);
-    Real unload(std::span<Velocity<S>> velocities) const;
+    PatchRange<S> range(std::size_t first, std::size_t last, Velocity<S>* velocities = nullptr) {
+        return {blocks_.data() + first, rests_.data() + first, last - first, velocities, motions_.data()};
+    }
     template <class Work>
-    void forColours(const Tasks& tasks, const Work& work);
+    void forColours(Velocity<S>* velocities, const Tasks& tasks, const Work& work);
 
     std::vector<PatchPlan> plans_;
     std::vector<std::uint32_t> sources_, occupant_;
     Colouring colouring_;
     std::vector<PatchBlock<S>> blocks_;
-    std::vector<PatchBody<S>> bodies_;
+    std::vector<PatchRest<S>> rests_;
+    // --- by body
     std::vector<PatchInertia<S>> inertia_;
+    std::vector<Velocity<S>> motions_;
+    std::vector<Velocity<S>> before_;  ///< velocities before a visit
+    /// What the impulses that patches have now have made of the velocities, in all visits of a sub-step: rows
+    /// stay as they are during a step, so that to apply those impulses again is to add this.
+    std::vector<Velocity<S>> gained_;
+    bool gainedHolds_ = false;
 };
 
 }  // namespace rigor::engine

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Rows of patches from what the narrow phase has found, and friction shared out among their points.
+// Rows of patches from what the narrow phase has found.
 //
 // The centre of a patch is that of its pressure, as far as the last step knows it: the mean of its points
 // weighted by their impulses. Friction there has the moment that friction at the points would have.
@@ -18,69 +18,63 @@
 HWY_BEFORE_NAMESPACE();
 namespace rigor::engine::HWY_NAMESPACE {
 
-/// A symmetric inertia, or a number in 2D.
+/// A unit tangent of n in space: the first of contact_rows.cpp.
 template <class S>
-struct InertiaLanes {
-    std::array<Num<S>, PatchSize<S>::inertia> m;
-
-    HWY_INLINE InertiaLanes(const PatchInertia<S>* inertia, const std::uint32_t* index) {
-        using Real = typename S::Real;
-        const auto at = [&](int group) {
-            return [=](std::size_t lane) {
-                return static_cast<const Real*>(inertia[index[lane]].number + 4 * group);
-            };
-        };
-        const auto q = gatherQuads(Tag<S>(), at(0));
-        if constexpr (S::dim == 2) {
-            m = {q.x};
-        } else {
-            const auto r = gatherQuads(Tag<S>(), at(1));
-            m = {q.x, q.y, q.z, q.w, r.x, r.y};
-        }
-    }
-    HWY_INLINE AngVec<S> operator*(const AngVec<S>& v) const {
-        if constexpr (S::dim == 2)
-            return {m[0] * v[0]};
-        else
-            return {m[0] * v[0] + m[1] * v[1] + m[2] * v[2], m[1] * v[0] + m[3] * v[1] + m[4] * v[2],
-                    m[2] * v[0] + m[4] * v[1] + m[5] * v[2]};
-    }
-};
-
-/// Unit tangents that with n form a right-handed frame: those of contact_rows.cpp.
-template <class S>
-HWY_INLINE std::array<LinVec<S>, PatchSize<S>::tangents> tangents(const LinVec<S>& n) {
-    if constexpr (S::dim == 2) {
-        return {LinVec<S>{hn::Zero(Tag<S>()) - n[1], n[0]}};
-    } else {
-        // x cross n or y cross n, whichever is longer.
-        const Num<S> zero = hn::Zero(Tag<S>());
-        const auto useX = hn::Abs(n[0]) < number<S>(typename S::Real(0.7));
-        LinVec<S> t{hn::IfThenElse(useX, zero, n[2]), hn::IfThenElse(useX, zero - n[2], zero),
-                    hn::IfThenElse(useX, n[1], zero - n[0])};
-        const Num<S> length2 = dot(t, t);
-        const Num<S> scale = number<S>(1) / hn::Sqrt(hn::IfThenElse(length2 > zero, length2, number<S>(1)));
-        for (auto& x : t) x = x * scale;
-        return {t, moment(n, t)};
-    }
+HWY_INLINE LinVec<S> firstTangent(const LinVec<S>& n) {
+    // x cross n or y cross n, whichever is longer.
+    const Num<S> zero = hn::Zero(Tag<S>());
+    const auto useX = hn::Abs(n[0]) < number<S>(typename S::Real(0.7));
+    LinVec<S> t{hn::IfThenElse(useX, zero, n[2]), hn::IfThenElse(useX, zero - n[2], zero),
+                hn::IfThenElse(useX, n[1], zero - n[0])};
+    const Num<S> length2 = dot(t, t);
+    const Num<S> scale = number<S>(1) / hn::Sqrt(hn::IfThenElse(length2 > zero, length2, number<S>(1)));
+    for (auto& x : t) x = x * scale;
+    return t;
 }
 
+/// Reads inertia, and makes of what a block has been filled with the rest.
 template <class S>
 struct Preparation {
     using Real = typename S::Real;
     PatchBlock<S>& block;
+    PatchRest<S>& rest;
     At<S> at;
-    InertiaLanes<S> inertiaA, inertiaB;
+    std::array<Num<S>, PatchSize<S>::inertia> inertiaA, inertiaB;
     Num<S> mass;
-    LinVec<S> normal;
+    LinVec<S> normal, offset;
 
-    /// Angular parts of a row with the given arms and direction; returns K.
-    HWY_INLINE Num<S> makeRow(const LinVec<S>& armA, const LinVec<S>& armB, const LinVec<S>& direction,
-                              PatchRow<S>& row) const {
-        const AngVec<S> jA = moment(armA, direction), jB = moment(armB, direction);
-        const AngVec<S> iA = inertiaA * jA, iB = inertiaB * jB;
-        at.set(row.jA, jA), at.set(row.jB, jB), at.set(row.iA, iA), at.set(row.iB, iB);
-        return mass + dot(jA, iA) + dot(jB, iB);
+    HWY_INLINE Preparation(const PatchRange<S>& range, const PatchInertia<S>* inertia, std::size_t k,
+                           std::size_t first)
+        : block(range.blocks[k]),
+          rest(range.rests[k]),
+          at{first},
+          inertiaA(inertiaOf(inertia, block.a + first)),
+          inertiaB(inertiaOf(inertia, block.b + first)),
+          mass(at(block.invMassA) + at(block.invMassB)),
+          normal(at(block.normal)),
+          offset(at(block.offset)) {
+        at.set(block.invInertiaA, inertiaA), at.set(block.invInertiaB, inertiaB);
+    }
+    static HWY_INLINE std::array<Num<S>, PatchSize<S>::inertia> inertiaOf(const PatchInertia<S>* inertia,
+                                                                         const std::uint32_t* index) {
+        const auto group = [&](int g) {
+            return [=](std::size_t lane) {
+                return static_cast<const Real*>(inertia[index[lane]].number + 4 * g);
+            };
+        };
+        const auto q = gatherQuads(Tag<S>(), group(0));
+        if constexpr (S::dim == 2) {
+            return {q.x};
+        } else {
+            const auto r = gatherQuads(Tag<S>(), group(1));
+            return {q.x, q.y, q.z, q.w, r.x, r.y};
+        }
+    }
+    /// jA of a row with that jB in the direction d.
+    HWY_INLINE AngVec<S> sideA(const AngVec<S>& jB, const LinVec<S>& d) const {
+        AngVec<S> jA = jB;
+        add(jA, number<S>(1), moment(offset, d));
+        return jA;
     }
 
     HWY_INLINE void normals() const {
@@ -88,72 +82,85 @@ struct Preparation {
         for (int i = 0; i < block.points; ++i) {
             PatchPoint<S>& point = block.point[i];
             const auto there = at(point.invK) > zero;
-            const Num<S> K = makeRow(at(point.armA), at(point.armB), normal, point.row);
-            at.set(point.invK, hn::IfThenElseZero(there, inverseOrZero(K)));
+            const AngVec<S> jB = moment(at(rest.point[i].armB), normal), jA = sideA(jB, normal);
+            const AngVec<S> iA = times(inertiaA, jA), iB = times(inertiaB, jB);
+            at.set(point.jB, jB);
+            for (int k = 0; k <= i; ++k) {
+                const AngVec<S> other = at(block.point[k].jB);
+                at.set(block.K[pairAt(i, k)], mass + dot(sideA(other, normal), iA) + dot(other, iB));
+            }
+            const Num<S> own = at(block.K[pairAt(i, i)]);
+            at.set(point.invK, hn::IfThenElseZero(there, inverseOrZero(own)));
             at.set(point.total, zero);
         }
     }
 
-    /// The mean of the points, weighted by their impulses where there are some.
-    HWY_INLINE void findCentre(LinVec<S>& centreA, LinVec<S>& centreB) const {
+    /// From B's centre: the mean of the points, weighted by their impulses where there are some.
+    HWY_INLINE LinVec<S> findCentre() const {
         const Num<S> zero = hn::Zero(Tag<S>()), one = number<S>(1);
         Num<S> pressure = zero;
         for (int i = 0; i < block.points; ++i) pressure = pressure + at(block.point[i].impulse);
         const auto pressed = invertible(pressure);
         Num<S> sum = zero;
-        for (auto& x : centreA) x = zero;
-        centreB = centreA;
+        LinVec<S> centre;
+        for (auto& x : centre) x = zero;
         for (int i = 0; i < block.points; ++i) {
             const PatchPoint<S>& point = block.point[i];
             const Num<S> there = hn::IfThenElseZero(at(point.invK) > zero, one);
             const Num<S> weight = hn::IfThenElse(pressed, at(point.impulse), there);
-            add(centreA, weight, at(point.armA));
-            add(centreB, weight, at(point.armB));
+            add(centre, weight, at(rest.point[i].armB));
             sum = sum + weight;
         }
         const Num<S> scale = inverseOrZero(sum);
-        for (auto& x : centreA) x = x * scale;
-        for (auto& x : centreB) x = x * scale;
-        at.set(block.centre, centreB);
+        for (auto& x : centre) x = x * scale;
+        return centre;
+    }
+
+    /// K between two directions of friction at the centre.
+    HWY_INLINE Num<S> rubK(const LinVec<S>& centre, const LinVec<S>& s, const LinVec<S>& t) const {
+        const AngVec<S> sB = moment(centre, s), tB = moment(centre, t);
+        return mass * dot(s, t) + dot(sideA(sB, s), times(inertiaA, sideA(tB, t))) +
+               dot(sB, times(inertiaB, tB));
     }
 
     HWY_INLINE void friction() const {
         const Num<S> zero = hn::Zero(Tag<S>());
-        LinVec<S> centreA, centreB;
-        findCentre(centreA, centreB);
-        const auto t = tangents<S>(normal);
-        LinVec<S> force{zero, zero};
-        Num<S> twist = zero, widest = zero;
-        if constexpr (S::dim == 3) force[2] = zero;
+        const LinVec<S> centre = findCentre();
+        at.set(block.centre, centre);
+        LinVec<S> force;
+        for (auto& x : force) x = zero;
+        for (int i = 0; i < block.points; ++i) add(force, number<S>(1), at(rest.point[i].rub));
+        for (auto& total : block.rubTotal) at.set(total, zero);
+        if constexpr (S::dim == 2) {
+            const LinVec<S> t{zero - normal[1], normal[0]};
+            at.set(block.rubImpulse[0], dot(force, t));
+            at.set(block.rubInvK, inverseOrZero(rubK(centre, t, t)));
+        } else {
+            const LinVec<S> t = firstTangent<S>(normal), u = moment(normal, t);
+            at.set(block.tangent, t);
+            at.set(block.rubImpulse[0], dot(force, t)), at.set(block.rubImpulse[1], dot(force, u));
+            const Num<S> tt = rubK(centre, t, t), uu = rubK(centre, u, u), tu = rubK(centre, t, u);
+            const Num<S> half = number<S>(Real(0.5)), difference = half * (tt - uu);
+            Num<S> largest = half * (tt + uu) + hn::Sqrt(difference * difference + tu * tu);
+            largest = hn::Max(largest, twist(centre));
+            at.set(block.rubInvK, inverseOrZero(largest));
+        }
+    }
+
+    /// The impulse to start from and the radii; returns K of the twist, scaled like that of a force.
+    HWY_INLINE Num<S> twist(const LinVec<S>& centre) const {
+        const Num<S> zero = hn::Zero(Tag<S>());
+        Num<S> impulse = zero, widest = zero;
         for (int i = 0; i < block.points; ++i) {
-            PatchPoint<S>& point = block.point[i];
-            const LinVec<S> rub = at(point.rub), arm = minus(at(point.armB), centreB);
-            add(force, number<S>(1), rub);
-            const Num<S> radius = hn::IfThenElseZero(at(point.invK) > zero, hn::Sqrt(dot(arm, arm)));
-            at.set(point.radius, radius);
+            const LinVec<S> arm = minus(at(rest.point[i].armB), centre);
+            const Num<S> radius =
+                hn::IfThenElseZero(at(block.point[i].invK) > zero, hn::Sqrt(dot(arm, arm)));
+            at.set(block.radius[i], radius);
             widest = hn::Max(widest, radius);
-            if constexpr (S::dim == 3) twist = twist + dot(normal, moment(arm, rub));
+            impulse = impulse + dot(normal, moment(arm, at(rest.point[i].rub)));
         }
-        constexpr std::size_t last = PatchSize<S>::tangents - 1;
-        std::array<Num<S>, last + 1> K;
-        for (std::size_t k = 0; k <= last; ++k) {
-            at.set(block.tangent[k], t[k]);
-            K[k] = makeRow(centreA, centreB, t[k], block.rub[k]);
-            at.set(block.rubImpulse[k], dot(force, t[k]));
-            at.set(block.rubTotal[k], zero);
-        }
-        Num<S> largest = K[0];
-        if constexpr (S::dim == 3) {
-            const Num<S> K12 = mass * dot(t[0], t[1]) + dot(at(block.rub[0].jA), at(block.rub[1].iA)) +
-                               dot(at(block.rub[0].jB), at(block.rub[1].iB));
-            const Num<S> half = number<S>(Real(0.5)), difference = half * (K[0] - K[1]);
-            largest = half * (K[0] + K[1]) + hn::Sqrt(difference * difference + K12 * K12);
-            const AngVec<S> twistA = inertiaA * normal, twistB = inertiaB * normal;
-            at.set(block.twistA, twistA), at.set(block.twistB, twistB);
-            largest = hn::Max(largest, widest * widest * (dot(normal, twistA) + dot(normal, twistB)));
-            at.set(block.twistImpulse, twist), at.set(block.twistTotal, zero);
-        }
-        at.set(block.rubInvK, inverseOrZero(largest));
+        at.set(block.twistImpulse, impulse), at.set(block.twistTotal, zero);
+        return widest * widest * (dot(normal, times(inertiaA, normal)) + dot(normal, times(inertiaB, normal)));
     }
 };
 
@@ -162,79 +169,9 @@ void prepareAll(const PatchRange<S>& range, const PatchInertia<S>* inertia) {
     const std::size_t lanes = hn::Lanes(Tag<S>());
     for (std::size_t k = 0; k < range.count; ++k)
         for (std::size_t first = 0; first < kLanes; first += lanes) {
-            PatchBlock<S>& block = range.blocks[k];
-            const At<S> at{first};
-            const Preparation<S> preparation{block,
-                                             at,
-                                             {inertia, block.a + first},
-                                             {inertia, block.b + first},
-                                             at(block.invMassA) + at(block.invMassB),
-                                             at(block.normal)};
+            const Preparation<S> preparation(range, inertia, k, first);
             preparation.normals();
             preparation.friction();
-        }
-}
-
-/// Shares a force and a moment about the normal out among the points, by their normal impulses.
-template <class S, class Weight, class Write>
-HWY_INLINE void share(const PatchBlock<S>& block, At<S> at, const LinVec<S>& force, Num<S> twist,
-                      const Weight& weightOf, const Write& write) {
-    const Num<S> zero = hn::Zero(Tag<S>());
-    Num<S> sum = zero;
-    for (int i = 0; i < block.points; ++i) sum = sum + weightOf(block.point[i]);
-    const Num<S> scale = inverseOrZero(sum);
-    if constexpr (S::dim == 2) {
-        for (int i = 0; i < block.points; ++i) {
-            const Num<S> part = weightOf(block.point[i]) * scale;
-            write(i, LinVec<S>{part * force[0], part * force[1]});
-        }
-        (void)twist;
-    } else {
-        LinVec<S> mean{zero, zero, zero};
-        for (int i = 0; i < block.points; ++i)
-            add(mean, weightOf(block.point[i]) * scale, at(block.point[i].armB));
-        const LinVec<S> normal = at(block.normal);
-        const Num<S> rest = twist - dot(normal, moment(minus(mean, at(block.centre)), force));
-        Num<S> spread = zero, size = zero;
-        for (int i = 0; i < block.points; ++i) {
-            const LinVec<S> side = moment(normal, minus(at(block.point[i].armB), mean));
-            spread = spread + weightOf(block.point[i]) * scale * dot(side, side);
-            size = hn::Max(size, dot(at(block.point[i].armB), at(block.point[i].armB)));
-        }
-        // Points that rounding alone has parted carry no moment.
-        const auto apart = spread > number<S>(typename S::Real(1e-6)) * size;
-        const Num<S> turn = hn::IfThenElseZero(apart, rest * inverseOrZero(spread));
-        for (int i = 0; i < block.points; ++i) {
-            const Num<S> part = weightOf(block.point[i]) * scale;
-            LinVec<S> own = moment(normal, minus(at(block.point[i].armB), mean));
-            for (std::size_t k = 0; k < 3; ++k) own[k] = part * (force[k] + turn * own[k]);
-            write(i, own);
-        }
-    }
-}
-
-template <class S>
-void shareAll(const PatchRange<S>& range) {
-    const std::size_t lanes = hn::Lanes(Tag<S>());
-    for (std::size_t k = 0; k < range.count; ++k)
-        for (std::size_t first = 0; first < kLanes; first += lanes) {
-            PatchBlock<S>& block = range.blocks[k];
-            const At<S> at{first};
-            const auto force = [&](const auto& impulses) {
-                LinVec<S> sum;
-                for (auto& x : sum) x = hn::Zero(Tag<S>());
-                for (int t = 0; t < PatchSize<S>::tangents; ++t)
-                    add(sum, at(impulses[t]), at(block.tangent[t]));
-                return sum;
-            };
-            Num<S> twist = hn::Zero(Tag<S>()), twistTotal = twist;
-            if constexpr (S::dim == 3) twist = at(block.twistImpulse), twistTotal = at(block.twistTotal);
-            share<S>(
-                block, at, force(block.rubImpulse), twist, [&](const auto& p) { return at(p.impulse); },
-                [&](int i, const LinVec<S>& f) { at.set(block.point[i].rub, f); });
-            share<S>(
-                block, at, force(block.rubTotal), twistTotal, [&](const auto& p) { return at(p.total); },
-                [&](int i, const LinVec<S>& f) { at.set(block.point[i].rubTotal, f); });
         }
 }
 

@@ -21,6 +21,8 @@
 #define RIGOR_SOLVE_INL_HPP
 #endif
 
+#include <utility>
+
 #include "engine/solvers/wide/kernels.hpp"
 #include "engine/solvers/wide/vectors-inl.hpp"
 
@@ -30,34 +32,84 @@ namespace rigor::engine::HWY_NAMESPACE {
 /// Lanes of a block while they are worked on: the velocities of both sides, and what rows read of the block.
 template <class S>
 struct PatchGroup {
+    using Real = typename S::Real;
     PatchBlock<S>& block;
+    PatchRest<S>& rest;
     At<S> at;
+    const Velocity<S>* motions;
     Side<S> sideA, sideB;
     Twist<S> a, b;
-    LinVec<S> normal;
+    LinVec<S> normal, offset;
     Num<S> massA, massB;
+    std::array<Num<S>, PatchSize<S>::inertia> inertiaA, inertiaB;  ///< inverse
 
-    HWY_INLINE PatchGroup(const PatchRange<S>& range, PatchBlock<S>& of, std::size_t first)
-        : block(of),
+    HWY_INLINE PatchGroup(const PatchRange<S>& range, std::size_t k, std::size_t first)
+        : block(range.blocks[k]),
+          rest(range.rests[k]),
           at{first},
-          sideA{range.bodies, of.a + first, of.movesA >> first},
-          sideB{range.bodies, of.b + first, of.movesB >> first},
-          a(sideA.velocity()),
-          b(sideB.velocity()),
-          normal(at(of.normal)),
-          massA(at(of.invMassA)),
-          massB(at(of.invMassB)) {}
-    HWY_INLINE void store() const { sideA.store(a), sideB.store(b); }
-    /// An impulse along a direction, of a row's angular part.
-    HWY_INLINE void push(Num<S> lambda, const LinVec<S>& direction, const PatchRow<S>& row) {
-        subtract(a.v, lambda * massA, direction);
-        add(b.v, lambda * massB, direction);
-        turn(lambda, row);
+          motions(range.motions),
+          sideA{block.a + first, block.movesA >> first},
+          sideB{block.b + first, block.movesB >> first},
+          a(sideA.load(range.velocities)),
+          b(sideB.load(range.velocities)),
+          normal(at(block.normal)),
+          offset(at(block.offset)),
+          massA(at(block.invMassA)),
+          massB(at(block.invMassB)),
+          inertiaA(at(block.invInertiaA)),
+          inertiaB(at(block.invInertiaB)) {}
+    HWY_INLINE void store(Velocity<S>* velocities) const {
+        sideA.store(a, velocities), sideB.store(b, velocities);
     }
-    HWY_INLINE void turn(Num<S> lambda, const PatchRow<S>& row) {
-        subtract(a.w, lambda, at(row.iA));
-        add(b.w, lambda, at(row.iB));
+    HWY_INLINE AngVec<S> jB(int i) const { return at(block.point[i].jB); }
+    /// Angular impulses, about the centres of mass, on B and against that on A.
+    HWY_INLINE void turn(const AngVec<S>& onA, const AngVec<S>& onB) {
+        a.w = minus(a.w, times(inertiaA, onA));
+        add(b.w, number<S>(1), times(inertiaB, onB));
     }
+    /// Of normal rows with the impulses lambda: `sum` of them, and `spin` = sum lambda_i jB_i.
+    HWY_INLINE void press(Num<S> sum, const AngVec<S>& spin) {
+        subtract(a.v, sum * massA, normal);
+        add(b.v, sum * massB, normal);
+        AngVec<S> onA = spin;
+        add(onA, sum, moment(offset, normal));
+        turn(onA, spin);
+    }
+    /// A force's impulse at the centre of the patch, and in 3D one about the normal.
+    HWY_INLINE void rub(const LinVec<S>& impulse, [[maybe_unused]] Num<S> twist) {
+        subtract(a.v, massA, impulse);
+        add(b.v, massB, impulse);
+        AngVec<S> onB = moment(at(block.centre), impulse);
+        if constexpr (S::dim == 3) add(onB, twist, normal);
+        AngVec<S> onA = onB;
+        add(onA, number<S>(1), moment(offset, impulse));
+        turn(onA, onB);
+    }
+    HWY_INLINE std::array<LinVec<S>, PatchSize<S>::tangents> tangents() const {
+        if constexpr (S::dim == 2) {
+            return {LinVec<S>{hn::Zero(Tag<S>()) - normal[1], normal[0]}};
+        } else {
+            const LinVec<S> t = at(block.tangent);
+            return {t, moment(normal, t)};
+        }
+    }
+    HWY_INLINE LinVec<S> alongTangents(const std::array<Num<S>, PatchSize<S>::tangents>& x) const {
+        const auto t = tangents();
+        LinVec<S> sum;
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] = x[0] * t[0][k];
+        for (std::size_t k = 1; k < x.size(); ++k) add(sum, x[k], t[k]);
+        return sum;
+    }
+};
+
+/// What the bodies' motion, or velocities, are along the normals: base + jB_i . w at point i.
+template <class S>
+struct Along {
+    Num<S> base;
+    AngVec<S> w;
+    HWY_INLINE Along(const PatchGroup<S>& p, const Twist<S>& a, const Twist<S>& b)
+        : base(dot(p.normal, minus(b.v, a.v)) - dot(moment(p.offset, p.normal), a.w)), w(minus(b.w, a.w)) {}
+    HWY_INLINE Num<S> operator()(const AngVec<S>& jB) const { return base + dot(jB, w); }
 };
 
 /// Calls visit(patches) for every register's worth of lanes, and stores their velocities.
@@ -66,9 +118,9 @@ HWY_INLINE void forPatches(const PatchRange<S>& range, const Visit& visit) {
     const std::size_t lanes = hn::Lanes(Tag<S>());
     for (std::size_t k = 0; k < range.count; ++k)
         for (std::size_t first = 0; first < kLanes; first += lanes) {
-            PatchGroup<S> patches(range, range.blocks[k], first);
+            PatchGroup<S> patches(range, k, first);
             visit(patches);
-            patches.store();
+            patches.store(range.velocities);
         }
 }
 
@@ -76,20 +128,17 @@ template <class S>
 HWY_INLINE void warmStart(PatchGroup<S>& p) {
     PatchBlock<S>& block = p.block;
     Num<S> sum = hn::Zero(Tag<S>());
+    AngVec<S> spin;
+    for (auto& x : spin) x = sum;
     for (int i = 0; i < block.points; ++i) {
         const Num<S> lambda = p.at(block.point[i].impulse);
         sum = sum + lambda;
-        p.turn(lambda, block.point[i].row);
+        add(spin, lambda, p.jB(i));
     }
-    subtract(p.a.v, sum * p.massA, p.normal);
-    add(p.b.v, sum * p.massB, p.normal);
-    for (int k = 0; k < PatchSize<S>::tangents; ++k)
-        p.push(p.at(block.rubImpulse[k]), p.at(block.tangent[k]), block.rub[k]);
-    if constexpr (S::dim == 3) {
-        const Num<S> twist = p.at(block.twistImpulse);
-        subtract(p.a.w, twist, p.at(block.twistA));
-        add(p.b.w, twist, p.at(block.twistB));
-    }
+    p.press(sum, spin);
+    Num<S> twist = hn::Zero(Tag<S>());
+    if constexpr (S::dim == 3) twist = p.at(block.twistImpulse);
+    p.rub(p.alongTangents(p.at(block.rubImpulse)), twist);
 }
 
 /// What friction may lean on.
@@ -99,55 +148,99 @@ struct Pressed {
     Num<S> moment;  ///< of them times their distances from the centre
 };
 
-/// All normal rows. The points of a patch are swept forwards and back: a body that the first corner turns is
-/// turned back by the others before its neighbours see it. One sweep alone makes tall stacks rock.
+/// A normal row of this visit:  lambda := max(0, lambda - factor (J v + bias) - leak lambda).
 template <class S>
-HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S::Real>& pass) {
-    const Tag<S> d;
-    PatchBlock<S>& block = p.block;
-    const Num<S> zero = hn::Zero(d), one = number<S>(1), invH = number<S>(pass.invH);
-    const Twist<S> movedA = p.sideA.motion(), movedB = p.sideB.motion();
-    const Num<S> moved = dot(p.normal, minus(movedB.v, movedA.v));
-    const Num<S> mass = p.massA + p.massB;
-    const Num<S> alpha = pass.soft ? number<S>(pass.massScale) : one;
-    const Num<S> gamma = pass.soft ? number<S>(pass.impulseScale) : zero;
-    const Num<S> beta = pass.soft ? number<S>(pass.biasRate) : zero;
-    const Num<S> slop = number<S>(pass.slop), fastest = number<S>(-pass.fastestPush);
-    Num<S> speed = dot(p.normal, minus(p.b.v, p.a.v)), pushed = zero;
-    Pressed<S> pressed{zero, zero};
-    const int n = block.points;
-    for (int k = n > 1 ? 0 : n; k < 2 * n; ++k) {
-        const int i = k < n ? k : 2 * n - 1 - k;
-        const bool final = k >= n;
-        PatchPoint<S>& point = block.point[i];
-        const AngVec<S> jA = p.at(point.row.jA), jB = p.at(point.row.jB);
-        const Num<S> s = p.at(point.separation) + moved + turning<S>(jA, jB, movedA.w, movedB.w);
-        const auto apart = s > zero;
-        const Num<S> push = hn::Max(beta * hn::Min(s + slop, zero), fastest);
-        Num<S> bias = hn::IfThenElse(apart, s * invH, push), invK = p.at(point.invK);
-        auto rigid = apart;
-        if (block.bounces) {
-            const Num<S> rebound = p.at(point.rebound);
+struct NormalRow {
+    AngVec<S> jB;
+    Num<S> error;  ///< J v + bias before the visit
+    Num<S> factor, leak, lambda;
+    Num<S> change;  ///< of lambda in this visit
+
+    HWY_INLINE NormalRow(const PatchGroup<S>& p, const PatchPass<typename S::Real>& pass,
+                         const Along<S>& velocity, const Along<S>& motion, int i)
+        : jB(p.jB(i)) {
+        const PatchPoint<S>& point = p.block.point[i];
+        const Num<S> zero = hn::Zero(Tag<S>());
+        const Num<S> s = p.at(point.separation) + motion(jB);
+        auto rigid = s > zero;
+        Num<S> bias = s * number<S>(pass.invH), invK = p.at(point.invK);
+        if (pass.soft) {
+            const Num<S> push = hn::Max(number<S>(pass.biasRate) * hn::Min(s + number<S>(pass.slop), zero),
+                                        number<S>(-pass.fastestPush));
+            bias = hn::IfThenElse(rigid, bias, push);
+        } else {
+            bias = hn::IfThenElseZero(rigid, bias);
+        }
+        if (p.block.bounces) {
+            const Num<S> rebound = p.at(p.rest.point[i].rebound);
             rigid = hn::Or(rigid, rebound < zero);
             bias = hn::IfThenElse(rebound < zero, rebound, bias);
-            invK = hn::IfThenElseZero(p.at(point.open) == zero, invK);
+            invK = hn::IfThenElseZero(p.at(p.rest.point[i].open) == zero, invK);
         }
-        const Num<S> error = speed + turning<S>(jA, jB, p.a.w, p.b.w) + bias;
-        const Num<S> old = p.at(point.impulse);
-        const Num<S> step = hn::IfThenElse(rigid, error * invK, alpha * (error * invK) + gamma * old);
-        const Num<S> lambda = hn::Max(old - step, zero);
-        const Num<S> change = lambda - old;
-        p.at.set(point.impulse, lambda);
-        if (pass.last && final) p.at.set(point.total, p.at(point.total) + lambda);
-        speed = speed + change * mass;
-        pushed = pushed + change;
-        p.turn(change, point.row);
-        if (!final) continue;
-        pressed.sum = pressed.sum + lambda;
-        if constexpr (S::dim == 3) pressed.moment = pressed.moment + lambda * p.at(point.radius);
+        factor = invK, leak = change = zero;
+        if (pass.soft) {
+            factor = hn::IfThenElse(rigid, invK, number<S>(pass.massScale) * invK);
+            leak = hn::IfThenElse(rigid, zero, number<S>(pass.impulseScale));
+        }
+        error = velocity(jB) + bias;
+        lambda = p.at(point.impulse);
     }
-    subtract(p.a.v, pushed * p.massA, p.normal);
-    add(p.b.v, pushed * p.massB, p.normal);
+    HWY_INLINE void solve(Num<S> now) {
+        const Num<S> next = hn::Max(lambda - (factor * now + leak * lambda), hn::Zero(Tag<S>()));
+        change = change + (next - lambda);
+        lambda = next;
+    }
+};
+
+template <int i>
+using Index = std::integral_constant<int, i>;
+/// work(Index<0>(), ..., Index<n - 1>()): rows stay in registers only where each has its own code.
+template <int n, class Work>
+HWY_INLINE decltype(auto) eachPoint(const Work& work) {
+    return [&work]<int... i>(std::integer_sequence<int, i...>) -> decltype(auto) {
+        return work(Index<i>()...);
+    }(std::make_integer_sequence<int, n>());
+}
+
+/// All normal rows. The points of a patch are swept forwards and back: a body that the first corner turns is
+/// turned back by the others before its neighbours see it. One sweep alone makes tall stacks rock. The bodies
+/// get the sum of what the sweeps make; on the way the points act on each other through K.
+template <int n, class S>
+HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S::Real>& pass) {
+    const Num<S> zero = hn::Zero(Tag<S>());
+    PatchBlock<S>& block = p.block;
+    const Along<S> velocity(p, p.a, p.b);
+    const Along<S> motion(p, p.sideA.load(p.motions), p.sideB.load(p.motions));
+    std::array<NormalRow<S>, n> row = eachPoint<n>([&](auto... i) {
+        return std::array<NormalRow<S>, n>{NormalRow<S>(p, pass, velocity, motion, i)...};
+    });
+    const auto visit = [&](auto i, auto changed) {
+        Num<S> now = row[i].error;
+        eachPoint<changed>([&](auto... k) {
+            ((now = now + p.at(block.K[pairAt(i, k)]) * row[k].change), ...);
+        });
+        row[i].solve(now);
+    };
+    eachPoint<n>([&](auto... i) { (visit(i, i), ...); });
+    if constexpr (n > 1)
+        eachPoint<n>([&](auto... i) { (visit(Index<n - 1 - i>(), Index<n>()), ...); });
+
+    Pressed<S> pressed{zero, zero};
+    Num<S> sum = zero;
+    AngVec<S> spin;
+    for (auto& x : spin) x = zero;
+    const auto finish = [&](auto i) {
+        PatchPoint<S>& point = block.point[i];
+        p.at.set(point.impulse, row[i].lambda);
+        if (pass.last) p.at.set(point.total, p.at(point.total) + row[i].lambda);
+        sum = sum + row[i].change;
+        add(spin, row[i].change, row[i].jB);
+        pressed.sum = pressed.sum + row[i].lambda;
+        if constexpr (S::dim == 3)
+            pressed.moment = pressed.moment + row[i].lambda * p.at(block.radius[i]);
+    };
+    eachPoint<n>([&](auto... i) { (finish(i), ...); });
+    p.press(sum, spin);
     return pressed;
 }
 
@@ -157,16 +250,15 @@ template <class S>
 HWY_INLINE void solveFriction(PatchGroup<S>& p, const Pressed<S>& pressed, bool last) {
     PatchBlock<S>& block = p.block;
     constexpr std::size_t tangents = PatchSize<S>::tangents;
-    const LinVec<S> dv = minus(p.b.v, p.a.v);
+    const AngVec<S> w = minus(p.b.w, p.a.w);
+    LinVec<S> slip = minus(p.b.v, p.a.v);
+    add(slip, number<S>(1), turning(w, p.at(block.centre)));
+    slip = minus(slip, turning(p.a.w, p.offset));
+    const auto t = p.tangents();
     const Num<S> invK = p.at(block.rubInvK), one = number<S>(1);
-    std::array<LinVec<S>, tangents> t;
-    std::array<Num<S>, tangents> old, next;
-    for (std::size_t k = 0; k < tangents; ++k) {
-        t[k] = p.at(block.tangent[k]);
-        const AngVec<S> jA = p.at(block.rub[k].jA), jB = p.at(block.rub[k].jB);
-        old[k] = p.at(block.rubImpulse[k]);
-        next[k] = old[k] - (dot(t[k], dv) + turning<S>(jA, jB, p.a.w, p.b.w)) * invK;
-    }
+    const std::array<Num<S>, tangents> old = p.at(block.rubImpulse);
+    std::array<Num<S>, tangents> next, change;
+    for (std::size_t k = 0; k < tangents; ++k) next[k] = old[k] - dot(t[k], slip) * invK;
     Num<S> size2 = dot(next, next);
     const Num<S> sticking = p.at(block.staticFriction) * pressed.sum;
     [[maybe_unused]] Num<S> twist = one, oldTwist = one, radius = one;
@@ -174,11 +266,10 @@ HWY_INLINE void solveFriction(PatchGroup<S>& p, const Pressed<S>& pressed, bool 
         const auto spread = invertible(pressed.moment);
         radius = pressed.moment / hn::IfThenElse(spread, pressed.sum, one);
         oldTwist = p.at(block.twistImpulse);
-        const Num<S> w = dot(p.normal, minus(p.b.w, p.a.w));
         // The pressure may have come together at the centre since the old one was found.
         const Num<S> before = oldTwist / hn::IfThenElse(spread, radius, one);
         const Num<S> bounded = hn::Max(hn::Min(before, sticking), hn::Zero(Tag<S>()) - sticking);
-        twist = hn::IfThenElseZero(spread, bounded - radius * w * invK);
+        twist = hn::IfThenElseZero(spread, bounded - radius * dot(p.normal, w) * invK);
         size2 = size2 + twist * twist;
     }
     const auto sticks = size2 <= sticking * sticking;
@@ -187,17 +278,16 @@ HWY_INLINE void solveFriction(PatchGroup<S>& p, const Pressed<S>& pressed, bool 
     const Num<S> scale = hn::IfThenElse(sticks, one, p.at(block.friction) * pressed.sum / size);
     for (std::size_t k = 0; k < tangents; ++k) {
         next[k] = scale * next[k];
-        p.at.set(block.rubImpulse[k], next[k]);
+        change[k] = next[k] - old[k];
         if (last) p.at.set(block.rubTotal[k], p.at(block.rubTotal[k]) + next[k]);
-        p.push(next[k] - old[k], t[k], block.rub[k]);
     }
+    p.at.set(block.rubImpulse, next);
     if constexpr (S::dim == 3) {
         twist = scale * twist * radius;
         p.at.set(block.twistImpulse, twist);
         if (last) p.at.set(block.twistTotal, p.at(block.twistTotal) + twist);
-        subtract(p.a.w, twist - oldTwist, p.at(block.twistA));
-        add(p.b.w, twist - oldTwist, p.at(block.twistB));
     }
+    p.rub(p.alongTangents(change), twist - oldTwist);
 }
 
 /// What a sub-step makes of points that can bounce, before forces: those that hit get their rebound; a gap
@@ -205,21 +295,20 @@ HWY_INLINE void solveFriction(PatchGroup<S>& p, const Pressed<S>& pressed, bool 
 template <class S>
 HWY_INLINE void plan(PatchGroup<S>& p, const PatchPass<typename S::Real>& pass) {
     PatchBlock<S>& block = p.block;
-    const Num<S> zero = hn::Zero(Tag<S>()), e = p.at(block.restitution);
+    const Num<S> zero = hn::Zero(Tag<S>()), e = p.at(p.rest.restitution);
     const Num<S> touching = number<S>(pass.touching);
-    const Twist<S> movedA = p.sideA.motion(), movedB = p.sideB.motion();
-    const Num<S> speed = dot(p.normal, minus(p.b.v, p.a.v)), moved = dot(p.normal, minus(movedB.v, movedA.v));
+    const Along<S> velocity(p, p.a, p.b);
+    const Along<S> motion(p, p.sideA.load(p.motions), p.sideB.load(p.motions));
     for (int i = 0; i < block.points; ++i) {
         PatchPoint<S>& point = block.point[i];
-        const AngVec<S> jA = p.at(point.row.jA), jB = p.at(point.row.jB);
-        const Num<S> approach = speed + turning<S>(jA, jB, p.a.w, p.b.w);
-        const Num<S> s = p.at(point.separation) + moved + turning<S>(jA, jB, movedA.w, movedB.w);
+        const AngVec<S> jB = p.jB(i);
+        const Num<S> approach = velocity(jB), s = p.at(point.separation) + motion(jB);
         const auto fast = hn::And(e > zero, approach < number<S>(-pass.threshold));
         const auto apart = s > touching;
         const auto mayHit = hn::And(e > zero, s > number<S>(pass.restingGap));
         const auto open = hn::And(apart, hn::Or(fast, mayHit));
-        p.at.set(point.rebound, hn::IfThenElseZero(hn::AndNot(apart, fast), e * approach));
-        p.at.set(point.open, hn::IfThenElseZero(open, number<S>(1)));
+        p.at.set(p.rest.point[i].rebound, hn::IfThenElseZero(hn::AndNot(apart, fast), e * approach));
+        p.at.set(p.rest.point[i].open, hn::IfThenElseZero(open, number<S>(1)));
         p.at.set(point.impulse, hn::IfThenElse(open, zero, p.at(point.impulse)));
     }
 }
@@ -230,10 +319,14 @@ void warmStartAll(const PatchRange<S>& range) {
 }
 template <class S>
 void solveAll(const PatchRange<S>& range, const PatchPass<typename S::Real>& pass) {
-    forPatches<S>(range, [&pass](PatchGroup<S>& p) {
-        const Pressed<S> pressed = solveNormals(p, pass);
-        solveFriction(p, pressed, pass.last);
-    });
+    const auto normals = [&pass](PatchGroup<S>& p) {
+        if constexpr (S::dim == 3) {
+            if (p.block.points == 4) return solveNormals<4>(p, pass);
+            if (p.block.points == 3) return solveNormals<3>(p, pass);
+        }
+        return p.block.points == 2 ? solveNormals<2>(p, pass) : solveNormals<1>(p, pass);
+    };
+    forPatches<S>(range, [&](PatchGroup<S>& p) { solveFriction(p, normals(p), pass.last); });
 }
 template <class S>
 void planAll(const PatchRange<S>& range, const PatchPass<typename S::Real>& pass) {

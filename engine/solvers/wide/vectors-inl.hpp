@@ -14,6 +14,7 @@
 
 #include "engine/solvers/wide/gather-inl.hpp"
 #include "engine/solvers/wide/patch.hpp"
+#include "engine/state/body_arrays.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace rigor::engine::HWY_NAMESPACE {
@@ -99,59 +100,79 @@ HWY_INLINE V inverseOrZero(V x) {
     return hn::IfThenElseZero(some, one / hn::IfThenElse(some, x, one));
 }
 
-/// Velocity, or motion since the step began.
+/// w x r: the velocity that a turning w gives to a point at r; 3D and 2D.
+template <class V>
+HWY_INLINE std::array<V, 3> turning(const std::array<V, 3>& w, const std::array<V, 3>& r) {
+    return moment(w, r);
+}
+template <class V>
+HWY_INLINE std::array<V, 2> turning(const std::array<V, 1>& w, const std::array<V, 2>& r) {
+    return {hn::Zero(hn::DFromV<V>()) - w[0] * r[1], w[0] * r[0]};
+}
+/// A symmetric matrix from its upper triangle (a number in 2D) times a vector.
+template <class V>
+HWY_INLINE std::array<V, 3> times(const std::array<V, 6>& m, const std::array<V, 3>& v) {
+    return {m[0] * v[0] + m[1] * v[1] + m[2] * v[2], m[1] * v[0] + m[3] * v[1] + m[4] * v[2],
+            m[2] * v[0] + m[4] * v[1] + m[5] * v[2]};
+}
+template <class V>
+HWY_INLINE std::array<V, 1> times(const std::array<V, 1>& m, const std::array<V, 1>& v) {
+    return {m[0] * v[0]};
+}
+
+/// Velocities, or motions since the step began.
 template <class S>
 struct Twist {
     LinVec<S> v;
     AngVec<S> w;
 };
 
-/// The bodies of one side of a block.
+/// The bodies of one side of a block, from its lane `first` on.
 template <class S>
 struct Side {
     using Real = typename S::Real;
-    PatchBody<S>* bodies;
-    const std::uint32_t* index;  ///< of the first lane
-    std::uint32_t moves;         ///< bit of each lane: to be stored
+    const std::uint32_t* index;
+    std::uint32_t moves;  ///< bit of each lane: to be stored
 
-    HWY_INLINE Twist<S> load(int group) const {
-        const auto at = [&](int g) {
-            return [this, g](std::size_t lane) {
-                return static_cast<const Real*>(bodies[index[lane]].number + 4 * g);
+    HWY_INLINE Twist<S> load(const Velocity<S>* from) const {
+        const auto group = [&](int g) {
+            return [this, from, g](std::size_t lane) {
+                return reinterpret_cast<const Real*>(from + index[lane]) + 4 * g;
             };
         };
-        const auto q = gatherQuads(Tag<S>(), at(group));
+        const auto q = gatherQuads(Tag<S>(), group(0));
         if constexpr (S::dim == 2) {
             return {{q.x, q.y}, {q.z}};
         } else {
-            const auto r = gatherQuads(Tag<S>(), at(group + 1));
+            const auto r = gatherQuads(Tag<S>(), group(1));
             return {{q.x, q.y, q.z}, {r.x, r.y, r.z}};
         }
     }
-    HWY_INLINE Twist<S> velocity() const { return load(0); }
-    HWY_INLINE Twist<S> motion() const { return load(PatchBody<S>::groups / 2); }
-    HWY_INLINE void store(const Twist<S>& u) const {
-        const auto at = [&](int g) {
-            return [this, g](std::size_t lane) {
-                return (moves >> lane & 1) ? bodies[index[lane]].number + 4 * g : nullptr;
-            };
+    HWY_INLINE void store(const Twist<S>& u, Velocity<S>* to) const {
+        constexpr std::uint32_t all = (1u << hn::MaxLanes(Tag<S>())) - 1;
+        const auto group = [&](int g) {
+            return [this, to, g](std::size_t lane) { return reinterpret_cast<Real*>(to + index[lane]) + 4 * g; };
         };
+        if ((moves & all) == all) return storeAt(u, group);
+        storeAt(u, [&](int g) {
+            return [this, at = group(g)](std::size_t lane) {
+                return (moves >> lane & 1) ? at(lane) : static_cast<Real*>(nullptr);
+            };
+        });
+    }
+
+  private:
+    template <class Group>
+    HWY_INLINE void storeAt(const Twist<S>& u, const Group& group) const {
         const auto zero = hn::Zero(Tag<S>());
         if constexpr (S::dim == 2) {
-            scatterQuads(Tag<S>(), Quad<Tag<S>>{u.v[0], u.v[1], u.w[0], zero}, at(0));
+            scatterQuads(Tag<S>(), Quad<Tag<S>>{u.v[0], u.v[1], u.w[0], zero}, group(0));
         } else {
-            scatterQuads(Tag<S>(), Quad<Tag<S>>{u.v[0], u.v[1], u.v[2], zero}, at(0));
-            scatterQuads(Tag<S>(), Quad<Tag<S>>{u.w[0], u.w[1], u.w[2], zero}, at(1));
+            scatterQuads(Tag<S>(), Quad<Tag<S>>{u.v[0], u.v[1], u.v[2], zero}, group(0));
+            scatterQuads(Tag<S>(), Quad<Tag<S>>{u.w[0], u.w[1], u.w[2], zero}, group(1));
         }
     }
 };
-
-/// What of J v a row's angular part makes.
-template <class S>
-HWY_INLINE Num<S> turning(const AngVec<S>& jA, const AngVec<S>& jB, const AngVec<S>& wA,
-                          const AngVec<S>& wB) {
-    return dot(jB, wB) - dot(jA, wA);
-}
 
 }  // namespace rigor::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
