@@ -3,6 +3,7 @@
 #include "engine/integrators/motion.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace rigor::engine {
 
@@ -16,6 +17,11 @@ void Motion<S>::setInertia(BodyArrays<S>& bodies, const Tasks& tasks) {
 
 template <class S>
 void Motion<S>::kick(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks) {
+    kickedInBlocks_ = goesInBlocks(load);
+    if (kickedInBlocks_) {
+        if (!std::exchange(begun_, true)) blocks_.begin(bodies, load.gravity, h);
+        return blocks_.kick(bodies, h, tasks);
+    }
     const std::size_t n = bodies.size();
     start_.assign(bodies.velocity.begin(), bodies.velocity.end());
     startRotations_.resize(n);
@@ -53,7 +59,9 @@ void Motion<S>::kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h, con
 template <class S>
 void Motion<S>::move(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
     used_.resize(bodies.size());
-    if (integrator_.advance)
+    if (kickedInBlocks_)
+        blocks_.move(bodies, used_, h, tasks);
+    else if (integrator_.advance)
         moveAlongFlow(bodies, h, tasks);
     else
         integrator_.move(bodies, start_, used_, h, turn_, tasks);
@@ -98,6 +106,7 @@ void Motion<S>::moveAlongFlow(BodyArrays<S>& bodies, Real h, const Tasks& tasks)
 template <class S>
 void Motion<S>::finish(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
     (void)h;
+    if (kickedInBlocks_) return blocks_.finish(bodies, tasks);
     // The velocities of a free flow are those of the end already.
     if (!rotation_.finish || integrator_.advance) return;
     tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {

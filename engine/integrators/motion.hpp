@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/integrators/block_motion.hpp"
 #include "engine/integrators/free_flow.hpp"
 
 namespace rigor::engine {
@@ -29,6 +30,15 @@ class Motion {
 
     /// Constraints of a step already act on the motion of that step.
     bool movesWithSolvedVelocity() const { return integrator_.movesWithSolvedVelocity; }
+
+    /// From now on bodies move in blocks (block_motion.hpp). For those choices alone that it can do, and not
+    /// with interrupt().
+    void moveInBlocks(bool gyroscopic) {
+        blocks_ = BlockMotion<S>(gyroscopic);
+        inBlocks_ = true;
+    }
+    /// Before the first kick() of a step, which may be of several.
+    void beginStep() { begun_ = false; }
 
     /// World inertia of every body at its present pose. Before rows are made and before kick().
     static void setInertia(BodyArrays<S>& bodies, const Tasks& tasks = Tasks::one());
@@ -54,6 +64,9 @@ class Motion {
     void replaceUsed(std::size_t i, const Velocity<S>& velocity) { used_[i] = velocity; }
 
   private:
+    bool goesInBlocks(const Load<S>& load) const {
+        return inBlocks_ && (load.forces == nullptr || load.forces->size() == 0);
+    }
     void kickOnce(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks);
     void moveAlongFlow(BodyArrays<S>& bodies, Real h, const Tasks& tasks);
 
@@ -68,6 +81,9 @@ class Motion {
     std::vector<typename S::Rot> startRotations_;
     std::vector<Wrench<S>> wrench_;
     FreeFlow<S> flow_;
+    BlockMotion<S> blocks_;
+    bool inBlocks_ = false, begun_ = false;
+    bool kickedInBlocks_ = false;
 };
 
 }  // namespace rigor::engine

@@ -126,6 +126,7 @@ void World<S>::beginStep(Real h) {
     residuals_.clear();
     impacts_.clear();
     joints_.clearTotals();
+    motion_.beginStep();
     cursor_ = {true, Phase::BroadPhase, 0, 0, h, h / Real(substeps())};
 }
 

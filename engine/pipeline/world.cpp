@@ -161,6 +161,10 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     friction_ = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;
     narrowPhase_ = def.customNarrowPhase ? def.customNarrowPhase : makeNarrowPhase<S>(def.narrowPhase);
     makeManifold_ = findAlgorithm(manifoldTable<S>(), "manifold", def.manifold).make;
+    if (solver_->patches() != nullptr && def.integrator == "symplectic_euler" &&
+        def.orientationUpdate == "exponential_map" && def.continuousCollision == "none" &&
+        (def.rotation == "lie_midpoint" || def.rotation == "none"))
+        motion_.moveInBlocks(def.rotation == "lie_midpoint");
 
     // Body 0 is the world.
     bodies_.pose.emplace_back();

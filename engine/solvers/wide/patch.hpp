@@ -9,25 +9,19 @@
 //     tangent k  the same with t_k at the centre
 //     twist      n . (wB - wA)
 // The two bodies' arms of a point differ by the vector between their centres, c = xB - xA, so that with
-// w = wB - wA a normal row is  n . (vB - vA) - (c x n) . wA + (rB_i x n) . w:  what a visit reads of a point is
-// three numbers of its arm, and what the points do to each other (K).
-// Numbers of a block are stored lane by lane (structure of arrays), so that a SIMD register takes the same
-// number of several patches. No two patches of a block move the same body (colouring.hpp).
+// w = wB - wA a normal row is  n . (vB - vA) - (c x n) . wA + (rB_i x n) . w:  what a visit reads of a point
+// is three numbers of its arm, and what the points do to each other (K). Numbers of a block are stored lane
+// by lane (structure of arrays), so that a SIMD register takes the same number of several patches. No two
+// patches of a block move the same body (colouring.hpp).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "engine/math/lanes.hpp"
 #include "engine/math/space.hpp"
 
 namespace rigor::engine {
-
-/// Patches per block, whatever the instruction set: results do not depend on it.
-inline constexpr std::size_t kLanes = 8;
-
-/// One number of each patch of a block.
-template <class R>
-using Lanes = R[kLanes];
 
 /// Sizes that depend on the dimension.
 template <class S>
@@ -48,10 +42,10 @@ template <class S>
 struct PatchPoint {
     using Real = typename S::Real;
     Lanes<Real> jB[PatchSize<S>::ang];  ///< arm from B times the normal; A's is that plus offset x n
-    Lanes<Real> invK;        ///< 0: no point in this lane; before it is prepared 1 where there is
-    Lanes<Real> separation;  ///< where it was found [m]
-    Lanes<Real> impulse;     ///< of the sub-step [N s], >= 0
-    Lanes<Real> total;       ///< of all sub-steps of the step [N s]
+    Lanes<Real> invK;                   ///< 0: no point in this lane; before it is prepared 1 where there is
+    Lanes<Real> separation;             ///< where it was found [m]
+    Lanes<Real> impulse;                ///< of the sub-step [N s], >= 0
+    Lanes<Real> total;                  ///< of all sub-steps of the step [N s]
 };
 
 /// What only patches in space have.

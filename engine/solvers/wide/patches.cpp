@@ -4,24 +4,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <type_traits>
+
+#include "engine/state/numbers.hpp"
 
 namespace rigor::engine {
 namespace {
 
 constexpr std::size_t kBlockGrain = 8, kBodyGrain = 512;  ///< worth sharing: some microseconds of work
-
-/// The numbers of velocities [first, last), gaps and all.
-template <class V>
-auto numbers(V* velocities, std::size_t first, std::size_t last) {
-    using S = typename V::S;
-    using Real = std::conditional_t<std::is_const_v<V>, const typename S::Real, typename S::Real>;
-    using Array = Eigen::Array<typename S::Real, Eigen::Dynamic, 1>;
-    using Numbers = std::conditional_t<std::is_const_v<V>, const Array, Array>;
-    constexpr std::size_t each = sizeof(V) / sizeof(Real);
-    return Eigen::Map<Numbers, Eigen::Aligned16>(reinterpret_cast<Real*>(velocities + first),
-                                                 static_cast<Eigen::Index>((last - first) * each));
-}
 
 /// Raises `largest` to at least x.
 template <class R>

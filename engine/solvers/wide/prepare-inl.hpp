@@ -12,8 +12,8 @@
 #define RIGOR_PREPARE_INL_HPP
 #endif
 
+#include "engine/math/lanes-inl.hpp"
 #include "engine/solvers/wide/kernels.hpp"
-#include "engine/solvers/wide/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace rigor::engine::HWY_NAMESPACE {
@@ -56,7 +56,7 @@ struct Preparation {
         at.set(block.invInertiaA, inertiaA), at.set(block.invInertiaB, inertiaB);
     }
     static HWY_INLINE std::array<Num<S>, PatchSize<S>::inertia> inertiaOf(const PatchInertia<S>* inertia,
-                                                                         const std::uint32_t* index) {
+                                                                          const std::uint32_t* index) {
         const auto group = [&](int g) {
             return [=](std::size_t lane) {
                 return static_cast<const Real*>(inertia[index[lane]].number + 4 * g);
@@ -153,14 +153,14 @@ struct Preparation {
         Num<S> impulse = zero, widest = zero;
         for (int i = 0; i < block.points; ++i) {
             const LinVec<S> arm = minus(at(rest.point[i].armB), centre);
-            const Num<S> radius =
-                hn::IfThenElseZero(at(block.point[i].invK) > zero, hn::Sqrt(dot(arm, arm)));
+            const Num<S> radius = hn::IfThenElseZero(at(block.point[i].invK) > zero, hn::Sqrt(dot(arm, arm)));
             at.set(block.radius[i], radius);
             widest = hn::Max(widest, radius);
             impulse = impulse + dot(normal, moment(arm, at(rest.point[i].rub)));
         }
         at.set(block.twistImpulse, impulse), at.set(block.twistTotal, zero);
-        return widest * widest * (dot(normal, times(inertiaA, normal)) + dot(normal, times(inertiaB, normal)));
+        return widest * widest *
+               (dot(normal, times(inertiaA, normal)) + dot(normal, times(inertiaB, normal)));
     }
 };
 

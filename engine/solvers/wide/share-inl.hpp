@@ -9,16 +9,16 @@
 #define RIGOR_SHARE_INL_HPP
 #endif
 
+#include "engine/math/lanes-inl.hpp"
 #include "engine/solvers/wide/kernels.hpp"
-#include "engine/solvers/wide/vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace rigor::engine::HWY_NAMESPACE {
 
 /// Shares a force and a moment about the normal out among the points, by their normal impulses.
 template <class S, class Weight, class Write>
-HWY_INLINE void share(const PatchBlock<S>& block, const PatchRest<S>& rest, At<S> at, const LinVec<S>& force, Num<S> twist,
-                      const Weight& weightOf, const Write& write) {
+HWY_INLINE void share(const PatchBlock<S>& block, const PatchRest<S>& rest, At<S> at, const LinVec<S>& force,
+                      Num<S> twist, const Weight& weightOf, const Write& write) {
     const Num<S> zero = hn::Zero(Tag<S>());
     Num<S> sum = zero;
     for (int i = 0; i < block.points; ++i) sum = sum + weightOf(block.point[i]);

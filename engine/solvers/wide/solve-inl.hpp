@@ -24,7 +24,7 @@
 #include <utility>
 
 #include "engine/solvers/wide/kernels.hpp"
-#include "engine/solvers/wide/vectors-inl.hpp"
+#include "engine/state/bodies-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace rigor::engine::HWY_NAMESPACE {
@@ -197,9 +197,10 @@ using Index = std::integral_constant<int, i>;
 /// work(Index<0>(), ..., Index<n - 1>()): rows stay in registers only where each has its own code.
 template <int n, class Work>
 HWY_INLINE decltype(auto) eachPoint(const Work& work) {
-    return [&work]<int... i>(std::integer_sequence<int, i...>) -> decltype(auto) {
+    return [&work]<int... i>(std::integer_sequence<int, i...>)->decltype(auto) {
         return work(Index<i>()...);
-    }(std::make_integer_sequence<int, n>());
+    }
+    (std::make_integer_sequence<int, n>());
 }
 
 /// All normal rows. The points of a patch are swept forwards and back: a body that the first corner turns is
@@ -216,14 +217,12 @@ HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S:
     });
     const auto visit = [&](auto i, auto changed) {
         Num<S> now = row[i].error;
-        eachPoint<changed>([&](auto... k) {
-            ((now = now + p.at(block.K[pairAt(i, k)]) * row[k].change), ...);
-        });
+        eachPoint<changed>(
+            [&](auto... k) { ((now = now + p.at(block.K[pairAt(i, k)]) * row[k].change), ...); });
         row[i].solve(now);
     };
     eachPoint<n>([&](auto... i) { (visit(i, i), ...); });
-    if constexpr (n > 1)
-        eachPoint<n>([&](auto... i) { (visit(Index<n - 1 - i>(), Index<n>()), ...); });
+    if constexpr (n > 1) eachPoint<n>([&](auto... i) { (visit(Index<n - 1 - i>(), Index<n>()), ...); });
 
     Pressed<S> pressed{zero, zero};
     Num<S> sum = zero;
@@ -236,8 +235,7 @@ HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S:
         sum = sum + row[i].change;
         add(spin, row[i].change, row[i].jB);
         pressed.sum = pressed.sum + row[i].lambda;
-        if constexpr (S::dim == 3)
-            pressed.moment = pressed.moment + row[i].lambda * p.at(block.radius[i]);
+        if constexpr (S::dim == 3) pressed.moment = pressed.moment + row[i].lambda * p.at(block.radius[i]);
     };
     eachPoint<n>([&](auto... i) { (finish(i), ...); });
     p.press(sum, spin);

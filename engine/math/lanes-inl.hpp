@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Vectors whose numbers are registers, and the bodies of a block as such.
-#if defined(RIGOR_VECTORS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef RIGOR_VECTORS_INL_HPP
-#undef RIGOR_VECTORS_INL_HPP
+// Vectors whose numbers are registers: the same number of several things side by side.
+#if defined(RIGOR_LANES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef RIGOR_LANES_INL_HPP
+#undef RIGOR_LANES_INL_HPP
 #else
-#define RIGOR_VECTORS_INL_HPP
+#define RIGOR_LANES_INL_HPP
 #endif
 
 #include <array>
 #include <limits>
 
-#include "engine/solvers/wide/gather-inl.hpp"
-#include "engine/solvers/wide/patch.hpp"
-#include "engine/state/body_arrays.hpp"
+#include "engine/math/gather-inl.hpp"
+#include "engine/math/lanes.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace rigor::engine::HWY_NAMESPACE {
@@ -24,9 +23,9 @@ using Tag = LanesTag<typename S::Real>;
 template <class S>
 using Num = hn::Vec<Tag<S>>;
 template <class S>
-using LinVec = std::array<Num<S>, PatchSize<S>::lin>;
+using LinVec = std::array<Num<S>, S::dim>;
 template <class S>
-using AngVec = std::array<Num<S>, PatchSize<S>::ang>;
+using AngVec = std::array<Num<S>, S::dim == 3 ? 3 : 1>;
 
 /// The numbers of a block from lane `first` on.
 template <class S>
@@ -119,60 +118,6 @@ template <class V>
 HWY_INLINE std::array<V, 1> times(const std::array<V, 1>& m, const std::array<V, 1>& v) {
     return {m[0] * v[0]};
 }
-
-/// Velocities, or motions since the step began.
-template <class S>
-struct Twist {
-    LinVec<S> v;
-    AngVec<S> w;
-};
-
-/// The bodies of one side of a block, from its lane `first` on.
-template <class S>
-struct Side {
-    using Real = typename S::Real;
-    const std::uint32_t* index;
-    std::uint32_t moves;  ///< bit of each lane: to be stored
-
-    HWY_INLINE Twist<S> load(const Velocity<S>* from) const {
-        const auto group = [&](int g) {
-            return [this, from, g](std::size_t lane) {
-                return reinterpret_cast<const Real*>(from + index[lane]) + 4 * g;
-            };
-        };
-        const auto q = gatherQuads(Tag<S>(), group(0));
-        if constexpr (S::dim == 2) {
-            return {{q.x, q.y}, {q.z}};
-        } else {
-            const auto r = gatherQuads(Tag<S>(), group(1));
-            return {{q.x, q.y, q.z}, {r.x, r.y, r.z}};
-        }
-    }
-    HWY_INLINE void store(const Twist<S>& u, Velocity<S>* to) const {
-        constexpr std::uint32_t all = (1u << hn::MaxLanes(Tag<S>())) - 1;
-        const auto group = [&](int g) {
-            return [this, to, g](std::size_t lane) { return reinterpret_cast<Real*>(to + index[lane]) + 4 * g; };
-        };
-        if ((moves & all) == all) return storeAt(u, group);
-        storeAt(u, [&](int g) {
-            return [this, at = group(g)](std::size_t lane) {
-                return (moves >> lane & 1) ? at(lane) : static_cast<Real*>(nullptr);
-            };
-        });
-    }
-
-  private:
-    template <class Group>
-    HWY_INLINE void storeAt(const Twist<S>& u, const Group& group) const {
-        const auto zero = hn::Zero(Tag<S>());
-        if constexpr (S::dim == 2) {
-            scatterQuads(Tag<S>(), Quad<Tag<S>>{u.v[0], u.v[1], u.w[0], zero}, group(0));
-        } else {
-            scatterQuads(Tag<S>(), Quad<Tag<S>>{u.v[0], u.v[1], u.v[2], zero}, group(0));
-            scatterQuads(Tag<S>(), Quad<Tag<S>>{u.w[0], u.w[1], u.w[2], zero}, group(1));
-        }
-    }
-};
 
 }  // namespace rigor::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

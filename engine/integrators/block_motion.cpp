@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/integrators/block_motion.hpp"
+
+#include "engine/integrators/integrator.hpp"
+#include "engine/state/numbers.hpp"
+
+namespace rigor::engine {
+namespace {
+
+constexpr std::size_t kBlockGrain = 16;  ///< worth sharing: some microseconds of work
+
+/// The inertia is that of a ball, to rounding: the velocity stays as it is.
+template <class S>
+bool isRound(const typename S::Inertia& inertia) {
+    if constexpr (S::dim == 2) {
+        (void)inertia;
+        return true;
+    } else {
+        using Real = typename S::Real;
+        const Real mean = inertia.trace() / Real(3);
+        const typename S::Mat rest = inertia - mean * S::Mat::Identity();
+        return rest.cwiseAbs().maxCoeff() <= Real(4) * std::numeric_limits<Real>::epsilon() * mean;
+    }
+}
+
+/// xx xy xz yy yz zz
+template <class R>
+void putSymmetric(Lanes<R>* to, std::size_t lane, const Eigen::Matrix<R, 3, 3>& m) {
+    for (int row = 0; row < 3; ++row)
+        for (int column = row; column < 3; ++column) (*to++)[lane] = m(row, column);
+}
+
+}  // namespace
+
+template <class S>
+void BlockMotion<S>::begin(const BodyArrays<S>& bodies, const typename S::Vec& gravity, Real h) {
+    const std::size_t n = bodies.size();
+    kept_.resize(n), add_.resize(n);
+    moving_.clear(), tumbling_.clear(), twisted_.clear();
+    tumblers_ = 0;
+    std::size_t moving = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (bodies.constants[i].type != BodyType::Static && !bodies.asleep[i]) {
+            if (moving % kLanes == 0) moving_.emplace_back();
+            moving_.back().index[moving % kLanes] = static_cast<std::uint32_t>(i);
+            moving_.back().moves |= 1u << (moving % kLanes);
+            ++moving;
+        }
+        if (addKick(bodies, i, gravity, h)) addTumbling(bodies, i, h);
+    }
+}
+
+/// True: the body tumbles, and its torque is not in what is added.
+template <class S>
+bool BlockMotion<S>::addKick(const BodyArrays<S>& bodies, std::size_t i, const typename S::Vec& gravity,
+                             Real h) {
+    using Vec = typename S::Vec;
+    using Ang = typename S::Ang;
+    const auto all = [](Real x) {
+        if constexpr (S::dim == 2)
+            return x;
+        else
+            return Ang(Ang::Constant(x));
+    };
+    kept_[i] = {Vec::Ones(), all(Real(1))};
+    add_[i] = {};
+    if (bodies.invMass[i] == 0) return false;
+    const BodyConstants<S>& body = bodies.constants[i];
+    const DampedStep<Real> linear = dampedStep(body.linearVelocityKept, h);
+    const DampedStep<Real> angular = dampedStep(body.angularVelocityKept, h);
+    kept_[i] = {Vec::Constant(linear.kept), all(angular.kept)};
+    add_[i].v = linear.kick * Vec(body.gravityScale * gravity + bodies.invMass[i] * bodies.wrench[i].force);
+    const bool round = isRound<S>(body.inertia);
+    if (gyroscopic_ && !round) return true;
+    if (round)
+        add_[i].w = angular.kick * Ang(bodies.invInertia[i] * bodies.wrench[i].torque);
+    else if (dotAng(bodies.wrench[i].torque, bodies.wrench[i].torque) > 0)
+        twisted_.push_back(static_cast<std::uint32_t>(i));
+    return false;
+}
+
+template <class S>
+void BlockMotion<S>::addTumbling(const BodyArrays<S>& bodies, std::size_t i, Real h) {
+    if constexpr (S::dim == 3) {
+        const std::size_t lane = tumblers_++ % kLanes;
+        if (lane == 0) tumbling_.emplace_back();
+        TumblingBlock<S>& block = tumbling_.back();
+        block.index[lane] = static_cast<std::uint32_t>(i);
+        block.moves |= 1u << lane;
+        putSymmetric<Real>(block.inertia, lane, bodies.constants[i].inertia);
+        putSymmetric<Real>(block.invInertia, lane, bodies.invInertiaLocal[i]);
+        const Real kick = dampedStep(bodies.constants[i].angularVelocityKept, h).kick;
+        for (int k = 0; k < 3; ++k) block.kick[k][lane] = kick * bodies.wrench[i].torque[k];
+    } else {
+        (void)bodies, (void)i, (void)h;
+    }
+}
+
+template <class S>
+void BlockMotion<S>::kick(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
+    tasks.forRanges(bodies.size(), kBlockGrain * kLanes, [&](std::size_t first, std::size_t last) {
+        auto u = numbers(bodies.velocity.data(), first, last);
+        u = numbers(kept_.data(), first, last) * u + numbers(add_.data(), first, last);
+    });
+    for (const std::uint32_t i : twisted_) {
+        const Real kick = dampedStep(bodies.constants[i].angularVelocityKept, h).kick;
+        bodies.velocity[i].w += kick * typename S::Ang(bodies.invInertia[i] * bodies.wrench[i].torque);
+    }
+    if constexpr (S::dim == 3)
+        tasks.forRanges(tumbling_.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
+            predictTumbling<S>(tumbling_.data() + first, last - first, bodies.pose.data(),
+                               bodies.velocity.data(), h);
+        });
+    else
+        (void)h;
+}
+
+template <class S>
+void BlockMotion<S>::move(BodyArrays<S>& bodies, std::span<Velocity<S>> used, Real h,
+                          const Tasks& tasks) const {
+    tasks.forRanges(bodies.size(), kBlockGrain * kLanes, [&](std::size_t first, std::size_t last) {
+        numbers(used.data(), first, last) = numbers(bodies.velocity.data(), first, last);
+    });
+    tasks.forRanges(moving_.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
+        moveBodies<S>(moving_.data() + first, last - first, bodies.pose.data(), bodies.velocity.data(), h);
+    });
+}
+
+template <class S>
+void BlockMotion<S>::finish(BodyArrays<S>& bodies, const Tasks& tasks) const {
+    if constexpr (S::dim == 3)
+        tasks.forRanges(tumbling_.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
+            finishTumbling<S>(tumbling_.data() + first, last - first, bodies.pose.data(),
+                              bodies.velocity.data());
+        });
+    else
+        (void)bodies, (void)tasks;
+}
+
+template class BlockMotion<Space2f>;
+template class BlockMotion<Space2d>;
+template class BlockMotion<Space3f>;
+template class BlockMotion<Space3d>;
+
+}  // namespace rigor::engine

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Numbers of eight things side by side (structure of arrays), as SIMD takes them: lanes-inl.hpp.
+#pragma once
+
+#include <cstddef>
+
+namespace rigor::engine {
+
+/// Things per block, whatever the instruction set: results do not depend on it.
+inline constexpr std::size_t kLanes = 8;
+
+/// One number of each thing of a block.
+template <class R>
+using Lanes = R[kLanes];
+
+}  // namespace rigor::engine
