@@ -31,7 +31,7 @@ using validation::EngineDescription;
 const std::string kDefaultSuite = "bench";
 
 struct Arguments {
-    std::vector<std::string> what, overrides, parts;
+    std::vector<std::string> what, overrides, parts, only;
     std::vector<int> threads{1}, sizes;
     std::string engines, out, base, baseline, dt, preset = "matched";
     validation::BenchTarget target;
@@ -126,6 +126,7 @@ std::vector<BenchWork> planAll(const Arguments& a) {
     if (!a.engines.empty())
         for (const auto& spec : request.specs) parts.engines.push_back(spec.text());
     parts.sizes.assign(a.sizes.begin(), a.sizes.end());
+    parts.only = a.only;
     parts.threads = a.threads, parts.seed = a.target.seed, parts.binary = ownBinary().string();
     const bool all = std::find(a.parts.begin(), a.parts.end(), "all") != a.parts.end();
     for (const auto& family : validation::benchFamilies()) {
@@ -275,6 +276,8 @@ void addWhat(CLI::App& command, Arguments& a) {
         .add_option("--parts", a.parts,
                     "Isolated parts: their names with commas between, or 'all'; without WHAT no scenes")
         ->delimiter(',');
+    command.add_option("--only", a.only, "Cases of the parts by their names; default: all")
+        ->allow_extra_args(false);
     command.add_option("--engines", a.engines, "Engine specs, comma separated; default: all installed");
     command.add_option("--preset", a.preset, "Of specs that name none (default: matched)")
         ->check(CLI::IsMember({"matched", "default"}));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// b2BroadPhase (a dynamic tree of fattened boxes) as a set of boxes. Every proxy is touched before each
-// update, so that all pairs are reported and not only new ones; they are then tested against the exact boxes.
+// b2BroadPhase (a dynamic tree of fattened boxes) as a set of boxes, used as b2World uses it: boxes move with
+// their displacement, for which the tree leaves room; UpdatePairs tells of pairs that may be new, and pairs
+// are kept until their fattened boxes part.
 #include "adapters/box2d/broadphase.hpp"
 
 #include <box2d/b2_broad_phase.h>
@@ -30,58 +31,72 @@ b2AABB toBox2d(const Aabb& box) {
     return aabb;
 }
 
-bool overlap(const Aabb& a, const Aabb& b) {
-    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y;
-}
-
-class Box2dBroadPhase final : public adapter::BroadPhase {
+class Box2dBroadPhase final : public adapter::TimedBroadPhase {
   public:
-    void update(std::span<const Aabb> boxes, std::vector<Pair>& pairs) override {
-        for (const Aabb& box : boxes)
-            if (!isFinite(box.min) || !isFinite(box.max)) throw adapter::BadInput("box: not finite");
+    void take(std::span<const Aabb> boxes) override {
         if (boxes.size() != proxies_.size()) rebuild(boxes);
         for (std::size_t i = 0; i < boxes.size(); ++i) {
-            tree_->MoveProxy(proxies_[i], toBox2d(boxes[i]), b2Vec2(0.0f, 0.0f));
-            tree_->TouchProxy(proxies_[i]);
+            const b2AABB box = toBox2d(boxes[i]);
+            moves_[i].displacement = box.GetCenter() - moves_[i].box.GetCenter();
+            moves_[i].box = box;
         }
-        Collector collector{boxes, pairs};
-        pairs.clear();
+    }
+    void run() override {
+        for (std::size_t i = 0; i < proxies_.size(); ++i)
+            tree_->MoveProxy(proxies_[i], moves_[i].box, moves_[i].displacement);
+        Collector collector{reported_};
         tree_->UpdatePairs(&collector);
-        std::sort(pairs.begin(), pairs.end());
-        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    }
+    void held(std::vector<Pair>& pairs) override {
+        kept_.insert(kept_.end(), reported_.begin(), reported_.end());
+        reported_.clear();
+        std::erase_if(kept_, [this](const Pair& pair) {
+            return !tree_->TestOverlap(proxies_[static_cast<std::size_t>(pair.a)],
+                                       proxies_[static_cast<std::size_t>(pair.b)]);
+        });
+        std::sort(kept_.begin(), kept_.end());
+        kept_.erase(std::unique(kept_.begin(), kept_.end()), kept_.end());
+        pairs = kept_;
     }
 
   private:
+    struct Move {
+        b2AABB box;
+        b2Vec2 displacement;
+    };
     struct Collector {
-        std::span<const Aabb> boxes;
         std::vector<Pair>& pairs;
         void AddPair(void* first, void* second) {
             const auto indexOf = [](void* data) {
                 return static_cast<int>(reinterpret_cast<std::intptr_t>(data));
             };
             const int i = indexOf(first), j = indexOf(second);
-            const int a = std::min(i, j), b = std::max(i, j);
-            if (overlap(boxes[static_cast<std::size_t>(a)], boxes[static_cast<std::size_t>(b)]))
-                pairs.push_back({a, b});
+            pairs.push_back({std::min(i, j), std::max(i, j)});
         }
     };
 
     void rebuild(std::span<const Aabb> boxes) {
         tree_ = std::make_unique<b2BroadPhase>();
-        proxies_.clear();
-        for (std::size_t i = 0; i < boxes.size(); ++i)
-            proxies_.push_back(tree_->CreateProxy(toBox2d(boxes[i]),
-                                                  reinterpret_cast<void*>(static_cast<std::intptr_t>(i))));
+        proxies_.clear(), moves_.clear(), reported_.clear(), kept_.clear();
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            moves_.push_back({toBox2d(boxes[i]), b2Vec2(0.0f, 0.0f)});
+            proxies_.push_back(
+                tree_->CreateProxy(moves_[i].box, reinterpret_cast<void*>(static_cast<std::intptr_t>(i))));
+        }
     }
 
     std::unique_ptr<b2BroadPhase> tree_ = std::make_unique<b2BroadPhase>();
     std::vector<int32> proxies_;
+    std::vector<Move> moves_;
+    std::vector<Pair> reported_;  ///< since held() was last asked
+    std::vector<Pair> kept_;
 };
 
 }  // namespace
 
-std::unique_ptr<adapter::BroadPhase> Box2dBroadPhaseEngine::create(const std::string& algorithm,
-                                                                   int dimension) const {
+std::unique_ptr<adapter::TimedBroadPhase> Box2dBroadPhaseEngine::createTimed(const std::string& algorithm,
+                                                                             int dimension,
+                                                                             const adapter::Settings*) const {
     if (algorithm != "dynamic_tree")
         throw adapter::Unsupported("box2d has no broad phase '" + algorithm + "'");
     if (dimension != 2) throw adapter::Unsupported("box2d has no broad phase in three dimensions");

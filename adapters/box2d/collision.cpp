@@ -146,6 +146,52 @@ void appendManifold(const b2Manifold& manifold, const Side& a, const Side& b, bo
     }
 }
 
+/// b2Collide* on pairs of Box2D's own shapes.
+class Box2dBatch final : public adapter::CollisionBatch {
+  public:
+    explicit Box2dBatch(std::span<const CollisionQuery> queries) : manifolds_(queries.size()) {
+        for (const CollisionQuery& query : queries) {
+            const Frame frame = frameOf(query);
+            BatchPair pair{{query.a, frame}, {query.b, frame}, frame, false};
+            if (pair.first.capsule || pair.second.capsule)
+                throw Unsupported("box2d has no capsule, only its distance");
+            b2Manifold manifold;
+            if (!collideOrdered(pair.first, pair.second, manifold)) {
+                std::swap(pair.first, pair.second);
+                pair.swapped = true;
+                if (!collideOrdered(pair.first, pair.second, manifold))
+                    throw Unsupported("box2d has no contacts of segment with segment");
+            }
+            pairs_.push_back(std::move(pair));
+        }
+    }
+    std::size_t run() override {
+        std::size_t contacts = 0;
+        for (std::size_t i = 0; i < pairs_.size(); ++i) contacts += ask(i);
+        return contacts;
+    }
+    std::vector<ContactPoint> contacts(std::size_t i) override {
+        std::vector<ContactPoint> all;
+        const BatchPair& pair = pairs_[i];
+        if (ask(i) > 0) appendManifold(manifolds_[i], pair.first, pair.second, pair.swapped, pair.frame, all);
+        return all;
+    }
+
+  private:
+    struct BatchPair {
+        Side first, second;
+        Frame frame;
+        bool swapped;
+    };
+    std::size_t ask(std::size_t i) {
+        manifolds_[i].pointCount = 0;
+        collideOrdered(pairs_[i].first, pairs_[i].second, manifolds_[i]);
+        return static_cast<std::size_t>(manifolds_[i].pointCount);
+    }
+    std::vector<BatchPair> pairs_;
+    std::vector<b2Manifold> manifolds_;
+};
+
 std::vector<ContactPoint> shapeContacts(const Side& a, const Side& b, const Frame& frame) {
     std::vector<ContactPoint> contacts;
     b2Manifold manifold;
@@ -190,6 +236,14 @@ Closest closestPoints(const Side& a, const Side& b, const Frame& frame) {
 }
 
 }  // namespace
+
+std::unique_ptr<adapter::CollisionBatch> Box2dCollisionEngine::batch(
+    std::span<const CollisionQuery> queries) const {
+    if (queries.empty()) throw adapter::BadInput("a batch of no pairs");
+    if (queries.front().dimension != 2) throw Unsupported("box2d has no three-dimensional shapes");
+    for (const CollisionQuery& query : queries) adapter::checkQueryInput(query);
+    return std::make_unique<Box2dBatch>(queries);
+}
 
 CollisionAnswer Box2dCollisionEngine::collide(const CollisionQuery& query) const {
     if (query.dimension != 2) throw Unsupported("box2d has no three-dimensional shapes");

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Bullet's broad phases as sets of boxes. All of them answer conservatively (fattened, quantised or stale
-// pairs), so their pairs are tested against the exact boxes before they leave.
+// pairs).
 #include "adapters/bullet/broadphase.hpp"
 
 #include <btBulletCollisionCommon.h>
@@ -34,11 +34,6 @@ btVector3 upper(const Aabb& box) {
     return {roundedUp(box.max.x), roundedUp(box.max.y), roundedUp(box.max.z)};
 }
 
-bool overlap(const Aabb& a, const Aabb& b) {
-    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
-           a.min.z <= b.max.z && b.min.z <= a.max.z;
-}
-
 /// The dispatcher is only there to be passed on: no pools of manifolds for it.
 btDefaultCollisionConstructionInfo smallPools() {
     btDefaultCollisionConstructionInfo info;
@@ -46,34 +41,37 @@ btDefaultCollisionConstructionInfo smallPools() {
     return info;
 }
 
-class BulletBroadPhase final : public adapter::BroadPhase {
+class BulletBroadPhase final : public adapter::TimedBroadPhase {
   public:
     explicit BulletBroadPhase(std::string algorithm)
         : algorithm_(std::move(algorithm)), configuration_(smallPools()), dispatcher_(&configuration_) {}
     ~BulletBroadPhase() override { clear(); }
 
-    void update(std::span<const Aabb> boxes, std::vector<Pair>& pairs) override {
-        for (const Aabb& box : boxes)
-            if (!isFinite(box.min) || !isFinite(box.max)) throw adapter::BadInput("box: not finite");
+    void take(std::span<const Aabb> boxes) override {
+        boxes_.resize(boxes.size());
+        for (std::size_t i = 0; i < boxes.size(); ++i) boxes_[i] = {lower(boxes[i]), upper(boxes[i])};
         if (boxes.size() != proxies_.size() || !broadphase_) rebuild(boxes);
-        for (std::size_t i = 0; i < boxes.size(); ++i)
-            broadphase_->setAabb(proxies_[i], lower(boxes[i]), upper(boxes[i]), &dispatcher_);
+    }
+    void run() override {
+        for (std::size_t i = 0; i < boxes_.size(); ++i)
+            broadphase_->setAabb(proxies_[i], boxes_[i].low, boxes_[i].high, &dispatcher_);
         broadphase_->calculateOverlappingPairs(&dispatcher_);
+    }
+    void held(std::vector<Pair>& pairs) override {
         pairs.clear();
         const btBroadphasePairArray& found =
             broadphase_->getOverlappingPairCache()->getOverlappingPairArray();
         for (int k = 0; k < found.size(); ++k) {
             if (found[k].m_pProxy0 == nullptr || found[k].m_pProxy1 == nullptr) continue;
             const int first = indexOf(*found[k].m_pProxy0), second = indexOf(*found[k].m_pProxy1);
-            const int a = std::min(first, second), b = std::max(first, second);
-            if (overlap(boxes[static_cast<std::size_t>(a)], boxes[static_cast<std::size_t>(b)]))
-                pairs.push_back({a, b});
+            pairs.push_back({std::min(first, second), std::max(first, second)});
         }
-        std::sort(pairs.begin(), pairs.end());
-        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     }
 
   private:
+    struct Box {
+        btVector3 low, high;
+    };
     static int indexOf(const btBroadphaseProxy& proxy) {
         return static_cast<int>(reinterpret_cast<std::intptr_t>(proxy.m_clientObject)) - 1;
     }
@@ -91,7 +89,7 @@ class BulletBroadPhase final : public adapter::BroadPhase {
             // The client pointer only has to be distinct and not null: Bullet keeps it and never looks
             // inside.
             void* client = reinterpret_cast<void*>(static_cast<std::intptr_t>(i + 1));
-            proxies_.push_back(broadphase_->createProxy(lower(boxes[i]), upper(boxes[i]), BOX_SHAPE_PROXYTYPE,
+            proxies_.push_back(broadphase_->createProxy(boxes_[i].low, boxes_[i].high, BOX_SHAPE_PROXYTYPE,
                                                         client, btBroadphaseProxy::DefaultFilter,
                                                         btBroadphaseProxy::AllFilter, &dispatcher_));
         }
@@ -122,12 +120,13 @@ class BulletBroadPhase final : public adapter::BroadPhase {
     btCollisionDispatcher dispatcher_;
     std::unique_ptr<btBroadphaseInterface> broadphase_;
     std::vector<btBroadphaseProxy*> proxies_;
+    std::vector<Box> boxes_;
 };
 
 }  // namespace
 
-std::unique_ptr<adapter::BroadPhase> BulletBroadPhaseEngine::create(const std::string& algorithm,
-                                                                    int dimension) const {
+std::unique_ptr<adapter::TimedBroadPhase> BulletBroadPhaseEngine::createTimed(
+    const std::string& algorithm, int dimension, const adapter::Settings*) const {
     const auto known = algorithms();
     if (std::find(known.begin(), known.end(), algorithm) == known.end())
         throw adapter::Unsupported("bullet has no broad phase '" + algorithm + "'");

@@ -89,6 +89,82 @@ struct Side {
     btCollisionObject object;
 };
 
+ContactPoint toContact(const btManifoldPoint& point, bool ordered) {
+    const Vec3 on0 = fromBullet(point.getPositionWorldOnA());
+    const Vec3 on1 = fromBullet(point.getPositionWorldOnB());
+    ContactPoint contact;
+    contact.bodyB = 1;
+    contact.pointA = ordered ? on0 : on1, contact.pointB = ordered ? on1 : on0;
+    contact.normal = (ordered ? -1.0 : 1.0) * fromBullet(point.m_normalWorldOnB);
+    contact.depth = -static_cast<double>(point.getDistance());
+    return contact;
+}
+void append(const btPersistentManifold& manifold, const btCollisionObject& objectA,
+            std::vector<ContactPoint>& contacts) {
+    const bool ordered = manifold.getBody0() == &objectA;
+    for (int i = 0; i < manifold.getNumContacts(); ++i)
+        contacts.push_back(toContact(manifold.getContactPoint(i), ordered));
+}
+
+/// Pairs with the algorithms that a world keeps for them; their manifolds are emptied before every query.
+class BulletBatch final : public adapter::CollisionBatch {
+  public:
+    BulletBatch(std::span<const CollisionQuery> queries, const ShapeSettings& settings)
+        : dispatcher_(&configuration_) {
+        info_.m_enableSatConvex = settings.polyhedralFeatures;
+        for (const CollisionQuery& query : queries)
+            pairs_.push_back(std::make_unique<BatchPair>(query, settings, dispatcher_));
+        for (const auto& pair : pairs_) {
+            pair->ask(info_);  // makes the manifold
+            pair->algorithm->getAllContactManifolds(pair->manifolds);
+        }
+    }
+    std::size_t run() override {
+        std::size_t contacts = 0;
+        for (const auto& pair : pairs_) contacts += pair->ask(info_);
+        return contacts;
+    }
+    std::vector<ContactPoint> contacts(std::size_t i) override {
+        std::vector<ContactPoint> all;
+        pairs_[i]->ask(info_);
+        for (int k = 0; k < pairs_[i]->manifolds.size(); ++k)
+            append(*pairs_[i]->manifolds[k], pairs_[i]->a.object, all);
+        return all;
+    }
+
+  private:
+    struct BatchPair {
+        BatchPair(const CollisionQuery& query, const ShapeSettings& settings, btDispatcher& owner)
+            : a(query.a, 0.0, settings),
+              b(query.b, 0.0, settings),
+              wrapA(nullptr, a.shape.get(), &a.object, a.object.getWorldTransform(), -1, -1),
+              wrapB(nullptr, b.shape.get(), &b.object, b.object.getWorldTransform(), -1, -1),
+              dispatcher(owner),
+              algorithm(owner.findAlgorithm(&wrapA, &wrapB, nullptr, BT_CONTACT_POINT_ALGORITHMS)) {}
+        ~BatchPair() {
+            algorithm->~btCollisionAlgorithm();
+            dispatcher.freeCollisionAlgorithm(algorithm);
+        }
+        std::size_t ask(const btDispatcherInfo& info) {
+            for (int k = 0; k < manifolds.size(); ++k) manifolds[k]->clearManifold();
+            btManifoldResult result(&wrapA, &wrapB);
+            algorithm->processCollision(&wrapA, &wrapB, info, &result);
+            int contacts = 0;
+            for (int k = 0; k < manifolds.size(); ++k) contacts += manifolds[k]->getNumContacts();
+            return static_cast<std::size_t>(contacts);
+        }
+        Side a, b;
+        btCollisionObjectWrapper wrapA, wrapB;
+        btDispatcher& dispatcher;
+        btCollisionAlgorithm* algorithm;
+        btManifoldArray manifolds;
+    };
+    btDefaultCollisionConfiguration configuration_;
+    btCollisionDispatcher dispatcher_;
+    btDispatcherInfo info_;
+    std::vector<std::unique_ptr<BatchPair>> pairs_;
+};
+
 /// Contacts of the stepping path: every manifold point, overlapping or not.
 class ContactFinder {
   public:
@@ -144,23 +220,6 @@ class ContactFinder {
         btDefaultCollisionConstructionInfo info;
         info.m_defaultMaxPersistentManifoldPoolSize = info.m_defaultMaxCollisionAlgorithmPoolSize = 4;
         return info;
-    }
-
-    static void append(const btPersistentManifold& manifold, const btCollisionObject& objectA,
-                       std::vector<ContactPoint>& contacts) {
-        const bool ordered = manifold.getBody0() == &objectA;
-        for (int i = 0; i < manifold.getNumContacts(); ++i)
-            contacts.push_back(toContact(manifold.getContactPoint(i), ordered));
-    }
-    static ContactPoint toContact(const btManifoldPoint& point, bool ordered) {
-        const Vec3 on0 = fromBullet(point.getPositionWorldOnA());
-        const Vec3 on1 = fromBullet(point.getPositionWorldOnB());
-        ContactPoint contact;
-        contact.bodyB = 1;
-        contact.pointA = ordered ? on0 : on1, contact.pointB = ordered ? on1 : on0;
-        contact.normal = (ordered ? -1.0 : 1.0) * fromBullet(point.m_normalWorldOnB);
-        contact.depth = -static_cast<double>(point.getDistance());
-        return contact;
     }
 
     btDefaultCollisionConfiguration configuration_;
@@ -225,6 +284,14 @@ std::vector<ContactPoint> projected(const std::vector<ContactPoint>& contacts) {
 }
 
 }  // namespace
+
+std::unique_ptr<adapter::CollisionBatch> BulletCollisionEngine::batch(
+    std::span<const CollisionQuery> queries) const {
+    if (queries.empty()) throw adapter::BadInput("a batch of no pairs");
+    if (queries.front().dimension != 3) throw Unsupported("bullet has no two-dimensional shapes");
+    for (const CollisionQuery& query : queries) adapter::checkQueryInput(query);
+    return std::make_unique<BulletBatch>(queries, shapeSettings(queries.front().settings));
+}
 
 CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) const {
     adapter::checkQueryInput(query);

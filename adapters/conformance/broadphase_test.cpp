@@ -8,17 +8,13 @@
 #include <random>
 
 #include "adapters/conformance/kit.hpp"
+#include "adapters/interface/timed.hpp"
 
 namespace rigor::conformance {
 namespace {
 
 using adapter::Aabb;
 using adapter::Pair;
-
-bool overlap(const Aabb& a, const Aabb& b) {
-    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
-           a.min.z <= b.max.z && b.min.z <= a.max.z;
-}
 
 std::vector<Pair> bruteForce(const std::vector<Aabb>& boxes) {
     std::vector<Pair> pairs;
@@ -76,6 +72,38 @@ TEST_P(BroadPhases, MovingBoxesMeetTheSamePartnersAsByBruteForce) {
     }
     EXPECT_GT(met, 25u * 150u) << "the large box alone gives 150 pairs per frame";
     compare(frames);
+}
+
+/// As it is timed: nobody asks for pairs in between, and the engine may hold more than those that overlap.
+TEST_P(BroadPhases, WhatIsHeldAfterManyRunsHasAllPairs) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(-5.0, 5.0), move(-0.05, 0.05);
+    const auto* timed = dynamic_cast<const adapter::TimedBroadPhaseEngine*>(engine().broadPhase());
+    if (timed == nullptr) GTEST_SKIP() << "not in parts: it cannot be timed by itself";
+    for (const auto& algorithm : timed->algorithms()) {
+        SCOPED_TRACE(algorithm);
+        auto broadPhase = timed->createTimed(algorithm, GetParam(), nullptr);
+        std::vector<Aabb> boxes;
+        std::vector<Vec3> velocities;
+        for (int i = 0; i < 200; ++i) {
+            boxes.push_back(boxAt({place(random), place(random), place(random)}, {1, 1, 1}));
+            velocities.push_back({move(random), move(random), move(random)});
+        }
+        std::vector<Pair> held;
+        for (int frame = 0; frame < 60; ++frame) {
+            for (std::size_t i = 0; i < boxes.size(); ++i)
+                boxes[i] = boxAt(boxes[i].min + velocities[i], boxes[i].max - boxes[i].min);
+            broadPhase->take(boxes);
+            broadPhase->run();
+            if (frame % 20 != 19) continue;
+            broadPhase->held(held);
+            std::sort(held.begin(), held.end());
+            held.erase(std::unique(held.begin(), held.end()), held.end());
+            const auto exact = bruteForce(boxes);
+            EXPECT_TRUE(std::includes(held.begin(), held.end(), exact.begin(), exact.end())) << frame;
+            EXPECT_LT(held.size(), 3 * exact.size() + 100) << "not everything with everything";
+        }
+    }
 }
 
 TEST_P(BroadPhases, TouchingIsOverlap) {

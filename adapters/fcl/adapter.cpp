@@ -28,7 +28,9 @@ class FclEngine final : public adapter::Engine {
         return c;
     }
     std::vector<adapter::Option> options() const override {
-        return {adapter::choice("narrow_phase", collision_.algorithms(), "libccd", "libccd",
+        return {adapter::choice("broad_phase", broadPhase_.algorithms(), "dynamic_aabb_tree",
+                                "dynamic_aabb_tree", "manager of moving boxes, by itself"),
+                adapter::choice("narrow_phase", collision_.algorithms(), "libccd", "libccd",
                                 "libccd with EPA for depths of polytopes, fcl::collide with libccd alone, or "
                                 "with FCL's own solver")};
     }

@@ -2,8 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // FCL's managers. Each box is a collision object at the identity whose local bounds are overwritten with the
-// box (a little grown), so that no rounding of a centre and sides comes between; pairs are tested against the
-// exact boxes.
+// box (a little grown), so that no rounding of a centre and sides comes between.
 #include "adapters/fcl/broadphase.hpp"
 
 #include <fcl/broadphase/broadphase_SSaP.h>
@@ -31,11 +30,6 @@ using Manager = fcl::BroadPhaseCollisionManagerd;
 /// Relative growth of the boxes given to FCL: its sorted lists miss pairs whose ends coincide. What that
 /// finds too much is taken out again.
 constexpr double kGrowth = 1e-12;
-
-bool overlap(const Aabb& a, const Aabb& b) {
-    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
-           a.min.z <= b.max.z && b.min.z <= a.max.z;
-}
 
 /// Cells of twice the mean extent over the region of the boxes.
 std::unique_ptr<Manager> spatialHash(std::span<const Aabb> boxes) {
@@ -69,49 +63,45 @@ constexpr Algorithm kAlgorithms[] = {
     {"dynamic_aabb_tree_array", createManager<fcl::DynamicAABBTreeCollisionManager_Array<double>>},
 };
 
-class FclBroadPhase final : public adapter::BroadPhase {
+class FclBroadPhase final : public adapter::TimedBroadPhase {
   public:
     explicit FclBroadPhase(const Algorithm& algorithm) : algorithm_(algorithm) {}
 
-    void update(std::span<const Aabb> boxes, std::vector<Pair>& pairs) override {
-        for (const Aabb& box : boxes)
-            if (!isFinite(box.min) || !isFinite(box.max)) throw adapter::BadInput("box: not finite");
-        pairs.clear();
-        if (boxes.empty()) return;
-        if (!manager_ || boxes.size() != objects_.size())
-            rebuild(boxes);
-        else
-            move(boxes);
-        Collector collector{boxes, pairs};
-        manager_->collide(&collector, &Collector::add);
-        std::sort(pairs.begin(), pairs.end());
-        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    void take(std::span<const Aabb> boxes) override {
+        boxes_.clear();
+        for (const Aabb& box : boxes) boxes_.push_back(grown(box));
+        if (boxes.empty() || (manager_ && boxes.size() == objects_.size())) return;
+        rebuild(boxes);
     }
+    void run() override {
+        found_.clear();
+        if (boxes_.empty()) return;
+        for (std::size_t i = 0; i < boxes_.size(); ++i) place(i);
+        manager_->update();
+        manager_->collide(&found_, &addPair);
+    }
+    void held(std::vector<Pair>& pairs) override { pairs = found_; }
 
   private:
-    struct Collector {
-        std::span<const Aabb> boxes;
-        std::vector<Pair>& pairs;
-        static bool add(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* self) {
-            auto& collector = *static_cast<Collector*>(self);
-            const auto [a, b] = std::minmax({indexOf(*p), indexOf(*q)});
-            if (a != b && overlap(collector.boxes[static_cast<std::size_t>(a)],
-                                  collector.boxes[static_cast<std::size_t>(b)]))
-                collector.pairs.push_back({a, b});
-            return false;  // go on
-        }
-        static int indexOf(const fcl::CollisionObjectd& object) {
-            return static_cast<int>(reinterpret_cast<std::intptr_t>(object.getUserData()));
-        }
-    };
-
-    void place(std::size_t i, const Aabb& box) {
+    static bool addPair(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* found) {
+        const auto [a, b] = std::minmax({indexOf(*p), indexOf(*q)});
+        if (a != b) static_cast<std::vector<Pair>*>(found)->push_back({a, b});
+        return false;  // go on
+    }
+    static int indexOf(const fcl::CollisionObjectd& object) {
+        return static_cast<int>(reinterpret_cast<std::intptr_t>(object.getUserData()));
+    }
+    static fcl::AABBd grown(const Aabb& box) {
         fcl::Vector3d low = toFcl(box.min), high = toFcl(box.max);
         for (int axis = 0; axis < 3; ++axis) {
             low[axis] -= kGrowth * (1.0 + std::abs(low[axis]));
             high[axis] += kGrowth * (1.0 + std::abs(high[axis]));
         }
-        geometries_[i]->aabb_local = fcl::AABBd(low, high);
+        return {low, high};
+    }
+
+    void place(std::size_t i) {
+        geometries_[i]->aabb_local = boxes_[i];
         objects_[i]->computeAABB();
     }
 
@@ -124,7 +114,7 @@ class FclBroadPhase final : public adapter::BroadPhase {
             geometries_.push_back(std::make_shared<fcl::Boxd>(1.0, 1.0, 1.0));
             objects_.push_back(std::make_unique<fcl::CollisionObjectd>(geometries_.back()));
             objects_.back()->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(i)));
-            place(i, boxes[i]);
+            place(i);
             raw.push_back(objects_.back().get());
         }
         manager_ = algorithm_.create(boxes);
@@ -132,15 +122,12 @@ class FclBroadPhase final : public adapter::BroadPhase {
         manager_->setup();
     }
 
-    void move(std::span<const Aabb> boxes) {
-        for (std::size_t i = 0; i < boxes.size(); ++i) place(i, boxes[i]);
-        manager_->update();
-    }
-
     const Algorithm& algorithm_;
     std::vector<std::shared_ptr<fcl::Boxd>> geometries_;
     std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
     std::unique_ptr<Manager> manager_;
+    std::vector<fcl::AABBd> boxes_;
+    std::vector<Pair> found_;
 };
 
 }  // namespace
@@ -151,8 +138,9 @@ std::vector<std::string> FclBroadPhaseEngine::algorithms() const {
     return names;
 }
 
-std::unique_ptr<adapter::BroadPhase> FclBroadPhaseEngine::create(const std::string& name,
-                                                                 int dimension) const {
+std::unique_ptr<adapter::TimedBroadPhase> FclBroadPhaseEngine::createTimed(const std::string& name,
+                                                                           int dimension,
+                                                                           const adapter::Settings*) const {
     if (dimension != 2 && dimension != 3)
         throw adapter::Unsupported("fcl has no broad phase of dimension " + std::to_string(dimension));
     for (const Algorithm& algorithm : kAlgorithms)

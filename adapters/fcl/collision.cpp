@@ -168,16 +168,70 @@ Geometry solidOf(const Geometry& geometry, int dimension) {
     return adapter::planarGeometry(geometry);
 }
 
+fcl::GJKSolverType solverOf(const std::string& algorithm) {
+    const std::vector<std::string> known = FclCollisionEngine().algorithms();
+    if (!algorithm.empty() && std::find(known.begin(), known.end(), algorithm) == known.end())
+        throw adapter::BadInput("fcl: found narrow phase '" + algorithm +
+                                "', expected one of indep, libccd, libccd_collide");
+    return algorithm == "indep" ? fcl::GST_INDEP : fcl::GST_LIBCCD;
+}
+
+/// fcl::collide with contacts, alone: depths of hulls are libccd's own, without EPA.
+class FclBatch final : public adapter::CollisionBatch {
+  public:
+    explicit FclBatch(std::span<const CollisionQuery> queries)
+        : request_(static_cast<std::size_t>(std::max(1, queries.front().maxContacts)), true) {
+        request_.gjk_solver_type = solverOf(queries.front().algorithm);
+        for (const CollisionQuery& query : queries) {
+            sides_.push_back(toFcl(solidOf(*query.a.geometry, query.dimension), query.a.pose));
+            sides_.push_back(toFcl(solidOf(*query.b.geometry, query.dimension), query.b.pose));
+        }
+    }
+    std::size_t run() override {
+        std::size_t contacts = 0;
+        for (std::size_t i = 0; 2 * i < sides_.size(); ++i) contacts += ask(i);
+        return contacts;
+    }
+    std::vector<ContactPoint> contacts(std::size_t i) override {
+        ask(i);
+        std::vector<ContactPoint> all;
+        for (std::size_t k = 0; k < result_.numContacts(); ++k) {
+            const fcl::Contactd& found = result_.getContact(k);
+            ContactPoint contact;
+            contact.bodyB = 1;
+            contact.pointA = contact.pointB = fromFcl(found.pos);
+            contact.normal = fromFcl(found.normal);
+            contact.depth = found.penetration_depth;
+            all.push_back(contact);
+        }
+        return all;
+    }
+
+  private:
+    std::size_t ask(std::size_t i) {
+        const FclShape &a = sides_[2 * i], &b = sides_[2 * i + 1];
+        result_.clear();
+        fcl::collide(a.geometry.get(), a.pose, b.geometry.get(), b.pose, request_, result_);
+        return result_.numContacts();
+    }
+    fcl::CollisionRequestd request_;
+    fcl::CollisionResultd result_;
+    std::vector<FclShape> sides_;
+};
+
 }  // namespace
+
+std::unique_ptr<adapter::CollisionBatch> FclCollisionEngine::batch(
+    std::span<const CollisionQuery> queries) const {
+    if (queries.empty()) throw adapter::BadInput("a batch of no pairs");
+    for (const CollisionQuery& query : queries) adapter::checkQueryInput(query);
+    return std::make_unique<FclBatch>(queries);
+}
 
 CollisionAnswer FclCollisionEngine::collide(const CollisionQuery& query) const {
     adapter::checkQueryInput(query);
     const std::string algorithm = query.algorithm.empty() ? "libccd" : query.algorithm;
-    const std::vector<std::string> known = algorithms();
-    if (std::find(known.begin(), known.end(), algorithm) == known.end())
-        throw adapter::BadInput("fcl: found narrow phase '" + algorithm +
-                                "', expected one of indep, libccd, libccd_collide");
-    const fcl::GJKSolverType solver = algorithm == "indep" ? fcl::GST_INDEP : fcl::GST_LIBCCD;
+    const fcl::GJKSolverType solver = solverOf(algorithm);
     const Geometry solidA = solidOf(*query.a.geometry, query.dimension);
     const Geometry solidB = solidOf(*query.b.geometry, query.dimension);
     const bool unboundedA = is<scenario::HalfSpace>(solidA), unboundedB = is<scenario::HalfSpace>(solidB);

@@ -44,36 +44,30 @@ int proxyClass() {
     return number;
 }
 
-bool overlap(const Aabb& a, const Aabb& b) {
-    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
-           a.min.z <= b.max.z && b.min.z <= a.max.z;
-}
-
-class OdeBroadPhase final : public adapter::BroadPhase {
+class OdeBroadPhase final : public adapter::TimedBroadPhase {
   public:
     explicit OdeBroadPhase(std::string algorithm) : algorithm_(std::move(algorithm)) {}
     ~OdeBroadPhase() override { clear(); }
 
-    void update(std::span<const Aabb> boxes, std::vector<Pair>& pairs) override {
+    void take(std::span<const Aabb> boxes) override {
         useLibrary();
-        for (const Aabb& box : boxes)
-            if (!isFinite(box.min) || !isFinite(box.max)) throw adapter::BadInput("box: not finite");
         if (space_ == nullptr || boxes.size() != geoms_.size()) rebuild(boxes);
-        for (std::size_t i = 0; i < boxes.size(); ++i) {
-            static_cast<Proxy*>(dGeomGetClassData(geoms_[i]))->box = boxes[i];
+        boxes_.assign(boxes.begin(), boxes.end());
+    }
+    void run() override {
+        useLibrary();
+        for (std::size_t i = 0; i < boxes_.size(); ++i) {
+            static_cast<Proxy*>(dGeomGetClassData(geoms_[i]))->box = boxes_[i];
             dGeomSetPosition(geoms_[i], 0, 0, 0);  // marks the bounds as out of date
         }
-        pairs.clear();
-        dSpaceCollide(space_, &pairs, [](void* out, dGeomID g, dGeomID h) {
-            const auto& p = *static_cast<const Proxy*>(dGeomGetClassData(g));
-            const auto& q = *static_cast<const Proxy*>(dGeomGetClassData(h));
-            if (overlap(p.box, q.box))
-                static_cast<std::vector<Pair>*>(out)->push_back(
-                    {std::min(p.index, q.index), std::max(p.index, q.index)});
+        found_.clear();
+        dSpaceCollide(space_, &found_, [](void* out, dGeomID g, dGeomID h) {
+            const int p = static_cast<const Proxy*>(dGeomGetClassData(g))->index;
+            const int q = static_cast<const Proxy*>(dGeomGetClassData(h))->index;
+            static_cast<std::vector<Pair>*>(out)->push_back({std::min(p, q), std::max(p, q)});
         });
-        std::sort(pairs.begin(), pairs.end());
-        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     }
+    void held(std::vector<Pair>& pairs) override { pairs = found_; }
 
   private:
     void clear() {
@@ -116,12 +110,15 @@ class OdeBroadPhase final : public adapter::BroadPhase {
     std::string algorithm_;
     dSpaceID space_ = nullptr;
     std::vector<dGeomID> geoms_;
+    std::vector<Aabb> boxes_;
+    std::vector<Pair> found_;
 };
 
 }  // namespace
 
-std::unique_ptr<adapter::BroadPhase> OdeBroadPhaseEngine::create(const std::string& algorithm,
-                                                                 int dimension) const {
+std::unique_ptr<adapter::TimedBroadPhase> OdeBroadPhaseEngine::createTimed(const std::string& algorithm,
+                                                                           int dimension,
+                                                                           const adapter::Settings*) const {
     const auto known = algorithms();
     if (std::find(known.begin(), known.end(), algorithm) == known.end())
         throw adapter::Unsupported("ode has no broad phase '" + algorithm + "'");

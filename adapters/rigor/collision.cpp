@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "adapters/interface/input_check.hpp"
+#include "adapters/interface/timed.hpp"
 #include "adapters/rigor/convert_shape.hpp"
 #include "adapters/rigor/foreign_narrow_phase.hpp"
 #include "adapters/rigor/parts.hpp"
@@ -46,14 +47,9 @@ bool answerDistance(const engine::Shape<S>& a, const engine::Pose<S>& Xa, const 
     return true;
 }
 
+/// The points of a manifold, in its order.
 template <class S>
-CollisionAnswer collideIn(const CollisionQuery& query, const engine::NarrowPhase<S>& narrowPhase) {
-    const engine::Shape<S> a = toEngineShape<S>(*query.a.geometry), b = toEngineShape<S>(*query.b.geometry);
-    const engine::Pose<S> Xa = toEnginePose<S>(query.a.pose), Xb = toEnginePose<S>(query.b.pose);
-    engine::Manifold<S> manifold;
-    narrowPhase.collide(a, Xa, b, Xb, typename S::Real(0), manifold);
-
-    CollisionAnswer answer;
+std::vector<ContactPoint> contactsOf(const engine::Manifold<S>& manifold) {
     std::vector<ContactPoint> points;
     for (int i = 0; i < manifold.count; ++i) {
         const auto& p = manifold.points[static_cast<std::size_t>(i)];
@@ -66,6 +62,18 @@ CollisionAnswer collideIn(const CollisionQuery& query, const engine::NarrowPhase
         c.depth = -static_cast<double>(p.separation);
         points.push_back(c);
     }
+    return points;
+}
+
+template <class S>
+CollisionAnswer collideIn(const CollisionQuery& query, const engine::NarrowPhase<S>& narrowPhase) {
+    const engine::Shape<S> a = toEngineShape<S>(*query.a.geometry), b = toEngineShape<S>(*query.b.geometry);
+    const engine::Pose<S> Xa = toEnginePose<S>(query.a.pose), Xb = toEnginePose<S>(query.b.pose);
+    engine::Manifold<S> manifold;
+    narrowPhase.collide(a, Xa, b, Xb, typename S::Real(0), manifold);
+
+    CollisionAnswer answer;
+    std::vector<ContactPoint> points = contactsOf<S>(manifold);
     std::stable_sort(points.begin(), points.end(),
                      [](const ContactPoint& x, const ContactPoint& y) { return x.depth > y.depth; });
     if (!points.empty()) {
@@ -82,7 +90,43 @@ CollisionAnswer collideIn(const CollisionQuery& query, const engine::NarrowPhase
     return answer;
 }
 
-class RigorCollision final : public CollisionEngine {
+template <class S>
+class RigorBatch final : public CollisionBatch {
+  public:
+    RigorBatch(std::span<const CollisionQuery> queries,
+               std::shared_ptr<const engine::NarrowPhase<S>> narrowPhase)
+        : narrowPhase_(std::move(narrowPhase)), manifolds_(queries.size()) {
+        for (const CollisionQuery& query : queries)
+            pairs_.push_back({toEngineShape<S>(*query.a.geometry), toEngineShape<S>(*query.b.geometry),
+                              toEnginePose<S>(query.a.pose), toEnginePose<S>(query.b.pose)});
+    }
+    std::size_t run() override {
+        std::size_t contacts = 0;
+        for (std::size_t i = 0; i < pairs_.size(); ++i) contacts += ask(i);
+        return contacts;
+    }
+    std::vector<ContactPoint> contacts(std::size_t i) override {
+        ask(i);
+        return contactsOf<S>(manifolds_[i]);
+    }
+
+  private:
+    struct PosedPair {
+        engine::Shape<S> a, b;
+        engine::Pose<S> Xa, Xb;
+    };
+    std::size_t ask(std::size_t i) {
+        const PosedPair& p = pairs_[i];
+        manifolds_[i].memory = {};
+        narrowPhase_->collide(p.a, p.Xa, p.b, p.Xb, typename S::Real(0), manifolds_[i]);
+        return static_cast<std::size_t>(manifolds_[i].count);
+    }
+    std::shared_ptr<const engine::NarrowPhase<S>> narrowPhase_;
+    std::vector<PosedPair> pairs_;
+    std::vector<engine::Manifold<S>> manifolds_;
+};
+
+class RigorCollision final : public TimedCollisionEngine {
   public:
     std::vector<std::string> algorithms() const override {
         std::vector<std::string> names = foreignNarrowPhases();
@@ -100,6 +144,22 @@ class RigorCollision final : public CollisionEngine {
             }
             if (query.dimension == 2) return collideIn<engine::Space2d>(query, *planar_.get(name));
             return collideIn<engine::Space3d>(query, *spatial_.get(name));
+        } catch (const engine::EngineError& error) {
+            throw BadInput(error.what());
+        }
+    }
+
+    std::unique_ptr<CollisionBatch> batch(std::span<const CollisionQuery> queries) const override {
+        if (queries.empty()) throw BadInput("a batch of no pairs");
+        for (const CollisionQuery& query : queries) checkQueryInput(query);
+        const CollisionQuery& first = queries.front();
+        const std::string name = first.algorithm.empty() ? "sat" : first.algorithm;
+        const auto in = [&]<class S>(const Made<S>& made) -> std::unique_ptr<CollisionBatch> {
+            return std::make_unique<RigorBatch<S>>(queries, made.get(name));
+        };
+        try {
+            if (isSingle(first)) return first.dimension == 2 ? in(planarSingle_) : in(spatialSingle_);
+            return first.dimension == 2 ? in(planar_) : in(spatial_);
         } catch (const engine::EngineError& error) {
             throw BadInput(error.what());
         }

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Pairs are tested against the exact boxes before they are handed out, whatever an engine adds to them.
+#include "adapters/interface/timed.hpp"
+
+#include <algorithm>
+
+namespace rigor::adapter {
+
+bool overlap(const Aabb& a, const Aabb& b) {
+    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
+           a.min.z <= b.max.z && b.min.z <= a.max.z;
+}
+
+void TimedBroadPhase::update(std::span<const Aabb> boxes, std::vector<Pair>& pairs) {
+    for (const Aabb& box : boxes)
+        if (!isFinite(box.min) || !isFinite(box.max)) throw BadInput("box: not finite");
+    pairs.clear();
+    take(boxes);
+    if (boxes.empty()) return;
+    run();
+    held(pairs);
+    std::erase_if(pairs, [boxes](const Pair& pair) {
+        return !overlap(boxes[static_cast<std::size_t>(pair.a)], boxes[static_cast<std::size_t>(pair.b)]);
+    });
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+}  // namespace rigor::adapter

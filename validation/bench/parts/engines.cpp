@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "validation/bench/parts/engines.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "adapters/interface/timed.hpp"
+
+namespace rigor::validation {
+namespace {
+
+constexpr const char* kPrecision = "precision";
+
+std::vector<std::string> precisionsOf(const EngineDescription& engine) {
+    for (const adapter::Option& option : engine.options)
+        if (option.key == kPrecision && option.values.size() > 1) return option.values;
+    return engine.precisions.size() > 1 ? engine.precisions : std::vector<std::string>{};
+}
+
+double middle(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), half, values.end());
+    return *half;
+}
+double mean(const std::vector<double>& values) {
+    return values.empty()
+               ? 0.0
+               : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+std::vector<PartEngine> partEngines(const BenchRequest& request) {
+    std::vector<std::string> asked = request.engines;
+    if (asked.empty()) asked = adapter::availableEngines();
+    std::vector<PartEngine> engines;
+    for (const std::string& text : asked) {
+        PartEngine engine{adapter::parseSpec(text), {}};
+        engine.description = describeEngine(engine.spec.engine, request.binary);
+        if (!engine.description.problem.empty()) continue;
+        const std::vector<std::string> precisions = precisionsOf(engine.description);
+        if (precisions.empty() || engine.spec.options.contains(kPrecision)) {
+            engines.push_back(engine);
+            continue;
+        }
+        for (const std::string& precision : precisions) {
+            engines.push_back(engine);
+            engines.back().spec.options[kPrecision] = precision;
+        }
+    }
+    return engines;
+}
+
+std::string broadPhaseOption(const adapter::EngineSpec& spec) {
+    int ends[2];
+    if (pipe(ends) != 0) return {};
+    const pid_t child = fork();
+    if (child == 0) {
+        try {
+            const adapter::LoadedEngine engine = adapter::loadEngine(spec);
+            const auto* timed = dynamic_cast<const adapter::TimedBroadPhaseEngine*>(engine->broadPhase());
+            const std::string key = timed == nullptr ? "" : timed->option();
+            if (write(ends[1], key.data(), key.size()) < 0) _exit(1);
+        } catch (const std::exception&) {
+            _exit(1);
+        }
+        _exit(0);
+    }
+    close(ends[1]);
+    std::string key;
+    char piece[64];
+    for (ssize_t n; child > 0 && (n = read(ends[0], piece, sizeof piece)) > 0;)
+        key.append(piece, static_cast<std::size_t>(n));
+    close(ends[0]);
+    if (child > 0) waitpid(child, nullptr, 0);
+    return key;
+}
+
+std::vector<adapter::EngineSpec> everyChoice(const PartEngine& engine, const std::string& key) {
+    if (key.empty() || engine.spec.options.contains(key)) return {engine.spec};
+    std::vector<adapter::EngineSpec> specs;
+    for (const adapter::Option& option : engine.description.options) {
+        if (option.key != key) continue;
+        for (const std::string& value : option.values) {
+            specs.push_back(engine.spec);
+            specs.back().options[key] = value;
+        }
+    }
+    if (specs.empty()) specs.push_back(engine.spec);
+    return specs;
+}
+
+bool isWanted(const BenchRequest& request, const std::string& name) {
+    return request.only.empty() ||
+           std::find(request.only.begin(), request.only.end(), name) != request.only.end();
+}
+
+std::string partCommand(const PlannedBench& planned, bool withSize) {
+    std::string command = "./rigor bench --parts " + planned.part + " --only '" + planned.name + "'";
+    if (planned.engine != kInterface) command += " --engines " + planned.engine;
+    if (withSize) command += " --size " + std::to_string(std::llround(planned.size));
+    return command;
+}
+
+results::BenchQuality judged(const std::string& name, const std::string& unit, double value,
+                             std::optional<double> max) {
+    return {name, unit, value, std::nullopt, max, !max || value <= *max};
+}
+
+void fillTimes(const ClockSamples& samples, bool means, results::BenchRepetition& done) {
+    done.wall = means ? mean(samples.wall) : middle(samples.wall);
+    done.cpu = means ? mean(samples.cpu) : middle(samples.cpu);
+    // The clocks tick in nanoseconds; a time of 0 would mean that nothing was measured.
+    done.wall = std::max(done.wall, 1e-9), done.cpu = std::max(done.cpu, 1e-9);
+    done.samples = static_cast<std::int64_t>(samples.wall.size());
+}
+
+}  // namespace rigor::validation

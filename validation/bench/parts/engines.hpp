@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What the isolated parts of a bench have in common: which engines take part, and clocks for short work.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "adapters/interface/registry.hpp"
+#include "validation/bench/bench_case.hpp"
+#include "validation/bench/stopwatch.hpp"
+#include "validation/runner/runner.hpp"
+
+namespace rigor::validation {
+
+/// In place of an engine: what the interface around engines costs by itself.
+inline constexpr const char* kInterface = "interface";
+
+struct PartEngine {
+    adapter::EngineSpec spec;
+    EngineDescription description;
+};
+/// The engines asked for, else every one there is, each in all its precisions where the spec names none;
+/// those that cannot be loaded are left out.
+std::vector<PartEngine> partEngines(const BenchRequest& request);
+
+/// The option whose values are an engine's broad phases; empty: it has no choice, or cannot be timed. Asked
+/// in a child process: engines are not loaded into this one.
+std::string broadPhaseOption(const adapter::EngineSpec& spec);
+
+/// The spec once for every value of one of its engine's options; as it is where it names the option, or
+/// where `key` is empty.
+std::vector<adapter::EngineSpec> everyChoice(const PartEngine& engine, const std::string& key);
+
+/// Whether a case of that name is asked for.
+bool isWanted(const BenchRequest& request, const std::string& name);
+
+/// The command that runs one case again.
+std::string partCommand(const PlannedBench& planned, bool withSize);
+
+/// A value with the largest it may have; none: told, not judged.
+results::BenchQuality judged(const std::string& name, const std::string& unit, double value,
+                             std::optional<double> max);
+
+/// Medians of the samples into `done`; with `means` means, for work that comes in bursts.
+void fillTimes(const ClockSamples& samples, bool means, results::BenchRepetition& done);
+
+}  // namespace rigor::validation
