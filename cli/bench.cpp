@@ -20,6 +20,7 @@
 #include "validation/bench/summary.hpp"
 #include "validation/results/store.hpp"
 #include "validation/runner/describe.hpp"
+#include "validation/runner/shell_word.hpp"
 
 namespace rigor::cli {
 namespace {

@@ -31,7 +31,8 @@ using Manager = fcl::BroadPhaseCollisionManagerd;
 /// finds too much is taken out again.
 constexpr double kGrowth = 1e-12;
 
-/// Cells of twice the mean extent over the region of the boxes.
+/// Cells of twice the mean extent over twice the region of the boxes: those that leave it meet all others
+/// that did. As many buckets as boxes, at least the default.
 std::unique_ptr<Manager> spatialHash(std::span<const Aabb> boxes) {
     fcl::Vector3d low(0, 0, 0), high(1, 1, 1);
     double extent = 0.0;
@@ -41,13 +42,31 @@ std::unique_ptr<Manager> spatialHash(std::span<const Aabb> boxes) {
         const adapter::Vec3 size = box.max - box.min;
         extent += std::max({size.x, size.y, size.z}) / static_cast<double>(boxes.size());
     }
+    const fcl::Vector3d room = 0.5 * (high - low);
+    low -= room, high += room;
     const double cell = std::max(2.0 * extent, 1e-3 * (high - low).maxCoeff());
-    return std::make_unique<fcl::SpatialHashingCollisionManagerd<>>(cell, low, high);
+    const auto buckets = static_cast<unsigned>(std::max<std::size_t>(1000, boxes.size()));
+    return std::make_unique<fcl::SpatialHashingCollisionManagerd<>>(cell, low, high, buckets);
+}
+
+int indexOf(const fcl::CollisionObjectd& object) {
+    return static_cast<int>(reinterpret_cast<std::intptr_t>(object.getUserData()));
+}
+bool addPair(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* found) {
+    const auto [a, b] = std::minmax({indexOf(*p), indexOf(*q)});
+    if (a != b) static_cast<std::vector<Pair>*>(found)->push_back({a, b});
+    return false;  // go on
+}
+/// Of the hash, which hands over all that share a bucket, and all that left its region, without a look at
+/// their bounds: that is left to whoever is called back.
+bool addPairInTouch(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* found) {
+    return p->getAABB().overlap(q->getAABB()) && addPair(p, q, found);
 }
 
 struct Algorithm {
     const char* name;
     std::unique_ptr<Manager> (*create)(std::span<const Aabb> boxes);
+    fcl::CollisionCallBack<double> add = addPair;
 };
 template <class M>
 std::unique_ptr<Manager> createManager(std::span<const Aabb>) {
@@ -58,7 +77,7 @@ constexpr Algorithm kAlgorithms[] = {
     {"ssap", createManager<fcl::SSaPCollisionManagerd>},
     {"sap", createManager<fcl::SaPCollisionManagerd>},
     {"interval_tree", createManager<fcl::IntervalTreeCollisionManagerd>},
-    {"spatial_hash", spatialHash},
+    {"spatial_hash", spatialHash, addPairInTouch},
     {"dynamic_aabb_tree", createManager<fcl::DynamicAABBTreeCollisionManagerd>},
     {"dynamic_aabb_tree_array", createManager<fcl::DynamicAABBTreeCollisionManager_Array<double>>},
 };
@@ -78,19 +97,11 @@ class FclBroadPhase final : public adapter::TimedBroadPhase {
         if (boxes_.empty()) return;
         for (std::size_t i = 0; i < boxes_.size(); ++i) place(i);
         manager_->update();
-        manager_->collide(&found_, &addPair);
+        manager_->collide(&found_, algorithm_.add);
     }
     void held(std::vector<Pair>& pairs) override { pairs = found_; }
 
   private:
-    static bool addPair(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* found) {
-        const auto [a, b] = std::minmax({indexOf(*p), indexOf(*q)});
-        if (a != b) static_cast<std::vector<Pair>*>(found)->push_back({a, b});
-        return false;  // go on
-    }
-    static int indexOf(const fcl::CollisionObjectd& object) {
-        return static_cast<int>(reinterpret_cast<std::intptr_t>(object.getUserData()));
-    }
     static fcl::AABBd grown(const Aabb& box) {
         fcl::Vector3d low = toFcl(box.min), high = toFcl(box.max);
         for (int axis = 0; axis < 3; ++axis) {

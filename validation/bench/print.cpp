@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
-#include "validation/runner/answer.hpp"
 
 namespace rigor::validation {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using results::Bench;
 using results::BenchCase;
 using results::BenchChange;
@@ -70,23 +67,101 @@ std::string struck(const std::string& text, bool colour) {
     return colour ? "\033[9m" + text + "\033[29m" : "~" + text + "~";
 }
 
-Row rowOf(const BenchCase& c, const Unit& unit, const std::string& baseId, bool colour) {
+/// 12.3 M: at a glance, where powers of ten are not.
+std::string rate(double perSecond) {
+    constexpr const char* prefixes[] = {"", " k", " M", " G"};
+    int thousands = 0;
+    for (; thousands < 3 && perSecond >= 999.5; ++thousands) perSecond /= 1000.0;
+    return number(perSecond) + prefixes[thousands];
+}
+
+/// What a table tells of the cases of a group: of scenes their contacts, of isolated parts how much is done a
+/// second, how much work an operation was, and how well it was done.
+struct Columns {
+    bool scene = true, threads = true, memory = true, allocations = true;
+    std::string operation;
+    std::vector<std::string> counts, quality, units;
+};
+
+double worstOf(const BenchCase& c, const std::string& quality) {
+    double worst = -1.0;
+    for (const BenchRepetition& r : c.repetitions)
+        for (const auto& q : r.quality)
+            if (q.name == quality && !(q.value <= worst)) worst = q.value;
+    return worst;
+}
+
+Columns columnsOf(const std::vector<const BenchCase*>& group) {
+    Columns columns;
+    columns.scene = group.front()->part == "scene", columns.operation = group.front()->operation;
+    if (columns.scene) {
+        columns.counts = {"contacts"};
+        return columns;
+    }
+    const auto any = [&](auto&& has) {
+        return std::any_of(group.begin(), group.end(), [&](const BenchCase* c) { return has(*c); });
+    };
+    columns.threads = any([](const BenchCase& c) { return c.threads > 1; });
+    columns.memory = any([](const BenchCase& c) { return memory(c) != "-"; });
+    columns.allocations = any([](const BenchCase& c) { return allocations(c) != "-"; });
+    const auto addOnce = [](std::vector<std::string>& names, const std::string& name) {
+        if (std::find(names.begin(), names.end(), name) != names.end()) return false;
+        names.push_back(name);
+        return true;
+    };
+    for (const BenchCase* c : group)
+        for (const BenchRepetition& r : c->repetitions) {
+            for (const auto& count : r.counts)  // the size stands in the title
+                if (count.name != c->sizeUnit) addOnce(columns.counts, count.name);
+            for (const auto& q : r.quality)
+                if (addOnce(columns.quality, q.name)) columns.units.push_back(q.unit);
+        }
+    return columns;
+}
+
+Row headOf(const Columns& columns) {
+    Row row{"engine"};
+    if (columns.threads) row.push_back("threads");
+    row.insert(row.end(), {"median", "95 %", "wall"});
+    if (!columns.scene) row.push_back(columns.operation + "s/s");
+    row.insert(row.end(), {"ratio", "95 %"});
+    row.insert(row.end(), columns.counts.begin(), columns.counts.end());
+    for (std::size_t i = 0; i < columns.quality.size(); ++i)
+        row.push_back(columns.quality[i] + (columns.units[i] == "1" ? "" : " [" + columns.units[i] + "]"));
+    if (columns.memory) row.push_back("MiB");
+    if (columns.allocations) row.push_back("allocations");
+    row.insert(row.end(), {"runs", ""});
+    return row;
+}
+
+Row rowOf(const BenchCase& c, const Columns& columns, const Unit& unit, const std::string& baseId,
+          bool colour) {
     const BenchSummary& s = c.summary;
-    Row row{c.engine, std::to_string(c.threads)};
-    const double contacts = countOf(c, "contacts");
+    Row row{c.engine};
+    if (columns.threads) row.push_back(std::to_string(c.threads));
     const auto time = [&](double seconds) { return number(seconds / unit.seconds); };
     if (s.repetitions == 0) {
-        row.insert(row.end(), {"-", "-", "-", "-", "-", "-", "-", "-", "-", s.reason});
+        row.resize(headOf(columns).size() - 1, "-");
+        row.push_back(s.reason);
         return row;
     }
     row.push_back(s.valid ? time(clockTime(s)) : struck(time(clockTime(s)), colour));
     row.push_back(s.valid ? range(s.low, s.high, unit.seconds) : "");
     row.push_back(time(s.wall));
+    if (!columns.scene) row.push_back(s.valid ? rate(1.0 / clockTime(s)) : "");
     row.push_back(c.id == baseId ? "base" : s.ratio ? number(*s.ratio) : "");
     row.push_back(s.ratio && c.id != baseId ? range(s.ratioLow, s.ratioHigh, 1.0) : "");
-    row.push_back(contacts < 0.0 ? "-" : number(contacts, "%.4g"));
-    row.push_back(memory(c));
-    row.push_back(allocations(c));
+    for (const std::string& name : columns.counts) {
+        const double value = countOf(c, name);
+        row.push_back(
+            value < 0.0 ? "-" : number(value, value < 1e6 && value == std::round(value) ? "%.0f" : "%.4g"));
+    }
+    for (const std::string& name : columns.quality) {
+        const double value = worstOf(c, name);
+        row.push_back(value < 0.0 ? "-" : number(value));
+    }
+    if (columns.memory) row.push_back(memory(c));
+    if (columns.allocations) row.push_back(allocations(c));
     row.push_back(std::to_string(s.repetitions) + (s.converged ? "" : "*"));
     row.push_back(s.valid ? "" : "INVALID: " + s.reason);
     return row;
@@ -131,7 +206,8 @@ bool sameGroup(const BenchCase& a, const BenchCase& b) {
 std::string titleOf(const BenchCase& c, const Unit& unit) {
     std::string text = c.part == "scene" ? c.name : c.part + ", " + c.name;
     if (!c.sizeUnit.empty()) text += ", " + number(c.size, "%.0f") + " " + c.sizeUnit;
-    return text + ": " + unit.name + " a " + c.operation;
+    const bool vowel = std::string("aeiou").find(c.operation.substr(0, 1)) != std::string::npos;
+    return text + ": " + unit.name + (vowel ? " an " : " a ") + c.operation;
 }
 
 std::string groupText(const std::vector<const BenchCase*>& group, bool colour) {
@@ -142,79 +218,10 @@ std::string groupText(const std::vector<const BenchCase*>& group, bool colour) {
         if (!c->summary.base.empty()) base = c->summary.base;
     }
     const Unit unit = unitFor(longest);
-    std::vector<Row> rows{{"engine", "threads", "median", "95 %", "wall", "ratio", "95 %", "contacts", "MiB",
-                           "allocations", "runs", ""}};
-    for (const BenchCase* c : group) rows.push_back(rowOf(*c, unit, base, colour));
+    const Columns columns = columnsOf(group);
+    std::vector<Row> rows{headOf(columns)};
+    for (const BenchCase* c : group) rows.push_back(rowOf(*c, columns, unit, base, colour));
     return titleOf(*group.front(), unit) + "\n" + tableText(rows) + "\n";
-}
-
-Json finite(double value) {
-    return Json::parse(numberToJson(value).dump());
-}
-Json optional(const std::optional<double>& value) {
-    return value ? finite(*value) : Json(nullptr);
-}
-
-Json repetitionJson(const BenchRepetition& r) {
-    Json out{{"round", r.round},
-             {"order", r.order},
-             {"outcome", r.outcome},
-             {"reason", r.reason},
-             {"wall", finite(r.wall)},
-             {"cpu", finite(r.cpu)},
-             {"samples", r.samples},
-             {"peak_memory_kib", r.peakMemoryKiB},
-             {"own_memory_kib", r.ownMemoryKiB},
-             {"allocations", optional(r.allocations)},
-             {"allocated_bytes", optional(r.allocatedBytes)},
-             {"load", r.load},
-             {"state_hash", r.stateHash},
-             {"counts", Json::object()},
-             {"phases", Json::object()},
-             {"quality", Json::array()}};
-    for (const auto& c : r.counts) out["counts"][c.name] = finite(c.value);
-    for (const auto& p : r.phases) out["phases"][p.name] = finite(p.seconds);
-    for (const auto& q : r.quality)
-        out["quality"].push_back({{"name", q.name},
-                                  {"unit", q.unit},
-                                  {"value", finite(q.value)},
-                                  {"min", optional(q.min)},
-                                  {"max", optional(q.max)},
-                                  {"ok", q.ok}});
-    return out;
-}
-
-Json caseJson(const BenchCase& c) {
-    const BenchSummary& s = c.summary;
-    Json out{{"name", c.name},
-             {"id", c.id},
-             {"part", c.part},
-             {"engine", c.engine},
-             {"threads", c.threads},
-             {"size", finite(c.size)},
-             {"size_unit", c.sizeUnit},
-             {"operation", c.operation},
-             {"valid", s.valid},
-             {"reason", s.reason},
-             {"clock", s.clock},
-             {"median", finite(clockTime(s))},
-             {"interval", s.low ? Json::array({*s.low, *s.high}) : Json(nullptr)},
-             {"wall", finite(s.wall)},
-             {"cpu", finite(s.cpu)},
-             {"converged", s.converged},
-             {"base", s.base},
-             {"ratio", optional(s.ratio)},
-             {"ratio_interval", s.ratioLow ? Json::array({*s.ratioLow, *s.ratioHigh}) : Json(nullptr)},
-             {"command", c.command},
-             {"repetitions", Json::array()}};
-    for (const BenchRepetition& r : c.repetitions) out["repetitions"].push_back(repetitionJson(r));
-    return out;
-}
-
-Json changeJson(const BenchChange& c) {
-    return {{"id", c.caseId},   {"verdict", c.verdict}, {"before", c.before},
-            {"after", c.after}, {"ratio", c.ratio},     {"interval", Json::array({c.low, c.high})},
-            {"p", c.p},         {"reason", c.reason}};
 }
 
 }  // namespace
@@ -266,16 +273,6 @@ std::string benchText(const results::Run& run, bool colour) {
     if (const auto it = bench.settings.find("build"); it != bench.settings.end() && it->second != "optimised")
         text += "THIS PROGRAM WAS " + it->second + ": these times say nothing about the engines.\n";
     return text;
-}
-
-Json benchJson(const results::Run& run) {
-    Json out{{"settings", run.bench.settings},
-             {"environment", run.environment},
-             {"cases", Json::array()},
-             {"changes", Json::array()}};
-    for (const BenchCase& c : run.bench.cases) out["cases"].push_back(caseJson(c));
-    for (const BenchChange& c : run.bench.changes) out["changes"].push_back(changeJson(c));
-    return out;
 }
 
 std::string changesText(const results::Run& run, const std::string& baseline,

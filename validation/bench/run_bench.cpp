@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "adapters/interface/registry.hpp"
 #include "validation/bench/exchange.hpp"
 #include "validation/bench/process_memory.hpp"
 #include "validation/bench/summary.hpp"
@@ -105,11 +106,15 @@ class BenchInProgress {
 
     results::Run header() const {
         std::vector<std::string> engines;
-        for (const BenchWork& w : work_)
-            if (w.planned.part == kScenePart) {
-                const std::string name = w.planned.engine.substr(0, w.planned.engine.find(':'));
-                if (std::find(engines.begin(), engines.end(), name) == engines.end()) engines.push_back(name);
-            }
+        const std::vector<std::string> known = adapter::availableEngines();
+        for (const BenchWork& w : work_) {
+            const std::string name = w.planned.engine.substr(0, w.planned.engine.find(':'));
+            // What does the work of an isolated part need not be an engine.
+            const bool isEngine =
+                w.planned.part == kScenePart || std::find(known.begin(), known.end(), name) != known.end();
+            if (isEngine && std::find(engines.begin(), engines.end(), name) == engines.end())
+                engines.push_back(name);
+        }
         RunOptions as;
         as.directory = directory_, as.binary = options_.binary, as.jobs = 1;
         as.suite = options_.suite, as.command = options_.command;

@@ -11,34 +11,21 @@
 #include "adapters/interface/registry.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/bench/exchange.hpp"
-#include "validation/bench/process_memory.hpp"
+#include "validation/bench/meter.hpp"
 #include "validation/bench/quality.hpp"
 #include "validation/bench/scenes.hpp"
-#include "validation/bench/stopwatch.hpp"
 #include "validation/comparison/statistics.hpp"
-#include "validation/hash.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/stepper.hpp"
 
 namespace rigor::validation {
 namespace {
 
-using adapter::BodyState;
 using results::BenchRepetition;
 
 /// Steps between two readings in a timed round. Reading touches what the next step wants in its caches: the
 /// median step is none of those. The look reads after every step.
 constexpr std::size_t kReadEvery = 10;
-
-std::string hashOf(std::span<const BodyState> states) {
-    Fnv1a hash;
-    for (const BodyState& s : states)
-        for (const double v : {s.position.x, s.position.y, s.position.z, s.orientation.w, s.orientation.x,
-                               s.orientation.y, s.orientation.z, s.velocity.x, s.velocity.y, s.velocity.z,
-                               s.angularVelocity.x, s.angularVelocity.y, s.angularVelocity.z})
-            hash.number(v);
-    return hash.hex();
-}
 
 /// What the engine's own counters and the contacts say of the timed steps.
 class WorkMeter {
@@ -85,22 +72,19 @@ class SceneCase final : public BenchCase {
         const adapter::Settings settings = adapter::resolveSettings(spec_, *engine);
         adapter::checkScenarioInput(scenario_, dt_);
         adapter::checkSupported(scenario_, engine->capabilities(), spec_.engine);
-        forgetPeak();
-        const std::int64_t before = residentKiB();
+        const GrownMemory memory;
         const auto world = engine->dynamics()->build(scenario_, dt_, settings);
-        BenchRepetition done = drive(*world, round == 0 ? 1 : kReadEvery, before);
-        return done;
+        return drive(*world, round == 0 ? 1 : kReadEvery, memory);
     }
 
   private:
-    BenchRepetition drive(adapter::World& world, std::size_t readEvery, std::int64_t before) const {
+    BenchRepetition drive(adapter::World& world, std::size_t readEvery, const GrownMemory& memory) const {
         const SceneSteps steps = sceneSteps(scenario_, dt_);
         BenchRepetition done;
         Stepper stepper(scenario_, dt_, world);
         QualityMeter quality(scenario_, stepper.states());
         WorkMeter work;
-        Stopwatch watch;
-        watch.reserve(steps.timed);
+        CountingStopwatch watch(steps.timed);
         std::vector<adapter::ContactPoint> contacts;
         const auto step = [&](auto&& take) {
             stepper.begin();
@@ -109,16 +93,14 @@ class SceneCase final : public BenchCase {
             if (stepper.steps() % readEvery == 0) quality.sample(stepper.states());
         };
         while (stepper.steps() < steps.warmUp) step([&] { world.step(); });
-        Allocations counted;
         while (stepper.steps() < steps.warmUp + steps.timed) {
-            step([&] { timeStep(world, watch, counted); });
+            step([&] { watch.time([&] { world.step(); }); });
             work.count(world.counters());
             if (stepper.steps() % readEvery != 0 && stepper.steps() != steps.warmUp + steps.timed) continue;
             world.readContacts(contacts);
             work.look(contacts);
         }
-        done.peakMemoryKiB = peakResidentKiB();
-        done.ownMemoryKiB = std::max<std::int64_t>(0, done.peakMemoryKiB - before);
+        memory.write(done);
         while (stepper.steps() < steps.quality) step([&] { world.step(); });
         world.readContacts(contacts);
         quality.finish(stepper.states(), contacts);
@@ -126,26 +108,13 @@ class SceneCase final : public BenchCase {
         const ClockSamples& times = watch.samples();
         done.wall = median(times.wall), done.cpu = median(times.cpu);
         done.samples = static_cast<std::int64_t>(times.wall.size());
-        if (allocationsSoFar()) {
-            done.allocations = static_cast<double>(counted.calls) / static_cast<double>(steps.timed);
-            done.allocatedBytes = static_cast<double>(counted.bytes) / static_cast<double>(steps.timed);
-        }
+        watch.writeAllocations(done);
         work.write(done);
         done.quality = quality.rows();
-        done.stateHash = hashOf(stepper.states());
+        done.stateHash = stepper.stateHash();
         if (const std::string problem = stepper.nonFinite(); !problem.empty())
             done.outcome = "non_finite", done.reason = problem;
         return done;
-    }
-
-    /// One step, its times, and what it asked of the allocator where that is counted.
-    static void timeStep(adapter::World& world, Stopwatch& watch, Allocations& counted) {
-        const auto before = allocationsSoFar();
-        watch.time([&] { world.step(); });
-        const auto after = allocationsSoFar();
-        if (!before || !after) return;
-        counted.calls += after->calls - before->calls;
-        counted.bytes += after->bytes - before->bytes;
     }
 
     scenario::Scenario scenario_;

@@ -11,6 +11,7 @@
 #include "validation/runner/answer.hpp"
 #include "validation/runner/describe.hpp"
 #include "validation/runner/scenario_settings.hpp"
+#include "validation/runner/shell_word.hpp"
 #include "validation/runner/simulate.hpp"
 
 namespace rigor::validation {
@@ -47,15 +48,6 @@ std::string identityOf(const std::string& text) {
 }
 
 }  // namespace
-
-std::string shellWord(const std::string& word) {
-    constexpr const char* harmless =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
-    if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
 
 SceneSteps sceneSteps(const scenario::Scenario& scenario, double dt) {
     if (scenario.bench) {

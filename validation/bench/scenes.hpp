@@ -58,7 +58,4 @@ struct ThreadedSpec {
 std::vector<ThreadedSpec> threadedSpecs(const adapter::EngineSpec& spec, const std::string& preset,
                                         const std::vector<int>& threads, const EngineDescription& engine);
 
-/// A word as a shell takes it.
-std::string shellWord(const std::string& word);
-
 }  // namespace rigor::validation

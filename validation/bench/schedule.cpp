@@ -46,10 +46,15 @@ std::vector<Group> inOrderOf(std::vector<Group> groups, std::uint64_t seed, std:
     return groups;
 }
 
-/// No repetition before `round` failed.
+bool isGood(const BenchRepetition& r) {
+    return std::all_of(r.quality.begin(), r.quality.end(), [](const auto& q) { return q.ok; });
+}
+
+/// No repetition before `round` failed; nor is this more than the first timed one of work that was out of
+/// bounds once: its times count for nothing, one is enough to be shown.
 bool isLive(const BenchCase& c, std::int64_t round) {
     return std::none_of(c.repetitions.begin(), c.repetitions.end(), [&](const BenchRepetition& r) {
-        return r.round < round && r.outcome != "completed";
+        return r.round < round && (r.outcome != "completed" || (round > 1 && !isGood(r)));
     });
 }
 

@@ -10,6 +10,7 @@
 #include "validation/runner/describe.hpp"
 #include "validation/runner/environment.hpp"
 #include "validation/runner/evaluate.hpp"
+#include "validation/runner/shell_word.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -18,15 +19,6 @@ namespace fs = std::filesystem;
 
 fs::path storedScenario(const std::string& name, const fs::path& run) {
     return run / "scenarios" / (name + ".json");
-}
-
-std::string quoted(const std::string& word) {
-    constexpr const char* harmless =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
-    if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
 }
 
 results::ScenarioRow scenarioRow(const CasePlan& plan) {
@@ -66,7 +58,7 @@ bool isLibraryScenario(const std::string& name, const std::string& text) {
 std::string reproduceCommand(const CasePlan& plan, const fs::path& run, bool fromLibrary) {
     const std::string scenario =
         fromLibrary ? plan.scenario.name : storedScenario(plan.scenario.name, run).string();
-    return "./rigor run " + quoted(scenario) + " --engine " + quoted(plan.spec.text()) + " --dt " +
+    return "./rigor run " + shellWord(scenario) + " --engine " + shellWord(plan.spec.text()) + " --dt " +
            results::exactText(plan.dt);
 }
 

@@ -8,7 +8,6 @@
 #include <map>
 
 #include "validation/comparison/statistics.hpp"
-#include "validation/hash.hpp"
 #include "validation/runner/cost.hpp"
 #include "validation/runner/stepper.hpp"
 
@@ -76,16 +75,6 @@ class Stopwatch {
     std::size_t counted_ = 0;
 };
 
-std::string hashOf(std::span<const BodyState> states) {
-    Fnv1a hash;
-    for (const BodyState& s : states)
-        for (const double v : {s.position.x, s.position.y, s.position.z, s.orientation.w, s.orientation.x,
-                               s.orientation.y, s.orientation.z, s.velocity.x, s.velocity.y, s.velocity.z,
-                               s.angularVelocity.x, s.angularVelocity.y, s.angularVelocity.z})
-            hash.number(v);
-    return hash.hex();
-}
-
 void appendFrame(Trajectory& t, double time, std::span<const BodyState> states,
                  const std::vector<ContactPoint>& contacts) {
     t.times.push_back(time);
@@ -137,7 +126,7 @@ Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, 
     }
     if (run.nonFinite.empty()) run.nonFinite = stepper.nonFinite();
     run.steps = stepper.steps();
-    run.stateHash = hashOf(stepper.states());
+    run.stateHash = stepper.stateHash();
     run.timings = watch.rows(t);
     run.costs = watch.costs();
     return run;

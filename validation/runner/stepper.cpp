@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "validation/runner/stepper.hpp"
 
+#include "validation/hash.hpp"
 #include "validation/runner/forces.hpp"
 
 namespace rigor::validation {
@@ -51,6 +52,16 @@ std::string Stepper::nonFinite() {
             return "the state of " + scenario_.bodies[i].name +
                    " is not finite at t = " + std::to_string(time()) + " s";
     return "";
+}
+
+std::string Stepper::stateHash() {
+    Fnv1a hash;
+    for (const BodyState& s : states())
+        for (const double v : {s.position.x, s.position.y, s.position.z, s.orientation.w, s.orientation.x,
+                               s.orientation.y, s.orientation.z, s.velocity.x, s.velocity.y, s.velocity.z,
+                               s.angularVelocity.x, s.angularVelocity.y, s.angularVelocity.z})
+            hash.number(v);
+    return hash.hex();
 }
 
 }  // namespace rigor::validation

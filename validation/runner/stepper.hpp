@@ -32,6 +32,8 @@ class Stepper {
     std::span<const adapter::BodyState> states();
     /// What of the states is not finite, in a sentence; "" when all are.
     std::string nonFinite();
+    /// Of the bits of states(): two runs that end in the same have the same.
+    std::string stateHash();
 
   private:
     const scenario::Scenario& scenario_;

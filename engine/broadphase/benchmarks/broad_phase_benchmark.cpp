@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "engine/broadphase/benchmarks/moving_boxes.hpp"
+#include "engine/core/benchmarks/register.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -57,14 +58,11 @@ void registerAll(const std::string& space) {
 }
 
 }  // namespace
-}  // namespace rigor::engine
 
-int main(int argc, char** argv) {
-    using namespace rigor::engine;
+void registerBenchmarks() {
     registerAll<Space3f>("3f");
     registerAll<Space3d>("3d");
     registerAll<Space2f>("2f");
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    benchmark::RunSpecifiedBenchmarks();
 }
+
+}  // namespace rigor::engine

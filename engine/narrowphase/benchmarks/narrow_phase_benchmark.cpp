@@ -6,6 +6,7 @@
 // contact; `again`: with the memory of the same pair, as in the steps after it.
 #include <benchmark/benchmark.h>
 
+#include "engine/core/benchmarks/register.hpp"
 #include "engine/narrowphase/benchmarks/shape_pairs.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
 
@@ -66,15 +67,12 @@ void registerAll(const std::string& space) {
 }
 
 }  // namespace
-}  // namespace rigor::engine
 
-int main(int argc, char** argv) {
-    using namespace rigor::engine;
+void registerBenchmarks() {
     registerAll<Space3f>("3f");
     registerAll<Space3d>("3d");
     registerAll<Space2f>("2f");
     registerAll<Space2d>("2d");
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    benchmark::RunSpecifiedBenchmarks();
 }
+
+}  // namespace rigor::engine

@@ -6,6 +6,7 @@
 // see what a change of one part does to the whole.
 #include <benchmark/benchmark.h>
 
+#include "engine/core/benchmarks/register.hpp"
 #include "engine/pipeline/benchmarks/scenes.hpp"
 
 namespace rigor::engine {
@@ -51,15 +52,12 @@ void registerAll(const std::string& space, bool everySolver) {
 }
 
 }  // namespace
-}  // namespace rigor::engine
 
-int main(int argc, char** argv) {
-    using namespace rigor::engine;
+void registerBenchmarks() {
     registerAll<Space3f>("3f", true);
     registerAll<Space3d>("3d", false);
     registerAll<Space2f>("2f", true);
     registerAll<Space2d>("2d", false);
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    benchmark::RunSpecifiedBenchmarks();
 }
+
+}  // namespace rigor::engine

@@ -8,6 +8,7 @@
 #include <benchmark/benchmark.h>
 #include <algorithm>
 
+#include "engine/core/benchmarks/register.hpp"
 #include "engine/pipeline/benchmarks/scenes.hpp"
 #include "engine/solvers/benchmarks/joint_problem.hpp"
 #include "engine/solvers/joint_system.hpp"
@@ -85,15 +86,12 @@ void registerAll(const std::string& space) {
 }
 
 }  // namespace
-}  // namespace rigor::engine
 
-int main(int argc, char** argv) {
-    using namespace rigor::engine;
+void registerBenchmarks() {
     registerAll<Space3f>("3f");
     registerAll<Space3d>("3d");
     registerAll<Space2f>("2f");
     registerAll<Space2d>("2d");
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    benchmark::RunSpecifiedBenchmarks();
 }
+
+}  // namespace rigor::engine

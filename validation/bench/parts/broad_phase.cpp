@@ -20,9 +20,13 @@ namespace {
 using adapter::Pair;
 using nlohmann::json;
 
+/// Updates before the clock, and with it at least.
 constexpr int kWarmUp = 5;
-/// One update that would take longer than this is not begun [s].
-constexpr double kLongest = 10.0;
+constexpr std::size_t kLeast = 3;
+/// After so much time of updates no further one is begun [s].
+constexpr double kPatience = 0.5;
+/// A case whose first two updates would take longer than this is not begun [s].
+constexpr double kLongest = 4.0;
 
 class BroadPhaseBench final : public BenchCase {
   public:
@@ -42,50 +46,75 @@ class BroadPhaseBench final : public BenchCase {
     }
 
     results::BenchRepetition run(int round) override {
-        refuseEndless();
+        if (round == 0) refuseEndless();
         MovingBoxes scene(dimension_, count_, order_, seed_);
+        const GrownMemory memory;
         const auto phase = create();
-        std::vector<Pair> held;
-        for (int k = 0; k < kWarmUp; ++k, scene.advance()) phase->take(scene.boxes()), phase->run();
-        phase->held(held);
-        const int updates = count_ < 5000 ? 100 : count_ < 50000 ? 30 : 10;
-        Stopwatch watch;
-        watch.reserve(static_cast<std::size_t>(updates));
-        PairCheck sum;
-        int checks = 0;
-        for (int k = 0; k < updates; ++k) {
+        warmUp(*phase, scene);
+
+        const std::size_t most = count_ < 5000 ? 100 : count_ < 50000 ? 30 : 10;
+        const bool checkAll = round == 0 && count_ <= 20000;
+        CountingStopwatch watch(most);
+        Checks checks;
+        for (double spent = 0.0; !isEnough(watch.samples().cpu.size(), most, spent);) {
             scene.advance();
             phase->take(scene.boxes());
             watch.time([&] { phase->run(); });
-            // Pairs are kept from update to update: one that is missed for a moment may be there at the end.
-            if (k + 1 < updates && (round > 0 || count_ > 20000)) continue;
-            phase->held(held);
-            const PairCheck check = checkPairs(scene.boxes(), held);
-            sum.exact += check.exact, sum.held += check.held, sum.missed += check.missed;
-            ++checks;
+            spent += watch.samples().cpu.back();
+            if (checkAll) checks.add(*phase, scene);
         }
         results::BenchRepetition done;
-        fillTimes(watch.samples(), true, done);
-        const auto per = [&](std::size_t total) {
-            return static_cast<double>(total) / static_cast<double>(checks);
-        };
-        done.counts = {
-            {"boxes", static_cast<double>(count_)}, {"pairs", per(sum.exact)}, {"pairs_held", per(sum.held)}};
-        done.quality = {judged("missed_pairs", "1", per(sum.missed), 0.0),
-                        judged("excess_pairs", "1", per(sum.excess()), std::nullopt)};
+        memory.write(done);
+        // Pairs are kept from update to update: one that is missed for a moment may be there at the end.
+        if (!checkAll) checks.add(*phase, scene);
+        fillTimes(watch, true, done);
+        done.counts = {{"boxes", static_cast<double>(count_)},
+                       {"pairs", checks.mean(checks.sum.exact)},
+                       {"pairs_held", checks.mean(checks.sum.held)}};
+        done.quality = {judged("missed_pairs", "1", checks.mean(checks.sum.missed), 0.0),
+                        judged("excess_pairs", "1", checks.mean(checks.sum.excess()), std::nullopt)};
         return done;
     }
 
   private:
+    /// What the engine holds against the boxes as they are, once or after every update.
+    struct Checks {
+        PairCheck sum;
+        int count = 0;
+        void add(adapter::TimedBroadPhase& phase, const MovingBoxes& scene) {
+            std::vector<Pair> held;
+            phase.held(held);
+            const PairCheck check = checkPairs(scene.boxes(), std::move(held));
+            sum.exact += check.exact, sum.held += check.held, sum.missed += check.missed;
+            ++count;
+        }
+        double mean(std::size_t total) const { return static_cast<double>(total) / count; }
+    };
+    static bool isEnough(std::size_t updates, std::size_t most, double spent) {
+        return updates >= most || (updates >= kLeast && spent > kPatience);
+    }
+    static void warmUp(adapter::TimedBroadPhase& phase, MovingBoxes& scene) {
+        Stopwatch watch;
+        double spent = 0.0;
+        for (int k = 0; k < kWarmUp && spent <= kPatience; ++k, scene.advance()) {
+            phase.take(scene.boxes());
+            watch.time([&] { phase.run(); });
+            spent += watch.samples().cpu.back();
+        }
+    }
     std::unique_ptr<adapter::TimedBroadPhase> create() const {
         return timed_->createTimed(algorithm_, dimension_, &settings_);
     }
-    /// Building and first update of fewer boxes [s].
+    /// Building, first update and one of moved boxes, of fewer of them [s].
     double trial(std::size_t boxes) const {
-        const MovingBoxes scene(dimension_, boxes, order_, seed_);
+        MovingBoxes scene(dimension_, boxes, order_, seed_);
         const auto phase = create();
         Stopwatch watch;
-        watch.time([&] { phase->take(scene.boxes()), phase->run(); });
+        watch.time([&] {
+            phase->take(scene.boxes()), phase->run();
+            scene.advance();
+            phase->take(scene.boxes()), phase->run();
+        });
         return watch.samples().cpu.front();
     }
     /// From the growth between two smaller numbers of boxes. Throws Unsupported.
@@ -96,8 +125,8 @@ class BroadPhaseBench final : public BenchCase {
         const double expected = larger * std::pow(10.0, power);
         if (expected > kLongest)
             throw adapter::Unsupported(algorithm_ + ": about " + std::to_string(std::lround(expected)) +
-                                       " s until the first pairs of " + std::to_string(count_) +
-                                       " boxes are found, too long to be timed");
+                                       " s for the first two updates of " + std::to_string(count_) +
+                                       " boxes, too long to be timed");
     }
 
     adapter::EngineSpec spec_;
@@ -111,35 +140,51 @@ class BroadPhaseBench final : public BenchCase {
     std::string algorithm_;
 };
 
+struct Choices {
+    adapter::Capabilities capabilities;
+    std::vector<adapter::EngineSpec> specs;
+};
+std::vector<Choices> choicesOf(const std::vector<PartEngine>& engines) {
+    std::vector<Choices> all;
+    for (const PartEngine& engine : engines)
+        if (engine.description.capabilities.broadPhase)
+            all.push_back(
+                {engine.description.capabilities, everyChoice(engine, broadPhaseOption(engine.spec))});
+    return all;
+}
+bool couldRun(const adapter::Capabilities& c, int dimension) {
+    return std::find(c.dimensions.begin(), c.dimensions.end(), dimension) != c.dimensions.end() ||
+           (dimension == 2 && c.planar);
+}
+/// What the order of boxes in memory does is seen where they are many.
+std::vector<double> sizesOf(const BenchRequest& request, const std::string& order) {
+    if (!request.sizes.empty()) return request.sizes;
+    return order == "random" ? std::vector<double>{1e3, 1e4, 1e5} : std::vector<double>{1e5};
+}
+
 }  // namespace
 
 std::vector<PlannedBench> planBroadPhases(const BenchRequest& request) {
     std::vector<PlannedBench> all;
-    const std::vector<PartEngine> engines = partEngines(request);
-    const std::vector<double> sizes =
-        request.sizes.empty() ? std::vector<double>{1e3, 1e4, 1e5} : request.sizes;
+    const std::vector<Choices> engines = choicesOf(partEngines(request));
     for (const int dimension : {3, 2})
-        for (const char* order : {"random", "spatial"})
-            for (const double size : sizes)
-                for (const PartEngine& engine : engines) {
-                    const adapter::Capabilities& c = engine.description.capabilities;
-                    const bool native =
-                        std::find(c.dimensions.begin(), c.dimensions.end(), dimension) != c.dimensions.end();
-                    const std::string name = std::to_string(dimension) + "D, " + order + " order";
-                    if (!c.broadPhase || !(native || (dimension == 2 && c.planar)) ||
-                        !isWanted(request, name))
-                        continue;
-                    for (const adapter::EngineSpec& spec :
-                         everyChoice(engine, broadPhaseOption(engine.spec))) {
+        for (const char* order : {"random", "spatial"}) {
+            const std::string name = std::to_string(dimension) + "D, " + order + " order";
+            if (!isWanted(request, name)) continue;
+            for (const double size : sizesOf(request, order))
+                for (const Choices& engine : engines) {
+                    if (!couldRun(engine.capabilities, dimension)) continue;
+                    for (const adapter::EngineSpec& spec : engine.specs) {
                         PlannedBench planned;
                         planned.part = "broad_phase", planned.name = name, planned.engine = spec.text();
                         planned.sizeUnit = "boxes", planned.size = size, planned.operation = "update";
                         planned.parameters =
                             json{{"dimension", dimension}, {"order", order}, {"seed", request.seed}}.dump();
-                        planned.command = partCommand(planned, true);
+                        planned.command = partCommand(planned, request);
                         all.push_back(std::move(planned));
                     }
                 }
+        }
     return all;
 }
 

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "adapters/interface/timed.hpp"
+#include "validation/runner/shell_word.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -101,10 +102,11 @@ bool isWanted(const BenchRequest& request, const std::string& name) {
            std::find(request.only.begin(), request.only.end(), name) != request.only.end();
 }
 
-std::string partCommand(const PlannedBench& planned, bool withSize) {
-    std::string command = "./rigor bench --parts " + planned.part + " --only '" + planned.name + "'";
-    if (planned.engine != kInterface) command += " --engines " + planned.engine;
-    if (withSize) command += " --size " + std::to_string(std::llround(planned.size));
+std::string partCommand(const PlannedBench& planned, const BenchRequest& request) {
+    std::string command = "./rigor bench --parts " + planned.part + " --only " + shellWord(planned.name);
+    if (planned.engine != kInterface) command += " --engines " + shellWord(planned.engine);
+    if (!planned.sizeUnit.empty()) command += " --size " + std::to_string(std::llround(planned.size));
+    if (request.seed != BenchRequest{}.seed) command += " --seed " + std::to_string(request.seed);
     return command;
 }
 
@@ -113,12 +115,14 @@ results::BenchQuality judged(const std::string& name, const std::string& unit, d
     return {name, unit, value, std::nullopt, max, !max || value <= *max};
 }
 
-void fillTimes(const ClockSamples& samples, bool means, results::BenchRepetition& done) {
+void fillTimes(const CountingStopwatch& watch, bool means, results::BenchRepetition& done) {
+    const ClockSamples& samples = watch.samples();
     done.wall = means ? mean(samples.wall) : middle(samples.wall);
     done.cpu = means ? mean(samples.cpu) : middle(samples.cpu);
     // The clocks tick in nanoseconds; a time of 0 would mean that nothing was measured.
     done.wall = std::max(done.wall, 1e-9), done.cpu = std::max(done.cpu, 1e-9);
     done.samples = static_cast<std::int64_t>(samples.wall.size());
+    watch.writeAllocations(done);
 }
 
 }  // namespace rigor::validation

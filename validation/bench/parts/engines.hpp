@@ -10,7 +10,7 @@
 
 #include "adapters/interface/registry.hpp"
 #include "validation/bench/bench_case.hpp"
-#include "validation/bench/stopwatch.hpp"
+#include "validation/bench/meter.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace rigor::validation {
@@ -37,14 +37,15 @@ std::vector<adapter::EngineSpec> everyChoice(const PartEngine& engine, const std
 /// Whether a case of that name is asked for.
 bool isWanted(const BenchRequest& request, const std::string& name);
 
-/// The command that runs one case again.
-std::string partCommand(const PlannedBench& planned, bool withSize);
+/// The command that runs one case again; the interface alone is not to be had.
+std::string partCommand(const PlannedBench& planned, const BenchRequest& request);
 
 /// A value with the largest it may have; none: told, not judged.
 results::BenchQuality judged(const std::string& name, const std::string& unit, double value,
                              std::optional<double> max);
 
-/// Medians of the samples into `done`; with `means` means, for work that comes in bursts.
-void fillTimes(const ClockSamples& samples, bool means, results::BenchRepetition& done);
+/// Medians of the samples into `done`, with `means` means, for work that comes in bursts; and the
+/// allocations.
+void fillTimes(const CountingStopwatch& watch, bool means, results::BenchRepetition& done);
 
 }  // namespace rigor::validation

@@ -93,14 +93,15 @@ class NarrowPhaseBench final : public BenchCase {
         PosedPairs pairs = makePosedPairs(kind_, kPairs, round == 0 ? kPairs : kJudged, seed_);
         const auto batch = makeBatch(pairs);
         std::size_t contacts = batch->run();
-        Stopwatch watch;
+        constexpr std::size_t least = 5, most = 500;
+        CountingStopwatch watch(most);
         double spent = 0.0;
-        while (watch.samples().cpu.size() < 5 || (spent < 0.05 && watch.samples().cpu.size() < 500)) {
+        while (watch.samples().cpu.size() < least || (spent < 0.05 && watch.samples().cpu.size() < most)) {
             watch.time([&] { contacts = batch->run(); }, static_cast<double>(kPairs));
             spent += watch.samples().cpu.back() * static_cast<double>(kPairs);
         }
         results::BenchRepetition done;
-        fillTimes(watch.samples(), false, done);
+        fillTimes(watch, false, done);
         done.counts = {{"pairs", static_cast<double>(kPairs)},
                        {"contacts_per_pair", static_cast<double>(contacts) / static_cast<double>(kPairs)}};
         if (nobody_) return done;
@@ -145,15 +146,17 @@ std::vector<PlannedBench> planNarrowPhases(const BenchRequest& request) {
     const std::vector<PartEngine> engines = partEngines(request);
     for (const PairKind& kind : pairKinds()) {
         if (!isWanted(request, kind.name())) continue;
-        std::vector<std::string> names{kInterface};
+        std::vector<std::string> names;
         for (const PartEngine& engine : engines)
             if (takesPart(engine, kind.dimension)) names.push_back(engine.spec.text());
+        if (names.empty()) continue;
+        names.push_back(kInterface);  // last: ratios are to the first
         for (const std::string& engine : names) {
             PlannedBench planned;
             planned.part = "narrow_phase", planned.name = kind.name(), planned.engine = engine;
             planned.operation = "pair";
             planned.parameters = json{{"kind", kind.name()}, {"seed", request.seed}}.dump();
-            planned.command = partCommand(planned, false);
+            planned.command = partCommand(planned, request);
             all.push_back(std::move(planned));
         }
     }

@@ -134,6 +134,7 @@ const std::vector<PairKind>& pairKinds() {
                                              {"sphere", "box", Overlap, 3},
                                              {"sphere", "box", Apart, 3},
                                              {"sphere", "sphere", Overlap, 3},
+                                             {"sphere", "sphere", Apart, 3},
                                              {"capsule", "capsule", Overlap, 3},
                                              {"capsule", "box", Overlap, 3},
                                              {"capsule", "box", Apart, 3},

@@ -131,6 +131,20 @@ TEST(Schedule, WhoFailedIsLeftOut) {
     EXPECT_EQ(bench.cases[1].repetitions.size(), 1u);
 }
 
+TEST(Schedule, WhoseWorkWasNotGoodIsTimedOnce) {
+    for (const std::size_t bad : {0u, 1u}) {  // the look, or the first timed round
+        Bench bench = benchOf({"x"}, {"a", "b"});
+        const BenchTarget target;
+        take(bench, target, steady, bad == 0 ? 2 : 4);
+        bench.cases[1].repetitions[bad].quality = {{"missed", "1", 2.0, std::nullopt, 1.0, false}};
+        EXPECT_GT(forecast(bench, target).repetitions, 0);
+        take(bench, target, steady);
+        EXPECT_EQ(bench.cases[0].repetitions.size(), 7u);
+        EXPECT_EQ(bench.cases[1].repetitions.size(), 2u);
+        EXPECT_EQ(forecast(bench, target).repetitions, 0);
+    }
+}
+
 TEST(Schedule, GoesOnWhereItWasKilled) {
     const BenchTarget target;
     Bench whole = benchOf({"x", "y"}, {"a", "b", "c"});

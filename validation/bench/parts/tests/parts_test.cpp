@@ -33,7 +33,9 @@ using testing::Ge;
 using testing::Le;
 
 BenchRequest request(std::vector<std::string> engines) {
-    setenv("RIGOR_ADAPTER_PATH", (std::string(RIGOR_BINARY_DIR) + "/bin/adapters").c_str(), 1);
+    const std::string binaries = RIGOR_BINARY_DIR;
+    setenv("RIGOR_ADAPTER_PATH", (binaries + "/bin/adapters:" + binaries + "/tests/bench_doubles").c_str(),
+           1);
     BenchRequest r;
     r.engines = std::move(engines);
     r.binary = std::string(RIGOR_BINARY_DIR) + "/bin/rigor";
@@ -43,6 +45,12 @@ double qualityOf(const results::BenchRepetition& done, const std::string& name) 
     for (const auto& quality : done.quality)
         if (quality.name == name) return quality.value;
     ADD_FAILURE() << "no quality " << name;
+    return NAN;
+}
+double countOf(const results::BenchRepetition& done, const std::string& name) {
+    for (const auto& count : done.counts)
+        if (count.name == name) return count.value;
+    ADD_FAILURE() << "no count " << name;
     return NAN;
 }
 bool valid(const results::BenchRepetition& done) {
@@ -92,9 +100,12 @@ TEST(PairCheck, MissedAndExcessPairsAreCounted) {
     EXPECT_EQ(wrong.excess(), 2u);
 }
 
+/// Few boxes: what is asked is whether the pairs are right, of those that are many the bench itself asks.
 TEST(BroadPhasePart, EveryChoiceOfEveryEngineFindsAllPairsAndOursNoOthers) {
     BenchRequest r = request({});
-    r.sizes = {1000};
+    for (const auto& engine : adapter::availableEngines())
+        if (!engine.starts_with("double")) r.engines.push_back(engine);
+    r.sizes = {300}, r.only = {"3D, random order", "2D, spatial order"};
     const auto planned = planBroadPhases(r);
     ASSERT_GE(planned.size(), 20u);
     for (const PlannedBench& p : planned) {
@@ -103,12 +114,40 @@ TEST(BroadPhasePart, EveryChoiceOfEveryEngineFindsAllPairsAndOursNoOthers) {
             const auto done = makeBroadPhase(p)->run(round);
             EXPECT_TRUE(valid(done));
             EXPECT_EQ(qualityOf(done, "missed_pairs"), 0.0);
+            EXPECT_THAT(countOf(done, "pairs"), AllOf(Ge(100.0), Le(200.0)));
+            EXPECT_EQ(countOf(done, "pairs_held"), countOf(done, "pairs") + qualityOf(done, "excess_pairs"));
             if (p.engine.starts_with("rigor")) {
                 EXPECT_EQ(qualityOf(done, "excess_pairs"), 0.0);
             }
             EXPECT_GT(done.cpu, 0.0);
         }
     }
+}
+
+TEST(BroadPhasePart, AForgottenPairMakesATimingInvalid) {
+    BenchRequest r = request({"double_careless"});
+    r.sizes = {100}, r.only = {"3D, random order"};
+    const auto planned = planBroadPhases(r);
+    ASSERT_EQ(planned.size(), 3u) << "every choice of the option";
+    for (const PlannedBench& p : planned)
+        for (const int round : {0, 1}) {
+            SCOPED_TRACE(p.engine + ", round " + std::to_string(round));
+            const auto done = makeBroadPhase(p)->run(round);
+            const bool forgets = p.engine.ends_with("forgetful"), all = p.engine.ends_with("generous");
+            EXPECT_EQ(valid(done), !forgets);
+            EXPECT_EQ(qualityOf(done, "missed_pairs"), forgets ? 1.0 : 0.0);
+            const double excess = 100.0 * 99.0 / 2.0 - countOf(done, "pairs");
+            EXPECT_DOUBLE_EQ(qualityOf(done, "excess_pairs"), all ? excess : 0.0) << "told, not judged";
+        }
+}
+
+/// 1e5 boxes, each with every other.
+TEST(BroadPhasePart, WhatWouldTakeTooLongIsRefusedWithAnEstimate) {
+    BenchRequest r = request({"double_careless:broad_phase=brute_force"});
+    r.sizes = {1e5}, r.only = {"3D, random order"};
+    const auto planned = planBroadPhases(r);
+    ASSERT_EQ(planned.size(), 1u);
+    EXPECT_THROW(makeBroadPhase(planned[0])->run(0), adapter::Unsupported);
 }
 
 TEST(BroadPhasePart, ASpecThatNamesItsChoiceIsTimedAlone) {
@@ -188,6 +227,29 @@ TEST(NarrowPhasePart, TheExactOnesAreValidAndTheInterfaceIsCheap) {
         } else {
             EXPECT_LT(qualityOf(done, "mean_depth_error"), 1e-5);
         }
+    }
+}
+
+TEST(NarrowPhasePart, WrongAnswersMakeATimingInvalid) {
+    struct Expected {
+        const char *kind, *narrowPhase;
+        double meanError, wrong;
+    };
+    const Expected all[] = {{"3D sphere-sphere overlap", "balls", 0.0, 0.0},
+                            {"3D sphere-sphere overlap", "deep", 0.01, 0.0},
+                            {"3D sphere-sphere overlap", "blind", 0.0, 1.0},
+                            {"3D sphere-sphere apart", "balls", 0.0, 0.0},
+                            {"3D sphere-sphere apart", "excited", 0.0, 1.0}};
+    for (const Expected& expected : all) {
+        SCOPED_TRACE(std::string(expected.kind) + ", " + expected.narrowPhase);
+        BenchRequest r = request({std::string("double_careless:narrow_phase=") + expected.narrowPhase});
+        r.only = {expected.kind};
+        const auto planned = planNarrowPhases(r);
+        ASSERT_EQ(planned.size(), 2u) << "and the interface";
+        const auto done = makeNarrowPhase(planned[0])->run(1);
+        EXPECT_NEAR(qualityOf(done, "mean_depth_error"), expected.meanError, 1e-9);
+        EXPECT_EQ(qualityOf(done, "wrong_answers"), expected.wrong);
+        EXPECT_EQ(valid(done), expected.meanError + expected.wrong == 0.0);
     }
 }
 
