@@ -125,28 +125,18 @@ std::string PairKind::name() const {
 
 const std::vector<PairKind>& pairKinds() {
     using enum Closeness;
-    static const std::vector<PairKind> kinds{{"box", "box", Overlap, 3},
-                                             {"box", "box", Face, 3},
-                                             {"box", "box", Apart, 3},
-                                             {"hull16", "hull16", Overlap, 3},
-                                             {"hull16", "hull16", Apart, 3},
-                                             {"box", "hull16", Overlap, 3},
-                                             {"sphere", "box", Overlap, 3},
-                                             {"sphere", "box", Apart, 3},
-                                             {"sphere", "sphere", Overlap, 3},
-                                             {"sphere", "sphere", Apart, 3},
-                                             {"capsule", "capsule", Overlap, 3},
-                                             {"capsule", "box", Overlap, 3},
-                                             {"capsule", "box", Apart, 3},
-                                             {"capsule", "hull16", Overlap, 3},
-                                             {"box", "box", Overlap, 2},
-                                             {"box", "box", Face, 2},
-                                             {"box", "box", Apart, 2},
-                                             {"polygon6", "polygon6", Overlap, 2},
-                                             {"circle", "circle", Overlap, 2},
-                                             {"circle", "box", Overlap, 2},
-                                             {"circle", "polygon6", Overlap, 2},
-                                             {"circle", "box", Apart, 2}};
+    static const std::vector<PairKind> kinds{
+        {"box", "box", Overlap, 3},         {"box", "box", Face, 3},
+        {"box", "box", Apart, 3},           {"hull16", "hull16", Overlap, 3},
+        {"hull16", "hull16", Apart, 3},     {"box", "hull16", Overlap, 3},
+        {"sphere", "box", Overlap, 3},      {"sphere", "box", Apart, 3},
+        {"sphere", "sphere", Overlap, 3},   {"sphere", "sphere", Apart, 3},
+        {"capsule", "capsule", Overlap, 3}, {"capsule", "box", Overlap, 3},
+        {"capsule", "box", Apart, 3},       {"capsule", "hull16", Overlap, 3},
+        {"box", "box", Overlap, 2},         {"box", "box", Face, 2},
+        {"box", "box", Apart, 2},           {"polygon6", "polygon6", Overlap, 2},
+        {"circle", "circle", Overlap, 2},   {"circle", "box", Overlap, 2},
+        {"circle", "polygon6", Overlap, 2}, {"circle", "box", Apart, 2}};
     return kinds;
 }
 
