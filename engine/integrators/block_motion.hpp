@@ -25,6 +25,7 @@ class BlockMotion {
 
     BlockMotion() = default;
     explicit BlockMotion(bool gyroscopic) : gyroscopic_(gyroscopic) {}
+    bool gyroscopic() const { return gyroscopic_; }
 
     /// Before the sub-steps of h [s] of a step; world inertias are those of the bodies' poses.
     void begin(const BodyArrays<S>& bodies, const typename S::Vec& gravity, Real h);

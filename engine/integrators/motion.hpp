@@ -40,6 +40,9 @@ class Motion {
     /// Before the first kick() of a step, which may be of several.
     void beginStep() { begun_ = false; }
 
+    /// The world inertia of the beginning of a step is all that its sub-steps need.
+    bool inertiaHolds() const { return inBlocks_ && blocks_.gyroscopic(); }
+
     /// World inertia of every body at its present pose. Before rows are made and before kick().
     static void setInertia(BodyArrays<S>& bodies, const Tasks& tasks = Tasks::one());
 

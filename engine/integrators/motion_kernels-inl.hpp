@@ -178,7 +178,7 @@ HWY_INLINE void forBodies(Block* blocks, std::size_t count, const Work& work) {
 template <class S>
 void moveAll(const BodyBlock* blocks, std::size_t count, Pose<S>* poses, const Velocity<S>* velocities,
              typename S::Real h) {
-    forBodies<S>(blocks, count, [&](const Side<S>& side, At<S>, const BodyBlock&) {
+    forBodies<S>(blocks, count, [&](const Side<S>& side, At<S>, const BodyBlock&) RIGOR_INLINE_LAMBDA {
         const Twist<S> u = side.load(velocities);
         Place<S> x = side.load(poses);
         add(x.p, number<S>(h), u.v);
@@ -192,37 +192,40 @@ void moveAll(const BodyBlock* blocks, std::size_t count, Pose<S>* poses, const V
 template <class S>
 void predictAll(TumblingBlock<S>* blocks, std::size_t count, const Pose<S>* poses, Velocity<S>* velocities,
                 typename S::Real h) {
-    forBodies<S>(blocks, count, [&](const Side<S>& side, At<S> at, TumblingBlock<S>& block) {
-        Twist<S> u = side.load(velocities);
-        const auto q = side.load(poses).q;
-        const AngVec<S> pushed = rotate(q, times(at(block.invInertia), rotate(q, at(block.kick), -1)));
-        add(u.w, number<S>(1), pushed);
-        at.set(block.kicked, u.w), at.set(block.start, q);
-        u.w = rotate(q, freeTurn(at(block.inertia), rotate(q, u.w, -1), number<S>(h)));
-        at.set(block.predicted, u.w);
-        side.store(u, velocities);
-    });
+    forBodies<S>(
+        blocks, count, [&](const Side<S>& side, At<S> at, TumblingBlock<S>& block) RIGOR_INLINE_LAMBDA {
+            Twist<S> u = side.load(velocities);
+            const auto q = side.load(poses).q;
+            const AngVec<S> pushed = rotate(q, times(at(block.invInertia), rotate(q, at(block.kick), -1)));
+            add(u.w, number<S>(1), pushed);
+            at.set(block.kicked, u.w), at.set(block.start, q);
+            u.w = rotate(q, freeTurn(at(block.inertia), rotate(q, u.w, -1), number<S>(h)));
+            at.set(block.predicted, u.w);
+            side.store(u, velocities);
+        });
 }
 
 template <class S>
 void finishAll(const TumblingBlock<S>* blocks, std::size_t count, const Pose<S>* poses,
                Velocity<S>* velocities) {
-    forBodies<S>(blocks, count, [&](const Side<S>& side, At<S> at, const TumblingBlock<S>& block) {
-        Twist<S> u = side.load(velocities);
-        const Quaternion<Num<S>> start = at(block.start), end = side.load(poses).q;
-        AngVec<S> w = at(block.kicked);
-        add(w, number<S>(1), minus(u.w, at(block.predicted)));
-        const auto I = at(block.inertia), inverse = at(block.invInertia);
-        const AngVec<S> kept = rotate(start, w, -1), momentum = times(I, kept);
-        const auto same = turnsAboutItself(kept, momentum);
-        const AngVec<S> now = rotate(end, rotate(start, momentum), -1);
-        AngVec<S> local = times(inverse, now);
-        // One refinement: the rounding of the inverse is the same in every step and would add up.
-        add(local, number<S>(1), times(inverse, minus(now, times(I, local))));
-        const AngVec<S> turned = rotate(end, local);
-        for (std::size_t k = 0; k < 3; ++k) u.w[k] = hn::IfThenElse(same, w[k], turned[k]);
-        side.store(u, velocities);
-    });
+    forBodies<S>(blocks, count,
+                 [&](const Side<S>& side, At<S> at, const TumblingBlock<S>& block) RIGOR_INLINE_LAMBDA {
+                     Twist<S> u = side.load(velocities);
+                     const Quaternion<Num<S>> start = at(block.start), end = side.load(poses).q;
+                     AngVec<S> w = at(block.kicked);
+                     add(w, number<S>(1), minus(u.w, at(block.predicted)));
+                     const auto I = at(block.inertia), inverse = at(block.invInertia);
+                     const AngVec<S> kept = rotate(start, w, -1), momentum = times(I, kept);
+                     const auto same = turnsAboutItself(kept, momentum);
+                     const AngVec<S> now = rotate(end, rotate(start, momentum), -1);
+                     AngVec<S> local = times(inverse, now);
+                     // One refinement: the rounding of the inverse is the same in every step and would add
+                     // up.
+                     add(local, number<S>(1), times(inverse, minus(now, times(I, local))));
+                     const AngVec<S> turned = rotate(end, local);
+                     for (std::size_t k = 0; k < 3; ++k) u.w[k] = hn::IfThenElse(same, w[k], turned[k]);
+                     side.store(u, velocities);
+                 });
 }
 
 }  // namespace rigor::engine::HWY_NAMESPACE

@@ -13,6 +13,7 @@ namespace rigor::engine {
 /// Both bodies at rest and at least one of them asleep: walls, and bodies asleep, do not move.
 template <class S>
 bool ContactSet<S>::isAsleep(const BodyArrays<S>& bodies, const Contact<S>& contact) {
+    if (bodies.invMass[contact.bodyA] > 0 || bodies.invMass[contact.bodyB] > 0) return false;
     const auto still = [&](std::uint32_t i) {
         return bodies.asleep[i] || bodies.constants[i].type == BodyType::Static ||
                (bodies.constants[i].type == BodyType::Kinematic && bodies.velocity[i].v.isZero(0) &&
@@ -91,7 +92,8 @@ bool ContactSet<S>::completeContact(const Search& search, Candidate& candidate, 
         search.ccd.findAhead(contact, search.bodies, *this, search.narrowPhase);
         if (!here && contact.manifold.count > 0) candidate.kept = false;
     }
-    contact.coefficients = pair(shapes_[candidate.a].material, shapes_[candidate.b].material);
+    if (!(candidate.contact != kNone && coefficientsHold_))
+        contact.coefficients = pair(shapes_[candidate.a].material, shapes_[candidate.b].material);
     return contact.manifold.count > 0;
 }
 

@@ -77,7 +77,7 @@ void readLane(const PatchBlock<S>& block, const PatchRest<S>& rest, std::size_t 
 template <class S>
 void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>& step, Patches<S>& patches,
                                const Tasks& tasks) {
-    patches.clear();
+    patches.clear(contacts_.size());
     for (std::uint32_t k = 0; k < contacts_.size(); ++k) {
         Contact<S>& contact = contacts_[k];
         contact.asleep = isAsleep(bodies, contact);

@@ -136,6 +136,7 @@ void ContactSet<S>::forgetOtherAnswers() {
 
 template <class S>
 bool ContactSet<S>::completeRestored() {
+    coefficientsHold_ = false;
     std::size_t count = 0;
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
         Candidate& c = candidates_[k];

@@ -42,17 +42,19 @@ std::uint32_t ContactSet<S>::addMaterial(const PairCoefficients<S>& own) {
                 table[a * materialCount_ + b] = combine(materials_[a], materials_[b]);
         }
     pairs_ = std::move(table);
+    coefficientsHold_ = false;
     return added;
 }
 
 template <class S>
 void ContactSet<S>::setPair(std::uint32_t a, std::uint32_t b, const PairCoefficients<S>& coefficients) {
     pairs_[a * materialCount_ + b] = pairs_[b * materialCount_ + a] = coefficients;
+    coefficientsHold_ = false;
 }
 
 template <class S>
 void ContactSet<S>::structureChanged(bool indicesChanged) {
-    boxesValid_ = candidatesValid_ = false;
+    boxesValid_ = candidatesValid_ = coefficientsHold_ = false;
     enlarged_.reset();
     if (indicesChanged) contacts_.clear(), candidates_.clear();
 }
@@ -129,6 +131,7 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
         }
     });
     settle(search);
+    coefficientsHold_ = true;
     if (fresh_.size() < taken) fresh_.resize(taken);
 }
 

@@ -224,6 +224,7 @@ class ContactSet {
     std::vector<Aabb<S>> boxes_;
     std::vector<std::uint8_t> movable_;
     bool boxesValid_ = false;
+    bool coefficientsHold_ = false;  ///< those of contacts_ are those of their materials
     std::vector<ProxyPair> proxyPairs_;
 };
 

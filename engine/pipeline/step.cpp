@@ -263,7 +263,10 @@ Load<S> World<S>::load() const {
 template <class S>
 void World<S>::makeRows() {
     const Real h = cursor_.substepSize;
-    Motion<S>::setInertia(bodies_, tasks_);
+    // Patches have theirs from the beginning of the step.
+    const bool inertiaHolds =
+        solver_->patches() != nullptr && joints_.records().empty() && motion_.inertiaHolds();
+    if (cursor_.substep == 0 || !inertiaHolds) Motion<S>::setInertia(bodies_, tasks_);
     rows_.clear();
     const Real warmStart = def_.warmStarting && lastStepSize_ > 0 ? h / lastStepSize_ : Real(0);
     const BiasRule<Real> bias = biasRule();
@@ -367,7 +370,8 @@ template <class S>
 void World<S>::relax() {
     int iterations =
         style_.bias ? style_.relaxIterations : std::min(correction_->relaxIterations(), velocityIterations());
-    if (contacts_.bounceAhead(rows_)) iterations = std::max(iterations, velocityIterations());
+    if (solver_->patches() == nullptr && contacts_.bounceAhead(rows_))
+        iterations = std::max(iterations, velocityIterations());
     if (iterations == 0) return;
     rows_.relax();
     jointStep_.curved = false;

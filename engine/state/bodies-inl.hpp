@@ -79,18 +79,17 @@ struct Side {
     /// Numbers 4 g .. 4 g + 3 of each body's entry in an array.
     template <class T>
     HWY_INLINE Quad<Tag<S>> group(const T* from, int g) const {
-        return gatherQuads(Tag<S>(), [this, from, g](std::size_t lane) {
+        return gatherQuads(Tag<S>(), [this, from, g](std::size_t lane) RIGOR_INLINE_LAMBDA {
             return reinterpret_cast<const Real*>(from + index[lane]) + 4 * g;
         });
     }
     template <class T>
     HWY_INLINE void setGroup(const Quad<Tag<S>>& numbers, T* to, int g) const {
         constexpr std::uint32_t all = (1u << hn::MaxLanes(Tag<S>())) - 1;
-        const auto at = [this, to, g](std::size_t lane) {
-            return reinterpret_cast<Real*>(to + index[lane]) + 4 * g;
-        };
+        const auto at = [this, to, g](std::size_t lane)
+                            RIGOR_INLINE_LAMBDA { return reinterpret_cast<Real*>(to + index[lane]) + 4 * g; };
         if ((moves & all) == all) return scatterQuads(Tag<S>(), numbers, at);
-        scatterQuads(Tag<S>(), numbers, [this, &at](std::size_t lane) {
+        scatterQuads(Tag<S>(), numbers, [this, &at](std::size_t lane) RIGOR_INLINE_LAMBDA {
             return (moves >> lane & 1) ? at(lane) : static_cast<Real*>(nullptr);
         });
     }

@@ -21,6 +21,7 @@ struct PatchPlan {
     std::uint32_t a, b;   ///< bodies
     bool movesA, movesB;  ///< they take impulses; one of them does
     std::uint8_t points;  ///< 1..; contacts of as many points come together in a colour
+    bool operator==(const PatchPlan&) const = default;
 };
 
 class Colouring {
@@ -46,12 +47,13 @@ class Colouring {
     void chooseColours(std::span<const PatchPlan> plans, std::size_t bodies);
     void place(std::span<const PatchPlan> plans, std::uint32_t lanes);
 
+    std::vector<PatchPlan> last_;       ///< what the rest is of: most steps plan what the last one has
     std::vector<std::uint64_t> taken_;  ///< colours of each body
     std::vector<std::uint8_t> colour_;  ///< of each plan: moving pairs, their rest, walls, their rest
     std::vector<std::uint32_t> count_;  ///< by colour and kind
     std::vector<std::uint32_t> places_;
     std::vector<Range> ranges_;
-    std::uint32_t blocks_ = 0;
+    std::uint32_t blocks_ = 0, lanes_ = 0;
 };
 
 }  // namespace rigor::engine

@@ -24,7 +24,11 @@ class Patches {
 
     /// The patches of a step are planned, then placed in blocks; then each block is filled in lane by lane,
     /// also those of nobody, and prepared. The head of a block (moves, points, bounces) is zero at first.
-    void clear() { plans_.clear(), sources_.clear(); }
+    /// `most`: as many patches, at most.
+    void clear(std::size_t most) {
+        plans_.clear(), sources_.clear();
+        plans_.reserve(most), sources_.reserve(most);
+    }
     /// `source`: any number that tells the caller whose patch this is.
     void plan(const PatchPlan& plan, std::uint32_t source) {
         plans_.push_back(plan), sources_.push_back(source);

@@ -57,8 +57,8 @@ struct Preparation {
     }
     static HWY_INLINE std::array<Num<S>, PatchSize<S>::inertia> inertiaOf(const PatchInertia<S>* inertia,
                                                                           const std::uint32_t* index) {
-        const auto group = [&](int g) {
-            return [=](std::size_t lane) {
+        const auto group = [&](int g) RIGOR_INLINE_LAMBDA {
+            return [=](std::size_t lane) RIGOR_INLINE_LAMBDA {
                 return static_cast<const Real*>(inertia[index[lane]].number + 4 * g);
             };
         };

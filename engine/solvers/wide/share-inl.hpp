@@ -56,7 +56,7 @@ HWY_INLINE void share(const PatchBlock<S>& block, const PatchRest<S>& rest, At<S
 template <class S>
 HWY_INLINE void shareLanes(PatchBlock<S>& block, PatchRest<S>& rest, At<S> at) {
     const LinVec<S> normal = at(block.normal);
-    const auto force = [&](const auto& impulses) -> LinVec<S> {
+    const auto force = [&](const auto& impulses) RIGOR_INLINE_LAMBDA -> LinVec<S> {
         const Num<S> first = at(impulses[0]);
         if constexpr (S::dim == 2) {
             return {hn::Zero(Tag<S>()) - first * normal[1], first * normal[0]};
@@ -70,11 +70,13 @@ HWY_INLINE void shareLanes(PatchBlock<S>& block, PatchRest<S>& rest, At<S> at) {
     Num<S> twist = hn::Zero(Tag<S>()), twistTotal = twist;
     if constexpr (S::dim == 3) twist = at(block.twistImpulse), twistTotal = at(block.twistTotal);
     share<S>(
-        block, rest, at, force(block.rubImpulse), twist, [&](const auto& p) { return at(p.impulse); },
-        [&](int i, const LinVec<S>& f) { at.set(rest.point[i].rub, f); });
+        block, rest, at, force(block.rubImpulse), twist,
+        [&](const auto& p) RIGOR_INLINE_LAMBDA { return at(p.impulse); },
+        [&](int i, const LinVec<S>& f) RIGOR_INLINE_LAMBDA { at.set(rest.point[i].rub, f); });
     share<S>(
-        block, rest, at, force(block.rubTotal), twistTotal, [&](const auto& p) { return at(p.total); },
-        [&](int i, const LinVec<S>& f) { at.set(rest.point[i].rubTotal, f); });
+        block, rest, at, force(block.rubTotal), twistTotal,
+        [&](const auto& p) RIGOR_INLINE_LAMBDA { return at(p.total); },
+        [&](int i, const LinVec<S>& f) RIGOR_INLINE_LAMBDA { at.set(rest.point[i].rubTotal, f); });
 }
 
 template <class S>

@@ -212,23 +212,25 @@ HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S:
     PatchBlock<S>& block = p.block;
     const Along<S> velocity(p, p.a, p.b);
     const Along<S> motion(p, p.sideA.load(p.motions), p.sideB.load(p.motions));
-    std::array<NormalRow<S>, n> row = eachPoint<n>([&](auto... i) {
+    std::array<NormalRow<S>, n> row = eachPoint<n>([&](auto... i) RIGOR_INLINE_LAMBDA {
         return std::array<NormalRow<S>, n>{NormalRow<S>(p, pass, velocity, motion, i)...};
     });
-    const auto visit = [&](auto i, auto changed) {
+    const auto visit = [&](auto i, auto changed) RIGOR_INLINE_LAMBDA {
         Num<S> now = row[i].error;
-        eachPoint<changed>(
-            [&](auto... k) { ((now = now + p.at(block.K[pairAt(i, k)]) * row[k].change), ...); });
+        eachPoint<changed>([&](auto... k) RIGOR_INLINE_LAMBDA {
+            ((now = now + p.at(block.K[pairAt(i, k)]) * row[k].change), ...);
+        });
         row[i].solve(now);
     };
-    eachPoint<n>([&](auto... i) { (visit(i, i), ...); });
-    if constexpr (n > 1) eachPoint<n>([&](auto... i) { (visit(Index<n - 1 - i>(), Index<n>()), ...); });
+    eachPoint<n>([&](auto... i) RIGOR_INLINE_LAMBDA { (visit(i, i), ...); });
+    if constexpr (n > 1)
+        eachPoint<n>([&](auto... i) RIGOR_INLINE_LAMBDA { (visit(Index<n - 1 - i>(), Index<n>()), ...); });
 
     Pressed<S> pressed{zero, zero};
     Num<S> sum = zero;
     AngVec<S> spin;
     for (auto& x : spin) x = zero;
-    const auto finish = [&](auto i) {
+    const auto finish = [&](auto i) RIGOR_INLINE_LAMBDA {
         PatchPoint<S>& point = block.point[i];
         p.at.set(point.impulse, row[i].lambda);
         if (pass.last) p.at.set(point.total, p.at(point.total) + row[i].lambda);
@@ -237,7 +239,7 @@ HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S:
         pressed.sum = pressed.sum + row[i].lambda;
         if constexpr (S::dim == 3) pressed.moment = pressed.moment + row[i].lambda * p.at(block.radius[i]);
     };
-    eachPoint<n>([&](auto... i) { (finish(i), ...); });
+    eachPoint<n>([&](auto... i) RIGOR_INLINE_LAMBDA { (finish(i), ...); });
     p.press(sum, spin);
     return pressed;
 }
@@ -313,22 +315,23 @@ HWY_INLINE void plan(PatchGroup<S>& p, const PatchPass<typename S::Real>& pass) 
 
 template <class S>
 void warmStartAll(const PatchRange<S>& range) {
-    forPatches<S>(range, [](PatchGroup<S>& p) { warmStart(p); });
+    forPatches<S>(range, [](PatchGroup<S>& p) RIGOR_INLINE_LAMBDA { warmStart(p); });
 }
 template <class S>
 void solveAll(const PatchRange<S>& range, const PatchPass<typename S::Real>& pass) {
-    const auto normals = [&pass](PatchGroup<S>& p) {
+    const auto normals = [&pass](PatchGroup<S>& p) RIGOR_INLINE_LAMBDA {
         if constexpr (S::dim == 3) {
             if (p.block.points == 4) return solveNormals<4>(p, pass);
             if (p.block.points == 3) return solveNormals<3>(p, pass);
         }
         return p.block.points == 2 ? solveNormals<2>(p, pass) : solveNormals<1>(p, pass);
     };
-    forPatches<S>(range, [&](PatchGroup<S>& p) { solveFriction(p, normals(p), pass.last); });
+    forPatches<S>(range,
+                  [&](PatchGroup<S>& p) RIGOR_INLINE_LAMBDA { solveFriction(p, normals(p), pass.last); });
 }
 template <class S>
 void planAll(const PatchRange<S>& range, const PatchPass<typename S::Real>& pass) {
-    forPatches<S>(range, [&pass](PatchGroup<S>& p) {
+    forPatches<S>(range, [&pass](PatchGroup<S>& p) RIGOR_INLINE_LAMBDA {
         if (p.block.bounces) plan(p, pass);
     });
 }
