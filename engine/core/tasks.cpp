@@ -2,28 +2,161 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/core/tasks.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
+#include <hwy/cache_control.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
+#include <exception>
+#include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace rigor::engine {
+namespace {
 
-/// An arena of its own keeps a world from borrowing threads that another one was given.
+/// Parts of a share of a range and the next one to be taken, in one number, so that whoever takes a part knows
+/// of which range it is: [range 24 | parts 20 | next 20].
+constexpr std::uint64_t kPartBits = 20, kMostParts = (1u << kPartBits) - 4096;
+constexpr std::uint64_t tickets(std::uint64_t range, std::uint64_t parts) {
+    return range << (2 * kPartBits) | parts << kPartBits;
+}
+constexpr std::size_t nextOf(std::uint64_t tickets) {
+    return tickets & ((1u << kPartBits) - 1);
+}
+constexpr std::size_t partsOf(std::uint64_t tickets) {
+    return tickets >> kPartBits & ((1u << kPartBits) - 1);
+}
+
+constexpr int kSpins = 1000;  ///< some ten microseconds, longer than what lies between two ranges of a step
+
+/// Waits a little, after `waits` times before.
+void pause(int waits) {
+    if (waits < kSpins)
+        hwy::Pause();
+    else
+        std::this_thread::yield();
+}
+
+}  // namespace
+
+/// An arena of its own keeps a world from borrowing threads that another one was given. While somebody has
+/// entered, its threads stay together and look for parts of the next range: to send for them anew, with
+/// parallel_for, costs more than most ranges of a step. Each thread has a share of every range, the same for
+/// ranges of the same size, so that it finds what it worked on last time in its own cache; who is ready with
+/// his own takes parts of the others'.
 struct Tasks::Arena {
-    explicit Arena(int threads) : arena(threads) {}
+    using Work = std::function<void(std::size_t, std::size_t)>;
+
+    explicit Arena(int threads) : arena(threads), shares_(static_cast<std::size_t>(threads)) {}
+
+    void enter(const std::function<void()>& work);
+    void share(std::size_t n, std::size_t part, const Work& work);
+    bool inPart() const { return working == this; }
+
     oneapi::tbb::task_arena arena;
-    /// A stage: parts taken, and parts done.
-    struct alignas(64) Count {
-        std::atomic<std::size_t> taken{0}, done{0};
+    bool entered = false;
+
+  private:
+    struct alignas(64) Share {
+        std::atomic<std::uint64_t> tickets{0};
     };
-    std::vector<Count> stages;
+    /// The first part of a share, or of what follows the last one.
+    std::size_t firstPart(std::size_t share) const { return parts_ * share / shares_.size(); }
+    void stay(std::size_t self);
+    bool takeParts(std::size_t self);
+    void run(std::size_t part);
+
+    static thread_local const Arena* working;  ///< on a part of this one
+
+    std::vector<Share> shares_;
+    std::atomic<bool> together_{false};
+    alignas(64) std::atomic<std::size_t> done_{0};
+    // --- of the range that is shared; read by those who have taken a part of it
+    alignas(64) const Work* work_ = nullptr;
+    std::size_t n_ = 0, size_ = 0, parts_ = 0;  ///< indices, of a part; parts
+    std::uint64_t range_ = 0;
+    std::mutex failing_;
+    std::exception_ptr error_;
 };
+
+thread_local const Tasks::Arena* Tasks::Arena::working = nullptr;
+
+void Tasks::Arena::enter(const std::function<void()>& work) {
+    if (entered) return work();
+    arena.execute([&] {
+        oneapi::tbb::task_group others;
+        entered = together_ = true;
+        for (std::size_t i = 1; i < shares_.size(); ++i) others.run([this, i] { stay(i); });
+        const auto leave = [&] {
+            entered = together_ = false;
+            others.wait();
+        };
+        try {
+            work();
+        } catch (...) {
+            leave();
+            throw;
+        }
+        leave();
+    });
+}
+
+void Tasks::Arena::stay(std::size_t self) {
+    for (int waits = 0; together_.load(std::memory_order_acquire); ++waits)
+        if (takeParts(self))
+            waits = 0;
+        else
+            pause(waits);
+}
+
+void Tasks::Arena::share(std::size_t n, std::size_t size, const Work& work) {
+    size_ = std::max<std::size_t>({size, 1, n / kMostParts + 1});
+    n_ = n;
+    parts_ = (n_ + size_ - 1) / size_;
+    work_ = &work;
+    error_ = nullptr;
+    done_.store(0, std::memory_order_relaxed);
+    ++range_;
+    for (std::size_t k = 0; k < shares_.size(); ++k)
+        shares_[k].tickets.store(tickets(range_, firstPart(k + 1) - firstPart(k)), std::memory_order_release);
+    takeParts(0);
+    for (int waits = 0; done_.load(std::memory_order_acquire) < parts_; ++waits) pause(waits);
+    if (error_) std::rethrow_exception(error_);
+}
+
+bool Tasks::Arena::takeParts(std::size_t self) {
+    bool some = false;
+    for (std::size_t k = 0; k < shares_.size(); ++k) {
+        const std::size_t share = (self + k) % shares_.size();
+        std::atomic<std::uint64_t>& left = shares_[share].tickets;
+        for (;;) {
+            std::uint64_t now = left.load(std::memory_order_relaxed);
+            if (nextOf(now) >= partsOf(now)) break;
+            // The range may be another one by now: this says which part, and keeps its range from ending.
+            now = left.fetch_add(1, std::memory_order_acq_rel);
+            if (nextOf(now) >= partsOf(now)) break;
+            run(firstPart(share) + nextOf(now));
+            done_.fetch_add(1, std::memory_order_release);
+            some = true;
+        }
+    }
+    return some;
+}
+
+void Tasks::Arena::run(std::size_t part) {
+    const Arena* const before = std::exchange(working, this);
+    try {
+        (*work_)(part * size_, std::min(n_, (part + 1) * size_));
+    } catch (...) {
+        const std::lock_guard lock(failing_);
+        if (!error_) error_ = std::current_exception();
+    }
+    working = before;
+}
 
 Tasks::Tasks(int threads)
     : threads_(threads), arena_(threads > 1 ? std::make_unique<Arena>(threads) : nullptr) {}
@@ -43,44 +176,32 @@ const Tasks& Tasks::one() {
 
 void Tasks::shared(std::size_t n, std::size_t grain,
                    const std::function<void(std::size_t, std::size_t)>& work) const {
-    using Range = oneapi::tbb::blocked_range<std::size_t>;
+    if (arena_->inPart()) return work(0, n);
     // A few parts for each thread even out what they cost; more only cost themselves.
     constexpr std::size_t kPartsPerThread = 4;
     const std::size_t part = std::max(grain / 2, n / (kPartsPerThread * static_cast<std::size_t>(threads_)));
-    arena_->arena.execute([&] {
-        oneapi::tbb::parallel_for(
-            Range(0, n, std::max<std::size_t>(part, 1)),
-            [&](const Range& range) { work(range.begin(), range.end()); }, oneapi::tbb::simple_partitioner());
-    });
+    arena_->enter([&] { arena_->share(n, part, work); });
 }
 
 void Tasks::sharedStages(std::size_t count, std::size_t grain,
                          const std::function<std::size_t(std::size_t)>& size,
                          const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const {
-    std::vector<Arena::Count>& stages = arena_->stages;
-    if (stages.size() < count) stages = std::vector<Arena::Count>(2 * count);
-    for (std::size_t s = 0; s < count; ++s) stages[s].taken = 0, stages[s].done = 0;
-    // Whoever comes takes part from the stage that is under way; nobody waits for a thread that has not come.
-    const auto takePart = [&] {
-        for (std::size_t s = 0; s < count; ++s) {
-            const std::size_t n = size(s), parts = (n + grain - 1) / grain;
-            for (std::size_t part; (part = stages[s].taken.fetch_add(1)) < parts; stages[s].done.fetch_add(1))
-                work(s, part * grain, std::min(n, (part + 1) * grain));
-            constexpr int kSpins = 2000;  // some microseconds, the length of a part
-            for (int spin = 0; stages[s].done.load() < parts; ++spin)
-                if (spin > kSpins) std::this_thread::yield();
+    std::size_t stage = 0;
+    const Arena::Work part = [&](std::size_t begin, std::size_t end) { work(stage, begin, end); };
+    const auto all = [&] {
+        for (; stage < count; ++stage) {
+            const std::size_t n = size(stage);
+            if (n > grain && !arena_->inPart())
+                arena_->share(n, grain, part);
+            else if (n > 0)
+                part(0, n);
         }
     };
-    arena_->arena.execute([&] {
-        oneapi::tbb::task_group others;
-        for (int i = 1; i < threads_; ++i) others.run(takePart);
-        takePart();
-        others.wait();
-    });
+    arena_->inPart() ? all() : arena_->enter(all);
 }
 
 void Tasks::entered(const std::function<void()>& work) const {
-    arena_->arena.execute([&] { work(); });
+    arena_->inPart() ? work() : arena_->enter(work);
 }
 
 }  // namespace rigor::engine

@@ -110,7 +110,9 @@ static_assert(kMoveLast.size() == kMoveFirst.size());
 template <class S>
 const StepResult<S>& World<S>::step(Real h) {
     beginStep(h);
-    while (stepping()) runPhase();
+    tasks_.enter([this] {
+        while (stepping()) runPhase();
+    });
     return result_;
 }
 

@@ -68,8 +68,8 @@ TEST(Tasks, ExceptionsReachTheCallerAndCopiesWork) {
     EXPECT_EQ(copy.threads(), 3);
     for (const Tasks* t : {&tasks, &copy})
         EXPECT_THROW(t->forRanges(100, 1,
-                                  [](std::size_t begin, std::size_t) {
-                                      if (begin == 50) throw std::runtime_error("50");
+                                  [](std::size_t begin, std::size_t end) {
+                                      if (begin <= 50 && 50 < end) throw std::runtime_error("50");
                                   }),
                      std::runtime_error);
 }
