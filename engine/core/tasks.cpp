@@ -18,8 +18,8 @@
 namespace rigor::engine {
 namespace {
 
-/// Parts of a share of a range and the next one to be taken, in one number, so that whoever takes a part knows
-/// of which range it is: [range 24 | parts 20 | next 20].
+/// Parts of a share of a range and the next one to be taken, in one number, so that whoever takes a part
+/// knows of which range it is: [range 24 | parts 20 | next 20].
 constexpr std::uint64_t kPartBits = 20, kMostParts = (1u << kPartBits) - 4096;
 constexpr std::uint64_t tickets(std::uint64_t range, std::uint64_t parts) {
     return range << (2 * kPartBits) | parts << kPartBits;
@@ -180,7 +180,8 @@ void Tasks::shared(std::size_t n, std::size_t grain,
     // A few parts for each thread even out what they cost; more only cost themselves.
     constexpr std::size_t kPartsPerThread = 4;
     const std::size_t part = std::max(grain / 2, n / (kPartsPerThread * static_cast<std::size_t>(threads_)));
-    arena_->enter([&] { arena_->share(n, part, work); });
+    const auto share = [&] { arena_->share(n, part, work); };
+    arena_->enter(std::cref(share));
 }
 
 void Tasks::sharedStages(std::size_t count, std::size_t grain,
@@ -197,7 +198,7 @@ void Tasks::sharedStages(std::size_t count, std::size_t grain,
                 part(0, n);
         }
     };
-    arena_->inPart() ? all() : arena_->enter(all);
+    arena_->inPart() ? all() : arena_->enter(std::cref(all));
 }
 
 void Tasks::entered(const std::function<void()>& work) const {

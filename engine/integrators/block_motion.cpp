@@ -34,26 +34,37 @@ void putSymmetric(Lanes<R>* to, std::size_t lane, const Eigen::Matrix<R, 3, 3>& 
 }  // namespace
 
 template <class S>
-void BlockMotion<S>::begin(const BodyArrays<S>& bodies, const typename S::Vec& gravity, Real h) {
-    const std::size_t n = bodies.size();
+void BlockMotion<S>::begin(const BodyArrays<S>& bodies, const typename S::Vec& gravity, Real h,
+                           const Tasks& tasks) {
+    const std::size_t n = bodies.size(), blocks = (n + kLanes - 1) / kLanes;
     kept_.resize(n), add_.resize(n);
-    moving_.clear(), tumbling_.clear(), twisted_.clear();
-    tumblers_ = 0;
-    std::size_t moving = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        if (bodies.constants[i].type != BodyType::Static && !bodies.asleep[i]) {
-            if (moving % kLanes == 0) moving_.emplace_back();
-            moving_.back().index[moving % kLanes] = static_cast<std::uint32_t>(i);
-            moving_.back().moves |= 1u << (moving % kLanes);
-            ++moving;
+    moving_.resize(blocks);
+    tumbling_.resize(S::dim == 3 && gyroscopic_ ? blocks : 0);
+    twisted_.clear();
+    tasks.forEach(blocks, kBlockGrain, [&](std::size_t k) {
+        moving_[k].moves = 0;
+        if (!tumbling_.empty()) tumbling_[k].moves = 0;
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const std::size_t i = kLanes * k + lane;
+            const auto index = static_cast<std::uint32_t>(i < n ? i : 0);
+            moving_[k].index[lane] = index;
+            if (!tumbling_.empty()) tumbling_[k].index[lane] = index;
+            if (i >= n) continue;
+            const bool moves = bodies.constants[i].type != BodyType::Static && !bodies.asleep[i];
+            moving_[k].moves |= static_cast<std::uint32_t>(moves) << lane;
+            addKick(bodies, i, gravity, h);
         }
-        if (addKick(bodies, i, gravity, h)) addTumbling(bodies, i, h);
-    }
+    });
+    if (gyroscopic_) return;
+    for (std::uint32_t i = 0; i < n; ++i)
+        if (bodies.invMass[i] > 0 && dotAng(bodies.wrench[i].torque, bodies.wrench[i].torque) > 0 &&
+            !isRound<S>(bodies.constants[i].inertia))
+            twisted_.push_back(i);
 }
 
-/// True: the body tumbles, and its torque is not in what is added.
+/// What forces add in a sub-step, but for torques on bodies that are not round.
 template <class S>
-bool BlockMotion<S>::addKick(const BodyArrays<S>& bodies, std::size_t i, const typename S::Vec& gravity,
+void BlockMotion<S>::addKick(const BodyArrays<S>& bodies, std::size_t i, const typename S::Vec& gravity,
                              Real h) {
     using Vec = typename S::Vec;
     using Ang = typename S::Ang;
@@ -65,35 +76,29 @@ bool BlockMotion<S>::addKick(const BodyArrays<S>& bodies, std::size_t i, const t
     };
     kept_[i] = {Vec::Ones(), all(Real(1))};
     add_[i] = {};
-    if (bodies.invMass[i] == 0) return false;
+    if (bodies.invMass[i] == 0) return;
     const BodyConstants<S>& body = bodies.constants[i];
     const DampedStep<Real> linear = dampedStep(body.linearVelocityKept, h);
     const DampedStep<Real> angular = dampedStep(body.angularVelocityKept, h);
     kept_[i] = {Vec::Constant(linear.kept), all(angular.kept)};
     add_[i].v = linear.kick * Vec(body.gravityScale * gravity + bodies.invMass[i] * bodies.wrench[i].force);
-    const bool round = isRound<S>(body.inertia);
-    if (gyroscopic_ && !round) return true;
-    if (round)
+    if (isRound<S>(body.inertia))
         add_[i].w = angular.kick * Ang(bodies.invInertia[i] * bodies.wrench[i].torque);
-    else if (dotAng(bodies.wrench[i].torque, bodies.wrench[i].torque) > 0)
-        twisted_.push_back(static_cast<std::uint32_t>(i));
-    return false;
+    else if (gyroscopic_)
+        addTumbling(bodies, i, angular.kick);
 }
 
 template <class S>
-void BlockMotion<S>::addTumbling(const BodyArrays<S>& bodies, std::size_t i, Real h) {
+void BlockMotion<S>::addTumbling(const BodyArrays<S>& bodies, std::size_t i, Real kick) {
     if constexpr (S::dim == 3) {
-        const std::size_t lane = tumblers_++ % kLanes;
-        if (lane == 0) tumbling_.emplace_back();
-        TumblingBlock<S>& block = tumbling_.back();
-        block.index[lane] = static_cast<std::uint32_t>(i);
+        TumblingBlock<S>& block = tumbling_[i / kLanes];
+        const std::size_t lane = i % kLanes;
         block.moves |= 1u << lane;
         putSymmetric<Real>(block.inertia, lane, bodies.constants[i].inertia);
         putSymmetric<Real>(block.invInertia, lane, bodies.invInertiaLocal[i]);
-        const Real kick = dampedStep(bodies.constants[i].angularVelocityKept, h).kick;
         for (int k = 0; k < 3; ++k) block.kick[k][lane] = kick * bodies.wrench[i].torque[k];
     } else {
-        (void)bodies, (void)i, (void)h;
+        (void)bodies, (void)i, (void)kick;
     }
 }
 

@@ -28,21 +28,20 @@ class BlockMotion {
     bool gyroscopic() const { return gyroscopic_; }
 
     /// Before the sub-steps of h [s] of a step; world inertias are those of the bodies' poses.
-    void begin(const BodyArrays<S>& bodies, const typename S::Vec& gravity, Real h);
+    void begin(const BodyArrays<S>& bodies, const typename S::Vec& gravity, Real h, const Tasks& tasks);
     // --- in each of them, as Motion's
     void kick(BodyArrays<S>& bodies, Real h, const Tasks& tasks);
     void move(BodyArrays<S>& bodies, std::span<Velocity<S>> used, Real h, const Tasks& tasks) const;
     void finish(BodyArrays<S>& bodies, const Tasks& tasks) const;
 
   private:
-    bool addKick(const BodyArrays<S>& bodies, std::size_t i, const typename S::Vec& gravity, Real h);
-    void addTumbling(const BodyArrays<S>& bodies, std::size_t i, Real h);
+    void addKick(const BodyArrays<S>& bodies, std::size_t i, const typename S::Vec& gravity, Real h);
+    void addTumbling(const BodyArrays<S>& bodies, std::size_t i, Real kick);
 
     bool gyroscopic_ = true;
     std::vector<Velocity<S>> kept_, add_;
-    std::vector<BodyBlock> moving_;
-    std::vector<TumblingBlock<S>> tumbling_;
-    std::size_t tumblers_ = 0;
+    std::vector<BodyBlock> moving_;           ///< of the bodies 8 k .. 8 k + 7
+    std::vector<TumblingBlock<S>> tumbling_;  ///< likewise; none where there is no gyroscopic term
     std::vector<std::uint32_t> twisted_;  ///< by torques, and not round, where there is no gyroscopic term
 };
 

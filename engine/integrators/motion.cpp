@@ -19,7 +19,7 @@ template <class S>
 void Motion<S>::kick(BodyArrays<S>& bodies, const Load<S>& load, Real h, const Tasks& tasks) {
     kickedInBlocks_ = goesInBlocks(load);
     if (kickedInBlocks_) {
-        if (!std::exchange(begun_, true)) blocks_.begin(bodies, load.gravity, h);
+        if (!std::exchange(begun_, true)) blocks_.begin(bodies, load.gravity, h, tasks);
         return blocks_.kick(bodies, h, tasks);
     }
     const std::size_t n = bodies.size();

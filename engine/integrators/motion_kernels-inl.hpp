@@ -171,7 +171,7 @@ template <class S, class Block, class Work>
 HWY_INLINE void forBodies(Block* blocks, std::size_t count, const Work& work) {
     const std::size_t lanes = hn::Lanes(Tag<S>());
     for (std::size_t k = 0; k < count; ++k)
-        for (std::size_t first = 0; first < kLanes; first += lanes)
+        for (std::size_t first = 0; blocks[k].moves != 0 && first < kLanes; first += lanes)
             work(Side<S>{blocks[k].index + first, blocks[k].moves >> first}, At<S>{first}, blocks[k]);
 }
 

@@ -49,7 +49,7 @@ struct Contact {
     std::uint32_t piece = 0xffffffffu;  ///< segment or triangle of the chain, mesh or field; none of others
     bool asleep = false;                ///< neither body takes impulses: it stays as it was, without rows
     bool ahead = false;     ///< fast for their sizes: must not be let through, however far apart they are
-    bool touching = false;  ///< at the end of the step: overlapped when found, or pushed in the step
+    bool touching = false;  ///< overlapped when found, or pushed in the step since
     bool touched = false;   ///< at the end of the step before
     PairCoefficients<S> coefficients;
     std::array<Point, S::maxManifoldPoints> points;

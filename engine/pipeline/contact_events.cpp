@@ -10,7 +10,12 @@
 namespace rigor::engine {
 
 template <class S>
-void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events) {
+void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events,
+                               const Tasks& tasks) {
+    constexpr std::size_t kContactGrain = 64;  // worth sharing: some microseconds of work
+    turned_.resize(contacts_.size());
+    tasks.forEach(contacts_.size(), kContactGrain,
+                  [this](std::size_t k) { turned_[k] = contacts_[k].touching != contacts_[k].touched; });
     const auto key = [](const auto& c) { return std::pair(pairKey(c.shapeA, c.shapeB), c.piece); };
     const auto add = [&](EventKind kind, const auto& c) -> Event<S>& {
         Event<S>& event = events.emplace_back();
@@ -29,11 +34,9 @@ void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>
         }
     };
     auto gone = gone_.begin();
-    for (Contact<S>& contact : contacts_) {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
-            contact.touching = contact.touching || contact.points[i].normalTotal > 0 ||
-                               contact.manifold.points[i].separation < 0;
-        if (contact.touching == contact.touched) continue;
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+        if (!turned_[k]) continue;
+        const Contact<S>& contact = contacts_[k];
         for (; gone != gone_.end() && key(*gone) < key(contact); ++gone) add(EventKind::ContactEnds, *gone);
         if (contact.touching)
             begins(contact);

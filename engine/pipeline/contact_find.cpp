@@ -29,7 +29,6 @@ bool ContactSet<S>::renewContact(const Search& search, Candidate& candidate, Con
     if (stillValid(candidate)) {
         carry(candidate, contact);
         clearStep(contact);
-        contact.touching = false;
         return completeContact(search, candidate, contact);
     }
     OldPoints old;
@@ -45,7 +44,6 @@ bool ContactSet<S>::renewContact(const Search& search, Candidate& candidate, Con
     if (contact.manifold.count == 0) contact.cache.count = 0;
     makePoints(search, candidate, contact);
     if (!completeContact(search, candidate, contact)) return false;
-    contact.touching = false;
     takeOver(search.bodies, old, contact);
     return true;
 }
@@ -94,6 +92,9 @@ bool ContactSet<S>::completeContact(const Search& search, Candidate& candidate, 
     }
     if (!(candidate.contact != kNone && coefficientsHold_))
         contact.coefficients = pair(shapes_[candidate.a].material, shapes_[candidate.b].material);
+    contact.touching = false;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+        contact.touching = contact.touching || contact.manifold.points[i].separation < 0;
     return contact.manifold.count > 0;
 }
 

@@ -10,7 +10,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kBlockGrain = 8;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kContactGrain = 64;  ///< worth sharing: some microseconds of work
 
 template <class V, class R>
 void putVector(Lanes<R>* to, std::size_t lane, const V& v) {
@@ -67,6 +67,7 @@ void readLane(const PatchBlock<S>& block, const PatchRest<S>& rest, std::size_t 
         typename Contact<S>::Point& point = contact.points[i];
         point.normalImpulse = block.point[i].impulse[lane];
         point.normalTotal = block.point[i].total[lane];
+        contact.touching = contact.touching || point.normalTotal > 0;
         point.frictionImpulse = takeVector<S>(rest.point[i].rub, lane);
         point.frictionTotal = takeVector<S>(rest.point[i].rubTotal, lane);
     }
@@ -77,20 +78,22 @@ void readLane(const PatchBlock<S>& block, const PatchRest<S>& rest, std::size_t 
 template <class S>
 void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>& step, Patches<S>& patches,
                                const Tasks& tasks) {
-    patches.clear(contacts_.size());
-    for (std::uint32_t k = 0; k < contacts_.size(); ++k) {
+    const std::span<PatchPlan> plans = patches.plan(contacts_.size());
+    tasks.forEach(contacts_.size(), kContactGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts_[k];
         contact.asleep = isAsleep(bodies, contact);
         const bool movesA = bodies.invMass[contact.bodyA] > 0, movesB = bodies.invMass[contact.bodyB] > 0;
-        if (contact.asleep || contact.manifold.count == 0 || (!movesA && !movesB)) continue;
-        const auto points = static_cast<std::uint8_t>(contact.manifold.count);
-        patches.plan({contact.bodyA, contact.bodyB, movesA, movesB, points}, k);
-    }
+        const bool solved = !contact.asleep && (movesA || movesB);
+        plans[k] = {contact.bodyA, contact.bodyB, movesA, movesB,
+                    static_cast<std::uint8_t>(solved ? contact.manifold.count : 0)};
+    });
     patches.place(bodies, tasks);
-    tasks.forEach(patches.blocks(), kBlockGrain, [&](std::size_t b) {
+    patches.forBlocks(tasks, [&](std::size_t b) {
+        PatchBlock<S>& block = patches.block(b);
+        block.movesA = block.movesB = block.bounces = 0, block.points = 0;
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             const std::uint32_t source = patches.sourceAt(b, lane);
-            fillLane(patches.block(b), patches.rest(b), lane, bodies, step,
+            fillLane(block, patches.rest(b), lane, bodies, step,
                      source == Patches<S>::kNobody ? nullptr : &contacts_[source]);
         }
         patches.prepare(b);
@@ -99,7 +102,7 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
 
 template <class S>
 void ContactSet<S>::storePatches(Patches<S>& patches, const Tasks& tasks) {
-    tasks.forEach(patches.blocks(), kBlockGrain, [&](std::size_t b) {
+    patches.forBlocks(tasks, [&](std::size_t b) {
         patches.share(b);
         for (std::size_t lane = 0; lane < kLanes; ++lane)
             if (const std::uint32_t source = patches.sourceAt(b, lane); source != Patches<S>::kNobody)

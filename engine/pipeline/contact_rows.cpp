@@ -221,6 +221,7 @@ void ContactSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
             for (std::uint32_t r = 1; r < block.rows; ++r)
                 point.frictionImpulse += rows.rows[block.first + r].impulse * rows.rows[block.first + r].lin;
             point.normalTotal += point.normalImpulse;
+            contact.touching = contact.touching || point.normalTotal > 0;
             point.frictionTotal += point.frictionImpulse;
         }
 }

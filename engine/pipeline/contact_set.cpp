@@ -91,12 +91,31 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
     boxesValid_ = true;
     if (search.boxMargin == 0) {
         broadPhase.update(boxes_, movable_, proxyPairs_, tasks);
+        pairCount_ = proxyPairs_.size();
+        proxyPairsHold_ = true;
         return;
     }
     if (enlarged_.update(broadPhase, boxes_, movable_, search.boxMargin, tasks)) candidatesValid_ = false;
-    proxyPairs_.clear();
-    for (const ProxyPair& pair : enlarged_.pairs())
-        if (boxes_[pair.a].overlaps(boxes_[pair.b])) proxyPairs_.push_back(pair);
+    std::atomic<std::size_t> count = 0;
+    tasks.forRanges(enlarged_.pairs().size(), kPairGrain * 16, [&](std::size_t first, std::size_t last) {
+        const auto pair = enlarged_.pairs().begin();
+        count += static_cast<std::size_t>(
+            std::count_if(pair + static_cast<std::ptrdiff_t>(first), pair + static_cast<std::ptrdiff_t>(last),
+                          [this](const ProxyPair& p) { return boxes_[p.a].overlaps(boxes_[p.b]); }));
+    });
+    pairCount_ = count;
+    proxyPairsHold_ = false;
+}
+
+template <class S>
+const std::vector<ProxyPair>& ContactSet<S>::proxyPairs() const {
+    if (!proxyPairsHold_) {
+        proxyPairs_.clear();
+        for (const ProxyPair& pair : enlarged_.pairs())
+            if (boxes_[pair.a].overlaps(boxes_[pair.b])) proxyPairs_.push_back(pair);
+        proxyPairsHold_ = true;
+    }
+    return proxyPairs_;
 }
 
 template <class S>
@@ -112,8 +131,7 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
     // New contacts take the next free place in fresh_; those that it has no room for are found once more.
     std::atomic<std::uint32_t> taken = 0;
     const Tasks& those = narrowPhase.manyThreads() ? tasks : Tasks::one();
-    those.forEach(candidates_.size(), kPairGrain, [&](std::size_t k) {
-        Candidate& candidate = candidates_[k];
+    const auto look = [&](Candidate& candidate) {
         candidate.found = candidate.asked = false;
         if (!exact && !boxes_[candidate.a].overlaps(boxes_[candidate.b])) {
             candidate.kept = false;  // as if the pair had not been listed
@@ -129,6 +147,12 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
             candidate.fresh = taken.fetch_add(1, std::memory_order_relaxed);
             if (candidate.fresh < fresh_.size()) fresh_[candidate.fresh] = *contact;
         }
+    };
+    outcomes_.resize(candidates_.size());
+    those.forEach(candidates_.size(), kPairGrain, [&](std::size_t k) {
+        Candidate& candidate = candidates_[k];
+        look(candidate);
+        outcomes_[k] = {candidate.found, candidate.asked, candidate.contact != kNone};
     });
     settle(search);
     coefficientsHold_ = true;
@@ -189,9 +213,9 @@ void ContactSet<S>::settle(const Search& search) {
     gone_.clear();
     asked_ = 0;
     std::size_t kept = 0, count = 0;
-    for (const Candidate& candidate : candidates_) {
-        kept += candidate.found && candidate.contact != kNone, count += candidate.found;
-        asked_ += candidate.asked;
+    for (const Outcome& outcome : outcomes_) {
+        kept += outcome.found && outcome.known, count += outcome.found;
+        asked_ += outcome.asked;
     }
     if (kept == contacts_.size() && count == kept) return;
 

@@ -105,14 +105,19 @@ class ContactSet {
     void storeImpulses(const ConstraintRows<S>& rows);
 
     /// Ends a step: appends what began and what ended.
-    void noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events);
+    void noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events, const Tasks& tasks);
 
     /// Lets a fault at what findManifolds and addRows have made.
-    void spoilPairs(const Fault<S>& fault) { fault.pairs(movable_, proxyPairs_); }
+    void spoilPairs(const Fault<S>& fault) {
+        fault.pairs(movable_, proxyPairs_);
+        pairCount_ = proxyPairs_.size();
+    }
     void spoilManifolds(const BodyArrays<S>& bodies, const Fault<S>& fault, std::uint64_t step);
     void spoilRows(const BodyArrays<S>& bodies, const Fault<S>& fault, ConstraintRows<S>& rows);
 
-    const std::vector<ProxyPair>& proxyPairs() const { return proxyPairs_; }
+    /// Pairs of boxes that overlap, and their number.
+    const std::vector<ProxyPair>& proxyPairs() const;
+    std::size_t pairCount() const { return pairCount_; }
     const std::vector<Aabb<S>>& boxes() const { return boxes_; }
     const std::vector<Contact<S>>& contacts() const { return contacts_; }
     std::vector<Contact<S>>& contacts() { return contacts_; }
@@ -143,6 +148,10 @@ class ContactSet {
         Real radius = 0;           ///< of the smaller [m]; 0: answers are not kept
         Pose<S> relative;          ///< the smaller in the frame of the other, then
         Vec normal = Vec::Zero();  ///< in the frame that it turns with
+    };
+    /// Of a candidate in this step: what is read of all of them, side by side.
+    struct Outcome {
+        bool found = false, asked = false, known = false;  ///< known: it had a contact before
     };
     void findCandidates(const BodyArrays<S>& bodies);
     void findPieces(std::uint32_t surface, std::uint32_t other);
@@ -208,6 +217,8 @@ class ContactSet {
     std::vector<Candidate> candidates_;      ///< in the same order; a contact belongs to each that found one
     std::vector<ProxyPair> candidatePairs_;  ///< what they were made of
     std::vector<Candidate> oldCandidates_;
+    std::vector<Outcome> outcomes_;      ///< of candidates_
+    std::vector<std::uint8_t> turned_;   ///< of contacts_: 1 where touching has begun or ended
     ContactSearch<S> search_, keptFor_;  ///< of this step; of the answers that are kept
     EnlargedBoxes<S> enlarged_;
     std::size_t asked_ = 0;
@@ -224,8 +235,10 @@ class ContactSet {
     std::vector<Aabb<S>> boxes_;
     std::vector<std::uint8_t> movable_;
     bool boxesValid_ = false;
-    bool coefficientsHold_ = false;  ///< those of contacts_ are those of their materials
-    std::vector<ProxyPair> proxyPairs_;
+    bool coefficientsHold_ = false;              ///< those of contacts_ are those of their materials
+    mutable std::vector<ProxyPair> proxyPairs_;  ///< made when asked for, where boxes are enlarged
+    mutable bool proxyPairsHold_ = true;
+    std::size_t pairCount_ = 0;
 };
 
 /// Unit tangents that with n form a right-handed orthonormal frame; a function of n alone.

@@ -12,6 +12,7 @@
 //     correct      position correction; angular momentum to end velocity
 // Solvers that iterate on positions move first, are put right (`positions`), and solve velocities after that.
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 
 #include "engine/pipeline/world.hpp"
@@ -208,12 +209,12 @@ void World<S>::advanceCursor() {
 template <class S>
 void World<S>::endStep() {
     cursor_.active = false;
-    for (Wrench<S>& wrench : bodies_.wrench) wrench = {};
+    tasks_.forEach(bodies_.size(), kBodyGrain, [this](std::size_t i) { bodies_.wrench[i] = {}; });
     if (sleeping_.rest) sleeping_.rest(sleepStep());
     checkFinite();
     time_ += static_cast<double>(cursor_.size);
     ++stepCount_;
-    result_.pairs = contacts_.proxyPairs().size();
+    result_.pairs = contacts_.pairCount();
     result_.contacts = static_cast<std::size_t>(
         std::count_if(rows_.blocks.begin(), rows_.blocks.end(),
                       [](const Block<S>& block) { return block.kind == BlockKind::Contact; }));
@@ -227,7 +228,7 @@ void World<S>::endStep() {
     result_.measure = def_.measureResiduals ? ResidualMeasure::NaturalMap : ResidualMeasure::Change;
     result_.residuals = residuals_;
     events_.clear();
-    contacts_.noteEvents(bodies_, events_);
+    contacts_.noteEvents(bodies_, events_, tasks_);
     result_.events = events_;
     breakJoints();
     result_.impacts = impacts_;
@@ -428,10 +429,13 @@ void World<S>::correct() {
 
 template <class S>
 void World<S>::checkFinite() {
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
+    std::atomic<bool> finite = true;
+    tasks_.forEach(bodies_.size(), kBodyGrain, [&](std::size_t i) {
         if (!bodies_.pose[i].p.allFinite() || !bodies_.velocity[i].v.allFinite() ||
             !finiteAng(bodies_.velocity[i].w))
-            result_.nonFinite = true;
+            finite = false;
+    });
+    if (!finite) result_.nonFinite = true;
 }
 
 #define RIGOR_INSTANTIATE(S)                            \

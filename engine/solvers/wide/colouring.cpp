@@ -72,9 +72,6 @@ void Colouring::place(std::span<const PatchPlan> plans, std::uint32_t lanes) {
 }
 
 void Colouring::colour(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes) {
-    if (lanes == lanes_ && std::ranges::equal(plans, last_)) return;
-    lanes_ = lanes;
-    last_.assign(plans.begin(), plans.end());
     chooseColours(plans, bodies);
     place(plans, lanes);
 }

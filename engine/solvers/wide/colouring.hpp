@@ -47,13 +47,12 @@ class Colouring {
     void chooseColours(std::span<const PatchPlan> plans, std::size_t bodies);
     void place(std::span<const PatchPlan> plans, std::uint32_t lanes);
 
-    std::vector<PatchPlan> last_;       ///< what the rest is of: most steps plan what the last one has
     std::vector<std::uint64_t> taken_;  ///< colours of each body
     std::vector<std::uint8_t> colour_;  ///< of each plan: moving pairs, their rest, walls, their rest
     std::vector<std::uint32_t> count_;  ///< by colour and kind
     std::vector<std::uint32_t> places_;
     std::vector<Range> ranges_;
-    std::uint32_t blocks_ = 0, lanes_ = 0;
+    std::uint32_t blocks_ = 0;
 };
 
 }  // namespace rigor::engine

@@ -23,12 +23,6 @@ void raise(std::atomic<R>& largest, R x) {
 }  // namespace
 
 template <class S>
-std::size_t Patches<S>::points() const {
-    std::size_t sum = 0;
-    for (const PatchPlan& plan : plans_) sum += plan.points;
-    return sum;
-}
-template <class S>
 std::size_t Patches<S>::rows() const {
     constexpr std::size_t friction = S::dim == 3 ? S::tangents + 1 : S::tangents;
     return points() + friction * size();
@@ -37,12 +31,20 @@ std::size_t Patches<S>::rows() const {
 template <class S>
 void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
     const std::size_t n = bodies.size();
-    colouring_.colour(plans_, n, kLanes);
-    blocks_.resize(colouring_.blocks());
-    rests_.resize(colouring_.blocks());
-    for (PatchBlock<S>& block : blocks_) block.movesA = block.movesB = block.bounces = 0, block.points = 0;
-    occupant_.assign(blocks_.size() * kLanes, kNobody);
-    for (std::size_t k = 0; k < plans_.size(); ++k) occupant_[colouring_.places()[k]] = sources_[k];
+    if (offered_ != lastOffered_) {  // else, as in most steps, everybody stays in place
+        plans_.clear(), sources_.clear();
+        points_ = 0;
+        for (std::uint32_t k = 0; k < offered_.size(); ++k)
+            if (offered_[k].points > 0) {
+                plans_.push_back(offered_[k]), sources_.push_back(k);
+                points_ += offered_[k].points;
+            }
+        colouring_.colour(plans_, n, kLanes);
+        blocks_.resize(colouring_.blocks());
+        rests_.resize(colouring_.blocks());
+        occupant_.assign(blocks_.size() * kLanes, kNobody);
+        for (std::size_t k = 0; k < plans_.size(); ++k) occupant_[colouring_.places()[k]] = sources_[k];
+    }
     inertia_.resize(n), motions_.resize(n), before_.resize(n), gained_.resize(n);
     gainedHolds_ = false;
     tasks.forEach(n, kBodyGrain, [&](std::size_t i) {
@@ -59,19 +61,6 @@ void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
     });
 }
 
-/// Colour by colour: work on a range of blocks.
-template <class S>
-template <class Work>
-void Patches<S>::forColours(Velocity<S>* velocities, const Tasks& tasks, const Work& work) {
-    const std::span<const Colouring::Range> ranges = colouring_.ranges();
-    tasks.forStages(
-        ranges.size(), kBlockGrain,
-        [&](std::size_t c) -> std::size_t { return ranges[c].last - ranges[c].first; },
-        [&](std::size_t c, std::size_t first, std::size_t last) {
-            work(range(ranges[c].first + first, ranges[c].first + last, velocities));
-        });
-}
-
 template <class S>
 typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const PatchPass<Real>& pass,
                                    bool warmStart, const Tasks& tasks) {
@@ -82,8 +71,10 @@ typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const Patc
         if (addGained) numbers(v, first, last) += numbers(gained_.data(), first, last);
     });
     if (warmStart && !addGained)
-        forColours(v, tasks, [](const PatchRange<S>& range) { warmStartPatches<S>(range); });
-    forColours(v, tasks, [&pass](const PatchRange<S>& range) { solvePatches<S>(range, pass); });
+        forStages(tasks,
+                  [&](std::size_t first, std::size_t last) { warmStartPatches<S>(range(first, last, v)); });
+    forStages(tasks,
+              [&](std::size_t first, std::size_t last) { solvePatches<S>(range(first, last, v), pass); });
     std::atomic<Real> change = 0;
     tasks.forRanges(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
         auto gained = numbers(gained_.data(), first, last);

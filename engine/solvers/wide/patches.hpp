@@ -6,6 +6,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/core/tasks.hpp"
@@ -23,28 +24,32 @@ class Patches {
     static constexpr std::uint32_t kNobody = 0xffffffffu;
 
     /// The patches of a step are planned, then placed in blocks; then each block is filled in lane by lane,
-    /// also those of nobody, and prepared. The head of a block (moves, points, bounces) is zero at first.
-    /// `most`: as many patches, at most.
-    void clear(std::size_t most) {
-        plans_.clear(), sources_.clear();
-        plans_.reserve(most), sources_.reserve(most);
-    }
-    /// `source`: any number that tells the caller whose patch this is.
-    void plan(const PatchPlan& plan, std::uint32_t source) {
-        plans_.push_back(plan), sources_.push_back(source);
+    /// also those of nobody, and prepared.
+    /// For the plans of `count` sources, of no points where there is no patch.
+    std::span<PatchPlan> plan(std::size_t count) {
+        std::swap(offered_, lastOffered_);
+        offered_.resize(count);
+        return offered_;
     }
     void place(const BodyArrays<S>& bodies, const Tasks& tasks);
+    /// work(b) for each block, by the thread that visits it later on.
+    template <class Work>
+    void forBlocks(const Tasks& tasks, const Work& work) const {
+        forStages(tasks, [&work](std::size_t first, std::size_t last) {
+            for (std::size_t b = first; b < last; ++b) work(b);
+        });
+    }
     std::size_t blocks() const { return blocks_.size(); }
     PatchBlock<S>& block(std::size_t b) { return blocks_[b]; }
     PatchRest<S>& rest(std::size_t b) { return rests_[b]; }
-    /// Whose patch stands there; kNobody's lanes are filled with zeros.
+    /// Whose patch stands there (its place among the plans); kNobody's lanes are filled with zeros.
     std::uint32_t sourceAt(std::size_t b, std::size_t lane) const { return occupant_[b * kLanes + lane]; }
     /// Rows from what has been filled in.
     void prepare(std::size_t b) { preparePatches<S>(range(b, b + 1), inertia_.data()); }
 
     std::size_t size() const { return plans_.size(); }
     /// Points of all patches, and the rows they have: one for each point, and those of friction.
-    std::size_t points() const;
+    std::size_t points() const { return points_; }
     std::size_t rows() const;
     bool empty() const { return size() == 0; }
 
@@ -63,11 +68,24 @@ class Patches {
     PatchRange<S> range(std::size_t first, std::size_t last, Velocity<S>* velocities = nullptr) {
         return {blocks_.data() + first, rests_.data() + first, last - first, velocities, motions_.data()};
     }
+    /// Colour by colour: work(first, last) on ranges of blocks.
     template <class Work>
-    void forColours(Velocity<S>* velocities, const Tasks& tasks, const Work& work);
+    void forStages(const Tasks& tasks, const Work& work) const {
+        constexpr std::size_t kGrain = 4;  // worth sharing: some microseconds of work
+        const std::span<const Colouring::Range> ranges = colouring_.ranges();
+        tasks.forStages(
+            ranges.size(), kGrain,
+            [&](std::size_t c) -> std::size_t { return ranges[c].last - ranges[c].first; },
+            [&](std::size_t c, std::size_t first, std::size_t last) {
+                work(ranges[c].first + first, ranges[c].first + last);
+            });
+    }
 
+    std::vector<PatchPlan> offered_, lastOffered_;
+    // --- of what was offered last
     std::vector<PatchPlan> plans_;
     std::vector<std::uint32_t> sources_, occupant_;
+    std::size_t points_ = 0;
     Colouring colouring_;
     std::vector<PatchBlock<S>> blocks_;
     std::vector<PatchRest<S>> rests_;
