@@ -115,6 +115,28 @@ std::vector<EngineDescription> describe(const std::vector<adapter::EngineSpec>& 
     return validation::describeEngines(names, ownBinary(), 1);
 }
 
+bool isAsked(const Arguments& a, const std::string& part) {
+    return std::any_of(a.parts.begin(), a.parts.end(),
+                       [&](const std::string& asked) { return asked == "all" || asked == part; });
+}
+
+/// Cases of the isolated parts that are asked for. Throws std::invalid_argument where --only names none.
+std::vector<BenchWork> planParts(const Arguments& a, validation::BenchRequest request) {
+    std::vector<BenchWork> work;
+    for (const auto& family : validation::benchFamilies()) {
+        if (!isAsked(a, family.name)) continue;
+        for (auto& planned : family.plan(request)) work.push_back({std::move(planned), "", {}});
+    }
+    if (!work.empty() || request.only.empty()) return work;
+    request.only.clear();
+    std::string known;
+    for (const auto& w : planParts(a, request))
+        if (known.find("'" + w.planned.name + "'") == std::string::npos)
+            known += (known.empty() ? "'" : ", '") + w.planned.name + "'";
+    throw std::invalid_argument("--only: no case is called that; there are " +
+                                (known.empty() ? "none" : known));
+}
+
 std::vector<BenchWork> planAll(const Arguments& a) {
     validation::SceneRequest request;
     for (const auto& name : sceneNames(a)) addScenes(name, a, request);
@@ -129,16 +151,13 @@ std::vector<BenchWork> planAll(const Arguments& a) {
     parts.sizes.assign(a.sizes.begin(), a.sizes.end());
     parts.only = a.only;
     parts.threads = a.threads, parts.seed = a.target.seed, parts.binary = ownBinary().string();
-    const bool all = std::find(a.parts.begin(), a.parts.end(), "all") != a.parts.end();
-    for (const auto& family : validation::benchFamilies()) {
-        if (!all && std::find(a.parts.begin(), a.parts.end(), family.name) == a.parts.end()) continue;
-        for (auto& planned : family.plan(parts)) work.push_back({std::move(planned), "", {}});
-    }
+    for (auto& part : planParts(a, parts)) work.push_back(std::move(part));
     if (work.empty()) throw std::invalid_argument("bench: no engine can run any of this");
     return work;
 }
 
 void checkParts(const Arguments& a) {
+    if (!a.only.empty() && a.parts.empty()) throw std::invalid_argument("--only: goes with --parts");
     std::string known = "all";
     for (const auto& family : validation::benchFamilies()) known += ", " + family.name;
     for (const auto& part : a.parts) {

@@ -121,6 +121,11 @@ Json caseJson(const BenchCase& c) {
             {"quality", qualityJson(c)}};
 }
 
+/// What was timed, in tables without a column for the part.
+std::string subjectOf(const BenchCase& c) {
+    return c.part == "scene" ? c.name : c.part + ": " + c.name;
+}
+
 std::string validity(const BenchSummary& s) {
     return s.valid ? "valid" : "invalid: " + s.reason;
 }
@@ -194,7 +199,7 @@ Table valuesTable(const results::Run& run) {
         for (const bool phases : {false, true})
             for (const auto& [name, value] : means(c, phases))
                 table.rows.push_back(
-                    {c.name, c.size, c.engine, c.threads, phases ? "phase" : "count", name, value});
+                    {subjectOf(c), c.size, c.engine, c.threads, phases ? "phase" : "count", name, value});
     return table;
 }
 
@@ -215,8 +220,8 @@ Table qualityTable(const results::Run& run) {
     for (const BenchCase& c : run.bench.cases)
         if (const BenchRepetition* r = judged(c))
             for (const auto& q : r->quality)
-                table.rows.push_back({c.name, c.size, c.engine, c.threads, q.name, q.unit, q.value, q.min,
-                                      q.max, q.min || q.max ? (q.ok ? "yes" : "no") : "not judged"});
+                table.rows.push_back({subjectOf(c), c.size, c.engine, c.threads, q.name, q.unit, q.value,
+                                      q.min, q.max, q.min || q.max ? (q.ok ? "yes" : "no") : "not judged"});
     return table;
 }
 
@@ -241,7 +246,7 @@ Table changesTable(const results::Run& run) {
     for (const auto& change : run.bench.changes)
         for (const BenchCase& c : run.bench.cases)
             if (c.id == change.caseId)
-                table.rows.push_back({c.name, c.size, c.engine, c.threads, change.before, change.after,
+                table.rows.push_back({subjectOf(c), c.size, c.engine, c.threads, change.before, change.after,
                                       change.ratio, change.low, change.high, change.p, change.verdict,
                                       change.reason});
     return table;
@@ -293,7 +298,7 @@ std::string benchMarkdown(const results::Run& run) {
         const BenchSummary& s = c.summary;
         const auto time = timeOf(s);
         const std::string shown = time ? durationLabel(*time) : "-";
-        table.rows.push_back({c.name, c.size, c.engine, c.threads,
+        table.rows.push_back({subjectOf(c), c.size, c.engine, c.threads,
                               s.valid || !time ? shown : "~~" + shown + "~~",
                               s.low ? durationLabel(*s.low) + " .. " + durationLabel(*s.high) : "", s.ratio,
                               s.valid ? "" : s.reason});

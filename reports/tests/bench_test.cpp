@@ -74,6 +74,7 @@ TEST(BenchReport, TheSummaryStrikesOutWhatIsInvalid) {
     const std::string text = markdownSummary(ViewModel(run));
     EXPECT_THAT(text, HasSubstr("### Bench"));
     EXPECT_THAT(text, HasSubstr("~~1 ms~~"));
+    EXPECT_THAT(text, HasSubstr("phase: moving boxes"));
     EXPECT_THAT(text, Not(HasSubstr("<b>dead</b>")));
     EXPECT_THAT(markdownSummary(ViewModel(synthetic::makeRun(1))), Not(HasSubstr("### Bench")));
 }

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // A made-up bench: two engines at three sizes, one of them on two threads, one invalid timing, one crash, a
-// part, and a baseline.
+// part with two choices of an engine, one of them wrong, and a baseline.
 #pragma once
 
 #include "validation/results/types.hpp"
@@ -62,8 +62,18 @@ inline results::Run makeBench() {
     run.bench.cases.push_back(dead);
     auto part = benchCase("fcl", 1000.0, 1, 5e-5);
     part.id = "part", part.part = "broad_phase", part.name = "moving boxes", part.operation = "update";
-    part.sizeUnit = "boxes", part.repetitions[3].quality.clear();
-    run.bench.cases.push_back(part);
+    part.sizeUnit = "boxes";
+    for (auto& r : part.repetitions) {
+        r.counts = {{"boxes", 1000.0}, {"pairs", 480.0}, {"pairs_held", 500.0}};
+        r.quality = {{"missed_pairs", "1", 0.0, std::nullopt, 0.0, true}};
+    }
+    auto quick = part, wrong = part;
+    quick.id = "quick", quick.engine = "rigor:broad_phase=tree", quick.summary.cpu = 1e-7;
+    quick.summary.low = 0.9e-7, quick.summary.high = 1.1e-7;
+    wrong.id = "wrong", wrong.engine = "rigor:broad_phase=hash";
+    wrong.summary.valid = false, wrong.summary.reason = "missed_pairs 3 > 0";
+    for (auto& r : wrong.repetitions) r.quality[0].value = 3.0, r.quality[0].ok = false;
+    for (const auto& c : {part, wrong, quick}) run.bench.cases.push_back(c);
     for (std::size_t i = 0; i < run.bench.cases.size(); ++i)
         run.bench.cases[i].position = static_cast<std::int64_t>(i);
     run.bench.changes = {{"rigor-55-1", 1e-3, 1.5e-3, 1.5, 1.4, 1.6, 1e-4, "slower", ""},

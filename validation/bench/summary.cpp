@@ -63,14 +63,25 @@ bool sameWork(const BenchCase& a, const BenchCase& b) {
     return a.part == b.part && a.name == b.name && a.size == b.size;
 }
 
+std::string engineOf(const BenchCase& c) {
+    return c.engine.substr(0, c.engine.find(':'));
+}
+
+/// The case of that spec, or the first one of that engine; of an isolated part, where one engine takes part
+/// with many choices, its fastest valid one. Nobody named: the first engine with a valid case.
 const BenchCase* baseOf(const Bench& bench, const BenchCase& c, const std::string& base) {
+    const BenchCase* found = nullptr;
     for (const BenchCase& other : bench.cases) {
         if (!sameWork(other, c) || other.threads != 1) continue;
-        if (base.empty() ? other.summary.valid
-                         : other.engine == base || other.engine.substr(0, other.engine.find(':')) == base)
-            return &other;
+        if (other.engine == base) return &other;
+        if (found == nullptr && (base.empty() ? other.summary.valid : engineOf(other) == base))
+            found = &other;
+        if (found == nullptr || c.part == "scene" || engineOf(other) != engineOf(*found)) continue;
+        const BenchSummary &own = other.summary, &best = found->summary;
+        const bool faster = own.clock == "wall" ? own.wall < best.wall : own.cpu < best.cpu;
+        if (own.valid && (!best.valid || faster)) found = &other;
     }
-    return nullptr;
+    return found;
 }
 
 void compareWith(const BenchCase& base, BenchCase& c) {

@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Chromium with the network cut, and reports to open in it. Tests that need it are skipped where it is not installed.
+import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
+import { after, before } from 'node:test';
 import { type Browser, type BrowserContextOptions, chromium, type Page } from 'playwright-core';
 
 const binaries = process.env.RIGOR_BINARY_DIR ?? '';
@@ -85,6 +87,35 @@ export async function watched(browser: Browser, options: BrowserContextOptions =
   const { page, context, faults } = await faultsOf(browser, { offline: true, ...options }, mayAsk);
   page.on('requestfailed', (request) => faults.push(`failed: ${request.url()}`));
   return { page, faults, close: () => context.close() };
+}
+
+/** What a suite about one report works with; there before its first test. */
+export interface Opened extends Watched {
+  run: string;
+  browser: Browser;
+  open: (hash?: string) => Promise<void>;
+  text: (selector: string) => Promise<string>; // of the first one
+  clean: () => void; // asserts that there were no faults
+}
+
+/** Makes a report before the suite's tests and closes its page after them. */
+export function reportOf(make: () => string): Opened {
+  const it = {
+    open: (hash = '') => open(it.page, it.run, hash),
+    text: async (selector: string) => (await it.page.locator(selector).first().textContent()) ?? '',
+    clean: () => assert.deepEqual(it.faults, []),
+  } as Opened;
+  before(async () => {
+    it.run = make();
+    mkdirSync(screenshots, { recursive: true });
+    it.browser = await launch();
+    Object.assign(it, await watched(it.browser));
+  });
+  after(async () => {
+    await it.close?.();
+    await it.browser?.close();
+  });
+  return it;
 }
 
 /** Opens a part of a report and waits until it is drawn. */

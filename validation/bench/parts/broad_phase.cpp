@@ -24,9 +24,9 @@ using nlohmann::json;
 constexpr int kWarmUp = 5;
 constexpr std::size_t kLeast = 3;
 /// After so much time of updates no further one is begun [s].
-constexpr double kPatience = 0.5;
+constexpr double kPatience = 0.3;
 /// A case whose first two updates would take longer than this is not begun [s].
-constexpr double kLongest = 4.0;
+constexpr double kLongest = 2.0;
 
 class BroadPhaseBench final : public BenchCase {
   public:

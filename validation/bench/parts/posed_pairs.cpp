@@ -18,7 +18,7 @@ using namespace scenario;
 constexpr double kTurn = 2 * std::numbers::pi;
 /// The oracle takes milliseconds for hulls: of these so many pairs are made, the others are the same pairs
 /// elsewhere in the world.
-constexpr std::size_t kDistinctHulls = 125;
+constexpr std::size_t kDistinctHulls = 50;
 
 class PairMaker {
   public:

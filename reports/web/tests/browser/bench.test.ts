@@ -3,67 +3,68 @@
 //
 // The page of a bench: bars, growth curves, invalid times struck out with their reason, what changed since a baseline.
 import assert from 'node:assert/strict';
-import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, describe, test } from 'node:test';
-import type { Browser, Page } from 'playwright-core';
-import { launch, makeBench, open, screenshots, skip, type Watched, watched } from '../browser.ts';
+import { describe, test } from 'node:test';
+import { makeBench, reportOf, screenshots, skip } from '../browser.ts';
 
 describe('the report of a bench', { skip }, () => {
-  let run = '';
-  let browser: Browser;
-  let seen: Watched;
-  let page: Page;
-  before(async () => {
-    run = makeBench('bench');
-    mkdirSync(screenshots, { recursive: true });
-    browser = await launch();
-    seen = await watched(browser);
-    page = seen.page;
-  });
-  after(async () => {
-    await seen?.close();
-    await browser?.close();
-  });
-  const text = async (selector: string) => (await page.locator(selector).first().textContent()) ?? '';
+  const it = reportOf(() => makeBench('bench'));
 
   test('shows every case, and nothing of a validation that was not run', async () => {
-    await open(page, run);
-    await page.waitForSelector('#engines');
-    assert.equal(await page.locator('#bench tr[data-case]').count(), 12);
-    assert.equal(await page.locator('#scoreboard, #summary, #ledger').count(), 0);
-    assert.match(await text('#bench'), /authors of this bench wrote one of the engines/);
-    assert.match(await text('#bench tr[data-case="rigor-55-1"]'), /55 µs.*valid.*0\.5/);
-    assert.match(await text('#bench tr[data-case="rigor-1240-2"]'), /×1\.8/);
-    await page.screenshot({ path: join(screenshots, 'bench.png'), fullPage: true });
-    assert.deepEqual(seen.faults, []);
+    await it.open();
+    await it.page.waitForSelector('#engines');
+    assert.equal(await it.page.locator('#bench tr[data-case]').count(), 11, 'parts are folded');
+    assert.equal(await it.page.locator('#scoreboard, #summary, #ledger').count(), 0);
+    assert.match(await it.text('#bench'), /authors of this bench wrote one of the engines/);
+    assert.match(await it.text('#bench tr[data-case="rigor-55-1"]'), /55 µs.*valid.*0\.5/);
+    assert.match(await it.text('#bench tr[data-case="rigor-1240-2"]'), /×1\.8/);
+    await it.page.screenshot({ path: join(screenshots, 'bench.png'), fullPage: true });
+    it.clean();
   });
 
   test('an invalid time is struck out, says why, and has no bar', async () => {
-    await open(page, run);
+    await it.open();
     const row = '#bench tr[data-case="bullet-1240-1"]';
-    assert.equal(await page.locator(`${row} s`).count(), 1);
-    assert.match(await text(row), /invalid: max_penetration 0\.02 m > 0\.005/);
-    const bar = page.locator('.bars tr', { hasText: 'bullet' });
+    assert.equal(await it.page.locator(`${row} s`).count(), 1);
+    assert.match(await it.text(row), /invalid: max_penetration 0\.02 m > 0\.005/);
+    const bar = it.page.locator('.bars tr', { hasText: 'bullet' });
     assert.match((await bar.textContent()) ?? '', /no timing/);
     assert.equal(await bar.locator('i').count(), 0);
-    assert.match(await text('#bench tr[data-case="<b>dead</b>-55-1"]'), /crashed: SIGSEGV/);
+    assert.match(await it.text('#bench tr[data-case="<b>dead</b>-55-1"]'), /crashed: SIGSEGV/);
   });
 
   test('growth is a curve per engine and number of threads', async () => {
-    await open(page, run);
-    const plot = page.locator('[data-plot="pyramid: growth"]');
+    await it.open();
+    const plot = it.page.locator('[data-plot="pyramid: growth"]');
     await plot.scrollIntoViewIfNeeded();
     await plot.locator('canvas').waitFor();
     assert.equal(await plot.locator('.lines > span').count(), 3);
-    assert.deepEqual(seen.faults, []);
+    it.clean();
+  });
+
+  test('a part tells the fastest of each engine, and unfolded how much work it was and how well done', async () => {
+    await it.open();
+    const part = it.page.locator('[data-part="broad_phase"]');
+    const best = part.locator('table').first().locator('tbody tr');
+    assert.match((await best.first().textContent()) ?? '', /moving boxes, 1000 boxes.*50 µs.*100 ns/);
+    assert.equal(await best.locator('b').textContent(), '100 ns', 'the wrong one is not the fastest');
+    await part.locator('summary').first().click();
+    assert.deepEqual(await part.locator('.bars th').allTextContents(), [
+      'rigor broad_phase=tree',
+      'fcl',
+      'rigor broad_phase=hash',
+    ]);
+    assert.match(await it.text('#bench tr[data-case="quick"]'), /100 ns.*valid.*10 M.*480.*500.*0/);
+    assert.match(await it.text('#bench tr[data-case="wrong"]'), /invalid: missed_pairs 3 > 0/);
+    await part.screenshot({ path: join(screenshots, 'bench_part.png') });
+    it.clean();
   });
 
   test('tells what became slower, and the command of each', async () => {
-    await open(page, run);
-    assert.match(await text('#bench tr.change-slower'), /rigor.*1\.5.*slower/);
-    await page.locator('#bench details summary').first().click();
-    assert.match(await text('#bench details .command code'), /^\.\/rigor bench pyramid --engines/);
-    assert.deepEqual(seen.faults, []);
+    await it.open();
+    assert.match(await it.text('#bench tr.change-slower'), /rigor.*1\.5.*slower/);
+    await it.page.locator('#bench details summary').first().click();
+    assert.match(await it.text('#bench details .command code'), /^\.\/rigor bench pyramid --engines/);
+    it.clean();
   });
 });

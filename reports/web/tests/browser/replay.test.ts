@@ -5,12 +5,11 @@
 // a link restores the view; screenshots of several scenes.
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
-import { mkdirSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, describe, test } from 'node:test';
-import type { Browser, Page } from 'playwright-core';
-import { launch, makeRun, open, screenshots, skip, type Watched, watched } from '../browser.ts';
+import { before, describe, test } from 'node:test';
+import { makeRun, open, reportOf, screenshots, skip, watched } from '../browser.ts';
 
 const scenarios = ['box_stack', 'asymmetric_top', 'pendulum_chain', 'slip_to_roll_2d', 'bouncing_disc_2d'];
 
@@ -30,44 +29,28 @@ function stateOf(scenario: string, spec: string, body: string, step: number): nu
 }
 
 describe('the replay of a real run', { skip }, () => {
-  let browser: Browser;
-  let seen: Watched;
-  let page: Page;
-  let run = '';
-
-  before(async () => {
-    run = makeRun('replay');
-    mkdirSync(screenshots, { recursive: true });
-    browser = await launch();
-    seen = await watched(browser);
-    page = seen.page;
-    page.setDefaultTimeout(60_000);
-  });
-  after(async () => {
-    await seen?.close();
-    await browser?.close();
-  });
-  const clean = () => assert.deepEqual(seen.faults, []);
+  const it = reportOf(() => makeRun('replay'));
+  before(() => it.page.setDefaultTimeout(60_000));
   const show = async (scenario: string, more = '') => {
-    await open(page, run, `#/scenario/${scenario}${more}`);
-    await page.locator('#replay').scrollIntoViewIfNeeded();
-    await page.waitForSelector('.replay canvas');
-    await page.waitForSelector('.replay .label small:not(:empty)');
+    await it.open(`#/scenario/${scenario}${more}`);
+    await it.page.locator('#replay').scrollIntoViewIfNeeded();
+    await it.page.waitForSelector('.replay canvas');
+    await it.page.waitForSelector('.replay .label small:not(:empty)');
   };
-  const time = async () => Number.parseFloat((await page.textContent('.replay .clock')) ?? '');
-  const labels = () => page.locator('.replay .label small').allTextContents();
+  const time = async () => Number.parseFloat((await it.page.textContent('.replay .clock')) ?? '');
+  const labels = () => it.page.locator('.replay .label small').allTextContents();
   const press = async (key: string) => {
-    await page.locator('.replay canvas').focus();
-    await page.keyboard.press(key);
+    await it.page.locator('.replay canvas').focus();
+    await it.page.keyboard.press(key);
   };
-  const action = (name: string) => page.click(`.replay [data-action="${name}"]`);
+  const action = (name: string) => it.page.click(`.replay [data-action="${name}"]`);
 
   test('shows a picture for each engine', async () => {
     await show('box_stack');
     const labelled = await labels();
     assert.equal(labelled.length, 4);
     for (const text of labelled) assert.match(text, /^t = 0 s · frame 1\/\d+/);
-    clean();
+    it.clean();
   });
 
   test('steps, plays, pauses, scrubs', async () => {
@@ -79,37 +62,37 @@ describe('the replay of a real run', { skip }, () => {
     await press('ArrowLeft');
     assert.equal(await time(), first);
     await press(' ');
-    await page.waitForFunction(
+    await it.page.waitForFunction(
       () => Number.parseFloat(document.querySelector('.replay .clock')?.textContent ?? '') > 0.2,
     );
     await press(' ');
     const paused = await time();
-    await page.waitForTimeout(300);
+    await it.page.waitForTimeout(300);
     assert.equal(await time(), paused, 'it stands still');
-    const bar = await page.locator('.replay .timeline input').boundingBox();
+    const bar = await it.page.locator('.replay .timeline input').boundingBox();
     assert.ok(bar);
-    await page.mouse.click(bar.x + bar.width / 2, bar.y + bar.height / 2);
+    await it.page.mouse.click(bar.x + bar.width / 2, bar.y + bar.height / 2);
     assert.ok(Math.abs((await time()) - 1.5) < 0.1, 'half of three seconds');
     await press('Home');
     assert.equal(await time(), 0);
-    clean();
+    it.clean();
   });
 
   test('jumps to the largest error and to contacts', async () => {
     await show('bouncing_disc_2d');
     await action('largest');
-    assert.match((await page.textContent('.replay .said')) ?? '', /largest \w+/);
+    assert.match((await it.page.textContent('.replay .said')) ?? '', /largest \w+/);
     assert.ok((await time()) > 0);
     await press('Home');
     await press(']');
     const hit = await time();
     assert.ok(hit > 0, 'the disc falls first');
-    assert.match((await page.textContent('.replay .said')) ?? '', /contact begins/);
+    assert.match((await it.page.textContent('.replay .said')) ?? '', /contact begins/);
     await press(']');
     assert.ok((await time()) > hit);
     await press('[');
     assert.equal(await time(), hit);
-    clean();
+    it.clean();
   });
 
   test('numbers of a body are those of the engine', async () => {
@@ -117,9 +100,9 @@ describe('the replay of a real run', { skip }, () => {
     const on = 'faces.outlines';
     const view = new URLSearchParams({ t: '0.5', on, by: 'body', e: spec, b: '1' }).toString();
     await show('pendulum_chain', `?view=${encodeURIComponent(view)}`);
-    await page.waitForSelector('.replay .inspector [data-quantity="position"]');
+    await it.page.waitForSelector('.replay .inspector [data-quantity="position"]');
     const cell = async (name: string) =>
-      ((await page.textContent(`.replay .inspector [data-quantity="${name}"]`)) ?? '').replaceAll('−', '-');
+      ((await it.page.textContent(`.replay .inspector [data-quantity="${name}"]`)) ?? '').replaceAll('−', '-');
     const numbers = (text: string) => text.split(',').map((part) => Number.parseFloat(part));
     const body = (await cell('body')).replace(/ \(\d+\)$/, '');
     const step = Number(/step (\d+)/.exec(await cell('time'))?.[1]);
@@ -132,47 +115,47 @@ describe('the replay of a real run', { skip }, () => {
     const turned = numbers(await cell('orientation'));
     const dot = turned.reduce((sum, q, k) => sum + q * (state[5 + k] as number), 0);
     assert.ok(Math.abs(Math.abs(dot) - 1) < 1e-4);
-    clean();
+    it.clean();
   });
 
   test('the pointer finds bodies', async () => {
     await show('box_stack');
-    const box = await page.locator('.replay canvas').boundingBox();
+    const box = await it.page.locator('.replay canvas').boundingBox();
     assert.ok(box);
-    await page.mouse.move(box.x + box.width / 8, box.y + box.height / 2);
-    await page.waitForSelector('.replay .inspector:not([hidden])');
-    assert.match((await page.textContent('.replay .inspector')) ?? '', /box_0_\d_0|contact/);
-    clean();
+    await it.page.mouse.move(box.x + box.width / 8, box.y + box.height / 2);
+    await it.page.waitForSelector('.replay .inspector:not([hidden])');
+    assert.match((await it.page.textContent('.replay .inspector')) ?? '', /box_0_\d_0|contact/);
+    it.clean();
   });
 
   test('a link restores the view', async () => {
     await show('box_stack');
-    await page.click('.replay [data-switch="trails"]');
-    await page.click('.replay [data-switch="overlaid"]');
+    await it.page.click('.replay [data-switch="trails"]');
+    await it.page.click('.replay [data-switch="overlaid"]');
     await press('End');
-    await page.waitForFunction(() => {
+    await it.page.waitForFunction(() => {
       const view = new URLSearchParams(location.hash.split('?')[1]).get('view') ?? '';
       const told = new URLSearchParams(view);
       return told.get('over') === '1' && Number(told.get('t')) > 0;
     });
-    const [hash, end] = [await page.evaluate(() => location.hash), await time()];
+    const [hash, end] = [await it.page.evaluate(() => location.hash), await time()];
     await show('slip_to_roll_2d');
-    await open(page, run, hash);
-    await page.locator('#replay').scrollIntoViewIfNeeded();
-    await page.waitForSelector('.replay .label small:not(:empty)');
+    await it.open(hash);
+    await it.page.locator('#replay').scrollIntoViewIfNeeded();
+    await it.page.waitForSelector('.replay .label small:not(:empty)');
     assert.equal(await time(), end);
-    assert.equal(await page.getAttribute('.replay [data-switch="trails"]', 'aria-pressed'), 'true');
-    assert.equal(await page.getAttribute('.replay [data-switch="overlaid"]', 'aria-pressed'), 'true');
+    assert.equal(await it.page.getAttribute('.replay [data-switch="trails"]', 'aria-pressed'), 'true');
+    assert.equal(await it.page.getAttribute('.replay [data-switch="overlaid"]', 'aria-pressed'), 'true');
     assert.equal((await labels()).length, 1);
-    clean();
+    it.clean();
   });
 
   test('curves and replay share the time', async () => {
     await show('slip_to_roll_2d');
-    const before = await page.locator('#curves').textContent();
+    const before = await it.page.locator('#curves').textContent();
     await press('End');
-    await page.waitForFunction((old) => document.querySelector('#curves')?.textContent !== old, before);
-    clean();
+    await it.page.waitForFunction((old) => document.querySelector('#curves')?.textContent !== old, before);
+    it.clean();
   });
 
   test('every layer draws without a fault, in light and dark', async () => {
@@ -180,14 +163,14 @@ describe('the replay of a real run', { skip }, () => {
       await show(scenario);
       await press('e');
       for (const name of ['penetration', 'impulses', 'velocities', 'spins', 'bounds', 'trails'])
-        await page.click(`.replay [data-switch="${name}"]`);
-      await page.waitForTimeout(200);
-      await page.locator('#replay').screenshot({ path: join(screenshots, `replay-${scenario}.png`) });
-      await page.emulateMedia({ colorScheme: 'dark' });
-      await page.waitForTimeout(200);
-      await page.locator('#replay').screenshot({ path: join(screenshots, `replay-${scenario}-dark.png`) });
-      await page.emulateMedia({ colorScheme: 'light' });
-      clean();
+        await it.page.click(`.replay [data-switch="${name}"]`);
+      await it.page.waitForTimeout(200);
+      await it.page.locator('#replay').screenshot({ path: join(screenshots, `replay-${scenario}.png`) });
+      await it.page.emulateMedia({ colorScheme: 'dark' });
+      await it.page.waitForTimeout(200);
+      await it.page.locator('#replay').screenshot({ path: join(screenshots, `replay-${scenario}-dark.png`) });
+      await it.page.emulateMedia({ colorScheme: 'light' });
+      it.clean();
     }
   });
 
@@ -203,7 +186,7 @@ describe('the replay of a real run', { skip }, () => {
       const line = await new Promise<string>((resolve) => {
         server.stdout.once('data', (data: Buffer) => resolve(data.toString()));
       });
-      const served = await browser.newPage();
+      const served = await it.browser.newPage();
       const faults: string[] = [];
       served.on('console', (message) => message.type() === 'error' && faults.push(message.text()));
       served.on('pageerror', (error) => faults.push(error.message));
@@ -213,9 +196,9 @@ describe('the replay of a real run', { skip }, () => {
         location.hash = '#/scenario/asymmetric_top';
       });
       await served.locator('#replay').scrollIntoViewIfNeeded();
-      await served.waitForSelector('.replay .label small:has-text("every")');
+      await served.waitForSelector('.replay .label small:has-it.text("every")');
       await served.click('.replay [data-switch="all"]');
-      await served.waitForSelector('.replay .label small:has-text("frame 1/3001")');
+      await served.waitForSelector('.replay .label small:has-it.text("frame 1/3001")');
       await served.click('.replay [data-action="forward"]');
       assert.match((await served.textContent('.replay .clock')) ?? '', /^0\.0010 s/);
       assert.equal(await served.locator('.replay [data-switch="all"]').count(), 0, 'there is nothing more');
@@ -228,13 +211,13 @@ describe('the replay of a real run', { skip }, () => {
   });
 
   test('says why where there is no WebGL', async () => {
-    const other = await watched(browser);
+    const other = await watched(it.browser);
     await other.page.addInitScript(() => {
       HTMLCanvasElement.prototype.getContext = () => null;
     });
-    await open(other.page, run, '#/scenario/box_stack');
+    await open(other.page, it.run, '#/scenario/box_stack');
     await other.page.locator('#replay').scrollIntoViewIfNeeded();
-    await other.page.waitForSelector('.replay-note:has-text("no WebGL")');
+    await other.page.waitForSelector('.replay-note:has-it.text("no WebGL")');
     await other.close();
   });
 });

@@ -4,98 +4,80 @@
 // The report of a real run, from disk, with the network cut: opens quickly, filters, sorts, opens cases, switches
 // engines, and shows the numbers that the store holds.
 import assert from 'node:assert/strict';
-import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, describe, test } from 'node:test';
-import type { Browser, Page } from 'playwright-core';
-import { launch, makeRun, open, query, screenshots, skip, type Watched, watched } from '../browser.ts';
+import { describe, test } from 'node:test';
+import { makeRun, open, query, reportOf, screenshots, skip, watched } from '../browser.ts';
 
 describe('the report of a real run', { skip }, () => {
-  let run = '';
-  let browser: Browser;
-  let seen: Watched;
-  let page: Page;
-
-  before(async () => {
-    run = makeRun('report');
-    mkdirSync(screenshots, { recursive: true });
-    browser = await launch();
-    seen = await watched(browser);
-    page = seen.page;
-  });
-  after(async () => {
-    await seen?.close();
-    await browser?.close();
-  });
-  const clean = () => assert.deepEqual(seen.faults, []);
-  const rows = () => page.locator('#scoreboard tbody tr').count();
-  const shown = () => page.waitForSelector('#page[data-shown]');
+  const it = reportOf(() => makeRun('report'));
+  const rows = () => it.page.locator('#scoreboard tbody tr').count();
+  const shown = () => it.page.waitForSelector('#page[data-shown]');
 
   test('opens with a row for every scenario and a cell for every engine', async () => {
     const start = Date.now();
-    await open(page, run);
+    await it.open();
     assert.ok(Date.now() - start < 8000, 'opens soon, also on a loaded machine');
-    const names = query(run, 'SELECT name FROM scenarios ORDER BY position').flat();
-    assert.deepEqual(await page.locator('#scoreboard tbody th a').allTextContents(), names);
-    const specs = query(run, 'SELECT count(DISTINCT spec) FROM cases').flat()[0] as number;
-    assert.equal(await page.locator('#scoreboard a.cell').count(), names.length * specs);
-    assert.ok(await page.locator('#trust [data-task="sliding"]').isVisible());
-    assert.match((await page.locator('body').textContent()) ?? '', /authors of one of the engines/);
-    await page.screenshot({ path: join(screenshots, 'overview.png') });
-    clean();
+    const names = query(it.run, 'SELECT name FROM scenarios ORDER BY position').flat();
+    assert.deepEqual(await it.page.locator('#scoreboard tbody th a').allTextContents(), names);
+    const specs = query(it.run, 'SELECT count(DISTINCT spec) FROM cases').flat()[0] as number;
+    assert.equal(await it.page.locator('#scoreboard a.cell').count(), names.length * specs);
+    assert.ok(await it.page.locator('#trust [data-task="sliding"]').isVisible());
+    assert.match((await it.page.locator('body').textContent()) ?? '', /authors of one of the engines/);
+    await it.page.screenshot({ path: join(screenshots, 'overview.png') });
+    it.clean();
   });
 
   test('filters and sorts', async () => {
-    await open(page, run);
+    await it.open();
     const all = await rows();
-    const planar = query(run, 'SELECT count(*) FROM scenarios WHERE dimension = 2').flat()[0];
-    await page.getByLabel('Dimension').selectOption('2');
+    const planar = query(it.run, 'SELECT count(*) FROM scenarios WHERE dimension = 2').flat()[0];
+    await it.page.getByLabel('Dimension').selectOption('2');
     assert.equal(await rows(), planar);
-    await page.getByLabel('Dimension').selectOption('');
-    await page.getByLabel('Search').fill('slid');
+    await it.page.getByLabel('Dimension').selectOption('');
+    await it.page.getByLabel('Search').fill('slid');
     assert.equal(await rows(), 1);
-    await page.getByRole('button', { name: 'Reset' }).click();
+    await it.page.getByRole('button', { name: 'Reset' }).click();
     assert.equal(await rows(), all);
-    await page.locator('#scoreboard').getByLabel('Preset').selectOption('matched');
-    const columns = query(run, "SELECT count(DISTINCT spec) FROM cases WHERE preset = 'matched'").flat()[0];
-    assert.equal(await page.locator('#scoreboard tbody tr').first().locator('a.cell').count(), columns);
-    await page.getByRole('button', { name: 'Reset' }).click();
-    await page.getByLabel('Verdict').selectOption('known_deviation');
+    await it.page.locator('#scoreboard').getByLabel('Preset').selectOption('matched');
+    const columns = query(it.run, "SELECT count(DISTINCT spec) FROM cases WHERE preset = 'matched'").flat()[0];
+    assert.equal(await it.page.locator('#scoreboard tbody tr').first().locator('a.cell').count(), columns);
+    await it.page.getByRole('button', { name: 'Reset' }).click();
+    await it.page.getByLabel('Verdict').selectOption('known_deviation');
     const deviating = query(
-      run,
+      it.run,
       "SELECT count(DISTINCT scenario) FROM cases WHERE verdict = 'known deviation'",
     ).flat()[0];
     assert.equal(await rows(), deviating);
-    await page.getByRole('button', { name: 'Reset' }).click();
-    await page.locator('#scoreboard thead th').first().getByRole('button').click();
-    const sorted = await page.locator('#scoreboard tbody th a').allTextContents();
+    await it.page.getByRole('button', { name: 'Reset' }).click();
+    await it.page.locator('#scoreboard thead th').first().getByRole('button').click();
+    const sorted = await it.page.locator('#scoreboard tbody th a').allTextContents();
     assert.deepEqual(sorted, [...sorted].sort());
-    clean();
+    it.clean();
   });
 
   test('arrow keys go from cell to cell, and Enter opens one', async () => {
-    await open(page, run);
-    await page.getByRole('button', { name: 'Reset' }).click();
-    await page.locator('#scoreboard a.cell').first().focus();
-    await page.keyboard.press('ArrowDown');
-    await page.keyboard.press('ArrowRight');
-    const href = await page.evaluate(() => document.activeElement?.getAttribute('href'));
-    const second = page.locator('#scoreboard tbody tr').nth(1).locator('a.cell').nth(1);
+    await it.open();
+    await it.page.getByRole('button', { name: 'Reset' }).click();
+    await it.page.locator('#scoreboard a.cell').first().focus();
+    await it.page.keyboard.press('ArrowDown');
+    await it.page.keyboard.press('ArrowRight');
+    const href = await it.page.evaluate(() => document.activeElement?.getAttribute('href'));
+    const second = it.page.locator('#scoreboard tbody tr').nth(1).locator('a.cell').nth(1);
     assert.equal(href, await second.getAttribute('href'));
-    await page.keyboard.press('Enter');
-    await page.waitForSelector('#metrics, #outcomes');
-    clean();
+    await it.page.keyboard.press('Enter');
+    await it.page.waitForSelector('#metrics, #outcomes');
+    it.clean();
   });
 
   test('a scenario shows what the store holds', async () => {
     const scenario = 'slide_and_stop';
-    await open(page, run, `#/scenario/${scenario}`);
+    await it.open(`#/scenario/${scenario}`);
     const stored = query(
-      run,
+      it.run,
       `SELECT c.spec, m.name, m.subject, m.value, m.bound FROM metrics m JOIN cases c ON c.id = m.case_id WHERE c.scenario = '${scenario}'`,
     ) as [string, string, string, number | string, number | null][];
     assert.ok(stored.length > 50);
-    const cells = await page.locator('#metrics td[data-spec]').evaluateAll((list) =>
+    const cells = await it.page.locator('#metrics td[data-spec]').evaluateAll((list) =>
       list.map((td) => {
         const tr = td.closest('tr') as HTMLElement;
         const data = (td as HTMLElement).dataset;
@@ -111,28 +93,28 @@ describe('the report of a real run', { skip }, () => {
     }
     assert.ok(compared >= 10);
     const timings = query(
-      run,
+      it.run,
       `SELECT c.spec, t.median FROM timings t JOIN cases c ON c.id = t.case_id WHERE c.scenario = '${scenario}' AND t.phase = 'step'`,
     ) as [string, number][];
     for (const [spec, median] of timings) {
-      const title = await page
+      const title = await it.page
         .locator(`#case-timing tr[data-spec="${spec}"][data-phase="step"] td.num`)
         .first()
         .getAttribute('title');
       assert.equal(title, `${median} s`);
     }
-    const commands = query(run, `SELECT command FROM cases WHERE scenario = '${scenario}'`).flat();
-    const listed = await page.locator('#commands code').allTextContents();
+    const commands = query(it.run, `SELECT command FROM cases WHERE scenario = '${scenario}'`).flat();
+    const listed = await it.page.locator('#commands code').allTextContents();
     assert.deepEqual([...listed].sort(), [...commands].sort());
-    clean();
+    it.clean();
   });
 
   test('a scenario has its formula as mathematics, a drawing and curves that are drawn', async () => {
-    await open(page, run, '#/scenario/slide_and_stop');
-    assert.ok((await page.locator('#scenario .katex').count()) > 0, 'set by KaTeX');
-    assert.ok((await page.locator('#scenario svg.scene polygon').count()) > 5);
-    await page.locator('#curves').scrollIntoViewIfNeeded();
-    const canvas = page.locator('#curves canvas').first();
+    await it.open('#/scenario/slide_and_stop');
+    assert.ok((await it.page.locator('#scenario .katex').count()) > 0, 'set by KaTeX');
+    assert.ok((await it.page.locator('#scenario svg.scene polygon').count()) > 5);
+    await it.page.locator('#curves').scrollIntoViewIfNeeded();
+    const canvas = it.page.locator('#curves canvas').first();
     await canvas.waitFor();
     const inked = await canvas.evaluate((node) => {
       const c = node as HTMLCanvasElement;
@@ -142,82 +124,82 @@ describe('the report of a real run', { skip }, () => {
         .data.some((v) => v !== 0);
     });
     assert.equal(inked, true);
-    await page.evaluate(() => scrollTo(0, 0));
-    await page.screenshot({ path: join(screenshots, 'scenario.png') });
-    clean();
+    await it.page.evaluate(() => scrollTo(0, 0));
+    await it.page.screenshot({ path: join(screenshots, 'scenario.png') });
+    it.clean();
   });
 
   test('the curves that are asked about most are there', async () => {
-    await open(page, run, '#/scenario/box_stack');
-    const plots = await page
+    await it.open('#/scenario/box_stack');
+    const plots = await it.page
       .locator('#curves .chart')
       .evaluateAll((list) => list.map((c) => (c as HTMLElement).dataset.plot));
     for (const name of ['energy', 'penetration', 'contact normal error'])
       assert.ok(plots.includes(name), `${name} among ${plots}`);
-    clean();
+    it.clean();
   });
 
   test('switching an engine off holds for all charts', async () => {
-    await open(page, run, '#/scenario/slide_and_stop');
-    const box = page.locator('#switches input').first();
+    await it.open('#/scenario/slide_and_stop');
+    const box = it.page.locator('#switches input').first();
     const ink = () =>
-      page
+      it.page
         .locator('#curves canvas')
         .first()
         .evaluate((node) => (node as HTMLCanvasElement).toDataURL());
-    await page.locator('#curves').scrollIntoViewIfNeeded();
-    await page.locator('#curves canvas').first().waitFor();
+    await it.page.locator('#curves').scrollIntoViewIfNeeded();
+    await it.page.locator('#curves canvas').first().waitFor();
     const before = await ink();
     await box.uncheck();
-    await page.waitForFunction(
+    await it.page.waitForFunction(
       (old) => (document.querySelector('#curves canvas') as HTMLCanvasElement).toDataURL() !== old,
       before,
     );
-    await page.getByRole('button', { name: 'all', exact: true }).click();
+    await it.page.getByRole('button', { name: 'all', exact: true }).click();
     assert.equal(await box.isChecked(), true);
-    clean();
+    it.clean();
   });
 
   test('the worst of a contact audit is three clicks away, and sets the time', async () => {
-    await open(page, run);
-    const worst = page.locator('#in-run tbody td a').first();
+    await it.open();
+    const worst = it.page.locator('#in-run tbody td a').first();
     const asked = new URLSearchParams(((await worst.getAttribute('href')) ?? '').split('?')[1]);
     await worst.click();
-    await page.waitForSelector('#curves');
+    await it.page.waitForSelector('#curves');
     await shown();
-    const read = await page.locator('output.time').textContent();
+    const read = await it.page.locator('output.time').textContent();
     assert.ok(Math.abs(Number(read?.match(/[\d.e-]+/)?.[0]) - Number(asked.get('t'))) < 1e-3, `${read} ${asked}`);
-    const link = page.locator('#case-audit a.moment').last();
+    const link = it.page.locator('#case-audit a.moment').last();
     await link.click();
     const text = (await link.textContent()) ?? '';
-    const now = await page.locator('output.time').textContent();
+    const now = await it.page.locator('output.time').textContent();
     assert.ok(
       Math.abs(Number(now?.match(/[\d.e-]+/)?.[0]) - Number.parseFloat(text.split('t=')[1] ?? '')) < 1e-3,
       `${now} ${text}`,
     );
-    clean();
+    it.clean();
   });
 
   test('an engine has a page with its capabilities, ledger and failures', async () => {
-    await open(page, run, '#/engine/bullet');
+    await it.open('#/engine/bullet');
     for (const id of ['engine', 'strengths', 'deviations', 'engine-ledger', 'capabilities'])
-      assert.ok(await page.locator(`#${id}`).isVisible(), id);
+      assert.ok(await it.page.locator(`#${id}`).isVisible(), id);
     const deviating = query(
-      run,
+      it.run,
       "SELECT count(*) FROM cases WHERE engine = 'bullet' AND verdict = 'known deviation'",
     ).flat()[0];
     assert.match(
-      (await page.locator('#deviations').textContent()) ?? '',
+      (await it.page.locator('#deviations').textContent()) ?? '',
       new RegExp(`Deviates as recorded: ${deviating}`),
     );
-    await page.screenshot({ path: join(screenshots, 'engine.png') });
-    clean();
+    await it.page.screenshot({ path: join(screenshots, 'engine.png') });
+    it.clean();
   });
 
   test('a narrow and a dark page have nothing to scroll sideways but their tables', async () => {
     for (const options of [{ viewport: { width: 420, height: 900 } }, { colorScheme: 'dark' as const }]) {
-      const other = await watched(browser, options);
-      await open(other.page, run);
+      const other = await watched(it.browser, options);
+      await open(other.page, it.run);
       const wider = await other.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
       assert.ok(wider <= 0, `${wider} px too wide`);
       if (options.colorScheme) await other.page.screenshot({ path: join(screenshots, 'overview-dark.png') });

@@ -2,7 +2,16 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { growthCurves, speedUp, subjectsOf, workOf } from '../../src/report/bench/groups.ts';
+import {
+  byTime,
+  fastest,
+  growthCurves,
+  leaders,
+  rate,
+  speedUp,
+  subjectsOf,
+  workOf,
+} from '../../src/report/bench/groups.ts';
 import type { BenchCase } from '../../src/report/data.ts';
 
 const made = (engine: string, size: number, time: number, more: Partial<BenchCase> = {}): BenchCase => ({
@@ -84,4 +93,33 @@ test('the speed-up is by the wall, of two timings', () => {
   assert.equal(speedUp(two, [one, two]), 2);
   assert.ok(Number.isNaN(speedUp(one, [one, two])));
   assert.ok(Number.isNaN(speedUp(two, [{ ...one, valid: false }, two])));
+});
+
+test('of each engine the fastest that counts, and the curve that ends lowest', () => {
+  const cases = [
+    made('a:x', 10, 4),
+    made('a:y', 10, 3),
+    made('a:z', 10, 1, { valid: false }),
+    made('b', 10, 2),
+    made('a:x', 20, 4),
+    made('a:y', 20, 5),
+    made('b', 20, 6),
+  ];
+  assert.deepEqual(
+    [...fastest(cases.slice(0, 4))].map(([engine, c]) => [engine, c.engine]),
+    [
+      ['a', 'a:y'],
+      ['b', 'b'],
+    ],
+  );
+  assert.deepEqual(
+    byTime(cases.slice(0, 4)).map((c) => c.engine),
+    ['b', 'a:y', 'a:x', 'a:z'],
+  );
+  const subject = subjectsOf(cases)[0] as ReturnType<typeof subjectsOf>[0];
+  assert.deepEqual(
+    leaders(growthCurves(subject)).map((c) => c.of.engine),
+    ['a:x', 'b'],
+  );
+  assert.deepEqual([rate(1e-7), rate(0.5), rate(1.2345e-3), rate(null)], ['10 M', '2', '810', '—']);
 });

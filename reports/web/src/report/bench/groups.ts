@@ -70,6 +70,44 @@ export function growthCurves(subject: Subject): { of: BenchCase; points: CurvePo
   return curves.filter((k) => k.points.length > 1);
 }
 
+/** The curve of each engine that is lowest at its largest size: broad phases by the dozen would hide each other. */
+export function leaders<C extends { of: BenchCase; points: CurvePoint[] }>(curves: C[]): C[] {
+  const best = new Map<string, C>();
+  const last = (c: C) => c.points.at(-1) as CurvePoint;
+  for (const curve of curves) {
+    const other = best.get(engineOf(curve.of));
+    const [own, its] = [last(curve), other ? last(other) : null];
+    if (!its || own.x > its.x || (own.x === its.x && own.y < its.y)) best.set(engineOf(curve.of), curve);
+  }
+  return curves.filter((c) => best.get(engineOf(c.of)) === c);
+}
+
+/** The fastest of each engine's cases whose times count. */
+export function fastest(cases: BenchCase[]): Map<string, BenchCase> {
+  const best = new Map<string, BenchCase>();
+  for (const c of cases) {
+    const other = best.get(engineOf(c));
+    if (c.valid && !(other && toNumber(other.time) <= toNumber(c.time))) best.set(engineOf(c), c);
+  }
+  return best;
+}
+
+/** Fastest first, what is no timing last. */
+export const byTime = (cases: BenchCase[]): BenchCase[] => {
+  const key = (c: BenchCase) => (c.valid ? toNumber(c.time) : Infinity);
+  return [...cases].sort((a, b) => (key(a) === key(b) ? 0 : key(a) - key(b)));
+};
+
+/** So many a second: "3.4 M". */
+export function rate(seconds: BenchCase['time']): string {
+  let perSecond = 1 / toNumber(seconds);
+  if (!Number.isFinite(perSecond)) return '—';
+  const prefixes = ['', ' k', ' M', ' G'];
+  let thousands = 0;
+  for (; thousands < 3 && perSecond >= 999.5; thousands++) perSecond /= 1000;
+  return Number(perSecond.toPrecision(3)) + (prefixes[thousands] as string);
+}
+
 /** How much faster than on one thread, by the wall; NaN where one of the two is no timing. */
 export function speedUp(c: BenchCase, cases: BenchCase[]): number {
   const single = cases.find((o) => o.engine === c.engine && o.threads === 1);

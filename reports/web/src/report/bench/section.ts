@@ -1,214 +1,14 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The bench: what it means, the times of every scene and part as bars with intervals, growth with the size, quality, and
-// what became of it since a baseline.
+// The bench: what it means, what became of it since a baseline, everything that was timed, and on which machine.
 import { type Child, el } from '../../common/elements.ts';
-import { duration, format, toNumber, unitText, words } from '../../common/format.ts';
-import { barList } from '../charts/bars.ts';
-import { plotCard } from '../charts/plot.ts';
-import type { Bench, BenchCase, BenchChange } from '../data.ts';
-import { command, facts, folded, headRow, panel, scroll } from '../parts.ts';
-import { engineColour, run } from '../run.ts';
-import { engineOf, growthCurves, labelOf, type Subject, speedUp, subjectsOf, workOf } from './groups.ts';
-
-const interval = (low: BenchCase['low'], high: BenchCase['high'], text: (v: BenchCase['low']) => string): string =>
-  low === null || high === null ? '—' : `${text(low)} … ${text(high)}`;
-
-/** An invalid time is struck out. */
-const timeOf = (c: BenchCase): Child =>
-  c.time === null ? '—' : c.valid ? duration(c.time) : el('s', { title: c.reason }, duration(c.time));
-
-function bars(cases: BenchCase[]): HTMLElement {
-  const list = cases.map((c) => ({
-    label: labelOf(c),
-    value: c.valid ? toNumber(c.time) : NaN,
-    low: toNumber(c.low),
-    high: toNumber(c.high),
-    text: c.valid ? duration(c.time) : 'no timing',
-    title: c.valid ? interval(c.low, c.high, duration) : c.reason,
-    colour: engineColour(engineOf(c)),
-  }));
-  return barList(
-    list.map((b) => (Number.isFinite(b.value) ? b : { ...b, low: NaN, high: NaN })),
-    false,
-    'var(--accent)',
-  );
-}
-
-function growth(subject: Subject): HTMLElement | null {
-  const curves = growthCurves(subject);
-  if (curves.length === 0) return null;
-  const first = subject.sizes[0]?.cases[0] as BenchCase;
-  const per = workOf(first) ? (toNumber(first.counts.contacts) > 0 ? 'contact point' : 'pair') : first.sizeUnit;
-  const finite = (v: number) => (Number.isFinite(v) ? v : null);
-  const title = `Time per ${per} over ${first.sizeUnit}`;
-  const card = plotCard({
-    title,
-    name: `${subject.name}: growth`,
-    unit: 's',
-    xTitle: first.sizeUnit,
-    xUnit: '',
-    logX: true,
-    zeroY: true,
-    tall: true,
-    lines: curves.map(({ of, points }) => ({
-      key: of.engine,
-      label: labelOf(of),
-      colour: engineColour(engineOf(of)),
-      dash: of.threads > 1 ? [6, 4] : [],
-      width: 1.5,
-      points: true,
-      x: points.map((p) => p.x),
-      y: points.map((p) => p.y),
-      low: points.map((p) => finite(p.low)),
-      high: points.map((p) => finite(p.high)),
-    })),
-  });
-  const key = curves.map(({ of }) =>
-    el('span', null, el('i', { class: 'swatch', style: `background:${engineColour(engineOf(of))}` }), labelOf(of)),
-  );
-  card.append(el('div', { class: 'lines' }, key));
-  return card;
-}
-
-const heads = [
-  'Engine',
-  'Median',
-  'Validity',
-  '95 %',
-  'Wall',
-  'Ratio to the base',
-  '95 %',
-  'Contacts',
-  'Time per contact',
-  'Pairs in touch',
-  'Memory',
-  'Allocations',
-  'Speed-up',
-  'Repetitions',
-];
-
-function caseRow(c: BenchCase, all: BenchCase[]): HTMLElement {
-  const contacts = toNumber(c.counts.contacts);
-  const isBase = c.base === c.id;
-  const faster = speedUp(c, all);
-  const cells: Child[] = [
-    c.valid ? interval(c.low, c.high, duration) : '—',
-    c.repetitions ? duration(c.wall) : '—',
-    isBase ? 'base' : c.ratio === null ? '—' : format(c.ratio, 3),
-    isBase ? '' : interval(c.ratioLow, c.ratioHigh, (v) => format(v, 3)),
-    contacts >= 0 ? format(contacts) : '—',
-    c.valid && contacts > 0 ? duration(toNumber(c.time) / contacts) : '—',
-    format(c.counts.touching_pairs ?? null),
-    c.memoryKiB === null ? '—' : `${format(toNumber(c.memoryKiB) / 1024, 3)} MiB`,
-    c.allocations === null ? '—' : format(c.allocations, 3),
-    Number.isFinite(faster) ? `×${format(faster, 3)}` : '—',
-    `${c.repetitions}${c.repetitions && !c.converged ? ' (wide)' : ''}`,
-  ];
-  return el(
-    'tr',
-    { 'data-case': c.id, class: c.valid ? '' : 'invalid' },
-    el('th', { class: 'sticky', scope: 'row', title: c.engine }, labelOf(c)),
-    el('td', { class: 'num' }, timeOf(c)),
-    el('td', { class: 'small' }, c.valid ? 'valid' : `invalid: ${c.reason}`),
-    cells.map((cell) => el('td', { class: 'num' }, cell)),
-  );
-}
-
-const timesTable = (cases: BenchCase[]): HTMLElement =>
-  scroll(
-    el(
-      'table',
-      { class: 'full bench' },
-      headRow(heads, (i) => i !== 2),
-      el(
-        'tbody',
-        null,
-        cases.map((c) => caseRow(c, cases)),
-      ),
-    ),
-  );
-
-function qualityTable(cases: BenchCase[]): HTMLElement {
-  const names = [...new Set(cases.flatMap((c) => c.quality.map((q) => q.name)))];
-  const cell = (c: BenchCase, name: string) => {
-    const q = c.quality.find((x) => x.name === name);
-    if (!q) return el('td', { class: 'num' }, '—');
-    const bounds = [
-      q.min === null ? '' : `at least ${format(q.min)}`,
-      q.max === null ? '' : `at most ${format(q.max)}`,
-    ];
-    const said = bounds.filter(Boolean).join(', ') || 'not judged';
-    const text = `${format(q.value)}${unitText(q.unit)}`;
-    return el('td', { class: 'num', title: said }, q.ok ? text : el('b', null, `${text} (${said})`));
-  };
-  return scroll(
-    el(
-      'table',
-      { class: 'full' },
-      headRow(['Engine', ...names.map(words)], (i) => i > 0),
-      el(
-        'tbody',
-        null,
-        cases.map((c) =>
-          el(
-            'tr',
-            null,
-            el('th', { class: 'sticky', scope: 'row' }, labelOf(c)),
-            names.map((name) => cell(c, name)),
-          ),
-        ),
-      ),
-    ),
-  );
-}
-
-function phasesText(c: BenchCase): string {
-  const told = Object.entries(c.phases);
-  return told.map(([name, seconds]) => `${words(name)} ${duration(seconds)}`).join(', ');
-}
-
-function more(cases: BenchCase[]): HTMLElement {
-  const phases = cases.filter((c) => Object.keys(c.phases).length > 0);
-  return folded('Quality, phases, commands', () =>
-    el(
-      'div',
-      null,
-      cases.some((c) => c.quality.length > 0)
-        ? [el('h5', null, 'Quality of the timed runs'), qualityTable(cases)]
-        : null,
-      phases.length
-        ? [
-            el('h5', null, 'Phases, where the engine tells (wall time)'),
-            facts(phases.map((c): [string, Child] => [labelOf(c), phasesText(c)])),
-          ]
-        : null,
-      el('h5', null, 'Each one again, alone'),
-      cases.map((c) => command(c.command)),
-    ),
-  );
-}
-
-function subjectNode(subject: Subject): HTMLElement {
-  const scene = subject.part === 'scene';
-  const title = subject.name; // the title of its file may speak of one size
-  return el(
-    'div',
-    { class: 'bench-subject', 'data-subject': subject.name },
-    el('h3', null, scene ? '' : `${words(subject.part)}: `, title),
-    growth(subject),
-    subject.sizes.map(({ size, cases }) => {
-      const first = cases[0] as BenchCase;
-      const what = first.sizeUnit ? `${format(size)} ${first.sizeUnit}, ` : '';
-      return [
-        el('div', { class: 'chart' }, el('h4', null, `${what}time of one ${first.operation}`), bars(cases)),
-        timesTable(cases),
-        more(cases),
-      ];
-    }),
-  );
-}
+import { duration, format } from '../../common/format.ts';
+import type { Bench, BenchChange } from '../data.ts';
+import { facts, headRow, panel, scroll } from '../parts.ts';
+import { run } from '../run.ts';
+import { labelOf } from './groups.ts';
+import { subjectsNode } from './subject.ts';
 
 function changes(bench: Bench): Child {
   if (bench.changes.length === 0) return null;
@@ -276,6 +76,15 @@ function meaning(bench: Bench): Child {
       'Memory: what the process grew by since the engine began to build its world. Allocations: calls of the C library’s allocator in a step, counted in a repetition of its own; ',
       'pools inside an engine are not seen. Contacts and pairs are what the engine reports for the timed steps: engines that keep fewer points for the same scene do less work.',
     ),
+    bench.cases.some((c) => c.part !== 'scene')
+      ? el(
+          'p',
+          null,
+          'Isolated parts are asked beside the rest of their engine: the same boxes, pairs and frozen contacts for all, in the engine’s own numbers, conversions outside of the clock. ',
+          'What they find is checked after the clock has stopped: pairs against those of all boxes, depths against an exact oracle, impulses against the contact law. ',
+          'Broad phases do their work in bursts: theirs are means over the updates of a repetition.',
+        )
+      : null,
   ];
 }
 
@@ -289,7 +98,7 @@ export function benchSection(): HTMLElement | null {
     run.command ? el('p', { class: 'muted' }, run.started, ' · ', el('code', null, run.command)) : null,
     meaning(bench),
     changes(bench),
-    subjectsOf(bench.cases).map(subjectNode),
+    subjectsNode(bench),
     el('h3', null, 'Machine and builds'),
     facts(machine),
   );
