@@ -149,7 +149,7 @@ std::vector<BenchWork> planAll(const Arguments& a) {
     if (!a.engines.empty())
         for (const auto& spec : request.specs) parts.engines.push_back(spec.text());
     parts.sizes.assign(a.sizes.begin(), a.sizes.end());
-    parts.only = a.only;
+    parts.only = a.only, parts.preset = a.preset;
     parts.threads = a.threads, parts.seed = a.target.seed, parts.binary = ownBinary().string();
     for (auto& part : planParts(a, parts)) work.push_back(std::move(part));
     if (work.empty()) throw std::invalid_argument("bench: no engine can run any of this");

@@ -22,7 +22,8 @@ struct BenchRequest {
     std::vector<double> sizes;         ///< instead of the family's own; empty: its own
     std::vector<int> threads{1};       ///< of engines that have threads
     unsigned long long seed = 1;       ///< of what is random in the work
-    std::string binary;                ///< this program, to describe engines with (describeEngine)
+    std::string preset;  ///< of specs that name none, where it matters; empty: each one's default
+    std::string binary;  ///< this program, to describe engines with (describeEngine)
 };
 
 /// One case before it is run. Cases of the same part, name, size and threads are compared with each other.

@@ -143,7 +143,9 @@ bool takesPart(const PartEngine& engine, int dimension) {
 
 std::vector<PlannedBench> planNarrowPhases(const BenchRequest& request) {
     std::vector<PlannedBench> all;
-    const std::vector<PartEngine> engines = partEngines(request);
+    std::vector<PartEngine> engines = partEngines(request);
+    for (PartEngine& engine : engines)  // margins around and inside shapes are settings
+        if (!request.preset.empty()) engine.spec.options.emplace("preset", request.preset);
     for (const PairKind& kind : pairKinds()) {
         if (!isWanted(request, kind.name())) continue;
         std::vector<std::string> names;
