@@ -37,6 +37,9 @@ template <class S>
 struct Manifold {
     typename S::Vec normal = S::Vec::Zero();  ///< unit, world frame, A to B
     int count = 0;                            ///< 0: no contact within the speculative distance
+    /// Where there is none: the shapes are at least so far apart, as far as that is known for nothing; 0: it
+    /// is not [m].
+    typename S::Real apart = 0;
     std::array<ManifoldPoint<S>, S::maxManifoldPoints> points;
     ManifoldMemory<S> memory;
 };

@@ -53,7 +53,6 @@ std::optional<Contact<S>> ContactSet<S>::findContact(const Search& search, Candi
     Manifold<S> manifold;
     if (!stillValid(candidate)) {
         ask(search, candidate, manifold);
-        if (manifold.count == 0) keep(candidate, nullptr);
     }
     if (manifold.count == 0 && !search.ccd.looksAhead()) return std::nullopt;
     std::optional<Contact<S>> found(std::in_place);
@@ -76,7 +75,7 @@ void ContactSet<S>::makePoints(const Search& search, Candidate& candidate, Conta
         search.makeManifold({shapePoses_[a], shapePoses_[b], size, askedDistance(candidate)}, contact.cache,
                             contact.manifold);
     }
-    keep(candidate, &contact);
+    keepPoints(candidate, contact);
 }
 
 /// From the points to what the solver gets. False: there are none.
@@ -159,17 +158,21 @@ void ContactSet<S>::ask(const Search& search, Candidate& candidate, Manifold<S>&
     candidate.asked = true;
     const std::uint32_t a = candidate.a, b = candidate.b;
     const Real distance = askedDistance(candidate);
+    manifold.apart = 0;
     if (candidate.piece == kNone) {
         search.narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
                                    distance, manifold);
-        return;
+        candidate.apart = manifold.apart;
+    } else {
+        const bool surfaceA = isComposite<S>(shapes_[a].shape);
+        const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
+        if (!surfaceA) flipManifold(manifold);  // its memory
+        collidePiece<S>(search.narrowPhase, shapes_[surface].shape, candidate.piece, shapePoses_[surface],
+                        shapes_[other].shape, shapePoses_[other], distance, manifold);
+        if (!surfaceA) flipManifold(manifold);
+        candidate.apart = 0;  // of one of its sides, perhaps
     }
-    const bool surfaceA = isComposite<S>(shapes_[a].shape);
-    const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
-    if (!surfaceA) flipManifold(manifold);  // its memory
-    collidePiece<S>(search.narrowPhase, shapes_[surface].shape, candidate.piece, shapePoses_[surface],
-                    shapes_[other].shape, shapePoses_[other], distance, manifold);
-    if (!surfaceA) flipManifold(manifold);
+    keep(candidate);
 }
 
 /// One point for both bodies, or equal and opposite impulses would make a couple; against a body that takes

@@ -10,7 +10,9 @@
 //     m = |p - p'| + r |R - R'|,       |R - R'| = 2 sin(angle / 2) <= 2 |q - q'|   (2D: equal to |q - q'|)
 // against the other. The answer stays while m <= s = min(reuseDistance, kMostTurn r). Narrow phases are asked
 // for what is within speculativeDistance + s, so that
-//     nothing found    stays true: nothing can have come within speculativeDistance
+//     nothing found    stays true: nothing can have come within speculativeDistance; where the narrow phase
+//     knows
+//                      how far apart they are (Manifold::apart), until they could be as near as it was asked
 //     a manifold       keeps its points, each where it was on its body, and its normal, fixed to the body
 //                      whose face it is: n . (pB - pA) is the separation of the same two points now
 // Against asking again, the deepest separation is off by at most 2 s, and exact between a corner and the face
@@ -86,25 +88,31 @@ template <class S>
 bool ContactSet<S>::stillValid(const Candidate& candidate) const {
     if (!candidate.kept) return false;
     const Pose<S> now = relative(candidate);
+    Real most = slack(candidate);
+    if (candidate.contact == kNone) most = std::max(most, candidate.apart - askedDistance(candidate));
     return (now.p - candidate.relative.p).norm() + candidate.radius * turned(now.q, candidate.relative.q) <=
-           slack(candidate);
+           most;
 }
 
-/// Keeps what the narrow phase has just answered: the manifold of the contact, or that there is none.
+/// Keeps what the narrow phase has just answered.
 template <class S>
-void ContactSet<S>::keep(Candidate& candidate, Contact<S>* contact) const {
+void ContactSet<S>::keep(Candidate& candidate) const {
     candidate.kept = slack(candidate) > 0;
+    if (candidate.kept) candidate.relative = relative(candidate);
+}
+
+/// And the manifold of its contact.
+template <class S>
+void ContactSet<S>::keepPoints(Candidate& candidate, Contact<S>& contact) const {
     if (!candidate.kept) return;
-    candidate.relative = relative(candidate);
-    if (contact == nullptr) return;
     const Pose<S>&A = shapePoses_[candidate.a], &B = shapePoses_[candidate.b];
-    const Manifold<S>& manifold = contact->manifold;
+    const Manifold<S>& manifold = contact.manifold;
     candidate.onB = manifold.memory.axis == ManifoldMemory<S>::kFaceB;
     candidate.normal = rotateInverse<Real>(candidate.onB ? B.q : A.q, manifold.normal);
-    contact->cache.count = manifold.count;
+    contact.cache.count = manifold.count;
     for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
         const ManifoldPoint<S>& point = manifold.points[i];
-        contact->cache.points[i] = {toLocal<S>(A, point.pointA), toLocal<S>(B, point.pointB), point.feature};
+        contact.cache.points[i] = {toLocal<S>(A, point.pointA), toLocal<S>(B, point.pointB), point.feature};
     }
 }
 

@@ -146,6 +146,7 @@ class ContactSet {
         bool onB = false;          ///< the normal turns with B, else with A
         bool byA = false;          ///< A is the smaller of the two
         Real radius = 0;           ///< of the smaller [m]; 0: answers are not kept
+        Real apart = 0;            ///< where nothing was found: Manifold::apart
         Pose<S> relative;          ///< the smaller in the frame of the other, then
         Vec normal = Vec::Zero();  ///< in the frame that it turns with
     };
@@ -185,7 +186,8 @@ class ContactSet {
     }
     Pose<S> relative(const Candidate& candidate) const;
     bool stillValid(const Candidate& candidate) const;
-    void keep(Candidate& candidate, Contact<S>* contact) const;
+    void keep(Candidate& candidate) const;
+    void keepPoints(Candidate& candidate, Contact<S>& contact) const;
     void carry(const Candidate& candidate, Contact<S>& contact) const;
     void forgetOtherAnswers();
     void makePoints(const Search& search, Candidate& candidate, Contact<S>& contact) const;

@@ -19,7 +19,7 @@ namespace rigor::engine {
 namespace {
 
 constexpr char kMagic[8] = {'R', 'I', 'G', 'O', 'R', 'S', 'N', 'P'};
-constexpr std::uint32_t kVersion = 3;  ///< raised with every change of state_fields.def
+constexpr std::uint32_t kVersion = 4;  ///< raised with every change of state_fields.def
 constexpr std::uint32_t kByteOrder = 0x01020304;
 
 struct Header {

@@ -214,9 +214,11 @@ void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Pol
     const R radius = a.radius + b.radius;
     const R tolerance = kRounding<R> * std::max({sizeOf(a), sizeOf(b), XAB.p.cwiseAbs().maxCoeff()});
     const EdgeAxis<R> onA = bestEdge(a, b, XAB, tolerance);
-    if (onA.separation > radius + speculative) return;
+    out.apart = onA.separation - radius;
+    if (out.apart > speculative) return;
     const EdgeAxis<R> onB = bestEdge(b, a, XBA, tolerance);
-    if (onB.separation > radius + speculative) return;
+    out.apart = std::max(out.apart, onB.separation - radius);
+    if (out.apart > speculative) return;
     bool refIsA = onB.separation <= onA.separation + tolerance;
     int edge = refIsA ? onA.edge : onB.edge;
     const R widest = refIsA ? onA.separation : onB.separation;

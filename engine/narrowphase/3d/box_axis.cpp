@@ -137,13 +137,16 @@ bool BoxAxes<R>::find(R speculative, PolytopeAxis<R>& best) {
     const R rounding = kRounding<R> * size;
     reachB = absC * halfB;
     const Faces<R> onA = bestFace<R>(halfA, t, reachB, rounding);
+    best.separation = onA.separation;
     if (onA.separation > speculative) return false;
     reachA = absC.transpose() * halfA;
     const Faces<R> onB = bestFace<R>(halfB, tB, reachA, rounding);
+    best.separation = std::max(onA.separation, onB.separation);
     if (onB.separation > speculative) return false;
     // Edges no better than the faces are of no use.
-    EdgePair<R> edges{-1, -1, std::max(onA.separation, onB.separation)};
+    EdgePair<R> edges{-1, -1, best.separation};
     bestEdges<R>(halfA, halfB, C, absC, t, edges);
+    best.separation = edges.separation;
     if (edges.separation > speculative) return false;
 
     best.kind = PolytopeAxis<R>::FaceA;

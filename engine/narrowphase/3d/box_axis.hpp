@@ -19,6 +19,7 @@ struct BoxAxes {
 
     BoxAxes(const Vec3<R>& a, const Vec3<R>& b, const Relative<R>& relative);
     /// polytopeAxis (polytope.hpp) by the fifteen axes in closed form.
+    /// False: best.separation alone is known, a bound from below.
     bool find(R speculative, PolytopeAxis<R>& best);
     /// keepAxis (polytope.hpp) after `find` was true.
     void keep(const ManifoldMemory<Space<R, 3>>& memory, PolytopeAxis<R>& best) const;

@@ -230,7 +230,9 @@ bool meetingFaces(const BoxAxes<R>& boxes, const PolytopeAxis<R>& axis, Manifold
         faceB = betterBoxFace<R>(axis.featureB, Vec3<R>(-towardsB), facingB);
         memory.axis = kind, memory.featureA = static_cast<std::uint32_t>(axis.featureA),
         memory.featureB = static_cast<std::uint32_t>(axis.featureB);
-        if (facingA < kFlat<R> || facingB < kFlat<R>) return false;
+        // An edge that lies along a face meets it in a stretch, as two faces do in a polygon.
+        if (std::max(facingA, facingB) < kFlat<R>) return false;
+        m.refIsA = facingA >= facingB;
     } else {
         const bool same = memory.axis == kind &&
                           (m.refIsA ? number(memory.featureA) == faceA : number(memory.featureB) == faceB);
@@ -248,7 +250,10 @@ bool meetingFaces(const BoxAxes<R>& boxes, const PolytopeAxis<R>& axis, Manifold
     } else {
         m.rotation = boxes.X.rotation.transpose(), m.center = -boxes.tB;
     }
-    m.outward = axis.kind == Axis::Edges ? axis.normal : Vec3<R>(m.side() * Vec3<R>::Unit(m.axis()));
+    if (axis.kind != Axis::Edges)
+        m.outward = m.side() * Vec3<R>::Unit(m.axis());
+    else
+        m.outward = m.refIsA ? axis.normal : Vec3<R>(-towardsB);
     return true;
 }
 
@@ -261,7 +266,10 @@ void collidePair(const Box<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const B
     const Pose<Space<R, 3>> X = relativePose<Space<R, 3>>(Xa, Xb);
     BoxAxes<R> axes(a.halfExtents, b.halfExtents, {toMatrix(X.q), X.p});
     PolytopeAxis<R> axis;
-    if (!axes.find(speculative, axis)) return;
+    if (!axes.find(speculative, axis)) {
+        out.apart = axis.separation;
+        return;
+    }
     axes.keep(out.memory, axis);
     const Boxes<R> boxes{axes, Xa, axis, out};
     FaceMeeting<R> meeting;

@@ -114,7 +114,8 @@ R axisTolerance(R size, R separation) {
     return kRounding<R> * size + R(1e-7) * std::abs(separation);
 }
 
-/// False when separated by more than `speculative`. Else the axis of largest separation, faces of A
+/// False when separated by more than `speculative`; then best.separation is a bound of the distance from
+/// below. Else the axis of largest separation, faces of A
 /// preferred to faces of B preferred to edges within a tolerance of rounding size.
 template <class R>
 bool polytopeAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X, R speculative,

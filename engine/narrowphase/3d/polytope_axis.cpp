@@ -204,9 +204,11 @@ bool polytopeAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>&
     FaceSearch<R> searchA(a, b, X), searchB(b, a, inverse);
     searchA.run(speculative, rounding);
     const FaceAxis<R> onA = searchA.best;
+    best.separation = onA.separation;
     if (onA.separation > speculative) return false;
     searchB.run(speculative, rounding);
     const FaceAxis<R> onB = searchB.best;
+    best.separation = onB.separation;
     if (onB.separation > speculative) return false;
     EdgeFilter<R> edgesOfA, edgesOfB;
     const R level = std::min(R(0), std::max(onA.separation, onB.separation));

@@ -97,21 +97,24 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
     const bool keepsAxis = last.axis == out.memory.axis &&
                            (axis.kind == PolytopeAxis<R>::FaceA ? last.featureA == feature(axis.featureA)
                                                                 : last.featureB == feature(axis.featureB));
+    bool refIsA = axis.kind != PolytopeAxis<R>::FaceB;
     if (edges) {
         faceA = betterFace<R>(a, a.edges[axis.featureA], axis.normal);
         faceB = betterFace<R>(b, b.edges[axis.featureB], -towardsB);
-        if (a.faces[faceA].normal.dot(axis.normal) < kFlat<R> ||
-            -b.faces[faceB].normal.dot(towardsB) < kFlat<R>) {
+        // An edge that lies along a face meets it in a stretch, as two faces do in a polygon.
+        const R facingA = a.faces[faceA].normal.dot(axis.normal),
+                facingB = -b.faces[faceB].normal.dot(towardsB);
+        if (std::max(facingA, facingB) < kFlat<R>) {
             edgePoint(a, b, X, axis, out);
             return;
         }
+        refIsA = facingA >= facingB;
     } else if (axis.kind == PolytopeAxis<R>::FaceA) {
         faceB = incidentFace<R>(b, -towardsB, keepsAxis ? static_cast<int>(last.featureB) : -1);
     } else {
         faceA = incidentFace<R>(a, axis.normal, keepsAxis ? static_cast<int>(last.featureA) : -1);
     }
     if (!edges) out.memory.featureA = feature(faceA), out.memory.featureB = feature(faceB);
-    const bool refIsA = axis.kind != PolytopeAxis<R>::FaceB;
     FaceLoop<R> loopA, loopB;
     loadFace(
         a, faceA, [](const V& v) { return v; }, loopA);

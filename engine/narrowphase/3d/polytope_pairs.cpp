@@ -22,7 +22,10 @@ void collidePolytopes(const A& a, const Pose<Space<R, 3>>& Xa, const B& b, const
     const Polytope<R> pa = polytopeOf<R>(a, storeA), pb = polytopeOf<R>(b, storeB);
     const Relative<R> X = relative<R>(Xa, Xb);
     PolytopeAxis<R> axis;
-    if (!polytopeAxis<R>(pa, pb, X, speculative, axis)) return;
+    if (!polytopeAxis<R>(pa, pb, X, speculative, axis)) {
+        out.apart = axis.separation;
+        return;
+    }
     keepAxis<R>(pa, pb, X, out.memory, axis);
     polytopeManifold<R>(pa, pb, X, axis, speculative, out);
     toWorldFrame<Space<R, 3>>(out, Xa);
