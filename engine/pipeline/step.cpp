@@ -273,7 +273,9 @@ void World<S>::makeRows() {
     rows_.clear();
     const Real warmStart = def_.warmStarting && lastStepSize_ > 0 ? h / lastStepSize_ : Real(0);
     const BiasRule<Real> bias = biasRule();
-    jointStep_ = {h, bias, warmStart, def_.curvedJoints && motion_.movesWithSolvedVelocity()};
+    // Beside patches joints are rigid: their drift is position correction's.
+    const BiasRule<Real> jointBias = solver_->patches() ? correction_->bias() : bias;
+    jointStep_ = {h, jointBias, warmStart, def_.curvedJoints && motion_.movesWithSolvedVelocity()};
     joints_.addRows(bodies_, jointStep_, rows_);
     // Twice what gravity adds in a step: a resting contact never approaches that fast.
     const Real gravityStep = h * def_.gravity.norm();
@@ -342,8 +344,9 @@ PatchPass<typename S::Real> World<S>::patchPass() const {
 
 /// At the end of a sub-step.
 template <class S>
-void World<S>::finishPatches(bool lastSubstep) {
+void World<S>::finishPatches(bool lastSubstep, bool corrected) {
     Patches<S>& patches = *solver_->patches();
+    if (!lastSubstep && corrected) return patches.advance(positionScratch_.motion, Real(1), tasks_);
     if (!lastSubstep) return patches.advance(motion_.used(), cursor_.substepSize, tasks_);
     contacts_.storePatches(patches, tasks_);
 }
@@ -411,7 +414,9 @@ void World<S>::correct() {
     if (!patches) contacts_.storeImpulses(rows_);
     const Real h = cursor_.substepSize;
     const bool more = cursor_.substep + 1 < substeps();
-    if (!style_.ownsCorrection) {
+    // The rows of a solver with patches are those of joints alone, whose positions are not its business.
+    const bool corrects = !style_.ownsCorrection || (patches && !joints_.records().empty());
+    if (corrects) {
         // Slower than this a contact is as good as resting, and its overlap is corrected.
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
         StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, positionScratch_);
@@ -421,7 +426,7 @@ void World<S>::correct() {
     }
     motion_.finish(bodies_, h, tasks_);
     if (patches)
-        finishPatches(!more);
+        finishPatches(!more, corrects);
     else if (more)
         contacts_.advance(positionScratch_.motion);
     lastStepSize_ = h;

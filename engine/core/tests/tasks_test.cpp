@@ -74,5 +74,54 @@ TEST(Tasks, ExceptionsReachTheCallerAndCopiesWork) {
                      std::runtime_error);
 }
 
+TEST(Tasks, RangesInsideOfRangesAndStagesAreDone) {
+    for (int threads = 1; threads <= 4; ++threads) {
+        const Tasks tasks(threads);
+        std::vector<std::atomic<int>> visits(60);
+        tasks.enter([&] {
+            tasks.forRanges(6, 1, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    tasks.forStages(
+                        2, 1, [](std::size_t) -> std::size_t { return 5; },
+                        [&](std::size_t s, std::size_t first, std::size_t last) {
+                            for (std::size_t k = first; k < last; ++k) ++visits[10 * i + 5 * s + k];
+                        });
+            });
+        });
+        for (const std::atomic<int>& visit : visits) EXPECT_EQ(visit, 1) << threads;
+    }
+}
+
+TEST(Tasks, ExceptionsOfStagesReachTheCallerAndWorkGoesOn) {
+    const Tasks tasks(3);
+    for (int round = 0; round < 50; ++round) {
+        EXPECT_THROW(tasks.forStages(
+                         4, 1, [](std::size_t) -> std::size_t { return 20; },
+                         [&](std::size_t s, std::size_t begin, std::size_t) {
+                             if (s == 2 && begin == 7) throw std::runtime_error("7 of 2");
+                         }),
+                     std::runtime_error);
+        EXPECT_THROW(tasks.enter([] { throw std::runtime_error("entered"); }), std::runtime_error);
+        std::atomic<int> sum = 0;
+        tasks.forEach(1000, 1, [&](std::size_t i) { sum += static_cast<int>(i); });
+        EXPECT_EQ(sum, 499500);
+    }
+}
+
+/// Many short ranges one after the other: a thread that comes late for one takes part in the next.
+TEST(Tasks, ShortRangesFollowEachOther) {
+    const Tasks tasks(4);
+    tasks.enter([&] {
+        std::vector<int> visits;
+        for (std::size_t n = 1; n < 3000; ++n) {
+            visits.assign(n % 97 + 1, 0);
+            tasks.forRanges(visits.size(), 2, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) ++visits[i];
+            });
+            ASSERT_EQ(visits, std::vector<int>(visits.size(), 1)) << n;
+        }
+    });
+}
+
 }  // namespace
 }  // namespace rigor::engine::test

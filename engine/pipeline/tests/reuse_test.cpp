@@ -178,6 +178,39 @@ TYPED_TEST(Reuse, NothingFoundStaysTrue) {
     expectDepthWithinTheMotion<TypeParam>(true);
 }
 
+/// A box that comes slowly towards an edge of the other, face first, while their boxes overlap: it is found
+/// as early as by asking in every step, which far away is not done.
+TYPED_TEST(Reuse, WhatIsFarApartIsNotAskedAboutUntilItMayBeNear) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    Random<S> random;
+    int steps = 0, asked = 0, found = 0;
+    for (int trial = 0; trial < 20; ++trial) {
+        Pair<S> keeping(kReuse, 0.3), near(0, 0.3), wide(0, 0.3);
+        wide.search.speculativeDistance += static_cast<R>(1.01 * kReuse);
+        typename S::Vec out = S::Vec::Zero(), edge = S::Vec::Zero();
+        out[0] = out[1] = std::sqrt(R(0.5)), edge[0] = edge[1] = R(1);
+        typename S::Ang turned = zeroAng<S>();
+        if constexpr (S::dim == 3)
+            turned[2] = R(0.7853981634);
+        else
+            turned = R(0.7853981634);
+        Pose<S> X;
+        X.q = rotatedBy(Pose<S>::identityRot(), turned);
+        for (double gap = 0.15; gap > -0.002; gap -= random.in(0.5e-3, 2e-3)) {
+            X.p = edge + static_cast<R>(0.3 + gap) * out + random.vec(2e-4);
+            X.q = rotatedBy(X.q, random.ang(3e-4));
+            keeping.bodies.pose[1] = near.bodies.pose[1] = wide.bodies.pose[1] = X;
+            const bool kept = !keeping.find().empty();
+            EXPECT_TRUE(kept || near.find().empty()) << "gap " << gap;
+            EXPECT_FALSE(kept && wide.find().empty()) << "gap " << gap;
+            ++steps, asked += static_cast<int>(keeping.set.asked()), found += kept;
+        }
+    }
+    EXPECT_GT(found, 20);
+    EXPECT_LT(asked, steps / 2);
+}
+
 TYPED_TEST(Reuse, MovingFurtherAsksAgain) {
     using S = TypeParam;
     using R = typename S::Real;

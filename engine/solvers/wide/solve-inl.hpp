@@ -273,9 +273,11 @@ HWY_INLINE void solveFriction(PatchGroup<S>& p, const Pressed<S>& pressed, bool 
         size2 = size2 + twist * twist;
     }
     const auto sticks = size2 <= sticking * sticking;
-    // Where it slides size2 > 0.
-    const Num<S> size = hn::Sqrt(hn::IfThenElse(sticks, one, size2));
-    const Num<S> scale = hn::IfThenElse(sticks, one, p.at(block.friction) * pressed.sum / size);
+    Num<S> scale = one;
+    if (!hn::AllTrue(Tag<S>(), sticks)) {  // where it slides size2 > 0
+        const Num<S> size = hn::Sqrt(hn::IfThenElse(sticks, one, size2));
+        scale = hn::IfThenElse(sticks, one, p.at(block.friction) * pressed.sum / size);
+    }
     for (std::size_t k = 0; k < tangents; ++k) {
         next[k] = scale * next[k];
         change[k] = next[k] - old[k];

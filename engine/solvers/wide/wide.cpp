@@ -11,7 +11,7 @@
 //     number by number, which SIMD takes side by side and threads take colour by colour;
 //   - patches are made once per step; in the sub-steps their separations follow the bodies to first order;
 //   - joints are rows as everywhere, remade in every sub-step and solved all at once, rigid
-//     (joint_group.hpp).
+//     (joint_group.hpp); what they drift by in it is put right by position correction.
 // A contact of one point obeys the same laws as with tgs_soft, and a patch that slides without turning or
 // turns without sliding, too. Contacts that come as rows, where nobody has made patches, are solved row by
 // row as there.

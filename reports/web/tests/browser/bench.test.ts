@@ -49,6 +49,7 @@ describe('the report of a bench', { skip }, () => {
     assert.match((await best.first().textContent()) ?? '', /moving boxes, 1000 boxes.*50 µs.*100 ns/);
     assert.equal(await best.locator('b').textContent(), '100 ns', 'the wrong one is not the fastest');
     await part.locator('summary').first().click();
+    await part.locator('.bars th').first().waitFor();
     assert.deepEqual(await part.locator('.bars th').allTextContents(), [
       'rigor broad_phase=tree',
       'fcl',
