@@ -273,9 +273,11 @@ void World<S>::makeRows() {
     rows_.clear();
     const Real warmStart = def_.warmStarting && lastStepSize_ > 0 ? h / lastStepSize_ : Real(0);
     const BiasRule<Real> bias = biasRule();
-    // Beside patches joints are rigid: their drift is position correction's.
-    const BiasRule<Real> jointBias = solver_->patches() ? correction_->bias() : bias;
-    jointStep_ = {h, jointBias, warmStart, def_.curvedJoints && motion_.movesWithSolvedVelocity()};
+    const BiasRule<Real> jointBias = style_.jointBias.value_or(bias);
+    // The one visit of joints beside patches can solve what is linear alone.
+    const bool curved =
+        def_.curvedJoints && motion_.movesWithSolvedVelocity() && solver_->patches() == nullptr;
+    jointStep_ = {h, jointBias, warmStart, curved};
     joints_.addRows(bodies_, jointStep_, rows_);
     // Twice what gravity adds in a step: a resting contact never approaches that fast.
     const Real gravityStep = h * def_.gravity.norm();
@@ -344,9 +346,8 @@ PatchPass<typename S::Real> World<S>::patchPass() const {
 
 /// At the end of a sub-step.
 template <class S>
-void World<S>::finishPatches(bool lastSubstep, bool corrected) {
+void World<S>::finishPatches(bool lastSubstep) {
     Patches<S>& patches = *solver_->patches();
-    if (!lastSubstep && corrected) return patches.advance(positionScratch_.motion, Real(1), tasks_);
     if (!lastSubstep) return patches.advance(motion_.used(), cursor_.substepSize, tasks_);
     contacts_.storePatches(patches, tasks_);
 }
@@ -369,7 +370,7 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
     if (!jointStep_.curved || monitor.aimSettled()) return;
     jointStep_.curvature = 0;
     solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, true, def_.residualTolerance,
-                    def_.pyramidDirections, tasks_});
+                    def_.pyramidDirections, tasks_, &pass});
 }
 
 template <class S>
@@ -414,9 +415,7 @@ void World<S>::correct() {
     if (!patches) contacts_.storeImpulses(rows_);
     const Real h = cursor_.substepSize;
     const bool more = cursor_.substep + 1 < substeps();
-    // The rows of a solver with patches are those of joints alone, whose positions are not its business.
-    const bool corrects = !style_.ownsCorrection || (patches && !joints_.records().empty());
-    if (corrects) {
+    if (!style_.ownsCorrection) {
         // Slower than this a contact is as good as resting, and its overlap is corrected.
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
         StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, positionScratch_);
@@ -426,7 +425,7 @@ void World<S>::correct() {
     }
     motion_.finish(bodies_, h, tasks_);
     if (patches)
-        finishPatches(!more, corrects);
+        finishPatches(!more);
     else if (more)
         contacts_.advance(positionScratch_.motion);
     lastStepSize_ = h;

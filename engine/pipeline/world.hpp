@@ -219,7 +219,7 @@ class World {
     Load<S> load() const;
     void makeRows();
     PatchPass<Real> patchPass() const;
-    void finishPatches(bool lastSubstep, bool corrected);
+    void finishPatches(bool lastSubstep);
     void solveVelocities(int iterations, bool warmStarted);
     void resolveImpacts();
     void relax();

@@ -7,11 +7,10 @@
 //     as a whole at its centre of pressure, three rows in place of eight;
 //   - the points of a patch are swept twice at each visit, which calms stacks for little more time;
 //   - patches are coloured so that those of one colour share no body that moves, and stand in blocks of
-//   eight,
-//     number by number, which SIMD takes side by side and threads take colour by colour;
+//     eight, number by number, which SIMD takes side by side and threads take colour by colour;
 //   - patches are made once per step; in the sub-steps their separations follow the bodies to first order;
 //   - joints are rows as everywhere, remade in every sub-step and solved all at once, rigid
-//     (joint_group.hpp); what they drift by in it is put right by position correction.
+//     (joint_group.hpp), aimed half of the way to where they should be.
 // A contact of one point obeys the same laws as with tgs_soft, and a patch that slides without turning or
 // turns without sliding, too. Contacts that come as rows, where nobody has made patches, are solved row by
 // row as there.
@@ -37,6 +36,10 @@ class Wide final : public Solver<S> {
         style.substeps = 4;
         style.iterations = 1;
         style.bias = softBiasRule<Real>();
+        // Rigid. Half of their drift goes in each sub-step, and its velocity with the relaxation.
+        BiasRule<Real> joints;
+        joints.share = Real(0.5);
+        style.jointBias = joints;
         style.relaxIterations = 1;
         style.ownsCorrection = true;
         return style;
