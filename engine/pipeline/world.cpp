@@ -154,8 +154,16 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
         findAlgorithm(combineTable<Real>(), "restitution_combine", def.restitutionCombine).make);
     style_ = solver_->style();
     fault_ = findAlgorithm(faultTable<S>(), "fault", def.fault).make();
-    require(fault_ == nullptr || solver_->patches() == nullptr, "fault_solver",
-            "faults spoil rows of contacts, which this solver does not have");
+    if (solver_->patches() != nullptr) {
+        require(fault_ == nullptr, "fault_solver",
+                "faults spoil rows of contacts, which this solver does not have");
+        require(def.friction == "cone", "friction_solver",
+                "this solver has a friction law of its own, the cone's: friction must be cone");
+        require(!restitution_->solvesImpacts(), "restitution_solver",
+                "this restitution needs contacts as rows, which this solver does not have");
+        require(!def.measureResiduals, "measure_residuals_solver",
+                "residuals are measured on rows of contacts, which this solver does not have");
+    }
     require(!style_.positions || !restitution_->solvesImpacts(), "restitution_solver",
             "this restitution needs a solver of velocities");
     friction_ = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;

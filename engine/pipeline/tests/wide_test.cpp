@@ -8,6 +8,7 @@
 #include <hwy/targets.h>
 #include <cmath>
 #include <set>
+#include <string>
 
 #include "engine/pipeline/tests/scene.hpp"
 #include "engine/solvers/wide/kernels.hpp"
@@ -136,16 +137,36 @@ TYPED_TEST(Wide, SlidingBoxMovesAsWithRows) {
     EXPECT_NEAR(slide("wide"), slide("nsgs"), 0.02);
 }
 
-/// Faults are made to rows, which there are none of.
-TEST(WideFaults, AreRefused) {
-    WorldDef<Space3d> def = wideEarth<Space3d>();
-    def.fault = "flipped_normal";
+/// The id of what a world refuses these settings for; empty where it does not.
+template <class S>
+std::string refusal(const WorldDef<S>& def) {
     try {
-        World<Space3d> world(def);
-        ADD_FAILURE() << "accepted";
+        World<S> world(def);
+        return {};
     } catch (const EngineError& error) {
-        EXPECT_STREQ(error.id().c_str(), "fault_solver");
+        return error.id();
     }
+}
+
+/// What is made for contacts as rows, which there are none of.
+TYPED_TEST(Wide, SettingsThatItDoesNotHaveAreRefused) {
+    using S = TypeParam;
+    const WorldDef<S> plain = wideEarth<S>();
+    const auto with = [&](auto change) {
+        WorldDef<S> def = plain;
+        change(def);
+        return refusal(def);
+    };
+    EXPECT_EQ(refusal(plain), "");
+    EXPECT_EQ(with([](auto& def) { def.restitution = "none"; }), "");
+    EXPECT_EQ(with([](auto& def) { def.fault = "flipped_normal"; }), "fault_solver");
+    EXPECT_EQ(with([](auto& def) { def.friction = "pyramid"; }), "friction_solver");
+    EXPECT_EQ(with([](auto& def) { def.friction = "pyramid_2"; }), "friction_solver");
+    EXPECT_EQ(with([](auto& def) { def.restitution = "poisson"; }), "restitution_solver");
+    EXPECT_EQ(with([](auto& def) { def.measureResiduals = true; }), "measure_residuals_solver");
+    WorldDef<S> speed = earth<S>();
+    preferSpeed(speed);
+    EXPECT_EQ(refusal(speed), "");
 }
 
 }  // namespace
