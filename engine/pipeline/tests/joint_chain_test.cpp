@@ -11,6 +11,7 @@
 
 #include "engine/core/tests/counting_new.hpp"
 #include "engine/pipeline/tests/scene.hpp"
+#include "engine/state/prefer_speed.hpp"
 
 namespace rigor::engine::test {
 namespace {
@@ -120,6 +121,28 @@ TYPED_TEST(Chains, AHundredLinksUnderAHundredTimesTheirMassKeepTheirEnergy) {
             EXPECT_GT(least, -0.02 * fall) << ratio << " " << quick;
             EXPECT_LT(gap, 1e-4) << ratio << " " << quick;
         }
+}
+
+/// The settings for large scenes, whose joints see one linear solve per sub-step.
+TYPED_TEST(Chains, HoldTogetherAndGainNothingWithTheSolverOfLargeScenes) {
+    using S = TypeParam;
+    for (const auto& [ratio, substeps] : {std::pair{100.0, 5}, std::pair{1000.0, 10}}) {
+        WorldDef<S> def = earth<S>();
+        preferSpeed(def);
+        def.substeps = substeps;
+        Jointed<S> scene(def);
+        scene.chain(100, ratio);
+        const double start = scene.energy(), fall = Jointed<S>::fall(100, ratio);
+        double most = 0, gap = 0;
+        for (int i = 0; i < 180; ++i) {
+            scene.world.step(static_cast<typename S::Real>(kStep));
+            most = std::max(most, scene.energy() - start);
+            gap = std::max(gap, scene.gap());
+        }
+        EXPECT_LT(most, 2e-3 * fall) << ratio;
+        EXPECT_GT(scene.energy() - start, -0.1 * fall) << ratio;
+        EXPECT_LT(gap, 1e-3) << ratio;
+    }
 }
 
 TYPED_TEST(Chains, TheErrorOfTheEnergyFallsWithTheStep) {
