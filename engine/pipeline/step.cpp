@@ -273,11 +273,8 @@ void World<S>::makeRows() {
     rows_.clear();
     const Real warmStart = def_.warmStarting && lastStepSize_ > 0 ? h / lastStepSize_ : Real(0);
     const BiasRule<Real> bias = biasRule();
-    const BiasRule<Real> jointBias = style_.jointBias.value_or(bias);
-    // The one visit of joints beside patches can solve what is linear alone.
-    const bool curved =
-        def_.curvedJoints && motion_.movesWithSolvedVelocity() && solver_->patches() == nullptr;
-    jointStep_ = {h, jointBias, warmStart, curved};
+    const BiasRule<Real> jointBias = def_.curvedJoints ? bias : style_.linearJointBias.value_or(bias);
+    jointStep_ = {h, jointBias, warmStart, def_.curvedJoints && motion_.movesWithSolvedVelocity()};
     joints_.addRows(bodies_, jointStep_, rows_);
     // Twice what gravity adds in a step: a resting contact never approaches that fast.
     const Real gravityStep = h * def_.gravity.norm();

@@ -82,8 +82,8 @@ struct SolverStyle {
     bool positions = false;
     /// How position errors act on the rows, where the solver has its own way; else the position correction's.
     std::optional<BiasRule<Real>> bias;
-    /// Of joints, where they are not treated as contacts are.
-    std::optional<BiasRule<Real>> jointBias;
+    /// Of joints that are linearised (WorldDef::curvedJoints off), where that is not the same.
+    std::optional<BiasRule<Real>> linearJointBias;
     /// Iterations of solve() after the bodies have moved, with relaxed biases.
     int relaxIterations = 0;
     bool ownsCorrection = false;  ///< position correction after the step is not wanted

@@ -9,8 +9,9 @@
 //   - patches are coloured so that those of one colour share no body that moves, and stand in blocks of
 //     eight, number by number, which SIMD takes side by side and threads take colour by colour;
 //   - patches are made once per step; in the sub-steps their separations follow the bodies to first order;
-//   - joints are rows as everywhere, remade in every sub-step and solved all at once, rigid
-//     (joint_group.hpp), aimed half of the way to where they should be.
+//   - joints are rows as everywhere, remade in every sub-step and solved all at once (joint_group.hpp): rigid
+//     and aimed half of the way to where they should be where they are linearised (WorldDef::curvedJoints
+//     off), which long chains under heavy ends need and which damps what swings; else as springs.
 // A contact of one point obeys the same laws as with tgs_soft, and a patch that slides without turning or
 // turns without sliding, too. Contacts that come as rows, where nobody has made patches, are solved row by
 // row as there.
@@ -36,10 +37,11 @@ class Wide final : public Solver<S> {
         style.substeps = 4;
         style.iterations = 1;
         style.bias = softBiasRule<Real>();
-        // Rigid. Half of their drift goes in each sub-step, and its velocity with the relaxation.
+        // One visit solves what is linear: rigid joints, half of whose drift goes in each sub-step, and the
+        // velocity of that with the relaxation. What is curved it takes as springs.
         BiasRule<Real> joints;
         joints.share = Real(0.5);
-        style.jointBias = joints;
+        style.linearJointBias = joints;
         style.relaxIterations = 1;
         style.ownsCorrection = true;
         return style;
