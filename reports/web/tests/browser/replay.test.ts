@@ -196,9 +196,9 @@ describe('the replay of a real run', { skip }, () => {
         location.hash = '#/scenario/asymmetric_top';
       });
       await served.locator('#replay').scrollIntoViewIfNeeded();
-      await served.waitForSelector('.replay .label small:has-it.text("every")');
+      await served.waitForSelector('.replay .label small:has-text("every")');
       await served.click('.replay [data-switch="all"]');
-      await served.waitForSelector('.replay .label small:has-it.text("frame 1/3001")');
+      await served.waitForSelector('.replay .label small:has-text("frame 1/3001")');
       await served.click('.replay [data-action="forward"]');
       assert.match((await served.textContent('.replay .clock')) ?? '', /^0\.0010 s/);
       assert.equal(await served.locator('.replay [data-switch="all"]').count(), 0, 'there is nothing more');
@@ -217,7 +217,7 @@ describe('the replay of a real run', { skip }, () => {
     });
     await open(other.page, it.run, '#/scenario/box_stack');
     await other.page.locator('#replay').scrollIntoViewIfNeeded();
-    await other.page.waitForSelector('.replay-note:has-it.text("no WebGL")');
+    await other.page.waitForSelector('.replay-note:has-text("no WebGL")');
     await other.close();
   });
 });
