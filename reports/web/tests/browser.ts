@@ -85,7 +85,10 @@ export async function faultsOf(browser: Browser, options: BrowserContextOptions,
 export async function watched(browser: Browser, options: BrowserContextOptions = {}): Promise<Watched> {
   const mayAsk = (url: string) => /^(file|data|blob):/.test(url);
   const { page, context, faults } = await faultsOf(browser, { offline: true, ...options }, mayAsk);
-  page.on('requestfailed', (request) => faults.push(`failed: ${request.url()}`));
+  page.on('requestfailed', (request) => {
+    // Leaving a page breaks off what it still loads: no fault of the page.
+    if (request.failure()?.errorText !== 'net::ERR_ABORTED') faults.push(`failed: ${request.url()}`);
+  });
   return { page, faults, close: () => context.close() };
 }
 
