@@ -86,7 +86,7 @@ struct Tasks::Arena {
 thread_local const Tasks::Arena* Tasks::Arena::working = nullptr;
 
 void Tasks::Arena::enter(const std::function<void()>& work) {
-    if (entered) return work();
+    if (inPart() || entered) return work();
     arena.execute([&] {
         oneapi::tbb::task_group others;
         entered = together_ = true;
@@ -198,11 +198,11 @@ void Tasks::sharedStages(std::size_t count, std::size_t grain,
                 part(0, n);
         }
     };
-    arena_->inPart() ? all() : arena_->enter(std::cref(all));
+    arena_->enter(std::cref(all));
 }
 
 void Tasks::entered(const std::function<void()>& work) const {
-    arena_->inPart() ? work() : arena_->enter(work);
+    arena_->enter(work);
 }
 
 }  // namespace rigor::engine

@@ -40,8 +40,8 @@ class Motion {
     /// Before the first kick() of a step, which may be of several.
     void beginStep() { begun_ = false; }
 
-    /// The world inertia of the beginning of a step is all that its sub-steps need.
-    bool inertiaHolds() const { return inBlocks_ && blocks_.gyroscopic(); }
+    /// After a kick(): the world inertia of the beginning of the step is all that the other sub-steps need.
+    bool inertiaHolds() const { return kickedInBlocks_ && blocks_.gyroscopic(); }
 
     /// World inertia of every body at its present pose. Before rows are made and before kick().
     static void setInertia(BodyArrays<S>& bodies, const Tasks& tasks = Tasks::one());

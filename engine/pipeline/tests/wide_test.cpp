@@ -119,6 +119,33 @@ TEST(WideTwist, SpinningCubeIsSlowedByFrictionAtItsCorners) {
     expectTwistStops<Space3d>();
 }
 
+/// A body that a torque turns about no axis of its own moves the same whether a force on another one, which
+/// changes how bodies are moved, is there or not.
+template <class S>
+void expectTorqueTurnsAsWithForces() {
+    using R = typename S::Real;
+    const auto turn = [](bool force) {
+        WorldDef<S> def = wideEarth<S>();
+        def.substeps = 8;
+        World<S> world(def);
+        BodyDef<S> body;
+        body.inertia = typename S::Vec(R(1), R(2), R(4)).asDiagonal();
+        const BodyId tumbler = world.addBody(body), other = world.addBody(body);
+        if (force) world.addForce(ConstantForce<S>{other, S::Vec::UnitX()});
+        world.setVelocity(tumbler, S::Vec::Zero(), typename S::Ang(3, 5, 2));
+        for (int i = 0; i < 30; ++i) {
+            world.applyForce(tumbler, S::Vec::Zero(), typename S::Ang(20, -10, 15));
+            world.step(R(1.0 / 60));
+        }
+        return typename S::Ang(world.angularVelocity(tumbler));
+    };
+    EXPECT_LT((turn(true) - turn(false)).norm(), tol<S>(1e-11, 1e-3));
+}
+TEST(WideTorque, TurnsAsWithForcesOnOthers) {
+    expectTorqueTurnsAsWithForces<Space3f>();
+    expectTorqueTurnsAsWithForces<Space3d>();
+}
+
 /// Friction of a patch that slides and leans: against the row solver to rounding of the sub-steps.
 TYPED_TEST(Wide, SlidingBoxMovesAsWithRows) {
     using S = TypeParam;
