@@ -222,6 +222,45 @@ BiasChange<typename S::Real> JointSet<S>::updateBiases(const BodyArrays<S>& bodi
 }
 
 template <class S>
+void JointSet<S>::remember(const ConstraintRows<S>& rows, std::span<const Velocity<S>> velocities) {
+    if (records_.empty()) return;
+    startVelocities_.assign(velocities.begin(), velocities.end());
+    startImpulses_.clear();
+    for (const Row<S>& row : rows.rows) startImpulses_.push_back(row.impulse);
+}
+
+/// The change of kinetic energy is the sum over all rows of impulse times mean of J v before and after.
+template <class S>
+typename S::Real JointSet<S>::work(const ConstraintRows<S>& rows,
+                                   std::span<const Velocity<S>> velocities) const {
+    Real work = 0, energy = 0;
+    const auto add = [&](std::uint32_t body, Real invMass) {
+        if (invMass > 0)
+            energy += (startVelocities_[body].v.squaredNorm() + velocities[body].v.squaredNorm()) / invMass;
+    };
+    for (const Record& record : records_) {
+        if (record.held == 0) continue;
+        const Block<S>& block = rows.blocks[record.block];
+        for (std::uint32_t i = record.firstRow; i < record.firstRow + record.held; ++i) {
+            const Row<S>& row = rows.rows[i];
+            work += row.impulse * (rowVelocity<S>(row, startVelocities_[block.a], startVelocities_[block.b]) +
+                                   rowVelocity<S>(row, velocities[block.a], velocities[block.b]));
+        }
+        add(block.a, block.invMassA), add(block.b, block.invMassB);
+    }
+    return energy > 0 ? work / energy : Real(0);
+}
+
+template <class S>
+void JointSet<S>::restart(ConstraintRows<S>& rows, std::span<Velocity<S>> velocities) const {
+    std::copy(startVelocities_.begin(), startVelocities_.end(), velocities.begin());
+    for (std::size_t i = 0; i < rows.rows.size(); ++i) rows.rows[i].impulse = startImpulses_[i];
+    for (const Record& record : records_)
+        for (std::uint32_t i = record.firstRow; i < record.firstRow + record.held; ++i)
+            rows.rows[i].impulse = 0;
+}
+
+template <class S>
 void JointSet<S>::storeImpulses(const BodyArrays<S>& bodies, const ConstraintRows<S>& rows) {
     for (Record& record : records_) {
         Joint<S>& joint = record.joint;

@@ -67,12 +67,23 @@ class JointSet {
     BiasChange<Real> updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
                                   std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows);
 
+    /// Before a solve, so that work() and restart() know what it started from. Allocates where rows or bodies
+    /// are more than ever.
+    void remember(const ConstraintRows<S>& rows, std::span<const Velocity<S>> velocities);
+    /// Work of the rows that hold since remember(), over the kinetic energy before and after of what moves
+    /// along (of each joint's bodies, so that bodies count once per joint). Ideal joints do none.
+    Real work(const ConstraintRows<S>& rows, std::span<const Velocity<S>> velocities) const;
+    /// Velocities and impulses as they were at remember(), but no impulses of rows that hold.
+    void restart(ConstraintRows<S>& rows, std::span<Velocity<S>> velocities) const;
+
   private:
     void addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, const RowLaw<S>& law, Real error,
                 const Block<S>& block, Row<S>& row) const;
 
     std::vector<Record> records_;
     std::vector<Real> startBias_;  ///< of rows that hold, by row
+    std::vector<Real> startImpulses_;
+    std::vector<Velocity<S>> startVelocities_;
     JointRows<S> made_;
 };
 
