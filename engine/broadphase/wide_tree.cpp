@@ -106,6 +106,7 @@ class WideTree final : public BroadPhase<S> {
         keptMovable_.resize(boxes.size());
         size_.assign(levels_[0].nodes.size(), 0.0f);
         growth_.assign(levels_[0].nodes.size(), 0);
+        isChanged_.resize(boxes.size());
         isNew_ = true, isWorn_ = false;
         firstVisits_ = 0;
     }
@@ -231,12 +232,13 @@ class WideTree final : public BroadPhase<S> {
         if (firstVisits_ == 0) firstVisits_ = visits + 1;
         isWorn_ = 2 * visits > 3 * firstVisits_;
         pairSort_.sort(pairParts_, proxies_.size(), pairs_, tasks);
+        // For findChanged(), which may be called for the first time long after this.
+        found_.reserve(pairs_.size()), merged_.reserve(pairs_.size());
     }
 
     void findChanged(const Tasks& tasks) {
         search(true, tasks);
         pairSort_.sort(pairParts_, proxies_.size(), found_, tasks);
-        isChanged_.resize(proxies_.size());
         forChanged([&](std::uint32_t i) { isChanged_[i] = 1; });
         std::erase_if(pairs_, [&](const ProxyPair& p) { return isChanged_[p.a] || isChanged_[p.b]; });
         forChanged([&](std::uint32_t i) { isChanged_[i] = 0; });

@@ -265,5 +265,32 @@ TYPED_TEST(BroadPhaseScenes, NoAllocationOnceAMotionRepeatsItself) {
     }
 }
 
+/// However late that is.
+TYPED_TEST(BroadPhaseScenes, NoAllocationWhenFewMoveForTheFirstTime) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const auto& entry : broadPhaseTable<S>()) {
+        Maker<S> maker(6);
+        Scene<S> scene;
+        fillWith<S>(scene, 100, [&] { return maker.box(maker.vec(-3, 3), 1.5); });
+        auto broadPhase = entry.make();
+        std::vector<ProxyPair> pairs;
+        const std::vector<Aabb<S>> start = scene.boxes;
+        for (int t = 0; t < 40; ++t) {
+            for (std::size_t i = 0; i < start.size(); ++i) {
+                scene.boxes[i].min = start[i].min + S::Vec::Constant(R(0.01) * R(t % 2));
+                scene.boxes[i].max = start[i].max + S::Vec::Constant(R(0.01) * R(t % 2));
+            }
+            broadPhase->update(scene.boxes, scene.movable, pairs);
+        }
+        const std::size_t found = pairs.size();
+        const long before = test::allocationCount();
+        scene.boxes[7] = start[7];
+        broadPhase->update(scene.boxes, scene.movable, pairs);
+        EXPECT_EQ(test::allocationCount() - before, 0) << entry.name;
+        EXPECT_NEAR(double(pairs.size()), double(found), 2) << entry.name;
+    }
+}
+
 }  // namespace
 }  // namespace rigor::engine
