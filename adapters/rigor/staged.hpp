@@ -67,13 +67,12 @@ class RigorStaged final : public StagedWorld {
             for (int i = 0; i < contact.manifold.count; ++i) {
                 const auto k = static_cast<std::size_t>(i);
                 const engine::ManifoldPoint<S>& found = contact.manifold.points[k];
-                const typename engine::Contact<S>::Point& state = contact.points[k];
-                const bool hasRow = state.block < world_.rows().blocks.size();
+                const bool hasRow = contact.block[k] < world_.rows().blocks.size();
                 m.points.push_back(
                     {fromEngineVec(found.pointA), fromEngineVec(found.pointB),
                      -static_cast<double>(found.separation), found.feature,
-                     static_cast<double>(state.normalImpulse),
-                     hasRow ? static_cast<int>(world_.rows().blocks[state.block].first) : scenario::kNone});
+                     static_cast<double>(contact.impulses[k].normal),
+                     hasRow ? static_cast<int>(world_.rows().blocks[contact.block[k]].first) : scenario::kNone});
             }
         }
         return result;

@@ -30,7 +30,7 @@ void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>
         event.depth = -std::numeric_limits<Real>::infinity();
         for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
             event.depth = std::max(event.depth, -contact.manifold.points[i].separation);
-            event.impulse += contact.points[i].normalTotal;
+            event.impulse += contact.totals[i].normal;
         }
     };
     auto gone = gone_.begin();

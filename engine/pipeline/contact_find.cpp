@@ -5,6 +5,7 @@
 #include "engine/pipeline/contact_set.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/narrowphase/surface_contact.hpp"
 
@@ -81,10 +82,10 @@ void ContactSet<S>::makePoints(const Search& search, Candidate& candidate, Conta
 /// From the points to what the solver gets. False: there are none.
 template <class S>
 bool ContactSet<S>::completeContact(const Search& search, Candidate& candidate, Contact<S>& contact) const {
-    placePoints(search.bodies, contact);
-    contact.asleep = contact.ahead = false;
+    contact.asleep = contact.ahead = contact.placed = false;
     // Pieces of a chain, mesh or field are found where they are, not ahead.
     if (candidate.piece == kNone && search.ccd.looksAhead()) {
+        placePoints(search.bodies, contact);
         const bool here = contact.manifold.count > 0;
         search.ccd.findAhead(contact, search.bodies, *this, search.narrowPhase);
         if (!here && contact.manifold.count > 0) candidate.kept = false;
@@ -100,13 +101,10 @@ bool ContactSet<S>::completeContact(const Search& search, Candidate& candidate, 
 /// Of what the last step has left in the points, the impulses to start from stay: those of an impact do not.
 template <class S>
 void ContactSet<S>::clearStep(Contact<S>& contact) {
-    for (typename Contact<S>::Point& point : contact.points) {
-        if (point.impact) point.normalImpulse = 0, point.frictionImpulse.setZero();
-        point.normalTotal = point.rebound = point.approach = 0;
-        point.frictionTotal.setZero();
-        point.block = Contact<S>::kNoBlock;
-        point.impact = false;
-    }
+    contact.block.fill(Contact<S>::kNoBlock);
+    for (std::size_t i = 0; contact.impacts && i < contact.points.size(); ++i)
+        if (std::exchange(contact.points[i].impact, false)) contact.impulses[i] = {};
+    contact.impacts = false;
 }
 
 /// The points start with the impulses of the last step.
@@ -123,19 +121,15 @@ void ContactSet<S>::takeOver(const BodyArrays<S>& bodies, const OldPoints& old, 
 /// impulses of the nearest point left over, if it is near compared with its arm.
 template <class S>
 void ContactSet<S>::matchPoints(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact) {
-    std::array<Real, S::maxManifoldPoints> normal{};
-    std::array<Vec, S::maxManifoldPoints> friction;
-    for (std::size_t j = 0; j < old.count; ++j)
-        normal[j] = contact.points[j].normalImpulse, friction[j] = contact.points[j].frictionImpulse;
+    const auto impulses = contact.impulses;
     std::array<bool, S::maxManifoldPoints> used{}, done{};
     const auto take = [&](std::size_t from, std::size_t to) {
         used[from] = done[to] = true;
-        contact.points[to].normalImpulse = normal[from];
-        contact.points[to].frictionImpulse = friction[from];
+        contact.impulses[to] = impulses[from];
     };
     const auto n = static_cast<std::size_t>(contact.manifold.count);
     for (std::size_t i = 0; i < n; ++i) {
-        contact.points[i].normalImpulse = 0, contact.points[i].frictionImpulse.setZero();
+        contact.impulses[i] = {};
         for (std::size_t j = 0; j < old.count && !done[i]; ++j)
             if (!used[j] && contact.manifold.points[i].feature == old.feature[j]) take(j, i);
     }
@@ -175,16 +169,13 @@ void ContactSet<S>::ask(const Search& search, Candidate& candidate, Manifold<S>&
     keep(candidate);
 }
 
-/// One point for both bodies, or equal and opposite impulses would make a couple; against a body that takes
-/// no momentum the other's own surface, so that its arm does not depend on the overlap.
 template <class S>
-void ContactSet<S>::placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) const {
+void ContactSet<S>::placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) {
     const std::uint32_t a = contact.bodyA, b = contact.bodyB;
+    contact.placed = true;
     for (int i = 0; i < contact.manifold.count; ++i) {
         const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
-        Vec at = Real(0.5) * (where.pointA + where.pointB);
-        if (bodies.invMass[a] == 0) at = where.pointB;
-        if (bodies.invMass[b] == 0) at = where.pointA;
+        const Vec at = impulsePoint<S>(where, bodies.invMass[a] > 0, bodies.invMass[b] > 0);
         typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
         point.rA = at - bodies.pose[a].p, point.rB = at - bodies.pose[b].p;
         point.separation = where.separation;

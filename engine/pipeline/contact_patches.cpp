@@ -3,6 +3,9 @@
 //
 // Contacts as patches for the solver `wide`, and their impulses back.
 #include <algorithm>
+#include <array>
+
+#include <hwy/cache_control.h>
 
 #include "engine/pipeline/contact_set.hpp"
 #include "engine/solvers/wide/patches.hpp"
@@ -23,22 +26,33 @@ typename S::Vec takeVector(const Lanes<typename S::Real>* from, std::size_t lane
     return v;
 }
 
+/// What addPatches reads of a contact and storePatches writes, on its way to the cache.
 template <class S>
-void fillPoint(PatchPoint<S>& point, typename PatchRest<S>::Point& rest, std::size_t lane,
-               typename S::Real warmStart, const typename Contact<S>::Point* from) {
-    using Vec = typename S::Vec;
+void prefetch(const Patches<S>& patches, const std::vector<Contact<S>>& contacts, std::size_t b,
+              std::size_t lane) {
+    if (b == patches.blocks() || patches.sourceAt(b, lane) == Patches<S>::kNobody) return;
+    const Contact<S>& contact = contacts[patches.sourceAt(b, lane)];
+    const auto* first = reinterpret_cast<const char*>(&contact);
+    const auto* last = reinterpret_cast<const char*>(&contact.cache);
+    for (; first < last; first += 64) hwy::Prefetch(first);
+}
+
+template <class S>
+void fillPoint(PatchPoint<S>& point, typename PatchRest<S>::Point& rest, std::size_t lane, bool is,
+               typename S::Real separation, const typename S::Vec& armB, typename S::Real warmStart,
+               const typename Contact<S>::Impulse& impulse) {
     using Real = typename S::Real;
-    point.invK[lane] = from ? Real(1) : Real(0);
-    point.separation[lane] = from ? from->separation : Real(0);
-    point.impulse[lane] = from ? warmStart * from->normalImpulse : Real(0);
-    putVector(rest.armB, lane, from ? from->rB : Vec(Vec::Zero()));
-    putVector(rest.rub, lane, from ? Vec(warmStart * from->frictionImpulse) : Vec(Vec::Zero()));
+    point.invK[lane] = is ? Real(1) : Real(0);
+    point.separation[lane] = separation;
+    point.impulse[lane] = warmStart * impulse.normal;
+    putVector(rest.armB, lane, armB);
+    putVector(rest.rub, lane, typename S::Vec(warmStart * impulse.friction));
 }
 
 /// What the narrow phase knows of a contact; the rest is made of it in SIMD (Patches::prepare). Null: zeros.
 template <class S>
 void fillLane(PatchBlock<S>& block, PatchRest<S>& rest, std::size_t lane, const BodyArrays<S>& bodies,
-              const ContactStep<S>& step, Contact<S>* contact) {
+              const ContactStep<S>& step, const Contact<S>* contact) {
     using Vec = typename S::Vec;
     using Real = typename S::Real;
     const std::uint32_t a = contact ? contact->bodyA : 0, b = contact ? contact->bodyB : 0;
@@ -46,8 +60,8 @@ void fillLane(PatchBlock<S>& block, PatchRest<S>& rest, std::size_t lane, const 
     const auto count = static_cast<std::size_t>(contact ? contact->manifold.count : 0);
     block.a[lane] = a, block.b[lane] = b;
     const auto lanes = [&](bool x) { return static_cast<std::uint32_t>(x && contact) << lane; };
-    block.movesA |= lanes(bodies.invMass[a] > 0), block.movesB |= lanes(bodies.invMass[b] > 0);
-    block.points = std::max(block.points, static_cast<std::int32_t>(count));
+    const bool movesA = bodies.invMass[a] > 0, movesB = bodies.invMass[b] > 0;
+    block.movesA |= lanes(movesA), block.movesB |= lanes(movesB);
     putVector(block.normal, lane, contact ? contact->manifold.normal : Vec(Vec::Zero()));
     putVector(block.offset, lane, Vec(bodies.pose[b].p - bodies.pose[a].p));
     block.invMassA[lane] = bodies.invMass[a], block.invMassB[lane] = bodies.invMass[b];
@@ -55,21 +69,24 @@ void fillLane(PatchBlock<S>& block, PatchRest<S>& rest, std::size_t lane, const 
     block.staticFriction[lane] = std::max(pair.friction, pair.staticFriction);
     rest.restitution[lane] = step.bounces ? pair.restitution : Real(0);
     block.bounces |= lanes(rest.restitution[lane] > 0);
-    for (std::size_t i = 0; i < PatchSize<S>::points; ++i)
-        fillPoint<S>(block.point[i], rest.point[i], lane, step.warmStart,
-                     i < count ? &contact->points[i] : nullptr);
-    for (std::size_t i = 0; i < count; ++i) contact->points[i].block = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const ManifoldPoint<S>& where = contact->manifold.points[i];
+        // Points found ahead have their arms of then.
+        const Vec arm = contact->ahead ? contact->points[i].rB
+                                       : Vec(impulsePoint<S>(where, movesA, movesB) - bodies.pose[b].p);
+        fillPoint<S>(block.point[i], rest.point[i], lane, true, where.separation, arm, step.warmStart,
+                     contact->impulses[i]);
+    }
+    for (std::size_t i = count; i < static_cast<std::size_t>(block.points); ++i)
+        fillPoint<S>(block.point[i], rest.point[i], lane, false, Real(0), Vec::Zero(), Real(0), {});
 }
 
 template <class S>
 void readLane(const PatchBlock<S>& block, const PatchRest<S>& rest, std::size_t lane, Contact<S>& contact) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
-        typename Contact<S>::Point& point = contact.points[i];
-        point.normalImpulse = block.point[i].impulse[lane];
-        point.normalTotal = block.point[i].total[lane];
-        contact.touching = contact.touching || point.normalTotal > 0;
-        point.frictionImpulse = takeVector<S>(rest.point[i].rub, lane);
-        point.frictionTotal = takeVector<S>(rest.point[i].rubTotal, lane);
+        contact.impulses[i] = {block.point[i].impulse[lane], takeVector<S>(rest.point[i].rub, lane)};
+        contact.totals[i] = {block.point[i].total[lane], takeVector<S>(rest.point[i].rubTotal, lane)};
+        contact.touching = contact.touching || contact.totals[i].normal > 0;
     }
 }
 
@@ -84,6 +101,8 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
         contact.asleep = isAsleep(bodies, contact);
         const bool movesA = bodies.invMass[contact.bodyA] > 0, movesB = bodies.invMass[contact.bodyB] > 0;
         const bool solved = !contact.asleep && (movesA || movesB);
+        contact.block.fill(solved ? Contact<S>::kPatch : Contact<S>::kNoBlock);
+        if (!solved && !contact.asleep) contact.totals.fill({});
         plans[k] = {contact.bodyA, contact.bodyB, movesA, movesB,
                     static_cast<std::uint8_t>(solved ? contact.manifold.count : 0)};
     });
@@ -91,11 +110,15 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
     patches.forBlocks(tasks, [&](std::size_t b) {
         PatchBlock<S>& block = patches.block(b);
         block.movesA = block.movesB = block.bounces = 0, block.points = 0;
+        std::array<const Contact<S>*, kLanes> from;
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            prefetch(patches, contacts_, b + 1, lane);
             const std::uint32_t source = patches.sourceAt(b, lane);
-            fillLane(block, patches.rest(b), lane, bodies, step,
-                     source == Patches<S>::kNobody ? nullptr : &contacts_[source]);
+            from[lane] = source == Patches<S>::kNobody ? nullptr : &contacts_[source];
+            if (from[lane]) block.points = std::max(block.points, from[lane]->manifold.count);
         }
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            fillLane(block, patches.rest(b), lane, bodies, step, from[lane]);
         patches.prepare(b);
     });
 }
@@ -103,6 +126,7 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
 template <class S>
 void ContactSet<S>::storePatches(Patches<S>& patches, const Tasks& tasks) {
     patches.forBlocks(tasks, [&](std::size_t b) {
+        for (std::size_t lane = 0; lane < kLanes; ++lane) prefetch(patches, contacts_, b + 1, lane);
         patches.share(b);
         for (std::size_t lane = 0; lane < kLanes; ++lane)
             if (const std::uint32_t source = patches.sourceAt(b, lane); source != Patches<S>::kNobody)

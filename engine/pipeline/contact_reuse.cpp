@@ -146,6 +146,12 @@ template <class S>
 bool ContactSet<S>::completeRestored() {
     coefficientsHold_ = false;
     std::size_t count = 0;
+    for (Contact<S>& contact : contacts_) {
+        const auto n = static_cast<std::size_t>(contact.manifold.count);
+        for (std::size_t i = 0; i < n; ++i) contact.impacts = contact.impacts || contact.points[i].impact;
+        // A world that solves patches leaves the points alone.
+        contact.placed = n > 0 && !contact.points[0].rB.isZero(0);
+    }
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
         Candidate& c = candidates_[k];
         if (c.a >= shapes_.size() || c.b >= shapes_.size() || c.a == c.b) return false;

@@ -67,9 +67,9 @@ void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& s
     std::size_t firstRow = rows.rows.size(), firstBlock = rows.blocks.size();
     for (Contact<S>& contact : contacts_) {
         contact.firstRow = static_cast<std::uint32_t>(firstRow);
-        for (std::size_t i = 0; contact.blocks > 0 && i < contact.points.size(); ++i)
-            if (contact.points[i].block != Contact<S>::kNoBlock)
-                contact.points[i].block = static_cast<std::uint32_t>(firstBlock++);
+        for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i)
+            if (contact.block[i] != Contact<S>::kNoBlock)
+                contact.block[i] = static_cast<std::uint32_t>(firstBlock++);
         firstRow += contact.blocks * rowsPerPoint(contact);
     }
     rows.rows.resize(firstRow);
@@ -77,9 +77,9 @@ void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& s
     tasks.forEach(contacts_.size(), kContactGrain, [&](std::size_t k) {
         const Contact<S>& contact = contacts_[k];
         std::uint32_t row = contact.firstRow;
-        for (std::size_t i = 0; contact.blocks > 0 && i < contact.points.size(); ++i) {
-            if (contact.points[i].block == Contact<S>::kNoBlock) continue;
-            Block<S>& block = rows.blocks[contact.points[i].block];
+        for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i) {
+            if (contact.block[i] == Contact<S>::kNoBlock) continue;
+            Block<S>& block = rows.blocks[contact.block[i]];
             block.first = row;
             makePointRows(bodies, step, contact, i, block, rows.rows.data() + row);
             row += block.rows;
@@ -91,10 +91,12 @@ template <class S>
 void ContactSet<S>::planRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact) {
     contact.asleep = isAsleep(bodies, contact);
     contact.blocks = 0;
-    for (std::size_t i = 0; i < contact.points.size(); ++i) {
+    if (!contact.placed) placePoints(bodies, contact);
+    if (step.begins && !contact.asleep) contact.totals.fill({});
+    for (std::size_t i = 0; i < contact.block.size(); ++i) {
         const bool has = i < static_cast<std::size_t>(contact.manifold.count) && !contact.asleep &&
                          planPoint(bodies, step, contact, i);
-        contact.points[i].block = has ? 0 : Contact<S>::kNoBlock;
+        contact.block[i] = has ? 0 : Contact<S>::kNoBlock;
         contact.blocks += has;
     }
 }
@@ -110,13 +112,13 @@ bool ContactSet<S>::planPoint(const BodyArrays<S>& bodies, const ContactStep<S>&
     const Real restitution = step.bounces ? contact.coefficients.restitution : Real(0);
     const bool bounces = restitution > 0 && point.approach < -step.restitutionThreshold;
     // The blow of an impact in the last sub-step is not what the contact carries from now on.
-    if (point.impact) point.normalImpulse = 0, point.frictionImpulse.setZero();
+    if (point.impact) contact.impulses[index] = {};
     point.impact = point.approach < -step.impactSpeed;
+    contact.impacts = contact.impacts || point.impact;
     point.rebound = contact.ahead && bounces && s > kTouching<Real> ? restitution * point.approach : Real(0);
     const bool mayBounce = restitution > 0 && s > std::max(kTouching<Real>, step.restingGap);
     if (contact.ahead || !((bounces && s > kTouching<Real>) || mayBounce)) return true;
-    point.normalImpulse = 0;
-    point.frictionImpulse.setZero();
+    contact.impulses[index] = {};
     return false;
 }
 
@@ -153,13 +155,13 @@ void ContactSet<S>::makePointRows(const BodyArrays<S>& bodies, const ContactStep
         normal.bias = point.separation / step.h;
     normal.relaxedBias = normal.bias;
     if (normal.bias == 0) pushApart(step, block, point.separation, normal);
-    normal.impulse = step.warmStart * point.normalImpulse;
+    normal.impulse = step.warmStart * contact.impulses[index].normal;
     if (block.rows == 1) return;
 
     const std::array<Vec, S::tangents> basis = tangentBasis<S>(n);
     for (std::size_t i = 0; i < basis.size(); ++i) {
         rows[1 + i] = makeRow(basis[i]);
-        rows[1 + i].impulse = step.warmStart * basis[i].dot(point.frictionImpulse);
+        rows[1 + i].impulse = step.warmStart * basis[i].dot(contact.impulses[index].friction);
     }
     const Row<S>* t = rows + 1;
     block.k11 = rowCoupling<S>(t[0], t[0], block);
@@ -187,11 +189,11 @@ bool ContactSet<S>::bounceAhead(ConstraintRows<S>& rows) const {
     bool any = false;
     for (const Contact<S>& contact : contacts_)
         for (int i = 0; contact.ahead && i < contact.manifold.count; ++i) {
-            const auto& point = contact.points[static_cast<std::size_t>(i)];
-            if (point.rebound == 0 || point.block == Contact<S>::kNoBlock) continue;
-            Row<S>& normal = rows.rows[rows.blocks[point.block].first];
+            const auto k = static_cast<std::size_t>(i);
+            if (contact.points[k].rebound == 0 || contact.block[k] == Contact<S>::kNoBlock) continue;
+            Row<S>& normal = rows.rows[rows.blocks[contact.block[k]].first];
             if (!(normal.impulse > 0)) continue;
-            normal.relaxedBias = point.rebound;
+            normal.relaxedBias = contact.points[k].rebound;
             any = true;
         }
     return any;
@@ -213,16 +215,17 @@ template <class S>
 void ContactSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
     for (Contact<S>& contact : contacts_)
         for (int i = 0; i < contact.manifold.count; ++i) {
-            typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
-            if (point.block == Contact<S>::kNoBlock) continue;
-            const Block<S>& block = rows.blocks[point.block];
-            point.normalImpulse = rows.rows[block.first].impulse;
-            point.frictionImpulse.setZero();
+            const auto k = static_cast<std::size_t>(i);
+            if (contact.block[k] == Contact<S>::kNoBlock) continue;
+            const Block<S>& block = rows.blocks[contact.block[k]];
+            typename Contact<S>::Impulse &now = contact.impulses[k], &total = contact.totals[k];
+            now.normal = rows.rows[block.first].impulse;
+            now.friction.setZero();
             for (std::uint32_t r = 1; r < block.rows; ++r)
-                point.frictionImpulse += rows.rows[block.first + r].impulse * rows.rows[block.first + r].lin;
-            point.normalTotal += point.normalImpulse;
-            contact.touching = contact.touching || point.normalTotal > 0;
-            point.frictionTotal += point.frictionImpulse;
+                now.friction += rows.rows[block.first + r].impulse * rows.rows[block.first + r].lin;
+            total.normal += now.normal;
+            contact.touching = contact.touching || total.normal > 0;
+            total.friction += now.friction;
         }
 }
 

@@ -271,8 +271,8 @@ bool ContactSet<S>::hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const {
         contacts_.begin(), contacts_.end(), key,
         [](const Contact<S>& c, std::uint64_t k) { return pairKey(c.shapeA, c.shapeB) < k; });
     if (found == contacts_.end() || pairKey(found->shapeA, found->shapeB) != key) return false;
-    return std::any_of(found->points.begin(), found->points.begin() + found->manifold.count,
-                       [](const auto& point) { return point.block != Contact<S>::kNoBlock; });
+    return std::any_of(found->block.begin(), found->block.begin() + found->manifold.count,
+                       [](std::uint32_t block) { return block != Contact<S>::kNoBlock; });
 }
 
 template class ContactSet<Space2f>;

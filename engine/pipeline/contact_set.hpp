@@ -41,6 +41,7 @@ struct ContactStep {
     typename S::Real gapSlop;               ///< gaps up to this count as closed [m]
     typename S::Real warmStart;             ///< factor on the last impulses; 0: none
     bool bounces = true;                    ///< false: restitution is off
+    bool begins = true;                     ///< the first sub-step of a step
 };
 
 /// How contacts are looked for: WorldDef's settings of the same names.
@@ -192,7 +193,7 @@ class ContactSet {
     void forgetOtherAnswers();
     void makePoints(const Search& search, Candidate& candidate, Contact<S>& contact) const;
     void ask(const Search& search, Candidate& candidate, Manifold<S>& manifold) const;
-    void placePoints(const BodyArrays<S>& bodies, Contact<S>& contact) const;
+    static void placePoints(const BodyArrays<S>& bodies, Contact<S>& contact);
     static void clearStep(Contact<S>& contact);
     static void takeOver(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact);
     static void matchPoints(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact);

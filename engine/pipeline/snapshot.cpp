@@ -51,9 +51,8 @@ void visitContact(A& archive, C& contact) {
                         "a manifold of too many points");
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         auto& where = contact.manifold.points[i];
-        auto& point = contact.points[i];
 #define MANIFOLD_POINT_FIELD(member) visitValue(archive, where.member);
-#define CONTACT_POINT_FIELD(member) visitValue(archive, point.member);
+#define CONTACT_POINT_FIELD(member) visitValue(archive, contact.member);
 #include "engine/state/state_fields.def"
     }
 }

@@ -19,15 +19,15 @@ template <class S>
 void ContactSet<S>::spoilRows(const BodyArrays<S>& bodies, const Fault<S>& fault, ConstraintRows<S>& rows) {
     for (Contact<S>& contact : contacts_)
         for (int i = 0; i < contact.manifold.count; ++i) {
-            const typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
-            if (point.block == Contact<S>::kNoBlock) continue;
-            Block<S>& block = rows.blocks[point.block];
+            const auto k = static_cast<std::size_t>(i);
+            if (contact.block[k] == Contact<S>::kNoBlock) continue;
+            Block<S>& block = rows.blocks[contact.block[k]];
             Row<S>* first = rows.rows.data() + block.first;
             ContactRows<S> spoiled{block,
                                    {first, block.rows},
                                    contact.coefficients.restitution,
                                    rowVelocity<S>(*first, bodies.velocity[block.a], bodies.velocity[block.b]),
-                                   point.separation};
+                                   contact.points[k].separation};
             fault.contact(spoiled);
         }
 }

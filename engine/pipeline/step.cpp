@@ -291,7 +291,8 @@ void World<S>::makeRows() {
                                      def_.slop,
                                      def_.gapSlop,
                                      warmStart,
-                                     restitution_->bounces()};
+                                     restitution_->bounces(),
+                                     cursor_.substep == 0};
     if (Patches<S>* patches = solver_->patches()) {
         if (cursor_.substep == 0) contacts_.addPatches(bodies_, contactStep, *patches, tasks_);
         return patches->beginSubstep(bodies_.velocity, patchPass(), tasks_);

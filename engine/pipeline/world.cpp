@@ -383,13 +383,13 @@ void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
     out.clear();
     for (const Contact<S>& contact : contacts_.contacts())
         for (int i = 0; i < contact.manifold.count; ++i) {
-            const auto& point = contact.points[static_cast<std::size_t>(i)];
-            const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
-            if (point.block == Contact<S>::kNoBlock && !contact.asleep) continue;
+            const auto k = static_cast<std::size_t>(i);
+            const ManifoldPoint<S>& where = contact.manifold.points[k];
+            if (contact.block[k] == Contact<S>::kNoBlock && !contact.asleep) continue;
             out.push_back({bodies_.id[contact.bodyA], bodies_.id[contact.bodyB],
                            contacts_.shapes()[contact.shapeA].id, contacts_.shapes()[contact.shapeB].id,
                            where.pointA, where.pointB, contact.manifold.normal, where.separation,
-                           point.normalTotal, point.frictionTotal});
+                           contact.totals[k].normal, contact.totals[k].friction});
         }
 }
 
