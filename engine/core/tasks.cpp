@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/core/tasks.hpp"
 
-#include <hwy/cache_control.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
@@ -11,9 +10,10 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
+
+#include "engine/core/stages.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -31,16 +31,6 @@ constexpr std::size_t partsOf(std::uint64_t tickets) {
     return tickets >> kPartBits & ((1u << kPartBits) - 1);
 }
 
-constexpr int kSpins = 1000;  ///< some ten microseconds, longer than what lies between two ranges of a step
-
-/// Waits a little, after `waits` times before.
-void pause(int waits) {
-    if (waits < kSpins)
-        hwy::Pause();
-    else
-        std::this_thread::yield();
-}
-
 }  // namespace
 
 /// An arena of its own keeps a world from borrowing threads that another one was given. While somebody has
@@ -51,14 +41,27 @@ void pause(int waits) {
 struct Tasks::Arena {
     using Work = std::function<void(std::size_t, std::size_t)>;
 
-    explicit Arena(int threads) : arena(threads), shares_(static_cast<std::size_t>(threads)) {}
+    explicit Arena(int threads)
+        : arena(threads),
+          stages(static_cast<std::size_t>(threads)),
+          shares_(static_cast<std::size_t>(threads)) {}
 
     void enter(const std::function<void()>& work);
     void share(std::size_t n, std::size_t part, const Work& work);
     bool inPart() const { return working == this; }
 
     oneapi::tbb::task_arena arena;
+    Stages stages;
     bool entered = false;
+
+    /// Works on a part while it lives.
+    struct Inside {
+        explicit Inside(const Arena* arena) : before(std::exchange(working, arena)) {}
+        ~Inside() { working = before; }
+        Inside(const Inside&) = delete;
+        Inside& operator=(const Inside&) = delete;
+        const Arena* before;
+    };
 
   private:
     struct alignas(64) Share {
@@ -107,10 +110,10 @@ void Tasks::Arena::enter(const std::function<void()>& work) {
 
 void Tasks::Arena::stay(std::size_t self) {
     for (int waits = 0; together_.load(std::memory_order_acquire); ++waits)
-        if (takeParts(self))
+        if (stages.help(self) || takeParts(self))
             waits = 0;
         else
-            pause(waits);
+            pauseThread(waits);
 }
 
 void Tasks::Arena::share(std::size_t n, std::size_t size, const Work& work) {
@@ -124,7 +127,7 @@ void Tasks::Arena::share(std::size_t n, std::size_t size, const Work& work) {
     for (std::size_t k = 0; k < shares_.size(); ++k)
         shares_[k].tickets.store(tickets(range_, firstPart(k + 1) - firstPart(k)), std::memory_order_release);
     takeParts(0);
-    for (int waits = 0; done_.load(std::memory_order_acquire) < parts_; ++waits) pause(waits);
+    for (int waits = 0; done_.load(std::memory_order_acquire) < parts_; ++waits) pauseThread(waits);
     if (error_) std::rethrow_exception(error_);
 }
 
@@ -133,6 +136,7 @@ bool Tasks::Arena::takeParts(std::size_t self) {
     for (std::size_t k = 0; k < shares_.size(); ++k) {
         const std::size_t share = (self + k) % shares_.size();
         std::atomic<std::uint64_t>& left = shares_[share].tickets;
+        std::size_t done = 0;  // told at once: until then the range is the same
         for (;;) {
             std::uint64_t now = left.load(std::memory_order_relaxed);
             if (nextOf(now) >= partsOf(now)) break;
@@ -140,22 +144,23 @@ bool Tasks::Arena::takeParts(std::size_t self) {
             now = left.fetch_add(1, std::memory_order_acq_rel);
             if (nextOf(now) >= partsOf(now)) break;
             run(firstPart(share) + nextOf(now));
-            done_.fetch_add(1, std::memory_order_release);
-            some = true;
+            ++done;
         }
+        if (done == 0) continue;
+        done_.fetch_add(done, std::memory_order_release);
+        some = true;
     }
     return some;
 }
 
 void Tasks::Arena::run(std::size_t part) {
-    const Arena* const before = std::exchange(working, this);
+    const Inside inside(this);
     try {
         (*work_)(part * size_, std::min(n_, (part + 1) * size_));
     } catch (...) {
         const std::lock_guard lock(failing_);
         if (!error_) error_ = std::current_exception();
     }
-    working = before;
 }
 
 Tasks::Tasks(int threads)
@@ -187,16 +192,14 @@ void Tasks::shared(std::size_t n, std::size_t grain,
 void Tasks::sharedStages(std::size_t count, std::size_t grain,
                          const std::function<std::size_t(std::size_t)>& size,
                          const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const {
-    std::size_t stage = 0;
-    const Arena::Work part = [&](std::size_t begin, std::size_t end) { work(stage, begin, end); };
+    const Stages::Work part = [&](std::size_t stage, std::size_t begin, std::size_t end) {
+        const Arena::Inside inside(arena_.get());
+        work(stage, begin, end);
+    };
     const auto all = [&] {
-        for (; stage < count; ++stage) {
-            const std::size_t n = size(stage);
-            if (n > grain && !arena_->inPart())
-                arena_->share(n, grain, part);
-            else if (n > 0)
-                part(0, n);
-        }
+        if (!arena_->inPart()) return arena_->stages.run(count, grain, size, part);
+        for (std::size_t stage = 0; stage < count; ++stage)
+            if (const std::size_t n = size(stage); n > 0) work(stage, 0, n);
     };
     arena_->enter(std::cref(all));
 }

@@ -41,6 +41,21 @@ TEST(Tasks, TwoThreadsReallyWorkAtTheSameTime) {
     EXPECT_EQ(most, 2);
 }
 
+TEST(Tasks, TwoThreadsReallyShareAStage) {
+    const Tasks tasks(2);
+    std::atomic<int> inside = 0, most = 0;
+    tasks.forStages(
+        3, 1, [](std::size_t) -> std::size_t { return 2; },
+        [&](std::size_t, std::size_t, std::size_t) {
+            most = std::max(most.load(), ++inside);
+            for (int i = 0; i < 1000 && inside < 2 && most < 2; ++i)
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            most = std::max(most.load(), inside.load());
+            --inside;
+        });
+    EXPECT_EQ(most, 2);
+}
+
 TEST(Tasks, StagesFollowEachOtherAndVisitEveryIndexOnce) {
     constexpr std::size_t stages = 40;
     for (int threads = 1; threads <= 4; ++threads) {
@@ -97,8 +112,8 @@ TEST(Tasks, ExceptionsOfStagesReachTheCallerAndWorkGoesOn) {
     for (int round = 0; round < 50; ++round) {
         EXPECT_THROW(tasks.forStages(
                          4, 1, [](std::size_t) -> std::size_t { return 20; },
-                         [&](std::size_t s, std::size_t begin, std::size_t) {
-                             if (s == 2 && begin == 7) throw std::runtime_error("7 of 2");
+                         [&](std::size_t s, std::size_t begin, std::size_t end) {
+                             if (s == 2 && begin <= 7 && 7 < end) throw std::runtime_error("7 of 2");
                          }),
                      std::runtime_error);
         EXPECT_THROW(tasks.enter([] { throw std::runtime_error("entered"); }), std::runtime_error);
@@ -106,6 +121,21 @@ TEST(Tasks, ExceptionsOfStagesReachTheCallerAndWorkGoesOn) {
         tasks.forEach(1000, 1, [&](std::size_t i) { sum += static_cast<int>(i); });
         EXPECT_EQ(sum, 499500);
     }
+}
+
+/// More threads than there are processors, on runs of stages of all sizes: who comes late finds nothing left.
+TEST(Tasks, ShortRunsOfStagesFollowEachOther) {
+    const Tasks tasks(8);
+    tasks.enter([&] {
+        for (std::size_t run = 1; run < 300; ++run) {
+            std::vector<std::atomic<std::size_t>> visits(run % 7);
+            tasks.forStages(
+                visits.size(), run % 5, [&](std::size_t s) { return (run * 13 + s * 31) % 50; },
+                [&](std::size_t s, std::size_t begin, std::size_t end) { visits[s] += end - begin; });
+            for (std::size_t s = 0; s < visits.size(); ++s)
+                ASSERT_EQ(visits[s], (run * 13 + s * 31) % 50) << run;
+        }
+    });
 }
 
 /// Many short ranges one after the other: a thread that comes late for one takes part in the next.

@@ -46,7 +46,7 @@ void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
         for (std::size_t k = 0; k < plans_.size(); ++k) occupant_[colouring_.places()[k]] = sources_[k];
     }
     inertia_.resize(n), motions_.resize(n), before_.resize(n), gained_.resize(n);
-    gainedHolds_ = false;
+    gainedHolds_ = bounce_ = false;
     tasks.forEach(n, kBodyGrain, [&](std::size_t i) {
         motions_[i] = {};
         Real* I = inertia_[i].number;
@@ -99,8 +99,7 @@ void Patches<S>::advance(std::span<const Velocity<S>> used, Real h, const Tasks&
 template <class S>
 void Patches<S>::beginSubstep(std::span<Velocity<S>> velocities, const PatchPass<Real>& pass,
                               const Tasks& tasks) {
-    if (std::none_of(blocks_.begin(), blocks_.end(), [](const auto& block) { return block.bounces != 0; }))
-        return;
+    if (!bounce_) return;
     gainedHolds_ = false;  // impulses may change
     tasks.forRanges(blocks_.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
         planPatches<S>(range(first, last, velocities.data()), pass);

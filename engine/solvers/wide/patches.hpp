@@ -5,6 +5,7 @@
 // hold: patch.hpp; what is done with them: kernels.hpp.
 #pragma once
 
+#include <atomic>
 #include <span>
 #include <utility>
 #include <vector>
@@ -45,7 +46,10 @@ class Patches {
     /// Whose patch stands there (its place among the plans); kNobody's lanes are filled with zeros.
     std::uint32_t sourceAt(std::size_t b, std::size_t lane) const { return occupant_[b * kLanes + lane]; }
     /// Rows from what has been filled in.
-    void prepare(std::size_t b) { preparePatches<S>(range(b, b + 1), inertia_.data()); }
+    void prepare(std::size_t b) {
+        preparePatches<S>(range(b, b + 1), inertia_.data());
+        if (blocks_[b].bounces != 0) std::atomic_ref(bounce_).store(true, std::memory_order_relaxed);
+    }
 
     std::size_t size() const { return plans_.size(); }
     /// Points of all patches, and the rows they have: one for each point, and those of friction.
@@ -97,6 +101,7 @@ class Patches {
     /// stay as they are during a step, so that to apply those impulses again is to add this.
     std::vector<Velocity<S>> gained_;
     bool gainedHolds_ = false;
+    bool bounce_ = false;  ///< some can
 };
 
 }  // namespace rigor::engine
