@@ -3,7 +3,9 @@
 #include "engine/solvers/wide/colouring.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <utility>
 
 namespace rigor::engine {
 namespace {
@@ -36,22 +38,37 @@ void Colouring::chooseColours(std::span<const PatchPlan> plans, std::size_t bodi
     }
 }
 
-/// By counting: colours one after the other, within a colour by falling number of points, then in their
-/// order.
+/// Cuts each colour in slices of as many plans, in their order: threads that share a colour get slices, and
+/// so the same bodies in every colour as far as bodies are numbered as they lie, and as much work.
+void Colouring::slice(std::uint32_t lanes) {
+    constexpr std::uint32_t kLeastBlocks = 8;  // of a slice
+    std::array<std::uint32_t, kAll> size{}, seen{};
+    for (const std::uint8_t c : colour_) ++size[c];
+    bucket_.resize(colour_.size());
+    for (std::size_t i = 0; i < colour_.size(); ++i) {
+        const std::uint32_t c = colour_[i], n = size[c];
+        const std::uint32_t slices = std::clamp<std::uint32_t>(n / (lanes * kLeastBlocks), 1, kSlices);
+        bucket_[i] = c * kSlices + static_cast<std::uint32_t>(std::uint64_t(seen[c]++) * slices / n);
+    }
+}
+
+/// By counting: colours one after the other, slices of a colour, within a slice by falling number of points,
+/// then in their order.
 void Colouring::place(std::span<const PatchPlan> plans, std::uint32_t lanes) {
-    const auto bucket = [&](std::size_t i) {
-        return colour_[i] * kKinds + (kKinds - std::min<std::uint32_t>(plans[i].points, kKinds));
-    };
-    count_.assign(kAll * kKinds, 0);
-    for (std::size_t i = 0; i < plans.size(); ++i) ++count_[bucket(i)];
+    slice(lanes);
+    constexpr std::uint32_t kBuckets = kSlices * kKinds;  // of a colour
+    count_.assign(kAll * kBuckets, 0);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        bucket_[i] = bucket_[i] * kKinds + (kKinds - std::min<std::uint32_t>(plans[i].points, kKinds));
+        ++count_[bucket_[i]];
+    }
     ranges_.clear();
     std::uint32_t place = 0;
     for (std::uint32_t c = 0; c < kAll; ++c) {
         const std::uint32_t first = place / lanes;
         const bool alone = c == kRest || c == kWallRest;
-        for (std::uint32_t kind = 0; kind < kKinds; ++kind) {
-            const std::uint32_t n = count_[c * kKinds + kind];
-            count_[c * kKinds + kind] = place;
+        for (std::uint32_t k = 0; k < kBuckets; ++k) {
+            const std::uint32_t n = std::exchange(count_[c * kBuckets + k], place);
             place += alone ? n * lanes : n;
         }
         place = (place + lanes - 1) / lanes * lanes;
@@ -65,7 +82,7 @@ void Colouring::place(std::span<const PatchPlan> plans, std::uint32_t lanes) {
     places_.resize(plans.size());
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const bool alone = colour_[i] == kRest || colour_[i] == kWallRest;
-        std::uint32_t& next = count_[bucket(i)];
+        std::uint32_t& next = count_[bucket_[i]];
         places_[i] = next;
         next += alone ? lanes : 1;
     }

@@ -42,14 +42,16 @@ class Colouring {
 
   private:
     static constexpr std::uint32_t kColours = 64;
-    static constexpr std::uint32_t kKinds = 4;  ///< by number of points, at least that many
+    static constexpr std::uint32_t kKinds = 4;   ///< by number of points, at least that many
+    static constexpr std::uint32_t kSlices = 4;  ///< of a colour, at most
 
     void chooseColours(std::span<const PatchPlan> plans, std::size_t bodies);
+    void slice(std::uint32_t lanes);
     void place(std::span<const PatchPlan> plans, std::uint32_t lanes);
 
     std::vector<std::uint64_t> taken_;  ///< colours of each body
     std::vector<std::uint8_t> colour_;  ///< of each plan: moving pairs, their rest, walls, their rest
-    std::vector<std::uint32_t> count_;  ///< by colour and kind
+    std::vector<std::uint32_t> bucket_, count_;  ///< of each plan; by colour, slice and kind
     std::vector<std::uint32_t> places_;
     std::vector<Range> ranges_;
     std::uint32_t blocks_ = 0;
