@@ -28,8 +28,7 @@ typename S::Vec takeVector(const Lanes<typename S::Real>* from, std::size_t lane
 
 /// What addPatches reads of a contact and storePatches writes, on its way to the cache.
 template <class S>
-void prefetch(const Patches<S>& patches, const std::vector<Contact<S>>& contacts, std::size_t b,
-              std::size_t lane) {
+void prefetch(const Patches<S>& patches, const ContactList<S>& contacts, std::size_t b, std::size_t lane) {
     if (b == patches.blocks() || patches.sourceAt(b, lane) == Patches<S>::kNobody) return;
     const Contact<S>& contact = contacts[patches.sourceAt(b, lane)];
     const auto* first = reinterpret_cast<const char*>(&contact);

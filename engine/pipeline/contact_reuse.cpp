@@ -144,7 +144,7 @@ void ContactSet<S>::forgetOtherAnswers() {
 
 template <class S>
 bool ContactSet<S>::completeRestored() {
-    coefficientsHold_ = false;
+    coefficientsHold_ = mayHolds_ = false;
     std::size_t count = 0;
     for (Contact<S>& contact : contacts_) {
         const auto n = static_cast<std::size_t>(contact.manifold.count);

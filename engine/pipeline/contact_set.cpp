@@ -54,9 +54,9 @@ void ContactSet<S>::setPair(std::uint32_t a, std::uint32_t b, const PairCoeffici
 
 template <class S>
 void ContactSet<S>::structureChanged(bool indicesChanged) {
-    boxesValid_ = candidatesValid_ = coefficientsHold_ = false;
+    boxesValid_ = candidatesValid_ = coefficientsHold_ = mayHolds_ = false;
     enlarged_.reset();
-    if (indicesChanged) contacts_.clear(), candidates_.clear();
+    if (indicesChanged) contacts_.clear(), candidates_.clear(), dropped_.clear();
 }
 
 template <class S>
@@ -138,7 +138,7 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
             return;
         }
         if (candidate.contact != kNone) {
-            candidate.found = renewContact(search, candidate, contacts_[candidate.contact]);
+            candidate.found = renewContact(search, candidate, contacts_.at(candidate.contact));
             return;
         }
         if (stillValid(candidate) && !ccd.looksAhead()) return;
@@ -152,7 +152,7 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
     those.forEach(candidates_.size(), kPairGrain, [&](std::size_t k) {
         Candidate& candidate = candidates_[k];
         look(candidate);
-        outcomes_[k] = {candidate.found, candidate.asked, candidate.contact != kNone};
+        outcomes_[k] = {candidate.contact, candidate.found, candidate.asked};
     });
     settle(search);
     coefficientsHold_ = true;
@@ -165,19 +165,26 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies) {
     std::swap(candidates_, oldCandidates_);
     candidates_.clear();
     candidatesHavePieces_ = false;
-    std::size_t old = 0;
+    auto old = oldCandidates_.begin();
+    const auto end = oldCandidates_.end();
+    const auto oldPair = [&] { return pairKey(old->a, old->b); };
+    const auto drop = [&] {
+        if (old->contact != kNone) dropped_.push_back(old->contact);
+        ++old;
+    };
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t piece) {
         const auto key = std::pair(pairKey(a, b), piece);
-        const auto oldKey = [&] {
-            return std::pair(pairKey(oldCandidates_[old].a, oldCandidates_[old].b),
-                             oldCandidates_[old].piece);
-        };
-        while (old < oldCandidates_.size() && oldKey() < key) ++old;
-        const bool known = old < oldCandidates_.size() && oldKey() == key;
-        candidates_.push_back(known ? oldCandidates_[old] : makeCandidate(a, b, piece));
+        while (old != end && std::pair(oldPair(), old->piece) < key) drop();
+        const bool known = old != end && std::pair(oldPair(), old->piece) == key;
+        candidates_.push_back(known ? *old++ : makeCandidate(a, b, piece));
     };
     const std::vector<ProxyPair>& pairs = pairsNear();
     for (const ProxyPair& p : pairs) {
+        while (old != end && oldPair() < pairKey(p.a, p.b)) drop();
+        if (mayHolds_ && old != end && old->piece == kNone && oldPair() == pairKey(p.a, p.b)) {
+            candidates_.push_back(*old++);
+            continue;
+        }
         if (!mayCollide(bodies, shapes_[p.a].body, shapes_[p.b].body)) continue;
         const bool ordered = shapes_[p.a].body < shapes_[p.b].body;
         const std::uint32_t a = ordered ? p.a : p.b, b = ordered ? p.b : p.a;
@@ -191,8 +198,9 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies) {
         findPieces(surfaceA ? a : b, surfaceA ? b : a);
         for (const std::uint32_t piece : pieces_) add(a, b, piece);
     }
+    while (old != end) drop();
     candidatePairs_.assign(pairs.begin(), pairs.end());
-    candidatesValid_ = true;
+    candidatesValid_ = mayHolds_ = true;
 }
 
 /// Pieces of a chain, mesh or height field near another shape, in ascending order.
@@ -207,71 +215,75 @@ void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other) {
     std::sort(pieces_.begin(), pieces_.end());
 }
 
-/// Contacts that are gone leave, new ones come in; nothing moves where nothing has changed.
+/// Contacts that are gone leave, new ones come in.
 template <class S>
 void ContactSet<S>::settle(const Search& search) {
     gone_.clear();
     asked_ = 0;
     std::size_t kept = 0, count = 0;
     for (const Outcome& outcome : outcomes_) {
-        kept += outcome.found && outcome.known, count += outcome.found;
+        kept += outcome.found && outcome.contact != kNone, count += outcome.found;
         asked_ += outcome.asked;
     }
     if (kept == contacts_.size() && count == kept) return;
 
-    places_.assign(contacts_.size(), kNone);
-    std::uint32_t place = 0;
-    for (const Candidate& candidate : candidates_) {
-        if (!candidate.found) continue;
-        if (candidate.contact != kNone) places_[candidate.contact] = place;
-        ++place;
-    }
-    noteContactsGone();
-    moveContacts(count);
-    place = 0;
-    for (Candidate& candidate : candidates_) {
-        if (candidate.found && candidate.contact == kNone) {
-            if (candidate.fresh < fresh_.size()) {
-                contacts_[place] = fresh_[candidate.fresh];
-            } else {
-                candidate.kept = false;  // that there is something is kept, not what
-                contacts_[place] = findContact(search, candidate).value();
-            }
+    for (const std::uint32_t slot : dropped_) removeContact(slot);
+    dropped_.clear();
+    for (std::size_t k = 0; k < outcomes_.size(); ++k)
+        if (outcomes_[k].contact != kNone && !outcomes_[k].found) {
+            removeContact(outcomes_[k].contact);
+            candidates_[k].contact = kNone;
         }
-        candidate.contact = candidate.found ? place++ : kNone;
-    }
+    std::sort(gone_.begin(), gone_.end(), [](const Gone& c, const Gone& d) {
+        return std::pair(pairKey(c.shapeA, c.shapeB), c.piece) <
+               std::pair(pairKey(d.shapeA, d.shapeB), d.piece);
+    });
+    std::vector<std::uint32_t>& order = contacts_.order();
+    order.clear();
+    for (std::size_t k = 0; k < outcomes_.size(); ++k)
+        if (outcomes_[k].found)
+            order.push_back(outcomes_[k].contact != kNone ? outcomes_[k].contact
+                                                          : addContact(search, candidates_[k]));
+    if (!contacts_.untidy()) return;
+    contacts_.tidy();
+    std::uint32_t place = 0;
+    for (Candidate& candidate : candidates_)
+        if (candidate.contact != kNone) candidate.contact = place++;
 }
 
 template <class S>
-void ContactSet<S>::noteContactsGone() {
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        const Contact<S>& c = contacts_[i];
-        if (places_[i] == kNone && c.touching)
-            gone_.push_back({c.bodyA, c.bodyB, c.shapeA, c.shapeB, c.piece});
-    }
+void ContactSet<S>::removeContact(std::uint32_t slot) {
+    const Contact<S>& c = contacts_.at(slot);
+    if (c.touching) gone_.push_back({c.bodyA, c.bodyB, c.shapeA, c.shapeB, c.piece});
+    contacts_.remove(slot);
 }
 
-/// Each contact to its place, of `count`; those of kNone are left out. Only those move whose place is new:
-/// what lies at the place of one that moves down moves down too, or leaves, and likewise upwards.
+/// The slot of the one that was found for a candidate that had none.
 template <class S>
-void ContactSet<S>::moveContacts(std::size_t count) {
-    const std::size_t n = places_.size();
-    if (count > n) contacts_.resize(count);
-    for (std::size_t i = 0; i < n; ++i)
-        if (places_[i] != kNone && places_[i] < i) contacts_[places_[i]] = contacts_[i];
-    for (std::size_t i = n; i-- > 0;)
-        if (places_[i] != kNone && places_[i] > i) contacts_[places_[i]] = contacts_[i];
-    contacts_.resize(count);
+std::uint32_t ContactSet<S>::addContact(const Search& search, Candidate& candidate) {
+    candidate.contact = contacts_.add();
+    if (candidate.fresh < fresh_.size()) {
+        contacts_.at(candidate.contact) = fresh_[candidate.fresh];
+        return candidate.contact;
+    }
+    const std::uint32_t slot = std::exchange(candidate.contact, kNone);
+    candidate.kept = false;  // that there is something is kept, not what
+    contacts_.at(slot) = findContact(search, candidate).value();
+    return candidate.contact = slot;
 }
 
 template <class S>
 bool ContactSet<S>::hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const {
     const std::uint64_t key = pairKey(shapeA, shapeB);
-    const auto found = std::lower_bound(
-        contacts_.begin(), contacts_.end(), key,
-        [](const Contact<S>& c, std::uint64_t k) { return pairKey(c.shapeA, c.shapeB) < k; });
-    if (found == contacts_.end() || pairKey(found->shapeA, found->shapeB) != key) return false;
-    return std::any_of(found->block.begin(), found->block.begin() + found->manifold.count,
+    const std::vector<std::uint32_t>& order = contacts_.order();
+    const auto first =
+        std::lower_bound(order.begin(), order.end(), key, [&](std::uint32_t slot, std::uint64_t k) {
+            return pairKey(contacts_.at(slot).shapeA, contacts_.at(slot).shapeB) < k;
+        });
+    if (first == order.end()) return false;
+    const Contact<S>& found = contacts_.at(*first);
+    if (pairKey(found.shapeA, found.shapeB) != key) return false;
+    return std::any_of(found.block.begin(), found.block.begin() + found.manifold.count,
                        [](std::uint32_t block) { return block != Contact<S>::kNoBlock; });
 }
 

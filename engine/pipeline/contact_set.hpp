@@ -19,7 +19,7 @@
 #include "engine/core/clone_ptr.hpp"
 #include "engine/core/tasks.hpp"
 #include "engine/faults/fault.hpp"
-#include "engine/pipeline/contact.hpp"
+#include "engine/pipeline/contact_list.hpp"
 #include "engine/pipeline/events.hpp"
 #include "engine/solvers/combine_rules.hpp"
 #include "engine/state/world_def.hpp"
@@ -70,7 +70,7 @@ class ContactSet {
     const std::vector<ShapeRecord<S>>& shapes() const { return shapes_; }
     /// Bodies that a joint keeps from colliding; sorted keys of pairKey.
     std::vector<std::uint64_t>& excluded() {
-        candidatesValid_ = false;
+        candidatesValid_ = mayHolds_ = false;
         return excluded_;
     }
     static std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
@@ -120,8 +120,9 @@ class ContactSet {
     const std::vector<ProxyPair>& proxyPairs() const;
     std::size_t pairCount() const { return pairCount_; }
     const std::vector<Aabb<S>>& boxes() const { return boxes_; }
-    const std::vector<Contact<S>>& contacts() const { return contacts_; }
-    std::vector<Contact<S>>& contacts() { return contacts_; }
+    /// Sorted by shape pair and piece.
+    const ContactList<S>& contacts() const { return contacts_; }
+    ContactList<S>& contacts() { return contacts_; }
     /// True where the contact of two shapes (bodies in order) has rows in this step.
     bool hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const;
     /// What belongs to a state beside contacts(): which answers of the narrow phase are kept (snapshot.cpp).
@@ -138,7 +139,7 @@ class ContactSet {
     /// Two shapes, or one and a piece of the other, that may touch.
     struct Candidate {
         std::uint32_t a = 0, b = 0, piece = kNone;  ///< as in Contact
-        std::uint32_t contact = kNone;              ///< its place in contacts_, or kNone
+        std::uint32_t contact = kNone;              ///< its slot in contacts_, or kNone
         std::uint32_t fresh = kNone;  ///< the place of a new one in fresh_, or kNone; while they are found
         bool found = false;           ///< they touch or nearly do in this step
         bool asked = false;           ///< the narrow phase was, in this step
@@ -153,7 +154,8 @@ class ContactSet {
     };
     /// Of a candidate in this step: what is read of all of them, side by side.
     struct Outcome {
-        bool found = false, asked = false, known = false;  ///< known: it had a contact before
+        std::uint32_t contact = kNone;  ///< the slot of the one that it had before
+        bool found = false, asked = false;
     };
     void findCandidates(const BodyArrays<S>& bodies);
     void findPieces(std::uint32_t surface, std::uint32_t other);
@@ -198,8 +200,8 @@ class ContactSet {
     static void takeOver(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact);
     static void matchPoints(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact);
     void settle(const Search& search);
-    void moveContacts(std::size_t count);
-    void noteContactsGone();
+    void removeContact(std::uint32_t slot);
+    std::uint32_t addContact(const Search& search, Candidate& candidate);
     static void planRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact);
     static bool planPoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
                           std::size_t index);
@@ -216,18 +218,20 @@ class ContactSet {
     std::vector<PairCoefficients<S>> pairs_ = std::vector<PairCoefficients<S>>(1);
     std::vector<std::uint64_t> excluded_;
 
-    std::vector<Contact<S>> contacts_;       ///< sorted by shape pair and piece
+    ContactList<S> contacts_;
     std::vector<Candidate> candidates_;      ///< in the same order; a contact belongs to each that found one
     std::vector<ProxyPair> candidatePairs_;  ///< what they were made of
     std::vector<Candidate> oldCandidates_;
-    std::vector<Outcome> outcomes_;      ///< of candidates_
-    std::vector<std::uint8_t> turned_;   ///< of contacts_: 1 where touching has begun or ended
-    ContactSearch<S> search_, keptFor_;  ///< of this step; of the answers that are kept
+    std::vector<std::uint32_t> dropped_;  ///< slots of contacts whose pair is near no more
+    std::vector<Outcome> outcomes_;       ///< of candidates_
+    std::vector<std::uint8_t> turned_;    ///< of contacts_: 1 where touching has begun or ended
+    ContactSearch<S> search_, keptFor_;   ///< of this step; of the answers that are kept
     EnlargedBoxes<S> enlarged_;
     std::size_t asked_ = 0;
     bool candidatesValid_ = false, candidatesHavePieces_ = false;
+    bool mayHolds_ = false;          ///< candidates that there are may collide
     std::vector<Contact<S>> fresh_;  ///< new in this step, in any order
-    std::vector<std::uint32_t> places_, pieces_;
+    std::vector<std::uint32_t> pieces_;
     /// Of a contact that touched in the last step and is no more.
     struct Gone {
         std::uint32_t bodyA, bodyB, shapeA, shapeB, piece;

@@ -100,7 +100,7 @@ void World<S>::visitState(A& archive, W& world) {
     ForceSet<S>::visitIds(archive, world.forces_);
     auto& contacts = world.contacts_.contacts();
     const std::size_t count = archive.size(contacts.size());
-    if constexpr (!std::is_const_v<W>) contacts.resize(count);
+    if constexpr (!std::is_const_v<W>) contacts.reset(count);
     for (auto& contact : contacts) visitContact(archive, contact);
     // Without answers that are kept, the candidates follow from the rest.
     if (!std::is_same_v<A, HashArchive> || world.def_.reuseDistance > 0)

@@ -173,7 +173,7 @@ class World {
     std::span<const ProxyPair> pairs() const { return contacts_.proxyPairs(); }
     /// What the last narrow phase found of them, sorted by shapes: normal, points with their separations and
     /// features, and the impulses they start with. Also points that the solver has no need of.
-    std::span<const Contact<S>> manifolds() const { return contacts_.contacts(); }
+    const ContactList<S>& manifolds() const { return contacts_.contacts(); }
     /// Replaces `out` by the contacts of the last step: the points that got rows.
     void readContacts(std::vector<ContactView<S>>& out) const;
     /// The rows of the last sub-step, solved or not yet.

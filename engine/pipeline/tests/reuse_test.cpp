@@ -50,7 +50,7 @@ struct Pair {
             set.shapes().push_back(record);
         }
     }
-    const std::vector<Contact<S>>& find() {
+    const ContactList<S>& find() {
         set.findPairs(bodies, *broadPhase, search, *ccd, Tasks::one());
         set.findManifolds(bodies, *narrowPhase, &manifoldClipped<S>, *ccd, Tasks::one());
         return set.contacts();
@@ -110,7 +110,7 @@ TYPED_TEST(Reuse, KeptPointsAreThoseOfAskingAgain) {
         for (int motion = 0; motion < 10; ++motion) {
             const Pose<S> moved{start.p + random.vec(4e-4), rotatedBy(start.q, random.ang(5e-4))};
             keeping.bodies.pose[1] = asking.bodies.pose[1] = moved;
-            const std::vector<Contact<S>>&with = keeping.find(), &without = asking.find();
+            const ContactList<S>&with = keeping.find(), &without = asking.find();
             ASSERT_EQ(with.size(), 1u);
             ASSERT_EQ(without.size(), 1u);
             if (keeping.set.asked() > 0) break;  // moved too far after all
@@ -155,7 +155,7 @@ void expectDepthWithinTheMotion(bool apart) {
         for (int motion = 0; motion < 10; ++motion) {
             const Pose<S> moved{start.p + random.vec(4e-4), rotatedBy(start.q, random.ang(5e-4))};
             keeping.bodies.pose[1] = asking.bodies.pose[1] = moved;
-            const std::vector<Contact<S>>&with = keeping.find(), &without = asking.find();
+            const ContactList<S>&with = keeping.find(), &without = asking.find();
             if (keeping.set.asked() > 0 || keeping.set.proxyPairs().empty()) break;
             ++kept;
             if (apart) {

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The contacts of a world, in an order of their own: each stays where it is in memory while others come and
+// go.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "engine/pipeline/contact.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+class ContactList {
+    template <class List>
+    class Iterator {
+      public:
+        Iterator(List* list, std::size_t place) : list_(list), place_(place) {}
+        auto& operator*() const { return (*list_)[place_]; }
+        Iterator& operator++() {
+            ++place_;
+            return *this;
+        }
+        bool operator==(const Iterator&) const = default;
+
+      private:
+        List* list_;
+        std::size_t place_;
+    };
+
+  public:
+    std::size_t size() const { return order_.size(); }
+    bool empty() const { return order_.empty(); }
+    Contact<S>& operator[](std::size_t place) { return slots_[order_[place]]; }
+    const Contact<S>& operator[](std::size_t place) const { return slots_[order_[place]]; }
+    auto begin() { return Iterator<ContactList>(this, 0); }
+    auto end() { return Iterator<ContactList>(this, size()); }
+    auto begin() const { return Iterator<const ContactList>(this, 0); }
+    auto end() const { return Iterator<const ContactList>(this, size()); }
+
+    /// By the place in memory.
+    Contact<S>& at(std::uint32_t slot) { return slots_[slot]; }
+    const Contact<S>& at(std::uint32_t slot) const { return slots_[slot]; }
+    /// Slots in the order of the contacts; whoever adds or removes some makes it anew.
+    std::vector<std::uint32_t>& order() { return order_; }
+    const std::vector<std::uint32_t>& order() const { return order_; }
+    /// A slot for a contact that is not in the order yet.
+    std::uint32_t add() {
+        if (free_.empty()) {
+            slots_.emplace_back();
+            return static_cast<std::uint32_t>(slots_.size() - 1);
+        }
+        const std::uint32_t slot = free_.back();
+        free_.pop_back();
+        return slot;
+    }
+    void remove(std::uint32_t slot) { free_.push_back(slot), ++removed_; }
+
+    /// Slots follow the order no more: who goes through the contacts waits for memory.
+    bool untidy() const { return removed_ > size() / 4; }
+    /// Moves each contact to the slot that is its place in the order.
+    void tidy() {
+        spare_.clear();
+        spare_.reserve(slots_.capacity());
+        for (const std::uint32_t slot : order_) spare_.push_back(slots_[slot]);
+        std::swap(slots_, spare_);
+        free_.clear(), removed_ = 0;
+        std::iota(order_.begin(), order_.end(), 0u);
+    }
+
+    void clear() { slots_.clear(), order_.clear(), free_.clear(), removed_ = 0; }
+    /// `count` empty contacts in the order of their slots.
+    void reset(std::size_t count) {
+        clear();
+        slots_.resize(count), order_.resize(count);
+        std::iota(order_.begin(), order_.end(), 0u);
+    }
+
+  private:
+    std::vector<Contact<S>> slots_, spare_;
+    std::vector<std::uint32_t> order_, free_;
+    std::size_t removed_ = 0;  ///< since slots followed the order
+};
+
+}  // namespace rigor::engine
