@@ -61,6 +61,34 @@ Nodes minimumDegree(std::vector<Nodes>& near, std::size_t most) {
     return order;
 }
 
+/// The same for an order that is given [Liu1990]: a column has what its node is coupled with and what the
+/// columns of its children in the elimination tree have, of what comes later. False where there are too many.
+bool columnsInOrder(std::vector<Nodes>& near, const Nodes& order, std::size_t most) {
+    const std::size_t n = order.size();
+    Nodes position(n), both;
+    for (std::uint32_t k = 0; k < n; ++k) position[order[k]] = k;
+    std::vector<Nodes> children(n);
+    std::size_t entries = 0;
+    for (std::uint32_t k = 0; k < n; ++k) {
+        const std::uint32_t node = order[k];
+        Nodes& column = near[node];
+        for (const std::uint32_t child : children[node]) {
+            both.clear();
+            std::set_union(column.begin(), column.end(), near[child].begin(), near[child].end(),
+                           std::back_inserter(both));
+            column.swap(both);
+        }
+        std::erase_if(column, [&](std::uint32_t j) { return position[j] <= k; });
+        entries += column.size();
+        if (entries > most) return false;
+        if (column.empty()) continue;
+        children[*std::min_element(column.begin(), column.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return position[a] < position[b];
+        })].push_back(node);
+    }
+    return true;
+}
+
 /// A postorder of the elimination tree: a node's parent is the first of its column.
 Nodes postorder(const Nodes& order, const std::vector<Nodes>& columns, const Nodes& component) {
     const std::size_t n = order.size();
@@ -91,13 +119,9 @@ Nodes postorder(const Nodes& order, const std::vector<Nodes>& columns, const Nod
     return result;
 }
 
-}  // namespace
-
-bool findElimination(std::vector<std::vector<std::uint32_t>> near, std::size_t most, Elimination& out) {
+/// From the columns of L, by node, for the order that was found.
+void arrange(std::vector<Nodes>& near, const Nodes& found, const Nodes& component, Elimination& out) {
     const std::size_t n = near.size();
-    const Nodes component = findComponents(near);
-    const Nodes found = minimumDegree(near, most);
-    if (found.size() != n) return false;
     out.order = postorder(found, near, component);
     out.part.clear(), out.start.assign(1, 0), out.row.clear();
     Nodes position(n);
@@ -111,6 +135,32 @@ bool findElimination(std::vector<std::vector<std::uint32_t>> near, std::size_t m
         if (k == 0 || component[out.order[k]] != component[out.order[k - 1]]) out.part.push_back(k);
     }
     out.part.push_back(static_cast<std::uint32_t>(n));
+}
+
+}  // namespace
+
+std::size_t Elimination::products() const {
+    std::size_t sum = 0;
+    for (std::size_t k = 0; k + 1 < start.size(); ++k) {
+        const std::size_t c = start[k + 1] - start[k];
+        sum += c * (c + 3) / 2;
+    }
+    return sum;
+}
+
+bool findElimination(std::vector<std::vector<std::uint32_t>> near, std::size_t most, Elimination& out) {
+    const Nodes component = findComponents(near);
+    const Nodes found = minimumDegree(near, most);
+    if (found.size() != near.size()) return false;
+    arrange(near, found, component, out);
+    return true;
+}
+
+bool findElimination(std::vector<std::vector<std::uint32_t>> near, const std::vector<std::uint32_t>& order,
+                     std::size_t most, Elimination& out) {
+    const Nodes component = findComponents(near);
+    if (!columnsInOrder(near, order, most)) return false;
+    arrange(near, order, component, out);
     return true;
 }
 

@@ -19,10 +19,16 @@ struct Elimination {
     /// positions.
     std::vector<std::size_t> start;
     std::vector<std::uint32_t> row;
+
+    /// What making L costs, in products of entries: the sum over the columns of c (c + 3) / 2 for c entries.
+    std::size_t products() const;
 };
 
 /// `near[i]`: the nodes that node i is coupled with, growing, without i; every coupling is in both lists.
 /// False, and nothing of use in `out`, where L would have more than `most` entries below the diagonal.
 bool findElimination(std::vector<std::vector<std::uint32_t>> near, std::size_t most, Elimination& out);
+/// The same for an order that is given, up to what leaves the entries of L as they are.
+bool findElimination(std::vector<std::vector<std::uint32_t>> near, const std::vector<std::uint32_t>& order,
+                     std::size_t most, Elimination& out);
 
 }  // namespace rigor::engine

@@ -12,6 +12,7 @@
 
 #include "engine/constraints/row.hpp"
 #include "engine/solvers/elimination.hpp"
+#include "engine/solvers/joint_fronts.hpp"
 
 namespace rigor::engine {
 
@@ -37,6 +38,8 @@ class JointSystem {
 
   private:
     static constexpr std::size_t kMaxFill = 24;
+    /// Items, and products of blocks per item, from which dense fronts are faster than blocks.
+    static constexpr std::size_t kLeastNet = 60, kLongColumns = 24;
 
     /// What decides the pattern of K.
     struct Place {
@@ -47,7 +50,7 @@ class JointSystem {
     static constexpr std::uint32_t kFixed = 0xffffffff;
     /// Two items at a body: there K has a block below its diagonal.
     struct Meeting {
-        std::uint32_t entry;                ///< of row_
+        std::size_t at;                     ///< entry of row_; with fronts where the block stands in them
         std::uint32_t rowItem, columnItem;  ///< the item of the block's rows, and that of its columns
         bool isRowB, isColumnB;             ///< whether the body is B of these items
     };
@@ -58,15 +61,26 @@ class JointSystem {
         std::size_t meeting, lastMeeting;  ///< of its meetings, the last one excluded
         std::size_t lower, diagonal, x;    ///< where its first numbers stand
         std::size_t target;                ///< likewise
+        std::uint32_t fronts;              ///< kNoFronts, or where its fronts are
     };
+    static constexpr std::uint32_t kNoFronts = 0xffffffff;
 
     static Place placeOf(const Item& item);
     bool analyse(std::span<const Item> items);
+    bool findOrder(std::vector<std::vector<std::uint32_t>> near, Elimination& order) const;
+    bool needsFronts(std::uint32_t first, std::uint32_t last) const;
     void layOut(Elimination& order);
+    void findTargets(const Part& part);
     void findMeetings(std::span<const std::pair<std::uint32_t, std::uint32_t>> visits);
     std::size_t entry(std::size_t column, std::uint32_t row) const;
     template <int N>
     void assemble(std::span<const Item> items, const Part& part);
+    template <int N>
+    void factorFronts(std::span<const Item> items, const Part& part);
+    template <int N>
+    static void addDiagonal(const Item& item, Real* m, std::size_t stride);
+    static void addMeeting(const Meeting& meeting, std::span<const Item> items, Real* m, std::size_t stride);
+    static Real shiftPivot(Real& pivot);
     template <int N>
     void eliminate(const Part& part);
     template <int N>
@@ -89,6 +103,7 @@ class JointSystem {
     /// Of K, then of L, with the reciprocals of its own diagonal.
     std::vector<Real> diagonal_;
     std::vector<Real> x_;
+    std::vector<JointFronts<Real>> fronts_;  ///< instead of lower_ and diagonal_ where columns are long
 };
 
 }  // namespace rigor::engine

@@ -166,6 +166,33 @@ TYPED_TEST(Chains, HoldTogetherAndGainNothingWithTheSolverOfLargeScenes) {
     }
 }
 
+/// A net so large that its factor is made by fronts (solvers/joint_fronts.hpp): threads do not change a bit,
+/// and a steady step does not allocate.
+TYPED_TEST(Chains, LargeNetsHoldTogetherAndGainNothingWithTheSolverOfLargeScenes) {
+    using S = TypeParam;
+    WorldDef<S> def = earth<S>();
+    preferSpeed(def);
+    Jointed<S> scene(def);
+    def.threads = 3;
+    Jointed<S> shared(def);
+    scene.flatNet(14), shared.flatNet(14);
+    const double start = scene.energy(), depth = 196 * kMass * kGravity * 14 * kLink;
+    double most = 0, gap = 0;
+    long allocated = 0;
+    for (int i = 0; i < 120; ++i) {
+        const long before = allocationCount();
+        scene.world.step(static_cast<typename S::Real>(kStep));
+        if (i >= 5) allocated += allocationCount() - before;
+        shared.world.step(static_cast<typename S::Real>(kStep));
+        most = std::max(most, scene.energy() - start);
+        gap = std::max(gap, scene.gap());
+    }
+    EXPECT_EQ(allocated, 0);
+    EXPECT_LT(most, 2e-3 * depth);
+    EXPECT_LT(gap, 5e-3);
+    EXPECT_EQ(scene.world.stateHash(), shared.world.stateHash());
+}
+
 TYPED_TEST(Chains, TheErrorOfTheEnergyFallsWithTheStep) {
     using S = TypeParam;
     if (std::is_same_v<typename S::Real, float>) GTEST_SKIP() << "rounding of the energy is of that size";

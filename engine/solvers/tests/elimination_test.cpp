@@ -78,6 +78,34 @@ TEST(EliminationOrder, PatternsAreThoseOfTheDefinition) {
     }
 }
 
+TEST(EliminationOrder, GivenOrdersKeepTheirEntries) {
+    std::mt19937 random(6);
+    for (int round = 0; round < 20; ++round) {
+        const std::uint32_t n = 3 + random() % 30;
+        std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+        for (std::uint32_t e = 0; e < 2 * n; ++e) {
+            const std::uint32_t a = random() % n, b = random() % n;
+            if (a != b) edges.insert(std::minmax(a, b));
+        }
+        const Graph graph = graphOf(n, edges);
+        Elimination given, found;
+        for (std::uint32_t i = 0; i < n; ++i) given.order.push_back(i);
+        std::shuffle(given.order.begin(), given.order.end(), random);
+        std::size_t entries = 0, products = 0;
+        for (const auto& column : eliminated(graph, given)) {
+            entries += column.size();
+            products += column.size() * (column.size() + 3) / 2;
+        }
+        ASSERT_TRUE(findElimination(graph, given.order, entries, found));
+        expectComplete(graph, found);
+        EXPECT_EQ(found.row.size(), entries);
+        EXPECT_EQ(found.products(), products);
+        if (entries > 0) {
+            EXPECT_FALSE(findElimination(graph, given.order, entries - 1, found));
+        }
+    }
+}
+
 TEST(EliminationOrder, TreesHaveNoFill) {
     std::mt19937 random(7);
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;

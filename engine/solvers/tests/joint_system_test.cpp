@@ -7,6 +7,7 @@
 
 #include <random>
 
+#include "engine/core/tests/counting_new.hpp"
 #include "engine/math/decompositions.hpp"
 #include "engine/solvers/joint_system.hpp"
 
@@ -165,6 +166,26 @@ TYPED_TEST(JointSystems, FlatNetsAreNoTrouble) {
         JointSystem<TypeParam> system;
         EXPECT_LT(this->residual(system, 4), isDouble(typename TypeParam::Real()) ? 1e-9 : 1e-3) << side;
     }
+}
+
+/// Nets as no joints are in reality, with blocks of different sizes, beside chains: long columns and short
+/// ones, fronts and blocks.
+TYPED_TEST(JointSystems, NetsBesideChainsAreTheDenseSolution) {
+    constexpr std::uint32_t side = 11, links = 20;
+    const bool planar = TypeParam::dim == 2;
+    this->bodies(static_cast<int>(side * side + links));
+    JointSystem<TypeParam> system;
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        if (i % side > 0) this->join(i, i + 1, 1 + static_cast<int>(i % 2));
+        if (i >= side) this->join(i + 1 - side, i + 1, planar ? 1 : 2 + static_cast<int>(i % 3) / 2);
+        if (i < links) this->join(i == 0 ? 0 : side * side + i, side * side + i + 1, TypeParam::dim);
+    }
+    EXPECT_LT(this->residual(system, 4), isDouble(typename TypeParam::Real()) ? 1e-9 : 1e-3);
+    const auto items = this->items();
+    const long before = test::allocationCount();
+    EXPECT_TRUE(system.factor(items));
+    system.solve();
+    EXPECT_EQ(test::allocationCount(), before);
 }
 
 TYPED_TEST(JointSystems, TooManyJointsAtOneBodyAreRefused) {
