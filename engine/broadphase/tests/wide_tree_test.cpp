@@ -150,6 +150,11 @@ TYPED_TEST(LargeScene, WhatDoesNotChangeIsNotSearched) {
     }
     this->movable[3] = !this->movable[3];
     EXPECT_LT(testsOfUpdate(), all / 10);
+    // Boxes that stand still and become movable, or no longer are, gain and lose pairs.
+    const std::size_t pairsBefore = pairs.size();
+    for (std::size_t i = 0; i < this->movable.size(); i += 20) this->movable[i] = !this->movable[i];
+    testsOfUpdate();
+    EXPECT_NE(pairs.size(), pairsBefore);
 }
 
 TYPED_TEST(LargeScene, NoOverlapIsLostWhereSinglePrecisionIsCoarse) {

@@ -27,13 +27,31 @@ TEST(Tasks, EveryIndexOnceForAnyNumberOfThreads) {
     }
 }
 
+TEST(Tasks, PartsAreWorthTheirWhile) {
+    for (const int threads : {1, 2, 4}) {
+        const Tasks tasks(threads);
+        for (const std::size_t n : {16u, 17u, 64u, 1000u, 5000u}) {
+            std::atomic<std::size_t> parts = 0, small = 0;
+            tasks.forRanges(n, 16, [&](std::size_t begin, std::size_t end) {
+                ++parts;
+                if (end < n && end - begin <= 4) ++small;
+            });
+            EXPECT_EQ(small, 0u) << threads << " threads, " << n << ": of a quarter of the grain";
+            if (n <= 16 || threads == 1)
+                EXPECT_EQ(parts, 1u) << threads << " threads, " << n;
+            else
+                EXPECT_GT(parts, 1u) << threads << " threads, " << n;
+        }
+    }
+}
+
 TEST(Tasks, TwoThreadsReallyWorkAtTheSameTime) {
     const Tasks tasks(2);
     std::atomic<int> inside = 0, most = 0;
-    // Each part waits until the other one has come, or a second has passed.
+    // Each part waits until the other one has come; on a busy machine that may take seconds.
     tasks.forRanges(2, 1, [&](std::size_t, std::size_t) {
         most = std::max(most.load(), ++inside);
-        for (int i = 0; i < 1000 && inside < 2 && most < 2; ++i)
+        for (int i = 0; i < 30000 && inside < 2 && most < 2; ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         most = std::max(most.load(), inside.load());
         --inside;
