@@ -30,6 +30,7 @@ using validation::BenchWork;
 using validation::EngineDescription;
 
 const std::string kDefaultSuite = "bench";
+constexpr double kPartsBudget = 480.0;  ///< [s]
 
 struct Arguments {
     std::vector<std::string> what, overrides, parts, only;
@@ -37,7 +38,8 @@ struct Arguments {
     std::string engines, out, base, baseline, dt, preset = "matched";
     validation::BenchTarget target;
     validation::BaselineOptions held;
-    bool growth = false, resume = false, json = false, quiet = false, slowBuild = false;
+    std::optional<double> budget;
+    bool growth = false, full = false, resume = false, json = false, quiet = false, slowBuild = false;
 };
 
 std::atomic<bool> interrupted{false};
@@ -120,6 +122,13 @@ bool isAsked(const Arguments& a, const std::string& part) {
                        [&](const std::string& asked) { return asked == "all" || asked == part; });
 }
 
+/// No further round after so many seconds. The usual cases of the parts are to be done in ten minutes, the
+/// last round, of a minute or so, included.
+double budgetOf(const Arguments& a) {
+    const bool usualParts = !a.parts.empty() && a.what.empty() && !a.full;
+    return a.budget.value_or(usualParts ? kPartsBudget : a.target.budget);
+}
+
 /// Cases of the isolated parts that are asked for. Throws std::invalid_argument where --only names none.
 std::vector<BenchWork> planParts(const Arguments& a, validation::BenchRequest request) {
     std::vector<BenchWork> work;
@@ -128,7 +137,7 @@ std::vector<BenchWork> planParts(const Arguments& a, validation::BenchRequest re
         for (auto& planned : family.plan(request)) work.push_back({std::move(planned), "", {}});
     }
     if (!work.empty() || request.only.empty()) return work;
-    request.only.clear();
+    request.only.clear(), request.full = true;
     std::string known;
     for (const auto& w : planParts(a, request))
         if (known.find("'" + w.planned.name + "'") == std::string::npos)
@@ -149,7 +158,7 @@ std::vector<BenchWork> planAll(const Arguments& a) {
     if (!a.engines.empty())
         for (const auto& spec : request.specs) parts.engines.push_back(spec.text());
     parts.sizes.assign(a.sizes.begin(), a.sizes.end());
-    parts.only = a.only, parts.preset = a.preset;
+    parts.only = a.only, parts.full = a.full, parts.preset = a.preset;
     parts.threads = a.threads, parts.seed = a.target.seed, parts.binary = ownBinary().string();
     for (auto& part : planParts(a, parts)) work.push_back(std::move(part));
     if (work.empty()) throw std::invalid_argument("bench: no engine can run any of this");
@@ -157,7 +166,8 @@ std::vector<BenchWork> planAll(const Arguments& a) {
 }
 
 void checkParts(const Arguments& a) {
-    if (!a.only.empty() && a.parts.empty()) throw std::invalid_argument("--only: goes with --parts");
+    if (a.parts.empty() && !a.only.empty()) throw std::invalid_argument("--only: goes with --parts");
+    if (a.parts.empty() && a.full) throw std::invalid_argument("--full: goes with --parts");
     std::string known = "all";
     for (const auto& family : validation::benchFamilies()) known += ", " + family.name;
     for (const auto& part : a.parts) {
@@ -262,6 +272,7 @@ int bench(const Arguments& a) {
     prepareRunFolder(options.directory, a.resume);
     if (a.resume) checkSameBench(options.directory, work);
     options.binary = ownBinary(), options.resume = a.resume, options.target = a.target;
+    options.target.budget = budgetOf(a);
     options.base = a.base, options.command = ownCommandLine();
     for (const auto& name : a.what) options.suite += (options.suite.empty() ? "" : " ") + name;
     if (options.suite.empty()) options.suite = kDefaultSuite;
@@ -298,6 +309,9 @@ void addWhat(CLI::App& command, Arguments& a) {
         ->delimiter(',');
     command.add_option("--only", a.only, "Cases of the parts by their names; default: all")
         ->allow_extra_args(false);
+    command.add_flag(
+        "--full", a.full,
+        "Parts with all their sizes, orders, kinds of pairs and residuals: hundreds of cases more");
     command.add_option("--engines", a.engines, "Engine specs, comma separated; default: all installed");
     command.add_option("--preset", a.preset, "Of specs that name none (default: matched)")
         ->check(CLI::IsMember({"matched", "default"}));
@@ -326,7 +340,10 @@ void addMethod(CLI::App& command, Arguments& a) {
     command.add_option("--least", t.least, "Repetitions at least (default 6: fewer have no interval)")
         ->check(CLI::Range(1, 10000));
     command.add_option("--most", t.most, "Repetitions at most (default 30)")->check(CLI::Range(1, 10000));
-    command.add_option("--budget", t.budget, "No further round after so many seconds (default 1800)")
+    command
+        .add_option(
+            "--budget", a.budget,
+            "No further round after so many seconds (default 1800; of parts alone, without --full, 480)")
         ->check(CLI::Range(0.0, 1e7));
     command.add_option("--seed", t.seed, "Of the order of engines (default 1)");
     command

@@ -13,7 +13,10 @@ target_compile_options(rigor_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -
 # GCC 12 reports false positives of these from inside Eigen and the standard library when it inlines.
 target_compile_options(rigor_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds
                                              -Wno-stringop-overflow -Wno-restrict>)
-if(RIGOR_SANITIZE)
+if(RIGOR_SANITIZE STREQUAL thread)
+    target_compile_options(rigor_flags INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+    target_link_options(rigor_flags INTERFACE -fsanitize=thread)
+elseif(RIGOR_SANITIZE)
     target_compile_options(rigor_flags INTERFACE -fsanitize=address,undefined -fno-omit-frame-pointer
                                                  -fno-sanitize-recover=undefined)
     target_link_options(rigor_flags INTERFACE -fsanitize=address,undefined)

@@ -16,15 +16,6 @@ namespace {
 using adapter::Aabb;
 using adapter::Pair;
 
-std::vector<Pair> bruteForce(const std::vector<Aabb>& boxes) {
-    std::vector<Pair> pairs;
-    for (int a = 0; a < static_cast<int>(boxes.size()); ++a)
-        for (int b = a + 1; b < static_cast<int>(boxes.size()); ++b)
-            if (overlap(boxes[static_cast<std::size_t>(a)], boxes[static_cast<std::size_t>(b)]))
-                pairs.push_back({a, b});
-    return pairs;
-}
-
 class BroadPhases : public testing::TestWithParam<int> {
   protected:
     Aabb boxAt(const Vec3& min, const Vec3& size) const {
@@ -40,7 +31,7 @@ class BroadPhases : public testing::TestWithParam<int> {
             std::vector<Pair> pairs;
             for (std::size_t i = 0; i < frames.size(); ++i) {
                 broadPhase->update(frames[i], pairs);
-                ASSERT_EQ(pairs, bruteForce(frames[i])) << "frame " << i;
+                ASSERT_EQ(pairs, adapter::bruteForcePairs(frames[i])) << "frame " << i;
             }
         }
     }
@@ -62,7 +53,7 @@ TEST_P(BroadPhases, MovingBoxesMeetTheSamePartnersAsByBruteForce) {
     std::size_t met = 0;
     for (int frame = 0; frame < 25; ++frame) {
         frames.push_back(boxes);
-        met += bruteForce(boxes).size();
+        met += adapter::bruteForcePairs(boxes).size();
         for (Aabb& box : boxes) {
             // Now and then a leap: nothing may rest on coherence.
             const double scale = frame % 8 == 7 ? 20.0 : 1.0;
@@ -99,7 +90,7 @@ TEST_P(BroadPhases, WhatIsHeldAfterManyRunsHasAllPairs) {
             broadPhase->held(held);
             std::sort(held.begin(), held.end());
             held.erase(std::unique(held.begin(), held.end()), held.end());
-            const auto exact = bruteForce(boxes);
+            const auto exact = adapter::bruteForcePairs(boxes);
             EXPECT_TRUE(std::includes(held.begin(), held.end(), exact.begin(), exact.end())) << frame;
             EXPECT_LT(held.size(), 3 * exact.size() + 100) << "not everything with everything";
         }

@@ -13,6 +13,14 @@ bool overlap(const Aabb& a, const Aabb& b) {
            a.min.z <= b.max.z && b.min.z <= a.max.z;
 }
 
+std::vector<Pair> bruteForcePairs(std::span<const Aabb> boxes) {
+    std::vector<Pair> pairs;
+    for (std::size_t a = 0; a < boxes.size(); ++a)
+        for (std::size_t b = a + 1; b < boxes.size(); ++b)
+            if (overlap(boxes[a], boxes[b])) pairs.push_back({static_cast<int>(a), static_cast<int>(b)});
+    return pairs;
+}
+
 void TimedBroadPhase::update(std::span<const Aabb> boxes, std::vector<Pair>& pairs) {
     for (const Aabb& box : boxes)
         if (!isFinite(box.min) || !isFinite(box.max)) throw BadInput("box: not finite");

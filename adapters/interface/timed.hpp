@@ -16,6 +16,9 @@
 namespace rigor::adapter {
 
 bool overlap(const Aabb& a, const Aabb& b);  ///< touching counts
+/// All pairs that overlap, a < b, sorted, by comparing every box with every other: what broad phases are
+/// tested against.
+std::vector<Pair> bruteForcePairs(std::span<const Aabb> boxes);
 
 /// A broad phase in three parts, of which update() is made.
 class TimedBroadPhase : public BroadPhase {

@@ -68,11 +68,11 @@ class RigorStaged final : public StagedWorld {
                 const auto k = static_cast<std::size_t>(i);
                 const engine::ManifoldPoint<S>& found = contact.manifold.points[k];
                 const bool hasRow = contact.block[k] < world_.rows().blocks.size();
-                m.points.push_back(
-                    {fromEngineVec(found.pointA), fromEngineVec(found.pointB),
-                     -static_cast<double>(found.separation), found.feature,
-                     static_cast<double>(contact.impulses[k].normal),
-                     hasRow ? static_cast<int>(world_.rows().blocks[contact.block[k]].first) : scenario::kNone});
+                m.points.push_back({fromEngineVec(found.pointA), fromEngineVec(found.pointB),
+                                    -static_cast<double>(found.separation), found.feature,
+                                    static_cast<double>(contact.impulses[k].normal),
+                                    hasRow ? static_cast<int>(world_.rows().blocks[contact.block[k]].first)
+                                           : scenario::kNone});
             }
         }
         return result;

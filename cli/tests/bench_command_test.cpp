@@ -163,6 +163,7 @@ TEST_F(BenchCommand, BadCommandLinesAreSaid) {
     said("--engines double_free_flight --parts nothing", "expected one of all");
     said("--parts broad_phase --only nothing", "'3D, random order', '3D, spatial order', '2D, random order'");
     said("--only '3D, random order'", "goes with --parts");
+    said("--full", "--full: goes with --parts");
     said("--engines double_free_flight --baseline " + (folder_ / "gone").string(), "--baseline");
     said("--engines double_free_flight --width wide", "--width");
     said("--engines double_free_flight --clock sun", "--clock");

@@ -70,6 +70,12 @@ struct Tasks::Arena {
     /// The first part of a share, or of what follows the last one.
     std::size_t firstPart(std::size_t share) const { return parts_ * share / shares_.size(); }
     void stay(std::size_t self);
+    /// What a thread that keeps company is sent with; named for cmake/tsan.supp.
+    struct Companion {
+        Arena* arena;
+        std::size_t self;
+        void operator()() const { arena->stay(self); }
+    };
     bool takeParts(std::size_t self);
     void run(std::size_t part);
 
@@ -93,7 +99,7 @@ void Tasks::Arena::enter(const std::function<void()>& work) {
     arena.execute([&] {
         oneapi::tbb::task_group others;
         entered = together_ = true;
-        for (std::size_t i = 1; i < shares_.size(); ++i) others.run([this, i] { stay(i); });
+        for (std::size_t i = 1; i < shares_.size(); ++i) others.run(Companion{this, i});
         const auto leave = [&] {
             entered = together_ = false;
             others.wait();

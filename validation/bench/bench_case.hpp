@@ -18,8 +18,9 @@ namespace rigor::validation {
 /// What the command line asks of a family.
 struct BenchRequest {
     std::vector<std::string> engines;  ///< specs as given; empty: every engine that can take part
-    std::vector<std::string> only;     ///< names of cases; empty: all
+    std::vector<std::string> only;     ///< names of cases, usual or not; empty: all of them
     std::vector<double> sizes;         ///< instead of the family's own; empty: its own
+    bool full = false;                 ///< everything there is; else what tells most in some minutes
     std::vector<int> threads{1};       ///< of engines that have threads
     unsigned long long seed = 1;       ///< of what is random in the work
     std::string preset;  ///< of specs that name none, where it matters; empty: each one's default

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "adapters/interface/tests/scenes.hpp"
+#include "adapters/interface/timed.hpp"
 
 namespace rigor::test {
 namespace {
@@ -118,18 +119,6 @@ TEST(BulletCollisionInput, BadQueriesAreRefused) {
     EXPECT_THROW(ask(scenario::Segment{{0, 0, 0}, {1, 0, 0}}, {}, Sphere{1}, {}, 2), adapter::Unsupported);
 }
 
-std::vector<Pair> bruteForce(const std::vector<Aabb>& boxes) {
-    std::vector<Pair> pairs;
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-        for (std::size_t j = i + 1; j < boxes.size(); ++j) {
-            const Aabb &a = boxes[i], &b = boxes[j];
-            if (a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
-                a.min.z <= b.max.z && b.min.z <= a.max.z)
-                pairs.push_back({static_cast<int>(i), static_cast<int>(j)});
-        }
-    return pairs;
-}
-
 TEST(BulletBroadPhase, AgreesWithBruteForceWhileBoxesMove) {
     for (const auto& name : engine().broadPhase()->algorithms())
         for (const int dimension : {2, 3}) {
@@ -145,7 +134,7 @@ TEST(BulletBroadPhase, AgreesWithBruteForceWhileBoxesMove) {
             std::size_t total = 0;
             for (int frame = 0; frame < 30; ++frame) {
                 broadPhase->update(boxes, pairs);
-                ASSERT_EQ(pairs, bruteForce(boxes)) << name << " frame " << frame;
+                ASSERT_EQ(pairs, adapter::bruteForcePairs(boxes)) << name << " frame " << frame;
                 total += pairs.size();
                 for (auto& box : boxes) {
                     const Vec3 by{move(random), move(random), dimension == 3 ? move(random) : 0.0};

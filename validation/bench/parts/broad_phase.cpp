@@ -25,6 +25,7 @@ constexpr int kWarmUp = 5;
 constexpr std::size_t kLeast = 3;
 /// After so much time of updates no further one is begun [s].
 constexpr double kPatience = 0.3;
+constexpr const char *kRandom = "random", *kSpatial = "spatial";
 /// A case whose first two updates would take longer than this is not begun [s].
 constexpr double kLongest = 2.0;
 
@@ -40,7 +41,7 @@ class BroadPhaseBench final : public BenchCase {
             throw adapter::Unsupported(spec_.engine + " has no broad phase that can be timed by itself");
         const json parameters = json::parse(planned.parameters);
         dimension_ = parameters.at("dimension"), seed_ = parameters.at("seed");
-        order_ = parameters.at("order") == "spatial" ? BoxOrder::Spatial : BoxOrder::Random;
+        order_ = parameters.at("order") == kSpatial ? BoxOrder::Spatial : BoxOrder::Random;
         const std::string key = timed_->option();
         algorithm_ = key.empty() ? timed_->algorithms().front() : settings_.at(key);
     }
@@ -159,7 +160,8 @@ bool couldRun(const adapter::Capabilities& c, int dimension) {
 /// What the order of boxes in memory does is seen where they are many.
 std::vector<double> sizesOf(const BenchRequest& request, const std::string& order) {
     if (!request.sizes.empty()) return request.sizes;
-    return order == "random" ? std::vector<double>{1e3, 1e4, 1e5} : std::vector<double>{1e5};
+    if (order == kSpatial) return {1e5};
+    return request.full ? std::vector<double>{1e3, 1e4, 1e5} : std::vector<double>{1e4};
 }
 
 }  // namespace
@@ -168,9 +170,9 @@ std::vector<PlannedBench> planBroadPhases(const BenchRequest& request) {
     std::vector<PlannedBench> all;
     const std::vector<Choices> engines = choicesOf(partEngines(request));
     for (const int dimension : {3, 2})
-        for (const char* order : {"random", "spatial"}) {
+        for (const char* order : {kRandom, kSpatial}) {
             const std::string name = std::to_string(dimension) + "D, " + order + " order";
-            if (!isWanted(request, name)) continue;
+            if (!isWanted(request, name, order == kRandom)) continue;
             for (const double size : sizesOf(request, order))
                 for (const Choices& engine : engines) {
                     if (!couldRun(engine.capabilities, dimension)) continue;

@@ -97,9 +97,9 @@ std::vector<adapter::EngineSpec> everyChoice(const PartEngine& engine, const std
     return specs;
 }
 
-bool isWanted(const BenchRequest& request, const std::string& name) {
-    return request.only.empty() ||
-           std::find(request.only.begin(), request.only.end(), name) != request.only.end();
+bool isWanted(const BenchRequest& request, const std::string& name, bool usual) {
+    if (request.only.empty()) return usual || request.full;
+    return std::find(request.only.begin(), request.only.end(), name) != request.only.end();
 }
 
 std::string partCommand(const PlannedBench& planned, const BenchRequest& request) {

@@ -34,8 +34,8 @@ std::string broadPhaseOption(const adapter::EngineSpec& spec);
 /// where `key` is empty.
 std::vector<adapter::EngineSpec> everyChoice(const PartEngine& engine, const std::string& key);
 
-/// Whether a case of that name is asked for.
-bool isWanted(const BenchRequest& request, const std::string& name);
+/// Whether a case of that name is asked for: by its name, or because everything is, or all that is `usual`.
+bool isWanted(const BenchRequest& request, const std::string& name, bool usual = true);
 
 /// The command that runs one case again; the interface alone is not to be had.
 std::string partCommand(const PlannedBench& planned, const BenchRequest& request);

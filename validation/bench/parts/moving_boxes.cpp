@@ -64,15 +64,6 @@ void MovingBoxes::advance() {
     place();
 }
 
-std::vector<Pair> bruteForcePairs(const std::vector<Aabb>& boxes) {
-    std::vector<Pair> pairs;
-    for (int a = 0; a < static_cast<int>(boxes.size()); ++a)
-        for (int b = a + 1; b < static_cast<int>(boxes.size()); ++b)
-            if (overlap(boxes[static_cast<std::size_t>(a)], boxes[static_cast<std::size_t>(b)]))
-                pairs.push_back({a, b});
-    return pairs;
-}
-
 std::vector<Pair> exactPairs(const std::vector<Aabb>& boxes) {
     struct Entry {
         Aabb box;

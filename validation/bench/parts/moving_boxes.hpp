@@ -38,10 +38,9 @@ class MovingBoxes {
     std::vector<adapter::Aabb> boxes_;
 };
 
-/// All pairs that overlap, touching ones included, sorted. `exactPairs` sorts the boxes along x; the other
-/// compares every box with every other.
+/// All pairs that overlap, touching ones included, sorted: those of adapter::bruteForcePairs, by sorting the
+/// boxes along x.
 std::vector<adapter::Pair> exactPairs(const std::vector<adapter::Aabb>& boxes);
-std::vector<adapter::Pair> bruteForcePairs(const std::vector<adapter::Aabb>& boxes);
 
 struct PairCheck {
     std::size_t exact = 0;   ///< pairs that overlap

@@ -147,7 +147,7 @@ std::vector<PlannedBench> planNarrowPhases(const BenchRequest& request) {
     for (PartEngine& engine : engines)  // margins around and inside shapes are settings
         if (!request.preset.empty()) engine.spec.options.emplace("preset", request.preset);
     for (const PairKind& kind : pairKinds()) {
-        if (!isWanted(request, kind.name())) continue;
+        if (!isWanted(request, kind.name(), kind.closeness != Closeness::Apart)) continue;
         std::vector<std::string> names;
         for (const PartEngine& engine : engines)
             if (takesPart(engine, kind.dimension)) names.push_back(engine.spec.text());

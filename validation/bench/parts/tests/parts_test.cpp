@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 #include "adapters/interface/timed.hpp"
 #include "validation/bench/parts/contact_scenes.hpp"
@@ -64,7 +65,7 @@ TEST(MovingBoxes, SortedPairsAreThoseOfBruteForceAndThereAreHalfAsManyAsBoxes) {
             for (int step = 0; step < 300; ++step, scene.advance()) {
                 if (step % 100 != 99) continue;
                 const auto exact = exactPairs(scene.boxes());
-                EXPECT_EQ(exact, bruteForcePairs(scene.boxes()));
+                EXPECT_EQ(exact, adapter::bruteForcePairs(scene.boxes()));
                 EXPECT_THAT(exact.size(), AllOf(Ge(800u), Le(1200u))) << dimension << "D after " << step;
             }
         }
@@ -156,6 +157,35 @@ TEST(BroadPhasePart, ASpecThatNamesItsChoiceIsTimedAlone) {
     const auto planned = planBroadPhases(r);
     ASSERT_EQ(planned.size(), 1u);
     EXPECT_EQ(planned[0].engine, "rigor:broad_phase=octree,precision=f32");
+}
+
+/// The usual cases are some of all; who is named is planned, usual or not.
+TEST(Parts, UsualCasesAreSomeOfAllAndNamesAreTaken) {
+    const auto plan = [](bool full, std::vector<std::string> only) {
+        BenchRequest r = request({"rigor:precision=f32,broad_phase=wide_tree,solver=nsgs"});
+        r.full = full, r.only = std::move(only);
+        std::set<std::string> cases;
+        for (const auto& planOf : {planBroadPhases, planNarrowPhases, planContactSolvers})
+            for (const PlannedBench& p : planOf(r))
+                cases.insert(p.name + (p.size > 0 ? " of " + std::to_string(std::llround(p.size)) : "") +
+                             ", " + p.engine);
+        return cases;
+    };
+    const auto usual = plan(false, {}), all = plan(true, {});
+    EXPECT_TRUE(std::includes(all.begin(), all.end(), usual.begin(), usual.end()));
+    EXPECT_LT(usual.size(), 0.7 * static_cast<double>(all.size()));
+    const auto has = [](const std::set<std::string>& cases, const std::string& start) {
+        const auto found = cases.lower_bound(start);
+        return found != cases.end() && found->starts_with(start);
+    };
+    for (const char* name : {"3D, random order of 10000", "2D, random order of 10000", "3D box-box face",
+                             "2D circle-box overlap", "stack_10 to 1e-6", "wall_28 to 1e-6"})
+        EXPECT_TRUE(has(usual, name)) << name;
+    for (const char* name : {"3D, random order of 100000", "3D, spatial order of 100000", "3D box-box apart",
+                             "stack_10 to 1e-9"})
+        EXPECT_TRUE(has(all, name) && !has(usual, name)) << name;
+    const auto named = plan(false, {"3D box-box apart", "3D, spatial order", "stack_10"});
+    EXPECT_EQ(named.size(), 2u + 1u + 3u) << "with the interface, and the three residuals";
 }
 
 TEST(PosedPairs, AreAsDeepAsTheyClaim) {
