@@ -4,6 +4,8 @@
 // What a world keeps of a shape, and of two shapes that touch or nearly do.
 #pragma once
 
+#include <hwy/cache_control.h>
+
 #include <array>
 #include <cstdint>
 
@@ -71,6 +73,13 @@ struct alignas(64) Contact {
     std::uint32_t firstRow = 0, blocks = 0;  ///< of this step, while rows are made
     PerPoint<Point> points;
 };
+
+/// Sends for a contact from memory, up to one of its members.
+template <class S>
+void prefetch(const Contact<S>& contact, const void* last) {
+    const char* line = reinterpret_cast<const char*>(&contact);
+    for (; line < static_cast<const char*>(last); line += 64) hwy::Prefetch(line);
+}
 
 /// Where the impulse of a point acts.
 /// One point for both bodies, or equal and opposite impulses would make a couple; against a body that takes

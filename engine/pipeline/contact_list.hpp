@@ -51,6 +51,7 @@ class ContactList {
     const std::vector<std::uint32_t>& order() const { return order_; }
     /// A slot for a contact that is not in the order yet.
     std::uint32_t add() {
+        ++changes_;
         if (free_.empty()) {
             slots_.emplace_back();
             return static_cast<std::uint32_t>(slots_.size() - 1);
@@ -59,21 +60,21 @@ class ContactList {
         free_.pop_back();
         return slot;
     }
-    void remove(std::uint32_t slot) { free_.push_back(slot), ++removed_; }
+    void remove(std::uint32_t slot) { free_.push_back(slot), ++changes_; }
 
     /// Slots follow the order no more: who goes through the contacts waits for memory.
-    bool untidy() const { return removed_ > size() / 4; }
+    bool untidy() const { return changes_ > size() / 4; }
     /// Moves each contact to the slot that is its place in the order.
     void tidy() {
         spare_.clear();
         spare_.reserve(slots_.capacity());
         for (const std::uint32_t slot : order_) spare_.push_back(slots_[slot]);
         std::swap(slots_, spare_);
-        free_.clear(), removed_ = 0;
+        free_.clear(), changes_ = 0;
         std::iota(order_.begin(), order_.end(), 0u);
     }
 
-    void clear() { slots_.clear(), order_.clear(), free_.clear(), removed_ = 0; }
+    void clear() { slots_.clear(), order_.clear(), free_.clear(), changes_ = 0; }
     /// `count` empty contacts in the order of their slots.
     void reset(std::size_t count) {
         clear();
@@ -84,7 +85,7 @@ class ContactList {
   private:
     std::vector<Contact<S>> slots_, spare_;
     std::vector<std::uint32_t> order_, free_;
-    std::size_t removed_ = 0;  ///< since slots followed the order
+    std::size_t changes_ = 0;  ///< since slots followed the order
 };
 
 }  // namespace rigor::engine

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include <hwy/cache_control.h>
-
 #include "engine/pipeline/contact_set.hpp"
 #include "engine/solvers/wide/patches.hpp"
 
@@ -31,9 +29,7 @@ template <class S>
 void prefetch(const Patches<S>& patches, const ContactList<S>& contacts, std::size_t b, std::size_t lane) {
     if (b == patches.blocks() || patches.sourceAt(b, lane) == Patches<S>::kNobody) return;
     const Contact<S>& contact = contacts[patches.sourceAt(b, lane)];
-    const auto* first = reinterpret_cast<const char*>(&contact);
-    const auto* last = reinterpret_cast<const char*>(&contact.cache);
-    for (; first < last; first += 64) hwy::Prefetch(first);
+    prefetch(contact, &contact.cache);
 }
 
 template <class S>

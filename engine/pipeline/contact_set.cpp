@@ -150,6 +150,11 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
     };
     outcomes_.resize(candidates_.size());
     those.forEach(candidates_.size(), kPairGrain, [&](std::size_t k) {
+        constexpr std::size_t kAhead = 4;
+        if (k + kAhead < candidates_.size() && candidates_[k + kAhead].contact != kNone) {
+            const Contact<S>& next = contacts_.at(candidates_[k + kAhead].contact);
+            prefetch(next, &next.shapeA);
+        }
         Candidate& candidate = candidates_[k];
         look(candidate);
         outcomes_[k] = {candidate.contact, candidate.found, candidate.asked};
