@@ -65,20 +65,19 @@ struct alignas(64) Contact {
         return none;
     }();
     Manifold<S> manifold;
+    ManifoldCache<S> cache;  ///< of the manifold choice, or the points of an answer that is kept
     alignas(S::dim == 3 ? 64 : alignof(Real)) PerPoint<Impulse> impulses;  ///< of the last (sub-)step
-    PerPoint<Impulse> totals;  ///< of all sub-steps of the last step
-    ManifoldCache<S> cache;    ///< of the manifold choice, or the points of an answer that is kept
-    std::uint32_t shapeA = 0, shapeB = 0;  ///< dense indices
+    PerPoint<Impulse> totals;                                              ///< of all of the last step
+    std::uint32_t shapeA = 0, shapeB = 0;                                  ///< dense indices
     std::uint32_t piece = 0xffffffffu;  ///< segment or triangle of the chain, mesh or field; none of others
     std::uint32_t firstRow = 0, blocks = 0;  ///< of this step, while rows are made
     PerPoint<Point> points;
 };
 
-/// Sends for a contact from memory, up to one of its members.
-template <class S>
-void prefetch(const Contact<S>& contact, const void* last) {
-    const char* line = reinterpret_cast<const char*>(&contact);
-    for (; line < static_cast<const char*>(last); line += 64) hwy::Prefetch(line);
+/// Sends for what lies from `first` up to `last` in memory.
+inline void prefetch(const void* first, const void* last) {
+    for (const char* at = static_cast<const char*>(first); at < static_cast<const char*>(last); at += 64)
+        hwy::Prefetch(at);
 }
 
 /// Where the impulse of a point acts.

@@ -24,30 +24,40 @@ typename S::Vec takeVector(const Lanes<typename S::Real>* from, std::size_t lane
     return v;
 }
 
-/// What addPatches reads of a contact and storePatches writes, on its way to the cache.
+/// The contact of a lane. Null: there is none.
 template <class S>
-void prefetch(const Patches<S>& patches, const ContactList<S>& contacts, std::size_t b, std::size_t lane) {
-    if (b == patches.blocks() || patches.sourceAt(b, lane) == Patches<S>::kNobody) return;
-    const Contact<S>& contact = contacts[patches.sourceAt(b, lane)];
-    prefetch(contact, &contact.cache);
+const Contact<S>* contactAt(const Patches<S>& patches, const ContactList<S>& contacts, std::size_t b,
+                            std::size_t lane) {
+    if (b == patches.blocks() || patches.sourceAt(b, lane) == Patches<S>::kNobody) return nullptr;
+    return &contacts[patches.sourceAt(b, lane)];
 }
 
+/// One lane of a block and of what belongs to it.
 template <class S>
-void fillPoint(PatchPoint<S>& point, typename PatchRest<S>::Point& rest, std::size_t lane, bool is,
-               typename S::Real separation, const typename S::Vec& armB, typename S::Real warmStart,
-               const typename Contact<S>::Impulse& impulse) {
+struct PatchLane {
     using Real = typename S::Real;
-    point.invK[lane] = is ? Real(1) : Real(0);
-    point.separation[lane] = separation;
-    point.impulse[lane] = warmStart * impulse.normal;
-    putVector(rest.armB, lane, armB);
-    putVector(rest.rub, lane, typename S::Vec(warmStart * impulse.friction));
-}
+    PatchBlock<S>& block;
+    PatchRest<S>& rest;
+    PatchRubs<S>& rubs;
+    std::size_t lane;
+
+    void setPoint(std::size_t i, bool is, Real separation, const typename S::Vec& armB, Real warmStart,
+                  const typename Contact<S>::Impulse& impulse) const {
+        PatchPoint<S>& point = block.point[i];
+        point.invK[lane] = is ? Real(1) : Real(0);
+        point.separation[lane] = separation;
+        point.impulse[lane] = warmStart * impulse.normal;
+        putVector(rest.armB[i], lane, armB);
+        putVector(rubs.last[i], lane, typename S::Vec(warmStart * impulse.friction));
+    }
+};
 
 /// What the narrow phase knows of a contact; the rest is made of it in SIMD (Patches::prepare). Null: zeros.
 template <class S>
-void fillLane(PatchBlock<S>& block, PatchRest<S>& rest, std::size_t lane, const BodyArrays<S>& bodies,
-              const ContactStep<S>& step, const Contact<S>* contact) {
+void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const ContactStep<S>& step,
+              const Contact<S>* contact) {
+    PatchBlock<S>& block = to.block;
+    const std::size_t lane = to.lane;
     using Vec = typename S::Vec;
     using Real = typename S::Real;
     const std::uint32_t a = contact ? contact->bodyA : 0, b = contact ? contact->bodyB : 0;
@@ -62,25 +72,24 @@ void fillLane(PatchBlock<S>& block, PatchRest<S>& rest, std::size_t lane, const 
     block.invMassA[lane] = bodies.invMass[a], block.invMassB[lane] = bodies.invMass[b];
     block.friction[lane] = pair.friction;
     block.staticFriction[lane] = std::max(pair.friction, pair.staticFriction);
-    rest.restitution[lane] = step.bounces ? pair.restitution : Real(0);
-    block.bounces |= lanes(rest.restitution[lane] > 0);
+    to.rest.restitution[lane] = step.bounces ? pair.restitution : Real(0);
+    block.bounces |= lanes(to.rest.restitution[lane] > 0);
     for (std::size_t i = 0; i < count; ++i) {
         const ManifoldPoint<S>& where = contact->manifold.points[i];
         // Points found ahead have their arms of then.
         const Vec arm = contact->ahead ? contact->points[i].rB
                                        : Vec(impulsePoint<S>(where, movesA, movesB) - bodies.pose[b].p);
-        fillPoint<S>(block.point[i], rest.point[i], lane, true, where.separation, arm, step.warmStart,
-                     contact->impulses[i]);
+        to.setPoint(i, true, where.separation, arm, step.warmStart, contact->impulses[i]);
     }
     for (std::size_t i = count; i < static_cast<std::size_t>(block.points); ++i)
-        fillPoint<S>(block.point[i], rest.point[i], lane, false, Real(0), Vec::Zero(), Real(0), {});
+        to.setPoint(i, false, Real(0), Vec::Zero(), Real(0), {});
 }
 
 template <class S>
-void readLane(const PatchBlock<S>& block, const PatchRest<S>& rest, std::size_t lane, Contact<S>& contact) {
+void readLane(const PatchBlock<S>& block, const PatchRubs<S>& rubs, std::size_t lane, Contact<S>& contact) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
-        contact.impulses[i] = {block.point[i].impulse[lane], takeVector<S>(rest.point[i].rub, lane)};
-        contact.totals[i] = {block.point[i].total[lane], takeVector<S>(rest.point[i].rubTotal, lane)};
+        contact.impulses[i] = {block.point[i].impulse[lane], takeVector<S>(rubs.last[i], lane)};
+        contact.totals[i] = {block.point[i].total[lane], takeVector<S>(rubs.total[i], lane)};
         contact.touching = contact.touching || contact.totals[i].normal > 0;
     }
 }
@@ -104,28 +113,36 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
     patches.place(bodies, tasks);
     patches.forBlocks(tasks, [&](std::size_t b) {
         PatchBlock<S>& block = patches.block(b);
+        PatchRubs<S> rubs;
         block.movesA = block.movesB = block.bounces = 0, block.points = 0;
         std::array<const Contact<S>*, kLanes> from;
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            prefetch(patches, contacts_, b + 1, lane);
-            const std::uint32_t source = patches.sourceAt(b, lane);
-            from[lane] = source == Patches<S>::kNobody ? nullptr : &contacts_[source];
+            if (const Contact<S>* next = contactAt(patches, contacts_, b + 1, lane)) {
+                prefetch(next, &next->manifold.memory);
+                prefetch(&next->impulses, &next->totals);
+            }
+            from[lane] = contactAt(patches, contacts_, b, lane);
             if (from[lane]) block.points = std::max(block.points, from[lane]->manifold.count);
         }
         for (std::size_t lane = 0; lane < kLanes; ++lane)
-            fillLane(block, patches.rest(b), lane, bodies, step, from[lane]);
-        patches.prepare(b);
+            fillLane<S>({block, patches.rest(b), rubs, lane}, bodies, step, from[lane]);
+        patches.prepare(b, rubs);
     });
 }
 
 template <class S>
 void ContactSet<S>::storePatches(Patches<S>& patches, const Tasks& tasks) {
     patches.forBlocks(tasks, [&](std::size_t b) {
-        for (std::size_t lane = 0; lane < kLanes; ++lane) prefetch(patches, contacts_, b + 1, lane);
-        patches.share(b);
+        for (std::size_t lane = 0; lane < kLanes; ++lane)
+            if (const Contact<S>* next = contactAt(patches, contacts_, b + 1, lane)) {
+                prefetch(next, &next->manifold.apart);
+                prefetch(&next->impulses, &next->shapeA);
+            }
+        PatchRubs<S> rubs;
+        patches.share(b, rubs);
         for (std::size_t lane = 0; lane < kLanes; ++lane)
             if (const std::uint32_t source = patches.sourceAt(b, lane); source != Patches<S>::kNobody)
-                readLane(patches.block(b), patches.rest(b), lane, contacts_[source]);
+                readLane(patches.block(b), rubs, lane, contacts_[source]);
     });
 }
 

@@ -153,7 +153,7 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
         constexpr std::size_t kAhead = 4;
         if (k + kAhead < candidates_.size() && candidates_[k + kAhead].contact != kNone) {
             const Contact<S>& next = contacts_.at(candidates_[k + kAhead].contact);
-            prefetch(next, &next.shapeA);
+            prefetch(&next, &next.impulses);
         }
         Candidate& candidate = candidates_[k];
         look(candidate);

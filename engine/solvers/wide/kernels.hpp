@@ -20,6 +20,7 @@ struct PatchRange {
     Velocity<S>* velocities;
     /// Translations [m] and rotation vectors [rad] since the step began.
     const Velocity<S>* motions;
+    PatchRubs<S>* rubs = nullptr;  ///< of each block; to prepare and to share
 };
 
 /// From normals, arms and the impulses of the last step to rows. Bodies have the velocities of the start of

@@ -83,16 +83,19 @@ struct alignas(64) PatchBlock : PatchTwist<S> {
 template <class S>
 struct alignas(64) PatchRest {
     using Real = typename S::Real;
-    struct Point {
-        Lanes<Real> armB[PatchSize<S>::lin];  ///< from the centre of mass of B [m]
-        /// The point's share of friction, world axes: to start from, then of the last sub-step and of all
-        /// [N s].
-        Lanes<Real> rub[PatchSize<S>::lin], rubTotal[PatchSize<S>::lin];
-        Lanes<Real> rebound;  ///< where it hits: bias of the sub-step, < 0 [m/s]; read where block.bounces
-        Lanes<Real> open;     ///< 1: let through in this sub-step; likewise
-    };
-    Point point[PatchSize<S>::points];
+    Lanes<Real> armB[PatchSize<S>::points][PatchSize<S>::lin];  ///< from the centre of mass of B [m]
     Lanes<Real> restitution;
+    // --- of the points, where block.bounces
+    Lanes<Real> rebound[PatchSize<S>::points];  ///< where it hits: bias of the sub-step, < 0 [m/s]
+    Lanes<Real> open[PatchSize<S>::points];     ///< 1: let through in this sub-step
+};
+
+/// The points' shares of friction, world axes, on their way into a block and out of it [N s].
+template <class S>
+struct alignas(64) PatchRubs {
+    using Real = typename S::Real;
+    Lanes<Real> last[PatchSize<S>::points][PatchSize<S>::lin];   ///< to start from; of the last sub-step
+    Lanes<Real> total[PatchSize<S>::points][PatchSize<S>::lin];  ///< of all
 };
 
 /// World inverse inertia of a body, the upper triangle; 2D: one number.

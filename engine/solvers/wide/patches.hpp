@@ -46,8 +46,8 @@ class Patches {
     /// Whose patch stands there (its place among the plans); kNobody's lanes are filled with zeros.
     std::uint32_t sourceAt(std::size_t b, std::size_t lane) const { return occupant_[b * kLanes + lane]; }
     /// Rows from what has been filled in.
-    void prepare(std::size_t b) {
-        preparePatches<S>(range(b, b + 1), inertia_.data());
+    void prepare(std::size_t b, PatchRubs<S>& rubs) {
+        preparePatches<S>(range(b, rubs), inertia_.data());
         if (blocks_[b].bounces != 0) std::atomic_ref(bounce_).store(true, std::memory_order_relaxed);
     }
 
@@ -66,11 +66,16 @@ class Patches {
     /// Bodies have moved for h [s] with these velocities.
     void advance(std::span<const Velocity<S>> used, Real h, const Tasks& tasks);
     /// Friction of the points of a block, before it is read.
-    void share(std::size_t b) { sharePatches<S>(range(b, b + 1)); }
+    void share(std::size_t b, PatchRubs<S>& rubs) { sharePatches<S>(range(b, rubs)); }
 
   private:
     PatchRange<S> range(std::size_t first, std::size_t last, Velocity<S>* velocities = nullptr) {
         return {blocks_.data() + first, rests_.data() + first, last - first, velocities, motions_.data()};
+    }
+    PatchRange<S> range(std::size_t b, PatchRubs<S>& rubs) {
+        PatchRange<S> one = range(b, b + 1);
+        one.rubs = &rubs;
+        return one;
     }
     /// Colour by colour: work(first, last) on ranges of blocks.
     template <class Work>

@@ -37,7 +37,8 @@ template <class S>
 struct Preparation {
     using Real = typename S::Real;
     PatchBlock<S>& block;
-    PatchRest<S>& rest;
+    const PatchRest<S>& rest;
+    const PatchRubs<S>& rubs;
     At<S> at;
     std::array<Num<S>, PatchSize<S>::inertia> inertiaA, inertiaB;
     Num<S> mass;
@@ -47,6 +48,7 @@ struct Preparation {
                            std::size_t first)
         : block(range.blocks[k]),
           rest(range.rests[k]),
+          rubs(range.rubs[k]),
           at{first},
           inertiaA(inertiaOf(inertia, block.a + first)),
           inertiaB(inertiaOf(inertia, block.b + first)),
@@ -82,7 +84,7 @@ struct Preparation {
         for (int i = 0; i < block.points; ++i) {
             PatchPoint<S>& point = block.point[i];
             const auto there = at(point.invK) > zero;
-            const AngVec<S> jB = moment(at(rest.point[i].armB), normal), jA = sideA(jB, normal);
+            const AngVec<S> jB = moment(at(rest.armB[i]), normal), jA = sideA(jB, normal);
             const AngVec<S> iA = times(inertiaA, jA), iB = times(inertiaB, jB);
             at.set(point.jB, jB);
             for (int k = 0; k <= i; ++k) {
@@ -108,7 +110,7 @@ struct Preparation {
             const PatchPoint<S>& point = block.point[i];
             const Num<S> there = hn::IfThenElseZero(at(point.invK) > zero, one);
             const Num<S> weight = hn::IfThenElse(pressed, at(point.impulse), there);
-            add(centre, weight, at(rest.point[i].armB));
+            add(centre, weight, at(rest.armB[i]));
             sum = sum + weight;
         }
         const Num<S> scale = inverseOrZero(sum);
@@ -129,7 +131,7 @@ struct Preparation {
         at.set(block.centre, centre);
         LinVec<S> force;
         for (auto& x : force) x = zero;
-        for (int i = 0; i < block.points; ++i) add(force, number<S>(1), at(rest.point[i].rub));
+        for (int i = 0; i < block.points; ++i) add(force, number<S>(1), at(rubs.last[i]));
         for (auto& total : block.rubTotal) at.set(total, zero);
         if constexpr (S::dim == 2) {
             const LinVec<S> t{zero - normal[1], normal[0]};
@@ -152,11 +154,11 @@ struct Preparation {
         const Num<S> zero = hn::Zero(Tag<S>());
         Num<S> impulse = zero, widest = zero;
         for (int i = 0; i < block.points; ++i) {
-            const LinVec<S> arm = minus(at(rest.point[i].armB), centre);
+            const LinVec<S> arm = minus(at(rest.armB[i]), centre);
             const Num<S> radius = hn::IfThenElseZero(at(block.point[i].invK) > zero, hn::Sqrt(dot(arm, arm)));
             at.set(block.radius[i], radius);
             widest = hn::Max(widest, radius);
-            impulse = impulse + dot(normal, moment(arm, at(rest.point[i].rub)));
+            impulse = impulse + dot(normal, moment(arm, at(rubs.last[i])));
         }
         at.set(block.twistImpulse, impulse), at.set(block.twistTotal, zero);
         return widest * widest *

@@ -31,22 +31,21 @@ HWY_INLINE void share(const PatchBlock<S>& block, const PatchRest<S>& rest, At<S
         (void)twist;
     } else {
         LinVec<S> mean{zero, zero, zero};
-        for (int i = 0; i < block.points; ++i)
-            add(mean, weightOf(block.point[i]) * scale, at(rest.point[i].armB));
+        for (int i = 0; i < block.points; ++i) add(mean, weightOf(block.point[i]) * scale, at(rest.armB[i]));
         const LinVec<S> normal = at(block.normal);
         const Num<S> left = twist - dot(normal, moment(minus(mean, at(block.centre)), force));
         Num<S> spread = zero, size = zero;
         for (int i = 0; i < block.points; ++i) {
-            const LinVec<S> side = moment(normal, minus(at(rest.point[i].armB), mean));
+            const LinVec<S> side = moment(normal, minus(at(rest.armB[i]), mean));
             spread = spread + weightOf(block.point[i]) * scale * dot(side, side);
-            size = hn::Max(size, dot(at(rest.point[i].armB), at(rest.point[i].armB)));
+            size = hn::Max(size, dot(at(rest.armB[i]), at(rest.armB[i])));
         }
         // Points that rounding alone has parted carry no moment.
         const auto apart = spread > number<S>(typename S::Real(1e-6)) * size;
         const Num<S> turn = hn::IfThenElseZero(apart, left * inverseOrZero(spread));
         for (int i = 0; i < block.points; ++i) {
             const Num<S> part = weightOf(block.point[i]) * scale;
-            LinVec<S> own = moment(normal, minus(at(rest.point[i].armB), mean));
+            LinVec<S> own = moment(normal, minus(at(rest.armB[i]), mean));
             for (std::size_t k = 0; k < 3; ++k) own[k] = part * (force[k] + turn * own[k]);
             write(i, own);
         }
@@ -54,7 +53,8 @@ HWY_INLINE void share(const PatchBlock<S>& block, const PatchRest<S>& rest, At<S
 }
 
 template <class S>
-HWY_INLINE void shareLanes(PatchBlock<S>& block, PatchRest<S>& rest, At<S> at) {
+HWY_INLINE void shareLanes(const PatchBlock<S>& block, const PatchRest<S>& rest, PatchRubs<S>& rubs,
+                           At<S> at) {
     const LinVec<S> normal = at(block.normal);
     const auto force = [&](const auto& impulses) RIGOR_INLINE_LAMBDA -> LinVec<S> {
         const Num<S> first = at(impulses[0]);
@@ -72,11 +72,11 @@ HWY_INLINE void shareLanes(PatchBlock<S>& block, PatchRest<S>& rest, At<S> at) {
     share<S>(
         block, rest, at, force(block.rubImpulse), twist,
         [&](const auto& p) RIGOR_INLINE_LAMBDA { return at(p.impulse); },
-        [&](int i, const LinVec<S>& f) RIGOR_INLINE_LAMBDA { at.set(rest.point[i].rub, f); });
+        [&](int i, const LinVec<S>& f) RIGOR_INLINE_LAMBDA { at.set(rubs.last[i], f); });
     share<S>(
         block, rest, at, force(block.rubTotal), twistTotal,
         [&](const auto& p) RIGOR_INLINE_LAMBDA { return at(p.total); },
-        [&](int i, const LinVec<S>& f) RIGOR_INLINE_LAMBDA { at.set(rest.point[i].rubTotal, f); });
+        [&](int i, const LinVec<S>& f) RIGOR_INLINE_LAMBDA { at.set(rubs.total[i], f); });
 }
 
 template <class S>
@@ -84,7 +84,7 @@ void shareAll(const PatchRange<S>& range) {
     const std::size_t lanes = hn::Lanes(Tag<S>());
     for (std::size_t k = 0; k < range.count; ++k)
         for (std::size_t first = 0; first < kLanes; first += lanes)
-            shareLanes(range.blocks[k], range.rests[k], At<S>{first});
+            shareLanes(range.blocks[k], range.rests[k], range.rubs[k], At<S>{first});
 }
 
 }  // namespace rigor::engine::HWY_NAMESPACE

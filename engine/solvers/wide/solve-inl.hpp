@@ -172,10 +172,10 @@ struct NormalRow {
             bias = hn::IfThenElseZero(rigid, bias);
         }
         if (p.block.bounces) {
-            const Num<S> rebound = p.at(p.rest.point[i].rebound);
+            const Num<S> rebound = p.at(p.rest.rebound[i]);
             rigid = hn::Or(rigid, rebound < zero);
             bias = hn::IfThenElse(rebound < zero, rebound, bias);
-            invK = hn::IfThenElseZero(p.at(p.rest.point[i].open) == zero, invK);
+            invK = hn::IfThenElseZero(p.at(p.rest.open[i]) == zero, invK);
         }
         factor = invK, leak = change = zero;
         if (pass.soft) {
@@ -309,8 +309,8 @@ HWY_INLINE void plan(PatchGroup<S>& p, const PatchPass<typename S::Real>& pass) 
         const auto apart = s > touching;
         const auto mayHit = hn::And(e > zero, s > number<S>(pass.restingGap));
         const auto open = hn::And(apart, hn::Or(fast, mayHit));
-        p.at.set(p.rest.point[i].rebound, hn::IfThenElseZero(hn::AndNot(apart, fast), e * approach));
-        p.at.set(p.rest.point[i].open, hn::IfThenElseZero(open, number<S>(1)));
+        p.at.set(p.rest.rebound[i], hn::IfThenElseZero(hn::AndNot(apart, fast), e * approach));
+        p.at.set(p.rest.open[i], hn::IfThenElseZero(open, number<S>(1)));
         p.at.set(point.impulse, hn::IfThenElse(open, zero, p.at(point.impulse)));
     }
 }
