@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/pipeline/contact_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "engine/pipeline/world.hpp"
+
+namespace rigor::engine::test {
+namespace {
+
+using S = Space2f;
+
+/// Contacts come and go at random; each is found in its slot and at its place until it is removed.
+TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
+    ContactList<S> list;
+    std::vector<std::uint32_t> names;  // by place, the shape that each contact is given
+    std::mt19937 random(1);
+    bool tidied = false;
+    for (std::uint32_t round = 0; round < 500; ++round) {
+        std::vector<std::uint32_t>& order = list.order();
+        if (!names.empty() && random() % 2 == 0) {
+            const std::size_t place = random() % names.size();
+            list.remove(order[place]);
+            order.erase(order.begin() + static_cast<std::ptrdiff_t>(place));
+            names.erase(names.begin() + static_cast<std::ptrdiff_t>(place));
+        } else {
+            const std::size_t place = random() % (names.size() + 1);
+            const std::uint32_t slot = list.add();
+            list.at(slot) = {};
+            list.at(slot).shapeA = round;
+            order.insert(order.begin() + static_cast<std::ptrdiff_t>(place), slot);
+            names.insert(names.begin() + static_cast<std::ptrdiff_t>(place), round);
+        }
+        if (list.untidy()) list.tidy(), tidied = true;
+        ASSERT_EQ(list.size(), names.size());
+        std::size_t place = 0;
+        for (const Contact<S>& contact : list) ASSERT_EQ(contact.shapeA, names[place++]) << round;
+    }
+    EXPECT_TRUE(tidied);
+    list.tidy();
+    for (std::uint32_t k = 0; k < names.size(); ++k) EXPECT_EQ(list.order()[k], k);
+}
+
+/// Pairs that are known are not asked again whether they may collide; a joint that comes in between is seen.
+TEST(ContactList, JointBetweenBodiesThatTouchEndsTheirContact) {
+    WorldDef<S> def;
+    World<S> world(def);
+    ShapeDef<S> shape;
+    shape.shape = Box<S>{{0.5f, 0.5f}};
+    std::vector<BodyId> boxes;
+    for (const float x : {0.0f, 0.95f, 1.9f}) {
+        BodyDef<S> body;
+        body.mass = 1, body.inertia = 1;
+        body.pose.p = {x, 0};
+        boxes.push_back(world.addBody(body));
+        world.addShape(boxes.back(), shape);
+    }
+    world.step(1.0f / 60);
+    ASSERT_EQ(world.manifolds().size(), 2u);
+    JointDef<S> joint;
+    joint.type = JointType::Fixed;
+    joint.bodyA = boxes[0], joint.bodyB = boxes[1];
+    joint.anchorA = {0.5f, 0}, joint.anchorB = {-0.5f, 0};
+    world.addJoint(joint);
+    world.step(1.0f / 60);
+    ASSERT_EQ(world.manifolds().size(), 1u);
+    EXPECT_EQ(world.manifolds()[0].bodyA + world.manifolds()[0].bodyB, 5u)
+        << "the other two, and the world is 0";
+}
+
+}  // namespace
+}  // namespace rigor::engine::test
