@@ -331,11 +331,15 @@ void solveAll(const PatchRange<S>& range, const PatchPass<typename S::Real>& pas
     forPatches<S>(range,
                   [&](PatchGroup<S>& p) RIGOR_INLINE_LAMBDA { solveFriction(p, normals(p), pass.last); });
 }
+/// Blocks of all colours side by side: velocities are read, and not written back.
 template <class S>
 void planAll(const PatchRange<S>& range, const PatchPass<typename S::Real>& pass) {
-    forPatches<S>(range, [&pass](PatchGroup<S>& p) RIGOR_INLINE_LAMBDA {
-        if (p.block.bounces) plan(p, pass);
-    });
+    const std::size_t lanes = hn::Lanes(Tag<S>());
+    for (std::size_t k = 0; k < range.count; ++k)
+        for (std::size_t first = 0; range.blocks[k].bounces && first < kLanes; first += lanes) {
+            PatchGroup<S> patches(range, k, first);
+            plan(patches, pass);
+        }
 }
 
 }  // namespace rigor::engine::HWY_NAMESPACE
