@@ -46,9 +46,10 @@ class Tasks {
             for (std::size_t i = begin; i < end; ++i) work(i);
         });
     }
-    /// Stages 0 .. count - 1 one after the other, each shared as forRanges shares its range: work(stage,
-    /// begin, end) for parts of [0, size(stage)). The next stage begins when the last one has ended; threads
-    /// are not sent for anew in between, so that stages may be short.
+    /// Stages 0 .. count - 1 one after the other, each in parts of at least `grain` indices, one for each
+    /// thread at most: work(stage, begin, end) for parts of [0, size(stage)). The next stage begins when the
+    /// last one has ended (core/stages.hpp); threads are not sent for anew in between, so that stages may be
+    /// short. `size` is called by all of them.
     template <class Size, class Work>
     void forStages(std::size_t count, std::size_t grain, const Size& size, const Work& work) const {
         if (threads_ == 1) {

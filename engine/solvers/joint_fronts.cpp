@@ -184,11 +184,14 @@ void JointFronts<R>::extend(const Front& child, const Front& parent) {
 template <class R>
 void JointFronts<R>::solve(R* x) {
     R* const y = gathered_.data();
-    for (const Front& front : fronts_) {
-        const FrontPanel<R> panel = panelOf(front);
+    const auto gather = [&](const Front& front, const FrontPanel<R>& panel) {
         std::copy_n(x + front.first * size_, panel.columns, y);
         for (std::uint32_t i = 0; i < front.rows; ++i)
             std::copy_n(x + rows_[front.row + i] * size_, size_, y + panel.columns + i * size_);
+    };
+    for (const Front& front : fronts_) {
+        const FrontPanel<R> panel = panelOf(front);
+        gather(front, panel);
         solveForward(panel, y);
         std::copy_n(y, panel.columns, x + front.first * size_);
         for (std::uint32_t i = 0; i < front.rows; ++i)
@@ -197,9 +200,7 @@ void JointFronts<R>::solve(R* x) {
     for (std::size_t f = fronts_.size(); f-- > 0;) {
         const Front& front = fronts_[f];
         const FrontPanel<R> panel = panelOf(front);
-        std::copy_n(x + front.first * size_, panel.columns, y);
-        for (std::uint32_t i = 0; i < front.rows; ++i)
-            std::copy_n(x + rows_[front.row + i] * size_, size_, y + panel.columns + i * size_);
+        gather(front, panel);
         solveBackward(panel, y);
         std::copy_n(y, panel.columns, x + front.first * size_);
     }
