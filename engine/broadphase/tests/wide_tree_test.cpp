@@ -157,6 +157,28 @@ TYPED_TEST(LargeScene, WhatDoesNotChangeIsNotSearched) {
     EXPECT_NE(pairs.size(), pairsBefore);
 }
 
+/// Boxes that have come far away from where they were when the tree was built: it is built anew, and then
+/// does the work of a new one.
+TYPED_TEST(LargeScene, AWornTreeIsBuiltAnew) {
+    using S = TypeParam;
+    this->fill(5000);
+    auto tree = findAlgorithm(broadPhaseTable<S>(), "broad_phase", "wide_tree").make();
+    std::vector<ProxyPair> pairs;
+    const auto testsOf = [&](BroadPhase<S>& broadPhase) {
+        const std::size_t before = broadPhase.tests();
+        broadPhase.update(this->boxes, this->movable, pairs);
+        return broadPhase.tests() - before;
+    };
+    testsOf(*tree);
+    for (const double distance : {20.0, 0.01, 0.01}) {
+        this->shift(distance, 1);
+        testsOf(*tree);
+    }
+    this->shift(0.01, 1);
+    auto fresh = findAlgorithm(broadPhaseTable<S>(), "broad_phase", "wide_tree").make();
+    EXPECT_LT(testsOf(*tree), 2 * testsOf(*fresh));
+}
+
 TYPED_TEST(LargeScene, NoOverlapIsLostWhereSinglePrecisionIsCoarse) {
     using S = TypeParam;
     this->fill(1000, 3e6);  // floats are 0.25 m apart there

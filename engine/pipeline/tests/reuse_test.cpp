@@ -239,6 +239,77 @@ TYPED_TEST(Reuse, MovingFurtherAsksAgain) {
     EXPECT_EQ(pair.find().size(), 1u);
 }
 
+/// Small shapes are asked about again after a fiftieth of their radius, however large the distance of reuse:
+/// so much at most has their normal turned, and twice that is their depth wrong.
+TYPED_TEST(Reuse, SmallShapesAreAskedAboutSooner) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    Random<S> random;
+    const double half = 3e-3, slack = 0.02 * half * std::sqrt(S::dim);
+    const auto askedAfter = [&](double moved, double turned) {
+        Pair<S> pair(kReuse, half);
+        Pose<S>& X = pair.bodies.pose[1];
+        X.p = at<S>(0.2, 1 + half);
+        EXPECT_EQ(pair.find().size(), 1u);
+        X.p[0] += static_cast<R>(moved);
+        X.q = rotatedBy(X.q, spin<S>(turned));
+        EXPECT_EQ(pair.find().size(), 1u);
+        return pair.set.asked();
+    };
+    EXPECT_EQ(askedAfter(0.9 * slack, 0), 0u);
+    EXPECT_EQ(askedAfter(1.1 * slack, 0), 1u);
+    EXPECT_EQ(askedAfter(0, 0.9 * 0.02), 0u);
+    EXPECT_EQ(askedAfter(0, 1.1 * 0.02), 1u);
+    EXPECT_EQ(askedAfter(0.6 * slack, 0.6 * 0.02), 1u);
+}
+
+/// A pair that parts and comes back while the broad phase goes on listing it, because of enlarged boxes: what
+/// was known of it is forgotten, and it is found again.
+TYPED_TEST(Reuse, WhatComesBackIsFoundAgain) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    Random<S> random;
+    Pair<S> pair(kReuse, 0.3);
+    pair.search.boxMargin = R(0.2);
+    pair.bodies.pose[1] = resting(random);
+    ASSERT_EQ(pair.find().size(), 1u);
+    for (int i = 0; i < 2; ++i) {
+        pair.bodies.pose[1].p[1] += R(0.05);
+        EXPECT_TRUE(pair.find().empty());
+        pair.bodies.pose[1].p[1] -= R(0.05);
+        EXPECT_EQ(pair.find().size(), 1u);
+    }
+}
+
+/// Two boxes that overlap and turn together by a right angle: the way out that was chosen turns with them,
+/// and another one that has become as good as that is not taken.
+TYPED_TEST(Reuse, WhatTurnsTogetherKeepsItsWayOut) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    for (const char* narrowPhase : {"gjk_epa", "mpr"})
+        for (const double quarter : {0.0, 1.0, 2.0, 3.0}) {
+            Pair<S> pair(kReuse, 0.3);
+            pair.narrowPhase = makeNarrowPhase<S>(narrowPhase);
+            pair.bodies.constants[0].type = BodyType::Dynamic;
+            typename S::Vec from = at<S>(1.3 - 0.05, 1.3 - 0.052);  // x is the nearer way
+            Pose<S>&A = pair.bodies.pose[0], &B = pair.bodies.pose[1];
+            B.p = from;
+            ASSERT_EQ(pair.find().size(), 1u);
+            const auto& contact = pair.set.contacts()[0];
+            ASSERT_NEAR(contact.manifold.normal[0], 1, 1e-3);
+            A.q = B.q = rotatedBy(A.q, spin<S>(quarter * 1.5707963267948966));
+            B.p = rotate<R>(A.q, from);
+            ASSERT_EQ(pair.find().size(), 1u);
+            ASSERT_EQ(pair.set.asked(), 0u);
+            from = at<S>(1.3 - 0.05, 1.3 - 0.05 + 1e-5);  // by a little y is
+            B.p = rotate<R>(A.q, from);
+            ASSERT_EQ(pair.find().size(), 1u);
+            ASSERT_EQ(pair.set.asked(), 1u);
+            const typename S::Vec normal = rotateInverse<R>(A.q, pair.set.contacts()[0].manifold.normal);
+            EXPECT_NEAR(normal[0], 1, 1e-3) << narrowPhase << " " << quarter;
+        }
+}
+
 /// Five cubes on the ground, and one that slides towards them.
 template <class S>
 World<S> stack(double reuse, double boxMargin, int threads = 1, const char* sleeping = "off") {

@@ -145,5 +145,26 @@ TYPED_TEST(WideLaws, WhatIsDroppedFromCloseAboveBounces) {
     EXPECT_NEAR(top, e * e * height, 0.05 * height);
 }
 
+/// A force drives a ball, which was at rest, through a gap within one step: it bounces with all of the speed
+/// that it has been given. (A gap that may end in a bounce is not closed beforehand.)
+TYPED_TEST(WideLaws, WhatAForceDrivesThroughAGapBouncesWithAllItsSpeed) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    WorldDef<S> def;  // no gravity
+    def.solver = "wide";
+    def.substeps = 1;
+    def.speculativeDistance = R(5e-3);
+    World<S> world(def);
+    const double e = 0.75, h = 1.0 / 240, gap = 4e-3, speed = 1.5 * gap / h;
+    const auto rubber = world.addMaterial(0, static_cast<R>(e));
+    addGround<S>(world, rubber);
+    const BodyId ball = addBall<S>(world, 0, 0.25 + gap, 0.25, 2, rubber);
+    world.applyForce(ball, at<S>(0, -2 * speed / h), zeroAng<S>());
+    world.step(static_cast<R>(h));
+    EXPECT_NEAR(world.velocity(ball)[1], -speed, tol<S>(1e-6, 1e-5) * speed) << "and is not held before";
+    world.step(static_cast<R>(h));
+    EXPECT_NEAR(world.velocity(ball)[1], e * speed, tol<S>(1e-6, 1e-5) * speed);
+}
+
 }  // namespace
 }  // namespace rigor::engine::test

@@ -197,6 +197,34 @@ TEST(WidePatchesTwist, IsReportedAndHolds) {
     expectTwistIsReportedAndHolds<Space3d>();
 }
 
+/// A torque below what friction can hold on a body that is hard to turn: a visit takes a small part of the
+/// spin away, and the impulses of the step before have to do the rest.
+template <class S>
+void expectHeldWithoutCreeping() {
+    using R = typename S::Real;
+    World<S> world(wide<S>());
+    const auto wood = world.addMaterial(R(0.4), 0);
+    addGround<S>(world, wood);
+    BodyDef<S> def;
+    const double half = 0.25, r2 = 2 * half * half;
+    def.inertia = isotropic<S>(20 * r2);  // of 1 kg
+    def.pose.p = at<S>(0, half);
+    const BodyId body = world.addBody(def);
+    attach<S>(world, body, Box<S>{S::Vec::Constant(static_cast<R>(half))}, wood);
+    for (int i = 0; i < 60; ++i) world.step(R(1.0 / 60));
+    const double limit = 0.4 * kGravity * std::sqrt(r2);
+    for (int i = 0; i < 180; ++i) {
+        const double share = 0.6 * std::min(1.0, i / 60.0);
+        world.applyForce(body, S::Vec::Zero(), typename S::Ang(0, static_cast<R>(share * limit), 0));
+        world.step(R(1.0 / 60));
+    }
+    EXPECT_NEAR(world.angularVelocity(body)[1], 0, 1e-5);
+}
+TEST(WidePatchesTwist, IsHeldWithoutCreeping) {
+    expectHeldWithoutCreeping<Space3f>();
+    expectHeldWithoutCreeping<Space3d>();
+}
+
 /// A wide plate that is easily turned: friction slows its spin and never reverses it.
 template <class S>
 void expectSpinIsNotReversed() {

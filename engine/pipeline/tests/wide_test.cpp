@@ -146,6 +146,35 @@ TEST(WideTorque, TurnsAsWithForcesOnOthers) {
     expectTorqueTurnsAsWithForces<Space3d>();
 }
 
+/// Bodies that only joints hold: sub-steps are steps of their own, with the inertia of the pose in each.
+template <class S>
+void expectSubStepsOfJointsAreSteps() {
+    using R = typename S::Real;
+    const auto swing = [](int substeps) {
+        WorldDef<S> def = wideEarth<S>();
+        def.substeps = substeps;
+        World<S> world(def);
+        BodyDef<S> rod;
+        rod.inertia = typename S::Vec(R(0.05), R(1), R(1.2)).asDiagonal();
+        rod.angularVelocity = {3, 5, 2};
+        JointDef<S> joint;
+        joint.bodyB = world.addBody(rod);
+        joint.anchorB = at<S>(-1, 0), joint.anchorA = at<S>(-1, 0);
+        world.addJoint(joint);
+        for (int i = 0; i < 30 * 8 / substeps; ++i) world.step(static_cast<R>(substeps / 480.0));
+        return std::pair(world.pose(joint.bodyB).p, world.angularVelocity(joint.bodyB));
+    };
+    const auto [p, w] = swing(8);
+    const auto [q, u] = swing(1);
+    EXPECT_LT((p - q).norm(), tol<S>(1e-10, 1e-3));
+    EXPECT_LT((w - u).norm(), tol<S>(1e-10, 1e-2));
+    EXPECT_GT((p - at<S>(0, 0)).norm(), 0.1) << "or nothing moved";
+}
+TEST(WideJoints, SubStepsAreSteps) {
+    expectSubStepsOfJointsAreSteps<Space3f>();
+    expectSubStepsOfJointsAreSteps<Space3d>();
+}
+
 /// Friction of a patch that slides and leans: against the row solver to rounding of the sub-steps.
 TYPED_TEST(Wide, SlidingBoxMovesAsWithRows) {
     using S = TypeParam;
