@@ -13,12 +13,16 @@ namespace {
 
 constexpr std::size_t kContactGrain = 64;  ///< worth sharing: some microseconds of work
 
-template <class V, class R>
-void putVector(Lanes<R>* to, std::size_t lane, const V& v) {
-    for (int k = 0; k < v.size(); ++k) to[k][lane] = v[k];
+template <class R>
+void put(Lanes<PatchReal>& to, std::size_t lane, R x) {
+    to[lane] = static_cast<PatchReal>(x);
+}
+template <class V>
+void putVector(Lanes<PatchReal>* to, std::size_t lane, const V& v) {
+    for (int k = 0; k < v.size(); ++k) put(to[k], lane, v[k]);
 }
 template <class S>
-typename S::Vec takeVector(const Lanes<typename S::Real>* from, std::size_t lane) {
+typename S::Vec takeVector(const Lanes<PatchReal>* from, std::size_t lane) {
     typename S::Vec v;
     for (int k = 0; k < S::dim; ++k) v[k] = from[k][lane];
     return v;
@@ -36,17 +40,18 @@ const Contact<S>* contactAt(const Patches<S>& patches, const ContactList<S>& con
 template <class S>
 struct PatchLane {
     using Real = typename S::Real;
-    PatchBlock<S>& block;
-    PatchRest<S>& rest;
-    PatchRubs<S>& rubs;
+    using F = PatchSpace<S>;
+    PatchBlock<F>& block;
+    PatchRest<F>& rest;
+    PatchRubs<F>& rubs;
     std::size_t lane;
 
     void setPoint(std::size_t i, bool is, Real separation, const typename S::Vec& armB, Real warmStart,
                   const typename Contact<S>::Impulse& impulse) const {
-        PatchPoint<S>& point = block.point[i];
-        point.invK[lane] = is ? Real(1) : Real(0);
-        point.separation[lane] = separation;
-        point.impulse[lane] = warmStart * impulse.normal;
+        PatchPoint<F>& point = block.point[i];
+        point.invK[lane] = is ? PatchReal(1) : PatchReal(0);
+        put(point.separation, lane, separation);
+        put(point.impulse, lane, warmStart * impulse.normal);
         putVector(rest.armB[i], lane, armB);
         putVector(rubs.last[i], lane, typename S::Vec(warmStart * impulse.friction));
     }
@@ -56,7 +61,7 @@ struct PatchLane {
 template <class S>
 void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const ContactStep<S>& step,
               const Contact<S>* contact) {
-    PatchBlock<S>& block = to.block;
+    PatchBlock<PatchSpace<S>>& block = to.block;
     const std::size_t lane = to.lane;
     using Vec = typename S::Vec;
     using Real = typename S::Real;
@@ -69,10 +74,10 @@ void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const Contact
     block.movesA |= lanes(movesA), block.movesB |= lanes(movesB);
     putVector(block.normal, lane, contact ? contact->manifold.normal : Vec(Vec::Zero()));
     putVector(block.offset, lane, Vec(bodies.pose[b].p - bodies.pose[a].p));
-    block.invMassA[lane] = bodies.invMass[a], block.invMassB[lane] = bodies.invMass[b];
-    block.friction[lane] = pair.friction;
-    block.staticFriction[lane] = std::max(pair.friction, pair.staticFriction);
-    to.rest.restitution[lane] = step.bounces ? pair.restitution : Real(0);
+    put(block.invMassA, lane, bodies.invMass[a]), put(block.invMassB, lane, bodies.invMass[b]);
+    put(block.friction, lane, pair.friction);
+    put(block.staticFriction, lane, std::max(pair.friction, pair.staticFriction));
+    put(to.rest.restitution, lane, step.bounces ? pair.restitution : Real(0));
     block.bounces |= lanes(to.rest.restitution[lane] > 0);
     for (std::size_t i = 0; i < count; ++i) {
         const ManifoldPoint<S>& where = contact->manifold.points[i];
@@ -86,7 +91,8 @@ void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const Contact
 }
 
 template <class S>
-void readLane(const PatchBlock<S>& block, const PatchRubs<S>& rubs, std::size_t lane, Contact<S>& contact) {
+void readLane(const PatchBlock<PatchSpace<S>>& block, const PatchRubs<PatchSpace<S>>& rubs, std::size_t lane,
+              Contact<S>& contact) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
         contact.impulses[i] = {block.point[i].impulse[lane], takeVector<S>(rubs.last[i], lane)};
         contact.totals[i] = {block.point[i].total[lane], takeVector<S>(rubs.total[i], lane)};
@@ -112,8 +118,8 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
     });
     patches.place(bodies, tasks);
     patches.forBlocks(tasks, [&](std::size_t b) {
-        PatchBlock<S>& block = patches.block(b);
-        PatchRubs<S> rubs;
+        auto& block = patches.block(b);
+        PatchRubs<PatchSpace<S>> rubs;
         block.movesA = block.movesB = block.bounces = 0, block.points = 0;
         std::array<const Contact<S>*, kLanes> from;
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -138,7 +144,7 @@ void ContactSet<S>::storePatches(Patches<S>& patches, const Tasks& tasks) {
                 prefetch(next, &next->manifold.apart);
                 prefetch(&next->impulses, &next->shapeA);
             }
-        PatchRubs<S> rubs;
+        PatchRubs<PatchSpace<S>> rubs;
         patches.share(b, rubs);
         for (std::size_t lane = 0; lane < kLanes; ++lane)
             if (const std::uint32_t source = patches.sourceAt(b, lane); source != Patches<S>::kNobody)

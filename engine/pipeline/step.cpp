@@ -331,18 +331,19 @@ BiasRule<typename S::Real> World<S>::biasRule() const {
 }
 
 template <class S>
-PatchPass<typename S::Real> World<S>::patchPass() const {
+PatchPass World<S>::patchPass() const {
+    const auto number = [](Real x) { return static_cast<PatchReal>(x); };
     const Real h = cursor_.substepSize;
-    PatchPass<Real> pass;
-    pass.invH = Real(1) / h;
     const SoftTerms<Real> terms = softTerms(biasRule().contact, Real(1), h);  // of K = 1
-    pass.biasRate = terms.biasRate;
-    pass.massScale = Real(1) / (Real(1) + terms.gamma);
-    pass.impulseScale = terms.gamma / (Real(1) + terms.gamma);
-    pass.slop = def_.slop, pass.fastestPush = softBiasRule<Real>().fastestPush;
-    pass.threshold = def_.restitutionThreshold;
-    pass.touching = Real(64) * std::numeric_limits<Real>::epsilon();
-    pass.restingGap = std::max(pass.touching, Real(2) * h * h * def_.gravity.norm());
+    PatchPass pass;
+    pass.invH = number(Real(1) / h);
+    pass.biasRate = number(terms.biasRate);
+    pass.massScale = number(Real(1) / (Real(1) + terms.gamma));
+    pass.impulseScale = number(terms.gamma / (Real(1) + terms.gamma));
+    pass.slop = number(def_.slop), pass.fastestPush = softBiasRule<PatchReal>().fastestPush;
+    pass.threshold = number(def_.restitutionThreshold);
+    pass.touching = PatchReal(64) * std::numeric_limits<PatchReal>::epsilon();
+    pass.restingGap = std::max(pass.touching, number(Real(2) * h * h * def_.gravity.norm()));
     return pass;
 }
 
@@ -363,7 +364,7 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
             : Real(0);
     StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, converged, def_.measureResiduals, observer_,
                            residuals_);
-    const PatchPass<Real> pass = patchPass();
+    const PatchPass pass = patchPass();
     const bool aims = jointStep_.curved && solver_->patches() == nullptr;
     if (aims) joints_.remember(rows_, bodies_.velocity);
     solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted,

@@ -218,7 +218,7 @@ class World {
     BiasRule<Real> biasRule() const;
     Load<S> load() const;
     void makeRows();
-    PatchPass<Real> patchPass() const;
+    PatchPass patchPass() const;
     void finishPatches(bool lastSubstep);
     void solveVelocities(int iterations, bool warmStarted);
     void resolveImpacts();

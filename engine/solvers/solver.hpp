@@ -20,8 +20,7 @@
 namespace rigor::engine {
 
 template <class S>
-class Patches;  // solvers/wide/patches.hpp
-template <class R>
+class Patches;     // solvers/wide/patches.hpp
 struct PatchPass;  // solvers/wide/patch.hpp
 
 /// Friction of one contact with two tangents: given K of the tangent rows, the accumulated impulse, the
@@ -66,7 +65,7 @@ struct SolverInput {
     Real residualTolerance = 0;         ///< natural map at which solvers that iterate on it may stop [m/s]
     int pyramidDirections = 4;          ///< generators of the polyhedral friction cone, even (lemke)
     const Tasks& tasks = Tasks::one();  ///< to share the work among; the result is the same
-    const PatchPass<Real>* pass = nullptr;  ///< for a solver of patches: what they need to know
+    const PatchPass* pass = nullptr;    ///< for a solver of patches: what they need to know
 };
 
 /// What a solver asks of the step around it.

@@ -47,7 +47,7 @@ TYPED_TEST(ContactContract, ALeverLiftsABallWhicheverComesFirst) {
                                     static_cast<double>(ends[leverFirst][0]) * std::sin(angle);
             EXPECT_NEAR(distance, 0.3, 0.01) << solver.name;
         }
-        EXPECT_NEAR((ends[0] - ends[1]).norm(), 0, tol<S>(1e-9, 1e-3)) << solver.name;
+        EXPECT_NEAR((ends[0] - ends[1]).norm(), 0, tol<S>(solver.name, 1e-9, 1e-3)) << solver.name;
     }
 }
 
@@ -75,7 +75,8 @@ TYPED_TEST(ContactContract, ReportedImpulsesAreThoseOfTheWholeStep) {
                 slid += static_cast<double>(c.frictionImpulse.norm());
             }
             const typename S::Vec change = R(2) * (world.velocity(block) - before);
-            EXPECT_NEAR((change - sum).norm(), 0, tol<S>(1e-9, 2e-4)) << solver.name << " step " << i;
+            EXPECT_NEAR((change - sum).norm(), 0, tol<S>(solver.name, 1e-9, 2e-4))
+                << solver.name << " step " << i;
         }
         EXPECT_GT(slid, 1) << solver.name;
     }

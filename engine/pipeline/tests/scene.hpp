@@ -4,7 +4,9 @@
 // Small scenes for the tests of the step, alike in both dimensions.
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 
 #include "engine/pipeline/world.hpp"
 
@@ -115,6 +117,12 @@ BodyId addCube(World<S>& world, double x, double y, double half, double mass, st
 template <class S>
 constexpr double tol(double forDouble, double forFloat) {
     return sizeof(typename S::Real) == 8 ? forDouble : forFloat;
+}
+/// Of what a solver makes of contacts: patches of `wide` have impulses in f32 (solvers/wide/patch.hpp).
+template <class S>
+constexpr double tol(std::string_view solver, double forDouble, double forFloat) {
+    constexpr double kPatch = 1e-6;
+    return tol<S>(solver == "wide" ? std::max(forDouble, kPatch) : forDouble, forFloat);
 }
 
 }  // namespace rigor::engine::test

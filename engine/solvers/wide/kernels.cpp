@@ -23,19 +23,17 @@ namespace rigor::engine::HWY_NAMESPACE {
     void warmStart##S(const PatchRange<S>& range) {                               \
         warmStartAll(range);                                                      \
     }                                                                             \
-    void solve##S(const PatchRange<S>& range, const PatchPass<S::Real>& pass) {   \
+    void solve##S(const PatchRange<S>& range, const PatchPass& pass) {            \
         solveAll(range, pass);                                                    \
     }                                                                             \
-    void plan##S(const PatchRange<S>& range, const PatchPass<S::Real>& pass) {    \
+    void plan##S(const PatchRange<S>& range, const PatchPass& pass) {             \
         planAll(range, pass);                                                     \
     }                                                                             \
     void share##S(const PatchRange<S>& range) {                                   \
         shareAll(range);                                                          \
     }
 RIGOR_KERNELS(Space2f)
-RIGOR_KERNELS(Space2d)
 RIGOR_KERNELS(Space3f)
-RIGOR_KERNELS(Space3d)
 #undef RIGOR_KERNELS
 const char* targetName() {
     return hwy::TargetName(HWY_TARGET);
@@ -62,11 +60,11 @@ namespace rigor::engine {
         HWY_DYNAMIC_DISPATCH(warmStart##S)(range);                                       \
     }                                                                                    \
     template <>                                                                          \
-    void solvePatches<S>(const PatchRange<S>& range, const PatchPass<S::Real>& pass) {   \
+    void solvePatches<S>(const PatchRange<S>& range, const PatchPass& pass) {            \
         HWY_DYNAMIC_DISPATCH(solve##S)(range, pass);                                     \
     }                                                                                    \
     template <>                                                                          \
-    void planPatches<S>(const PatchRange<S>& range, const PatchPass<S::Real>& pass) {    \
+    void planPatches<S>(const PatchRange<S>& range, const PatchPass& pass) {             \
         HWY_DYNAMIC_DISPATCH(plan##S)(range, pass);                                      \
     }                                                                                    \
     template <>                                                                          \
@@ -74,9 +72,7 @@ namespace rigor::engine {
         HWY_DYNAMIC_DISPATCH(share##S)(range);                                           \
     }
 RIGOR_DISPATCH(Space2f)
-RIGOR_DISPATCH(Space2d)
 RIGOR_DISPATCH(Space3f)
-RIGOR_DISPATCH(Space3d)
 #undef RIGOR_DISPATCH
 
 HWY_EXPORT(targetName);

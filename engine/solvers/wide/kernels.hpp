@@ -18,6 +18,9 @@ struct PatchRange {
     PatchRest<S>* rests;
     std::size_t count;
     Velocity<S>* velocities;
+    /// Null, or what velocities are counted from, body by body: in worlds of f64 a velocity is base +
+    /// velocity, and what is common to two bodies falls out before anything is rounded.
+    const Velocity<S>* base;
     /// Translations [m] and rotation vectors [rad] since the step began.
     const Velocity<S>* motions;
     PatchRubs<S>* rubs = nullptr;  ///< of each block; to prepare and to share
@@ -32,10 +35,10 @@ template <class S>
 void warmStartPatches(const PatchRange<S>& range);
 /// One visit of every patch: its normals, then its friction.
 template <class S>
-void solvePatches(const PatchRange<S>& range, const PatchPass<typename S::Real>& pass);
+void solvePatches(const PatchRange<S>& range, const PatchPass& pass);
 /// What a sub-step makes of points that can bounce, with velocities from before its forces.
 template <class S>
-void planPatches(const PatchRange<S>& range, const PatchPass<typename S::Real>& pass);
+void planPatches(const PatchRange<S>& range, const PatchPass& pass);
 /// Shares the friction of patches out among their points, so that force and moment about the normal are kept.
 template <class S>
 void sharePatches(const PatchRange<S>& range);

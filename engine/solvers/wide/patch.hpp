@@ -13,6 +13,11 @@
 // is three numbers of its arm, and what the points do to each other (K). Numbers of a block are stored lane
 // by lane (structure of arrays), so that a SIMD register takes the same number of several patches. No two
 // patches of a block move the same body (colouring.hpp).
+//
+// Patches are in f32 in worlds of f64, too: S is PatchSpace of the world's. What is large there and has small
+// differences stays out of them: positions (a patch knows arms and separations) and velocities (PatchRange).
+// Impulses are f32 numbers then: the two bodies of a patch get momenta that are opposite to 6e-8 of what they
+// exchange, at whatever speed both of them fly.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +27,11 @@
 #include "engine/math/space.hpp"
 
 namespace rigor::engine {
+
+/// What patches of a world in S are reckoned with.
+using PatchReal = float;
+template <class S>
+using PatchSpace = Space<PatchReal, S::dim>;
 
 /// Sizes that depend on the dimension.
 template <class S>
@@ -105,15 +115,14 @@ struct alignas(4 * sizeof(typename S::Real)) PatchInertia {
 };
 
 /// What all patches of a pass share.
-template <class R>
 struct PatchPass {
-    R invH;                               ///< 1 / sub-step [1/s]
-    R massScale, impulseScale, biasRate;  ///< the spring of overlap, solve-inl.hpp; rate [1/s]
-    R slop;                               ///< overlap that is left alone [m]
-    R fastestPush;                        ///< largest velocity that overlap asks for [m/s]
-    R threshold;                          ///< slower approaches do not bounce [m/s]
-    R touching;                           ///< gaps up to this are closed [m]
-    R restingGap;                         ///< what gravity may close in a sub-step, generously [m]
+    PatchReal invH;                               ///< 1 / sub-step [1/s]
+    PatchReal massScale, impulseScale, biasRate;  ///< the spring of overlap, solve-inl.hpp; rate [1/s]
+    PatchReal slop;                               ///< overlap that is left alone [m]
+    PatchReal fastestPush;                        ///< largest velocity that overlap asks for [m/s]
+    PatchReal threshold;                          ///< slower approaches do not bounce [m/s]
+    PatchReal touching;                           ///< gaps up to this are closed [m]
+    PatchReal restingGap;                         ///< what gravity may close in a sub-step, generously [m]
     bool soft = true;   ///< overlap pushes; else (relaxation) rows are rigid and it does not
     bool last = false;  ///< of the sub-step: impulses are added to the totals
 };

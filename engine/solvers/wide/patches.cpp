@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "engine/state/numbers.hpp"
-
 namespace rigor::engine {
 namespace {
 
@@ -45,65 +43,60 @@ void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
         occupant_.assign(blocks_.size() * kLanes, kNobody);
         for (std::size_t k = 0; k < plans_.size(); ++k) occupant_[colouring_.places()[k]] = sources_[k];
     }
-    inertia_.resize(n), motions_.resize(n), before_.resize(n), gained_.resize(n);
+    inertia_.resize(n), motions_.resize(n), velocities_.resize(n), gained_.resize(n);
     gainedHolds_ = bounce_ = false;
     tasks.forEach(n, kBodyGrain, [&](std::size_t i) {
         motions_[i] = {};
-        Real* I = inertia_[i].number;
+        PatchReal* I = inertia_[i].number;
         const bool moves = bodies.invMass[i] > 0;
         if constexpr (S::dim == 3) {
             for (int row = 0; row < 3; ++row)
                 for (int column = row; column < 3; ++column)
-                    *I++ = moves ? bodies.invInertia[i](row, column) : Real(0);
+                    *I++ = moves ? static_cast<PatchReal>(bodies.invInertia[i](row, column)) : PatchReal(0);
         } else {
-            *I = moves ? bodies.invInertia[i] : Real(0);
+            *I = moves ? static_cast<PatchReal>(bodies.invInertia[i]) : PatchReal(0);
         }
     });
 }
 
 template <class S>
-typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const PatchPass<Real>& pass,
-                                   bool warmStart, const Tasks& tasks) {
-    Velocity<S>* const v = velocities.data();
-    const bool addGained = warmStart && gainedHolds_;
-    tasks.forRanges(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
-        numbers(before_.data(), first, last) = numbers(v, first, last);
-        if (addGained) numbers(v, first, last) += numbers(gained_.data(), first, last);
-    });
-    if (warmStart && !addGained)
+typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const PatchPass& pass, bool warmStart,
+                                   const Tasks& tasks) {
+    velocities_.refer(velocities);
+    const Velocity<F>* const gained = warmStart && gainedHolds_ ? gained_.data() : nullptr;
+    tasks.forRanges(velocities.size(), kBodyGrain,
+                    [&](std::size_t first, std::size_t last) { velocities_.begin(first, last, gained); });
+    if (warmStart && gained == nullptr)
         forStages(tasks,
-                  [&](std::size_t first, std::size_t last) { warmStartPatches<S>(range(first, last, v)); });
-    forStages(tasks,
-              [&](std::size_t first, std::size_t last) { solvePatches<S>(range(first, last, v), pass); });
-    std::atomic<Real> change = 0;
+                  [&](std::size_t first, std::size_t last) { warmStartPatches<F>(range(first, last)); });
+    forStages(tasks, [&](std::size_t first, std::size_t last) { solvePatches<F>(range(first, last), pass); });
+    std::atomic<PatchReal> change = 0;
     tasks.forRanges(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
-        auto gained = numbers(gained_.data(), first, last);
-        const auto made = numbers(v, first, last) - numbers(before_.data(), first, last);
-        raise(change, made.abs().maxCoeff());
-        if (warmStart)
-            gained = made;
-        else
-            gained += made;
+        raise(change, velocities_.end(first, last, gained_.data(), !warmStart));
     });
     gainedHolds_ = gainedHolds_ || warmStart;
-    return change;
+    return static_cast<Real>(change.load());
 }
 
 template <class S>
 void Patches<S>::advance(std::span<const Velocity<S>> used, Real h, const Tasks& tasks) {
     tasks.forRanges(used.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
-        numbers(motions_.data(), first, last) += h * numbers(used.data(), first, last);
+        numbers(motions_.data(), first, last) +=
+            (h * numbers(used.data(), first, last)).template cast<PatchReal>();
     });
 }
 
 template <class S>
-void Patches<S>::beginSubstep(std::span<Velocity<S>> velocities, const PatchPass<Real>& pass,
-                              const Tasks& tasks) {
+void Patches<S>::beginSubstep(std::span<Velocity<S>> velocities, const PatchPass& pass, const Tasks& tasks) {
     if (!bounce_) return;
     gainedHolds_ = false;  // impulses may change
-    tasks.forRanges(blocks_.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
-        planPatches<S>(range(first, last, velocities.data()), pass);
-    });
+    velocities_.refer(velocities);
+    if constexpr (PatchVelocities<S>::kSplit)
+        tasks.forRanges(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+            velocities_.begin(first, last, nullptr);
+        });
+    tasks.forRanges(blocks_.size(), kBlockGrain,
+                    [&](std::size_t first, std::size_t last) { planPatches<F>(range(first, last), pass); });
 }
 
 template class Patches<Space2f>;

@@ -13,7 +13,7 @@
 #include "engine/core/tasks.hpp"
 #include "engine/solvers/wide/colouring.hpp"
 #include "engine/solvers/wide/kernels.hpp"
-#include "engine/state/body_arrays.hpp"
+#include "engine/solvers/wide/velocities.hpp"
 
 namespace rigor::engine {
 
@@ -21,6 +21,7 @@ template <class S>
 class Patches {
   public:
     using Real = typename S::Real;
+    using F = PatchSpace<S>;
 
     static constexpr std::uint32_t kNobody = 0xffffffffu;
 
@@ -41,13 +42,13 @@ class Patches {
         });
     }
     std::size_t blocks() const { return blocks_.size(); }
-    PatchBlock<S>& block(std::size_t b) { return blocks_[b]; }
-    PatchRest<S>& rest(std::size_t b) { return rests_[b]; }
+    PatchBlock<F>& block(std::size_t b) { return blocks_[b]; }
+    PatchRest<F>& rest(std::size_t b) { return rests_[b]; }
     /// Whose patch stands there (its place among the plans); kNobody's lanes are filled with zeros.
     std::uint32_t sourceAt(std::size_t b, std::size_t lane) const { return occupant_[b * kLanes + lane]; }
     /// Rows from what has been filled in.
-    void prepare(std::size_t b, PatchRubs<S>& rubs) {
-        preparePatches<S>(range(b, rubs), inertia_.data());
+    void prepare(std::size_t b, PatchRubs<F>& rubs) {
+        preparePatches<F>(range(b, rubs), inertia_.data());
         if (blocks_[b].bounces != 0) std::atomic_ref(bounce_).store(true, std::memory_order_relaxed);
     }
 
@@ -58,22 +59,22 @@ class Patches {
     bool empty() const { return size() == 0; }
 
     /// Begins a sub-step, before forces: which points bounce in it.
-    void beginSubstep(std::span<Velocity<S>> velocities, const PatchPass<Real>& pass, const Tasks& tasks);
+    void beginSubstep(std::span<Velocity<S>> velocities, const PatchPass& pass, const Tasks& tasks);
     /// One visit of every patch. `warmStart`: applies their impulses first. Returns the largest change of a
     /// velocity [m/s or rad/s].
-    Real visit(std::span<Velocity<S>> velocities, const PatchPass<Real>& pass, bool warmStart,
-               const Tasks& tasks);
+    Real visit(std::span<Velocity<S>> velocities, const PatchPass& pass, bool warmStart, const Tasks& tasks);
     /// Bodies have moved for h [s] with these velocities.
     void advance(std::span<const Velocity<S>> used, Real h, const Tasks& tasks);
     /// Friction of the points of a block, before it is read.
-    void share(std::size_t b, PatchRubs<S>& rubs) { sharePatches<S>(range(b, rubs)); }
+    void share(std::size_t b, PatchRubs<F>& rubs) { sharePatches<F>(range(b, rubs)); }
 
   private:
-    PatchRange<S> range(std::size_t first, std::size_t last, Velocity<S>* velocities = nullptr) {
-        return {blocks_.data() + first, rests_.data() + first, last - first, velocities, motions_.data()};
+    PatchRange<F> range(std::size_t first, std::size_t last) {
+        return {blocks_.data() + first, rests_.data() + first, last - first,
+                velocities_.data(),     velocities_.base(),    motions_.data()};
     }
-    PatchRange<S> range(std::size_t b, PatchRubs<S>& rubs) {
-        PatchRange<S> one = range(b, b + 1);
+    PatchRange<F> range(std::size_t b, PatchRubs<F>& rubs) {
+        PatchRange<F> one = range(b, b + 1);
         one.rubs = &rubs;
         return one;
     }
@@ -96,15 +97,15 @@ class Patches {
     std::vector<std::uint32_t> sources_, occupant_;
     std::size_t points_ = 0;
     Colouring colouring_;
-    std::vector<PatchBlock<S>> blocks_;
-    std::vector<PatchRest<S>> rests_;
+    std::vector<PatchBlock<F>> blocks_;
+    std::vector<PatchRest<F>> rests_;
     // --- by body
-    std::vector<PatchInertia<S>> inertia_;
-    std::vector<Velocity<S>> motions_;
-    std::vector<Velocity<S>> before_;  ///< velocities before a visit
+    std::vector<PatchInertia<F>> inertia_;
+    std::vector<Velocity<F>> motions_;
+    PatchVelocities<S> velocities_;
     /// What the impulses that patches have now have made of the velocities, in all visits of a sub-step: rows
     /// stay as they are during a step, so that to apply those impulses again is to add this.
-    std::vector<Velocity<S>> gained_;
+    std::vector<Velocity<F>> gained_;
     bool gainedHolds_ = false;
     bool bounce_ = false;  ///< some can
 };

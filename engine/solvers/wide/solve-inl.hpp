@@ -29,8 +29,20 @@
 HWY_BEFORE_NAMESPACE();
 namespace rigor::engine::HWY_NAMESPACE {
 
-/// Lanes of a block while they are worked on: the velocities of both sides, and what rows read of the block.
+/// What B has against A's frame: the velocity of its centre of mass there, or the way it has come, and what
+/// it turns.
 template <class S>
+struct Relative {
+    LinVec<S> v;
+    AngVec<S> w;
+    /// `offset`: from A's centre of mass to B's.
+    HWY_INLINE Relative(const Twist<S>& a, const Twist<S>& b, const LinVec<S>& offset)
+        : v(minus(minus(b.v, a.v), turning(a.w, offset))), w(minus(b.w, a.w)) {}
+};
+
+/// Lanes of a block while they are worked on: the velocities of both sides, and what rows read of the block.
+/// `based`: velocities are counted from PatchRange::base.
+template <class S, bool based>
 struct PatchGroup {
     using Real = typename S::Real;
     PatchBlock<S>& block;
@@ -40,6 +52,7 @@ struct PatchGroup {
     Side<S> sideA, sideB;
     Twist<S> a, b;
     LinVec<S> normal, offset;
+    Relative<S> base;  ///< of what velocities are counted from; if based
     Num<S> massA, massB;
     std::array<Num<S>, PatchSize<S>::inertia> inertiaA, inertiaB;  ///< inverse
 
@@ -54,6 +67,7 @@ struct PatchGroup {
           b(sideB.load(range.velocities)),
           normal(at(block.normal)),
           offset(at(block.offset)),
+          base(based ? sideA.load(range.base) : a, based ? sideB.load(range.base) : b, offset),
           massA(at(block.invMassA)),
           massB(at(block.invMassB)),
           inertiaA(at(block.invInertiaA)),
@@ -62,6 +76,16 @@ struct PatchGroup {
         sideA.store(a, velocities), sideB.store(b, velocities);
     }
     HWY_INLINE AngVec<S> jB(int i) const { return at(block.point[i].jB); }
+    HWY_INLINE Relative<S> velocity() const {
+        Relative<S> u(a, b, offset);
+        if constexpr (based) {
+            for (std::size_t k = 0; k < u.v.size(); ++k) u.v[k] = base.v[k] + u.v[k];
+            for (std::size_t k = 0; k < u.w.size(); ++k) u.w[k] = base.w[k] + u.w[k];
+        }
+        return u;
+    }
+    /// Since the step began.
+    HWY_INLINE Relative<S> motion() const { return {sideA.load(motions), sideB.load(motions), offset}; }
     /// Angular impulses, about the centres of mass, on B and against that on A.
     HWY_INLINE void turn(const AngVec<S>& onA, const AngVec<S>& onB) {
         a.w = minus(a.w, times(inertiaA, onA));
@@ -102,30 +126,29 @@ struct PatchGroup {
     }
 };
 
-/// What the bodies' motion, or velocities, are along the normals: base + jB_i . w at point i.
+/// What motion or velocity is along the normals: centre + jB_i . w at point i.
 template <class S>
 struct Along {
-    Num<S> base;
+    Num<S> centre;
     AngVec<S> w;
-    HWY_INLINE Along(const PatchGroup<S>& p, const Twist<S>& a, const Twist<S>& b)
-        : base(dot(p.normal, minus(b.v, a.v)) - dot(moment(p.offset, p.normal), a.w)), w(minus(b.w, a.w)) {}
-    HWY_INLINE Num<S> operator()(const AngVec<S>& jB) const { return base + dot(jB, w); }
+    HWY_INLINE Along(const LinVec<S>& normal, const Relative<S>& u) : centre(dot(normal, u.v)), w(u.w) {}
+    HWY_INLINE Num<S> operator()(const AngVec<S>& jB) const { return centre + dot(jB, w); }
 };
 
 /// Calls visit(patches) for every register's worth of lanes, and stores their velocities.
-template <class S, class Visit>
+template <bool based, class S, class Visit>
 HWY_INLINE void forPatches(const PatchRange<S>& range, const Visit& visit) {
     const std::size_t lanes = hn::Lanes(Tag<S>());
     for (std::size_t k = 0; k < range.count; ++k)
         for (std::size_t first = 0; first < kLanes; first += lanes) {
-            PatchGroup<S> patches(range, k, first);
+            PatchGroup<S, based> patches(range, k, first);
             visit(patches);
             patches.store(range.velocities);
         }
 }
 
-template <class S>
-HWY_INLINE void warmStart(PatchGroup<S>& p) {
+template <class S, bool based>
+HWY_INLINE void warmStart(PatchGroup<S, based>& p) {
     PatchBlock<S>& block = p.block;
     Num<S> sum = hn::Zero(Tag<S>());
     AngVec<S> spin;
@@ -156,8 +179,9 @@ struct NormalRow {
     Num<S> factor, leak, lambda;
     Num<S> change;  ///< of lambda in this visit
 
-    HWY_INLINE NormalRow(const PatchGroup<S>& p, const PatchPass<typename S::Real>& pass,
-                         const Along<S>& velocity, const Along<S>& motion, int i)
+    template <class Group>
+    HWY_INLINE NormalRow(const Group& p, const PatchPass& pass, const Along<S>& velocity,
+                         const Along<S>& motion, int i)
         : jB(p.jB(i)) {
         const PatchPoint<S>& point = p.block.point[i];
         const Num<S> zero = hn::Zero(Tag<S>());
@@ -206,12 +230,11 @@ HWY_INLINE decltype(auto) eachPoint(const Work& work) {
 /// All normal rows. The points of a patch are swept forwards and back: a body that the first corner turns is
 /// turned back by the others before its neighbours see it. One sweep alone makes tall stacks rock. The bodies
 /// get the sum of what the sweeps make; on the way the points act on each other through K.
-template <int n, class S>
-HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S::Real>& pass) {
+template <int n, class S, bool based>
+HWY_INLINE Pressed<S> solveNormals(PatchGroup<S, based>& p, const PatchPass& pass) {
     const Num<S> zero = hn::Zero(Tag<S>());
     PatchBlock<S>& block = p.block;
-    const Along<S> velocity(p, p.a, p.b);
-    const Along<S> motion(p, p.sideA.load(p.motions), p.sideB.load(p.motions));
+    const Along<S> velocity(p.normal, p.velocity()), motion(p.normal, p.motion());
     std::array<NormalRow<S>, n> row = eachPoint<n>([&](auto... i) RIGOR_INLINE_LAMBDA {
         return std::array<NormalRow<S>, n>{NormalRow<S>(p, pass, velocity, motion, i)...};
     });
@@ -246,14 +269,13 @@ HWY_INLINE Pressed<S> solveNormals(PatchGroup<S>& p, const PatchPass<typename S:
 
 /// Tangents and twist at once: in (lambda_t, lambda_twist / r) with r the mean distance of the pressure from
 /// the centre, the limit surface is a ball.
-template <class S>
-HWY_INLINE void solveFriction(PatchGroup<S>& p, const Pressed<S>& pressed, bool last) {
+template <class S, bool based>
+HWY_INLINE void solveFriction(PatchGroup<S, based>& p, const Pressed<S>& pressed, bool last) {
     PatchBlock<S>& block = p.block;
     constexpr std::size_t tangents = PatchSize<S>::tangents;
-    const AngVec<S> w = minus(p.b.w, p.a.w);
-    LinVec<S> slip = minus(p.b.v, p.a.v);
-    add(slip, number<S>(1), turning(w, p.at(block.centre)));
-    slip = minus(slip, turning(p.a.w, p.offset));
+    const Relative<S> u = p.velocity();
+    LinVec<S> slip = u.v;
+    add(slip, number<S>(1), turning(u.w, p.at(block.centre)));
     const auto t = p.tangents();
     const Num<S> invK = p.at(block.rubInvK), one = number<S>(1);
     const std::array<Num<S>, tangents> old = p.at(block.rubImpulse);
@@ -269,7 +291,7 @@ HWY_INLINE void solveFriction(PatchGroup<S>& p, const Pressed<S>& pressed, bool 
         // The pressure may have come together at the centre since the old one was found.
         const Num<S> before = oldTwist / hn::IfThenElse(spread, radius, one);
         const Num<S> bounded = hn::Max(hn::Min(before, sticking), hn::Zero(Tag<S>()) - sticking);
-        twist = hn::IfThenElseZero(spread, bounded - radius * dot(p.normal, w) * invK);
+        twist = hn::IfThenElseZero(spread, bounded - radius * dot(p.normal, u.w) * invK);
         size2 = size2 + twist * twist;
     }
     const auto sticks = size2 <= sticking * sticking;
@@ -294,13 +316,12 @@ HWY_INLINE void solveFriction(PatchGroup<S>& p, const Pressed<S>& pressed, bool 
 
 /// What a sub-step makes of points that can bounce, before forces: those that hit get their rebound; a gap
 /// that may end in one is let through, because closing it would take the speed that is to be reversed.
-template <class S>
-HWY_INLINE void plan(PatchGroup<S>& p, const PatchPass<typename S::Real>& pass) {
+template <class S, bool based>
+HWY_INLINE void plan(PatchGroup<S, based>& p, const PatchPass& pass) {
     PatchBlock<S>& block = p.block;
     const Num<S> zero = hn::Zero(Tag<S>()), e = p.at(p.rest.restitution);
     const Num<S> touching = number<S>(pass.touching);
-    const Along<S> velocity(p, p.a, p.b);
-    const Along<S> motion(p, p.sideA.load(p.motions), p.sideB.load(p.motions));
+    const Along<S> velocity(p.normal, p.velocity()), motion(p.normal, p.motion());
     for (int i = 0; i < block.points; ++i) {
         PatchPoint<S>& point = block.point[i];
         const AngVec<S> jB = p.jB(i);
@@ -317,29 +338,36 @@ HWY_INLINE void plan(PatchGroup<S>& p, const PatchPass<typename S::Real>& pass) 
 
 template <class S>
 void warmStartAll(const PatchRange<S>& range) {
-    forPatches<S>(range, [](PatchGroup<S>& p) RIGOR_INLINE_LAMBDA { warmStart(p); });
+    forPatches<false>(range, [](auto& p) RIGOR_INLINE_LAMBDA { warmStart(p); });
 }
-template <class S>
-void solveAll(const PatchRange<S>& range, const PatchPass<typename S::Real>& pass) {
-    const auto normals = [&pass](PatchGroup<S>& p) RIGOR_INLINE_LAMBDA {
+template <bool based, class S>
+HWY_INLINE void solveFrom(const PatchRange<S>& range, const PatchPass& pass) {
+    const auto normals = [&pass](PatchGroup<S, based>& p) RIGOR_INLINE_LAMBDA {
         if constexpr (S::dim == 3) {
             if (p.block.points == 4) return solveNormals<4>(p, pass);
             if (p.block.points == 3) return solveNormals<3>(p, pass);
         }
         return p.block.points == 2 ? solveNormals<2>(p, pass) : solveNormals<1>(p, pass);
     };
-    forPatches<S>(range,
-                  [&](PatchGroup<S>& p) RIGOR_INLINE_LAMBDA { solveFriction(p, normals(p), pass.last); });
+    forPatches<based>(range, [&](auto& p) RIGOR_INLINE_LAMBDA { solveFriction(p, normals(p), pass.last); });
+}
+template <class S>
+void solveAll(const PatchRange<S>& range, const PatchPass& pass) {
+    range.base == nullptr ? solveFrom<false>(range, pass) : solveFrom<true>(range, pass);
 }
 /// Blocks of all colours side by side: velocities are read, and not written back.
-template <class S>
-void planAll(const PatchRange<S>& range, const PatchPass<typename S::Real>& pass) {
+template <bool based, class S>
+HWY_INLINE void planFrom(const PatchRange<S>& range, const PatchPass& pass) {
     const std::size_t lanes = hn::Lanes(Tag<S>());
     for (std::size_t k = 0; k < range.count; ++k)
         for (std::size_t first = 0; range.blocks[k].bounces && first < kLanes; first += lanes) {
-            PatchGroup<S> patches(range, k, first);
+            PatchGroup<S, based> patches(range, k, first);
             plan(patches, pass);
         }
+}
+template <class S>
+void planAll(const PatchRange<S>& range, const PatchPass& pass) {
+    range.base == nullptr ? planFrom<false>(range, pass) : planFrom<true>(range, pass);
 }
 
 }  // namespace rigor::engine::HWY_NAMESPACE

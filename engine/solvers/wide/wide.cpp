@@ -12,6 +12,7 @@
 //   - joints are rows as everywhere, remade in every sub-step and solved all at once (joint_group.hpp): rigid
 //     and aimed half of the way to where they should be where they are linearised (WorldDef::curvedJoints
 //     off), which long chains under heavy ends need and which damps what swings; else as springs.
+// Patches are reckoned with in f32 whatever the world's precision (patch.hpp); joints and bodies are not.
 // A contact of one point obeys the same laws as with tgs_soft, and a patch that slides without turning or
 // turns without sliding, too. Contacts that come as rows, where nobody has made patches, are solved row by
 // row as there.
@@ -56,7 +57,7 @@ class Wide final : public Solver<S> {
             joints_.begin(rows);
             joints_.warmStart(rows, input.velocities);
         }
-        PatchPass<Real> pass = *input.pass;
+        PatchPass pass = *input.pass;
         pass.soft = !input.warmStarted;
         for (int i = 0; i < input.iterations; ++i) {
             input.monitor.before(input.velocities);
