@@ -18,10 +18,10 @@ void pauseThread(int waits) {
         std::this_thread::yield();
 }
 
-void Stages::run(std::size_t count, std::size_t grain, const Size& size, const Work& work) {
+void Stages::run(std::size_t count, std::size_t grain, const Cut& cut, const Work& work) {
     before_ += count_;  // of the last run
     count_ = count, grain_ = std::max<std::size_t>(grain, 1);
-    size_ = &size, work_ = &work;
+    cut_ = &cut, work_ = &work;
     error_ = nullptr;
     failed_.store(false, std::memory_order_relaxed);
     open_.store(true);
@@ -43,7 +43,7 @@ bool Stages::help(std::size_t self) {
 
 void Stages::walk(std::size_t self) {
     for (std::size_t stage = 0; stage < count_; ++stage) {
-        const std::size_t n = (*size_)(stage);
+        const std::size_t n = (*cut_)(stage, 1, 1) - (*cut_)(stage, 0, 1);
         const std::size_t shares = std::clamp<std::size_t>(n / grain_, 1, shares_.size());
         for (std::size_t k = 0; k < shares; ++k) take(stage, (self + k) % shares, shares);
         for (std::size_t k = 0; k < shares; ++k)
@@ -59,7 +59,7 @@ void Stages::take(std::size_t stage, std::size_t share, std::size_t of) {
     std::uint64_t taken = mine.taken.load(std::memory_order_relaxed);
     if (taken >= number || !mine.taken.compare_exchange_strong(taken, number, std::memory_order_relaxed))
         return;
-    const std::size_t n = (*size_)(stage), first = n * share / of, last = n * (share + 1) / of;
+    const std::size_t first = (*cut_)(stage, share, of), last = (*cut_)(stage, share + 1, of);
     try {
         if (first < last && !failed_.load(std::memory_order_relaxed)) (*work_)(stage, first, last);
     } catch (...) {

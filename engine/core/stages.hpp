@@ -22,14 +22,15 @@ void pauseThread(int waits);
 
 class Stages {
   public:
-    using Size = std::function<std::size_t(std::size_t)>;
+    /// Of a stage: where the share `share` <= `of` of `of` begins; the last one ends at (stage, of, of).
+    using Cut = std::function<std::size_t(std::size_t stage, std::size_t share, std::size_t of)>;
     using Work = std::function<void(std::size_t, std::size_t, std::size_t)>;
 
     explicit Stages(std::size_t threads) : shares_(threads) {}
 
-    /// Stages 0 .. count - 1 as Tasks::forStages does them, with those who help(). `size` and `work` are
+    /// Stages 0 .. count - 1 as Tasks::forStages does them, with those who help(). `cut` and `work` are
     /// called by all of them.
-    void run(std::size_t count, std::size_t grain, const Size& size, const Work& work);
+    void run(std::size_t count, std::size_t grain, const Cut& cut, const Work& work);
     /// By any other thread, at any time; `self` in [1, threads). False: there was nothing to do.
     bool help(std::size_t self);
 
@@ -47,7 +48,7 @@ class Stages {
     // --- of a run; read by those inside
     alignas(64) std::size_t count_ = 0, grain_ = 1;
     std::uint64_t before_ = 0;  ///< stages of earlier runs
-    const Size* size_ = nullptr;
+    const Cut* cut_ = nullptr;
     const Work* work_ = nullptr;
     std::mutex failing_;
     std::exception_ptr error_;

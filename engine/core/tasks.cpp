@@ -196,16 +196,17 @@ void Tasks::shared(std::size_t n, std::size_t grain,
 }
 
 void Tasks::sharedStages(std::size_t count, std::size_t grain,
-                         const std::function<std::size_t(std::size_t)>& size,
+                         const std::function<std::size_t(std::size_t, std::size_t, std::size_t)>& cut,
                          const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const {
     const Stages::Work part = [&](std::size_t stage, std::size_t begin, std::size_t end) {
         const Arena::Inside inside(arena_.get());
         work(stage, begin, end);
     };
     const auto all = [&] {
-        if (!arena_->inPart()) return arena_->stages.run(count, grain, size, part);
+        if (!arena_->inPart()) return arena_->stages.run(count, grain, cut, part);
         for (std::size_t stage = 0; stage < count; ++stage)
-            if (const std::size_t n = size(stage); n > 0) work(stage, 0, n);
+            if (const std::size_t begin = cut(stage, 0, 1), end = cut(stage, 1, 1); begin < end)
+                work(stage, begin, end);
     };
     arena_->enter(std::cref(all));
 }

@@ -52,12 +52,25 @@ class Tasks {
     /// short. `size` is called by all of them.
     template <class Size, class Work>
     void forStages(std::size_t count, std::size_t grain, const Size& size, const Work& work) const {
+        forCutStages(
+            count, grain,
+            [&size](std::size_t stage, std::size_t share, std::size_t of) {
+                return size(stage) * share / of;
+            },
+            work);
+    }
+    /// The same of stages that know where to be cut: `of` shares, one for each thread, begin at
+    /// cut(stage, 0 .. of - 1, of), and the last one ends at cut(stage, of, of).
+    template <class Cut, class Work>
+    void forCutStages(std::size_t count, std::size_t grain, const Cut& cut, const Work& work) const {
         if (threads_ == 1) {
-            for (std::size_t stage = 0; stage < count; ++stage)
-                if (const std::size_t n = size(stage); n > 0) work(stage, std::size_t(0), n);
+            for (std::size_t stage = 0; stage < count; ++stage) {
+                const std::size_t begin = cut(stage, 0, 1), end = cut(stage, 1, 1);
+                if (begin < end) work(stage, begin, end);
+            }
             return;
         }
-        sharedStages(count, grain, std::cref(size), std::cref(work));
+        sharedStages(count, grain, std::cref(cut), std::cref(work));
     }
     /// Does `work` among the threads: calls of forRanges from within start at once.
     template <class Work>
@@ -71,7 +84,7 @@ class Tasks {
     void shared(std::size_t n, std::size_t grain,
                 const std::function<void(std::size_t, std::size_t)>& work) const;
     void sharedStages(std::size_t count, std::size_t grain,
-                      const std::function<std::size_t(std::size_t)>& size,
+                      const std::function<std::size_t(std::size_t, std::size_t, std::size_t)>& cut,
                       const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const;
     void entered(const std::function<void()>& work) const;
 

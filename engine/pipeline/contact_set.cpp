@@ -9,8 +9,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "engine/narrowphase/surface_contact.hpp"
-
 namespace rigor::engine {
 namespace {
 
@@ -124,7 +122,7 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
                                   const Tasks& tasks) {
     const bool exact = search_.boxMargin == 0;
     if (!candidatesValid_ || candidatesHavePieces_ || (exact && candidatePairs_ != proxyPairs_))
-        findCandidates(bodies);
+        findCandidates(bodies, tasks);
     forgetOtherAnswers();
     if (makeManifold == &manifoldClipped<S>) makeManifold = nullptr;
     const Search search{bodies, narrowPhase, makeManifold, ccd};
@@ -149,111 +147,80 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
         }
     };
     outcomes_.resize(candidates_.size());
-    those.forEach(candidates_.size(), kPairGrain, [&](std::size_t k) {
-        constexpr std::size_t kAhead = 4;
-        if (k + kAhead < candidates_.size() && candidates_[k + kAhead].contact != kNone) {
-            const Contact<S>& next = contacts_.at(candidates_[k + kAhead].contact);
-            prefetch(&next, &next.impulses);
+    tallies_.resize((candidates_.size() + kTally - 1) / kTally);
+    those.forEach(tallies_.size(), 1, [&](std::size_t c) {
+        Tally tally;
+        for (std::size_t k = kTally * c; k < std::min(kTally * (c + 1), candidates_.size()); ++k) {
+            constexpr std::size_t kAhead = 4;
+            if (k + kAhead < candidates_.size() && candidates_[k + kAhead].contact != kNone) {
+                const Contact<S>& next = contacts_.at(candidates_[k + kAhead].contact);
+                prefetch(&next, &next.impulses);
+            }
+            Candidate& candidate = candidates_[k];
+            look(candidate);
+            outcomes_[k] = {candidate.contact, candidate.found};
+            tally.add(candidate.contact != kNone, candidate.found, candidate.asked);
         }
-        Candidate& candidate = candidates_[k];
-        look(candidate);
-        outcomes_[k] = {candidate.contact, candidate.found, candidate.asked};
+        tallies_[c] = tally;
     });
-    settle(search);
+    settle(search, tasks);
     coefficientsHold_ = true;
     if (fresh_.size() < taken) fresh_.resize(taken);
 }
 
-/// In the order of contacts: by shape pair and piece. What is known of a candidate goes on.
-template <class S>
-void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies) {
-    std::swap(candidates_, oldCandidates_);
-    candidates_.clear();
-    candidatesHavePieces_ = false;
-    auto old = oldCandidates_.begin();
-    const auto end = oldCandidates_.end();
-    const auto oldPair = [&] { return pairKey(old->a, old->b); };
-    const auto drop = [&] {
-        if (old->contact != kNone) dropped_.push_back(old->contact);
-        ++old;
-    };
-    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t piece) {
-        const auto key = std::pair(pairKey(a, b), piece);
-        while (old != end && std::pair(oldPair(), old->piece) < key) drop();
-        const bool known = old != end && std::pair(oldPair(), old->piece) == key;
-        candidates_.push_back(known ? *old++ : makeCandidate(a, b, piece));
-    };
-    const std::vector<ProxyPair>& pairs = pairsNear();
-    for (const ProxyPair& p : pairs) {
-        while (old != end && oldPair() < pairKey(p.a, p.b)) drop();
-        if (mayHolds_ && old != end && old->piece == kNone && oldPair() == pairKey(p.a, p.b)) {
-            candidates_.push_back(*old++);
-            continue;
-        }
-        if (!mayCollide(bodies, shapes_[p.a].body, shapes_[p.b].body)) continue;
-        const bool ordered = shapes_[p.a].body < shapes_[p.b].body;
-        const std::uint32_t a = ordered ? p.a : p.b, b = ordered ? p.b : p.a;
-        const bool surfaceA = isComposite<S>(shapes_[a].shape);
-        if (!surfaceA && !isComposite<S>(shapes_[b].shape)) {
-            add(a, b, kNone);
-            continue;
-        }
-        candidatesHavePieces_ = true;
-        if (!boxes_[a].overlaps(boxes_[b])) continue;
-        findPieces(surfaceA ? a : b, surfaceA ? b : a);
-        for (const std::uint32_t piece : pieces_) add(a, b, piece);
-    }
-    while (old != end) drop();
-    candidatePairs_.assign(pairs.begin(), pairs.end());
-    candidatesValid_ = mayHolds_ = true;
-}
-
-/// Pieces of a chain, mesh or height field near another shape, in ascending order.
-template <class S>
-void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other) {
-    pieces_.clear();
-    const Aabb<S> box = boxOnSurface<S>(shapePoses_[surface], shapes_[other].shape, shapePoses_[other],
-                                        search_.speculativeDistance + search_.reuseDistance);
-    withSurface<S>(shapes_[surface].shape, [&](const auto& data) {
-        data.query(box, [&](std::uint32_t piece) { pieces_.push_back(piece); });
-    });
-    std::sort(pieces_.begin(), pieces_.end());
-}
-
 /// Contacts that are gone leave, new ones come in.
 template <class S>
-void ContactSet<S>::settle(const Search& search) {
+void ContactSet<S>::settle(const Search& search, const Tasks& tasks) {
     gone_.clear();
-    asked_ = 0;
-    std::size_t kept = 0, count = 0;
-    for (const Outcome& outcome : outcomes_) {
-        kept += outcome.found && outcome.contact != kNone, count += outcome.found;
-        asked_ += outcome.asked;
-    }
-    if (kept == contacts_.size() && count == kept) return;
+    Tally all;
+    for (Tally& tally : tallies_) tally.first = all.found(), all.add(tally);
+    asked_ = all.asked;
+    if (all.kept == contacts_.size() && all.fresh == 0) return;
 
     for (const std::uint32_t slot : dropped_) removeContact(slot);
     dropped_.clear();
-    for (std::size_t k = 0; k < outcomes_.size(); ++k)
-        if (outcomes_[k].contact != kNone && !outcomes_[k].found) {
-            removeContact(outcomes_[k].contact);
-            candidates_[k].contact = kNone;
-        }
+    for (std::size_t c = 0; c < tallies_.size(); ++c)
+        if (tallies_[c].lost + tallies_[c].fresh > 0) changeContacts(search, c);
     std::sort(gone_.begin(), gone_.end(), [](const Gone& c, const Gone& d) {
         return std::pair(pairKey(c.shapeA, c.shapeB), c.piece) <
                std::pair(pairKey(d.shapeA, d.shapeB), d.piece);
     });
-    std::vector<std::uint32_t>& order = contacts_.order();
-    order.clear();
-    for (std::size_t k = 0; k < outcomes_.size(); ++k)
-        if (outcomes_[k].found)
-            order.push_back(outcomes_[k].contact != kNone ? outcomes_[k].contact
-                                                          : addContact(search, candidates_[k]));
+    contacts_.order().resize(all.found());
+    tasks.forEach(tallies_.size(), 1, [&](std::size_t c) { orderContacts(c); });
     if (!contacts_.untidy()) return;
-    contacts_.tidy();
-    std::uint32_t place = 0;
-    for (Candidate& candidate : candidates_)
-        if (candidate.contact != kNone) candidate.contact = place++;
+    contacts_.tidy(tasks);
+    tasks.forEach(tallies_.size(), 1, [&](std::size_t c) {
+        std::uint32_t place = tallies_[c].first;
+        for (std::size_t k = kTally * c; k < std::min(kTally * (c + 1), candidates_.size()); ++k)
+            if (candidates_[k].contact != kNone) candidates_[k].contact = place++;
+    });
+}
+
+/// Of a part of the candidates: slots are given back, and taken by those that have none.
+template <class S>
+void ContactSet<S>::changeContacts(const Search& search, std::size_t part) {
+    for (std::size_t k = kTally * part; k < std::min(kTally * (part + 1), outcomes_.size()); ++k) {
+        const Outcome& outcome = outcomes_[k];
+        if ((outcome.contact != kNone) == outcome.found) continue;
+        if (outcome.found) {
+            addContact(search, candidates_[k]);
+            continue;
+        }
+        removeContact(outcome.contact);
+        candidates_[k].contact = kNone;
+    }
+}
+
+/// Of a part of the candidates: the slots of their contacts, in order; those that are new come there.
+template <class S>
+void ContactSet<S>::orderContacts(std::size_t part) {
+    std::uint32_t* order = contacts_.order().data() + tallies_[part].first;
+    for (std::size_t k = kTally * part; k < std::min(kTally * (part + 1), outcomes_.size()); ++k) {
+        if (!outcomes_[k].found) continue;
+        *order++ = candidates_[k].contact;
+        if (outcomes_[k].contact == kNone && candidates_[k].fresh < fresh_.size())
+            contacts_.at(candidates_[k].contact) = fresh_[candidates_[k].fresh];
+    }
 }
 
 template <class S>
@@ -263,18 +230,15 @@ void ContactSet<S>::removeContact(std::uint32_t slot) {
     contacts_.remove(slot);
 }
 
-/// The slot of the one that was found for a candidate that had none.
+/// A slot for what was found for a candidate that had none; fresh_ is copied into it later.
 template <class S>
-std::uint32_t ContactSet<S>::addContact(const Search& search, Candidate& candidate) {
-    candidate.contact = contacts_.add();
-    if (candidate.fresh < fresh_.size()) {
-        contacts_.at(candidate.contact) = fresh_[candidate.fresh];
-        return candidate.contact;
+void ContactSet<S>::addContact(const Search& search, Candidate& candidate) {
+    const std::uint32_t slot = contacts_.add();
+    if (candidate.fresh >= fresh_.size()) {
+        candidate.kept = false;  // that there is something is kept, not what
+        contacts_.at(slot) = findContact(search, candidate).value();
     }
-    const std::uint32_t slot = std::exchange(candidate.contact, kNone);
-    candidate.kept = false;  // that there is something is kept, not what
-    contacts_.at(slot) = findContact(search, candidate).value();
-    return candidate.contact = slot;
+    candidate.contact = slot;
 }
 
 template <class S>

@@ -155,9 +155,35 @@ class ContactSet {
     /// Of a candidate in this step: what is read of all of them, side by side.
     struct Outcome {
         std::uint32_t contact = kNone;  ///< the slot of the one that it had before
-        bool found = false, asked = false;
+        bool found = false;
     };
-    void findCandidates(const BodyArrays<S>& bodies);
+    /// Of kTally candidates in this step: contacts that they had and have, had, or have, and who was asked.
+    struct Tally {
+        std::uint32_t kept = 0, lost = 0, fresh = 0, asked = 0;
+        std::uint32_t first = 0;  ///< place of the first contact
+        std::uint32_t found() const { return kept + fresh; }
+        void add(bool had, bool has, bool was) {
+            kept += had && has, lost += had && !has, fresh += !had && has, asked += was;
+        }
+        void add(const Tally& other) {
+            kept += other.kept, lost += other.lost, fresh += other.fresh, asked += other.asked;
+        }
+    };
+    static constexpr std::size_t kTally = 32;
+    // --- contact_candidates.cpp
+    void findCandidates(const BodyArrays<S>& bodies, const Tasks& tasks);
+    /// A part of the pairs, what comes of it, and the old candidates among which those have been.
+    struct Merge {
+        std::size_t begin, end, old, oldEnd;
+        std::size_t first, count;  ///< candidates
+        std::size_t dropped;
+    };
+    static constexpr std::uint32_t kNobody = 0xfffffffeu;
+    bool mergeCandidates(const BodyArrays<S>& bodies, const Tasks& tasks);
+    bool planMerge(const BodyArrays<S>& bodies, Merge& merge);
+    std::size_t oldAt(const ProxyPair& pair) const;
+    Candidate makeCandidate(const ProxyPair& pair) const;
+    void rememberPairs();
     void findPieces(std::uint32_t surface, std::uint32_t other);
     const std::vector<ProxyPair>& pairsNear() const {
         return search_.boxMargin > 0 ? enlarged_.pairs() : proxyPairs_;
@@ -199,9 +225,11 @@ class ContactSet {
     static void clearStep(Contact<S>& contact);
     static void takeOver(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact);
     static void matchPoints(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact);
-    void settle(const Search& search);
+    void settle(const Search& search, const Tasks& tasks);
+    void changeContacts(const Search& search, std::size_t part);
+    void orderContacts(std::size_t part);
     void removeContact(std::uint32_t slot);
-    std::uint32_t addContact(const Search& search, Candidate& candidate);
+    void addContact(const Search& search, Candidate& candidate);
     static void planRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact);
     static bool planPoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
                           std::size_t index);
@@ -220,10 +248,13 @@ class ContactSet {
 
     ContactList<S> contacts_;
     std::vector<Candidate> candidates_;      ///< in the same order; a contact belongs to each that found one
-    std::vector<ProxyPair> candidatePairs_;  ///< what they were made of
+    std::vector<ProxyPair> candidatePairs_;  ///< what they were made of, where boxes are not enlarged
     std::vector<Candidate> oldCandidates_;
+    std::vector<Merge> merges_;           ///< of pairs and old candidates
+    std::vector<std::uint32_t> sources_;  ///< of each pair: an old candidate, kNone: a new one, kNobody: none
     std::vector<std::uint32_t> dropped_;  ///< slots of contacts whose pair is near no more
     std::vector<Outcome> outcomes_;       ///< of candidates_
+    std::vector<Tally> tallies_;          ///< of parts of them
     std::vector<std::uint8_t> turned_;    ///< of contacts_: 1 where touching has begun or ended
     ContactSearch<S> search_, keptFor_;   ///< of this step; of the answers that are kept
     EnlargedBoxes<S> enlarged_;

@@ -95,6 +95,29 @@ TEST(Tasks, StagesFollowEachOtherAndVisitEveryIndexOnce) {
     }
 }
 
+TEST(Tasks, StagesAreCutWhereTheySay) {
+    // The first share is a tenth of a stage, in that of stage s all begins at 10 s.
+    const auto cut = [](std::size_t s, std::size_t share, std::size_t of) -> std::size_t {
+        return 10 * s + (share == 0 ? 0 : share == of ? 100 : 10 + share);
+    };
+    for (int threads = 1; threads <= 4; ++threads) {
+        const Tasks tasks(threads);
+        const auto of = static_cast<std::size_t>(threads);
+        std::vector<int> visits(5 * 200, 0);
+        std::atomic<int> strange = 0;
+        tasks.forCutStages(5, 1, cut, [&](std::size_t s, std::size_t begin, std::size_t end) {
+            bool known = false;
+            for (std::size_t share = 0; share < of; ++share)
+                known = known || (begin == cut(s, share, of) && end == cut(s, share + 1, of));
+            if (!known) ++strange;
+            for (std::size_t i = begin; i < end; ++i) ++visits[200 * s + i];
+        });
+        EXPECT_EQ(strange, 0) << threads;
+        for (std::size_t i = 0; i < visits.size(); ++i)
+            EXPECT_EQ(visits[i], i % 200 >= 10 * (i / 200) && i % 200 < 10 * (i / 200) + 100) << i;
+    }
+}
+
 TEST(Tasks, ExceptionsReachTheCallerAndCopiesWork) {
     const Tasks tasks(3);
     const Tasks copy = tasks;  // NOLINT: a copy is what is tested

@@ -17,6 +17,7 @@ using S = Space2f;
 
 /// Contacts come and go at random; each is found in its slot and at its place until it is removed.
 TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
+    const Tasks tasks(2);
     ContactList<S> list;
     std::vector<std::uint32_t> names;  // by place, the shape that each contact is given
     std::mt19937 random(1);
@@ -36,13 +37,13 @@ TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
             order.insert(order.begin() + static_cast<std::ptrdiff_t>(place), slot);
             names.insert(names.begin() + static_cast<std::ptrdiff_t>(place), round);
         }
-        if (list.untidy()) list.tidy(), tidied = true;
+        if (list.untidy()) list.tidy(tasks), tidied = true;
         ASSERT_EQ(list.size(), names.size());
         std::size_t place = 0;
         for (const Contact<S>& contact : list) ASSERT_EQ(contact.shapeA, names[place++]) << round;
     }
     EXPECT_TRUE(tidied);
-    list.tidy();
+    list.tidy(tasks);
     for (std::uint32_t k = 0; k < names.size(); ++k) EXPECT_EQ(list.order()[k], k);
 }
 

@@ -33,12 +33,18 @@ void expectProper(const std::vector<PatchPlan>& plans, const Colouring& colourin
     std::uint32_t next = 0;
     std::size_t found = 0;
     for (const Colouring::Range& range : colouring.ranges()) {
-        EXPECT_EQ(range.first, next) << "ranges follow each other";
-        next = range.last;
+        EXPECT_EQ(range.first(), next) << "ranges follow each other";
+        next = range.last();
+        for (std::size_t of = 1; of <= 6; ++of) {
+            EXPECT_EQ(range.begin(0, of), range.first());
+            EXPECT_EQ(range.begin(of, of), range.last());
+            for (std::size_t share = 0; share < of; ++share)
+                EXPECT_LE(range.begin(share, of), range.begin(share + 1, of)) << share << " of " << of;
+        }
         std::set<std::uint32_t> moved;
         for (std::size_t k = 0; k < plans.size(); ++k) {
             const std::uint32_t block = colouring.places()[k] / kWidth;
-            if (block < range.first || block >= range.last) continue;
+            if (block < range.first() || block >= range.last()) continue;
             ++found;
             EXPECT_TRUE(!plans[k].movesA || moved.insert(plans[k].a).second) << "body " << plans[k].a;
             EXPECT_TRUE(!plans[k].movesB || moved.insert(plans[k].b).second) << "body " << plans[k].b;
@@ -80,6 +86,44 @@ TEST(Colouring, IsDenseAndPutsWallsLast) {
     EXPECT_EQ(colouring.ranges().size(), 3u);
     EXPECT_EQ(colouring.blocks(), 25u + 25u + 50u);
     EXPECT_GE(colouring.places().back() / kWidth, 50u);
+}
+
+/// A sheet of 60 x 60 bodies on the ground, numbered row by row: what two (or three, or four) threads move in
+/// all colours is about a half of it each, and few bodies at the seam are moved by two.
+TEST(Colouring, SharesOfAllColoursMoveTheSameBodies) {
+    constexpr std::uint32_t kSide = 60;
+    std::vector<PatchPlan> plans;
+    const auto body = [](std::uint32_t x, std::uint32_t y) { return 1 + y * kSide + x; };
+    for (std::uint32_t y = 0; y < kSide; ++y)
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            plans.push_back({0, body(x, y), false, true, 4});
+            if (x + 1 < kSide) plans.push_back({body(x, y), body(x + 1, y), true, true, 2});
+            if (y + 1 < kSide) plans.push_back({body(x, y), body(x, y + 1), true, true, 2});
+        }
+    Colouring colouring;
+    colouring.colour(plans, kSide * kSide + 1, kWidth);
+    expectProper(plans, colouring);
+    for (std::size_t of = 2; of <= 4; ++of) {
+        std::vector<std::size_t> work(of, 0);
+        std::vector<std::set<std::uint32_t>> moved(of);
+        for (std::size_t k = 0; k < plans.size(); ++k)
+            for (const Colouring::Range& range : colouring.ranges())
+                for (std::size_t share = 0; share < of; ++share) {
+                    const std::uint32_t block = colouring.places()[k] / kWidth;
+                    if (block < range.begin(share, of) || block >= range.begin(share + 1, of)) continue;
+                    ++work[share];
+                    if (plans[k].movesA) moved[share].insert(plans[k].a);
+                    if (plans[k].movesB) moved[share].insert(plans[k].b);
+                }
+        std::size_t all = 0;
+        for (std::size_t share = 0; share < of; ++share) {
+            all += moved[share].size();
+            EXPECT_NEAR(double(work[share]), double(plans.size()) / double(of), 0.05 * double(plans.size()));
+        }
+        // A row of bodies at each seam, and blocks that the seam goes through. Cuts of each colour by itself
+        // (one in the middle of the ground's, another of the bonds') would lie rows apart.
+        EXPECT_LE(all, kSide * kSide + (of - 1) * 4 * kSide) << of << " threads";
+    }
 }
 
 TEST(Colouring, PutsPatchesOfAsManyPointsTogether) {

@@ -38,24 +38,29 @@ void Colouring::chooseColours(std::span<const PatchPlan> plans, std::size_t bodi
     }
 }
 
-/// Cuts each colour in slices of as many plans, in their order: threads that share a colour get slices, and
-/// so the same bodies in every colour as far as bodies are numbered as they lie, and as much work.
-void Colouring::slice(std::uint32_t lanes) {
-    constexpr std::uint32_t kLeastBlocks = 8;  // of a slice
-    std::array<std::uint32_t, kAll> size{}, seen{};
-    for (const std::uint8_t c : colour_) ++size[c];
-    bucket_.resize(colour_.size());
-    for (std::size_t i = 0; i < colour_.size(); ++i) {
-        const std::uint32_t c = colour_[i], n = size[c];
-        const std::uint32_t slices = std::clamp<std::uint32_t>(n / (lanes * kLeastBlocks), 1, kSlices);
-        bucket_[i] = c * kSlices + static_cast<std::uint32_t>(std::uint64_t(seen[c]++) * slices / n);
+/// By the plans' first bodies that move, so that each slice has as many plans: as far as bodies are numbered
+/// as they lie, those of a slice are neighbours.
+void Colouring::slice(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes) {
+    constexpr std::uint32_t kLeastBlocks = 48;  // of a slice: smaller ones only mix the kinds
+    const auto n = static_cast<std::uint32_t>(plans.size());
+    const std::uint32_t slices = std::clamp<std::uint32_t>(n / (lanes * kLeastBlocks), 1, kSlices);
+    const auto key = [](const PatchPlan& plan) { return plan.movesA ? plan.a : plan.b; };
+    slice_.assign(bodies, 0);
+    for (const PatchPlan& plan : plans) ++slice_[key(plan)];
+    std::uint32_t before = 0;
+    for (std::uint32_t& own : slice_) {
+        const std::uint32_t count =
+            std::exchange(own, static_cast<std::uint32_t>(std::uint64_t(before) * slices / std::max(n, 1u)));
+        before += count;
     }
+    bucket_.resize(plans.size());
+    for (std::size_t i = 0; i < plans.size(); ++i) bucket_[i] = colour_[i] * kSlices + slice_[key(plans[i])];
+    slices_ = slices;
 }
 
 /// By counting: colours one after the other, slices of a colour, within a slice by falling number of points,
 /// then in their order.
 void Colouring::place(std::span<const PatchPlan> plans, std::uint32_t lanes) {
-    slice(lanes);
     constexpr std::uint32_t kBuckets = kSlices * kKinds;  // of a colour
     count_.assign(kAll * kBuckets, 0);
     for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -65,18 +70,21 @@ void Colouring::place(std::span<const PatchPlan> plans, std::uint32_t lanes) {
     ranges_.clear();
     std::uint32_t place = 0;
     for (std::uint32_t c = 0; c < kAll; ++c) {
-        const std::uint32_t first = place / lanes;
         const bool alone = c == kRest || c == kWallRest;
+        Range range;
+        range.slices = slices_;
         for (std::uint32_t k = 0; k < kBuckets; ++k) {
+            if (k % kKinds == 0) range.cut[k / kKinds] = (place + lanes / 2) / lanes;
             const std::uint32_t n = std::exchange(count_[c * kBuckets + k], place);
             place += alone ? n * lanes : n;
         }
         place = (place + lanes - 1) / lanes * lanes;
-        const std::uint32_t last = place / lanes;
+        range.cut[slices_] = place / lanes;
         if (alone)
-            for (std::uint32_t block = first; block < last; ++block) ranges_.push_back({block, block + 1});
-        else if (last > first)
-            ranges_.push_back({first, last});
+            for (std::uint32_t block = range.first(); block < range.last(); ++block)
+                ranges_.push_back({1, {block, block + 1}});
+        else if (range.last() > range.first())
+            ranges_.push_back(range);
     }
     blocks_ = place / lanes;
     places_.resize(plans.size());
@@ -90,6 +98,7 @@ void Colouring::place(std::span<const PatchPlan> plans, std::uint32_t lanes) {
 
 void Colouring::colour(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes) {
     chooseColours(plans, bodies);
+    slice(plans, bodies, lanes);
     place(plans, lanes);
 }
 

@@ -10,6 +10,8 @@
 // kind.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,9 +28,22 @@ struct PatchPlan {
 
 class Colouring {
   public:
-    /// Blocks [first, last) of lanes that may be worked on in any order.
+    static constexpr std::uint32_t kSlices = 4;  ///< at most
+
+    /// Blocks of lanes that may be worked on in any order. Their slices are those of all ranges: a thread
+    /// that takes the same ones in each meets the same bodies again, but for few where slices meet, and has
+    /// about as much to do as the others.
     struct Range {
-        std::uint32_t first, last;
+        std::uint32_t slices = 1;
+        std::array<std::uint32_t, kSlices + 1> cut{};  ///< slice k is [cut[k], cut[k + 1])
+        std::uint32_t first() const { return cut[0]; }
+        std::uint32_t last() const { return cut[slices]; }
+        /// Where the share of thread `share` <= of begins.
+        std::uint32_t begin(std::size_t share, std::size_t of) const {
+            const std::size_t at = share * slices, k = at / of, rest = at % of;
+            return rest == 0 ? cut[k]
+                             : cut[k] + static_cast<std::uint32_t>((cut[k + 1] - cut[k]) * rest / of);
+        }
     };
 
     /// Places `plans` of a world of `bodies` bodies into blocks of `lanes` lanes.
@@ -42,19 +57,19 @@ class Colouring {
 
   private:
     static constexpr std::uint32_t kColours = 64;
-    static constexpr std::uint32_t kKinds = 4;   ///< by number of points, at least that many
-    static constexpr std::uint32_t kSlices = 4;  ///< of a colour, at most
+    static constexpr std::uint32_t kKinds = 4;  ///< by number of points, at least that many
 
     void chooseColours(std::span<const PatchPlan> plans, std::size_t bodies);
-    void slice(std::uint32_t lanes);
+    void slice(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes);
     void place(std::span<const PatchPlan> plans, std::uint32_t lanes);
 
     std::vector<std::uint64_t> taken_;  ///< colours of each body
     std::vector<std::uint8_t> colour_;  ///< of each plan: moving pairs, their rest, walls, their rest
     std::vector<std::uint32_t> bucket_, count_;  ///< of each plan; by colour, slice and kind
+    std::vector<std::uint32_t> slice_;           ///< of each body: plans that it is the first of; their slice
     std::vector<std::uint32_t> places_;
     std::vector<Range> ranges_;
-    std::uint32_t blocks_ = 0;
+    std::uint32_t blocks_ = 0, slices_ = 1;
 };
 
 }  // namespace rigor::engine

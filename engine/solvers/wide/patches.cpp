@@ -9,6 +9,7 @@ namespace rigor::engine {
 namespace {
 
 constexpr std::size_t kBlockGrain = 8, kBodyGrain = 512;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kChunk = 64;                        ///< of bodies: as much work as a block
 
 /// Raises `largest` to at least x.
 template <class R>
@@ -64,15 +65,26 @@ typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const Patc
                                    const Tasks& tasks) {
     velocities_.refer(velocities);
     const Velocity<F>* const gained = warmStart && gainedHolds_ ? gained_.data() : nullptr;
-    tasks.forRanges(velocities.size(), kBodyGrain,
-                    [&](std::size_t first, std::size_t last) { velocities_.begin(first, last, gained); });
-    if (warmStart && gained == nullptr)
-        forStages(tasks,
-                  [&](std::size_t first, std::size_t last) { warmStartPatches<F>(range(first, last)); });
-    forStages(tasks, [&](std::size_t first, std::size_t last) { solvePatches<F>(range(first, last), pass); });
     std::atomic<PatchReal> change = 0;
-    tasks.forRanges(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
-        raise(change, velocities_.end(first, last, gained_.data(), !warmStart));
+    // One run of stages: bodies, all colours once or twice, bodies.
+    const std::span<const Colouring::Range> ranges = colouring_.ranges();
+    const std::size_t colours = ranges.size(), warm = warmStart && gained == nullptr ? colours : 0;
+    const std::size_t last = 1 + warm + colours, n = velocities.size();
+    const std::size_t chunks = (n + kChunk - 1) / kChunk;
+    const auto cut = [&](std::size_t stage, std::size_t share, std::size_t of) -> std::size_t {
+        if (stage == 0 || stage == last) return chunks * share / of;
+        return ranges[(stage - 1) % colours].begin(share, of);
+    };
+    tasks.forCutStages(last + 1, kGrain, cut, [&](std::size_t stage, std::size_t from, std::size_t to) {
+        if (stage == 0)
+            velocities_.begin(from * kChunk, std::min(to * kChunk, n), gained);
+        else if (stage == last)
+            raise(change,
+                  velocities_.end(from * kChunk, std::min(to * kChunk, n), gained_.data(), !warmStart));
+        else if (stage <= warm)
+            warmStartPatches<F>(range(from, to));
+        else
+            solvePatches<F>(range(from, to), pass);
     });
     gainedHolds_ = gainedHolds_ || warmStart;
     return static_cast<Real>(change.load());

@@ -78,17 +78,15 @@ class Patches {
         one.rubs = &rubs;
         return one;
     }
+    static constexpr std::size_t kGrain = 2;  ///< blocks worth sharing
     /// Colour by colour: work(first, last) on ranges of blocks.
     template <class Work>
     void forStages(const Tasks& tasks, const Work& work) const {
-        constexpr std::size_t kGrain = 4;  // worth sharing: some microseconds of work
         const std::span<const Colouring::Range> ranges = colouring_.ranges();
-        tasks.forStages(
+        tasks.forCutStages(
             ranges.size(), kGrain,
-            [&](std::size_t c) -> std::size_t { return ranges[c].last - ranges[c].first; },
-            [&](std::size_t c, std::size_t first, std::size_t last) {
-                work(ranges[c].first + first, ranges[c].first + last);
-            });
+            [&](std::size_t c, std::size_t share, std::size_t of) { return ranges[c].begin(share, of); },
+            [&](std::size_t, std::size_t first, std::size_t last) { work(first, last); });
     }
 
     std::vector<PatchPlan> offered_, lastOffered_;
