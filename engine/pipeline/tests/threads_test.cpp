@@ -76,6 +76,33 @@ TYPED_TEST(Threads, DoNotChangeABitOfTheDefaults) {
     expectSameBits<TypeParam>(earth<TypeParam>(), 60, "default");
 }
 
+/// Enough pairs for their parts to be merged and ordered side by side (contact_candidates.cpp), while pairs
+/// and contacts come and go: in the middle, every third contact is torn apart within a step.
+TYPED_TEST(Threads, DoNotChangeABitOfManyPairs) {
+    using S = TypeParam;
+    WorldDef<S> def = earth<S>();
+    preferSpeed(def);
+    std::vector<std::uint64_t> expected;
+    for (const int threads : {1, 2, 3}) {
+        def.threads = threads;
+        World<S> world = crowd<S>(def, 180, 4);
+        std::vector<ContactView<S>> contacts;
+        for (std::size_t i = 0; i < 40; ++i) {
+            if (i == 20) {
+                world.readContacts(contacts);
+                for (std::size_t k = 0; k < contacts.size(); k += 3)
+                    world.setVelocity(contacts[k].bodyB, at<S>(0, 60), zeroAng<S>());
+            }
+            world.step(static_cast<typename S::Real>(1.0 / 60));
+            EXPECT_GT(world.lastStep().pairs, i <= 20 ? 600u : 0u) << "more than one part";
+            if (threads == 1)
+                expected.push_back(world.stateHash());
+            else
+                ASSERT_EQ(world.stateHash(), expected[i]) << threads << " threads, step " << i;
+        }
+    }
+}
+
 TYPED_TEST(Threads, DoNotChangeABitOfAnySolverOrNarrowPhase) {
     using S = TypeParam;
     WorldDef<S> plain = earth<S>();

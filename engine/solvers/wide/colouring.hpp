@@ -10,6 +10,7 @@
 // kind.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +29,8 @@ struct PatchPlan {
 
 class Colouring {
   public:
-    static constexpr std::uint32_t kSlices = 4;  ///< at most
+    static constexpr std::uint32_t kSlices = 4;   ///< at most
+    static constexpr std::uint32_t kUneven = 16;  ///< a share may be larger by this part of a range
 
     /// Blocks of lanes that may be worked on in any order. Their slices are those of all ranges: a thread
     /// that takes the same ones in each meets the same bodies again, but for few where slices meet, and has
@@ -38,11 +40,15 @@ class Colouring {
         std::array<std::uint32_t, kSlices + 1> cut{};  ///< slice k is [cut[k], cut[k + 1])
         std::uint32_t first() const { return cut[0]; }
         std::uint32_t last() const { return cut[slices]; }
-        /// Where the share of thread `share` <= of begins.
+        /// Where the share of thread `share` <= of begins: at the slices' bodies, or, where that would leave
+        /// threads waiting for one that has much more to do in this range, not far from an even cut.
         std::uint32_t begin(std::size_t share, std::size_t of) const {
             const std::size_t at = share * slices, k = at / of, rest = at % of;
-            return rest == 0 ? cut[k]
-                             : cut[k] + static_cast<std::uint32_t>((cut[k + 1] - cut[k]) * rest / of);
+            const std::size_t sliced = cut[k] + (rest == 0 ? 0 : (cut[k + 1] - cut[k]) * rest / of);
+            const std::size_t n = last() - first(), slack = n / kUneven, even = first() + n * share / of;
+            if (share == 0 || share == of) return static_cast<std::uint32_t>(even);
+            return static_cast<std::uint32_t>(
+                std::clamp(sliced, even - std::min(slack, even - first()), even + slack));
         }
     };
 
