@@ -5,10 +5,26 @@
 #include <hwy/cache_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 #include <utility>
 
 namespace rigor::engine {
+namespace {
+
+/// Pauses before the share of a thread that seems to be away is taken over: a microsecond or two, longer than
+/// a thread takes to see that a stage has begun.
+constexpr int kPatience = 64;
+
+constexpr std::uint64_t kCountBits = 24;
+constexpr std::uint64_t before(std::uint64_t run) {
+    return run >> kCountBits;
+}
+constexpr std::uint64_t count(std::uint64_t run) {
+    return run & ((std::uint64_t(1) << kCountBits) - 1);
+}
+
+}  // namespace
 
 void pauseThread(int waits) {
     constexpr int kSpins = 1000;  // some ten microseconds, longer than what lies between two ranges of a step
@@ -18,56 +34,90 @@ void pauseThread(int waits) {
         std::this_thread::yield();
 }
 
-void Stages::run(std::size_t count, std::size_t grain, const Cut& cut, const Work& work) {
-    before_ += count_;  // of the last run
-    count_ = count, grain_ = std::max<std::size_t>(grain, 1);
-    cut_ = &cut, work_ = &work;
-    error_ = nullptr;
+Stages::Stages(std::size_t threads)
+    : shares_(threads), walkers_(threads), weights_(threads, 1.0 / static_cast<double>(threads)) {
+    for (Walker& walker : walkers_) walker.patience.assign(threads, kPatience);
+}
+
+void Stages::run(std::size_t stages, const Work& work) {
+    if (stages == 0) return;
+    const std::uint64_t last = run_.load(std::memory_order_relaxed);
+    before_ = before(last) + count(last);
+    work_ = &work;
     failed_.store(false, std::memory_order_relaxed);
-    open_.store(true);
-    walk(0);
-    open_.store(false);
-    for (int waits = 0; inside_.load() != 0; ++waits) pauseThread(waits);
+    const std::uint64_t next = before_ << kCountBits | stages;
+    run_.store(next, std::memory_order_release);
+    walk(0, next);
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
 bool Stages::help(std::size_t self) {
-    if (!open_.load(std::memory_order_relaxed)) return false;
-    // Either run() sees this one inside and waits for it, or this one sees that it has been closed.
-    inside_.fetch_add(1);
-    const bool open = open_.load();
-    if (open) walk(self);
-    inside_.fetch_sub(1);
-    return open;
+    const std::uint64_t run = run_.load(std::memory_order_acquire);
+    if (std::exchange(walkers_[self].seen, run) == run) return false;
+    walk(self, run);
+    return true;
 }
 
-void Stages::walk(std::size_t self) {
-    for (std::size_t stage = 0; stage < count_; ++stage) {
-        const std::size_t n = (*cut_)(stage, 1, 1) - (*cut_)(stage, 0, 1);
-        const std::size_t shares = std::clamp<std::size_t>(n / grain_, 1, shares_.size());
-        for (std::size_t k = 0; k < shares; ++k) take(stage, (self + k) % shares, shares);
-        for (std::size_t k = 0; k < shares; ++k)
-            for (int waits = 0; shares_[k].done.load(std::memory_order_acquire) <= before_ + stage; ++waits)
-                pauseThread(waits);
+void Stages::walk(std::size_t self, std::uint64_t run) {
+    Walker& walker = walkers_[self];
+    for (std::uint64_t stage = before(run) + 1; stage <= before(run) + count(run); ++stage) {
+        take(self, stage);
+        for (std::size_t k = 1; k < shares_.size(); ++k) await(walker, (self + k) % shares_.size(), stage);
+        await(walker, self, stage);  // somebody else may have taken it
     }
 }
 
-/// Does a share of a stage if nobody has begun it.
-void Stages::take(std::size_t stage, std::size_t share, std::size_t of) {
+void Stages::await(Walker& walker, std::size_t share, std::uint64_t stage) {
+    int& patience = walker.patience[share];
+    bool mayTake = true;
+    int waits = 0;
+    for (; shares_[share].done.load(std::memory_order_acquire) < stage; ++waits) {
+        if (mayTake && waits >= patience) {
+            mayTake = false;
+            patience = take(share, stage) ? 0 : kPatience;
+            if (patience == 0) return;
+        } else {
+            pauseThread(waits);
+        }
+    }
+    walker.waited.store(walker.waited.load(std::memory_order_relaxed) + static_cast<std::uint64_t>(waits),
+                        std::memory_order_relaxed);
+}
+
+/// Does a share of a stage unless somebody has begun it.
+bool Stages::take(std::size_t share, std::uint64_t stage) {
     Share& mine = shares_[share];
-    const std::uint64_t number = before_ + stage + 1;
     std::uint64_t taken = mine.taken.load(std::memory_order_relaxed);
-    if (taken >= number || !mine.taken.compare_exchange_strong(taken, number, std::memory_order_relaxed))
-        return;
-    const std::size_t first = (*cut_)(stage, share, of), last = (*cut_)(stage, share + 1, of);
+    if (taken >= stage || !mine.taken.compare_exchange_strong(taken, stage, std::memory_order_relaxed))
+        return false;
     try {
-        if (first < last && !failed_.load(std::memory_order_relaxed)) (*work_)(stage, first, last);
+        if (!failed_.load(std::memory_order_relaxed)) (*work_)(stage - before_ - 1, share);
     } catch (...) {
         const std::lock_guard lock(failing_);
         if (!error_) error_ = std::current_exception();
-        failed_ = true;
+        failed_.store(true, std::memory_order_relaxed);
     }
-    mine.done.store(number, std::memory_order_release);
+    mine.done.store(stage, std::memory_order_release);
+    return true;
+}
+
+const std::vector<double>& Stages::weights() {
+    constexpr double kGain = 0.01, kEven = 0.1, kMost = 1.5;
+    constexpr std::uint64_t kLeast = 64;  // pauses: less says nothing
+    const auto threads = static_cast<double>(walkers_.size());
+    std::uint64_t all = 0;
+    for (const Walker& walker : walkers_) all += walker.waited.load(std::memory_order_relaxed);
+    if (all < kLeast) return weights_;
+    const double mean = static_cast<double>(all) / threads;
+    double sum = 0;
+    for (std::size_t k = 0; k < walkers_.size(); ++k) {
+        const auto waited = static_cast<double>(walkers_[k].waited.exchange(0, std::memory_order_relaxed));
+        const double change = std::abs(waited - mean) <= kEven * mean ? 0 : waited > mean ? kGain : -kGain;
+        weights_[k] = std::clamp(weights_[k] + change / threads, (2 - kMost) / threads, kMost / threads);
+        sum += weights_[k];
+    }
+    for (double& weight : weights_) weight /= sum;
+    return weights_;
 }
 
 }  // namespace rigor::engine

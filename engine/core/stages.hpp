@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Short stages that threads walk through side by side. Each stage is cut in as many shares as there are
-// threads; a thread does its own and then those that nobody has begun, and goes on when all are done. A share
-// costs two words that others read: that it is taken, that it is done. The share of a thread is the same for
-// stages of the same size, so that it finds what it worked on last time in its own cache.
+// Short stages that threads walk through side by side. Each stage has a share for each thread; a thread does
+// its own, waits until all others are done, and goes on. It takes its own share by a word that nobody else
+// touches as a rule, and says that it is done by another one that the others wait for: a stage costs each
+// thread one line that goes from cache to cache. A share that is not done for long is taken over, if its
+// thread has not begun it, and from then on at once, until that thread comes back. What a share consists of
+// is up to the work; where a thread has the same one in many stages it finds that in its own cache.
+//
+// Threads that share a core with somebody else are slower than others. How long each one waits says so, and
+// shares are weighted by it (weights()).
 #pragma once
 
 #include <atomic>
@@ -22,37 +27,49 @@ void pauseThread(int waits);
 
 class Stages {
   public:
-    /// Of a stage: where the share `share` <= `of` of `of` begins; the last one ends at (stage, of, of).
-    using Cut = std::function<std::size_t(std::size_t stage, std::size_t share, std::size_t of)>;
-    using Work = std::function<void(std::size_t, std::size_t, std::size_t)>;
+    /// The share `share` of a stage; as many as there are threads.
+    using Work = std::function<void(std::size_t stage, std::size_t share)>;
 
-    explicit Stages(std::size_t threads) : shares_(threads) {}
+    explicit Stages(std::size_t threads);
 
-    /// Stages 0 .. count - 1 as Tasks::forStages does them, with those who help(). `cut` and `work` are
-    /// called by all of them.
-    void run(std::size_t count, std::size_t grain, const Cut& cut, const Work& work);
+    /// Stages 0 .. count - 1 as Tasks::forStages does them, with those who help(); count < 2^24.
+    void run(std::size_t count, const Work& work);
     /// By any other thread, at any time; `self` in [1, threads). False: there was nothing to do.
     bool help(std::size_t self);
 
+    /// Between runs: what part of the work each thread should have, such that all are done at the same time;
+    /// the sum is 1. Follows what they have waited since the last call, slowly.
+    const std::vector<double>& weights();
+
   private:
-    /// Stages are counted through all runs, so that nothing has to be put back.
-    struct alignas(64) Share {
-        std::atomic<std::uint64_t> taken{0}, done{0};  ///< stages up to this one
+    // Stages are counted through all runs, from 1, so that nothing has to be put back. Who has taken a share
+    // keeps its stage, and with it the run, from ending: only then what belongs to the run is read. Who comes
+    // late finds all shares of the run that it knows of taken and done.
+    struct Share {
+        alignas(64) std::atomic<std::uint64_t> taken{0};  ///< stages up to this one
+        alignas(64) std::atomic<std::uint64_t> done{0};
     };
-    void walk(std::size_t self);
-    void take(std::size_t stage, std::size_t share, std::size_t of);
+    /// What a thread knows.
+    struct alignas(64) Walker {
+        std::uint64_t seen = 0;                ///< the last run
+        std::vector<int> patience;             ///< with each share, before it is taken over
+        std::atomic<std::uint64_t> waited{0};  ///< pauses, for others who were at work
+    };
+    void walk(std::size_t self, std::uint64_t run);
+    bool take(std::size_t share, std::uint64_t stage);
+    void await(Walker& walker, std::size_t share, std::uint64_t stage);
 
     std::vector<Share> shares_;
-    alignas(64) std::atomic<bool> open_{false};
-    alignas(64) std::atomic<int> inside_{0};  ///< those who help
-    // --- of a run; read by those inside
-    alignas(64) std::size_t count_ = 0, grain_ = 1;
-    std::uint64_t before_ = 0;  ///< stages of earlier runs
-    const Cut* cut_ = nullptr;
+    std::vector<Walker> walkers_;
+    std::vector<double> weights_;
+    /// The run that is under way, or was last: stages of earlier ones, and how many it has.
+    alignas(64) std::atomic<std::uint64_t> run_{0};
+    // --- of the run
+    alignas(64) std::uint64_t before_ = 0;
     const Work* work_ = nullptr;
+    std::atomic<bool> failed_{false};
     std::mutex failing_;
     std::exception_ptr error_;
-    std::atomic<bool> failed_{false};
 };
 
 }  // namespace rigor::engine

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -44,14 +45,22 @@ struct Tasks::Arena {
     explicit Arena(int threads)
         : arena(threads),
           stages(static_cast<std::size_t>(threads)),
-          shares_(static_cast<std::size_t>(threads)) {}
+          before(static_cast<std::size_t>(threads)),
+          shares_(static_cast<std::size_t>(threads)) {
+        weigh();
+    }
 
+    void weigh() {
+        const std::vector<double>& weights = stages.weights();
+        std::exclusive_scan(weights.begin(), weights.end(), before.begin(), 0.0);
+    }
     void enter(const std::function<void()>& work);
     void share(std::size_t n, std::size_t part, const Work& work);
     bool inPart() const { return working == this; }
 
     oneapi::tbb::task_arena arena;
     Stages stages;
+    std::vector<double> before;  ///< parts of the work that belong before each share
     bool entered = false;
 
     /// Works on a part while it lives.
@@ -96,6 +105,7 @@ thread_local const Tasks::Arena* Tasks::Arena::working = nullptr;
 
 void Tasks::Arena::enter(const std::function<void()>& work) {
     if (inPart() || entered) return work();
+    weigh();
     arena.execute([&] {
         oneapi::tbb::task_group others;
         entered = together_ = true;
@@ -195,20 +205,22 @@ void Tasks::shared(std::size_t n, std::size_t grain,
     arena_->enter(std::cref(share));
 }
 
-void Tasks::sharedStages(std::size_t count, std::size_t grain,
-                         const std::function<std::size_t(std::size_t, std::size_t, std::size_t)>& cut,
-                         const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const {
-    const Stages::Work part = [&](std::size_t stage, std::size_t begin, std::size_t end) {
+void Tasks::sharedStages(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) const {
+    const Stages::Work part = [&](std::size_t stage, std::size_t share) {
         const Arena::Inside inside(arena_.get());
-        work(stage, begin, end);
+        work(stage, share);
     };
     const auto all = [&] {
-        if (!arena_->inPart()) return arena_->stages.run(count, grain, cut, part);
+        if (!arena_->inPart()) return arena_->stages.run(count, part);
         for (std::size_t stage = 0; stage < count; ++stage)
-            if (const std::size_t begin = cut(stage, 0, 1), end = cut(stage, 1, 1); begin < end)
-                work(stage, begin, end);
+            for (std::size_t share = 0; share < static_cast<std::size_t>(threads_); ++share)
+                work(stage, share);
     };
     arena_->enter(std::cref(all));
+}
+
+double Tasks::before(std::size_t share) const {
+    return share == 0 ? 0.0 : share >= static_cast<std::size_t>(threads_) ? 1.0 : arena_->before[share];
 }
 
 void Tasks::entered(const std::function<void()>& work) const {

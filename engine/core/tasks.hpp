@@ -5,6 +5,7 @@
 // that results do not depend on the number of threads or on who did what.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -46,31 +47,38 @@ class Tasks {
             for (std::size_t i = begin; i < end; ++i) work(i);
         });
     }
-    /// Stages 0 .. count - 1 one after the other, each in parts of at least `grain` indices, one for each
-    /// thread at most: work(stage, begin, end) for parts of [0, size(stage)). The next stage begins when the
-    /// last one has ended (core/stages.hpp); threads are not sent for anew in between, so that stages may be
-    /// short. `size` is called by all of them.
-    template <class Size, class Work>
-    void forStages(std::size_t count, std::size_t grain, const Size& size, const Work& work) const {
-        forCutStages(
-            count, grain,
-            [&size](std::size_t stage, std::size_t share, std::size_t of) {
-                return size(stage) * share / of;
-            },
-            work);
-    }
-    /// The same of stages that know where to be cut: `of` shares, one for each thread, begin at
-    /// cut(stage, 0 .. of - 1, of), and the last one ends at cut(stage, of, of).
-    template <class Cut, class Work>
-    void forCutStages(std::size_t count, std::size_t grain, const Cut& cut, const Work& work) const {
-        if (threads_ == 1) {
-            for (std::size_t stage = 0; stage < count; ++stage) {
-                const std::size_t begin = cut(stage, 0, 1), end = cut(stage, 1, 1);
-                if (begin < end) work(stage, begin, end);
-            }
+    /// The same for work that is even and short: one part for each thread, cut at multiples of `grain`, of
+    /// the same n always about the same. No more than `grain` indices are one part.
+    template <class Work>
+    void forShares(std::size_t n, std::size_t grain, const Work& work) const {
+        if (threads_ == 1 || n <= grain) {
+            if (n > 0) work(std::size_t(0), n);
             return;
         }
-        sharedStages(count, grain, std::cref(cut), std::cref(work));
+        const auto part = [&](std::size_t, std::size_t share) {
+            const std::size_t begin = cut(n, grain, share), end = cut(n, grain, share + 1);
+            if (begin < end) work(begin, end);
+        };
+        sharedStages(1, std::cref(part));
+    }
+    /// Stages 0 .. count - 1 one after the other, each in as many shares as there are threads: work(stage,
+    /// share). The next stage begins when the last one has ended (core/stages.hpp); threads are not sent for
+    /// anew in between, so that stages may be short.
+    template <class Work>
+    void forStages(std::size_t count, const Work& work) const {
+        if (threads_ == 1) {
+            for (std::size_t stage = 0; stage < count; ++stage) work(stage, std::size_t(0));
+            return;
+        }
+        sharedStages(count, std::cref(work));
+    }
+    /// What part of the work belongs before the share `share`, 0 .. 1: threads have shares after their speed,
+    /// which is reckoned anew with each enter().
+    double before(std::size_t share) const;
+    /// Where the share `share` of [0, n) begins, at a multiple of `grain`; that of threads() is n.
+    std::size_t cut(std::size_t n, std::size_t grain, std::size_t share) const {
+        const auto units = static_cast<double>((n + grain - 1) / grain);
+        return std::min(n, static_cast<std::size_t>(units * before(share) + 0.5) * grain);
     }
     /// Does `work` among the threads: calls of forRanges from within start at once.
     template <class Work>
@@ -83,9 +91,7 @@ class Tasks {
     struct Arena;
     void shared(std::size_t n, std::size_t grain,
                 const std::function<void(std::size_t, std::size_t)>& work) const;
-    void sharedStages(std::size_t count, std::size_t grain,
-                      const std::function<std::size_t(std::size_t, std::size_t, std::size_t)>& cut,
-                      const std::function<void(std::size_t, std::size_t, std::size_t)>& work) const;
+    void sharedStages(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) const;
     void entered(const std::function<void()>& work) const;
 
     int threads_ = 1;

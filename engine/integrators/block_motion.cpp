@@ -10,6 +10,11 @@ namespace {
 
 constexpr std::size_t kBlockGrain = 16;  ///< worth sharing: some microseconds of work
 
+/// Blocks of the bodies [first, last); first is a multiple of kLanes.
+constexpr std::size_t blocksIn(std::size_t first, std::size_t last) {
+    return (last - first + kLanes - 1) / kLanes;
+}
+
 /// The inertia is that of a ball, to rounding: the velocity stays as it is.
 template <class S>
 bool isRound(const typename S::Inertia& inertia) {
@@ -104,43 +109,41 @@ void BlockMotion<S>::addTumbling(const BodyArrays<S>& bodies, std::size_t i, Rea
 
 template <class S>
 void BlockMotion<S>::kick(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
-    tasks.forRanges(bodies.size(), kBlockGrain * kLanes, [&](std::size_t first, std::size_t last) {
+    tasks.forShares(bodies.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
         auto u = numbers(bodies.velocity.data(), first, last);
         u = numbers(kept_.data(), first, last) * u + numbers(add_.data(), first, last);
+        if constexpr (S::dim == 3)
+            if (!tumbling_.empty())
+                predictTumbling<S>(tumbling_.data() + first / kLanes, blocksIn(first, last),
+                                   bodies.pose.data(), bodies.velocity.data(), h);
     });
     for (const std::uint32_t i : twisted_) {
         const Real kick = dampedStep(bodies.constants[i].angularVelocityKept, h).kick;
         bodies.velocity[i].w += kick * typename S::Ang(bodies.invInertia[i] * bodies.wrench[i].torque);
     }
-    if constexpr (S::dim == 3)
-        tasks.forRanges(tumbling_.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
-            predictTumbling<S>(tumbling_.data() + first, last - first, bodies.pose.data(),
-                               bodies.velocity.data(), h);
-        });
-    else
-        (void)h;
 }
 
 template <class S>
 void BlockMotion<S>::move(BodyArrays<S>& bodies, std::span<Velocity<S>> used, Real h,
                           const Tasks& tasks) const {
-    tasks.forRanges(bodies.size(), kBlockGrain * kLanes, [&](std::size_t first, std::size_t last) {
+    tasks.forShares(bodies.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
         numbers(used.data(), first, last) = numbers(bodies.velocity.data(), first, last);
-    });
-    tasks.forRanges(moving_.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
-        moveBodies<S>(moving_.data() + first, last - first, bodies.pose.data(), bodies.velocity.data(), h);
+        moveBodies<S>(moving_.data() + first / kLanes, blocksIn(first, last), bodies.pose.data(),
+                      bodies.velocity.data(), h);
     });
 }
 
 template <class S>
 void BlockMotion<S>::finish(BodyArrays<S>& bodies, const Tasks& tasks) const {
-    if constexpr (S::dim == 3)
-        tasks.forRanges(tumbling_.size(), kBlockGrain, [&](std::size_t first, std::size_t last) {
-            finishTumbling<S>(tumbling_.data() + first, last - first, bodies.pose.data(),
+    if constexpr (S::dim == 3) {
+        if (tumbling_.empty()) return;
+        tasks.forShares(bodies.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+            finishTumbling<S>(tumbling_.data() + first / kLanes, blocksIn(first, last), bodies.pose.data(),
                               bodies.velocity.data());
         });
-    else
+    } else {
         (void)bodies, (void)tasks;
+    }
 }
 
 template class BlockMotion<Space2f>;

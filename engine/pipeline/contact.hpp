@@ -4,12 +4,11 @@
 // What a world keeps of a shape, and of two shapes that touch or nearly do.
 #pragma once
 
-#include <hwy/cache_control.h>
-
 #include <array>
 #include <cstdint>
 
 #include "engine/core/ids.hpp"
+#include "engine/core/prefetch.hpp"
 #include "engine/narrowphase/manifolds.hpp"
 #include "engine/state/world_def.hpp"
 
@@ -73,12 +72,6 @@ struct alignas(64) Contact {
     std::uint32_t firstRow = 0, blocks = 0;  ///< of this step, while rows are made
     PerPoint<Point> points;
 };
-
-/// Sends for what lies from `first` up to `last` in memory.
-inline void prefetch(const void* first, const void* last) {
-    for (const char* at = static_cast<const char*>(first); at < static_cast<const char*>(last); at += 64)
-        hwy::Prefetch(at);
-}
 
 /// Where the impulse of a point acts.
 /// One point for both bodies, or equal and opposite impulses would make a couple; against a body that takes

@@ -62,15 +62,13 @@ TEST(Tasks, TwoThreadsReallyWorkAtTheSameTime) {
 TEST(Tasks, TwoThreadsReallyShareAStage) {
     const Tasks tasks(2);
     std::atomic<int> inside = 0, most = 0;
-    tasks.forStages(
-        3, 1, [](std::size_t) -> std::size_t { return 2; },
-        [&](std::size_t, std::size_t, std::size_t) {
-            most = std::max(most.load(), ++inside);
-            for (int i = 0; i < 1000 && inside < 2 && most < 2; ++i)
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            most = std::max(most.load(), inside.load());
-            --inside;
-        });
+    tasks.forStages(3, [&](std::size_t, std::size_t) {
+        most = std::max(most.load(), ++inside);
+        for (int i = 0; i < 1000 && inside < 2 && most < 2; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        most = std::max(most.load(), inside.load());
+        --inside;
+    });
     EXPECT_EQ(most, 2);
 }
 
@@ -82,40 +80,64 @@ TEST(Tasks, StagesFollowEachOtherAndVisitEveryIndexOnce) {
         for (std::size_t s = 0; s < stages; ++s) visits[s].assign(s * 7 % 30, 0);
         std::atomic<bool> early = false;  // a stage began before the last one had ended
         std::vector<std::atomic<std::size_t>> done(stages);
-        tasks.forStages(
-            stages, 4, [&](std::size_t s) { return visits[s].size(); },
-            [&](std::size_t s, std::size_t begin, std::size_t end) {
-                if (s > 0 && done[s - 1] != visits[s - 1].size()) early = true;
-                for (std::size_t i = begin; i < end; ++i) ++visits[s][i];
-                done[s] += end - begin;
-            });
+        tasks.forStages(stages, [&](std::size_t s, std::size_t share) {
+            if (s > 0 && done[s - 1] != visits[s - 1].size()) early = true;
+            const std::size_t end = tasks.cut(visits[s].size(), 4, share + 1);
+            for (std::size_t i = tasks.cut(visits[s].size(), 4, share); i < end; ++i)
+                ++visits[s][i], ++done[s];
+        });
         EXPECT_FALSE(early) << threads;
         for (std::size_t s = 0; s < stages; ++s)
             EXPECT_EQ(visits[s], std::vector<int>(visits[s].size(), 1)) << threads << " threads, stage " << s;
     }
 }
 
-TEST(Tasks, StagesAreCutWhereTheySay) {
-    // The first share is a tenth of a stage, in that of stage s all begins at 10 s.
-    const auto cut = [](std::size_t s, std::size_t share, std::size_t of) -> std::size_t {
-        return 10 * s + (share == 0 ? 0 : share == of ? 100 : 10 + share);
-    };
+TEST(Tasks, SharesAreCutAtMultiplesOfTheGrain) {
     for (int threads = 1; threads <= 4; ++threads) {
         const Tasks tasks(threads);
-        const auto of = static_cast<std::size_t>(threads);
-        std::vector<int> visits(5 * 200, 0);
-        std::atomic<int> strange = 0;
-        tasks.forCutStages(5, 1, cut, [&](std::size_t s, std::size_t begin, std::size_t end) {
-            bool known = false;
-            for (std::size_t share = 0; share < of; ++share)
-                known = known || (begin == cut(s, share, of) && end == cut(s, share + 1, of));
-            if (!known) ++strange;
-            for (std::size_t i = begin; i < end; ++i) ++visits[200 * s + i];
-        });
-        EXPECT_EQ(strange, 0) << threads;
-        for (std::size_t i = 0; i < visits.size(); ++i)
-            EXPECT_EQ(visits[i], i % 200 >= 10 * (i / 200) && i % 200 < 10 * (i / 200) + 100) << i;
+        for (const std::size_t n : {0u, 1u, 15u, 16u, 17u, 100u, 1000u}) {
+            std::vector<int> visits(n, 0);
+            std::atomic<int> parts = 0, strange = 0;
+            tasks.forShares(n, 16, [&](std::size_t begin, std::size_t end) {
+                ++parts;
+                if (begin % 16 != 0 || (end % 16 != 0 && end != n)) ++strange;
+                for (std::size_t i = begin; i < end; ++i) ++visits[i];
+            });
+            EXPECT_EQ(visits, std::vector<int>(n, 1)) << threads << " threads, " << n;
+            EXPECT_EQ(strange, 0) << threads << " threads, " << n;
+            EXPECT_LE(parts, n <= 16 ? 1 : threads) << threads << " threads, " << n;
+            if (n == 1000) {
+                EXPECT_EQ(parts, threads);
+            }
+        }
     }
+}
+
+/// The second share takes its thread three times as long as it should: it becomes smaller, and large again
+/// when the thread is as fast as the other one.
+TEST(Tasks, SharesFollowTheSpeedOfThreads) {
+    const Tasks tasks(2);
+    EXPECT_EQ(tasks.before(0), 0.0);
+    EXPECT_EQ(tasks.before(1), 0.5);
+    EXPECT_EQ(tasks.before(2), 1.0);
+    const auto spin = [](double microseconds) {
+        const auto end =
+            std::chrono::steady_clock::now() + std::chrono::duration<double, std::micro>(microseconds);
+        while (std::chrono::steady_clock::now() < end) {
+        }
+    };
+    const auto run = [&](double slowness, const auto& until) {
+        // Fifty to some hundred rounds; on a busy machine that may take longer.
+        for (int round = 0; round < 20000 && !until(tasks.before(1)); ++round)
+            tasks.forStages(10, [&](std::size_t, std::size_t share) {
+                const double part = tasks.before(share + 1) - tasks.before(share);
+                spin(40 * part * (share == 1 ? slowness : 1.0));
+            });
+    };
+    run(3, [](double before) { return before > 0.6; });
+    EXPECT_GT(tasks.before(1), 0.6);
+    run(1, [](double before) { return before < 0.55; });
+    EXPECT_LT(tasks.before(1), 0.55);
 }
 
 TEST(Tasks, ExceptionsReachTheCallerAndCopiesWork) {
@@ -137,11 +159,10 @@ TEST(Tasks, RangesInsideOfRangesAndStagesAreDone) {
         tasks.enter([&] {
             tasks.forRanges(6, 1, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i)
-                    tasks.forStages(
-                        2, 1, [](std::size_t) -> std::size_t { return 5; },
-                        [&](std::size_t s, std::size_t first, std::size_t last) {
-                            for (std::size_t k = first; k < last; ++k) ++visits[10 * i + 5 * s + k];
-                        });
+                    tasks.forStages(2, [&](std::size_t s, std::size_t share) {
+                        for (std::size_t k = tasks.cut(5, 1, share); k < tasks.cut(5, 1, share + 1); ++k)
+                            ++visits[10 * i + 5 * s + k];
+                    });
             });
         });
         for (const std::atomic<int>& visit : visits) EXPECT_EQ(visit, 1) << threads;
@@ -151,11 +172,10 @@ TEST(Tasks, RangesInsideOfRangesAndStagesAreDone) {
 TEST(Tasks, ExceptionsOfStagesReachTheCallerAndWorkGoesOn) {
     const Tasks tasks(3);
     for (int round = 0; round < 50; ++round) {
-        EXPECT_THROW(tasks.forStages(
-                         4, 1, [](std::size_t) -> std::size_t { return 20; },
-                         [&](std::size_t s, std::size_t begin, std::size_t end) {
-                             if (s == 2 && begin <= 7 && 7 < end) throw std::runtime_error("7 of 2");
-                         }),
+        EXPECT_THROW(tasks.forStages(4,
+                                     [&](std::size_t s, std::size_t share) {
+                                         if (s == 2 && share == 1) throw std::runtime_error("1 of 2");
+                                     }),
                      std::runtime_error);
         EXPECT_THROW(tasks.enter([] { throw std::runtime_error("entered"); }), std::runtime_error);
         std::atomic<int> sum = 0;
@@ -168,13 +188,10 @@ TEST(Tasks, ExceptionsOfStagesReachTheCallerAndWorkGoesOn) {
 TEST(Tasks, ShortRunsOfStagesFollowEachOther) {
     const Tasks tasks(8);
     tasks.enter([&] {
-        for (std::size_t run = 1; run < 300; ++run) {
-            std::vector<std::atomic<std::size_t>> visits(run % 7);
-            tasks.forStages(
-                visits.size(), run % 5, [&](std::size_t s) { return (run * 13 + s * 31) % 50; },
-                [&](std::size_t s, std::size_t begin, std::size_t end) { visits[s] += end - begin; });
-            for (std::size_t s = 0; s < visits.size(); ++s)
-                ASSERT_EQ(visits[s], (run * 13 + s * 31) % 50) << run;
+        for (std::size_t run = 1; run < 1000; ++run) {
+            std::vector<std::atomic<int>> visits(run % 7 * 8);
+            tasks.forStages(run % 7, [&](std::size_t s, std::size_t share) { ++visits[8 * s + share]; });
+            for (const std::atomic<int>& visit : visits) ASSERT_EQ(visit, 1) << run;
         }
     });
 }

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "engine/pipeline/tests/scene.hpp"
 #include "engine/state/prefer_speed.hpp"
@@ -49,6 +50,31 @@ TYPED_TEST(WideLaws, StaticFrictionHoldsWhatRestsAndKineticWhatSlides) {
         else
             EXPECT_NEAR(pulled<TypeParam>(pull, 0), sliding, 0.1 * sliding) << pull;
         EXPECT_NEAR(pulled<TypeParam>(pull, 1), 1 + sliding, 0.03 * sliding) << pull;
+    }
+}
+
+/// A ball that bounces down and rolls, alone or with boxes beside it, whose patches of more points stand in
+/// the same block: to the bit the same.
+TYPED_TEST(WideLaws, AContactDoesNotKnowWhoStandsBesideIt) {
+    using S = TypeParam;
+    using R = typename S::Real;
+    const auto rolled = [](int boxes) {
+        WorldDef<S> def = earth<S>();
+        def.solver = "wide";
+        World<S> world(def);
+        const auto wood = world.addMaterial(R(0.4), R(0.3));
+        addGround<S>(world, wood);
+        const BodyId ball = addBall<S>(world, 0, 1, 0.5, 1, wood, 2);
+        for (int k = 0; k < boxes; ++k) addCube<S>(world, -2.0 - 2 * k, 0.25, 0.25, 1 + k, wood);
+        for (int i = 0; i < 120; ++i) world.step(R(1.0 / 120));
+        return std::pair{world.pose(ball).p, world.velocity(ball)};
+    };
+    const auto alone = rolled(0);
+    EXPECT_GT(alone.first[0], 1) << "it does not roll";
+    for (const int boxes : {1, 3}) {
+        const auto beside = rolled(boxes);
+        EXPECT_EQ(beside.first, alone.first) << boxes;
+        EXPECT_EQ(beside.second, alone.second) << boxes;
     }
 }
 

@@ -25,6 +25,17 @@ std::vector<PatchPlan> randomPlans(std::size_t count, std::uint32_t bodies, unsi
     return plans;
 }
 
+/// Of a range that `of` threads share evenly, whose share a block is; `of`: nobody's.
+std::size_t shareOf(std::uint32_t block, const Colouring::Range& range, std::size_t of) {
+    for (std::size_t share = 0; share < of; ++share) {
+        const Colouring::Cut begin = Colouring::cut(range, double(share) / double(of));
+        const Colouring::Cut end = Colouring::cut(range, double(share + 1) / double(of));
+        for (std::uint32_t kind = 0; kind < Colouring::kKinds; ++kind)
+            if (begin[kind] <= block && block < end[kind]) return share;
+    }
+    return of;
+}
+
 /// Every plan has a lane of its own, and no two of a range move the same body.
 void expectProper(const std::vector<PatchPlan>& plans, const Colouring& colouring) {
     ASSERT_EQ(colouring.places().size(), plans.size());
@@ -33,18 +44,15 @@ void expectProper(const std::vector<PatchPlan>& plans, const Colouring& colourin
     std::uint32_t next = 0;
     std::size_t found = 0;
     for (const Colouring::Range& range : colouring.ranges()) {
-        EXPECT_EQ(range.first(), next) << "ranges follow each other";
-        next = range.last();
-        for (std::size_t of = 1; of <= 6; ++of) {
-            EXPECT_EQ(range.begin(0, of), range.first());
-            EXPECT_EQ(range.begin(of, of), range.last());
-            for (std::size_t share = 0; share < of; ++share)
-                EXPECT_LE(range.begin(share, of), range.begin(share + 1, of)) << share << " of " << of;
-        }
+        EXPECT_EQ(range.first, next) << "ranges follow each other";
+        next = range.last;
+        for (std::size_t of = 1; of <= 6; ++of)
+            for (std::uint32_t block = range.first; block < range.last; ++block)
+                EXPECT_LT(shareOf(block, range, of), of) << "block " << block << " among " << of;
         std::set<std::uint32_t> moved;
         for (std::size_t k = 0; k < plans.size(); ++k) {
             const std::uint32_t block = colouring.places()[k] / kWidth;
-            if (block < range.first() || block >= range.last()) continue;
+            if (block < range.first || block >= range.last) continue;
             ++found;
             EXPECT_TRUE(!plans[k].movesA || moved.insert(plans[k].a).second) << "body " << plans[k].a;
             EXPECT_TRUE(!plans[k].movesB || moved.insert(plans[k].b).second) << "body " << plans[k].b;
@@ -108,9 +116,8 @@ TEST(Colouring, SharesOfAllColoursMoveTheSameBodies) {
         std::vector<std::set<std::uint32_t>> moved(of);
         for (std::size_t k = 0; k < plans.size(); ++k)
             for (const Colouring::Range& range : colouring.ranges())
-                for (std::size_t share = 0; share < of; ++share) {
-                    const std::uint32_t block = colouring.places()[k] / kWidth;
-                    if (block < range.begin(share, of) || block >= range.begin(share + 1, of)) continue;
+                if (const std::size_t share = shareOf(colouring.places()[k] / kWidth, range, of);
+                    share < of) {
                     ++work[share];
                     if (plans[k].movesA) moved[share].insert(plans[k].a);
                     if (plans[k].movesB) moved[share].insert(plans[k].b);
@@ -123,6 +130,24 @@ TEST(Colouring, SharesOfAllColoursMoveTheSameBodies) {
         // A row of bodies at each seam, and blocks that the seam goes through. Cuts of each colour by itself
         // (one in the middle of the ground's, another of the bonds') would lie rows apart.
         EXPECT_LE(all, kSide * kSide + (of - 1) * 4 * kSide) << of << " threads";
+    }
+}
+
+/// A pyramid's ground contacts are all of bodies of the first slices: threads share them all the same.
+TEST(Colouring, NoShareOfAColourIsMuchLargerThanAnother) {
+    std::vector<PatchPlan> plans;
+    for (std::uint32_t i = 1; i <= 320; ++i) plans.push_back({0, i, false, true, 4});
+    for (std::uint32_t i = 1; i < 4000; i += 2) plans.push_back({i, i + 1, true, true, 2});
+    Colouring colouring;
+    colouring.colour(plans, 4001, kWidth);
+    expectProper(plans, colouring);
+    ASSERT_EQ(colouring.ranges().size(), 2u);
+    for (const Colouring::Range& range : colouring.ranges()) {
+        std::vector<double> blocks(2, 0);
+        for (std::uint32_t block = range.first; block < range.last; ++block)
+            ++blocks[shareOf(block, range, 2)];
+        const double all = range.last - range.first;
+        EXPECT_NEAR(blocks[0], all / 2, all / 16 + 1) << "of " << all;
     }
 }
 

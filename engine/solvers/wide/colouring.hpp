@@ -10,7 +10,6 @@
 // kind.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -29,28 +28,22 @@ struct PatchPlan {
 
 class Colouring {
   public:
-    static constexpr std::uint32_t kSlices = 4;   ///< at most
-    static constexpr std::uint32_t kUneven = 16;  ///< a share may be larger by this part of a range
+    static constexpr std::uint32_t kKinds = 4;  ///< of patches: 4 and more, 3, 2, 1 points
+    static constexpr std::uint32_t kSlices =
+        32;  ///< of all bodies, as they are numbered, with as much work each
 
-    /// Blocks of lanes that may be worked on in any order. Their slices are those of all ranges: a thread
-    /// that takes the same ones in each meets the same bodies again, but for few where slices meet, and has
-    /// about as much to do as the others.
+    /// Blocks of lanes that may be worked on in any order: kind by kind, of a kind slice by slice.
     struct Range {
-        std::uint32_t slices = 1;
-        std::array<std::uint32_t, kSlices + 1> cut{};  ///< slice k is [cut[k], cut[k + 1])
-        std::uint32_t first() const { return cut[0]; }
-        std::uint32_t last() const { return cut[slices]; }
-        /// Where the share of thread `share` <= of begins: at the slices' bodies, or, where that would leave
-        /// threads waiting for one that has much more to do in this range, not far from an even cut.
-        std::uint32_t begin(std::size_t share, std::size_t of) const {
-            const std::size_t at = share * slices, k = at / of, rest = at % of;
-            const std::size_t sliced = cut[k] + (rest == 0 ? 0 : (cut[k + 1] - cut[k]) * rest / of);
-            const std::size_t n = last() - first(), slack = n / kUneven, even = first() + n * share / of;
-            if (share == 0 || share == of) return static_cast<std::uint32_t>(even);
-            return static_cast<std::uint32_t>(
-                std::clamp(sliced, even - std::min(slack, even - first()), even + slack));
+        std::uint32_t first, last;
+        std::array<std::array<std::uint32_t, kSlices>, kKinds> begin;  ///< of a slice of a kind
+        /// Of slices [0, slice) of a kind.
+        std::uint32_t end(std::uint32_t kind, std::uint32_t slice) const {
+            if (slice < kSlices) return begin[kind][slice];
+            return kind + 1 < kKinds ? begin[kind + 1][0] : last;
         }
     };
+    /// Where a range is cut, of each kind before this block.
+    using Cut = std::array<std::uint32_t, kKinds>;
 
     /// Places `plans` of a world of `bodies` bodies into blocks of `lanes` lanes.
     void colour(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes);
@@ -60,22 +53,28 @@ class Colouring {
     std::uint32_t blocks() const { return blocks_; }
     /// In the order in which they are to be worked on.
     std::span<const Range> ranges() const { return ranges_; }
+    /// Cuts a range where `part` (0 .. 1) of all work lies before. What lies between such cuts has the same
+    /// bodies in all ranges, but for some at the seams, so that a thread finds them in its own cache; but it
+    /// is never so much that others would wait for it.
+    static Cut cut(const Range& range, double part);
 
   private:
     static constexpr std::uint32_t kColours = 64;
-    static constexpr std::uint32_t kKinds = 4;  ///< by number of points, at least that many
 
     void chooseColours(std::span<const PatchPlan> plans, std::size_t bodies);
-    void slice(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes);
+    void slice(std::span<const PatchPlan> plans, std::size_t bodies);
     void place(std::span<const PatchPlan> plans, std::uint32_t lanes);
+    void addRanges(std::span<const std::uint32_t> starts, bool alone, std::uint32_t first, std::uint32_t last,
+                   std::uint32_t lanes);
 
     std::vector<std::uint64_t> taken_;  ///< colours of each body
     std::vector<std::uint8_t> colour_;  ///< of each plan: moving pairs, their rest, walls, their rest
-    std::vector<std::uint32_t> bucket_, count_;  ///< of each plan; by colour, slice and kind
-    std::vector<std::uint32_t> slice_;           ///< of each body: plans that it is the first of; their slice
+    std::vector<std::uint32_t>
+        slice_;  ///< of each body: work of the plans that it is the first of; its slice
+    std::vector<std::uint32_t> bucket_, count_;  ///< of each plan; by colour, kind and slice
     std::vector<std::uint32_t> places_;
     std::vector<Range> ranges_;
-    std::uint32_t blocks_ = 0, slices_ = 1;
+    std::uint32_t blocks_ = 0;
 };
 
 }  // namespace rigor::engine

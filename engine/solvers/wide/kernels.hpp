@@ -23,6 +23,7 @@ struct PatchRange {
     const Velocity<S>* base;
     /// Translations [m] and rotation vectors [rad] since the step began.
     const Velocity<S>* motions;
+    bool shared = false;           ///< among threads: other cores may have velocities in their caches
     PatchRubs<S>* rubs = nullptr;  ///< of each block; to prepare and to share
 };
 

@@ -8,8 +8,8 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kBlockGrain = 8, kBodyGrain = 512;  ///< worth sharing: some microseconds of work
-constexpr std::size_t kChunk = 64;                        ///< of bodies: as much work as a block
+constexpr std::size_t kBlockGrain = 8;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kBodyGrain = 64;  ///< as much work as a block
 
 /// Raises `largest` to at least x.
 template <class R>
@@ -44,9 +44,10 @@ void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
         occupant_.assign(blocks_.size() * kLanes, kNobody);
         for (std::size_t k = 0; k < plans_.size(); ++k) occupant_[colouring_.places()[k]] = sources_[k];
     }
+    cut(tasks);
     inertia_.resize(n), motions_.resize(n), velocities_.resize(n), gained_.resize(n);
     gainedHolds_ = bounce_ = false;
-    tasks.forEach(n, kBodyGrain, [&](std::size_t i) {
+    const auto begin = [&](std::size_t i) {
         motions_[i] = {};
         PatchReal* I = inertia_[i].number;
         const bool moves = bodies.invMass[i] > 0;
@@ -57,7 +58,27 @@ void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
         } else {
             *I = moves ? static_cast<PatchReal>(bodies.invInertia[i]) : PatchReal(0);
         }
+    };
+    tasks.forShares(n, kBodyGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) begin(i);
     });
+}
+
+/// Few blocks are not worth sharing: the first thread does them.
+template <class S>
+void Patches<S>::cut(const Tasks& tasks) {
+    threads_ = static_cast<std::size_t>(tasks.threads());
+    cuts_.clear();
+    for (const Colouring::Range& range : colouring_.ranges()) {
+        const bool few = range.last - range.first < 2 * threads_;
+        cuts_.push_back(Colouring::cut(range, 0));
+        for (std::size_t share = 1; share <= threads_; ++share) {
+            Colouring::Cut next = Colouring::cut(range, few ? 1.0 : tasks.before(share));
+            for (std::uint32_t kind = 0; kind < Colouring::kKinds; ++kind)
+                next[kind] = std::max(next[kind], cuts_.back()[kind]);
+            cuts_.push_back(next);
+        }
+    }
 }
 
 template <class S>
@@ -67,24 +88,23 @@ typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const Patc
     const Velocity<F>* const gained = warmStart && gainedHolds_ ? gained_.data() : nullptr;
     std::atomic<PatchReal> change = 0;
     // One run of stages: bodies, all colours once or twice, bodies.
-    const std::span<const Colouring::Range> ranges = colouring_.ranges();
-    const std::size_t colours = ranges.size(), warm = warmStart && gained == nullptr ? colours : 0;
+    const std::size_t colours = colouring_.ranges().size(),
+                      warm = warmStart && gained == nullptr ? colours : 0;
     const std::size_t last = 1 + warm + colours, n = velocities.size();
-    const std::size_t chunks = (n + kChunk - 1) / kChunk;
-    const auto cut = [&](std::size_t stage, std::size_t share, std::size_t of) -> std::size_t {
-        if (stage == 0 || stage == last) return chunks * share / of;
-        return ranges[(stage - 1) % colours].begin(share, of);
-    };
-    tasks.forCutStages(last + 1, kGrain, cut, [&](std::size_t stage, std::size_t from, std::size_t to) {
-        if (stage == 0)
-            velocities_.begin(from * kChunk, std::min(to * kChunk, n), gained);
-        else if (stage == last)
-            raise(change,
-                  velocities_.end(from * kChunk, std::min(to * kChunk, n), gained_.data(), !warmStart));
-        else if (stage <= warm)
-            warmStartPatches<F>(range(from, to));
-        else
-            solvePatches<F>(range(from, to), pass);
+    tasks.forStages(last + 1, [&](std::size_t stage, std::size_t share) {
+        if (stage == 0 || stage == last) {
+            const std::size_t from = tasks.cut(n, kBodyGrain, share),
+                              to = tasks.cut(n, kBodyGrain, share + 1);
+            if (stage == 0)
+                velocities_.begin(from, to, gained);
+            else if (from < to)
+                raise(change, velocities_.end(from, to, gained_.data(), !warmStart));
+        } else if (stage <= warm) {
+            ofShare(stage - 1, share, [&](auto first, auto end) { warmStartPatches<F>(range(first, end)); });
+        } else {
+            ofShare(stage - 1 - warm, share,
+                    [&](auto first, auto end) { solvePatches<F>(range(first, end), pass); });
+        }
     });
     gainedHolds_ = gainedHolds_ || warmStart;
     return static_cast<Real>(change.load());
@@ -92,7 +112,7 @@ typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const Patc
 
 template <class S>
 void Patches<S>::advance(std::span<const Velocity<S>> used, Real h, const Tasks& tasks) {
-    tasks.forRanges(used.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+    tasks.forShares(used.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
         numbers(motions_.data(), first, last) +=
             (h * numbers(used.data(), first, last)).template cast<PatchReal>();
     });
@@ -104,7 +124,7 @@ void Patches<S>::beginSubstep(std::span<Velocity<S>> velocities, const PatchPass
     gainedHolds_ = false;  // impulses may change
     velocities_.refer(velocities);
     if constexpr (PatchVelocities<S>::kSplit)
-        tasks.forRanges(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+        tasks.forShares(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
             velocities_.begin(first, last, nullptr);
         });
     tasks.forRanges(blocks_.size(), kBlockGrain,

@@ -37,8 +37,11 @@ class Patches {
     /// work(b) for each block, by the thread that visits it later on.
     template <class Work>
     void forBlocks(const Tasks& tasks, const Work& work) const {
-        forStages(tasks, [&work](std::size_t first, std::size_t last) {
-            for (std::size_t b = first; b < last; ++b) work(b);
+        tasks.forStages(1, [&](std::size_t, std::size_t share) {
+            for (std::size_t colour = 0; colour < colouring_.ranges().size(); ++colour)
+                ofShare(colour, share, [&work](std::size_t first, std::size_t last) {
+                    for (std::size_t b = first; b < last; ++b) work(b);
+                });
         });
     }
     std::size_t blocks() const { return blocks_.size(); }
@@ -70,23 +73,21 @@ class Patches {
 
   private:
     PatchRange<F> range(std::size_t first, std::size_t last) {
-        return {blocks_.data() + first, rests_.data() + first, last - first,
-                velocities_.data(),     velocities_.base(),    motions_.data()};
+        return {blocks_.data() + first, rests_.data() + first, last - first, velocities_.data(),
+                velocities_.base(),     motions_.data(),       threads_ > 1};
     }
     PatchRange<F> range(std::size_t b, PatchRubs<F>& rubs) {
         PatchRange<F> one = range(b, b + 1);
         one.rubs = &rubs;
         return one;
     }
-    static constexpr std::size_t kGrain = 2;  ///< blocks worth sharing
-    /// Colour by colour: work(first, last) on ranges of blocks.
+    void cut(const Tasks& tasks);
+    /// work(first, last) on ranges of blocks that are the share of a thread in a colour.
     template <class Work>
-    void forStages(const Tasks& tasks, const Work& work) const {
-        const std::span<const Colouring::Range> ranges = colouring_.ranges();
-        tasks.forCutStages(
-            ranges.size(), kGrain,
-            [&](std::size_t c, std::size_t share, std::size_t of) { return ranges[c].begin(share, of); },
-            [&](std::size_t, std::size_t first, std::size_t last) { work(first, last); });
+    void ofShare(std::size_t colour, std::size_t share, const Work& work) const {
+        const Colouring::Cut* const cut = cuts_.data() + colour * (threads_ + 1) + share;
+        for (std::uint32_t kind = 0; kind < Colouring::kKinds; ++kind)
+            if (cut[0][kind] < cut[1][kind]) work(cut[0][kind], cut[1][kind]);
     }
 
     std::vector<PatchPlan> offered_, lastOffered_;
@@ -95,6 +96,8 @@ class Patches {
     std::vector<std::uint32_t> sources_, occupant_;
     std::size_t points_ = 0;
     Colouring colouring_;
+    std::size_t threads_ = 1;
+    std::vector<Colouring::Cut> cuts_;  ///< colour by colour, before each thread's share and after the last
     std::vector<PatchBlock<F>> blocks_;
     std::vector<PatchRest<F>> rests_;
     // --- by body

@@ -23,6 +23,7 @@
 
 #include <utility>
 
+#include "engine/core/prefetch.hpp"
 #include "engine/solvers/wide/kernels.hpp"
 #include "engine/state/bodies-inl.hpp"
 
@@ -135,16 +136,27 @@ struct Along {
     HWY_INLINE Num<S> operator()(const AngVec<S>& jB) const { return centre + dot(jB, w); }
 };
 
+/// What another thread has moved in the last colour is on its way while a block is worked on.
+template <class S>
+HWY_INLINE void fetchBodies(const PatchBlock<S>& block, const Velocity<S>* velocities) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        if (block.movesA >> lane & 1) prefetchToWrite(velocities + block.a[lane]);
+        if (block.movesB >> lane & 1) prefetchToWrite(velocities + block.b[lane]);
+    }
+}
+
 /// Calls visit(patches) for every register's worth of lanes, and stores their velocities.
 template <bool based, class S, class Visit>
 HWY_INLINE void forPatches(const PatchRange<S>& range, const Visit& visit) {
     const std::size_t lanes = hn::Lanes(Tag<S>());
-    for (std::size_t k = 0; k < range.count; ++k)
+    for (std::size_t k = 0; k < range.count; ++k) {
+        if (range.shared && k + 1 < range.count) fetchBodies(range.blocks[k + 1], range.velocities);
         for (std::size_t first = 0; first < kLanes; first += lanes) {
             PatchGroup<S, based> patches(range, k, first);
             visit(patches);
             patches.store(range.velocities);
         }
+    }
 }
 
 template <class S, bool based>
@@ -214,6 +226,11 @@ struct NormalRow {
         change = change + (next - lambda);
         lambda = next;
     }
+    /// Further visits change nothing where `more` does not hold.
+    HWY_INLINE void keepUnless(hn::Mask<Tag<S>> more) {
+        factor = hn::IfThenElseZero(more, factor);
+        leak = hn::IfThenElseZero(more, leak);
+    }
 };
 
 template <int i>
@@ -228,8 +245,10 @@ HWY_INLINE decltype(auto) eachPoint(const Work& work) {
 }
 
 /// All normal rows. The points of a patch are swept forwards and back: a body that the first corner turns is
-/// turned back by the others before its neighbours see it. One sweep alone makes tall stacks rock. The bodies
-/// get the sum of what the sweeps make; on the way the points act on each other through K.
+/// turned back by the others before its neighbours see it. One sweep alone makes tall stacks rock. A point
+/// that is alone has one visit, whoever stands beside it: what is made of a patch does not depend on what its
+/// block holds besides. The bodies get the sum of what the sweeps make; on the way the points act on each
+/// other through K.
 template <int n, class S, bool based>
 HWY_INLINE Pressed<S> solveNormals(PatchGroup<S, based>& p, const PatchPass& pass) {
     const Num<S> zero = hn::Zero(Tag<S>());
@@ -246,8 +265,12 @@ HWY_INLINE Pressed<S> solveNormals(PatchGroup<S, based>& p, const PatchPass& pas
         row[i].solve(now);
     };
     eachPoint<n>([&](auto... i) RIGOR_INLINE_LAMBDA { (visit(i, i), ...); });
-    if constexpr (n > 1)
-        eachPoint<n>([&](auto... i) RIGOR_INLINE_LAMBDA { (visit(Index<n - 1 - i>(), Index<n>()), ...); });
+    if constexpr (n > 1) {
+        eachPoint<n - 1>([&](auto... i)
+                             RIGOR_INLINE_LAMBDA { (visit(Index<n - 1 - i>(), Index<n>()), ...); });
+        row[0].keepUnless(p.at(block.point[1].invK) > zero);
+        visit(Index<0>(), Index<n>());
+    }
 
     Pressed<S> pressed{zero, zero};
     Num<S> sum = zero;
