@@ -12,6 +12,11 @@
 namespace rigor::engine {
 namespace {
 
+/// Of a part of n things that are taken `size` at a time.
+constexpr std::size_t endOf(std::size_t part, std::size_t size, std::size_t n) {
+    return std::min(size * (part + 1), n);
+}
+
 constexpr std::size_t kShapeGrain = 64, kPairGrain = 16;  ///< worth sharing: some microseconds of work
 
 }  // namespace
@@ -150,7 +155,7 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
     tallies_.resize((candidates_.size() + kTally - 1) / kTally);
     those.forEach(tallies_.size(), 1, [&](std::size_t c) {
         Tally tally;
-        for (std::size_t k = kTally * c; k < std::min(kTally * (c + 1), candidates_.size()); ++k) {
+        for (std::size_t k = kTally * c; k < endOf(c, kTally, candidates_.size()); ++k) {
             constexpr std::size_t kAhead = 4;
             if (k + kAhead < candidates_.size() && candidates_[k + kAhead].contact != kNone) {
                 const Contact<S>& next = contacts_.at(candidates_[k + kAhead].contact);
@@ -191,7 +196,7 @@ void ContactSet<S>::settle(const Search& search, const Tasks& tasks) {
     contacts_.tidy(tasks);
     tasks.forEach(tallies_.size(), 1, [&](std::size_t c) {
         std::uint32_t place = tallies_[c].first;
-        for (std::size_t k = kTally * c; k < std::min(kTally * (c + 1), candidates_.size()); ++k)
+        for (std::size_t k = kTally * c; k < endOf(c, kTally, candidates_.size()); ++k)
             if (candidates_[k].contact != kNone) candidates_[k].contact = place++;
     });
 }
@@ -199,7 +204,7 @@ void ContactSet<S>::settle(const Search& search, const Tasks& tasks) {
 /// Of a part of the candidates: slots are given back, and taken by those that have none.
 template <class S>
 void ContactSet<S>::changeContacts(const Search& search, std::size_t part) {
-    for (std::size_t k = kTally * part; k < std::min(kTally * (part + 1), outcomes_.size()); ++k) {
+    for (std::size_t k = kTally * part; k < endOf(part, kTally, candidates_.size()); ++k) {
         const Outcome& outcome = outcomes_[k];
         if ((outcome.contact != kNone) == outcome.found) continue;
         if (outcome.found) {
@@ -215,7 +220,7 @@ void ContactSet<S>::changeContacts(const Search& search, std::size_t part) {
 template <class S>
 void ContactSet<S>::orderContacts(std::size_t part) {
     std::uint32_t* order = contacts_.order().data() + tallies_[part].first;
-    for (std::size_t k = kTally * part; k < std::min(kTally * (part + 1), outcomes_.size()); ++k) {
+    for (std::size_t k = kTally * part; k < endOf(part, kTally, candidates_.size()); ++k) {
         if (!outcomes_[k].found) continue;
         *order++ = candidates_[k].contact;
         if (outcomes_[k].contact == kNone && candidates_[k].fresh < fresh_.size())

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <set>
@@ -90,6 +91,26 @@ TEST(Tasks, StagesFollowEachOtherAndVisitEveryIndexOnce) {
         for (std::size_t s = 0; s < stages; ++s)
             EXPECT_EQ(visits[s], std::vector<int>(visits[s].size(), 1)) << threads << " threads, stage " << s;
     }
+}
+
+/// More threads than there are processors, which fall asleep at work: others take over what they come too
+/// late for, and nobody goes on before it is done.
+TEST(Tasks, WhoComesLateWaitsForWhatOthersHaveTakenOver) {
+    constexpr std::size_t threads = 6, stages = 30;
+    const Tasks tasks(threads);
+    std::atomic<int> early = 0, twice = 0;
+    for (int round = 0; round < 20; ++round) {
+        std::array<std::atomic<int>, stages * threads> done{};
+        tasks.forStages(stages, [&](std::size_t s, std::size_t share) {
+            for (std::size_t k = 0; s > 0 && k < threads; ++k)
+                if (done[(s - 1) * threads + k] == 0) ++early;
+            if ((s * 5 + share * 3) % 7 == 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
+            if (done[s * threads + share]++ != 0) ++twice;
+        });
+        for (const std::atomic<int>& share : done) ASSERT_EQ(share, 1);
+    }
+    EXPECT_EQ(early, 0);
+    EXPECT_EQ(twice, 0);
 }
 
 TEST(Tasks, SharesAreCutAtMultiplesOfTheGrain) {
