@@ -9,7 +9,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kBoxGrain = 512;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kBoxGrain = 128;  ///< worth sharing: some microseconds of work
 
 template <class S>
 Aabb<S> enlarged(const Aabb<S>& box, bool movable, typename S::Real margin) {

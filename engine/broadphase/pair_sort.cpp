@@ -60,7 +60,7 @@ void PairSort::sort(std::span<const std::vector<ProxyPair>> parts, std::size_t p
         return;
     }
     // Each range of a is one thread's: it reads all pairs, which costs less than it saves.
-    constexpr std::size_t kWorthSharing = 16384;
+    constexpr std::size_t kWorthSharing = 2048;
     const std::size_t ranges = total < kWorthSharing ? 1 : static_cast<std::size_t>(tasks.threads());
     ends_.resize(proxies);
     ranges_.resize(ranges);

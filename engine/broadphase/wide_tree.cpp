@@ -41,7 +41,7 @@ namespace rigor::engine {
 namespace {
 
 constexpr std::size_t kChildren = 8;
-constexpr std::size_t kNodeGrain = 256;         ///< nodes: some microseconds of work
+constexpr std::size_t kNodeGrain = 32;          ///< nodes: some microseconds of work
 constexpr std::uint64_t kGrown = 320;           ///< mean growth of nodes that asks for a sort; 256 is none
 constexpr std::size_t kUnitsWorthSharing = 16;  ///< of 64 boxes each
 

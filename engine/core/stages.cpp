@@ -80,6 +80,7 @@ void Stages::await(Walker& walker, std::size_t share, std::uint64_t stage) {
             pauseThread(waits);
         }
     }
+    if (waits == 0) return;
     walker.waited.store(walker.waited.load(std::memory_order_relaxed) + static_cast<std::uint64_t>(waits),
                         std::memory_order_relaxed);
 }

@@ -58,8 +58,6 @@ std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable();
 template <class S>
 void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, typename S::Real h,
               TurnRotation<S> turn, const Tasks& tasks);
-/// Bodies for which a range of them is worth sharing: some microseconds of work.
-inline constexpr std::size_t kBodyGrain = 64;
 
 /// The gyroscopic term of one body. 2D: nothing to do.
 template <class S>

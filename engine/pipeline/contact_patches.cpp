@@ -105,7 +105,7 @@ void readLane(const PatchBlock<PatchSpace<S>>& block, const PatchRubs<PatchSpace
 template <class S>
 void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>& step, Patches<S>& patches,
                                const Tasks& tasks) {
-    const std::span<PatchPlan> plans = patches.plan(contacts_.size());
+    patches.plan(contacts_.size());
     tasks.forEach(contacts_.size(), kContactGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts_[k];
         contact.asleep = isAsleep(bodies, contact);
@@ -113,8 +113,8 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
         const bool solved = !contact.asleep && (movesA || movesB);
         contact.block.fill(solved ? Contact<S>::kPatch : Contact<S>::kNoBlock);
         if (!solved && !contact.asleep) contact.totals.fill({});
-        plans[k] = {contact.bodyA, contact.bodyB, movesA, movesB,
-                    static_cast<std::uint8_t>(solved ? contact.manifold.count : 0)};
+        patches.offer(k, {contact.bodyA, contact.bodyB, movesA, movesB,
+                          static_cast<std::uint8_t>(solved ? contact.manifold.count : 0)});
     });
     patches.place(bodies, tasks);
     patches.forBlocks(tasks, [&](std::size_t b) {

@@ -17,6 +17,10 @@ namespace rigor::engine {
 
 enum class BodyType : std::uint8_t { Static, Kinematic, Dynamic };
 
+/// Bodies for which a range of them is worth sharing among threads: some microseconds of work. The same
+/// wherever bodies are shared, so that a thread meets its own again.
+inline constexpr std::size_t kBodyGrain = 64;
+
 /// Velocity of the centre of mass [m/s] and angular velocity [rad/s], world frame. In memory groups of four
 /// numbers, the gaps 0, that SIMD takes as they are: (v, gap), (w, gap) in space, (v, w, gap) in the plane.
 template <class S>

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Graph colouring of contacts: those of one colour have no moving body in common, so that they can be solved
-// side by side, in lanes and by threads, without a change of the result. Greedy: in their order, the lowest
-// colour that neither body has yet. Contacts between two moving bodies come first, those with a wall after
-// them, which then have the last word. The result depends on the contacts and their order alone.
+// In what order contacts are worked on, in lanes and by threads, without a change of the result. Bodies are
+// divided into regions, as they are numbered. Contacts within a region come first, region by region: they
+// have no moving body in common with those of another one, so that a thread works on its regions without
+// waiting for others. Then come contacts across regions, then those with walls, which have the last word.
 //
-// A body with more than kColours contacts leaves the rest over; those are solved one by one, after their
-// kind.
+// Among the contacts of each of these groups, graph colouring: those of one colour have no moving body in
+// common, so that they can be solved side by side. Greedy: in their order, the lowest colour that neither
+// body has yet. A body with more than kColours contacts of a group leaves the rest over; those are solved one
+// by one. All this depends on the contacts and their order alone.
 #pragma once
 
 #include <array>
@@ -16,64 +18,92 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/tasks.hpp"
+
 namespace rigor::engine {
 
 /// A contact to be placed.
 struct PatchPlan {
     std::uint32_t a, b;   ///< bodies
     bool movesA, movesB;  ///< they take impulses; one of them does
-    std::uint8_t points;  ///< 1..; contacts of as many points come together in a colour
+    std::uint8_t points;  ///< 0: to be passed over; contacts of as many come together in a colour
     bool operator==(const PatchPlan&) const = default;
 };
 
 class Colouring {
   public:
-    static constexpr std::uint32_t kKinds = 4;  ///< of patches: 4 and more, 3, 2, 1 points
-    static constexpr std::uint32_t kSlices =
-        32;  ///< of all bodies, as they are numbered, with as much work each
+    /// Of patches: 4 and more, 3, 2, 1 points.
+    static constexpr std::uint32_t kKinds = 4;
+    /// Of all bodies, as they are numbered, with as much work each; a region has some of them.
+    static constexpr std::uint32_t kSlices = 32;
+    /// A region has at least as many contacts, on average: threads wait for each other less, but blocks are
+    /// filled less well.
+    static constexpr std::size_t kRegionContacts = 512;
+    static constexpr std::uint32_t kMostRegions = 16;
 
+    /// Bodies [firstBody, lastBody), and the blocks of their contacts with each other, to be worked on in
+    /// order.
+    struct Region {
+        std::uint32_t first = 0, last = 0, firstBody = 0, lastBody = 0;
+    };
     /// Blocks of lanes that may be worked on in any order: kind by kind, of a kind slice by slice.
     struct Range {
         std::uint32_t first, last;
-        std::array<std::array<std::uint32_t, kSlices>, kKinds> begin;  ///< of a slice of a kind
-        /// Of slices [0, slice) of a kind.
-        std::uint32_t end(std::uint32_t kind, std::uint32_t slice) const {
-            if (slice < kSlices) return begin[kind][slice];
-            return kind + 1 < kKinds ? begin[kind + 1][0] : last;
-        }
+        std::uint32_t table;  ///< where its slices begin; kAlone: a single block
     };
+    static constexpr std::uint32_t kAlone = 0xffffffffu;
     /// Where a range is cut, of each kind before this block.
     using Cut = std::array<std::uint32_t, kKinds>;
 
     /// Places `plans` of a world of `bodies` bodies into blocks of `lanes` lanes.
-    void colour(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes);
+    void colour(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes,
+                const Tasks& tasks);
 
-    /// Where each plan comes: block * lanes + lane.
-    std::span<const std::uint32_t> places() const { return places_; }
+    /// The plan in each lane of the blocks, one block after the other, or kNobody.
+    std::span<const std::uint32_t> occupants() const { return occupants_; }
+    static constexpr std::uint32_t kNobody = 0xffffffffu;
     std::uint32_t blocks() const { return blocks_; }
-    /// In the order in which they are to be worked on.
+    /// They have the first blocks; at least one, all together have all bodies.
+    std::span<const Region> regions() const { return regions_; }
+    /// What comes after them, in the order in which it is to be worked on.
     std::span<const Range> ranges() const { return ranges_; }
     /// Cuts a range where `part` (0 .. 1) of all work lies before. What lies between such cuts has the same
     /// bodies in all ranges, but for some at the seams, so that a thread finds them in its own cache; but it
     /// is never so much that others would wait for it.
-    static Cut cut(const Range& range, double part);
+    Cut cut(const Range& range, double part) const;
 
   private:
     static constexpr std::uint32_t kColours = 64;
+    /// Where a slice of a kind begins.
+    using Table = std::array<std::array<std::uint32_t, kSlices>, kKinds>;
+    /// Contacts that are coloured by themselves.
+    struct Group {
+        struct Member {
+            std::uint32_t plan, bucket;  ///< by colour, kind and slice
+        };
+        std::vector<Member> members;
+        std::uint32_t slices = 1;   ///< that its buckets are divided into
+        std::uint32_t colours = 0;  ///< beside those that are left over
+        std::uint32_t block = 0, blocks = 0;
+        std::vector<std::uint32_t> begin;  ///< places in the group, by bucket
+        std::uint32_t perColour() const { return kKinds * slices; }
+    };
 
-    void chooseColours(std::span<const PatchPlan> plans, std::size_t bodies);
-    void slice(std::span<const PatchPlan> plans, std::size_t bodies);
-    void place(std::span<const PatchPlan> plans, std::uint32_t lanes);
-    void addRanges(std::span<const std::uint32_t> starts, bool alone, std::uint32_t first, std::uint32_t last,
-                   std::uint32_t lanes);
+    std::size_t slice(std::span<const PatchPlan> plans, std::size_t bodies);
+    void group(std::span<const PatchPlan> plans, std::size_t bodies, std::size_t contacts);
+    void chooseColours(std::span<const PatchPlan> plans, std::size_t g);
+    static void count(Group& group, std::uint32_t lanes);
+    void place(Group& group, std::uint32_t lanes);
+    void addRanges(const Group& group, std::uint32_t lanes);
+    std::uint32_t end(const Range& range, std::uint32_t kind, std::uint32_t slice) const;
 
-    std::vector<std::uint64_t> taken_;  ///< colours of each body
-    std::vector<std::uint8_t> colour_;  ///< of each plan: moving pairs, their rest, walls, their rest
-    std::vector<std::uint32_t>
-        slice_;  ///< of each body: work of the plans that it is the first of; its slice
-    std::vector<std::uint32_t> bucket_, count_;  ///< of each plan; by colour, kind and slice
-    std::vector<std::uint32_t> places_;
+    std::vector<std::uint32_t> slice_;  ///< of each body
+    std::vector<Region> regions_ = std::vector<Region>(1);
+    std::vector<Group> groups_;                        ///< regions, across them, walls
+    std::array<std::vector<std::uint64_t>, 3> taken_;  ///< colours of each body: in, across regions, of walls
+    std::vector<std::uint32_t> occupants_;
     std::vector<Range> ranges_;
+    std::vector<Table> tables_;
     std::uint32_t blocks_ = 0;
 };
 

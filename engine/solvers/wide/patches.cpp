@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 namespace rigor::engine {
 namespace {
 
 constexpr std::size_t kBlockGrain = 8;  ///< worth sharing: some microseconds of work
-constexpr std::size_t kBodyGrain = 64;  ///< as much work as a block
 
 /// Raises `largest` to at least x.
 template <class R>
@@ -30,22 +30,17 @@ std::size_t Patches<S>::rows() const {
 template <class S>
 void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
     const std::size_t n = bodies.size();
-    if (offered_ != lastOffered_) {  // else, as in most steps, everybody stays in place
-        plans_.clear(), sources_.clear();
-        points_ = 0;
-        for (std::uint32_t k = 0; k < offered_.size(); ++k)
-            if (offered_[k].points > 0) {
-                plans_.push_back(offered_[k]), sources_.push_back(k);
-                points_ += offered_[k].points;
-            }
-        colouring_.colour(plans_, n, kLanes);
+    if (std::exchange(changed_, false)) {  // else, as in most steps, everybody stays in place
+        size_ = points_ = 0;
+        for (const PatchPlan& plan : plans_) size_ += plan.points > 0, points_ += plan.points;
+        colouring_.colour(plans_, n, kLanes, tasks);
+        before_.clear();
         blocks_.resize(colouring_.blocks());
         rests_.resize(colouring_.blocks());
-        occupant_.assign(blocks_.size() * kLanes, kNobody);
-        for (std::size_t k = 0; k < plans_.size(); ++k) occupant_[colouring_.places()[k]] = sources_[k];
     }
-    cut(tasks);
     inertia_.resize(n), motions_.resize(n), velocities_.resize(n), gained_.resize(n);
+    cut(tasks);
+
     gainedHolds_ = bounce_ = false;
     const auto begin = [&](std::size_t i) {
         motions_[i] = {};
@@ -64,17 +59,48 @@ void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
     });
 }
 
-/// Few blocks are not worth sharing: the first thread does them.
+/// Stages for shares after the threads' speed; unless all is as it was.
 template <class S>
 void Patches<S>::cut(const Tasks& tasks) {
     threads_ = static_cast<std::size_t>(tasks.threads());
-    cuts_.clear();
+    bool holds = before_.size() == threads_ + 1;
+    before_.resize(threads_ + 1);
+    for (std::size_t share = 0; share <= threads_; ++share) {
+        const double before = tasks.before(share);
+        holds = std::exchange(before_[share], before) == before && holds;
+    }
+    if (holds) return;
+    stages_.assign(1, {0, false});
+    cuts_.resize(threads_ + 1);
+    for (std::size_t share = 0; share <= threads_; ++share) {
+        const std::size_t r = regionOf(share);
+        cuts_[share][0] = r < colouring_.regions().size() ? colouring_.regions()[r].first
+                                                          : colouring_.regions().back().last;
+    }
+    if (threads_ == 1)
+        cuts_[1][0] = colouring_.blocks();
+    else
+        addRangeStages();
+}
+
+/// Few blocks are not worth sharing: the first thread does them, and goes on with the next ones if these are
+/// few as well.
+template <class S>
+void Patches<S>::addRangeStages() {
+    bool afterFew = false;
     for (const Colouring::Range& range : colouring_.ranges()) {
         const bool few = range.last - range.first < 2 * threads_;
-        cuts_.push_back(Colouring::cut(range, 0));
-        for (std::size_t share = 1; share <= threads_; ++share) {
-            Colouring::Cut next = Colouring::cut(range, few ? 1.0 : tasks.before(share));
-            for (std::uint32_t kind = 0; kind < Colouring::kKinds; ++kind)
+        if (few && afterFew) {
+            for (std::size_t share = 1; share <= threads_; ++share)
+                cuts_[stages_.back().cuts + share][0] = range.last;
+            continue;
+        }
+        afterFew = few;
+        stages_.push_back({cuts_.size(), !few});
+        for (std::size_t share = 0; share <= threads_; ++share) {
+            Colouring::Cut next{share == 0 ? range.first : range.last};
+            if (!few) next = colouring_.cut(range, before_[share]);
+            for (std::uint32_t kind = 0; kind < Colouring::kKinds && share > 0; ++kind)
                 next[kind] = std::max(next[kind], cuts_.back()[kind]);
             cuts_.push_back(next);
         }
@@ -87,22 +113,19 @@ typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const Patc
     velocities_.refer(velocities);
     const Velocity<F>* const gained = warmStart && gainedHolds_ ? gained_.data() : nullptr;
     std::atomic<PatchReal> change = 0;
-    // One run of stages: bodies, all colours once or twice, bodies.
-    const std::size_t colours = colouring_.ranges().size(),
-                      warm = warmStart && gained == nullptr ? colours : 0;
-    const std::size_t last = 1 + warm + colours, n = velocities.size();
+    // One run: all stages once or twice, the first with what bodies begin with, and how they end.
+    const std::size_t warm = warmStart && gained == nullptr ? stages_.size() : 0,
+                      last = warm + stages_.size();
     tasks.forStages(last + 1, [&](std::size_t stage, std::size_t share) {
-        if (stage == 0 || stage == last) {
-            const std::size_t from = tasks.cut(n, kBodyGrain, share),
-                              to = tasks.cut(n, kBodyGrain, share + 1);
-            if (stage == 0)
-                velocities_.begin(from, to, gained);
-            else if (from < to)
-                raise(change, velocities_.end(from, to, gained_.data(), !warmStart));
-        } else if (stage <= warm) {
-            ofShare(stage - 1, share, [&](auto first, auto end) { warmStartPatches<F>(range(first, end)); });
+        const std::size_t from = bodyOf(share), to = bodyOf(share + 1);
+        if (stage == 0) velocities_.begin(from, to, gained);
+        if (stage == last) {
+            if (from < to) raise(change, velocities_.end(from, to, gained_.data(), !warmStart));
+        } else if (stage < warm) {
+            ofShare(stages_[stage], share,
+                    [&](auto first, auto end) { warmStartPatches<F>(range(first, end)); });
         } else {
-            ofShare(stage - 1 - warm, share,
+            ofShare(stages_[stage - warm], share,
                     [&](auto first, auto end) { solvePatches<F>(range(first, end), pass); });
         }
     });

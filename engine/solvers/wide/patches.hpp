@@ -23,23 +23,27 @@ class Patches {
     using Real = typename S::Real;
     using F = PatchSpace<S>;
 
-    static constexpr std::uint32_t kNobody = 0xffffffffu;
+    static constexpr std::uint32_t kNobody = Colouring::kNobody;
 
-    /// The patches of a step are planned, then placed in blocks; then each block is filled in lane by lane,
-    /// also those of nobody, and prepared.
-    /// For the plans of `count` sources, of no points where there is no patch.
-    std::span<PatchPlan> plan(std::size_t count) {
-        std::swap(offered_, lastOffered_);
-        offered_.resize(count);
-        return offered_;
+    /// The patches of a step are planned, one for each of `count` sources; then they are placed in blocks;
+    /// then each block is filled in lane by lane, also those of nobody, and prepared.
+    void plan(std::size_t count) {
+        if (count != plans_.size()) changed_ = true;
+        plans_.resize(count);
+    }
+    /// Of a source, by any thread; of no points where there is no patch.
+    void offer(std::size_t source, const PatchPlan& plan) {
+        if (plans_[source] == plan) return;
+        plans_[source] = plan;
+        std::atomic_ref(changed_).store(true, std::memory_order_relaxed);
     }
     void place(const BodyArrays<S>& bodies, const Tasks& tasks);
     /// work(b) for each block, by the thread that visits it later on.
     template <class Work>
     void forBlocks(const Tasks& tasks, const Work& work) const {
         tasks.forStages(1, [&](std::size_t, std::size_t share) {
-            for (std::size_t colour = 0; colour < colouring_.ranges().size(); ++colour)
-                ofShare(colour, share, [&work](std::size_t first, std::size_t last) {
+            for (const Stage& stage : stages_)
+                ofShare(stage, share, [&work](std::size_t first, std::size_t last) {
                     for (std::size_t b = first; b < last; ++b) work(b);
                 });
         });
@@ -48,14 +52,16 @@ class Patches {
     PatchBlock<F>& block(std::size_t b) { return blocks_[b]; }
     PatchRest<F>& rest(std::size_t b) { return rests_[b]; }
     /// Whose patch stands there (its place among the plans); kNobody's lanes are filled with zeros.
-    std::uint32_t sourceAt(std::size_t b, std::size_t lane) const { return occupant_[b * kLanes + lane]; }
+    std::uint32_t sourceAt(std::size_t b, std::size_t lane) const {
+        return colouring_.occupants()[b * kLanes + lane];
+    }
     /// Rows from what has been filled in.
     void prepare(std::size_t b, PatchRubs<F>& rubs) {
         preparePatches<F>(range(b, rubs), inertia_.data());
         if (blocks_[b].bounces != 0) std::atomic_ref(bounce_).store(true, std::memory_order_relaxed);
     }
 
-    std::size_t size() const { return plans_.size(); }
+    std::size_t size() const { return size_; }
     /// Points of all patches, and the rows they have: one for each point, and those of friction.
     std::size_t points() const { return points_; }
     std::size_t rows() const;
@@ -81,23 +87,39 @@ class Patches {
         one.rubs = &rubs;
         return one;
     }
+    /// What threads do side by side before they wait for each other. cuts_[cuts + share]: where the share of
+    /// a thread begins, of each kind; where it ends stands with the next one.
+    struct Stage {
+        std::size_t cuts;
+        bool kinds;  ///< else the first kind is all there is
+    };
     void cut(const Tasks& tasks);
-    /// work(first, last) on ranges of blocks that are the share of a thread in a colour.
+    void addRangeStages();
+    /// work(first, last) on ranges of blocks that are the share of a thread in a stage.
     template <class Work>
-    void ofShare(std::size_t colour, std::size_t share, const Work& work) const {
-        const Colouring::Cut* const cut = cuts_.data() + colour * (threads_ + 1) + share;
-        for (std::uint32_t kind = 0; kind < Colouring::kKinds; ++kind)
+    void ofShare(const Stage& stage, std::size_t share, const Work& work) const {
+        const Colouring::Cut* const cut = cuts_.data() + stage.cuts + share;
+        for (std::uint32_t kind = 0; kind < (stage.kinds ? Colouring::kKinds : 1); ++kind)
             if (cut[0][kind] < cut[1][kind]) work(cut[0][kind], cut[1][kind]);
     }
+    /// The first region of a share; that of the last thread's next is their number.
+    std::size_t regionOf(std::size_t share) const {
+        const auto regions = static_cast<double>(colouring_.regions().size());
+        return static_cast<std::size_t>(regions * before_[share] + 0.5);
+    }
+    std::size_t bodyOf(std::size_t share) const {
+        const std::size_t r = regionOf(share);
+        return r < colouring_.regions().size() ? colouring_.regions()[r].firstBody : velocities_.size();
+    }
 
-    std::vector<PatchPlan> offered_, lastOffered_;
-    // --- of what was offered last
     std::vector<PatchPlan> plans_;
-    std::vector<std::uint32_t> sources_, occupant_;
-    std::size_t points_ = 0;
+    bool changed_ = false;  ///< they have, since they were placed
+    std::size_t size_ = 0, points_ = 0;
     Colouring colouring_;
     std::size_t threads_ = 1;
-    std::vector<Colouring::Cut> cuts_;  ///< colour by colour, before each thread's share and after the last
+    std::vector<double> before_;        ///< parts of the work before each thread's, and all of it
+    std::vector<Stage> stages_;         ///< regions, then ranges
+    std::vector<Colouring::Cut> cuts_;  ///< of all stages
     std::vector<PatchBlock<F>> blocks_;
     std::vector<PatchRest<F>> rests_;
     // --- by body

@@ -27,6 +27,7 @@ class PatchVelocities {
         before_.resize(bodies);
         if constexpr (kSplit) base_.resize(bodies), rest_.resize(bodies);
     }
+    std::size_t size() const { return before_.size(); }
     /// What patches work on: data()[i] of body i, from base()[i] unless that is null.
     Velocity<F>* data() const { return data_; }
     const Velocity<F>* base() const { return kSplit ? base_.data() : nullptr; }
