@@ -42,10 +42,30 @@ std::size_t Colouring::slice(std::span<const PatchPlan> plans, std::size_t bodie
     return count;
 }
 
-/// Regions, and the contacts of each group in their order.
-void Colouring::group(std::span<const PatchPlan> plans, std::size_t bodies, std::size_t contacts) {
+/// How many regions there are, as a power of two: as many as have enough contacts, few of them across.
+int Colouring::regionBits(std::span<const PatchPlan> plans, std::size_t contacts) const {
+    // The highest bit in which slices differ says how far regions may be divided before they part two bodies.
+    std::array<std::size_t, std::bit_width(kSlices)> parted{};
+    std::size_t pairs = 0;
+    for (const PatchPlan& plan : plans) {
+        if (plan.points == 0 || !plan.movesA || !plan.movesB) continue;
+        ++pairs;
+        ++parted[static_cast<std::size_t>(std::bit_width(slice_[plan.a] ^ slice_[plan.b]))];
+    }
     const std::size_t many = std::clamp<std::size_t>(contacts / kRegionContacts, 1, kMostRegions);
-    const int bits = std::bit_width(many) - 1, sliceBits = std::countr_zero(kSlices) - bits;
+    const int most = static_cast<int>(std::bit_width(many)) - 1;
+    int bits = 0;
+    for (std::size_t across = 0; bits < most; ++bits) {
+        across += parted[parted.size() - 1 - static_cast<std::size_t>(bits)];
+        if (5 * across > pairs) break;
+    }
+    return bits;
+}
+
+/// Regions, and the contacts of each group in their order. A single region would be one thread's: its
+/// contacts are shared as those across regions are.
+void Colouring::group(std::span<const PatchPlan> plans, std::size_t bodies, std::size_t contacts) {
+    const int bits = regionBits(plans, contacts), sliceBits = std::countr_zero(kSlices) - bits;
     const std::uint32_t regions = 1u << bits;
     regions_.resize(regions);
     for (std::uint32_t r = 0; r < regions; ++r) {
@@ -64,7 +84,8 @@ void Colouring::group(std::span<const PatchPlan> plans, std::size_t bodies, std:
         const PatchPlan& plan = plans[i];
         if (plan.points == 0) continue;
         const std::uint32_t a = slice_[plan.a] >> sliceBits, b = slice_[plan.b] >> sliceBits;
-        const std::uint32_t g = !plan.movesA || !plan.movesB ? regions + 1 : a == b ? a : regions;
+        const bool inside = a == b && regions > 1;
+        const std::uint32_t g = !plan.movesA || !plan.movesB ? regions + 1 : inside ? a : regions;
         groups_[g].members.push_back({i, 0});
     }
 }

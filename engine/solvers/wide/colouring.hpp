@@ -90,6 +90,7 @@ class Colouring {
     };
 
     std::size_t slice(std::span<const PatchPlan> plans, std::size_t bodies);
+    int regionBits(std::span<const PatchPlan> plans, std::size_t contacts) const;
     void group(std::span<const PatchPlan> plans, std::size_t bodies, std::size_t contacts);
     void chooseColours(std::span<const PatchPlan> plans, std::size_t g);
     static void count(Group& group, std::uint32_t lanes);

@@ -70,17 +70,27 @@ void Patches<S>::cut(const Tasks& tasks) {
         holds = std::exchange(before_[share], before) == before && holds;
     }
     if (holds) return;
-    stages_.assign(1, {0, false});
-    cuts_.resize(threads_ + 1);
-    for (std::size_t share = 0; share <= threads_; ++share) {
-        const std::size_t r = regionOf(share);
-        cuts_[share][0] = r < colouring_.regions().size() ? colouring_.regions()[r].first
-                                                          : colouring_.regions().back().last;
-    }
+    cutRegions();
     if (threads_ == 1)
         cuts_[1][0] = colouring_.blocks();
     else
         addRangeStages();
+}
+
+/// Where as many of their blocks come before as belong there, to half a region.
+template <class S>
+void Patches<S>::cutRegions() {
+    const std::span<const Colouring::Region> regions = colouring_.regions();
+    firstRegion_.assign(threads_ + 1, 0);
+    stages_.assign(1, {0, false});
+    cuts_.assign(threads_ + 1, {});
+    for (std::size_t share = 1; share <= threads_; ++share) {
+        const double before = before_[share] * regions.back().last;
+        std::size_t& r = firstRegion_[share];
+        r = share < threads_ ? firstRegion_[share - 1] : regions.size();
+        while (r < regions.size() && 0.5 * (regions[r].first + regions[r].last) < before) ++r;
+        cuts_[share][0] = r < regions.size() ? regions[r].first : regions.back().last;
+    }
 }
 
 /// Few blocks are not worth sharing: the first thread does them, and goes on with the next ones if these are
@@ -117,7 +127,7 @@ typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const Patc
     const std::size_t warm = warmStart && gained == nullptr ? stages_.size() : 0,
                       last = warm + stages_.size();
     tasks.forStages(last + 1, [&](std::size_t stage, std::size_t share) {
-        const std::size_t from = bodyOf(share), to = bodyOf(share + 1);
+        const std::size_t from = bodyOf(share, tasks), to = bodyOf(share + 1, tasks);
         if (stage == 0) velocities_.begin(from, to, gained);
         if (stage == last) {
             if (from < to) raise(change, velocities_.end(from, to, gained_.data(), !warmStart));

@@ -94,6 +94,7 @@ class Patches {
         bool kinds;  ///< else the first kind is all there is
     };
     void cut(const Tasks& tasks);
+    void cutRegions();
     void addRangeStages();
     /// work(first, last) on ranges of blocks that are the share of a thread in a stage.
     template <class Work>
@@ -102,14 +103,12 @@ class Patches {
         for (std::uint32_t kind = 0; kind < (stage.kinds ? Colouring::kKinds : 1); ++kind)
             if (cut[0][kind] < cut[1][kind]) work(cut[0][kind], cut[1][kind]);
     }
-    /// The first region of a share; that of the last thread's next is their number.
-    std::size_t regionOf(std::size_t share) const {
-        const auto regions = static_cast<double>(colouring_.regions().size());
-        return static_cast<std::size_t>(regions * before_[share] + 0.5);
-    }
-    std::size_t bodyOf(std::size_t share) const {
-        const std::size_t r = regionOf(share);
-        return r < colouring_.regions().size() ? colouring_.regions()[r].firstBody : velocities_.size();
+    /// The first body of a share.
+    std::size_t bodyOf(std::size_t share, const Tasks& tasks) const {
+        const auto regions = colouring_.regions();
+        if (regions.size() == 1) return tasks.cut(velocities_.size(), kBodyGrain, share);
+        return firstRegion_[share] < regions.size() ? regions[firstRegion_[share]].firstBody
+                                                    : velocities_.size();
     }
 
     std::vector<PatchPlan> plans_;
@@ -117,9 +116,10 @@ class Patches {
     std::size_t size_ = 0, points_ = 0;
     Colouring colouring_;
     std::size_t threads_ = 1;
-    std::vector<double> before_;        ///< parts of the work before each thread's, and all of it
-    std::vector<Stage> stages_;         ///< regions, then ranges
-    std::vector<Colouring::Cut> cuts_;  ///< of all stages
+    std::vector<double> before_;            ///< parts of the work before each thread's, and all of it
+    std::vector<std::size_t> firstRegion_;  ///< of each share, and their number
+    std::vector<Stage> stages_;             ///< regions, then ranges
+    std::vector<Colouring::Cut> cuts_;      ///< of all stages
     std::vector<PatchBlock<F>> blocks_;
     std::vector<PatchRest<F>> rests_;
     // --- by body
