@@ -40,7 +40,6 @@ void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
     }
     inertia_.resize(n), motions_.resize(n), velocities_.resize(n), gained_.resize(n);
     cut(tasks);
-
     gainedHolds_ = bounce_ = false;
     const auto begin = [&](std::size_t i) {
         motions_[i] = {};
