@@ -93,13 +93,15 @@ double worstOf(const BenchCase& c, const std::string& quality) {
 Columns columnsOf(const std::vector<const BenchCase*>& group) {
     Columns columns;
     columns.scene = group.front()->part == "scene", columns.operation = group.front()->operation;
-    if (columns.scene) {
-        columns.counts = {"contacts"};
-        return columns;
-    }
     const auto any = [&](auto&& has) {
         return std::any_of(group.begin(), group.end(), [&](const BenchCase* c) { return has(*c); });
     };
+    if (columns.scene) {
+        columns.counts = {"contacts"};
+        if (any([](const BenchCase& c) { return countOf(c, "asleep") > 0.0; }))
+            columns.counts.push_back("asleep");
+        return columns;
+    }
     columns.threads = any([](const BenchCase& c) { return c.threads > 1; });
     columns.memory = any([](const BenchCase& c) { return memory(c) != "-"; });
     columns.allocations = any([](const BenchCase& c) { return allocations(c) != "-"; });
@@ -243,7 +245,7 @@ std::string benchCaseName(const BenchCase& c) {
 std::string benchText(const results::Run& run, bool colour) {
     const Bench& bench = run.bench;
     std::string text;
-    bool wide = false, counted = false;
+    bool wide = false, counted = false, asleep = false;
     for (std::size_t i = 0; i < bench.cases.size(); ++i) {
         const bool first = std::none_of(bench.cases.begin(), bench.cases.begin() + static_cast<long>(i),
                                         [&](const BenchCase& c) { return sameGroup(c, bench.cases[i]); });
@@ -256,6 +258,7 @@ std::string benchText(const results::Run& run, bool colour) {
     for (const BenchCase& c : bench.cases) {
         wide = wide || (c.summary.repetitions > 0 && !c.summary.converged);
         counted = counted || allocations(c) != "-";
+        asleep = asleep || countOf(c, "asleep") > 0.0;
     }
     text +=
         "median: over repetitions, each a process of its own, engines in random order; CPU time of all "
@@ -269,6 +272,10 @@ std::string benchText(const results::Run& run, bool colour) {
     if (counted)
         text +=
             "allocations: calls of the C library's allocator a step; pools inside an engine are not seen.\n";
+    if (asleep)
+        text +=
+            "asleep: bodies that the engine has stopped and leaves out of its steps; their work is not in "
+            "its times.\n";
     if (const auto it = bench.settings.find("build"); it != bench.settings.end() && it->second != "optimised")
         text += "THIS PROGRAM WAS " + it->second + ": these times say nothing about the engines.\n";
     return text;

@@ -35,7 +35,11 @@ class WorkMeter {
         add("solver_iterations", c.solverIterations), add("islands", c.islands);
         for (const auto& [phase, seconds] : c.phaseSeconds) phases_[phase].push_back(seconds);
     }
-    void look(const std::vector<adapter::ContactPoint>& contacts) {
+    void look(const adapter::World& world, std::size_t bodies,
+              const std::vector<adapter::ContactPoint>& contacts) {
+        double asleep = 0.0;
+        for (std::size_t i = 0; i < bodies; ++i) asleep += world.isAsleep(static_cast<int>(i)) ? 1.0 : 0.0;
+        sums_["asleep"].add(asleep);
         sums_["contacts"].add(static_cast<double>(contacts.size()));
         sums_["touching_pairs"].add(touchingPairs(contacts));
     }
@@ -98,7 +102,7 @@ class SceneCase final : public BenchCase {
             work.count(world.counters());
             if (stepper.steps() % readEvery != 0 && stepper.steps() != steps.warmUp + steps.timed) continue;
             world.readContacts(contacts);
-            work.look(contacts);
+            work.look(world, scenario_.bodies.size(), contacts);
         }
         memory.write(done);
         while (stepper.steps() < steps.quality) step([&] { world.step(); });

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "scenarios/loader/loader.hpp"
+#include "validation/bench/print.hpp"
 #include "validation/bench/summary.hpp"
 #include "validation/results/store.hpp"
 #include "validation/runner/describe.hpp"
@@ -21,6 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 /// A thrown ball; the doubles have no contacts. Energy may only be lost, but for `gain`.
 std::string thrownBall(const std::string& gain) {
@@ -99,6 +101,16 @@ TEST_F(RunBench, TheLookCountsAllocations) {
     EXPECT_DOUBLE_EQ(*three[0].allocatedBytes, 192.0);
     for (std::size_t i = 1; i < three.size(); ++i)
         EXPECT_FALSE(three[i].allocations) << "counting takes time";
+}
+
+/// Who sleeps is not slow: the table says so.
+TEST_F(RunBench, TellsHowManyBodiesSleep) {
+    const auto done = run(plan("double_free_flight,double_free_flight:asleep=1"));
+    EXPECT_EQ(countOf(done.bench.cases.at(0), "asleep"), 0.0);
+    EXPECT_EQ(countOf(done.bench.cases.at(1), "asleep"), 1.0);
+    EXPECT_THAT(benchText(done, false), HasSubstr("asleep: bodies that the engine has stopped"));
+    const auto awake = run(plan("double_free_flight"));
+    EXPECT_THAT(benchText(awake, false), Not(HasSubstr("asleep"))) << "no column of zeros";
 }
 
 TEST_F(RunBench, ATimingOfABadRunIsInvalid) {

@@ -24,6 +24,7 @@ class FreeFlightWorld : public World {
           dt_(dt),
           pause_(static_cast<useconds_t>(integerSetting(settings, "pause_us"))),
           allocations_(integerSetting(settings, "allocations")),
+          asleep_(integerSetting(settings, "asleep")),
           states_(scenario.bodies.size()),
           forces_(scenario.bodies.size()) {
         for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -58,6 +59,7 @@ class FreeFlightWorld : public World {
         for (std::size_t i = 0; i < states.size(); ++i) states[i] = states_[i];
     }
     void readContacts(std::vector<ContactPoint>& contacts) const override { contacts.clear(); }
+    bool isAsleep(int body) const override { return body < asleep_; }
 
     ReadBack readBack() const override {
         ReadBack back;
@@ -80,7 +82,7 @@ class FreeFlightWorld : public World {
     Scenario scenario_;
     double dt_;
     useconds_t pause_;
-    int allocations_;
+    int allocations_, asleep_;
     std::vector<BodyState> states_;
     std::vector<Vec3> forces_;
     int steps_ = 0;
@@ -112,7 +114,8 @@ inline EngineInfo doubleInfo() {
 
 inline std::vector<Option> doubleOptions() {
     return {{"pause_us", {}, 0.0, 1e6, true, "0", "0", "microseconds of sleep in each step"},
-            {"allocations", {}, 0.0, 1e6, true, "0", "0", "calls of malloc in each step, of 64 bytes"}};
+            {"allocations", {}, 0.0, 1e6, true, "0", "0", "calls of malloc in each step, of 64 bytes"},
+            {"asleep", {}, 0.0, 1e6, true, "0", "0", "bodies that are said to sleep"}};
 }
 
 template <class WorldType>

@@ -74,7 +74,7 @@ function meaning(bench: Bench): Child {
       'Median: over the repetitions, of the median step of each. CPU time of all threads for one thread, wall time for more. ',
       'Ratio: time over the base’s time in the same round, the median over rounds with its interval; invalid times enter none. ',
       'Memory: what the process grew by since the engine began to build its world. Allocations: calls of the C library’s allocator in a step, counted in a repetition of its own; ',
-      'pools inside an engine are not seen. Contacts and pairs are what the engine reports for the timed steps: engines that keep fewer points for the same scene do less work.',
+      'pools inside an engine are not seen. Contacts and pairs are what the engine reports for the timed steps: engines that keep fewer points for the same scene do less work, and those with bodies asleep leave these out of their steps.',
     ),
     bench.cases.some((c) => c.part !== 'scene')
       ? el(

@@ -84,6 +84,9 @@ function columnsOf(cases: BenchCase[]): Column[] {
     { head: 'Ratio to the base', cell: (c) => (isBase(c) ? 'base' : c.ratio === null ? '—' : format(c.ratio, 3)) },
     { head: '95 %', cell: (c) => (isBase(c) ? '' : interval(c.ratioLow, c.ratioHigh, (v) => format(v, 3))) },
     ...(scene ? sceneWork : partWork(cases)),
+    ...(scene && cases.some((c) => workIn(c, 'asleep') > 0)
+      ? [{ head: 'Bodies asleep', cell: (c: BenchCase) => format(c.counts.asleep ?? null) }]
+      : []),
     { head: 'Memory', cell: (c) => (c.memoryKiB === null ? '—' : `${format(toNumber(c.memoryKiB) / 1024, 3)} MiB`) },
     { head: 'Allocations', cell: (c) => (c.allocations === null ? '—' : format(c.allocations, 3)) },
     {
