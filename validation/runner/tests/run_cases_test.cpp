@@ -317,9 +317,10 @@ TEST_F(RunCases, DescribesEnginesAndWhatIsWrongWithThem) {
     EXPECT_EQ(good.info.version, "1");
     EXPECT_EQ(good.info.precision, "f64");
     EXPECT_TRUE(good.capabilities.dynamics);
-    ASSERT_EQ(good.options.size(), 2u);
+    ASSERT_EQ(good.options.size(), 3u);
     EXPECT_EQ(good.options[0].key, "pause_us");
     EXPECT_EQ(good.options[1].key, "allocations");
+    EXPECT_EQ(good.options[2].key, "asleep");
     EXPECT_THAT(good.precisions, testing::ElementsAre("f64"));
     EXPECT_THAT(describeEngine("no_such_engine", options().binary).problem, HasSubstr("not installed"));
 }

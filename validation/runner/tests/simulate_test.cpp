@@ -15,7 +15,7 @@ using fixtures::thrownBall;
 using scenario::Vec3;
 
 Simulation fly(const scenario::Scenario& s, double dt, const LiveOptions& options = {}) {
-    doubles::FreeFlightWorld world(s, dt, {{"pause_us", "0"}, {"allocations", "0"}});
+    doubles::FreeFlightWorld world(s, dt, {{"pause_us", "0"}, {"allocations", "0"}, {"asleep", "0"}});
     return simulate(s, dt, world, options);
 }
 
@@ -96,7 +96,7 @@ class NanWorld : public doubles::FreeFlightWorld {
 
 TEST(Simulate, StopsAtTheFirstStateThatIsNotFinite) {
     const auto s = load(thrownBall("ball")).first;
-    NanWorld world(s, 0.0078125, {{"pause_us", "0"}, {"allocations", "0"}});
+    NanWorld world(s, 0.0078125, {{"pause_us", "0"}, {"allocations", "0"}, {"asleep", "0"}});
     const Simulation run = simulate(s, 0.0078125, world, {});
     EXPECT_EQ(run.steps, 7u);
     EXPECT_THAT(run.nonFinite, testing::HasSubstr("ball is not finite at t = 0.0546"));
@@ -118,7 +118,7 @@ class SlowWorld : public doubles::FreeFlightWorld {
 /// Nine steps of 2 ms for one of 20 ms: median and tenth say 2, the total says 190.
 TEST(Simulate, TimesStepsAndPhases) {
     const auto s = load(thrownBall("ball")).first;
-    SlowWorld world(s, 0.01, {{"pause_us", "0"}, {"allocations", "0"}});
+    SlowWorld world(s, 0.01, {{"pause_us", "0"}, {"allocations", "0"}, {"asleep", "0"}});
     const Simulation run = simulate(s, 0.01, world, {});
     ASSERT_EQ(run.timings.size(), 2u);
     const auto& step = run.timings[0];
