@@ -57,15 +57,16 @@ struct PatchLane {
     }
 };
 
-/// What the narrow phase knows of a contact; the rest is made of it in SIMD (Patches::prepare). Null: zeros.
+/// What the narrow phase knows of a contact; the rest is made of it in SIMD (Patches::prepare). Null: zeros,
+/// of the body `other`, which no other block of the colour moves: all lanes are read.
 template <class S>
 void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const ContactStep<S>& step,
-              const Contact<S>* contact) {
+              const Contact<S>* contact, std::uint32_t other) {
     PatchBlock<PatchSpace<S>>& block = to.block;
     const std::size_t lane = to.lane;
     using Vec = typename S::Vec;
     using Real = typename S::Real;
-    const std::uint32_t a = contact ? contact->bodyA : 0, b = contact ? contact->bodyB : 0;
+    const std::uint32_t a = contact ? contact->bodyA : other, b = contact ? contact->bodyB : other;
     const PairCoefficients<S> pair = contact ? contact->coefficients : PairCoefficients<S>{};
     const auto count = static_cast<std::size_t>(contact ? contact->manifold.count : 0);
     block.a[lane] = a, block.b[lane] = b;
@@ -74,7 +75,8 @@ void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const Contact
     block.movesA |= lanes(movesA), block.movesB |= lanes(movesB);
     putVector(block.normal, lane, contact ? contact->manifold.normal : Vec(Vec::Zero()));
     putVector(block.offset, lane, Vec(bodies.pose[b].p - bodies.pose[a].p));
-    put(block.invMassA, lane, bodies.invMass[a]), put(block.invMassB, lane, bodies.invMass[b]);
+    put(block.invMassA, lane, contact ? bodies.invMass[a] : Real(0));
+    put(block.invMassB, lane, contact ? bodies.invMass[b] : Real(0));
     put(block.friction, lane, pair.friction);
     put(block.staticFriction, lane, std::max(pair.friction, pair.staticFriction));
     put(to.rest.restitution, lane, step.bounces ? pair.restitution : Real(0));
@@ -131,7 +133,7 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
             if (from[lane]) block.points = std::max(block.points, from[lane]->manifold.count);
         }
         for (std::size_t lane = 0; lane < kLanes; ++lane)
-            fillLane<S>({block, patches.rest(b), rubs, lane}, bodies, step, from[lane]);
+            fillLane<S>({block, patches.rest(b), rubs, lane}, bodies, step, from[lane], from[0]->bodyA);
         patches.prepare(b, rubs);
     });
 }
