@@ -109,6 +109,7 @@ TEST_F(RunBench, TellsHowManyBodiesSleep) {
     EXPECT_EQ(countOf(done.bench.cases.at(0), "asleep"), 0.0);
     EXPECT_EQ(countOf(done.bench.cases.at(1), "asleep"), 1.0);
     EXPECT_THAT(benchText(done, false), HasSubstr("asleep: bodies that the engine has stopped"));
+    options_.directory = scratch_.path() / "awake";
     const auto awake = run(plan("double_free_flight"));
     EXPECT_THAT(benchText(awake, false), Not(HasSubstr("asleep"))) << "no column of zeros";
 }
