@@ -22,33 +22,32 @@ constexpr std::uint32_t keyOf(const PatchPlan& plan) {
 }  // namespace
 
 /// By the work of the contacts that bodies are in: as far as bodies are numbered as they lie, those of a
-/// slice are neighbours. Returns how many contacts there are to be placed.
-std::size_t Colouring::slice(std::span<const PatchPlan> plans, std::size_t bodies) {
+/// slice are neighbours.
+void Colouring::slice(std::span<const PatchPlan> plans, std::size_t bodies) {
     slice_.assign(bodies, 0);
     std::uint64_t all = 0, before = 0;
-    std::size_t count = 0;
     for (const PatchPlan& plan : plans) {
         const std::uint32_t work = plan.points > 0 ? workOf(plan.points) : 0;
-        count += plan.points > 0;
         if (plan.movesA) slice_[plan.a] += work, all += work;
         if (plan.movesB) slice_[plan.b] += work, all += work;
     }
-    if (all == 0) return count;
+    if (all == 0) return;
     const double perWork = kSlices / static_cast<double>(all);
     for (std::uint32_t& own : slice_) {
         const auto slice = static_cast<std::uint32_t>(static_cast<double>(before) * perWork);
         before += std::exchange(own, std::min(slice, kSlices - 1));
     }
-    return count;
 }
 
 /// How many regions there are, as a power of two: as many as have enough contacts, few of them across.
-int Colouring::regionBits(std::span<const PatchPlan> plans, std::size_t contacts) const {
+int Colouring::regionBits(std::span<const PatchPlan> plans) const {
     // The highest bit in which slices differ says how far regions may be divided before they part two bodies.
     std::array<std::size_t, std::bit_width(kSlices)> parted{};
-    std::size_t pairs = 0;
+    std::size_t contacts = 0, pairs = 0;
     for (const PatchPlan& plan : plans) {
-        if (plan.points == 0 || !plan.movesA || !plan.movesB) continue;
+        if (plan.points == 0) continue;
+        ++contacts;
+        if (!plan.movesA || !plan.movesB) continue;
         ++pairs;
         ++parted[static_cast<std::size_t>(std::bit_width(slice_[plan.a] ^ slice_[plan.b]))];
     }
@@ -64,8 +63,8 @@ int Colouring::regionBits(std::span<const PatchPlan> plans, std::size_t contacts
 
 /// Regions, and the contacts of each group in their order. A single region would be one thread's: its
 /// contacts are shared as those across regions are.
-void Colouring::group(std::span<const PatchPlan> plans, std::size_t bodies, std::size_t contacts) {
-    const int bits = regionBits(plans, contacts), sliceBits = std::countr_zero(kSlices) - bits;
+void Colouring::group(std::span<const PatchPlan> plans, std::size_t bodies) {
+    const int bits = regionBits(plans), sliceBits = std::countr_zero(kSlices) - bits;
     const std::uint32_t regions = 1u << bits;
     regions_.resize(regions);
     for (std::uint32_t r = 0; r < regions; ++r) {
@@ -157,7 +156,8 @@ void Colouring::addRanges(const Group& group, std::uint32_t lanes) {
 
 void Colouring::colour(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes,
                        const Tasks& tasks) {
-    group(plans, bodies, slice(plans, bodies));
+    slice(plans, bodies);
+    group(plans, bodies);
     for (auto& taken : taken_) taken.resize(bodies);
     tasks.forEach(groups_.size(), 1, [&](std::size_t g) {
         chooseColours(plans, g);

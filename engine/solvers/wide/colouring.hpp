@@ -89,9 +89,9 @@ class Colouring {
         std::uint32_t perColour() const { return kKinds * slices; }
     };
 
-    std::size_t slice(std::span<const PatchPlan> plans, std::size_t bodies);
-    int regionBits(std::span<const PatchPlan> plans, std::size_t contacts) const;
-    void group(std::span<const PatchPlan> plans, std::size_t bodies, std::size_t contacts);
+    void slice(std::span<const PatchPlan> plans, std::size_t bodies);
+    int regionBits(std::span<const PatchPlan> plans) const;
+    void group(std::span<const PatchPlan> plans, std::size_t bodies);
     void chooseColours(std::span<const PatchPlan> plans, std::size_t g);
     static void count(Group& group, std::uint32_t lanes);
     void place(Group& group, std::uint32_t lanes);

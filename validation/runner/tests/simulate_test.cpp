@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "adapters/interface/registry.hpp"
 #include "validation/runner/tests/doubles/free_flight.hpp"
 #include "validation/runner/tests/fixtures.hpp"
 
@@ -14,8 +15,14 @@ using fixtures::load;
 using fixtures::thrownBall;
 using scenario::Vec3;
 
+/// Of the double, every option as it is by default.
+adapter::Settings plainSettings() {
+    return adapter::resolveSettings(adapter::parseSpec("double_free_flight"),
+                                    doubles::DoubleEngine<doubles::FreeFlightWorld>());
+}
+
 Simulation fly(const scenario::Scenario& s, double dt, const LiveOptions& options = {}) {
-    doubles::FreeFlightWorld world(s, dt, {{"pause_us", "0"}, {"allocations", "0"}, {"asleep", "0"}});
+    doubles::FreeFlightWorld world(s, dt, plainSettings());
     return simulate(s, dt, world, options);
 }
 
@@ -96,7 +103,7 @@ class NanWorld : public doubles::FreeFlightWorld {
 
 TEST(Simulate, StopsAtTheFirstStateThatIsNotFinite) {
     const auto s = load(thrownBall("ball")).first;
-    NanWorld world(s, 0.0078125, {{"pause_us", "0"}, {"allocations", "0"}, {"asleep", "0"}});
+    NanWorld world(s, 0.0078125, plainSettings());
     const Simulation run = simulate(s, 0.0078125, world, {});
     EXPECT_EQ(run.steps, 7u);
     EXPECT_THAT(run.nonFinite, testing::HasSubstr("ball is not finite at t = 0.0546"));
@@ -118,7 +125,7 @@ class SlowWorld : public doubles::FreeFlightWorld {
 /// Nine steps of 2 ms for one of 20 ms: median and tenth say 2, the total says 190.
 TEST(Simulate, TimesStepsAndPhases) {
     const auto s = load(thrownBall("ball")).first;
-    SlowWorld world(s, 0.01, {{"pause_us", "0"}, {"allocations", "0"}, {"asleep", "0"}});
+    SlowWorld world(s, 0.01, plainSettings());
     const Simulation run = simulate(s, 0.01, world, {});
     ASSERT_EQ(run.timings.size(), 2u);
     const auto& step = run.timings[0];
