@@ -5,6 +5,7 @@
 #include "engine/pipeline/contact_set.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 namespace rigor::engine {
@@ -34,9 +35,13 @@ void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>
         }
     };
     auto gone = gone_.begin();
-    for (std::size_t k = 0; k < contacts_.size(); ++k) {
-        if (!turned_[k]) continue;
-        const Contact<S>& contact = contacts_[k];
+    const std::uint8_t* const end = turned_.data() + turned_.size();
+    const auto next = [end](const std::uint8_t* from) {
+        const void* found = from == end ? nullptr : std::memchr(from, 1, static_cast<std::size_t>(end - from));
+        return found == nullptr ? end : static_cast<const std::uint8_t*>(found);
+    };
+    for (const std::uint8_t* turned = next(turned_.data()); turned != end; turned = next(turned + 1)) {
+        const Contact<S>& contact = contacts_[static_cast<std::size_t>(turned - turned_.data())];
         for (; gone != gone_.end() && key(*gone) < key(contact); ++gone) add(EventKind::ContactEnds, *gone);
         if (contact.touching)
             begins(contact);

@@ -21,16 +21,55 @@ constexpr std::uint32_t keyOf(const PatchPlan& plan) {
 
 }  // namespace
 
-/// By the work of the contacts that bodies are in: as far as bodies are numbered as they lie, those of a
-/// slice are neighbours.
-void Colouring::slice(std::span<const PatchPlan> plans, std::size_t bodies) {
-    slice_.assign(bodies, 0);
-    std::uint64_t all = 0, before = 0;
-    for (const PatchPlan& plan : plans) {
-        const std::uint32_t work = plan.points > 0 ? workOf(plan.points) : 0;
-        if (plan.movesA) slice_[plan.a] += work, all += work;
-        if (plan.movesB) slice_[plan.b] += work, all += work;
+/// Slices, regions, and the contacts of each group; no body has a colour.
+void Colouring::divide(std::span<const PatchPlan> plans, std::size_t bodies, const Tasks& tasks) {
+    binBits_ = std::max(0, static_cast<int>(std::bit_width(bodies) - std::bit_width(kMostBins - 1)));
+    slice_.resize((bodies >> binBits_) + 1);
+    for (auto& taken : taken_) taken.resize(bodies);
+    parts_.resize(static_cast<std::size_t>(tasks.threads()));
+    const auto start = [&](std::size_t n, std::size_t share) { return tasks.cut(n, 1, share); };
+    const auto own = [&](std::size_t share) {
+        const std::size_t first = start(plans.size(), share);
+        return plans.subspan(first, start(plans.size(), share + 1) - first);
+    };
+    tasks.forStages(1, [&](std::size_t, std::size_t share) {
+        weigh(own(share), parts_[share]);
+        for (auto& taken : taken_)
+            std::fill(taken.data() + start(bodies, share), taken.data() + start(bodies, share + 1), 0);
+    });
+    slice();
+    contacts_ = points_ = 0;
+    for (const Part& part : parts_) contacts_ += part.contacts, points_ += part.points;
+    // As many regions, a power of two, as have enough contacts, few of them across.
+    const std::size_t many = std::clamp<std::size_t>(contacts_ / kRegionContacts, 1, kMostRegions);
+    for (int bits = static_cast<int>(std::bit_width(many)) - 1;; --bits) {
+        makeRegions(bodies, bits);
+        tasks.forStages(1, [&](std::size_t, std::size_t share) {
+            list(own(share), static_cast<std::uint32_t>(start(plans.size(), share)), parts_[share]);
+        });
+        if (bits == 0 || fewAcross()) return;
     }
+}
+
+/// The work of the contacts that bodies are in.
+void Colouring::weigh(std::span<const PatchPlan> plans, Part& part) const {
+    part.work.assign(slice_.size(), 0);
+    part.contacts = part.points = 0;
+    for (const PatchPlan& plan : plans) {
+        part.contacts += plan.points > 0, part.points += plan.points;
+        const std::uint32_t work = plan.points > 0 ? workOf(plan.points) : 0;
+        part.work[plan.a >> binBits_] += plan.movesA ? work : 0;
+        part.work[plan.b >> binBits_] += plan.movesB ? work : 0;
+    }
+}
+
+/// By work: as far as bodies are numbered as they lie, those of a slice are neighbours.
+void Colouring::slice() {
+    std::fill(slice_.begin(), slice_.end(), 0);
+    std::uint64_t all = 0, before = 0;
+    for (const Part& part : parts_)
+        for (std::size_t bin = 0; bin < slice_.size(); ++bin) slice_[bin] += part.work[bin];
+    for (const std::uint32_t work : slice_) all += work;
     if (all == 0) return;
     const double perWork = kSlices / static_cast<double>(all);
     for (std::uint32_t& own : slice_) {
@@ -39,80 +78,70 @@ void Colouring::slice(std::span<const PatchPlan> plans, std::size_t bodies) {
     }
 }
 
-/// How many regions there are, as a power of two: as many as have enough contacts, few of them across.
-int Colouring::regionBits(std::span<const PatchPlan> plans) const {
-    // The highest bit in which slices differ says how far regions may be divided before they part two bodies.
-    std::array<std::size_t, std::bit_width(kSlices)> parted{};
-    std::size_t contacts = 0, pairs = 0;
-    for (const PatchPlan& plan : plans) {
-        if (plan.points == 0) continue;
-        ++contacts;
-        if (!plan.movesA || !plan.movesB) continue;
-        ++pairs;
-        ++parted[static_cast<std::size_t>(std::bit_width(slice_[plan.a] ^ slice_[plan.b]))];
-    }
-    const std::size_t many = std::clamp<std::size_t>(contacts / kRegionContacts, 1, kMostRegions);
-    const int most = static_cast<int>(std::bit_width(many)) - 1;
-    int bits = 0;
-    for (std::size_t across = 0; bits < most; ++bits) {
-        across += parted[parted.size() - 1 - static_cast<std::size_t>(bits)];
-        if (5 * across > pairs) break;
-    }
-    return bits;
-}
-
-/// Regions, and the contacts of each group in their order. A single region would be one thread's: its
-/// contacts are shared as those across regions are.
-void Colouring::group(std::span<const PatchPlan> plans, std::size_t bodies) {
-    const int bits = regionBits(plans), sliceBits = std::countr_zero(kSlices) - bits;
-    const std::uint32_t regions = 1u << bits;
-    regions_.resize(regions);
-    for (std::uint32_t r = 0; r < regions; ++r) {
-        const auto first = std::lower_bound(slice_.begin(), slice_.end(), r << sliceBits);
-        regions_[r].firstBody = static_cast<std::uint32_t>(first - slice_.begin());
+void Colouring::makeRegions(std::size_t bodies, int bits) {
+    sliceBits_ = std::countr_zero(kSlices) - bits;
+    regions_.resize(std::size_t(1) << bits);
+    for (std::uint32_t r = 0; r < regions_.size(); ++r) {
+        const auto bin = std::lower_bound(slice_.begin(), slice_.end(), r << sliceBits_) - slice_.begin();
+        regions_[r].firstBody =
+            static_cast<std::uint32_t>(std::min(bodies, static_cast<std::size_t>(bin) << binBits_));
         regions_[r].lastBody = static_cast<std::uint32_t>(bodies);
         if (r > 0) regions_[r - 1].lastBody = regions_[r].firstBody;
     }
+    groups_.resize(own(regions_.size()));
+    for (std::size_t g = 0; g < groups_.size(); ++g) groups_[g].slices = g < own(0) ? kSlices : 1;
+}
 
-    groups_.resize(regions + 2);
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-        groups_[g].members.clear();
-        groups_[g].slices = g < regions ? 1 : kSlices;
-    }
+/// A single region would be one thread's: all contacts are shared then as those across regions are.
+void Colouring::list(std::span<const PatchPlan> plans, std::uint32_t first, Part& part) const {
+    part.members.resize(groups_.size());
+    for (auto& members : part.members) members.clear();
     for (std::uint32_t i = 0; i < plans.size(); ++i) {
         const PatchPlan& plan = plans[i];
         if (plan.points == 0) continue;
-        const std::uint32_t a = slice_[plan.a] >> sliceBits, b = slice_[plan.b] >> sliceBits;
-        const bool inside = a == b && regions > 1;
-        const std::uint32_t g = !plan.movesA || !plan.movesB ? regions + 1 : inside ? a : regions;
-        groups_[g].members.push_back({i, 0});
+        const bool wall = !plan.movesA || !plan.movesB;
+        const std::uint32_t a = sliceOf(wall ? keyOf(plan) : plan.a) >> sliceBits_;
+        const bool inside = regions_.size() > 1 && (wall || a == sliceOf(plan.b) >> sliceBits_);
+        part.members[(inside ? own(a) : 0) + wall].push_back(first + i);
     }
+}
+
+/// Of the contacts of two bodies.
+bool Colouring::fewAcross() const {
+    std::size_t across = 0, inside = 0;
+    for (const Part& part : parts_) {
+        across += part.members[0].size();
+        for (std::size_t r = 0; r < regions_.size(); ++r) inside += part.members[own(r)].size();
+    }
+    return 4 * across <= inside;
 }
 
 /// And the bucket of each contact, of which begin gets the sizes.
 void Colouring::chooseColours(std::span<const PatchPlan> plans, std::size_t g) {
     Group& group = groups_[g];
-    const bool inside = g < regions_.size();
-    std::vector<std::uint64_t>& taken = taken_[inside ? 0 : g - regions_.size() + 1];
-    const auto begin = taken.begin() + (inside ? regions_[g].firstBody : 0);
-    std::fill(begin, inside ? taken.begin() + regions_[g].lastBody : taken.end(), 0);
+    const bool inside = g >= own(0), wall = g % 2 == 1;
+    group.members.clear();
     group.colours = 0;
     group.begin.assign(group.perColour(), 0);
-    for (Group::Member& member : group.members) {
-        const PatchPlan& plan = plans[member.plan];
+    std::vector<std::uint64_t>& taken = taken_[wall ? 2 : inside];
+    const auto add = [&](std::uint32_t i) {
+        const PatchPlan& plan = plans[i];
         const std::uint64_t of = (plan.movesA ? taken[plan.a] : 0) | (plan.movesB ? taken[plan.b] : 0);
         const auto colour = static_cast<std::uint32_t>(std::countr_one(of));
         const std::uint32_t kind = kKinds - std::min<std::uint32_t>(plan.points, kKinds);
-        const std::uint32_t slice = inside ? 0 : slice_[keyOf(plan)];
-        member.bucket = (colour * kKinds + kind) * group.slices + slice;
-        if (member.bucket >= group.begin.size()) group.begin.resize((colour + 1) * group.perColour(), 0);
-        ++group.begin[member.bucket];
-        if (colour == kColours) continue;
+        const std::uint32_t slice = inside ? 0 : sliceOf(keyOf(plan));
+        const std::uint32_t bucket = (colour * kKinds + kind) * group.slices + slice;
+        group.members.push_back({i, bucket});
+        if (bucket >= group.begin.size()) group.begin.resize((colour + 1) * group.perColour(), 0);
+        ++group.begin[bucket];
+        if (colour == kColours) return;
         const std::uint64_t bit = std::uint64_t(1) << colour;
         if (plan.movesA) taken[plan.a] |= bit;
         if (plan.movesB) taken[plan.b] |= bit;
         group.colours = std::max(group.colours, colour + 1);
-    }
+    };
+    for (const Part& part : parts_)
+        for (const std::uint32_t i : part.members[g]) add(i);
     group.begin.resize((group.colours + 1) * group.perColour(), 0);
 }
 
@@ -156,19 +185,19 @@ void Colouring::addRanges(const Group& group, std::uint32_t lanes) {
 
 void Colouring::colour(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes,
                        const Tasks& tasks) {
-    slice(plans, bodies);
-    group(plans, bodies);
-    for (auto& taken : taken_) taken.resize(bodies);
+    divide(plans, bodies, tasks);
     tasks.forEach(groups_.size(), 1, [&](std::size_t g) {
         chooseColours(plans, g);
         count(groups_[g], lanes);
     });
     blocks_ = 0;
     for (Group& group : groups_) group.block = blocks_, blocks_ += group.blocks;
-    for (std::size_t r = 0; r < regions_.size(); ++r)
-        regions_[r].first = groups_[r].block, regions_[r].last = groups_[r].block + groups_[r].blocks;
+    for (std::size_t r = 0; r < regions_.size(); ++r) {
+        const Group &own = groups_[Colouring::own(r)], &walls = groups_[Colouring::own(r) + 1];
+        regions_[r].first = own.block, regions_[r].last = walls.block + walls.blocks;
+    }
     ranges_.clear(), tables_.clear();
-    for (std::size_t g = regions_.size(); g < groups_.size(); ++g) addRanges(groups_[g], lanes);
+    for (std::size_t g = 0; g < own(0); ++g) addRanges(groups_[g], lanes);
     occupants_.resize(blocks_ * lanes);
     tasks.forEach(groups_.size(), 1, [&](std::size_t g) { place(groups_[g], lanes); });
 }

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // In what order contacts are worked on, in lanes and by threads, without a change of the result. Bodies are
-// divided into regions, as they are numbered. Contacts within a region come first, region by region: they
-// have no moving body in common with those of another one, so that a thread works on its regions without
-// waiting for others. Then come contacts across regions, then those with walls, which have the last word.
+// divided into regions, as they are numbered. Contacts across regions come first. Then come those within the
+// regions, and each region's contacts with walls, which have the last word: regions have no moving body in
+// common, so that a thread works on its own ones without waiting for others.
 //
 // Among the contacts of each of these groups, graph colouring: those of one colour have no moving body in
 // common, so that they can be solved side by side. Greedy: in their order, the lowest colour that neither
@@ -63,10 +63,13 @@ class Colouring {
     std::span<const std::uint32_t> occupants() const { return occupants_; }
     static constexpr std::uint32_t kNobody = 0xffffffffu;
     std::uint32_t blocks() const { return blocks_; }
-    /// They have the first blocks; at least one, all together have all bodies.
-    std::span<const Region> regions() const { return regions_; }
-    /// What comes after them, in the order in which it is to be worked on.
+    /// That have been placed, and their points.
+    std::size_t contacts() const { return contacts_; }
+    std::size_t points() const { return points_; }
+    /// The first blocks, in the order in which they are to be worked on.
     std::span<const Range> ranges() const { return ranges_; }
+    /// They have the other blocks; at least one, all together have all bodies.
+    std::span<const Region> regions() const { return regions_; }
     /// Cuts a range where `part` (0 .. 1) of all work lies before. What lies between such cuts has the same
     /// bodies in all ranges, but for some at the seams, so that a thread finds them in its own cache; but it
     /// is never so much that others would wait for it.
@@ -88,24 +91,43 @@ class Colouring {
         std::vector<std::uint32_t> begin;  ///< places in the group, by bucket
         std::uint32_t perColour() const { return kKinds * slices; }
     };
+    /// What a thread finds in its part of the plans. All that is made of it is the same for other parts.
+    struct alignas(64) Part {
+        std::vector<std::uint32_t> work;  ///< of the bodies of each bin
+        std::size_t contacts, points;
+        std::vector<std::vector<std::uint32_t>> members;  ///< of each group
+    };
+    /// Bodies go to slices by bins, a power of two of neighbours in each, at most as many bins as this.
+    static constexpr std::uint32_t kMostBins = 1024;
+    std::uint32_t sliceOf(std::uint32_t body) const { return slice_[body >> binBits_]; }
+    /// The groups of a region that are no ranges.
+    static constexpr std::size_t own(std::size_t region) { return 2 + 2 * region; }
 
-    void slice(std::span<const PatchPlan> plans, std::size_t bodies);
-    int regionBits(std::span<const PatchPlan> plans) const;
-    void group(std::span<const PatchPlan> plans, std::size_t bodies);
+    void divide(std::span<const PatchPlan> plans, std::size_t bodies, const Tasks& tasks);
+    void weigh(std::span<const PatchPlan> plans, Part& part) const;
+    void slice();
+    void makeRegions(std::size_t bodies, int bits);
+    void list(std::span<const PatchPlan> plans, std::uint32_t first, Part& part) const;
+    bool fewAcross() const;
     void chooseColours(std::span<const PatchPlan> plans, std::size_t g);
     static void count(Group& group, std::uint32_t lanes);
     void place(Group& group, std::uint32_t lanes);
     void addRanges(const Group& group, std::uint32_t lanes);
     std::uint32_t end(const Range& range, std::uint32_t kind, std::uint32_t slice) const;
 
-    std::vector<std::uint32_t> slice_;  ///< of each body
+    int binBits_ = 0;                   ///< of the number of bodies in a bin
+    std::vector<std::uint32_t> slice_;  ///< of each bin
+    std::vector<Part> parts_;           ///< of each thread
+    int sliceBits_ = 0;                 ///< of the number of slices in a region
     std::vector<Region> regions_ = std::vector<Region>(1);
-    std::vector<Group> groups_;                        ///< regions, across them, walls
-    std::array<std::vector<std::uint64_t>, 3> taken_;  ///< colours of each body: in, across regions, of walls
+    /// Across regions; with walls, if there is one region; then of each region its own and those with walls.
+    std::vector<Group> groups_;
+    std::array<std::vector<std::uint64_t>, 3> taken_;  ///< colours of each body: across, in regions, of walls
     std::vector<std::uint32_t> occupants_;
     std::vector<Range> ranges_;
     std::vector<Table> tables_;
     std::uint32_t blocks_ = 0;
+    std::size_t contacts_ = 0, points_ = 0;
 };
 
 }  // namespace rigor::engine

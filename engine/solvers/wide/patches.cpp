@@ -31,12 +31,10 @@ template <class S>
 void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
     const std::size_t n = bodies.size();
     if (std::exchange(changed_, false)) {  // else, as in most steps, everybody stays in place
-        size_ = points_ = 0;
-        for (const PatchPlan& plan : plans_) size_ += plan.points > 0, points_ += plan.points;
         colouring_.colour(plans_, n, kLanes, tasks);
         before_.clear();
-        blocks_.resize(colouring_.blocks());
-        rests_.resize(colouring_.blocks());
+        // What is over is kept for the next time there are more.
+        if (blocks_.size() < blocks()) blocks_.resize(blocks()), rests_.resize(blocks());
     }
     inertia_.resize(n), motions_.resize(n), velocities_.resize(n), gained_.resize(n);
     cut(tasks);
@@ -69,26 +67,26 @@ void Patches<S>::cut(const Tasks& tasks) {
         holds = std::exchange(before_[share], before) == before && holds;
     }
     if (holds) return;
-    cutRegions();
-    if (threads_ == 1)
-        cuts_[1][0] = colouring_.blocks();
-    else
-        addRangeStages();
+    stages_.clear(), cuts_.clear();
+    if (threads_ > 1) addRangeStages();
+    addRegionStage();
 }
 
-/// Where as many of their blocks come before as belong there, to half a region.
+/// Regions are cut where as many of their blocks come before as belong there, to half a region. A thread
+/// alone does all blocks in one go.
 template <class S>
-void Patches<S>::cutRegions() {
+void Patches<S>::addRegionStage() {
     const std::span<const Colouring::Region> regions = colouring_.regions();
     firstRegion_.assign(threads_ + 1, 0);
-    stages_.assign(1, {0, false});
-    cuts_.assign(threads_ + 1, {});
+    stages_.push_back({cuts_.size(), false});
+    const std::uint32_t first = threads_ > 1 ? regions.front().first : 0, last = regions.back().last;
+    cuts_.push_back({first});
     for (std::size_t share = 1; share <= threads_; ++share) {
-        const double before = before_[share] * regions.back().last;
+        const double before = first + before_[share] * (last - first);
         std::size_t& r = firstRegion_[share];
         r = share < threads_ ? firstRegion_[share - 1] : regions.size();
         while (r < regions.size() && 0.5 * (regions[r].first + regions[r].last) < before) ++r;
-        cuts_[share][0] = r < regions.size() ? regions[r].first : regions.back().last;
+        cuts_.push_back({r < regions.size() ? regions[r].first : last});
     }
 }
 
@@ -122,21 +120,19 @@ typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const Patc
     velocities_.refer(velocities);
     const Velocity<F>* const gained = warmStart && gainedHolds_ ? gained_.data() : nullptr;
     std::atomic<PatchReal> change = 0;
-    // One run: all stages once or twice, the first with what bodies begin with, and how they end.
-    const std::size_t warm = warmStart && gained == nullptr ? stages_.size() : 0,
-                      last = warm + stages_.size();
-    tasks.forStages(last + 1, [&](std::size_t stage, std::size_t share) {
+    // One run: what bodies begin with; all stages once or twice; how bodies end, by those who have worked on
+    // them in the last one.
+    const std::size_t n = stages_.size(), warm = warmStart && gained == nullptr ? n : 0;
+    tasks.forStages(1 + warm + n, [&](std::size_t stage, std::size_t share) {
         const std::size_t from = bodyOf(share, tasks), to = bodyOf(share + 1, tasks);
-        if (stage == 0) velocities_.begin(from, to, gained);
-        if (stage == last) {
-            if (from < to) raise(change, velocities_.end(from, to, gained_.data(), !warmStart));
-        } else if (stage < warm) {
-            ofShare(stages_[stage], share,
-                    [&](auto first, auto end) { warmStartPatches<F>(range(first, end)); });
-        } else {
-            ofShare(stages_[stage - warm], share,
-                    [&](auto first, auto end) { solvePatches<F>(range(first, end), pass); });
-        }
+        if (stage == 0) return velocities_.begin(from, to, gained);
+        const Stage& blocks = stages_[(stage - 1) % n];
+        if (stage <= warm)
+            return ofShare(blocks, share,
+                           [&](auto first, auto last) { warmStartPatches<F>(range(first, last)); });
+        ofShare(blocks, share, [&](auto first, auto last) { solvePatches<F>(range(first, last), pass); });
+        if (stage == warm + n && from < to)
+            raise(change, velocities_.end(from, to, gained_.data(), !warmStart));
     });
     gainedHolds_ = gainedHolds_ || warmStart;
     return static_cast<Real>(change.load());
@@ -159,7 +155,7 @@ void Patches<S>::beginSubstep(std::span<Velocity<S>> velocities, const PatchPass
         tasks.forShares(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
             velocities_.begin(first, last, nullptr);
         });
-    tasks.forRanges(blocks_.size(), kBlockGrain,
+    tasks.forRanges(blocks(), kBlockGrain,
                     [&](std::size_t first, std::size_t last) { planPatches<F>(range(first, last), pass); });
 }
 

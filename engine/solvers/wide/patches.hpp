@@ -48,7 +48,7 @@ class Patches {
                 });
         });
     }
-    std::size_t blocks() const { return blocks_.size(); }
+    std::size_t blocks() const { return colouring_.blocks(); }
     PatchBlock<F>& block(std::size_t b) { return blocks_[b]; }
     PatchRest<F>& rest(std::size_t b) { return rests_[b]; }
     /// Whose patch stands there (its place among the plans); kNobody's lanes are filled with zeros.
@@ -61,9 +61,9 @@ class Patches {
         if (blocks_[b].bounces != 0) std::atomic_ref(bounce_).store(true, std::memory_order_relaxed);
     }
 
-    std::size_t size() const { return size_; }
+    std::size_t size() const { return colouring_.contacts(); }
     /// Points of all patches, and the rows they have: one for each point, and those of friction.
-    std::size_t points() const { return points_; }
+    std::size_t points() const { return colouring_.points(); }
     std::size_t rows() const;
     bool empty() const { return size() == 0; }
 
@@ -94,8 +94,8 @@ class Patches {
         bool kinds;  ///< else the first kind is all there is
     };
     void cut(const Tasks& tasks);
-    void cutRegions();
     void addRangeStages();
+    void addRegionStage();
     /// work(first, last) on ranges of blocks that are the share of a thread in a stage.
     template <class Work>
     void ofShare(const Stage& stage, std::size_t share, const Work& work) const {
@@ -113,12 +113,11 @@ class Patches {
 
     std::vector<PatchPlan> plans_;
     bool changed_ = false;  ///< they have, since they were placed
-    std::size_t size_ = 0, points_ = 0;
     Colouring colouring_;
     std::size_t threads_ = 1;
     std::vector<double> before_;            ///< parts of the work before each thread's, and all of it
     std::vector<std::size_t> firstRegion_;  ///< of each share, and their number
-    std::vector<Stage> stages_;             ///< regions, then ranges
+    std::vector<Stage> stages_;             ///< ranges, then regions
     std::vector<Colouring::Cut> cuts_;      ///< of all stages
     std::vector<PatchBlock<F>> blocks_;
     std::vector<PatchRest<F>> rests_;

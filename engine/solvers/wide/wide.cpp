@@ -7,8 +7,8 @@
 //     as a whole at its centre of pressure, three rows in place of eight;
 //   - the points of a patch are swept twice at each visit, which calms stacks for little more time;
 //   - patches are coloured so that those of one colour share no body that moves, and stand in blocks of
-//     eight, number by number, which SIMD takes side by side; threads take regions of bodies, then what is
-//     between them colour by colour (colouring.hpp);
+//     eight, number by number, which SIMD takes side by side; threads take what is between regions of bodies
+//     colour by colour, then regions (colouring.hpp);
 //   - patches are made once per step; in the sub-steps their separations follow the bodies to first order;
 //   - joints are rows as everywhere, remade in every sub-step and solved all at once (joint_group.hpp): rigid
 //     and aimed half of the way to where they should be where they are linearised (WorldDef::curvedJoints
