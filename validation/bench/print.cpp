@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
+
+#include "validation/bench/text_table.hpp"
+#include "validation/results/spec_labels.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -16,6 +20,7 @@ using results::BenchRepetition;
 using results::BenchSummary;
 
 using Row = std::vector<std::string>;
+using Labels = std::map<std::string, std::string>;
 
 std::string number(double value, const char* format = "%.3g") {
     char text[40];
@@ -23,7 +28,18 @@ std::string number(double value, const char* format = "%.3g") {
     return text;
 }
 
-/// What times of a group are shown in: of the longest one's order.
+/// A time in its unit or a ratio: three digits, and no power of ten below a million.
+std::string reading(double value) {
+    return number(value, value >= 999.5 && value < 1e6 ? "%.0f" : "%.3g");
+}
+
+/// Words of a column's head, where a table may break it.
+std::string inWords(std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+}
+
+/// What times of a group are shown in.
 struct Unit {
     const char* name = "ms";
     double seconds = 1e-3;
@@ -36,7 +52,7 @@ Unit unitFor(double longest) {
 
 std::string range(const std::optional<double>& low, const std::optional<double>& high, double unit) {
     if (!low || !high) return "-";
-    return number(*low / unit) + " .. " + number(*high / unit);
+    return reading(*low / unit) + ".." + reading(*high / unit);
 }
 
 double clockTime(const BenchSummary& s) {
@@ -58,7 +74,7 @@ std::string memory(const BenchCase& c) {
 
 std::string allocations(const BenchCase& c) {
     const BenchRepetition* look = lookOf(c);
-    return look != nullptr && look->allocations ? number(*look->allocations) : "-";
+    return look != nullptr && look->allocations ? reading(*look->allocations) : "-";
 }
 
 /// Struck out where a terminal can.
@@ -74,10 +90,10 @@ std::string rate(double perSecond) {
     return number(perSecond) + prefixes[thousands];
 }
 
-/// What a table tells of the cases of a group: of scenes their contacts, of isolated parts how much is done a
-/// second, how much work an operation was, and how well it was done.
+/// What a table tells of the cases of a group: of scenes their contacts, of isolated parts how much work an
+/// operation was, and how well it was done.
 struct Columns {
-    bool scene = true, threads = true, memory = true, allocations = true;
+    bool scene = true, threads = true, wall = true, rated = false, memory = true, allocations = true;
     std::string operation;
     std::vector<std::string> counts, quality, units;
 };
@@ -103,6 +119,8 @@ Columns columnsOf(const std::vector<const BenchCase*>& group) {
         return columns;
     }
     columns.threads = any([](const BenchCase& c) { return c.threads > 1; });
+    columns.rated = columns.operation == "pair";  // what people know as so many a second
+    columns.wall = any([](const BenchCase& c) { return c.summary.clock == "wall"; });
     columns.memory = any([](const BenchCase& c) { return memory(c) != "-"; });
     columns.allocations = any([](const BenchCase& c) { return allocations(c) != "-"; });
     const auto addOnce = [](std::vector<std::string>& names, const std::string& name) {
@@ -123,34 +141,37 @@ Columns columnsOf(const std::vector<const BenchCase*>& group) {
 Row headOf(const Columns& columns) {
     Row row{"engine"};
     if (columns.threads) row.push_back("threads");
-    row.insert(row.end(), {"median", "95 %", "wall"});
-    if (!columns.scene) row.push_back(columns.operation + "s/s");
-    row.insert(row.end(), {"ratio", "95 %"});
-    row.insert(row.end(), columns.counts.begin(), columns.counts.end());
+    row.insert(row.end(), {"median", "95%"});
+    if (columns.wall) row.push_back("wall");
+    if (columns.rated) row.push_back(columns.operation + "s/s");
+    row.insert(row.end(), {"ratio", "95%"});
+    for (const std::string& name : columns.counts) row.push_back(inWords(name));
     for (std::size_t i = 0; i < columns.quality.size(); ++i)
-        row.push_back(columns.quality[i] + (columns.units[i] == "1" ? "" : " [" + columns.units[i] + "]"));
+        row.push_back(inWords(columns.quality[i]) +
+                      (columns.units[i] == "1" ? "" : " [" + columns.units[i] + "]"));
     if (columns.memory) row.push_back("MiB");
-    if (columns.allocations) row.push_back("allocations");
-    row.insert(row.end(), {"runs", ""});
+    if (columns.allocations) row.push_back("malloc calls");
+    row.push_back("runs");
     return row;
 }
 
+/// A cell for each word of the head, and what is wrong with the case, if anything.
 Row rowOf(const BenchCase& c, const Columns& columns, const Unit& unit, const std::string& baseId,
-          bool colour) {
+          const Labels& labels, bool colour) {
     const BenchSummary& s = c.summary;
-    Row row{c.engine};
+    Row row{labels.at(c.engine)};
     if (columns.threads) row.push_back(std::to_string(c.threads));
-    const auto time = [&](double seconds) { return number(seconds / unit.seconds); };
+    const auto time = [&](double seconds) { return reading(seconds / unit.seconds); };
     if (s.repetitions == 0) {
-        row.resize(headOf(columns).size() - 1, "-");
+        row.resize(headOf(columns).size(), "-");
         row.push_back(s.reason);
         return row;
     }
     row.push_back(s.valid ? time(clockTime(s)) : struck(time(clockTime(s)), colour));
     row.push_back(s.valid ? range(s.low, s.high, unit.seconds) : "");
-    row.push_back(time(s.wall));
-    if (!columns.scene) row.push_back(s.valid ? rate(1.0 / clockTime(s)) : "");
-    row.push_back(c.id == baseId ? "base" : s.ratio ? number(*s.ratio) : "");
+    if (columns.wall) row.push_back(time(s.wall));
+    if (columns.rated) row.push_back(s.valid ? rate(1.0 / clockTime(s)) : "");
+    row.push_back(c.id == baseId ? "base" : s.ratio ? reading(*s.ratio) : "");
     row.push_back(s.ratio && c.id != baseId ? range(s.ratioLow, s.ratioHigh, 1.0) : "");
     for (const std::string& name : columns.counts) {
         const double value = countOf(c, name);
@@ -159,45 +180,13 @@ Row rowOf(const BenchCase& c, const Columns& columns, const Unit& unit, const st
     }
     for (const std::string& name : columns.quality) {
         const double value = worstOf(c, name);
-        row.push_back(value < 0.0 ? "-" : number(value));
+        row.push_back(value < 0.0 ? "-" : reading(value));
     }
     if (columns.memory) row.push_back(memory(c));
     if (columns.allocations) row.push_back(allocations(c));
     row.push_back(std::to_string(s.repetitions) + (s.converged ? "" : "*"));
     row.push_back(s.valid ? "" : "INVALID: " + s.reason);
     return row;
-}
-
-/// Characters on the screen: escapes take none.
-std::size_t shownWidth(const std::string& text) {
-    std::size_t width = 0;
-    for (std::size_t i = 0; i < text.size(); ++i)
-        if (text[i] == '\033')
-            while (i < text.size() && text[i] != 'm') ++i;
-        else
-            ++width;
-    return width;
-}
-
-std::string tableText(const std::vector<Row>& rows) {
-    std::vector<std::size_t> widths;
-    for (const Row& row : rows)
-        for (std::size_t i = 0; i + 1 < row.size(); ++i) {
-            if (widths.size() <= i) widths.push_back(0);
-            widths[i] = std::max(widths[i], shownWidth(row[i]));
-        }
-    std::string text;
-    for (const Row& row : rows) {
-        std::string line = " ";
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            const std::size_t gap = i < widths.size() ? widths[i] - shownWidth(row[i]) : 0;
-            const bool left = i == 0 || i + 1 == row.size();
-            line += " " + (left ? row[i] + std::string(gap, ' ') : std::string(gap, ' ') + row[i]) + " ";
-        }
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + "\n";
-    }
-    return text;
 }
 
 bool sameGroup(const BenchCase& a, const BenchCase& b) {
@@ -211,18 +200,65 @@ std::string titleOf(const BenchCase& c, const Unit& unit) {
     return text + ": " + unit.name + (vowel ? " an " : " a ") + c.operation;
 }
 
-std::string groupText(const std::vector<const BenchCase*>& group, bool colour) {
-    double longest = 0.0;
+/// What all rows of a part have in common leaves the table and is returned for its title: ", pairs 1000".
+std::string takeCommon(Row& head, std::vector<Row>& rows) {
+    const auto found = [&](const char* name) {
+        return std::find(head.begin(), head.end(), name) - head.begin();
+    };
+    std::string said;
+    for (auto i = found("ratio") + 2; rows.size() > 1 && i < found("runs");) {
+        std::set<std::string> values;
+        for (const Row& row : rows) values.insert(row[static_cast<std::size_t>(i)]);
+        values.erase("-");  // of who did nothing
+        if (values.size() != 1) {
+            ++i;
+            continue;
+        }
+        said += ", " + head[static_cast<std::size_t>(i)] + " " + *values.begin();
+        head.erase(head.begin() + i);
+        for (Row& row : rows) row.erase(row.begin() + i);
+    }
+    return said;
+}
+
+std::string groupText(const std::vector<const BenchCase*>& group, const Labels& labels, bool colour) {
+    double logarithms = 0.0, timed = 0.0;
     std::string base;
     for (const BenchCase* c : group) {
-        longest = std::max(longest, clockTime(c->summary));
+        if (clockTime(c->summary) > 0.0) logarithms += std::log(clockTime(c->summary)), timed += 1.0;
         if (!c->summary.base.empty()) base = c->summary.base;
     }
-    const Unit unit = unitFor(longest);
+    const Unit unit = unitFor(timed > 0.0 ? std::exp(logarithms / timed) : 0.0);
     const Columns columns = columnsOf(group);
-    std::vector<Row> rows{headOf(columns)};
-    for (const BenchCase* c : group) rows.push_back(rowOf(*c, columns, unit, base, colour));
-    return titleOf(*group.front(), unit) + "\n" + tableText(rows) + "\n";
+    Row head = headOf(columns);
+    std::vector<Row> rows;
+    for (const BenchCase* c : group) rows.push_back(rowOf(*c, columns, unit, base, labels, colour));
+    const std::string common = columns.scene ? "" : takeCommon(head, rows);
+    return titleOf(*group.front(), unit) + common + "\n" + tableText(head, rows) + "\n";
+}
+
+Labels labelsOf(const Bench& bench) {
+    std::vector<std::string> specs;
+    for (const BenchCase& c : bench.cases) specs.push_back(c.engine);
+    return results::specLabels(specs);
+}
+
+/// What short names stand for; "" where every spec stands as it is. Specs are not broken: they can be copied.
+std::string keyText(const Labels& labels) {
+    std::size_t width = 0;
+    for (const auto& [spec, label] : labels)
+        if (label != spec) width = std::max(width, label.size());
+    std::string text;
+    for (const auto& [spec, label] : labels)
+        if (label != spec) text += "  " + label + std::string(width - label.size(), ' ') + "  " + spec + "\n";
+    return text.empty() ? "" : "Engines in full:\n" + text + "\n";
+}
+
+/// A case in few words, its engine by its label.
+std::string shortName(const BenchCase& c, const Labels& labels) {
+    BenchCase named = c;
+    named.engine = labels.at(c.engine);
+    return benchCaseName(named);
 }
 
 }  // namespace
@@ -244,6 +280,7 @@ std::string benchCaseName(const BenchCase& c) {
 
 std::string benchText(const results::Run& run, bool colour) {
     const Bench& bench = run.bench;
+    const Labels labels = labelsOf(bench);
     std::string text;
     bool wide = false, counted = false, asleep = false;
     for (std::size_t i = 0; i < bench.cases.size(); ++i) {
@@ -253,31 +290,34 @@ std::string benchText(const results::Run& run, bool colour) {
         std::vector<const BenchCase*> group;
         for (const BenchCase& c : bench.cases)
             if (sameGroup(c, bench.cases[i])) group.push_back(&c);
-        text += groupText(group, colour);
+        text += groupText(group, labels, colour);
     }
     for (const BenchCase& c : bench.cases) {
         wide = wide || (c.summary.repetitions > 0 && !c.summary.converged);
         counted = counted || allocations(c) != "-";
         asleep = asleep || countOf(c, "asleep") > 0.0;
     }
-    text +=
+    text += keyText(labels);
+    const auto note = [&](const std::string& words) { text += wrapped(words, kTextWidth, 0); };
+    note(
         "median: over repetitions, each a process of its own, engines in random order; CPU time of all "
         "threads "
-        "for one\nthread, wall time for more. ratio: to the base in the same round. MiB: what the world "
-        "took. "
-        "One of the engines\nwas written by the people who wrote this bench.\n";
+        "for one thread, wall time for more. ratio: to the base in the same round. MiB: what the world took. "
+        "One of the engines was written by the people who wrote this bench.");
     if (wide)
-        text += "*: the 95 % interval of the median is wider than " +
-                number(100.0 * std::stod(bench.settings.at("width"))) + " % of it.\n";
+        note("*: the 95 % interval of the median is wider than " +
+             number(100.0 * std::stod(bench.settings.at("width"))) + " % of it.");
     if (counted)
-        text +=
-            "allocations: calls of the C library's allocator a step; pools inside an engine are not seen.\n";
+        note(
+            "malloc calls: of the C library's allocator in an operation; pools inside an engine are not "
+            "seen.");
     if (asleep)
-        text +=
+        note(
             "asleep: bodies that the engine has stopped and leaves out of its steps; their work is not in "
-            "its times.\n";
+            "its "
+            "times.");
     if (const auto it = bench.settings.find("build"); it != bench.settings.end() && it->second != "optimised")
-        text += "THIS PROGRAM WAS " + it->second + ": these times say nothing about the engines.\n";
+        note("THIS PROGRAM WAS " + it->second + ": these times say nothing about the engines.");
     return text;
 }
 
@@ -285,6 +325,8 @@ std::string changesText(const results::Run& run, const std::string& baseline,
                         const std::vector<std::string>& machine) {
     std::string text =
         "Against " + baseline + " (after / before, 95 % by bootstrap, Mann and Whitney's p):\n";
+    const Labels labels = labelsOf(run.bench);
+    Labels named;  // of those, who is named here
     std::vector<Row> rows;
     for (const char* verdict : {"slower", "faster", "same", "not compared"})
         for (const BenchChange& c : run.bench.changes) {
@@ -292,14 +334,17 @@ std::string changesText(const results::Run& run, const std::string& baseline,
             const auto of = std::find_if(run.bench.cases.begin(), run.bench.cases.end(),
                                          [&](const BenchCase& x) { return x.id == c.caseId; });
             if (of == run.bench.cases.end()) continue;
+            named[of->engine] = labels.at(of->engine);
+            const std::string name = shortName(*of, labels);
             if (!c.reason.empty())
-                rows.push_back({verdict, "", "", "", benchCaseName(*of) + ": " + c.reason});
+                rows.push_back({verdict, "", "", "", name + ": " + c.reason});
             else
                 rows.push_back({verdict, number(c.ratio, "%.3f"),
-                                number(c.low, "%.3f") + " .. " + number(c.high, "%.3f"),
-                                "p = " + number(c.p, "%.2g"), benchCaseName(*of)});
+                                number(c.low, "%.3f") + ".." + number(c.high, "%.3f"),
+                                "p = " + number(c.p, "%.2g"), name});
         }
-    text += rows.empty() ? "  no case is in both runs\n" : tableText(rows);
+    text += rows.empty() ? "  no case is in both runs\n" : tableText({"", "", "", ""}, rows);
+    text += keyText(named);
     for (const std::string& difference : machine) text += "  another machine or build: " + difference + "\n";
     return text;
 }
