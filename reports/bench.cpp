@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "validation/results/spec_labels.hpp"
+
 namespace rigor::report {
 namespace {
 
@@ -85,7 +87,7 @@ Json qualityJson(const BenchCase& c) {
     return list;
 }
 
-Json caseJson(const BenchCase& c) {
+Json caseJson(const BenchCase& c, const std::string& label) {
     const BenchSummary& s = c.summary;
     Json counts = Json::object(), phases = Json::object();
     for (const auto& [name, value] : means(c, false)) counts[name] = number(value);
@@ -94,6 +96,7 @@ Json caseJson(const BenchCase& c) {
             {"part", c.part},
             {"name", c.name},
             {"engine", c.engine},
+            {"label", label},
             {"size", number(c.size)},
             {"sizeUnit", c.sizeUnit},
             {"threads", c.threads},
@@ -257,7 +260,10 @@ Table changesTable(const results::Run& run) {
 Json benchJson(const results::Run& run) {
     if (run.bench.empty()) return nullptr;
     Json cases = Json::array(), changes = Json::array();
-    for (const BenchCase& c : run.bench.cases) cases.push_back(caseJson(c));
+    std::vector<std::string> specs;
+    for (const BenchCase& c : run.bench.cases) specs.push_back(c.engine);
+    const auto labels = results::specLabels(specs);
+    for (const BenchCase& c : run.bench.cases) cases.push_back(caseJson(c, labels.at(c.engine)));
     for (const auto& c : run.bench.changes)
         changes.push_back({{"id", c.caseId},
                            {"before", number(c.before)},

@@ -29,6 +29,9 @@ TEST(BenchReport, ThePageGetsWhatTheStoreHas) {
     ASSERT_EQ(json.at("cases").size(), run.bench.cases.size());
     const Json& rigor = json.at("cases").at(1);
     EXPECT_EQ(rigor.at("engine"), "rigor:preset=matched");
+    EXPECT_EQ(rigor.at("label"), "rigor");
+    for (const Json& c : json.at("cases"))
+        EXPECT_EQ(c.at("engine") == synthetic::kLengthySpec, c.at("label") == "rigor[1]");
     EXPECT_DOUBLE_EQ(rigor.at("time").get<double>(), 55e-6);
     EXPECT_DOUBLE_EQ(rigor.at("counts").at("contacts").get<double>(), 220.0);
     EXPECT_DOUBLE_EQ(rigor.at("allocations").get<double>(), 3.0);

@@ -2,12 +2,16 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // A made-up bench: two engines at three sizes, one of them on two threads, one invalid timing, one crash, a
-// part with two choices of an engine, one of them wrong, and a baseline.
+// part with two choices of an engine, one of them wrong, a spec longer than a line, and a baseline.
 #pragma once
 
 #include "validation/results/types.hpp"
 
 namespace rigor::report::synthetic {
+
+inline constexpr const char* kLengthySpec =
+    "rigor:box_margin=0.05,broad_phase=wide_tree,contact_frequency=45,curved_joints=off,precision=f32,preset="
+    "matched,reuse_distance=1e-3,solver=wide,speculative_distance=5e-3,substeps=5,velocity_iterations=0";
 
 inline results::BenchCase benchCase(const std::string& engine, double size, std::int64_t threads,
                                     double seconds) {
@@ -60,6 +64,10 @@ inline results::Run makeBench() {
     dead.repetitions.resize(1);
     dead.repetitions[0].outcome = "crashed";
     run.bench.cases.push_back(dead);
+    auto lengthy = benchCase("rigor", 55.0, 1, 2e-5);
+    lengthy.id = "lengthy", lengthy.engine = kLengthySpec;
+    for (auto& r : lengthy.repetitions) r.counts.push_back({"asleep", 55.0});
+    run.bench.cases.push_back(lengthy);
     auto part = benchCase("fcl", 1000.0, 1, 5e-5);
     part.id = "part", part.part = "broad_phase", part.name = "moving boxes", part.operation = "update";
     part.sizeUnit = "boxes";

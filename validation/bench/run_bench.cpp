@@ -3,6 +3,7 @@
 #include "validation/bench/run_bench.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -84,7 +85,9 @@ class BenchInProgress {
         prepare();
         queueNext();
         const bool complete = pool_.run(interrupted, [&](const std::string& name) { tell(name, nullptr); });
-        header_.environment["load_after"] = std::to_string(loadNow());
+        char load[32];
+        std::snprintf(load, sizeof load, "%.2f", loadNow());
+        header_.environment["load_after"] = load;
         writer_.writeHeader(header_);
         summarise(bench_, options_.target, options_.base);
         writer_.writeBenchAnalysis(bench_);

@@ -205,6 +205,7 @@ export interface BenchCase {
   part: string; // 'scene', or an isolated part
   name: string;
   engine: string; // spec
+  label: string; // short name of the spec
   size: Stored;
   sizeUnit: string; // '' where there is no size
   threads: number;

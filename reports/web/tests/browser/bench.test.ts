@@ -13,7 +13,7 @@ describe('the report of a bench', { skip }, () => {
   test('shows every case, and nothing of a validation that was not run', async () => {
     await it.open();
     await it.page.waitForSelector('#engines');
-    assert.equal(await it.page.locator('#bench tr[data-case]').count(), 11, 'parts are folded');
+    assert.equal(await it.page.locator('#bench tr[data-case]').count(), 12, 'parts are folded');
     assert.equal(await it.page.locator('#scoreboard, #summary, #ledger').count(), 0);
     assert.match(await it.text('#bench'), /authors of this bench wrote one of the engines/);
     assert.match(await it.text('#bench tr[data-case="rigor-55-1"]'), /55 µs.*valid.*0\.5/);
@@ -33,6 +33,22 @@ describe('the report of a bench', { skip }, () => {
     assert.match(await it.text('#bench tr[data-case="<b>dead</b>-55-1"]'), /crashed: SIGSEGV/);
   });
 
+  test('a spec that is longer than a line has a short name, which is explained once', async () => {
+    await it.open();
+    assert.match(await it.text('#bench tr[data-case="lengthy"] th'), /^rigor\[1\]$/);
+    const key = it.page.locator('#bench dl.facts', { hasText: 'rigor[1]' });
+    assert.match((await key.textContent()) ?? '', /rigor:box_margin=0\.05,.*velocity_iterations=0/);
+    const table = it.page.locator('#bench .bench-subject table.bench').first();
+    const [shown, whole] = await table.evaluate((t) => [t.parentElement?.clientWidth ?? 0, t.scrollWidth]);
+    assert.ok(shown >= whole, `the table is ${whole} wide, ${shown} of it are seen`);
+    it.clean();
+  });
+
+  test('the machine is told once', async () => {
+    await it.open();
+    assert.equal(await it.page.locator('dt', { hasText: /^cpu$/ }).count(), 1);
+  });
+
   test('growth is a curve per engine and number of threads', async () => {
     await it.open();
     const plot = it.page.locator('[data-plot="pyramid: growth"]');
@@ -50,11 +66,7 @@ describe('the report of a bench', { skip }, () => {
     assert.equal(await best.locator('b').textContent(), '100 ns', 'the wrong one is not the fastest');
     await part.locator('summary').first().click();
     await part.locator('.bars th').first().waitFor();
-    assert.deepEqual(await part.locator('.bars th').allTextContents(), [
-      'rigor broad_phase=tree',
-      'fcl',
-      'rigor broad_phase=hash',
-    ]);
+    assert.deepEqual(await part.locator('.bars th').allTextContents(), ['rigor tree', 'fcl', 'rigor hash']);
     assert.match(await it.text('#bench tr[data-case="quick"]'), /100 ns.*valid.*10 M.*480.*500.*0/);
     assert.match(await it.text('#bench tr[data-case="wrong"]'), /invalid: missed_pairs 3 > 0/);
     await part.screenshot({ path: join(screenshots, 'bench_part.png') });

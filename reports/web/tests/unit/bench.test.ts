@@ -4,10 +4,13 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import {
   byTime,
+  dashesOf,
   fastest,
   growthCurves,
+  labelOf,
   leaders,
   rate,
+  specKey,
   speedUp,
   subjectsOf,
   workOf,
@@ -19,6 +22,7 @@ const made = (engine: string, size: number, time: number, more: Partial<BenchCas
   part: 'scene',
   name: 'pyramid',
   engine,
+  label: engine.replace(':', ' '),
   size,
   sizeUnit: 'bodies',
   threads: 1,
@@ -122,4 +126,19 @@ test('of each engine the fastest that counts, and the curve that ends lowest', (
     ['a:x', 'b'],
   );
   assert.deepEqual([rate(1e-7), rate(0.5), rate(1.2345e-3), rate(null)], ['10 M', '2', '810', '—']);
+});
+
+test('short names are explained once, where they leave something out', () => {
+  const cases = [made('b:x=1', 10, 1), made('a', 10, 1), made('b:x=1', 20, 1), made('a:y', 10, 1, { threads: 2 })];
+  assert.deepEqual(specKey(cases), [
+    ['a y', 'a:y'],
+    ['b x=1', 'b:x=1'],
+  ]);
+  assert.deepEqual(cases.map(labelOf), ['b x=1', 'a', 'b x=1', 'a y, 2 threads']);
+});
+
+test('curves of one engine differ in their dashes', () => {
+  const dashes = dashesOf([made('a', 1, 1), made('b', 1, 1), made('a:x', 1, 1), made('a:x', 1, 1, { threads: 2 })]);
+  assert.deepEqual([dashes[0], dashes[1]], [[], []]);
+  assert.equal(new Set([dashes[0], dashes[2], dashes[3]].map(String)).size, 3);
 });

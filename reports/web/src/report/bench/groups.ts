@@ -30,12 +30,22 @@ export function subjectsOf(cases: BenchCase[]): Subject[] {
 }
 
 export const engineOf = (c: BenchCase): string => c.engine.split(':')[0] as string;
-/** The spec without the preset that nearly all have. */
-export const labelOf = (c: BenchCase): string => {
-  const options = c.engine.split(':')[1]?.split(',') ?? [];
-  const rest = options.filter((o) => o !== 'preset=matched').join(', ');
-  return engineOf(c) + (rest ? ` ${rest}` : '') + (c.threads > 1 ? `, ${c.threads} threads` : '');
-};
+export const labelOf = (c: BenchCase): string => c.label + (c.threads > 1 ? `, ${c.threads} threads` : '');
+
+/** Label and spec of those that differ, once each. */
+export function specKey(cases: BenchCase[]): [string, string][] {
+  const key = new Map(cases.filter((c) => c.label !== c.engine).map((c) => [c.label, c.engine]));
+  return [...key].sort(([a], [b]) => (a < b ? -1 : 1));
+}
+
+/** Dashes for each of the curves: those of one engine have its colour. */
+export function dashesOf(curves: BenchCase[]): number[][] {
+  const dashes = [[], [6, 4], [2, 3], [12, 4], [8, 3, 2, 3]];
+  return curves.map((c, i) => {
+    const before = curves.slice(0, i).filter((other) => engineOf(other) === engineOf(c)).length;
+    return dashes[before % dashes.length] as number[];
+  });
+}
 
 /** Contact points of an operation, or what else tells how much work it is; 0 where nothing does. */
 export function workOf(c: BenchCase): number {

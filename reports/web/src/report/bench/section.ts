@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The bench: what it means, what became of it since a baseline, everything that was timed, and on which machine.
+// The bench: what it means, what became of it since a baseline, and everything that was timed.
 import { type Child, el } from '../../common/elements.ts';
 import { duration, format } from '../../common/format.ts';
 import type { Bench, BenchChange } from '../data.ts';
-import { facts, headRow, panel, scroll } from '../parts.ts';
+import { facts, folded, headRow, panel, scroll } from '../parts.ts';
 import { run } from '../run.ts';
-import { labelOf } from './groups.ts';
+import { labelOf, specKey } from './groups.ts';
 import { subjectsNode } from './subject.ts';
 
 function changes(bench: Bench): Child {
@@ -88,18 +88,27 @@ function meaning(bench: Bench): Child {
   ];
 }
 
+const fewSpecs = 12;
+
+/** What the short names stand for. */
+function specs(bench: Bench): Child {
+  const key = specKey(bench.cases);
+  const list = () => facts(key.map(([label, spec]): [string, Child] => [label, el('code', null, spec)]));
+  if (key.length === 0) return null;
+  return key.length > fewSpecs ? folded('Engines in full', list) : [el('h3', null, 'Engines in full'), list()];
+}
+
 export function benchSection(): HTMLElement | null {
   const { bench } = run;
   if (!bench) return null;
-  const machine = Object.entries(run.environment).filter(([k]) => !/^rigor$|^jobs$/.test(k));
   return panel(
     'bench',
     'Bench',
     run.command ? el('p', { class: 'muted' }, run.started, ' · ', el('code', null, run.command)) : null,
     meaning(bench),
+    specs(bench),
     changes(bench),
     subjectsNode(bench),
-    el('h3', null, 'Machine and builds'),
-    facts(machine),
+    el('p', { class: 'muted' }, 'Machine and builds: ', el('a', { href: '#engines' }, 'engines and environment'), '.'),
   );
 }

@@ -4,12 +4,14 @@
 // A scene or an isolated part at all its sizes: growth, times, and of the parts of one kind the fastest at a glance.
 import { type Child, el } from '../../common/elements.ts';
 import { duration, format, toNumber, words } from '../../common/format.ts';
+import { lineSample } from '../charts/line_sample.ts';
 import { plotCard } from '../charts/plot.ts';
 import type { Bench, BenchCase } from '../data.ts';
 import { folded, headRow, scroll } from '../parts.ts';
 import { engineColour } from '../run.ts';
 import {
   byTime,
+  dashesOf,
   engineOf,
   fastest,
   growthCurves,
@@ -32,6 +34,7 @@ function growth(subject: Subject): HTMLElement | null {
   const finite = (v: number) => (Number.isFinite(v) ? v : null);
   const which = curves.length < all.length ? ', of each engine the fastest at the largest size' : '';
   const title = `Time per ${per} over ${first.sizeUnit}${which}`;
+  const dashes = dashesOf(curves.map((c) => c.of));
   const wide = isWide(curves.flatMap((c) => c.points.map((p) => p.y)));
   const card = plotCard({
     title,
@@ -43,11 +46,11 @@ function growth(subject: Subject): HTMLElement | null {
     logY: wide,
     zeroY: !wide,
     tall: true,
-    lines: curves.map(({ of, points }) => ({
+    lines: curves.map(({ of, points }, i) => ({
       key: of.engine,
       label: labelOf(of),
       colour: engineColour(engineOf(of)),
-      dash: of.threads > 1 ? [6, 4] : [],
+      dash: dashes[i] as number[],
       width: 1.5,
       points: true,
       x: points.map((p) => p.x),
@@ -56,8 +59,8 @@ function growth(subject: Subject): HTMLElement | null {
       high: points.map((p) => finite(p.high)),
     })),
   });
-  const key = curves.map(({ of }) =>
-    el('span', null, el('i', { class: 'swatch', style: `background:${engineColour(engineOf(of))}` }), labelOf(of)),
+  const key = curves.map(({ of }, i) =>
+    el('span', null, lineSample(engineColour(engineOf(of)), dashes[i] as number[], 2), labelOf(of)),
   );
   card.append(el('div', { class: 'lines' }, key));
   return card;

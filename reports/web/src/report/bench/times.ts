@@ -44,6 +44,7 @@ export function bars(cases: BenchCase[]): HTMLElement {
 interface Column {
   head: string;
   cell: (c: BenchCase) => string;
+  below?: (c: BenchCase) => string; // in small letters
 }
 
 /** Of scenes: what their contacts cost. */
@@ -79,10 +80,12 @@ function columnsOf(cases: BenchCase[]): Column[] {
   const isBase = (c: BenchCase) => c.base === c.id;
   const scene = cases[0]?.part === 'scene';
   const columns: Column[] = [
-    { head: '95 %', cell: (c) => (c.valid ? interval(c.low, c.high, duration) : '—') },
     { head: 'Wall', cell: (c) => (c.repetitions ? duration(c.wall) : '—') },
-    { head: 'Ratio to the base', cell: (c) => (isBase(c) ? 'base' : c.ratio === null ? '—' : format(c.ratio, 3)) },
-    { head: '95 %', cell: (c) => (isBase(c) ? '' : interval(c.ratioLow, c.ratioHigh, (v) => format(v, 3))) },
+    {
+      head: 'Ratio to the base',
+      cell: (c) => (isBase(c) ? 'base' : c.ratio === null ? '—' : format(c.ratio, 3)),
+      below: (c) => (isBase(c) || c.ratioLow === null ? '' : interval(c.ratioLow, c.ratioHigh, (v) => format(v, 3))),
+    },
     ...(scene ? sceneWork : partWork(cases)),
     ...(scene && cases.some((c) => workIn(c, 'asleep') > 0)
       ? [{ head: 'Bodies asleep', cell: (c: BenchCase) => format(c.counts.asleep ?? null) }]
@@ -101,20 +104,22 @@ function columnsOf(cases: BenchCase[]): Column[] {
   return scene ? columns : columns.filter((column) => cases.some((c) => column.cell(c) !== '—'));
 }
 
+const small = (text: string): Child => (text ? el('span', { class: 'bound' }, text) : null);
+
 function caseRow(c: BenchCase, columns: Column[]): HTMLElement {
   return el(
     'tr',
     { 'data-case': c.id, class: c.valid ? '' : 'invalid' },
     el('th', { class: 'sticky', scope: 'row', title: c.engine }, labelOf(c)),
-    el('td', { class: 'num' }, timeOf(c)),
+    el('td', { class: 'num' }, timeOf(c), small(c.valid && c.low !== null ? interval(c.low, c.high, duration) : '')),
     el('td', { class: 'small' }, c.valid ? 'valid' : `invalid: ${c.reason}`),
-    columns.map((column) => el('td', { class: 'num' }, column.cell(c))),
+    columns.map(({ cell, below }) => el('td', { class: 'num' }, cell(c), small(below?.(c) ?? ''))),
   );
 }
 
 export function timesTable(cases: BenchCase[]): HTMLElement {
   const columns = columnsOf(cases);
-  const heads = ['Engine', 'Median', 'Validity', ...columns.map((column) => column.head)];
+  const heads = ['Engine', 'Median, 95 %', 'Validity', ...columns.map((column) => column.head)];
   return scroll(
     el(
       'table',

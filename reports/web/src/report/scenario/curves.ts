@@ -3,8 +3,9 @@
 //
 // Curves of one scenario at one time step: all engines and the reference over each other, with the switches that
 // curves and replay share.
-import { el, svg } from '../../common/elements.ts';
+import { el } from '../../common/elements.ts';
 import { format } from '../../common/format.ts';
+import { lineSample } from '../charts/line_sample.ts';
 import { dropPlots } from '../charts/live_plots.ts';
 import { plotCard } from '../charts/plot.ts';
 import { bodyNames, type CurvePlot, collectCurves, referenceLabel, wantsLog } from '../curves.ts';
@@ -12,19 +13,6 @@ import type { Column } from '../data.ts';
 import { panel, select } from '../parts.ts';
 import { columnOf, columnsAmong, dashOf, engineColour } from '../run.ts';
 import type { Context } from './context.ts';
-
-function lineSample(colour: string, dash: number[], width: number): SVGElement {
-  const line = {
-    x1: 0,
-    y1: 5,
-    x2: 26,
-    y2: 5,
-    stroke: colour,
-    'stroke-width': width,
-    'stroke-dasharray': dash.join(' '),
-  };
-  return svg('svg', { width: 26, height: 10, 'aria-hidden': 'true' }, svg('line', line));
-}
 
 const lineStyle = (spec: string) => {
   const column = columnOf(spec);
