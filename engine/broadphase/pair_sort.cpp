@@ -25,13 +25,14 @@ void sortByB(ProxyPair* begin, ProxyPair* end) {
 
 void PairSort::count(std::span<const std::vector<ProxyPair>> parts, Range& range) {
     std::fill(ends_.begin() + range.begin, ends_.begin() + range.end, 0u);
-    range.count = 0;
+    std::uint32_t count = 0;  // other threads have their ranges beside this one
     for (const auto& part : parts)
         for (const ProxyPair& pair : part) {
             if (pair.a - range.begin >= range.end - range.begin) continue;
             ++ends_[pair.a];
-            ++range.count;
+            ++count;
         }
+    range.count = count;
 }
 
 void PairSort::place(std::span<const std::vector<ProxyPair>> parts, const Range& range,

@@ -233,17 +233,29 @@ class WideTree final : public BroadPhase<S> {
         isWorn_ = 2 * visits > 3 * firstVisits_;
         pairSort_.sort(pairParts_, proxies_.size(), pairs_, tasks);
         // For findChanged(), which may be called for the first time long after this.
-        found_.reserve(pairs_.size()), merged_.reserve(pairs_.size());
+        found_.reserve(pairs_.size());
+        pairs_.reserve(2 * pairs_.size()), merged_.reserve(pairs_.capacity());
     }
 
     void findChanged(const Tasks& tasks) {
         search(true, tasks);
         pairSort_.sort(pairParts_, proxies_.size(), found_, tasks);
         forChanged([&](std::uint32_t i) { isChanged_[i] = 1; });
-        std::erase_if(pairs_, [&](const ProxyPair& p) { return isChanged_[p.a] || isChanged_[p.b]; });
+        mergeFound();
         forChanged([&](std::uint32_t i) { isChanged_[i] = 0; });
+    }
+    /// pairs_ without those of changed boxes, and found_.
+    void mergeFound() {
         merged_.resize(pairs_.size() + found_.size());
-        std::merge(pairs_.begin(), pairs_.end(), found_.begin(), found_.end(), merged_.begin());
+        ProxyPair* to = merged_.data();
+        auto found = found_.begin();
+        for (const ProxyPair& pair : pairs_) {
+            while (found != found_.end() && *found < pair) *to++ = *found++;
+            *to = pair;
+            to += !(isChanged_[pair.a] | isChanged_[pair.b]);
+        }
+        to = std::copy(found, found_.end(), to);
+        merged_.resize(static_cast<std::size_t>(to - merged_.data()));
         std::swap(pairs_, merged_);
     }
     template <class Visit>

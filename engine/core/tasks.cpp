@@ -19,26 +19,31 @@
 namespace rigor::engine {
 namespace {
 
-/// Parts of a share of a range and the next one to be taken, in one number, so that whoever takes a part
-/// knows of which range it is: [range 24 | parts 20 | next 20].
-constexpr std::uint64_t kPartBits = 20, kMostParts = (1u << kPartBits) - 4096;
-constexpr std::uint64_t tickets(std::uint64_t range, std::uint64_t parts) {
-    return range << (2 * kPartBits) | parts << kPartBits;
+/// The parts of a share of a range that nobody has taken, [next, end), in one number, so that whoever takes a
+/// part knows of which range it is: [range 24 | end 20 | next 20]. Both ends move by one for everybody who
+/// comes too late, up to kLate.
+constexpr std::uint64_t kPartBits = 20, kLate = 4096, kMostParts = (1u << kPartBits) - 2 * kLate;
+constexpr std::uint64_t kTakeNext = 1, kTakeLast = -(std::uint64_t(1) << kPartBits);  // to be added
+constexpr std::uint64_t tickets(std::uint64_t range, std::uint64_t first, std::uint64_t end) {
+    return range << (2 * kPartBits) | (end + kLate) << kPartBits | (first + kLate);
+}
+constexpr std::size_t fieldOf(std::uint64_t tickets) {
+    return (tickets & ((1u << kPartBits) - 1)) - kLate;
 }
 constexpr std::size_t nextOf(std::uint64_t tickets) {
-    return tickets & ((1u << kPartBits) - 1);
+    return fieldOf(tickets);
 }
-constexpr std::size_t partsOf(std::uint64_t tickets) {
-    return tickets >> kPartBits & ((1u << kPartBits) - 1);
+constexpr std::size_t endOf(std::uint64_t tickets) {
+    return fieldOf(tickets >> kPartBits);
 }
 
 }  // namespace
 
 /// An arena of its own keeps a world from borrowing threads that another one was given. While somebody has
 /// entered, its threads stay together and look for parts of the next range: to send for them anew, with
-/// parallel_for, costs more than most ranges of a step. Each thread has a share of every range, the same for
-/// ranges of the same size, so that it finds what it worked on last time in its own cache; who is ready with
-/// his own takes parts of the others'.
+/// parallel_for, costs more than most ranges of a step. Each thread has a share of every range, about the
+/// same for ranges of the same size, so that it finds what it worked on last time in its own cache; who is
+/// ready with his own takes parts of the others', from their end, which moves little from range to range.
 struct Tasks::Arena {
     using Work = std::function<void(std::size_t, std::size_t)>;
 
@@ -77,7 +82,10 @@ struct Tasks::Arena {
         std::atomic<std::uint64_t> tickets{0};
     };
     /// The first part of a share, or of what follows the last one.
-    std::size_t firstPart(std::size_t share) const { return parts_ * share / shares_.size(); }
+    std::size_t firstPart(std::size_t share) const {
+        if (share == shares_.size()) return parts_;
+        return static_cast<std::size_t>(static_cast<double>(parts_) * before[share] + 0.5);
+    }
     void stay(std::size_t self);
     /// What a thread that keeps company is sent with; named for cmake/tsan.supp.
     struct Companion {
@@ -141,7 +149,7 @@ void Tasks::Arena::share(std::size_t n, std::size_t size, const Work& work) {
     done_.store(0, std::memory_order_relaxed);
     ++range_;
     for (std::size_t k = 0; k < shares_.size(); ++k)
-        shares_[k].tickets.store(tickets(range_, firstPart(k + 1) - firstPart(k)), std::memory_order_release);
+        shares_[k].tickets.store(tickets(range_, firstPart(k), firstPart(k + 1)), std::memory_order_release);
     takeParts(0);
     for (int waits = 0; done_.load(std::memory_order_acquire) < parts_; ++waits) pauseThread(waits);
     if (error_) std::rethrow_exception(error_);
@@ -155,11 +163,11 @@ bool Tasks::Arena::takeParts(std::size_t self) {
         std::size_t done = 0;  // told at once: until then the range is the same
         for (;;) {
             std::uint64_t now = left.load(std::memory_order_relaxed);
-            if (nextOf(now) >= partsOf(now)) break;
+            if (nextOf(now) >= endOf(now)) break;
             // The range may be another one by now: this says which part, and keeps its range from ending.
-            now = left.fetch_add(1, std::memory_order_acq_rel);
-            if (nextOf(now) >= partsOf(now)) break;
-            run(firstPart(share) + nextOf(now));
+            now = left.fetch_add(share == self ? kTakeNext : kTakeLast, std::memory_order_acq_rel);
+            if (nextOf(now) >= endOf(now)) break;
+            run(share == self ? nextOf(now) : endOf(now) - 1);
             ++done;
         }
         if (done == 0) continue;

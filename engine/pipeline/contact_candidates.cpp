@@ -3,38 +3,64 @@
 //
 // Which shapes may touch: from the pairs of the broad phase to candidates, which keep what is known of them.
 #include <algorithm>
-#include <atomic>
+#include <utility>
 
 #include "engine/narrowphase/surface_contact.hpp"
 #include "engine/pipeline/contact_set.hpp"
 
 namespace rigor::engine {
 
-/// In the order of contacts: by shape pair and piece. What is known of a candidate goes on.
+/// In the order of contacts: by shape pair and piece. What is known of a candidate goes on: it stays where it
+/// is, and its place in the order alone is written anew.
 template <class S>
 void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tasks) {
-    if (tasks.threads() > 1 && mayHolds_ && !candidatesHavePieces_ && mergeCandidates(bodies, tasks)) return;
-    std::swap(candidates_, oldCandidates_);
-    candidates_.clear();
-    candidatesHavePieces_ = false;
-    auto old = oldCandidates_.begin();
-    const auto end = oldCandidates_.end();
-    const auto oldPair = [&] { return pairKey(old->a, old->b); };
+    std::vector<std::uint32_t>& order = candidates_.order();
+    std::swap(order, oldOrder_), std::swap(keys_, oldKeys_);
+    const std::vector<ProxyPair>& pairs = pairsNear();
+    order.clear(), keys_.clear();
+    order.reserve(pairs.size()), keys_.reserve(pairs.size());
+    const bool hadPieces = std::exchange(candidatesHavePieces_, false);
+    std::size_t old = 0;
+    const auto oldPiece = [&] { return hadPieces ? candidates_.at(oldOrder_[old]).piece : kNone; };
     const auto drop = [&] {
-        if (old->contact != kNone) dropped_.push_back(old->contact);
-        ++old;
+        const std::uint32_t slot = oldOrder_[old++];
+        if (const std::uint32_t contact = candidates_.at(slot).contact; contact != kNone)
+            dropped_.push_back(contact);
+        candidates_.remove(slot);
+    };
+    const auto put = [&](std::uint64_t key, std::uint32_t slot) {
+        keys_.push_back(key), order.push_back(slot);
     };
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t piece) {
-        const auto key = std::pair(pairKey(a, b), piece);
-        while (old != end && std::pair(oldPair(), old->piece) < key) drop();
-        const bool known = old != end && std::pair(oldPair(), old->piece) == key;
-        candidates_.push_back(known ? *old++ : makeCandidate(a, b, piece));
+        const std::uint64_t key = pairKey(a, b);
+        const auto before = [&] { return std::pair(oldKeys_[old], oldPiece()) < std::pair(key, piece); };
+        while (old < oldKeys_.size() && before()) drop();
+        if (old < oldKeys_.size() && oldKeys_[old] == key && oldPiece() == piece)
+            return put(key, oldOrder_[old++]);
+        const std::uint32_t slot = candidates_.add();
+        candidates_.at(slot) = makeCandidate(a, b, piece);
+        put(key, slot);
     };
-    const std::vector<ProxyPair>& pairs = pairsNear();
-    for (const ProxyPair& p : pairs) {
-        while (old != end && oldPair() < pairKey(p.a, p.b)) drop();
-        if (mayHolds_ && old != end && old->piece == kNone && oldPair() == pairKey(p.a, p.b)) {
-            candidates_.push_back(*old++);
+    // Those that were there before, in one go: from `first` on, as many as there are.
+    const auto keepRun = [&](std::size_t first) {
+        const std::size_t most = std::min(pairs.size() - first, oldKeys_.size() - old);
+        std::size_t run = 0;
+        while (run < most && oldKeys_[old + run] == pairKey(pairs[first + run].a, pairs[first + run].b))
+            ++run;
+        const auto from = static_cast<std::ptrdiff_t>(old), to = static_cast<std::ptrdiff_t>(old + run);
+        keys_.insert(keys_.end(), oldKeys_.begin() + from, oldKeys_.begin() + to);
+        order.insert(order.end(), oldOrder_.begin() + from, oldOrder_.begin() + to);
+        old += run;
+        return run;
+    };
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        if (mayHolds_ && !hadPieces) k += keepRun(k);
+        if (k == pairs.size()) break;
+        const ProxyPair& p = pairs[k];
+        const std::uint64_t key = pairKey(p.a, p.b);
+        while (old < oldKeys_.size() && oldKeys_[old] < key) drop();
+        if (mayHolds_ && old < oldKeys_.size() && oldKeys_[old] == key && oldPiece() == kNone) {
+            put(key, oldOrder_[old++]);
             continue;
         }
         if (!mayCollide(bodies, shapes_[p.a].body, shapes_[p.b].body)) continue;
@@ -50,7 +76,8 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
         findPieces(surfaceA ? a : b, surfaceA ? b : a);
         for (const std::uint32_t piece : pieces_) add(a, b, piece);
     }
-    while (old != end) drop();
+    while (old < oldKeys_.size()) drop();
+    if (candidates_.untidy()) candidates_.tidy(tasks);
     rememberPairs();
     candidatesValid_ = mayHolds_ = true;
 }
@@ -65,98 +92,6 @@ void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other) {
         data.query(box, [&](std::uint32_t piece) { pieces_.push_back(piece); });
     });
     std::sort(pieces_.begin(), pieces_.end());
-}
-
-/// What findCandidates() does, by many threads, where no pair has pieces: parts of the pairs are merged with
-/// the old candidates side by side, first to know how many candidates come of each, then to put them there.
-/// False: there are pieces after all, and nothing has been done.
-template <class S>
-bool ContactSet<S>::mergeCandidates(const BodyArrays<S>& bodies, const Tasks& tasks) {
-    constexpr std::size_t kPart = 512;
-    const std::vector<ProxyPair>& pairs = pairsNear();
-    const std::size_t parts = (pairs.size() + kPart - 1) / kPart;
-    if (parts < 2) return false;
-    merges_.resize(parts);
-    sources_.resize(pairs.size());
-    dropped_.reserve(candidates_.capacity());  // their number goes up and down
-    dropped_.resize(candidates_.size());
-    std::atomic<bool> pieces = false;
-    tasks.forEach(parts, 1, [&](std::size_t c) {
-        Merge& merge = merges_[c];
-        merge.begin = kPart * c, merge.end = std::min(kPart * (c + 1), pairs.size());
-        merge.old = c == 0 ? 0 : oldAt(pairs[merge.begin]);
-        merge.oldEnd = c + 1 == parts ? candidates_.size() : oldAt(pairs[merge.end]);
-        if (!planMerge(bodies, merge)) pieces = true;
-    });
-    if (pieces) {
-        dropped_.clear();
-        return false;
-    }
-    std::size_t count = 0, dropped = 0;
-    for (Merge& merge : merges_) {
-        merge.first = count, count += merge.count;
-        for (std::size_t k = 0; k < merge.dropped; ++k) dropped_[dropped++] = dropped_[merge.old + k];
-    }
-    dropped_.resize(dropped);
-    std::swap(candidates_, oldCandidates_);
-    candidates_.resize(count);
-    tasks.forEach(parts, 1, [&](std::size_t c) {
-        Candidate* to = candidates_.data() + merges_[c].first;
-        for (std::size_t k = merges_[c].begin; k < merges_[c].end; ++k) {
-            if (sources_[k] == kNobody) continue;
-            *to++ = sources_[k] == kNone ? makeCandidate(pairs[k]) : oldCandidates_[sources_[k]];
-        }
-    });
-    rememberPairs();
-    candidatesValid_ = true;
-    return true;
-}
-
-/// The first old candidate that is not before a pair.
-template <class S>
-std::size_t ContactSet<S>::oldAt(const ProxyPair& pair) const {
-    const auto at = std::lower_bound(candidates_.begin(), candidates_.end(), pairKey(pair.a, pair.b),
-                                     [](const Candidate& candidate, std::uint64_t key) {
-                                         return pairKey(candidate.a, candidate.b) < key;
-                                     });
-    return static_cast<std::size_t>(at - candidates_.begin());
-}
-
-/// Where the candidates of a part of the pairs come from, how many they are, and whose contacts are dropped:
-/// those go to the part's own place in dropped_. False: some have pieces.
-template <class S>
-bool ContactSet<S>::planMerge(const BodyArrays<S>& bodies, Merge& merge) {
-    const std::vector<ProxyPair>& pairs = pairsNear();
-    merge.count = merge.dropped = 0;
-    std::size_t old = merge.old;
-    const auto drop = [&] {
-        if (const std::uint32_t slot = candidates_[old++].contact; slot != kNone)
-            dropped_[merge.old + merge.dropped++] = slot;
-    };
-    for (std::size_t k = merge.begin; k < merge.end; ++k) {
-        const std::uint64_t key = pairKey(pairs[k].a, pairs[k].b);
-        while (old < merge.oldEnd && pairKey(candidates_[old].a, candidates_[old].b) < key) drop();
-        if (old < merge.oldEnd && pairKey(candidates_[old].a, candidates_[old].b) == key) {
-            sources_[k] = static_cast<std::uint32_t>(old++);
-        } else if (mayCollide(bodies, shapes_[pairs[k].a].body, shapes_[pairs[k].b].body)) {
-            if (isComposite<S>(shapes_[pairs[k].a].shape) || isComposite<S>(shapes_[pairs[k].b].shape))
-                return false;
-            sources_[k] = kNone;
-        } else {
-            sources_[k] = kNobody;
-            continue;
-        }
-        ++merge.count;
-    }
-    while (old < merge.oldEnd) drop();
-    return true;
-}
-
-/// Of two shapes without pieces.
-template <class S>
-typename ContactSet<S>::Candidate ContactSet<S>::makeCandidate(const ProxyPair& pair) const {
-    const bool ordered = shapes_[pair.a].body < shapes_[pair.b].body;
-    return ordered ? makeCandidate(pair.a, pair.b, kNone) : makeCandidate(pair.b, pair.a, kNone);
 }
 
 /// Pairs that were found exactly are compared with the next ones; those of enlarged boxes are known to be the

@@ -37,7 +37,8 @@ void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>
     auto gone = gone_.begin();
     const std::uint8_t* const end = turned_.data() + turned_.size();
     const auto next = [end](const std::uint8_t* from) {
-        const void* found = from == end ? nullptr : std::memchr(from, 1, static_cast<std::size_t>(end - from));
+        const void* found =
+            from == end ? nullptr : std::memchr(from, 1, static_cast<std::size_t>(end - from));
         return found == nullptr ? end : static_cast<const std::uint8_t*>(found);
     };
     for (const std::uint8_t* turned = next(turned_.data()); turned != end; turned = next(turned + 1)) {

@@ -146,6 +146,7 @@ template <class S>
 bool ContactSet<S>::completeRestored() {
     coefficientsHold_ = mayHolds_ = false;
     std::size_t count = 0;
+    keys_.clear();
     for (Contact<S>& contact : contacts_) {
         const auto n = static_cast<std::size_t>(contact.manifold.count);
         for (std::size_t i = 0; i < n; ++i) contact.impacts = contact.impacts || contact.points[i].impact;
@@ -157,6 +158,7 @@ bool ContactSet<S>::completeRestored() {
         if (c.a >= shapes_.size() || c.b >= shapes_.size() || c.a == c.b) return false;
         const auto key = [](const Candidate& x) { return std::pair(pairKey(x.a, x.b), x.piece); };
         if (k > 0 && key(candidates_[k - 1]) >= key(c)) return false;
+        keys_.push_back(pairKey(c.a, c.b));
         const Candidate made = makeCandidate(c.a, c.b, c.piece);
         c.byA = made.byA, c.radius = made.radius;
         if (c.contact == kNone) continue;

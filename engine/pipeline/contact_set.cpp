@@ -59,7 +59,7 @@ template <class S>
 void ContactSet<S>::structureChanged(bool indicesChanged) {
     boxesValid_ = candidatesValid_ = coefficientsHold_ = mayHolds_ = false;
     enlarged_.reset();
-    if (indicesChanged) contacts_.clear(), candidates_.clear(), dropped_.clear();
+    if (indicesChanged) contacts_.clear(), candidates_.clear(), keys_.clear(), dropped_.clear();
 }
 
 template <class S>
@@ -222,8 +222,9 @@ void ContactSet<S>::orderContacts(std::size_t part) {
     std::uint32_t* order = contacts_.order().data() + tallies_[part].first;
     for (std::size_t k = kTally * part; k < endOf(part, kTally, candidates_.size()); ++k) {
         if (!outcomes_[k].found) continue;
-        *order++ = candidates_[k].contact;
-        if (outcomes_[k].contact == kNone && candidates_[k].fresh < fresh_.size())
+        const std::uint32_t had = outcomes_[k].contact;
+        *order++ = had != kNone ? had : candidates_[k].contact;
+        if (had == kNone && candidates_[k].fresh < fresh_.size())
             contacts_.at(candidates_[k].contact) = fresh_[candidates_[k].fresh];
     }
 }

@@ -19,8 +19,9 @@
 #include "engine/core/clone_ptr.hpp"
 #include "engine/core/tasks.hpp"
 #include "engine/faults/fault.hpp"
-#include "engine/pipeline/contact_list.hpp"
+#include "engine/pipeline/contact.hpp"
 #include "engine/pipeline/events.hpp"
+#include "engine/pipeline/slot_list.hpp"
 #include "engine/solvers/combine_rules.hpp"
 #include "engine/state/world_def.hpp"
 
@@ -49,6 +50,10 @@ template <class S>
 struct ContactSearch {
     typename S::Real speculativeDistance = 0, reuseDistance = 0, boxMargin = 0;
 };
+
+/// The contacts of a world.
+template <class S>
+using ContactList = SlotList<Contact<S>>;
 
 template <class S>
 class ContactSet {
@@ -172,17 +177,6 @@ class ContactSet {
     static constexpr std::size_t kTally = 32;
     // --- contact_candidates.cpp
     void findCandidates(const BodyArrays<S>& bodies, const Tasks& tasks);
-    /// A part of the pairs, what comes of it, and the old candidates among which those have been.
-    struct Merge {
-        std::size_t begin, end, old, oldEnd;
-        std::size_t first, count;  ///< candidates
-        std::size_t dropped;
-    };
-    static constexpr std::uint32_t kNobody = 0xfffffffeu;
-    bool mergeCandidates(const BodyArrays<S>& bodies, const Tasks& tasks);
-    bool planMerge(const BodyArrays<S>& bodies, Merge& merge);
-    std::size_t oldAt(const ProxyPair& pair) const;
-    Candidate makeCandidate(const ProxyPair& pair) const;
     void rememberPairs();
     void findPieces(std::uint32_t surface, std::uint32_t other);
     const std::vector<ProxyPair>& pairsNear() const {
@@ -247,11 +241,11 @@ class ContactSet {
     std::vector<std::uint64_t> excluded_;
 
     ContactList<S> contacts_;
-    std::vector<Candidate> candidates_;      ///< in the same order; a contact belongs to each that found one
+    SlotList<Candidate> candidates_;         ///< in the same order; a contact belongs to each that found one
+    std::vector<std::uint64_t> keys_;        ///< of candidates_, in their order: pairKey of their shapes
     std::vector<ProxyPair> candidatePairs_;  ///< what they were made of, where boxes are not enlarged
-    std::vector<Candidate> oldCandidates_;
-    std::vector<Merge> merges_;           ///< of pairs and old candidates
-    std::vector<std::uint32_t> sources_;  ///< of each pair: an old candidate, kNone: a new one, kNobody: none
+    std::vector<std::uint32_t> oldOrder_;    ///< of candidates_, while they are made anew
+    std::vector<std::uint64_t> oldKeys_;
     std::vector<std::uint32_t> dropped_;  ///< slots of contacts whose pair is near no more
     std::vector<Outcome> outcomes_;       ///< of candidates_
     std::vector<Tally> tallies_;          ///< of parts of them

@@ -65,9 +65,10 @@ void ContactSet<S>::visitAnswers(A& archive, C& set) {
     constexpr bool kReading = !std::is_const_v<C>;
     visitValue(archive, set.keptFor_.speculativeDistance), visitValue(archive, set.keptFor_.reuseDistance);
     const auto belongs = [](const Candidate& c) { return c.kept || c.contact != kNone; };
-    const std::size_t count = archive.size(
-        static_cast<std::size_t>(std::count_if(set.candidates_.begin(), set.candidates_.end(), belongs)));
-    if constexpr (kReading) set.candidates_.assign(count, {});
+    std::size_t kept = 0;
+    for (const Candidate& candidate : set.candidates_) kept += belongs(candidate);
+    const std::size_t count = archive.size(kept);
+    if constexpr (kReading) set.candidates_.reset(count);
     std::uint32_t contacts = 0;
     for (auto& candidate : set.candidates_) {
         if (!kReading && !belongs(candidate)) continue;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "engine/pipeline/contact_list.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 #include <vector>
 
+#include "engine/pipeline/slot_list.hpp"
 #include "engine/pipeline/world.hpp"
 
 namespace rigor::engine::test {
@@ -18,7 +17,7 @@ using S = Space2f;
 /// Contacts come and go at random; each is found in its slot and at its place until it is removed.
 TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
     const Tasks tasks(2);
-    ContactList<S> list;
+    SlotList<Contact<S>> list;
     std::vector<std::uint32_t> names;  // by place, the shape that each contact is given
     std::mt19937 random(1);
     bool tidied = false;

@@ -35,7 +35,8 @@ class Patches {
     void offer(std::size_t source, const PatchPlan& plan) {
         if (plans_[source] == plan) return;
         plans_[source] = plan;
-        std::atomic_ref(changed_).store(true, std::memory_order_relaxed);
+        const std::atomic_ref changed(changed_);  // written once: others read what stands beside it
+        if (!changed.load(std::memory_order_relaxed)) changed.store(true, std::memory_order_relaxed);
     }
     void place(const BodyArrays<S>& bodies, const Tasks& tasks);
     /// work(b) for each block, by the thread that visits it later on.
@@ -58,7 +59,9 @@ class Patches {
     /// Rows from what has been filled in.
     void prepare(std::size_t b, PatchRubs<F>& rubs) {
         preparePatches<F>(range(b, rubs), inertia_.data());
-        if (blocks_[b].bounces != 0) std::atomic_ref(bounce_).store(true, std::memory_order_relaxed);
+        const std::atomic_ref bounce(bounce_);
+        if (blocks_[b].bounces != 0 && !bounce.load(std::memory_order_relaxed))
+            bounce.store(true, std::memory_order_relaxed);
     }
 
     std::size_t size() const { return colouring_.contacts(); }

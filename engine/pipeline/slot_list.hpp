@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The contacts of a world, in an order of their own: each stays where it is in memory while others come and
-// go.
+// Things in an order of their own: each stays where it is in memory while others come and go.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +11,11 @@
 #include <vector>
 
 #include "engine/core/tasks.hpp"
-#include "engine/pipeline/contact.hpp"
 
 namespace rigor::engine {
 
-template <class S>
-class ContactList {
+template <class T>
+class SlotList {
     template <class List>
     class Iterator {
       public:
@@ -37,20 +35,20 @@ class ContactList {
   public:
     std::size_t size() const { return order_.size(); }
     bool empty() const { return order_.empty(); }
-    Contact<S>& operator[](std::size_t place) { return slots_[order_[place]]; }
-    const Contact<S>& operator[](std::size_t place) const { return slots_[order_[place]]; }
-    auto begin() { return Iterator<ContactList>(this, 0); }
-    auto end() { return Iterator<ContactList>(this, size()); }
-    auto begin() const { return Iterator<const ContactList>(this, 0); }
-    auto end() const { return Iterator<const ContactList>(this, size()); }
+    T& operator[](std::size_t place) { return slots_[order_[place]]; }
+    const T& operator[](std::size_t place) const { return slots_[order_[place]]; }
+    auto begin() { return Iterator<SlotList>(this, 0); }
+    auto end() { return Iterator<SlotList>(this, size()); }
+    auto begin() const { return Iterator<const SlotList>(this, 0); }
+    auto end() const { return Iterator<const SlotList>(this, size()); }
 
     /// By the place in memory.
-    Contact<S>& at(std::uint32_t slot) { return slots_[slot]; }
-    const Contact<S>& at(std::uint32_t slot) const { return slots_[slot]; }
-    /// Slots in the order of the contacts; whoever adds or removes some makes it anew.
+    T& at(std::uint32_t slot) { return slots_[slot]; }
+    const T& at(std::uint32_t slot) const { return slots_[slot]; }
+    /// Slots in the order of the things; whoever adds or removes some makes it anew.
     std::vector<std::uint32_t>& order() { return order_; }
     const std::vector<std::uint32_t>& order() const { return order_; }
-    /// A slot for a contact that is not in the order yet.
+    /// A slot for one that is not in the order yet; what it holds is left from another.
     std::uint32_t add() {
         ++changes_;
         if (free_.empty()) {
@@ -63,9 +61,9 @@ class ContactList {
     }
     void remove(std::uint32_t slot) { free_.push_back(slot), ++changes_; }
 
-    /// Slots follow the order no more: who goes through the contacts waits for memory.
+    /// Slots follow the order no more: who goes through them waits for memory.
     bool untidy() const { return changes_ > size() / 4; }
-    /// Moves each contact to the slot that is its place in the order.
+    /// Moves each to the slot that is its place in the order.
     void tidy(const Tasks& tasks) {
         constexpr std::size_t kGrain = 32;  // worth sharing: some microseconds of work
         spare_.reserve(slots_.capacity());
@@ -77,7 +75,7 @@ class ContactList {
     }
 
     void clear() { slots_.clear(), order_.clear(), free_.clear(), changes_ = 0; }
-    /// `count` empty contacts in the order of their slots.
+    /// `count` new ones in the order of their slots.
     void reset(std::size_t count) {
         clear();
         slots_.resize(count), order_.resize(count);
@@ -85,7 +83,7 @@ class ContactList {
     }
 
   private:
-    std::vector<Contact<S>> slots_, spare_;
+    std::vector<T> slots_, spare_;
     std::vector<std::uint32_t> order_, free_;
     std::size_t changes_ = 0;  ///< since slots followed the order
 };
