@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "reports/report.hpp"
@@ -67,6 +69,58 @@ std::string timesText(double ratio) {
     return text;
 }
 
+/// Columns as they are named here: options that would make a label longer than this are numbered.
+constexpr std::size_t kLongestLabel = 36;
+
+struct Names {
+    std::vector<SpecColumn> columns;
+    std::vector<std::string> key;  ///< "rigor [1]: box_margin=0.05, ...", for each number once
+
+    const std::string& labelOf(const std::string& spec) const {
+        const auto found =
+            std::find_if(columns.begin(), columns.end(), [&](const SpecColumn& c) { return c.spec == spec; });
+        return found != columns.end() && found->options.rfind('[', 0) == 0 ? found->label : spec;
+    }
+};
+
+Names namesOf(const ViewModel& view) {
+    Names names;
+    names.columns = view.columns();
+    std::map<std::string, std::vector<std::string>> numbered;  // options, by engine
+    for (SpecColumn& column : names.columns) {
+        if (displayWidth(column.label) <= kLongestLabel) continue;
+        auto& known = numbered[column.engine];
+        auto at = std::find(known.begin(), known.end(), column.options);
+        if (at == known.end()) {
+            names.key.push_back(column.engine + " [" + std::to_string(known.size() + 1) +
+                                "]: " + column.options);
+            at = known.insert(known.end(), column.options);
+        }
+        column.options = "[" + std::to_string(at - known.begin() + 1) + "]";
+        column.label =
+            column.engine + (column.preset.empty() ? " " : " " + column.preset + " ") + column.options;
+    }
+    return names;
+}
+
+/// What the numbers stand for, in lines that fit.
+std::vector<std::string> keyLines(const Names& names, std::size_t width) {
+    std::vector<std::string> lines;
+    for (const auto& entry : names.key) {
+        std::istringstream words(plain(entry));
+        bool first = true;
+        for (std::string word; words >> word; first = false)
+            if (first)
+                lines.push_back(word);
+            else if (displayWidth(lines.back()) + 1 + displayWidth(word) > width)
+                lines.push_back("  " + word);
+            else
+                lines.back() += " " + word;
+    }
+    for (auto& line : lines) line = cut(line, width);
+    return lines;
+}
+
 /// How a table of this run fits the terminal.
 struct Layout {
     std::size_t nameWidth = 8, cellWidth = 0;
@@ -74,13 +128,13 @@ struct Layout {
     bool values = false;   ///< main metric beside the symbol
 };
 
-Layout layoutOf(const ViewModel& view, std::size_t columns) {
+Layout layoutOf(const ViewModel& view, const Names& names, std::size_t columns) {
     Layout layout;
     for (const auto& s : view.run().scenarios)
         layout.nameWidth = std::max(layout.nameWidth, displayWidth(plain(s.name)));
     layout.nameWidth = std::min<std::size_t>(layout.nameWidth, std::max<std::size_t>(12, columns / 3));
     std::size_t widest = 4;
-    for (const auto& c : view.columns())
+    for (const auto& c : names.columns)
         widest = std::max({widest, displayWidth(c.engine), displayWidth(c.preset)});
     const std::size_t room = columns > layout.nameWidth ? columns - layout.nameWidth : 0;
     const std::size_t each = room / std::max<std::size_t>(1, view.columns().size());
@@ -102,15 +156,15 @@ std::string letter(std::size_t i) {
     return text;
 }
 
-std::vector<std::string> headLines(const ViewModel& view, const Layout& layout, std::size_t width,
+std::vector<std::string> headLines(const Names& names, const Layout& layout, std::size_t width,
                                    const Painter& paint) {
     std::vector<std::string> lines;
-    if (view.columns().empty()) return lines;
+    if (names.columns.empty()) return lines;
     if (layout.letters) {
         std::string head = std::string(layout.nameWidth, ' '), key;
-        for (std::size_t c = 0; c < view.columns().size(); ++c) {
+        for (std::size_t c = 0; c < names.columns.size(); ++c) {
             head += " " + pad(letter(c), layout.cellWidth - 1);
-            const std::string entry = letter(c) + " " + plain(view.columns()[c].label);
+            const std::string entry = letter(c) + " " + plain(names.columns[c].label);
             if (!key.empty() && displayWidth(key) + displayWidth(entry) + 2 > width)
                 lines.push_back(key + ","), key.clear();
             key += (key.empty() ? "" : ", ") + entry;
@@ -122,7 +176,7 @@ std::vector<std::string> headLines(const ViewModel& view, const Layout& layout, 
     const auto row = [&](const auto& text) {
         std::string line(layout.nameWidth, ' ');
         bool any = false;
-        for (const auto& column : view.columns()) {
+        for (const auto& column : names.columns) {
             any = any || !text(column).empty();
             line += " " + pad(plain(text(column)), layout.cellWidth - 1);
         }
@@ -193,8 +247,8 @@ std::vector<std::string> totalsLines(const ViewModel& view, std::size_t width, c
 }
 
 /// Who to trust for what: a line for each mechanism, its engines from the most trusted on, as many as fit.
-std::vector<std::string> trustLines(const ViewModel& view, std::size_t most, std::size_t width,
-                                    const Painter& paint) {
+std::vector<std::string> trustLines(const ViewModel& view, const Names& names, std::size_t most,
+                                    std::size_t width, const Painter& paint) {
     std::vector<std::string> lines;
     std::size_t nameWidth = 0;
     auto mechanisms = view.mechanisms();
@@ -211,7 +265,7 @@ std::vector<std::string> trustLines(const ViewModel& view, std::size_t most, std
         for (const std::size_t c : ranked(m)) {
             const Standing& s = m.standings[c];
             if (!std::isfinite(s.ratio)) continue;
-            const std::string entry = (first ? "  " : ", ") + plain(view.columns()[c].label) + " " +
+            const std::string entry = (first ? "  " : ", ") + plain(names.columns[c].label) + " " +
                                       std::to_string(s.good) + "/" + std::to_string(s.scenarios) + " " +
                                       timesText(s.ratio);
             if (!first && displayWidth(line) + displayWidth(entry) > width) break;
@@ -222,8 +276,8 @@ std::vector<std::string> trustLines(const ViewModel& view, std::size_t most, std
     return lines;
 }
 
-std::vector<std::string> offenderLines(const ViewModel& view, std::size_t most, std::size_t width,
-                                       const Painter& paint) {
+std::vector<std::string> offenderLines(const ViewModel& view, const Names& names, std::size_t most,
+                                       std::size_t width, const Painter& paint) {
     std::vector<std::string> lines;
     const auto offenders = view.offenders();
     if (offenders.empty() || most < 2) return lines;
@@ -231,7 +285,7 @@ std::vector<std::string> offenderLines(const ViewModel& view, std::size_t most, 
     for (const auto& o : offenders) {
         if (!seen.insert({o.row->scenario, o.row->spec}).second || lines.size() + 1 >= most) continue;
         lines.push_back(cut("  " + std::string(shownText(shownOf(*o.row)).symbol) + " " +
-                                plain(o.row->scenario + "  " + o.row->spec) + "  " +
+                                plain(o.row->scenario + "  " + names.labelOf(o.row->spec)) + "  " +
                                 timeStepLabel(o.row->dt) + "  " + plain(o.text),
                             width));
     }
@@ -260,10 +314,10 @@ std::vector<std::string> whereLines(const results::Run& run) {
 }
 
 /// The scoreboard in `most` lines: all scenarios, or those with something to say.
-std::vector<std::string> boardLines(const ViewModel& view, std::size_t most, std::size_t width,
-                                    const Painter& paint) {
-    const Layout layout = layoutOf(view, width);
-    std::vector<std::string> lines = headLines(view, layout, width, paint);
+std::vector<std::string> boardLines(const ViewModel& view, const Names& names, std::size_t most,
+                                    std::size_t width, const Painter& paint) {
+    const Layout layout = layoutOf(view, names, width);
+    std::vector<std::string> lines = headLines(names, layout, width, paint);
     if (view.columns().empty() || lines.size() + 2 > most) return {};
     const std::size_t all = view.run().scenarios.size();
     const auto chosen = order(view, most - lines.size());
@@ -291,12 +345,16 @@ std::string terminalSummary(const results::Run& run, int lines, int columns, boo
         room -= section.empty() ? 0 : section.size() + 1;  // and an empty line before it
         return section;
     };
-    const auto worst = reserve(offenderLines(view, std::min<std::size_t>(8, most / 5), width, paint));
-    const auto trust = reserve(trustLines(view, std::min<std::size_t>(12, most / 4), width, paint));
-    const auto board = reserve(boardLines(view, room > 1 ? room - 2 : 0, width, paint));
+    Names names = namesOf(view);
+    const auto key = reserve(keyLines(names, width));
+    if (key.empty()) names = {view.columns(), {}};  // nobody would know what a number stands for
+    const auto worst = reserve(offenderLines(view, names, std::min<std::size_t>(8, most / 5), width, paint));
+    const auto trust = reserve(trustLines(view, names, std::min<std::size_t>(12, most / 4), width, paint));
+    const auto board = reserve(boardLines(view, names, room > 1 ? room - 2 : 0, width, paint));
 
     std::string text;
-    for (const std::vector<std::string>* section : {&head, &trust, &worst, &board, &std::as_const(where)}) {
+    for (const std::vector<std::string>* section :
+         {&head, &trust, &worst, &board, &key, &std::as_const(where)}) {
         if (section->empty()) continue;
         if (!text.empty() && (section != &where || room > 0)) text += "\n";
         for (const auto& line : *section) text += (text.empty() ? "" : "\n") + line;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <regex>
 
 #include "reports/report.hpp"
 #include "reports/svg_plot.hpp"
@@ -270,6 +271,29 @@ TEST(Terminal, TellsTheStory) {
     const auto line = text.substr(at(("  " + mechanisms.front().name + " ").c_str()));
     EXPECT_LT(line.find(best.label), line.find('\n')) << "the first choice stands beside the mechanism";
     EXPECT_GE(linesOf(text).size(), 36u) << "the lines are used";
+}
+
+/// Specs with ten options: a number in rows and columns, and what it stands for once.
+TEST(Terminal, LongSpecsAreNumbered) {
+    const std::string many =
+        "box_margin=0.05, broad_phase=wide_tree, contact_frequency=45, curved_joints=off";
+    auto run = synthetic::makeRun(3);
+    for (auto& c : run.cases) {
+        if (c.engine != run.cases.front().engine) continue;
+        c.spec = c.engine + ":preset=" + c.preset + "," + std::regex_replace(many, std::regex(", "), ",");
+        c.verdict = results::Verdict::Fail;
+    }
+    const std::string engine = run.cases.front().engine, preset = run.cases.front().preset;
+    for (const int columns : {80, 200}) {
+        const auto text = terminalSummary(run, 40, columns, false);
+        for (const auto& line : linesOf(text))
+            EXPECT_LE(displayWidth(line), static_cast<std::size_t>(columns)) << line;
+        EXPECT_NE(text.find("  " + engine + " " + preset + " [1]  "), std::string::npos) << "of what fails\n"
+                                                                                         << text;
+        EXPECT_EQ(text.find("wide_tree"), text.rfind("wide_tree")) << text;
+        std::string joined = std::regex_replace(text, std::regex("\\s+"), " ");
+        EXPECT_NE(joined.find(engine + " [1]: " + many), std::string::npos) << text;
+    }
 }
 
 TEST(Terminal, AGreenRunSaysSo) {

@@ -6,7 +6,7 @@ import { newCursor } from '../../src/common/cursor.ts';
 import { angle, duration, format, median, ratio, timeStep, toNumber } from '../../src/common/format.ts';
 import { cellOf, errorInBounds, errorOf, logPlace, severity } from '../../src/report/cells.ts';
 import { barScale } from '../../src/report/charts/bars.ts';
-import { logTicks, nearest, spreadsByDecades, unpack, withGaps } from '../../src/report/charts/samples.ts';
+import { logTicks, nearest, spreadsByDecades, unpack, widened, withGaps } from '../../src/report/charts/samples.ts';
 import type { BriefCase, Column, Scenario } from '../../src/report/data.ts';
 import { ranked, ratiosToBest, standings, worstMiss } from '../../src/report/standing.ts';
 
@@ -123,4 +123,10 @@ test('bars start at zero, logarithmic ones below the least', () => {
   assert.equal(barScale([bar(1), bar(4)], false)(1), 0.25);
   const logarithmic = barScale([bar(0.02), bar(1)], true);
   assert.ok(logarithmic(0.02) > 0 && logarithmic(1) === 1);
+});
+
+test('a logarithmic axis ends a little beyond its data', () => {
+  const [low, high] = widened(91, 204);
+  assert.ok(low < 91 && low > 80 && high > 204 && high < 220);
+  assert.deepEqual(widened(10, 10), [5, 20]);
 });

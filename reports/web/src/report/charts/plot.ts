@@ -9,7 +9,7 @@ import type { Cursor } from '../../common/cursor.ts';
 import { type Child, cssValue, el } from '../../common/elements.ts';
 import { format, tick, unitText } from '../../common/format.ts';
 import { addPlot } from './live_plots.ts';
-import { bandOf, logTicks, nearest } from './samples.ts';
+import { bandOf, logTicks, nearest, widened } from './samples.ts';
 
 export interface Line {
   key: string; // spec; "" is always shown
@@ -77,6 +77,9 @@ export function plotCard(plot: Plot): HTMLElement {
 
 const sizeOf = (box: HTMLElement) => ({ width: box.clientWidth || 420, height: box.clientHeight || 240 });
 
+/** No wider than the data: uPlot's own range would go on to the next power of ten. */
+const logRange = (_: uPlot, min: number, max: number): [number, number] => widened(min, max);
+
 function draw(plot: Plot, log: boolean, box: HTMLElement): uPlot {
   const positive = (y: number | null, x: number) =>
     y === null || (log && !(y > 0)) || (plot.logX && !(x > 0)) ? null : y;
@@ -114,7 +117,7 @@ function optionsOf(plot: Plot, log: boolean, box: HTMLElement): uPlot.Options {
     ...sizeOf(box),
     legend: { show: false },
     scales: {
-      x: { time: false, distr: plot.logX ? 3 : 1 },
+      x: { time: false, distr: plot.logX ? 3 : 1, ...(plot.logX ? { range: logRange } : {}) },
       y: {
         distr: log ? 3 : 1,
         ...(plot.zeroY && !log ? { range: { min: { soft: 0, mode: 1 }, max: { pad: 0.1 } } } : {}),

@@ -63,3 +63,9 @@ export function logTicks(min: number, max: number): number[] {
     for (const factor of factors) ticks.push(Number(`${factor}e${decade}`));
   return ticks.filter((v) => v >= min * (1 - 1e-9) && v <= max * (1 + 1e-9));
 }
+
+/** Ends of a logarithmic axis: a little beyond those of positive data. */
+export function widened(min: number, max: number): [number, number] {
+  const factor = max > min ? (max / min) ** 0.03 : 2;
+  return [min / factor, max * factor];
+}
