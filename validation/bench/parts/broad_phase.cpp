@@ -25,6 +25,8 @@ constexpr int kWarmUp = 5;
 constexpr std::size_t kLeast = 3;
 /// After so much time of updates no further one is begun [s].
 constexpr double kPatience = 0.3;
+/// After so much, not even one of the least [s]: rounds, of which intervals are made, tell more.
+constexpr double kEnough = 1.0;
 constexpr const char *kRandom = "random", *kSpatial = "spatial";
 /// A case whose first two updates would take longer than this is not begun [s].
 constexpr double kLongest = 2.0;
@@ -92,7 +94,7 @@ class BroadPhaseBench final : public BenchCase {
         double mean(std::size_t total) const { return static_cast<double>(total) / count; }
     };
     static bool isEnough(std::size_t updates, std::size_t most, double spent) {
-        return updates >= most || (updates >= kLeast && spent > kPatience);
+        return updates >= most || spent > kEnough || (updates >= kLeast && spent > kPatience);
     }
     static void warmUp(adapter::TimedBroadPhase& phase, MovingBoxes& scene) {
         Stopwatch watch;
