@@ -39,7 +39,9 @@ inline results::BenchCase benchCase(const std::string& engine, double size, std:
 
 inline results::Run makeBench() {
     results::Run run;
-    run.suite = "bench", run.command = "./rigor bench pyramid", run.started = "2026-01-01T00:00:00Z";
+    run.suite = "bench",
+    run.command = std::string("./rigor bench pyramid --engines ode,rigor,") + kLengthySpec,
+    run.started = "2026-01-01T00:00:00Z";
     run.finished = "2026-01-01T01:00:00Z";
     run.environment = {
         {"cpu", "some cpu"}, {"caches", "L1d 48K, L2 1024K"}, {"load", "0.1"}, {"load_after", "1.0"}};

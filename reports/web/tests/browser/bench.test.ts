@@ -44,6 +44,15 @@ describe('the report of a bench', { skip }, () => {
     it.clean();
   });
 
+  test('a narrow page has nothing to scroll sideways but its tables', async () => {
+    await it.open();
+    await it.page.setViewportSize({ width: 420, height: 900 });
+    const wider = await it.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    await it.page.setViewportSize({ width: 1400, height: 1000 });
+    assert.ok(wider <= 0, `${wider} px too wide`);
+    it.clean();
+  });
+
   test('the machine is told once', async () => {
     await it.open();
     assert.equal(await it.page.locator('dt', { hasText: /^cpu$/ }).count(), 1);
