@@ -174,6 +174,16 @@ TEST(Colouring, DoesNotDependOnThreads) {
         }
 }
 
+TEST(Colouring, DoesNotDependOnWhatWasColouredBefore) {
+    const std::vector<PatchPlan> sheet = sheetPlans(), mixed = randomPlans(700, 300, 5);
+    Colouring again = coloured(sheet, kSide * kSide + 1);
+    again.colour(mixed, 300, kWidth, Tasks(1));
+    EXPECT_TRUE(std::ranges::equal(again.occupants(), coloured(mixed, 300).occupants()));
+    again.colour(sheet, kSide * kSide + 1, kWidth, Tasks(2));
+    EXPECT_TRUE(std::ranges::equal(again.occupants(), coloured(sheet, kSide * kSide + 1).occupants()));
+    expectProper(sheet, again, kSide * kSide + 1);
+}
+
 TEST(Colouring, BodiesOfVeryManyContactsLeaveSomeOver) {
     // A plate that carries 150 balls and stands on 100 posts.
     std::vector<PatchPlan> plans;
