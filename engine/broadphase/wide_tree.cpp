@@ -233,8 +233,11 @@ class WideTree final : public BroadPhase<S> {
         isWorn_ = 2 * visits > 3 * firstVisits_;
         pairSort_.sort(pairParts_, proxies_.size(), pairs_, tasks);
         // For findChanged(), which may be called for the first time long after this.
-        found_.reserve(pairs_.size());
-        pairs_.reserve(2 * pairs_.size()), merged_.reserve(pairs_.capacity());
+        const auto hold = [](std::vector<ProxyPair>& list, std::size_t count) {
+            if (list.capacity() < count) list.reserve(count + count / 2);
+        };
+        const std::size_t count = pairs_.size();
+        hold(found_, count), hold(pairs_, 2 * count), hold(merged_, 2 * count);
     }
 
     void findChanged(const Tasks& tasks) {

@@ -18,7 +18,6 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
     std::swap(order, oldOrder_), std::swap(keys_, oldKeys_);
     const std::vector<ProxyPair>& pairs = pairsNear();
     order.clear(), keys_.clear();
-    order.reserve(pairs.size()), keys_.reserve(pairs.size());
     const bool hadPieces = std::exchange(candidatesHavePieces_, false);
     std::size_t old = 0;
     const auto oldPiece = [&] { return hadPieces ? candidates_.at(oldOrder_[old]).piece : kNone; };

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <random>
 #include <set>
+#include <span>
 
+#include "engine/core/tests/counting_new.hpp"
 #include "engine/solvers/wide/colouring.hpp"
 
 namespace rigor::engine::test {
@@ -182,6 +184,20 @@ TEST(Colouring, DoesNotDependOnWhatWasColouredBefore) {
     again.colour(sheet, kSide * kSide + 1, kWidth, Tasks(2));
     EXPECT_TRUE(std::ranges::equal(again.occupants(), coloured(sheet, kSide * kSide + 1).occupants()));
     expectProper(sheet, again, kSide * kSide + 1);
+}
+
+/// However many regions there were before.
+TEST(Colouring, DoesNotAllocateForWhatItHasHadBefore) {
+    const std::vector<PatchPlan> sheet = sheetPlans(), mixed = randomPlans(6000, 2000, 2);
+    Colouring colouring;
+    const auto both = [&] {
+        for (const auto& plans : {std::span(sheet), std::span(mixed)})
+            colouring.colour(plans, kSide * kSide + 1, kWidth, Tasks::one());
+    };
+    both(), both();
+    const long before = allocationCount();
+    both();
+    EXPECT_EQ(allocationCount() - before, 0);
 }
 
 TEST(Colouring, BodiesOfVeryManyContactsLeaveSomeOver) {

@@ -40,14 +40,17 @@ void Colouring::divide(std::span<const PatchPlan> plans, std::size_t bodies, con
     slice();
     contacts_ = points_ = 0;
     for (const Part& part : parts_) contacts_ += part.contacts, points_ += part.points;
-    // As many regions, a power of two, as have enough contacts, few of them across.
+    // As many regions, a power of two, as have enough contacts, few of them across; about as many as last
+    // time, which is tried first.
     const std::size_t many = std::clamp<std::size_t>(contacts_ / kRegionContacts, 1, kMostRegions);
-    for (int bits = static_cast<int>(std::bit_width(many)) - 1;; --bits) {
-        makeRegions(bodies, bits);
+    const int most = static_cast<int>(std::bit_width(many)) - 1;
+    for (int bits = std::min(regionBits_, most);; bits = betterBits(most)) {
+        regionBits_ = bits;
+        makeRegions(bodies);
         tasks.forStages(1, [&](std::size_t, std::size_t share) {
             list(own(share), static_cast<std::uint32_t>(start(plans.size(), share)), parts_[share]);
         });
-        if (bits == 0 || fewAcross()) return;
+        if (betterBits(most) == bits) return;
     }
 }
 
@@ -78,17 +81,16 @@ void Colouring::slice() {
     }
 }
 
-void Colouring::makeRegions(std::size_t bodies, int bits) {
-    sliceBits_ = std::countr_zero(kSlices) - bits;
-    regions_.resize(std::size_t(1) << bits);
+void Colouring::makeRegions(std::size_t bodies) {
+    regions_.resize(std::size_t(1) << regionBits_);
     for (std::uint32_t r = 0; r < regions_.size(); ++r) {
-        const auto bin = std::lower_bound(slice_.begin(), slice_.end(), r << sliceBits_) - slice_.begin();
+        const auto bin = std::lower_bound(slice_.begin(), slice_.end(), r << sliceBits()) - slice_.begin();
         regions_[r].firstBody =
             static_cast<std::uint32_t>(std::min(bodies, static_cast<std::size_t>(bin) << binBits_));
         regions_[r].lastBody = static_cast<std::uint32_t>(bodies);
         if (r > 0) regions_[r - 1].lastBody = regions_[r].firstBody;
     }
-    groups_.resize(own(regions_.size()));
+    groups_.resize(std::max(groups_.size(), own(regions_.size())));
     for (std::size_t g = 0; g < groups_.size(); ++g) groups_[g].slices = g < own(0) ? kSlices : 1;
 }
 
@@ -96,24 +98,25 @@ void Colouring::makeRegions(std::size_t bodies, int bits) {
 void Colouring::list(std::span<const PatchPlan> plans, std::uint32_t first, Part& part) const {
     part.members.resize(groups_.size());
     for (auto& members : part.members) members.clear();
+    part.pairs = part.across = part.finer = 0;
     for (std::uint32_t i = 0; i < plans.size(); ++i) {
         const PatchPlan& plan = plans[i];
         if (plan.points == 0) continue;
         const bool wall = !plan.movesA || !plan.movesB;
-        const std::uint32_t a = sliceOf(wall ? keyOf(plan) : plan.a) >> sliceBits_;
-        const bool inside = regions_.size() > 1 && (wall || a == sliceOf(plan.b) >> sliceBits_);
-        part.members[(inside ? own(a) : 0) + wall].push_back(first + i);
+        const std::uint32_t a = sliceOf(wall ? keyOf(plan) : plan.a), b = wall ? a : sliceOf(plan.b);
+        const bool across = (a ^ b) >> sliceBits() != 0, inside = regions_.size() > 1 && !across;
+        part.pairs += !wall, part.across += across, part.finer += (a ^ b) >> (sliceBits() - 1) != 0;
+        part.members[(inside ? own(a >> sliceBits()) : 0) + wall].push_back(first + i);
     }
 }
 
-/// Of the contacts of two bodies.
-bool Colouring::fewAcross() const {
-    std::size_t across = 0, inside = 0;
-    for (const Part& part : parts_) {
-        across += part.members[0].size();
-        for (std::size_t r = 0; r < regions_.size(); ++r) inside += part.members[own(r)].size();
-    }
-    return 4 * across <= inside;
+/// Of the number of regions, after they were listed: one less where too many pairs are across, one more where
+/// few would be.
+int Colouring::betterBits(int most) const {
+    std::size_t pairs = 0, across = 0, finer = 0;
+    for (const Part& part : parts_) pairs += part.pairs, across += part.across, finer += part.finer;
+    if (5 * across > pairs) return regionBits_ - 1;
+    return regionBits_ < most && 5 * finer <= pairs ? regionBits_ + 1 : regionBits_;
 }
 
 /// And the bucket of each contact, of which begin gets the sizes.
@@ -186,12 +189,12 @@ void Colouring::addRanges(const Group& group, std::uint32_t lanes) {
 void Colouring::colour(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes,
                        const Tasks& tasks) {
     divide(plans, bodies, tasks);
-    tasks.forEach(groups_.size(), 1, [&](std::size_t g) {
+    tasks.forEach(groups().size(), 1, [&](std::size_t g) {
         chooseColours(plans, g);
         count(groups_[g], lanes);
     });
     blocks_ = 0;
-    for (Group& group : groups_) group.block = blocks_, blocks_ += group.blocks;
+    for (Group& group : groups()) group.block = blocks_, blocks_ += group.blocks;
     for (std::size_t r = 0; r < regions_.size(); ++r) {
         const Group &own = groups_[Colouring::own(r)], &walls = groups_[Colouring::own(r) + 1];
         regions_[r].first = own.block, regions_[r].last = walls.block + walls.blocks;
@@ -199,7 +202,7 @@ void Colouring::colour(std::span<const PatchPlan> plans, std::size_t bodies, std
     ranges_.clear(), tables_.clear();
     for (std::size_t g = 0; g < own(0); ++g) addRanges(groups_[g], lanes);
     occupants_.resize(blocks_ * lanes);
-    tasks.forEach(groups_.size(), 1, [&](std::size_t g) { place(groups_[g], lanes); });
+    tasks.forEach(groups().size(), 1, [&](std::size_t g) { place(groups_[g], lanes); });
 }
 
 /// Where a slice of a kind begins; slice kSlices: the next kind.

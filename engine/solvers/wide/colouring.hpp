@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -95,6 +96,7 @@ class Colouring {
     struct alignas(64) Part {
         std::vector<std::uint32_t> work;  ///< of the bodies of each bin
         std::size_t contacts, points;
+        std::size_t pairs, across, finer;  ///< of two bodies; in two regions; if there were twice as many
         std::vector<std::vector<std::uint32_t>> members;  ///< of each group
     };
     /// Bodies go to slices by bins, a power of two of neighbours in each, at most as many bins as this.
@@ -106,9 +108,11 @@ class Colouring {
     void divide(std::span<const PatchPlan> plans, std::size_t bodies, const Tasks& tasks);
     void weigh(std::span<const PatchPlan> plans, Part& part) const;
     void slice();
-    void makeRegions(std::size_t bodies, int bits);
+    void makeRegions(std::size_t bodies);
+    int sliceBits() const { return std::countr_zero(kSlices) - regionBits_; }
+    std::span<Group> groups() { return {groups_.data(), own(regions_.size())}; }
     void list(std::span<const PatchPlan> plans, std::uint32_t first, Part& part) const;
-    bool fewAcross() const;
+    int betterBits(int most) const;
     void chooseColours(std::span<const PatchPlan> plans, std::size_t g);
     static void count(Group& group, std::uint32_t lanes);
     void place(Group& group, std::uint32_t lanes);
@@ -118,10 +122,10 @@ class Colouring {
     int binBits_ = 0;                   ///< of the number of bodies in a bin
     std::vector<std::uint32_t> slice_;  ///< of each bin
     std::vector<Part> parts_;           ///< of each thread
-    int sliceBits_ = 0;                 ///< of the number of slices in a region
+    int regionBits_ = 0;                ///< of the number of regions
     std::vector<Region> regions_ = std::vector<Region>(1);
     /// Across regions; with walls, if there is one region; then of each region its own and those with walls.
-    std::vector<Group> groups_;
+    std::vector<Group> groups_;                        ///< own(regions_.size()) of them are in use
     std::array<std::vector<std::uint64_t>, 3> taken_;  ///< colours of each body: across, in regions, of walls
     std::vector<std::uint32_t> occupants_;
     std::vector<Range> ranges_;
