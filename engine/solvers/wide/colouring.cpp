@@ -44,13 +44,15 @@ void Colouring::divide(std::span<const PatchPlan> plans, std::size_t bodies, con
     // time, which is tried first.
     const std::size_t many = std::clamp<std::size_t>(contacts_ / kRegionContacts, 1, kMostRegions);
     const int most = static_cast<int>(std::bit_width(many)) - 1;
-    for (int bits = std::min(regionBits_, most);; bits = betterBits(most)) {
-        regionBits_ = bits;
+    regionBits_ = std::min(regionBits_, most);
+    for (bool settled = false; !settled;) {
         makeRegions(bodies);
         tasks.forStages(1, [&](std::size_t, std::size_t share) {
             list(own(share), static_cast<std::uint32_t>(start(plans.size(), share)), parts_[share]);
         });
-        if (betterBits(most) == bits) return;
+        const int better = betterBits(most);
+        settled = better == regionBits_;
+        regionBits_ = better;
     }
 }
 
