@@ -60,6 +60,7 @@ class WideTree final : public BroadPhase<S> {
             reset();
         else
             tasks.enter([&] { updateSome(boxes, movable, tasks); });
+        hold(pairs, pairs_.size());
         pairs = pairs_;
     }
 
@@ -71,6 +72,11 @@ class WideTree final : public BroadPhase<S> {
         std::vector<Node> nodes;
         std::vector<WideMarks> marks;
     };
+
+    /// Room for `count` pairs, and if there is none, for some more.
+    static void hold(std::vector<ProxyPair>& list, std::size_t count) {
+        if (list.capacity() < count) list.reserve(count + count / 2);
+    }
 
     void updateSome(std::span<const Box> boxes, std::span<const std::uint8_t> movable, const Tasks& tasks) {
         const bool afresh = boxes.size() != kept_.size();
@@ -233,9 +239,6 @@ class WideTree final : public BroadPhase<S> {
         isWorn_ = 2 * visits > 3 * firstVisits_;
         pairSort_.sort(pairParts_, proxies_.size(), pairs_, tasks);
         // For findChanged(), which may be called for the first time long after this.
-        const auto hold = [](std::vector<ProxyPair>& list, std::size_t count) {
-            if (list.capacity() < count) list.reserve(count + count / 2);
-        };
         const std::size_t count = pairs_.size();
         hold(found_, count), hold(pairs_, 2 * count), hold(merged_, 2 * count);
     }
