@@ -47,9 +47,9 @@ describe('the report of a bench', { skip }, () => {
   test('a narrow page has nothing to scroll sideways but its tables', async () => {
     await it.open();
     await it.page.setViewportSize({ width: 420, height: 900 });
-    const wider = await it.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    // Charts follow the page's width when they are told of it, on a busy machine some seconds later.
+    await it.page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth);
     await it.page.setViewportSize({ width: 1400, height: 1000 });
-    assert.ok(wider <= 0, `${wider} px too wide`);
     it.clean();
   });
 
