@@ -136,14 +136,17 @@ std::vector<BenchWork> planParts(const Arguments& a, validation::BenchRequest re
         if (!isAsked(a, family.name)) continue;
         for (auto& planned : family.plan(request)) work.push_back({std::move(planned), "", {}});
     }
-    if (!work.empty() || request.only.empty()) return work;
+    const auto missing = std::ranges::find_if(a.only, [&](const std::string& name) {
+        return std::ranges::none_of(work, [&](const auto& w) { return w.planned.name == name; });
+    });
+    if (missing == a.only.end() || request.only.empty()) return work;
     request.only.clear(), request.full = true;
     std::string known;
     for (const auto& w : planParts(a, request))
         if (known.find("'" + w.planned.name + "'") == std::string::npos)
             known += (known.empty() ? "'" : ", '") + w.planned.name + "'";
-    throw std::invalid_argument("--only: no case is called that; there are " +
-                                (known.empty() ? "none" : known));
+    throw std::invalid_argument("--only: found '" + *missing + "', expected " +
+                                (known.empty() ? "none, as no part has cases" : "one of " + known));
 }
 
 std::vector<BenchWork> planAll(const Arguments& a) {
@@ -307,7 +310,9 @@ void addWhat(CLI::App& command, Arguments& a) {
         .add_option("--parts", a.parts,
                     "Isolated parts: their names with commas between, or 'all'; without WHAT no scenes")
         ->delimiter(',');
-    command.add_option("--only", a.only, "Cases of the parts by their names; default: all")
+    command
+        .add_option("--only", a.only,
+                    "A case of the parts by its name; may be given more than once; default: all")
         ->allow_extra_args(false);
     command.add_flag(
         "--full", a.full,

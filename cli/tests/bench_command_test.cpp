@@ -162,6 +162,8 @@ TEST_F(BenchCommand, BadCommandLinesAreSaid) {
     said("--engines double_free_flight:pause_us=much", "pause_us");
     said("--engines double_free_flight --parts nothing", "expected one of all");
     said("--parts broad_phase --only nothing", "'3D, random order', '3D, spatial order', '2D, random order'");
+    said("--parts broad_phase --only '3D, random order' --only nothing",
+         "--only: found 'nothing', expected one of");
     said("--only '3D, random order'", "goes with --parts");
     said("--full", "--full: goes with --parts");
     said("--engines double_free_flight --baseline " + (folder_ / "gone").string(), "--baseline");
