@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Ball against hull, and capsule against box and hull: a point or segment core with a rounding radius.
+// Ball or capsule against hull: a point or segment core with a rounding radius.
 //
 //   cores apart: the exact closest pair over all features (core vertices and faces, segment and edges);
 //   cores overlapping: the separating axis of largest separation over the facets of the Minkowski difference:
@@ -220,7 +220,8 @@ void collideCore(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R 
     const R tolerance = kRounding<R> * size;
     CoreHeights<R> heights;
     CoreAxis<R> axis = bestAxis(hull, p, d, tolerance, heights);
-    if (axis.separation - radius > speculative) return;
+    out.apart = axis.separation - radius;
+    if (out.apart > speculative) return;
     using Memory = ManifoldMemory<S>;
     if (axis.separation <= tolerance) {
         keepAxis(hull, p, d, out.memory, kKeep<R> * std::min(hull.size, radius + d.norm() / R(2)), axis);
@@ -282,17 +283,6 @@ void collideCore(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R 
     add(closest.onCore, distance, closest.feature);
 }
 
-template <class R, class B>
-void capsulePolytope(const Capsule<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const B& b,
-                     const Pose<Space<R, 3>>& Xb, R speculative, Manifold<Space<R, 3>>& out) {
-    using S = Space<R, 3>;
-    BoxStorage<R> store;
-    const Pose<S> X = relativePose<S>(Xb, Xa);
-    const Vec3<R> half = rotate(X.q, Vec3<R>(a.halfLength * Vec3<R>::UnitY()));
-    collideCore<R>(polytopeOf<R>(b, store), X.p - half, R(2) * half, a.radius, speculative, out);
-    toWorldFrame<S>(out, Xb);
-}
-
 }  // namespace
 
 template <class R>
@@ -309,16 +299,11 @@ template <class R>
 void collidePair(const Capsule<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Hull<Space<R, 3>>& b,
                  const Pose<Space<R, 3>>& Xb, typename Space<R, 3>::Real speculative,
                  Manifold<Space<R, 3>>& out) {
-    capsulePolytope<R>(a, Xa, b, Xb, speculative, out);
-}
-
-template <class R>
-void collidePair(const Box<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Capsule<Space<R, 3>>& b,
-                 const Pose<Space<R, 3>>& Xb, typename Space<R, 3>::Real speculative,
-                 Manifold<Space<R, 3>>& out) {
-    flip(out);  // the memory
-    capsulePolytope<R>(b, Xb, a, Xa, speculative, out);
-    flip(out);
+    BoxStorage<R> unused;
+    const Pose<Space<R, 3>> X = relativePose<Space<R, 3>>(Xb, Xa);
+    const Vec3<R> half = rotate(X.q, Vec3<R>(a.halfLength * Vec3<R>::UnitY()));
+    collideCore<R>(polytopeOf<R>(b, unused), X.p - half, R(2) * half, a.radius, speculative, out);
+    toWorldFrame<Space<R, 3>>(out, Xb);
 }
 
 #define INSTANTIATE(A, B)                                                                         \
@@ -328,7 +313,6 @@ void collidePair(const Box<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const C
                                       const Pose<Space3d>&, double, Manifold<Space3d>&);
 INSTANTIATE(Sphere, Hull)
 INSTANTIATE(Capsule, Hull)
-INSTANTIATE(Box, Capsule)
 #undef INSTANTIATE
 
 }  // namespace rigor::engine
