@@ -88,12 +88,30 @@ int sideLine(int face, int axis, bool high) {
     return kRefLine + line;
 }
 
-/// The incident face inside the prism of the reference face.
+/// Is what lies lower than `near` over the reference face all within its prism? Between corners that are, and
+/// the points where sides of the incident face rise above `near`, so is everything.
 template <class R>
-void clipToFace(const FaceMeeting<R>& m, FlatPolygon<R>& polygon) {
+bool withinPrism(const FaceMeeting<R>& m, const FlatPolygon<R>& p, R near) {
+    const R u = m.refHalf[m.u()], v = m.refHalf[m.v()];
+    for (std::size_t i = 0; i < 4; ++i)
+        if (p.h[i] <= near && (std::abs(p.u[i]) > u || std::abs(p.v[i]) > v)) return false;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t k = (i + 1) & 3;
+        if ((p.h[i] <= near) == (p.h[k] <= near)) continue;
+        const R s = (near - p.h[i]) / (p.h[k] - p.h[i]);
+        if (std::abs(p.u[i] + s * (p.u[k] - p.u[i])) > u || std::abs(p.v[i] + s * (p.v[k] - p.v[i])) > v)
+            return false;
+    }
+    return true;
+}
+
+/// The incident face inside the prism of the reference face; what is higher than `near` may be outside.
+template <class R>
+void clipToFace(const FaceMeeting<R>& m, R near, FlatPolygon<R>& polygon) {
     using Polygon = FlatPolygon<R>;
     Polygon between;
     layOut(m, polygon);
+    if (withinPrism(m, polygon, near)) return;
     const auto line = [&](int axis, bool high) { return sideLine(m.refFace, axis, high); };
     const int u = m.u(), v = m.v();
     clipFlat<R, &Polygon::u, &Polygon::v>(polygon, m.refHalf[u], line(u, false), line(u, true), between);
@@ -121,7 +139,7 @@ R clipFaces(const FaceMeeting<R>& m, const Pose<Space<R, 3>>& ref, R speculative
     using S = Space<R, 3>;
     using V = Vec3<R>;
     FlatPolygon<R> polygon;
-    clipToFace<R>(m, polygon);
+    clipToFace<R>(m, speculative, polygon);
     const Eigen::Matrix<R, 3, 3> frame = toMatrix(ref.q);
     const V U = frame.col(m.u()), W = frame.col(m.v()), N = frame * m.outward;
     const V origin = ref.p + (m.side() * m.refHalf[m.axis()]) * frame.col(m.axis());

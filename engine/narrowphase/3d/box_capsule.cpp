@@ -154,7 +154,7 @@ void keepAxis(const Core<R>& core, const ManifoldMemory<Space<R, 3>>& memory, R 
     } else if (memory.axis == Memory::kEdges && best.edge >= 0 && i < 24) {
         Vec3<R> outward;
         for (int k = 0; k < 3; ++k) outward[k] = k == i / 8 ? R(0) : ((i >> k) & 1) != 0 ? R(1) : R(-1);
-        if (!edgeAxis(core, i / 8, outward, last) || last.edge != i % 8) return;
+        if (!edgeAxis(core, i / 8, outward, last)) return;
     }
     if (last.separation >= best.separation - slack) best = last;
 }
@@ -251,9 +251,9 @@ template <class R>
 void collidePair(const Box<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Capsule<Space<R, 3>>& b,
                  const Pose<Space<R, 3>>& Xb, typename Space<R, 3>::Real speculative,
                  Manifold<Space<R, 3>>& out) {
-    const Pose<Space<R, 3>> X = relativePose<Space<R, 3>>(Xa, Xb);
-    const Vec3<R> half = rotate(X.q, Vec3<R>(b.halfLength * Vec3<R>::UnitY()));
-    collideCore<R>({a.halfExtents, X.p - half, R(2) * half}, b.radius, speculative, out);
+    const Vec3<R> center = rotateInverse<R>(Xa.q, Xb.p - Xa.p);
+    const Vec3<R> half = rotateInverse<R>(Xa.q, rotate(Xb.q, Vec3<R>(b.halfLength * Vec3<R>::UnitY())));
+    collideCore<R>({a.halfExtents, center - half, R(2) * half}, b.radius, speculative, out);
     toWorldFrame<Space<R, 3>>(out, Xa);
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "engine/narrowphase/tests/pair_table.hpp"
 
@@ -105,6 +106,48 @@ TYPED_TEST(BoxCapsule, ClosestFeatureOfTheBox) {
     ASSERT_EQ(corner.count, 1);
     EXPECT_NEAR(leastSeparation(corner), -0.1, eps);
     EXPECT_LE((corner.points[0].pointA - vec<S>(0.5, 0.3, 0.8)).norm(), 10 * eps);
+}
+
+/// Cores that hardly miss each other: the difference of the closest points is all rounding, and the normal
+/// is that of the two edges all the same.
+TYPED_TEST(BoxCapsule, CrossingEdgesFixTheNormal) {
+    using S = TypeParam;
+    const auto off = static_cast<typename S::Real>(tol<S>(1e-12, 1e-5));
+    const typename S::Vec n = vec<S>(std::cos(0.3), std::sin(0.3)), edge = vec<S>(0.5, 0.3, 0.1);
+    const auto m = collide<S>(this->box, pose<S>(vec<S>(0, 0, 0)), this->capsule(0.2, 1),
+                              pose<S>(edge + off * n, turn<S>(0.3)));
+    ASSERT_EQ(m.count, 1);
+    EXPECT_LE((m.normal - n).norm(), tol<S>(1e-14, 1e-6));
+}
+
+/// The twelve edges have twelve names, the same from either side of touching.
+TYPED_TEST(BoxCapsule, EdgesHaveNames) {
+    using S = TypeParam;
+    std::set<std::uint32_t> names;
+    for (int k = 0; k < 3; ++k)
+        for (unsigned sides = 0; sides < 4; ++sides) {
+            // Out of the edge along axis k; the core lies across it.
+            typename S::Vec out = S::Vec::Zero(), edge = S::Vec::Zero();
+            const typename S::Vec half = vec<S>(0.5, 0.3, 0.8);
+            for (int i = 0; i < 2; ++i) {
+                const int axis = (k + 1 + i) % 3;
+                out[axis] = (sides >> i & 1) != 0 ? 1 : -1;
+                edge[axis] = out[axis] * half[axis];
+            }
+            const typename S::Vec across = out.cross(S::Vec::Unit(k)).normalized();
+            const auto q = S::Rot::FromTwoVectors(S::Vec::UnitY(), across);
+            std::uint32_t name[2];
+            for (const int apart : {0, 1}) {
+                const auto by = static_cast<typename S::Real>(apart != 0 ? 0.05 : -0.05);
+                const auto m = collide<S>(this->box, pose<S>(vec<S>(0, 0, 0)), this->capsule(0.1, 0.4),
+                                          pose<S>(edge + by * out, q));
+                ASSERT_EQ(m.count, 1);
+                name[apart] = m.points[0].feature;
+            }
+            EXPECT_EQ(name[0], name[1]);
+            names.insert(name[0]);
+        }
+    EXPECT_EQ(names.size(), 12u);
 }
 
 /// What a pair that is not touching says of its distance is a bound of it from below.

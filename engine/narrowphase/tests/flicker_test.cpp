@@ -115,12 +115,18 @@ std::vector<Tie<S>> ties() {
         {"box in itself", box, box, pose<S>(vec<S>(0, 0, 0))},
         {"capsule in the corner of a box", box, Capsule<S>{R(0.1), R(0.2)},
          pose<S>(vec<S>(0.4, 0.2, 0), turn<S>(0.1))},
+        {"capsule in the middle of a box", box, Capsule<S>{R(0.1), R(0.2)}, pose<S>(vec<S>(0, 0.1, 0.05))},
         {"ball in the corner of a hull", hull, Sphere<S>{R(0.2)}, pose<S>(vec<S>(0.3, 0.3, 0.1))},
         {"ball in the corner of a box", box, Sphere<S>{R(0.2)}, pose<S>(vec<S>(0.3, 0.3, 0.1))},
     };
-    if constexpr (S::dim == 3)
+    if constexpr (S::dim == 3) {
         all.push_back({"cylinder in the edge of a box", box, Cylinder<S>{R(0.3), R(0.4)},
                        pose<S>(vec<S>(0.6, 0.7, 0))});
+        const auto lean = S::Rot::FromTwoVectors(S::Vec::UnitY(), vec<S>(1, -1, 1));
+        for (const Shape<S>& cube : {box, hull})
+            all.push_back({"capsule across two edges of a cube", cube, Capsule<S>{R(0.1), R(0.2)},
+                           pose<S>(vec<S>(0.45, 0.45, 0.45), lean)});
+    }
     // The other way round the narrow phase turns the pair about, and what it remembers with it.
     for (std::size_t i = 0, n = all.size(); i < n; ++i) {
         const Tie<S> tie = all[i];
