@@ -377,7 +377,6 @@ void collideAlong(const Segment<Space<R, 2>>& piece, bool front, const Shape<Spa
 PAIR(Capsule, Capsule)
 PAIR(Box, Capsule)
 PAIR(Capsule, Hull)
-PAIR(Box, Box)
 PAIR(Box, Hull)
 PAIR(Hull, Hull)
 PAIR(Box, Segment)
