@@ -23,7 +23,8 @@ struct Polygon {
     const Vec2<R>* normals;
     int count;
     R radius;
-    const Vec2<R>& vertex(int i) const { return vertices[i % count]; }
+    /// The vertex after vertex i.
+    int next(int i) const { return i + 1 == count ? 0 : i + 1; }
 };
 
 template <class R>
@@ -112,14 +113,14 @@ void closestVertex(const Polygon<R>& p, const Polygon<R>& q, const Pose<Space<R,
     for (int j = 0; j < q.count; ++j) {
         const Vec2<R> x = toWorld<Space<R, 2>>(X, q.vertices[j]);
         for (int i = 0; i < p.count; ++i) {
-            const Vec2<R> v = p.vertices[i], e = p.vertex(i + 1) - v;
+            const Vec2<R> v = p.vertices[i], e = p.vertices[p.next(i)] - v;
             const R t = e.dot(x - v) / e.squaredNorm();
             const R clamped = std::clamp(t, R(0), R(1));
             const R squared = (x - v - clamped * e).squaredNorm();
             // On the back edge of a capsule's segment the normal would point the wrong way.
             if (squared < best.squared && p.normals[i].dot(x - v) >= 0) {
                 best.squared = squared, best.vertex = j, best.edge = i, best.vertexOnB = vertexOnB;
-                best.corner = t <= 0 ? i : (t >= 1 ? (i + 1) % p.count : -1);
+                best.corner = t <= 0 ? i : (t >= 1 ? p.next(i) : -1);
             }
         }
     }
@@ -181,10 +182,11 @@ void clipEdges(const Reference<R>& c, int edge, Manifold<Space<R, 2>>& out) {
     int incident = 0;
     for (int i = 1; i < c.inc.count; ++i)
         if (c.inc.normals[i].dot(nLocal) < c.inc.normals[incident].dot(nLocal)) incident = i;
-    const int i0 = incident, i1 = (incident + 1) % c.inc.count;
-    const int r0 = edge, r1 = (edge + 1) % c.ref.count;
-    const Vec2<R> v0 = c.ref.vertices[r0], along = (c.ref.vertices[r1] - v0).normalized();
-    const R length = (c.ref.vertices[r1] - v0).norm();
+    const int i0 = incident, i1 = c.inc.next(incident);
+    const int r0 = edge, r1 = c.ref.next(edge);
+    const Vec2<R> v0 = c.ref.vertices[r0], side = c.ref.vertices[r1] - v0;
+    const R length = side.norm();
+    const Vec2<R> along = side / length;
     Vec2<R> p = toWorld<Space<R, 2>>(c.X, c.inc.vertices[i0]);
     Vec2<R> q = toWorld<Space<R, 2>>(c.X, c.inc.vertices[i1]);
     std::uint32_t fp = vertexFeature(!c.refIsA, i0), fq = vertexFeature(!c.refIsA, i1);
@@ -212,7 +214,8 @@ void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Pol
     using S = Space<R, 2>;
     const Pose<S> XAB = relativePose<S>(Xa, Xb), XBA = relativePose<S>(Xb, Xa);
     const R radius = a.radius + b.radius;
-    const R tolerance = kRounding<R> * std::max({sizeOf(a), sizeOf(b), XAB.p.cwiseAbs().maxCoeff()});
+    const R sizeA = sizeOf(a), sizeB = sizeOf(b);
+    const R tolerance = kRounding<R> * std::max({sizeA, sizeB, XAB.p.cwiseAbs().maxCoeff()});
     const EdgeAxis<R> onA = bestEdge(a, b, XAB, tolerance);
     out.apart = onA.separation - radius;
     if (out.apart > speculative) return;
@@ -229,8 +232,7 @@ void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Pol
     const auto last = static_cast<int>(lastIsA ? out.memory.featureA : out.memory.featureB);
     if (out.memory.axis != Memory::kNoAxis && last < (lastIsA ? a : b).count) {
         const R s = lastIsA ? edgeSeparation(a, b, XAB, last) : edgeSeparation(b, a, XBA, last);
-        if (s >= widest - kKeep<R> * std::min(sizeOf(a), sizeOf(b)))
-            refIsA = lastIsA, edge = last, separation = s;
+        if (s >= widest - kKeep<R> * std::min(sizeA, sizeB)) refIsA = lastIsA, edge = last, separation = s;
     }
 
     const bool segments = a.count == 2 && b.count == 2;
@@ -287,10 +289,10 @@ void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, cons
     }
     out.memory.axis = ManifoldMemory<S>::kFaceB;
     out.memory.featureB = static_cast<std::uint32_t>(edge);
-    const Vec2<R> v = p.vertices[edge], e = p.vertex(edge + 1) - v, n = p.normals[edge];
+    const Vec2<R> v = p.vertices[edge], e = p.vertices[p.next(edge)] - v, n = p.normals[edge];
     const R t = e.dot(c - v) / e.squaredNorm();
     if (height > 0 && (t < 0 || t > 1)) {
-        const int corner = t < 0 ? edge : (edge + 1) % p.count;
+        const int corner = t < 0 ? edge : p.next(edge);
         roundedPoint<S>(c, a.radius, p.vertices[corner], R(0), -n, speculative, vertexFeature(false, corner),
                         out);
     } else {
