@@ -35,10 +35,16 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
         c.dynamics = c.collision = c.broadPhase = true;
         c.dimensions = {3};
         c.planar = true;
-        c.shapes = {"sphere",     "box",    "capsule", "cylinder",  "hull",
-                    "half_space", "circle", "polygon", "half_plane"};
-        c.joints = {"ball",         "hinge",        "hinge.limit",   "hinge.motor", "hinge.spring", "slider",
-                    "slider.limit", "slider.motor", "slider.spring", "fixed",       "distance"};
+        c.shapes = {"sphere",        "box",          "capsule", "cylinder", "hull",      "half_space",
+                    "triangle_mesh", "height_field", "circle",  "polygon",  "half_plane"};
+        c.joints = {"ball", "hinge", "slider", "fixed", "distance", "cone_twist", "six_dof", "wheel"};
+        for (const char* joint : {"ball", "hinge", "slider", "cone_twist", "six_dof", "wheel"})
+            for (const char* what : {".limit", ".motor", ".spring"})
+                c.joints.push_back(joint + std::string(what));
+        c.joints.push_back("distance.spring");
+        for (const char* joint :
+             {"ball", "hinge", "slider", "fixed", "distance", "cone_twist", "six_dof", "wheel"})
+            c.joints.push_back(joint + std::string(".break"));
         c.contactImpulses = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         return c;
@@ -65,6 +71,9 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
             choice("rotation", {"infinitesimal", "finite"}, "infinitesimal", "finite",
                    "orientation update: first order and normalised, or exact for constant velocity"),
             integer("max_contacts", 1, 64, "8", "4", "points kept per pair of shapes"),
+            number(
+                "ball_merge_deg", 0, 90, "0", "5",
+                "points of a ball on triangles whose normals differ by less are one, the deepest; 0: none"),
             choice("space", {"simple", "hash", "sap", "quadtree"}, "hash", "hash", "broad phase"),
             integer("seed", 0, 2147483647, "1", "1", "of QuickStep's row order, set before each step"),
         };

@@ -11,6 +11,7 @@
 #include "adapters/ode/convert.hpp"
 #include "adapters/ode/library.hpp"
 #include "adapters/ode/shapes.hpp"
+#include "scenarios/model/surfaces.hpp"
 
 namespace rigor::ode {
 namespace {
@@ -24,8 +25,8 @@ adapter::Geometry solidOf(const adapter::Geometry& geometry, int dimension) {
     return adapter::planarGeometry(geometry);
 }
 
-bool isHalfSpace(const adapter::Geometry& geometry) {
-    return std::holds_alternative<scenario::HalfSpace>(geometry);
+bool isSurface(const adapter::Geometry& geometry) {
+    return scenario::isStaticOnly(geometry);
 }
 
 /// dCollide with at most `maxContacts` points, as a program around the library calls it.
@@ -82,13 +83,19 @@ std::unique_ptr<adapter::CollisionBatch> OdeCollisionEngine::batch(
 adapter::CollisionAnswer OdeCollisionEngine::collide(const adapter::CollisionQuery& query) const {
     adapter::checkQueryInput(query);
     useLibrary();
-    if (isHalfSpace(*query.a.geometry) && isHalfSpace(*query.b.geometry))
-        throw adapter::Unsupported("ode has no collider for two half-spaces");
+    if (isSurface(*query.a.geometry) && isSurface(*query.b.geometry))
+        throw adapter::Unsupported("ode has no collider for two surfaces without inside");
     const adapter::Geometry solidA = solidOf(*query.a.geometry, query.dimension);
     const adapter::Geometry solidB = solidOf(*query.b.geometry, query.dimension);
     const Geom a(solidA, query.a.pose), b(solidB, query.b.pose);
     std::vector<FoundPoint> points;
     collideGeoms(a.id(), b.id(), query.dimension == 2, points);
+    if (const bool backOfA = a.back() != nullptr; backOfA || b.back() != nullptr) {
+        std::vector<FoundPoint> behind;
+        if (Geom::meetsBacks(backOfA ? b.id() : a.id()))
+            collideGeoms(backOfA ? a.back() : a.id(), backOfA ? b.id() : b.back(), false, behind);
+        points.insert(points.end(), behind.begin(), behind.end());
+    }
     reducePoints(static_cast<std::size_t>(query.maxContacts), points);
 
     adapter::CollisionAnswer answer;

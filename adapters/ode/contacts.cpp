@@ -69,6 +69,17 @@ void reducePoints(std::size_t count, std::vector<FoundPoint>& points) {
     points.resize(count);
 }
 
+void mergeNormals(double cosine, std::vector<FoundPoint>& points) {
+    std::stable_sort(points.begin(), points.end(),
+                     [](const FoundPoint& p, const FoundPoint& q) { return p.depth > q.depth; });
+    std::vector<FoundPoint> kept;
+    for (const FoundPoint& p : points)
+        if (std::none_of(kept.begin(), kept.end(),
+                         [&](const FoundPoint& q) { return dot(p.normal, q.normal) >= cosine; }))
+            kept.push_back(p);
+    points.swap(kept);
+}
+
 dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bounceThreshold) {
     dSurfaceParameters surface{};
     // Without the approximation mu would be a force and not a coefficient.

@@ -26,6 +26,10 @@ void collideGeoms(dGeomID a, dGeomID b, bool planar, std::vector<FoundPoint>& po
 /// Keeps at most `count` points: the deepest, then again and again the one farthest from those kept.
 void reducePoints(std::size_t count, std::vector<FoundPoint>& points);
 
+/// Of one ball's points on facets keeps those whose normal differs from every deeper one's by more than the
+/// angle of this cosine: ODE reports each triangle that a ball dips into, and those ahead of it act as walls.
+void mergeNormals(double cosine, std::vector<FoundPoint>& points);
+
 /// How ODE treats one contact between surfaces of these coefficients.
 dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bounceThreshold);
 

@@ -1,136 +1,287 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Joints. ODE measures angles and travels of the first body against the second, so B is attached first:
-// an angle then grows when B turns about the axis. Anchors and axes are given in the world at build time.
+// Joints of the format out of ODE's. ODE measures angles and travels of the first body against the second, so
+// B is attached first: an angle then grows when B turns about the axis. What happens step by step (user-mode
+// motors, breaking) stands in joint_steps.cpp.
 #include "adapters/ode/joints.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "adapters/ode/convert.hpp"
 
 namespace rigor::ode {
 
+using scenario::AxisMode;
+using scenario::JointAxis;
 using scenario::JointType;
 
 namespace {
 
-/// Limits and motor of a hinge or slider; `set` is its parameter function. ODE ignores an upper stop below
-/// the lower one of the moment, hence the order, and hinge stops beyond half a turn.
-void setAxis(const scenario::Joint& joint, dJointID id, void (*set)(dJointID, int, dReal)) {
-    const scenario::JointAxis& axis = joint.axes[0];
-    if (axis.mode == scenario::AxisMode::Limited) {
-        const double lower = axis.lower > -1e299 ? axis.lower : -dInfinity;
-        const double upper = axis.upper < 1e299 ? axis.upper : dInfinity;
-        const auto beyond = [](double x) { return std::isfinite(x) && std::abs(x) > 3.141592; };
-        if (joint.type == JointType::Hinge && (beyond(lower) || beyond(upper)))
-            throw adapter::Unsupported("ode has no hinge limits beyond half a turn (joint '" + joint.name +
-                                       "')");
-        set(id, dParamLoStop, lower);
-        set(id, dParamHiStop, upper);
-        set(id, dParamLoStop, lower);
-    }
-    if (axis.hasMotor()) {
-        set(id, dParamVel, axis.motorSpeed);
-        set(id, dParamFMax, axis.motorMaxForce);
-    }
+bool asks(const JointAxis& axis) {
+    return axis.mode != AxisMode::Free || axis.hasMotor() || axis.hasSpring();
+}
+bool onlyHeld(const JointAxis& axis) {
+    return axis.mode == AxisMode::Locked;
+}
+/// Hinges measure angles from -pi to pi.
+bool beyondHalfTurn(double x) {
+    return std::abs(x) < 1e299 && std::abs(x) > 3.141592;
 }
 
-/// Mass or moment about the axis that a spring of the joint swings: of the one body that moves.
-double swungMass(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b, const Vec3& anchor,
-                 const Vec3& axis) {
-    if (a.body != nullptr && b.body != nullptr)
-        throw adapter::Unsupported(
-            "ode has no joint spring by frequency between two moving bodies: give its "
-            "stiffness and damping (joint '" +
-            joint.name + "')");
-    dBodyID body = a.body != nullptr ? a.body : b.body;
-    dMass mass;
-    dBodyGetMass(body, &mass);
-    if (joint.type == JointType::Slider) return mass.mass;
-    const dReal* x = dBodyGetPosition(body);
-    const Vec3 across = cross(Vec3{x[0], x[1], x[2]} - anchor, axis);
-    dVector3 u;
-    dBodyVectorFromWorld(body, axis.x, axis.y, axis.z, u);
-    double moment = mass.mass * dot(across, across);
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) moment += u[i] * mass.I[4 * i + k] * u[k];
-    return moment;
-}
-
-/// A spring is two stops in one place that give way: with stiffness k and damping c, ERP h k/(h k + c) and
-/// CFM 1/(h k + c) are the implicit spring (ODE manual, section 3.8.2).
-void setSpring(const scenario::Joint& joint, dJointID id, void (*set)(dJointID, int, dReal), double dt,
-               const JointEnd& a, const JointEnd& b, const Vec3& anchor, const Vec3& axisDirection) {
-    const scenario::JointAxis& axis = joint.axes[0];
-    if (axis.mode == scenario::AxisMode::Limited || axis.hasMotor())
-        throw adapter::Unsupported("ode has no limits or motor beside a joint's spring (joint '" +
-                                   joint.name + "')");
-    if (joint.type == JointType::Hinge && std::abs(axis.target) > 3.141592)
-        throw adapter::Unsupported("ode has no hinge spring to beyond half a turn (joint '" + joint.name +
-                                   "')");
-    double k = axis.stiffness, c = axis.damping;
-    if (axis.frequency > 0.0) {
-        const double w = 2.0 * 3.14159265358979323846 * axis.frequency;
-        const double J = swungMass(joint, a, b, anchor, axisDirection);
-        k = J * w * w, c = 2.0 * axis.dampingRatio * w * J;
+/// The joint with definite modes, and in the plane the coordinates of six_dof in the places they have in
+/// space.
+scenario::Joint resolved(scenario::Joint joint, bool planar) {
+    for (JointAxis& axis : joint.axes) {
+        if (axis.mode != AxisMode::Usual) continue;
+        const bool locked = joint.type == JointType::SixDof ||
+                            (joint.type == JointType::Distance && !axis.hasSpring() && !axis.hasMotor());
+        axis.mode = locked ? AxisMode::Locked : AxisMode::Free;
     }
-    set(id, dParamLoStop, axis.target);
-    set(id, dParamHiStop, axis.target);
-    set(id, dParamLoStop, axis.target);
-    set(id, dParamStopERP, dt * k / (dt * k + c));
-    set(id, dParamStopCFM, 1.0 / (dt * k + c));
+    if (planar && joint.type == JointType::SixDof) {
+        // z, twist and swing_y are held by the plane too.
+        const JointAxis angle = joint.axes[2];
+        for (const std::size_t k : {2, 3, 4}) joint.axes[k] = JointAxis{.mode = AxisMode::Locked};
+        joint.axes[5] = angle;
+        joint.normalA = cross(Vec3{0, 0, 1}, joint.axisA);
+    }
+    return joint;
 }
 
 }  // namespace
 
-dJointID buildJoint(dWorldID world, const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
-                    double dt) {
-    if (a.body == nullptr && b.body == nullptr) return nullptr;
-    const Vec3 anchorA = a.pose * joint.anchorA, anchorB = b.pose * joint.anchorB;
-    const Vec3 axis = rotate(a.pose.orientation, joint.axisA);
-    dJointID id = nullptr;
-    switch (joint.type) {
+OdeJoint::OdeJoint(dWorldID world, const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
+                   double dt, bool planar)
+    : world_(world),
+      joint_(resolved(joint, planar)),
+      a_(a),
+      b_(b),
+      dt_(dt),
+      motion_(joint_, a, b),
+      breaks_(joint.breakForce < 1e299 || joint.breakTorque < 1e299) {
+    if (a.body == nullptr && b.body == nullptr) return;
+    build(planar);
+    if (!breaks_) return;
+    for (Part& part : parts_) dJointSetFeedback(part.id, &part.feedback);
+}
+
+void OdeJoint::refuse(const std::string& what) const {
+    throw adapter::Unsupported("ode: " + what + " (joint '" + joint_.name + "')");
+}
+
+void OdeJoint::build(bool planar) {
+    switch (joint_.type) {
         case JointType::Ball:
-            id = dJointCreateBall(world, nullptr);
-            dJointAttach(id, b.body, a.body);
-            dJointSetBallAnchor(id, anchorA.x, anchorA.y, anchorA.z);
+            addBall();
+            addTurn(joint_.axes[0], Angle::Cone);
             break;
         case JointType::Hinge:
-            id = dJointCreateHinge(world, nullptr);
-            dJointAttach(id, b.body, a.body);
-            dJointSetHingeAnchor(id, anchorA.x, anchorA.y, anchorA.z);
-            dJointSetHingeAxis(id, axis.x, axis.y, axis.z);
-            setAxis(joint, id, dJointSetHingeParam);
-            if (joint.axes[0].hasSpring()) setSpring(joint, id, dJointSetHingeParam, dt, a, b, anchorA, axis);
+            buildHinge();
             break;
         case JointType::Slider:
-            id = dJointCreateSlider(world, nullptr);
-            dJointAttach(id, b.body, a.body);
-            dJointSetSliderAxis(id, axis.x, axis.y, axis.z);
-            setAxis(joint, id, dJointSetSliderParam);
-            if (joint.axes[0].hasSpring())
-                setSpring(joint, id, dJointSetSliderParam, dt, a, b, anchorA, axis);
+            buildSlider();
             break;
         case JointType::Fixed:
-            id = dJointCreateFixed(world, nullptr);
-            dJointAttach(id, b.body, a.body);
-            dJointSetFixed(id);
+            addFixed();
             break;
         case JointType::Distance:
-            id = dJointCreateDBall(world, nullptr);
-            dJointAttach(id, b.body, a.body);
-            dJointSetDBallAnchor1(id, anchorB.x, anchorB.y, anchorB.z);
-            dJointSetDBallAnchor2(id, anchorA.x, anchorA.y, anchorA.z);
-            dJointSetDBallDistance(id, joint.length);
+            buildDistance();
             break;
         case JointType::ConeTwist:
+            addBall();
+            addTurn(joint_.axes[0], Angle::Twist);
+            addTurn(joint_.axes[1], Angle::Cone);
+            break;
         case JointType::SixDof:
+            buildSixDof(planar);
+            break;
         case JointType::Wheel:
-            throw adapter::Unsupported(std::string("ode has no joint '") + jointName(joint.type) +
-                                       "' (joint '" + joint.name + "')");
+            buildWheel();
+            break;
     }
-    return id;
+}
+
+void OdeJoint::add(dJointID id, bool firstForce) {
+    parts_.push_back({id, firstForce, {}});
+}
+
+void OdeJoint::addBall() {
+    const dJointID id = dJointCreateBall(world_, nullptr);
+    dJointAttach(id, b_.body, a_.body);
+    const Vec3 p = motion_.anchorA();
+    dJointSetBallAnchor(id, p.x, p.y, p.z);
+    add(id);
+}
+
+void OdeJoint::addFixed() {
+    const dJointID id = dJointCreateFixed(world_, nullptr);
+    dJointAttach(id, b_.body, a_.body);
+    dJointSetFixed(id);
+    add(id);
+}
+
+void OdeJoint::buildHinge() {
+    const JointAxis& axis = joint_.axes[0];
+    const dJointID id = dJointCreateHinge(world_, nullptr);
+    dJointAttach(id, b_.body, a_.body);
+    const Vec3 p = motion_.anchorA(), along = motion_.axis(0);
+    dJointSetHingeAnchor(id, p.x, p.y, p.z);
+    dJointSetHingeAxis(id, along.x, along.y, along.z);
+    add(id);
+    const bool limited = axis.mode == AxisMode::Limited;
+    const bool far = (limited && (beyondHalfTurn(axis.lower) || beyondHalfTurn(axis.upper))) ||
+                     (axis.hasSpring() && beyondHalfTurn(axis.target));
+    if (far || (axis.hasSpring() && (limited || axis.hasMotor()))) {
+        addTurn(axis, Angle::Turn);
+        return;
+    }
+    if (limited) setStops(axis, id, dJointSetHingeParam);
+    if (axis.hasMotor()) setMotor(axis, id, dJointSetHingeParam);
+    if (axis.hasSpring())
+        setSpring(axis, id, dJointSetHingeParam, [](const JointMotion& m) { return m.angle(Angle::Turn); });
+}
+
+void OdeJoint::buildSlider() {
+    const JointAxis& axis = joint_.axes[0];
+    const dJointID id = dJointCreateSlider(world_, nullptr);
+    dJointAttach(id, b_.body, a_.body);
+    const Vec3 along = motion_.axis(0);
+    dJointSetSliderAxis(id, along.x, along.y, along.z);
+    add(id);
+    if (axis.mode == AxisMode::Limited) setStops(axis, id, dJointSetSliderParam);
+    if (axis.hasMotor()) setMotor(axis, id, dJointSetSliderParam);
+    if (!axis.hasSpring()) return;
+    if (axis.mode == AxisMode::Limited || axis.hasMotor()) {
+        // A slider's one set of stops is taken, or its motor would be idle between them: an LMotor springs.
+        JointAxis spring = axis;
+        spring.mode = AxisMode::Free, spring.motorMaxForce = 0.0;
+        addTravelMotor(spring, 0);
+    } else {
+        setSpring(axis, id, dJointSetSliderParam, [](const JointMotion& m) { return m.travel(0); });
+    }
+}
+
+void OdeJoint::buildDistance() {
+    const JointAxis& axis = joint_.axes[0];
+    if (axis.mode == AxisMode::Limited) refuse("DBall keeps a distance and has no stops: no ropes");
+    if (axis.hasMotor()) refuse("DBall has no motor");
+    if (!asks(axis)) return;
+    const dJointID id = dJointCreateDBall(world_, nullptr);
+    dJointAttach(id, b_.body, a_.body);
+    const Vec3 p = motion_.anchorA(), q = motion_.anchorB();
+    dJointSetDBallAnchor1(id, q.x, q.y, q.z);
+    dJointSetDBallAnchor2(id, p.x, p.y, p.z);
+    dJointSetDBallDistance(id, axis.hasSpring() ? axis.target : joint_.length);
+    add(id);
+    if (axis.hasSpring())
+        softenSpring(axis, id, dJointSetDBallParam, dParamERP, dParamCFM,
+                     [](const JointMotion& m) { return m.length(); });
+}
+
+/// Hinge2 with its steering locked. Its suspension pulls to where the anchors met when they were set, so they
+/// are set with B moved by the spring's target. It needs two bodies: the world is a kinematic one at the
+/// anchor.
+void OdeJoint::buildWheel() {
+    const JointAxis &travel = joint_.axes[0], &angle = joint_.axes[1];
+    if (travel.mode == AxisMode::Limited || travel.hasMotor())
+        refuse("Hinge2 has no stops and no motor along its suspension");
+    const Vec3 along = motion_.axis(0), pin = motion_.turningAxis();
+    const dBodyID a = standIn(a_, motion_.anchorA()), b = standIn(b_, motion_.anchorB());
+    const dJointID id = dJointCreateHinge2(world_, nullptr);
+    dJointAttach(id, a, b);
+    const dReal* at = dBodyGetPosition(b);
+    const Vec3 start = fromOde(at), shift = (travel.hasSpring() ? travel.target : 0.0) * along;
+    const Vec3 moved = start + shift, anchor = motion_.anchorB() + shift;
+    dBodySetPosition(b, moved.x, moved.y, moved.z);
+    dJointSetHinge2Anchor(id, anchor.x, anchor.y, anchor.z);
+    dVector3 axis1, axis2;
+    toOde(along, axis1);
+    toOde(-pin, axis2);
+    dJointSetHinge2Axes(id, axis1, axis2);
+    dBodySetPosition(b, start.x, start.y, start.z);
+    dJointSetHinge2Param(id, dParamLoStop, 0.0);
+    dJointSetHinge2Param(id, dParamHiStop, 0.0);
+    add(id, b_.body == nullptr);
+    if (travel.hasSpring()) {
+        softenSpring(travel, id, dJointSetHinge2Param, dParamSuspensionERP, dParamSuspensionCFM,
+                     [](const JointMotion& m) { return m.travel(0); });
+    } else {
+        dJointSetHinge2Param(id, dParamSuspensionERP, 0.0);
+        dJointSetHinge2Param(id, dParamSuspensionCFM, 1e30);
+    }
+    if (angle.hasMotor() && angle.mode == AxisMode::Free) {
+        dJointSetHinge2Param(id, dParamVel2, angle.motorSpeed);
+        dJointSetHinge2Param(id, dParamFMax2, angle.motorMaxForce);
+        if (angle.hasSpring()) addAngleMotor(angle, Angle::Turn, true);
+    } else {
+        addTurn(angle, Angle::Turn);
+    }
+}
+
+/// The travels by the joint of ODE that leaves just these free; true where it holds the turns as well.
+bool OdeJoint::buildSixDofTravels() {
+    const auto free = [&](std::size_t k) { return !onlyHeld(joint_.axes[k]); };
+    const int travels = free(0) + free(1) + free(2), turns = free(3) + free(4) + free(5);
+    if (travels == 0 && turns == 0) {
+        addFixed();
+        return true;
+    }
+    if (travels == 0) {
+        addBall();
+        return false;
+    }
+    const std::size_t k = free(0) ? 0 : free(1) ? 1 : 2;
+    const JointAxis& axis = joint_.axes[k];
+    const bool plainAxis = !axis.hasSpring() || (axis.mode == AxisMode::Free && !axis.hasMotor());
+    if (travels == 1 && plainAxis && (turns == 0 || (turns == 1 && free(3 + k)))) {
+        const bool slider = turns == 0;
+        const dJointID id =
+            slider ? dJointCreateSlider(world_, nullptr) : dJointCreatePiston(world_, nullptr);
+        dJointAttach(id, b_.body, a_.body);
+        const Vec3 along = motion_.axis(static_cast<int>(k)), p = motion_.anchorA();
+        if (slider) {
+            dJointSetSliderAxis(id, along.x, along.y, along.z);
+        } else {
+            dJointSetPistonAnchor(id, p.x, p.y, p.z);
+            dJointSetPistonAxis(id, along.x, along.y, along.z);
+        }
+        add(id);
+        const SetParam set = slider ? dJointSetSliderParam : dJointSetPistonParam;
+        if (axis.mode == AxisMode::Limited) setStops(axis, id, set);
+        if (axis.hasMotor()) setMotor(axis, id, set);
+        if (axis.hasSpring())
+            setSpring(axis, id, set, [k](const JointMotion& m) { return m.travel(static_cast<int>(k)); });
+        if (!slider)
+            addTurn(joint_.axes[3 + k], k == 0 ? Angle::Twist : k == 1 ? Angle::SwingY : Angle::SwingZ);
+        return true;
+    }
+    // An LMotor acts at the centre of mass, and holds and springs only by its speed.
+    const bool atCenter = a_.body == nullptr && b_.body != nullptr && norm(b_.com - joint_.anchorB) < 1e-9;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const JointAxis& motor = joint_.axes[i];
+        if (!asks(motor)) continue;
+        if (motor.mode == AxisMode::Limited) refuse("LMotor has no stops for this combination of travels");
+        if (!atCenter) refuse("LMotor acts at the centre of mass, where this joint has no anchor");
+        if (motor.hasMotor()) {
+            JointAxis drive = motor;
+            drive.frequency = drive.stiffness = drive.damping = 0.0;
+            addTravelMotor(drive, static_cast<int>(i));
+        }
+        if (!motor.hasMotor() || motor.hasSpring()) {
+            JointAxis spring = motor;
+            spring.motorMaxForce = 0.0;
+            addTravelMotor(spring, static_cast<int>(i));
+        }
+    }
+    return false;
+}
+
+void OdeJoint::buildSixDof(bool planar) {
+    if (buildSixDofTravels()) return;
+    constexpr Angle kinds[] = {Angle::Twist, Angle::SwingY, Angle::SwingZ};
+    for (std::size_t k = 3; k < 6; ++k)
+        if (!planar || k == 5) addTurn(joint_.axes[k], kinds[k - 3]);
 }
 
 }  // namespace rigor::ode

@@ -102,6 +102,18 @@ void OdeWorld::appendGeometryLedger(std::vector<LedgerEntry>& all) const {
     if (anyShape([](const auto& g) { return std::holds_alternative<scenario::Capsule>(g); }))
         lines.add("capsule_contacts", "full manifold", "one point against boxes",
                   "a capsule lying on a box rests on a single moving point");
+    if (anyShape([](const auto& g) {
+            return std::holds_alternative<scenario::TriangleMesh>(g) ||
+                   std::holds_alternative<scenario::HeightField>(g);
+        })) {
+        const double merge = adapter::numberSetting(settings_, "ball_merge_deg");
+        lines.add(
+            "surface_contacts", "full manifold",
+            merge > 0.0 ? "points of each triangle, of a ball the deepest of those within " +
+                              setting("ball_merge_deg") + " degrees of normal"
+                        : std::string("points of each triangle"),
+            "triangles ahead that a body dips into act as walls; hulls find triangles from the front alone");
+    }
     if (planar_) {
         lines.add("planar", "two dimensions",
                   "3D prisms of half depth 0.5 m, Plane2D joints, contacts merged in the plane z = 0",

@@ -42,6 +42,10 @@ Geom::Geom(const Geometry& geometry, const Pose& pose) {
         frame_.orientation = kFromZToY;
     } else if (const auto* hull = std::get_if<scenario::ConvexHull>(&geometry)) {
         createConvex(*hull);
+    } else if (const auto* mesh = std::get_if<scenario::TriangleMesh>(&geometry)) {
+        createMesh(*mesh);
+    } else if (const auto* field = std::get_if<scenario::HeightField>(&geometry)) {
+        createField(*field);
     } else if (const auto* half = std::get_if<scenario::HalfSpace>(&geometry)) {
         const Vec3 n = rotate(pose.orientation, half->normal);
         id_ = dCreatePlane(nullptr, n.x, n.y, n.z, half->offset + dot(n, pose.position));
@@ -50,10 +54,12 @@ Geom::Geom(const Geometry& geometry, const Pose& pose) {
         throw Unsupported(std::string("ode has no shape '") + geometryName(geometry, 3) + "'");
     }
     place(id_, pose * frame_);
+    if (back_ != nullptr) place(back_, pose * frame_);
 }
 
 Geom::~Geom() {
     dGeomDestroy(id_);
+    if (back_ != nullptr) dGeomDestroy(back_);
 }
 
 void Geom::createConvex(const scenario::ConvexHull& hull) {
@@ -80,6 +86,50 @@ void Geom::createConvex(const scenario::ConvexHull& hull) {
                         convex_->polygons.data());
 }
 
+Geom::Mesh::~Mesh() {
+    for (const dTriMeshDataID each : data)
+        if (each != nullptr) dGeomTriMeshDataDestroy(each);
+}
+Geom::Field::~Field() {
+    if (data != nullptr) dGeomHeightfieldDataDestroy(data);
+}
+
+void Geom::createMesh(const scenario::TriangleMesh& mesh) {
+    mesh_ = std::make_unique<Mesh>();
+    for (const Vec3& v : mesh.vertices)
+        for (const double c : {v.x, v.y, v.z, 0.0}) mesh_->vertices.push_back(c);
+    for (const auto& t : mesh.triangles) {
+        for (const int i : {t[0], t[1], t[2]}) mesh_->front.push_back(static_cast<dTriIndex>(i));
+        for (const int i : {t[0], t[2], t[1]}) mesh_->back.push_back(static_cast<dTriIndex>(i));
+    }
+    const auto create = [&](dTriMeshDataID& data, const std::vector<dTriIndex>& indices) {
+        data = dGeomTriMeshDataCreate();
+        dGeomTriMeshDataBuildSimple(data, mesh_->vertices.data(), static_cast<int>(mesh.vertices.size()),
+                                    indices.data(), static_cast<int>(indices.size()));
+        // Convex geoms raise an error at meshes without the angles between their faces.
+        dGeomTriMeshDataPreprocess2(data, 1U << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES, nullptr);
+        return dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr);
+    };
+    id_ = create(mesh_->data[0], mesh_->front);
+    back_ = create(mesh_->data[1], mesh_->back);
+}
+
+bool Geom::meetsBacks(dGeomID geom) {
+    const int kind = dGeomGetClass(geom);
+    return kind == dSphereClass || kind == dCapsuleClass || kind == dCylinderClass;
+}
+
+/// ODE's height fields are ours: heights along y, centred in x and z, x running fastest, cells split from
+/// (i + 1, k) to (i, k + 1). Not wrapped: a wrapped one repeats without end.
+void Geom::createField(const scenario::HeightField& field) {
+    field_ = std::make_unique<Field>();
+    field_->data = dGeomHeightfieldDataCreate();
+    dGeomHeightfieldDataBuildDouble(field_->data, field.heights.data(), 1,
+                                    field.spacingX * (field.columns - 1), field.spacingZ * (field.rows - 1),
+                                    field.columns, field.rows, 1.0, 0.0, field.thickness, 0);
+    id_ = dCreateHeightfield(nullptr, field_->data, 1);
+}
+
 void Geom::attach(dBodyID body, const Pose& inBody) {
     const Pose offset = inBody * frame_;
     dQuaternion q;
@@ -90,8 +140,10 @@ void Geom::attach(dBodyID body, const Pose& inBody) {
 }
 
 void Geom::setTag(const GeomTag& tag) {
-    tag_ = tag;
+    tag_ = backTag_ = tag;
+    backTag_.back = true;
     dGeomSetData(id_, &tag_);
+    if (back_ != nullptr) dGeomSetData(back_, &backTag_);
 }
 
 const GeomTag& Geom::tagOf(dGeomID geom) {

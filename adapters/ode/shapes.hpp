@@ -14,18 +14,26 @@ namespace rigor::ode {
 /// Which shape of which body a geom is; what ODE's user pointer of a geom points to.
 struct GeomTag {
     int body = 0, shape = 0, material = 0;
+    bool back = false;  ///< of a triangle mesh: its triangles the other way round
 };
 
 /// One shape as an ODE geom. Owns the geom and what ODE keeps pointers to.
 class Geom {
   public:
-    /// A geom without a body at `pose` (shape to world). Throws adapter::Unsupported for cones and segments.
+    /// A geom without a body at `pose` (shape to world). Throws adapter::Unsupported for cones, segments and
+    /// chains.
     Geom(const adapter::Geometry& geometry, const adapter::Pose& pose);
     ~Geom();
     Geom(const Geom&) = delete;
     Geom& operator=(const Geom&) = delete;
 
     dGeomID id() const { return id_; }
+    /// The back of a triangle mesh: ODE's spheres, capsules and cylinders pass through triangles from behind.
+    /// Null for other shapes.
+    dGeomID back() const { return back_; }
+    /// Whether a geom has to be tried against the backs of meshes too: boxes find triangles from both sides,
+    /// and hulls find wrong normals from behind.
+    static bool meetsBacks(dGeomID geom);
     /// Hands the geom to a body whose frame has the shape at `inBody`.
     void attach(dBodyID body, const adapter::Pose& inBody);
     /// ODE's frame of this geom in the frame of the shape.
@@ -38,12 +46,27 @@ class Geom {
         std::vector<dReal> planes, points;
         std::vector<unsigned> polygons;
     };
+    /// ODE keeps pointers to vertices and indices; its own data goes after the geom.
+    struct Mesh {
+        std::vector<dReal> vertices;
+        std::vector<dTriIndex> front, back;
+        dTriMeshDataID data[2] = {nullptr, nullptr};
+        ~Mesh();
+    };
+    struct Field {
+        dHeightfieldDataID data = nullptr;
+        ~Field();
+    };
     void createConvex(const scenario::ConvexHull& hull);
+    void createMesh(const scenario::TriangleMesh& mesh);
+    void createField(const scenario::HeightField& field);
 
-    dGeomID id_ = nullptr;
+    dGeomID id_ = nullptr, back_ = nullptr;
     adapter::Pose frame_;
     std::unique_ptr<Convex> convex_;
-    GeomTag tag_;
+    std::unique_ptr<Mesh> mesh_;
+    std::unique_ptr<Field> field_;
+    GeomTag tag_, backTag_;
 };
 
 }  // namespace rigor::ode

@@ -15,6 +15,8 @@
 
 namespace rigor::ode {
 
+using adapter::Scenario;
+
 namespace {
 
 double secondsSince(std::chrono::steady_clock::time_point start) {
@@ -55,8 +57,10 @@ void OdeWorld::doStep() {
     findContacts();
     counters_.phaseSeconds["collision"] = secondsSince(start);
     createContactJoints();
+    for (const auto& joint : joints_) joint->beforeStep();
     const auto solving = std::chrono::steady_clock::now();
     advance();
+    breakJoints();
     counters_.phaseSeconds["solve_and_integrate"] = secondsSince(solving);
     dJointGroupEmpty(contactGroup_);
     counters_.contacts = static_cast<std::int64_t>(contacts_.size());
@@ -74,10 +78,26 @@ void OdeWorld::pushGravity() {
     }
 }
 
+void OdeWorld::breakJoints() {
+    bool any = false;
+    for (const auto& joint : joints_) any = joint->breakIfOverloaded() || any;
+    if (any) collidePairsOfBrokenJoints();
+}
+
+/// What a joint kept apart may touch once it has broken.
+void OdeWorld::collidePairsOfBrokenJoints() {
+    Scenario left = scenario_;
+    left.joints.clear();
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+        if (joints_[i]->holds()) left.joints.push_back(scenario_.joints[i]);
+    pairs_ = adapter::PairTable(left);
+}
+
 void OdeWorld::nearPair(void* self, dGeomID a, dGeomID b) {
     auto& world = *static_cast<OdeWorld*>(self);
     const GeomTag &tagA = Geom::tagOf(a), &tagB = Geom::tagOf(b);
     if (tagA.body == tagB.body || !world.pairs_.mayCollide(tagA.body, tagB.body)) return;
+    if ((tagA.back && !Geom::meetsBacks(b)) || (tagB.back && !Geom::meetsBacks(a))) return;
     if (tagA.body < tagB.body)
         world.near_.emplace_back(a, b);
     else
@@ -92,13 +112,12 @@ void OdeWorld::findContacts() {
     dSpaceCollide(space_, this, &OdeWorld::nearPair);
     const auto key = [](const std::pair<dGeomID, dGeomID>& pair) {
         const GeomTag &a = Geom::tagOf(pair.first), &b = Geom::tagOf(pair.second);
-        return std::tuple(a.body, b.body, a.shape, b.shape);
+        return std::tuple(a.body, b.body, a.shape, b.shape, a.back, b.back);
     };
     std::sort(near_.begin(), near_.end(), [&](const auto& p, const auto& q) { return key(p) < key(q); });
     counters_.pairs = static_cast<std::int64_t>(near_.size());
     for (const auto& [a, b] : near_) {
-        collideGeoms(a, b, planar_, found_);
-        reducePoints(maxContacts_, found_);
+        findPoints(a, b);
         if (found_.empty()) continue;
         const GeomTag &tagA = Geom::tagOf(a), &tagB = Geom::tagOf(b);
         const auto shapePose = [&](const GeomTag& tag) {
@@ -108,6 +127,15 @@ void OdeWorld::findContacts() {
         for (const FoundPoint& point : found_)
             contacts_.push_back({tagA, tagB, point, shapePose(tagA), shapePose(tagB), {}, false});
     }
+}
+
+void OdeWorld::findPoints(dGeomID a, dGeomID b) {
+    collideGeoms(a, b, planar_, found_);
+    const int kinds[] = {dGeomGetClass(a), dGeomGetClass(b)};
+    const auto has = [&](int kind) { return kinds[0] == kind || kinds[1] == kind; };
+    if (ballMergeCosine_ <= 1.0 && has(dSphereClass) && (has(dTriMeshClass) || has(dHeightfieldClass)))
+        mergeNormals(ballMergeCosine_, found_);
+    reducePoints(maxContacts_, found_);
 }
 
 /// All of `contacts_` exists before the first joint does, because ODE writes the forces back into it.

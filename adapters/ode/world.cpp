@@ -11,7 +11,6 @@
 #include "adapters/interface/reach.hpp"
 #include "adapters/interface/surface_points.hpp"
 #include "adapters/ode/convert.hpp"
-#include "adapters/ode/joints.hpp"
 #include "adapters/ode/library.hpp"
 
 namespace rigor::ode {
@@ -35,6 +34,8 @@ OdeWorld::OdeWorld(const Scenario& scenario, double dt, const Settings& settings
       worldStepLimit_(static_cast<std::size_t>(adapter::integerSetting(settings, "worldstep_limit"))),
       bounceThreshold_(numberSetting(settings, "bounce_threshold")),
       pairs_(scenario_) {
+    if (const double merge = numberSetting(settings, "ball_merge_deg"); merge > 0.0)
+        ballMergeCosine_ = std::cos(merge * 3.14159265358979323846 / 180.0);
     useLibrary();
     configureWorld();
     createSpace();
@@ -44,9 +45,10 @@ OdeWorld::OdeWorld(const Scenario& scenario, double dt, const Settings& settings
         const auto endOf = [&](int index) {
             if (index == scenario::kNone) return JointEnd{};
             const auto i = static_cast<std::size_t>(index);
-            return JointEnd{records_[i]->body, scenario_.bodies[i].pose};
+            return JointEnd{records_[i]->body, scenario_.bodies[i].pose, records_[i]->com};
         };
-        buildJoint(world_, joint, endOf(joint.bodyA), endOf(joint.bodyB), dt_);
+        joints_.push_back(
+            std::make_unique<OdeJoint>(world_, joint, endOf(joint.bodyA), endOf(joint.bodyB), dt_, planar_));
     }
 }
 
@@ -111,6 +113,7 @@ void OdeWorld::addBody(int index) {
                 geom->attach(record->body, Pose{shape.pose.position - record->com, shape.pose.orientation});
             geom->setTag({index, static_cast<int>(i), shape.material});
             dSpaceAdd(space_, geom->id());
+            if (geom->back() != nullptr) dSpaceAdd(space_, geom->back());
             record->geoms.push_back(std::move(geom));
         }
     }
@@ -174,6 +177,10 @@ BodyState OdeWorld::stateOf(int index) const {
 
 void OdeWorld::readStates(std::span<BodyState> states) const {
     for (std::size_t i = 0; i < states.size(); ++i) states[i] = stateOf(static_cast<int>(i));
+}
+
+bool OdeWorld::jointHolds(int joint) const {
+    return joints_[static_cast<std::size_t>(joint)]->holds();
 }
 
 void OdeWorld::readContacts(std::vector<adapter::ContactPoint>& contacts) const {

@@ -12,6 +12,7 @@
 #include "adapters/interface/engine.hpp"
 #include "adapters/interface/pair_table.hpp"
 #include "adapters/ode/contacts.hpp"
+#include "adapters/ode/joints.hpp"
 #include "adapters/ode/shapes.hpp"
 
 namespace rigor::ode {
@@ -19,7 +20,7 @@ namespace rigor::ode {
 /// One scenario in one ODE world. ODE's body frame has its origin at the centre of mass and the axes of the
 /// scenario's body frame. Static bodies are geoms without a body. Two-dimensional scenarios are lifted
 /// (adapters/interface/planar.hpp) and held in the plane by Plane2D joints.
-class OdeWorld final : public adapter::World {
+class OdeWorld final : public adapter::World, public adapter::Snapshots {
   public:
     OdeWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings);
     ~OdeWorld() override;
@@ -32,6 +33,10 @@ class OdeWorld final : public adapter::World {
     std::vector<adapter::LedgerEntry> ledger() const override;
     adapter::StepCounters counters() const override { return counters_; }
     adapter::Scheme scheme() const override { return adapter::Scheme::SymplecticEuler; }
+    bool jointHolds(int joint) const override;
+    adapter::Snapshots* snapshots() override { return this; }
+    void save(std::vector<unsigned char>& bytes) const override;
+    bool restore(const std::vector<unsigned char>& bytes) override;
 
   private:
     enum class Friction { PyramidWorld, PyramidVelocity };
@@ -67,7 +72,10 @@ class OdeWorld final : public adapter::World {
 
     void doStep();
     void pushGravity();
+    void breakJoints();
+    void collidePairsOfBrokenJoints();
     void findContacts();
+    void findPoints(dGeomID a, dGeomID b);
     void createContactJoints();
     void chooseFrictionDirection(const StepContact& contact, dContact& out) const;
     adapter::Vec3 freeVelocityAt(int body, const adapter::Vec3& point) const;
@@ -87,12 +95,14 @@ class OdeWorld final : public adapter::World {
     std::size_t maxContacts_ = 0;
     std::size_t worldStepLimit_ = 0;
     double bounceThreshold_ = 0.0;
+    double ballMergeCosine_ = 2.0;  ///< above 1: balls keep all their points
 
     adapter::PairTable pairs_;
     dWorldID world_ = nullptr;
     dSpaceID space_ = nullptr;
     dJointGroupID contactGroup_ = nullptr;
     std::vector<std::unique_ptr<BodyRecord>> records_;
+    std::vector<std::unique_ptr<OdeJoint>> joints_;  ///< by scenario index
     std::vector<std::pair<dGeomID, dGeomID>> near_;
     std::vector<FoundPoint> found_;
     std::vector<StepContact> contacts_;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Coordinates of a scenario's joint at the present poses of its bodies: what the adapter has to tell those of
+// ODE's joints that do not measure for themselves (AMotor in user mode, LMotor), and what a spring swings.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <span>
+#include <vector>
+
+#include "adapters/interface/types.hpp"
+
+namespace rigor::ode {
+
+/// One end of a joint.
+struct JointEnd {
+    dBodyID body = nullptr;  ///< null for the world and for static bodies
+    adapter::Pose pose;      ///< of the body frame at the start; for ever where `body` is null
+    adapter::Vec3 com;       ///< centre of mass in the body frame [m]
+
+    adapter::Pose now() const;     ///< of the body frame
+    adapter::Vec3 center() const;  ///< centre of mass in the world [m]
+    bool hasMass() const;          ///< whether forces move it: neither static nor kinematic
+};
+
+/// The rate of a coordinate: lin . (vB - vA) + angA . wA + angB . wB, of the centres of mass, world axes.
+struct Rate {
+    adapter::Vec3 lin, angA, angB;
+};
+struct Coordinate {
+    double value = 0.0;  ///< [m] or [rad]
+    Rate rate;
+};
+
+enum class Angle {
+    Turn,   ///< about the joint's turning axis: hinge, wheel, six_dof in the plane
+    Twist,  ///< about A's axis after the swing is taken back, see scenarios/README.md
+    Cone,   ///< between the axes of A and B, >= 0
+    SwingY,
+    SwingZ  ///< components of the swing vector along A's normals
+};
+
+/// Coordinates and held directions of one joint. All angles are zero at the initial poses.
+class JointMotion {
+  public:
+    JointMotion(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b);
+
+    void update();                       ///< takes the poses of the bodies as they are now
+    Coordinate travel(int k) const;      ///< of B's anchor along A's axis (0) and its normals (1, 2)
+    Coordinate length() const;           ///< distance of the anchors
+    Coordinate angle(Angle kind) const;  ///< Turn and Twist in (-pi, pi]
+    adapter::Vec3 axis(int k) const { return axes_[k]; }    ///< A's axis and normals, world
+    adapter::Vec3 turningAxis() const { return turning_; }  ///< of Angle::Turn, fixed in A, world
+    adapter::Vec3 anchorA() const { return anchorA_; }      ///< world [m]
+    adapter::Vec3 anchorB() const { return anchorB_; }
+    adapter::Vec3 centerA() const { return centerA_; }  ///< centre of mass, world [m]
+    adapter::Vec3 centerB() const { return centerB_; }
+
+    /// The mass or moment that moves with a coordinate while the joint holds what it holds: 1 / (K - c Kh^-1
+    /// c^T) with K = J M^-1 J^T, c = J M^-1 Jh^T and Kh that of the held rows Jh. 0 where nothing moves.
+    double movedMass(const Rate& coordinate) const;
+
+  private:
+    Coordinate point(const adapter::Vec3& direction) const;
+    static Rate turning(const adapter::Vec3& about) { return {{}, -about, about}; }
+    std::vector<Rate> held() const;
+    double coupling(const Rate& r, const Rate& s) const;
+
+    scenario::Joint joint_;
+    JointEnd a_, b_;
+    adapter::Vec3 localAxes_[3], localTurning_, localTurningNormal_;  ///< in A
+    adapter::Vec3 axisInB_, normalInB_, turningNormalInB_;            ///< the same at the start, in B
+    adapter::Vec3 axes_[3], turning_, turningNormal_, axisOfB_, normalOfB_, turningNormalOfB_;
+    adapter::Vec3 anchorA_, anchorB_, centerA_, centerB_;
+};
+
+/// ERP and CFM of the implicit spring of stiffness k and damping c over steps of dt: h k/(h k + c) and
+/// 1/(h k + c) (ODE manual, "How to use ERP and CFM").
+struct SpringTerms {
+    double erp = 0.0, cfm = 0.0;
+};
+/// `moved`: mass or moment that swings where the spring is given by its frequency.
+SpringTerms springTerms(const scenario::JointAxis& axis, double moved, double dt);
+
+}  // namespace rigor::ode
