@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "adapters/interface/missing.hpp"
 #include "adapters/interface/registry.hpp"
 #include "cli/command.hpp"
 #include "engine/constraints/joint.hpp"
@@ -45,7 +46,9 @@ Json capabilitiesJson(const adapter::Capabilities& c) {
             {"contact_impulses", c.contactImpulses},
             {"contact_solvers", c.contactSolvers},
             {"signed_distance", c.signedDistance},
-            {"query_options", c.queryOptions}};
+            {"query_options", c.queryOptions},
+            {"not_in_adapter", adapter::notInAdapterYet(c)},
+            {"not_in_library", c.libraryLacks}};
 }
 
 Json engines() {
@@ -55,6 +58,7 @@ Json engines() {
         Json json{{"name", name},
                   {"title", d.info.title},
                   {"version", d.info.version},
+                  {"package", d.info.package},
                   {"precision", d.info.precision}};
         json["precisions"] = d.precisions;
         json["build"] = d.info.buildNotes;
@@ -217,7 +221,7 @@ const std::vector<Listing>& listings() {
         {"engines",
          "Engines that are installed, with version, precision, options",
          engines,
-         {"name", "version", "precision", "title", "problem"}},
+         {"name", "version", "package", "precision", "title", "problem"}},
         {"scenarios", "Scenarios of the library", scenarios, {"name", "dimension", "reference", "title"}},
         {"suites", "Suites of scenarios", suites, {"name", "title"}},
         {"studies", "Studies: choices side by side", studies, {"name", "title"}},
@@ -259,6 +263,22 @@ void printTable(const Json& list, const std::vector<const char*>& columns) {
     for (const auto& row : list) printRow([&](const char* column) { return cellText(row.at(column)); });
 }
 
+/// What the format can ask for and is refused, the adapters' share and the libraries'.
+void printLacks(const Json& engineList) {
+    for (const auto& engine : engineList) {
+        if (!engine.at("problem").get<std::string>().empty()) continue;
+        const Json &adapters = engine.at("capabilities").at("not_in_adapter"),
+                   &librarys = engine.at("capabilities").at("not_in_library");
+        if (adapters.empty() && librarys.empty()) continue;
+        std::printf("\n%s refuses:\n", cellText(engine.at("name")).c_str());
+        std::string names;
+        for (const auto& name : adapters) names += " " + cellText(name);
+        if (!names.empty()) std::printf("  not in the adapter yet:%s\n", names.c_str());
+        for (const auto& [name, documentation] : librarys.items())
+            std::printf("  not in the library: %s (%s)\n", name.c_str(), cellText(documentation).c_str());
+    }
+}
+
 void printOptions(const Json& engineList) {
     for (const auto& engine : engineList) {
         if (engine.at("options").empty()) continue;
@@ -289,7 +309,7 @@ void addList(CLI::App& app, Action& action) {
                     std::printf("%s\n", list.dump(2).c_str());
                 } else {
                     printTable(list, listing.columns);
-                    if (std::string_view(listing.name) == "engines") printOptions(list);
+                    if (std::string_view(listing.name) == "engines") printLacks(list), printOptions(list);
                 }
                 return static_cast<int>(kOk);
             };

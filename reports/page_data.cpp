@@ -12,6 +12,7 @@
 #include "reports/page_json.hpp"
 #include "reports/text.hpp"
 #include "reports/writers.hpp"
+#include "validation/results/values.hpp"
 
 namespace rigor::report {
 namespace {
@@ -132,7 +133,8 @@ Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) 
                {"outcome", results::outcomeName(row.outcome)},
                {"verdict", results::verdictName(row.verdict)},
                {"shown", shownText(shownOf(row)).key},
-               {"reason", row.reason}};
+               {"reason", row.reason},
+               {"refusal", row.refusal}};
     const auto* main = findMetric(row, view.mainMetric(scenario).name);
     brief["value"] = main ? number(main->value) : Json(nullptr);
     brief["bound"] = main ? number(main->bound) : Json(nullptr);
@@ -316,7 +318,7 @@ std::string overviewJson(const ViewModel& view) {
     for (const auto& e : run.engines)
         engines.push_back({{"name", e.name},
                            {"title", e.title},
-                           {"version", e.version},
+                           {"version", results::versionText(e)},
                            {"precision", e.precision},
                            {"buildNotes", e.buildNotes},
                            {"problem", e.problem},
@@ -326,6 +328,7 @@ std::string overviewJson(const ViewModel& view) {
         const auto found = view.totals().cases.find(shown);
         symbols[shownText(shown).key] = {{"symbol", shownText(shown).symbol},
                                          {"word", shownText(shown).word},
+                                         {"detail", detailOf(view.totals(), shown)},
                                          {"count", found == view.totals().cases.end() ? 0 : found->second}};
     }
     return text({{"suite", run.suite},

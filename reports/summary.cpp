@@ -2,10 +2,14 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
 
 #include "reports/bench.hpp"
 #include "reports/text.hpp"
 #include "reports/writers.hpp"
+#include "validation/results/values.hpp"
 
 namespace rigor::report {
 namespace {
@@ -17,9 +21,11 @@ constexpr std::size_t kMostBytes = 65000;  // a comment holds 65536 characters; 
 
 std::string totalsLine(const ViewModel& view) {
     std::string line;
-    for (const auto& [shown, count] : view.totals().cases)
+    for (const auto& [shown, count] : view.totals().cases) {
         line += (line.empty() ? "" : " · ") + std::string(shownText(shown).symbol) + " " +
                 std::to_string(count) + " " + shownText(shown).word;
+        if (const auto detail = detailOf(view.totals(), shown); !detail.empty()) line += " (" + detail + ")";
+    }
     return line;
 }
 
@@ -92,7 +98,8 @@ std::string environmentLine(const results::Run& run) {
     std::string line;
     for (const auto& e : run.engines) {
         line += line.empty() ? "" : ", ";
-        line += markdownCell(e.name) + (e.version.empty() ? "" : " " + markdownCell(e.version)) +
+        line += markdownCell(e.name) +
+                (e.version.empty() ? "" : " " + markdownCell(results::versionText(e))) +
                 (e.precision.empty() ? "" : " " + markdownCell(e.precision)) +
                 (e.problem.empty() ? "" : " (" + markdownCell(e.problem) + ")");
     }
@@ -100,6 +107,23 @@ std::string environmentLine(const results::Run& run) {
         if (const auto it = run.environment.find(key); it != run.environment.end())
             line += (line.empty() ? "" : "; ") + markdownCell(it->second);
     return line;
+}
+
+/// What was refused, the same thing of one engine once: what its adapter has not been taught comes first.
+std::string refusalSection(const ViewModel& view) {
+    std::map<std::tuple<std::string, std::string, std::string, std::string>, int> cases;
+    for (const auto& row : view.run().cases)
+        if (!row.refusal.empty() && !row.ledger.empty())
+            ++cases[{row.refusal, row.engine, row.ledger.front().requested, row.ledger.front().reason}];
+    if (cases.empty()) return "";
+    std::string rows;
+    for (const auto& [key, count] : cases) {
+        const auto& [refusal, engine, lacking, why] = key;
+        rows += "| " + markdownCell(engine) + " | " + markdownCell(lacking) + " | " + std::to_string(count) +
+                " | " + refusalText(refusal) + " | " + markdownCell(why) + " |\n";
+    }
+    return "\n### Refused: " + detailOf(view.totals(), Shown::Unsupported) +
+           "\n\n| engine | asked for | cases | which is | why |\n|---|---|---:|---|---|\n" + rows;
 }
 
 /// Who to trust for what: the first choice of every mechanism and who comes next.
@@ -160,8 +184,8 @@ std::string markdownSummary(const ViewModel& view) {
                             "\n\nThe authors of this comparison wrote one of the engines in it (rigor).\n";
     std::string out = headline(view);
     // What tells most comes first, and takes its room first; the scoreboard gets what is left.
-    for (const auto& section :
-         {benchMarkdown(view.run()), trustSection(view), offenderList(view), ordersMarkdown(view)})
+    for (const auto& section : {benchMarkdown(view.run()), trustSection(view), offenderList(view),
+                                refusalSection(view), ordersMarkdown(view)})
         if (out.size() + section.size() + end.size() <= kMostBytes) out += section;
     return out + scoreboardSection(view, kMostBytes - std::min(kMostBytes, out.size() + end.size())) + end;
 }

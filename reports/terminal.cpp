@@ -222,10 +222,12 @@ std::vector<std::string> totalsLines(const ViewModel& view, std::size_t width, c
         const char* colour;
     };
     std::vector<Part> parts;
-    for (const auto& [shown, count] : view.totals().cases)
-        parts.push_back(
-            {std::string(shownText(shown).symbol) + " " + std::to_string(count) + " " + shownText(shown).word,
-             colourOf(shown)});
+    for (const auto& [shown, count] : view.totals().cases) {
+        const std::string detail = detailOf(view.totals(), shown);
+        parts.push_back({std::string(shownText(shown).symbol) + " " + std::to_string(count) + " " +
+                             shownText(shown).word + (detail.empty() ? "" : " (" + detail + ")"),
+                         colourOf(shown)});
+    }
     const auto planned = std::max<std::int64_t>(view.run().plannedCases, view.totals().total);
     std::string total = "of " + std::to_string(planned) + " cases";
     if (view.totals().total < planned) total += ", " + std::to_string(view.totals().total) + " done";

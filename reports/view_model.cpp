@@ -154,6 +154,18 @@ Offender offenderOf(const CaseRow& row) {
 
 }  // namespace
 
+std::string refusalText(const std::string& refusal) {
+    return refusal == "library" ? "not in the library" : "not in the adapter yet";
+}
+
+std::string detailOf(const Totals& totals, Shown shown) {
+    std::string text;
+    if (shown != Shown::Unsupported) return text;
+    for (const auto& [refusal, count] : totals.refusals)
+        text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + refusalText(refusal);
+    return text;
+}
+
 ShownText shownText(Shown shown) {
     static constexpr std::array<ShownText, 8> table{{{"pass", "✓", "pass"},
                                                      {"no_bound", "○", "no bound"},
@@ -262,6 +274,7 @@ ViewModel::ViewModel(const Run& run) : run_(run), columns_(columnsOf(run)) {
     for (const auto& row : run.cases) {
         ++totals_.total;
         ++totals_.cases[shownOf(row)];
+        if (!row.refusal.empty()) ++totals_.refusals[row.refusal];
         const auto scenario = scenarioIndex.find(row.scenario);
         if (scenario == scenarioIndex.end()) continue;
         cells_[scenario->second * columns_.size() + columnIndex.at(row.spec)].cases.push_back(&row);

@@ -35,6 +35,8 @@ struct ShownText {
     const char* word;    ///< "pass", "no bound", ...
 };
 ShownText shownText(Shown shown);
+/// Of CaseRow::refusal, which is not empty: "not in the adapter yet" or "not in the library".
+std::string refusalText(const std::string& refusal);
 
 /// All cases of one scenario on one spec.
 struct Cell {
@@ -80,8 +82,11 @@ struct GatheredAudit {
 
 struct Totals {
     std::map<Shown, int> cases;
+    std::map<std::string, int> refusals;  ///< unsupported cases by CaseRow::refusal, where it is known
     int total = 0;
 };
+/// What a count of `shown` consists of: "68 not in the adapter yet, 220 not in the library"; mostly "".
+std::string detailOf(const Totals& totals, Shown shown);
 
 class ViewModel {
   public:

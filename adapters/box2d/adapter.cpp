@@ -22,10 +22,9 @@ class Box2dEngine final : public adapter::Engine, public adapter::DynamicsEngine
         const std::string version = std::to_string(b2_version.major) + "." +
                                     std::to_string(b2_version.minor) + "." +
                                     std::to_string(b2_version.revision);
-        std::string notes = "asserts on";
-        if (version != RIGOR_BOX2D_PACKAGE)
-            notes += "; b2_version of package " RIGOR_BOX2D_PACKAGE " still says " + version;
-        return {"box2d", version, sizeof(b2Vec2) == 2 * sizeof(float) ? "f32" : "f64", "Box2D", notes};
+        const std::string package = RIGOR_BOX2D_PACKAGE;
+        return {"box2d", version,      sizeof(b2Vec2) == 2 * sizeof(float) ? "f32" : "f64",
+                "Box2D", "asserts on", package == version ? "" : package};
     }
 
     adapter::Capabilities capabilities() const override {
@@ -39,6 +38,10 @@ class Box2dEngine final : public adapter::Engine, public adapter::DynamicsEngine
                     "wheel.limit", "wheel.motor",    "wheel.spring"};
         c.contactImpulses = c.signedDistance = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
+        c.libraryLacks = {
+            {"3D", kTwoDimensions},
+            {"six_dof", "b2_joint.h, enum b2JointType: none has three axes to choose for"},
+            {"static_friction", "b2_fixture.h, b2FixtureDef::friction: the one coefficient of friction"}};
         return c;
     }
 

@@ -13,6 +13,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "adapters/box2d/convert.hpp"
+
 namespace rigor::box2d {
 namespace {
 
@@ -98,8 +100,10 @@ std::unique_ptr<adapter::TimedBroadPhase> Box2dBroadPhaseEngine::createTimed(con
                                                                              int dimension,
                                                                              const adapter::Settings*) const {
     if (algorithm != "dynamic_tree")
-        throw adapter::Unsupported("box2d has no broad phase '" + algorithm + "'");
-    if (dimension != 2) throw adapter::Unsupported("box2d has no broad phase in three dimensions");
+        throw adapter::notInLibrary("box2d", "broad phase '" + algorithm + "'",
+                                    "b2_broad_phase.h, b2BroadPhase: a dynamic tree");
+    if (dimension != 2)
+        throw adapter::notInLibrary("box2d", "broad phase in three dimensions", kTwoDimensions);
     return std::make_unique<Box2dBroadPhase>();
 }
 

@@ -24,11 +24,14 @@ namespace {
 using adapter::CollisionAnswer;
 using adapter::CollisionQuery;
 using adapter::ContactPoint;
+using adapter::notInLibrary;
 using adapter::PosedShape;
-using adapter::Unsupported;
 using scenario::Capsule;
 using scenario::HalfSpace;
 using scenario::Segment;
+
+constexpr const char* kShapes = "b2_shape.h, b2Shape::Type: circle, edge, polygon, chain";
+constexpr const char* kPairs = "b2_collision.h, the b2Collide functions: none takes two edges";
 
 /// Distance from the shape's origin to its farthest point [m]; 0 for a half-plane.
 struct Extent {
@@ -44,7 +47,8 @@ struct Extent {
     double operator()(const HalfSpace&) const { return 0.0; }
     template <class Other>
     double operator()(const Other& other) const {
-        throw Unsupported(std::string("box2d has no shape '") + scenario::geometryName(other, 2) + "'");
+        throw adapter::notInAdapter("box2d",
+                                    std::string("query of shape '") + scenario::geometryName(other, 2) + "'");
     }
 };
 
@@ -154,13 +158,13 @@ class Box2dBatch final : public adapter::CollisionBatch {
             const Frame frame = frameOf(query);
             BatchPair pair{{query.a, frame}, {query.b, frame}, frame, false};
             if (pair.first.capsule || pair.second.capsule)
-                throw Unsupported("box2d has no capsule, only its distance");
+                throw notInLibrary("box2d", "contacts of a capsule, only its distance", kShapes);
             b2Manifold manifold;
             if (!collideOrdered(pair.first, pair.second, manifold)) {
                 std::swap(pair.first, pair.second);
                 pair.swapped = true;
                 if (!collideOrdered(pair.first, pair.second, manifold))
-                    throw Unsupported("box2d has no contacts of segment with segment");
+                    throw notInLibrary("box2d", "contacts of segment with segment", kPairs);
             }
             pairs_.push_back(std::move(pair));
         }
@@ -201,7 +205,7 @@ std::vector<ContactPoint> shapeContacts(const Side& a, const Side& b, const Fram
     else if (collideOrdered(b, a, manifold))
         appendManifold(manifold, b, a, true, frame, contacts);
     else
-        throw Unsupported("box2d has no contacts of segment with segment");
+        throw notInLibrary("box2d", "contacts of segment with segment", kPairs);
     return contacts;
 }
 
@@ -240,20 +244,22 @@ Closest closestPoints(const Side& a, const Side& b, const Frame& frame) {
 std::unique_ptr<adapter::CollisionBatch> Box2dCollisionEngine::batch(
     std::span<const CollisionQuery> queries) const {
     if (queries.empty()) throw adapter::BadInput("a batch of no pairs");
-    if (queries.front().dimension != 2) throw Unsupported("box2d has no three-dimensional shapes");
+    if (queries.front().dimension != 2)
+        throw notInLibrary("box2d", "three-dimensional shapes", kTwoDimensions);
     for (const CollisionQuery& query : queries) adapter::checkQueryInput(query);
     return std::make_unique<Box2dBatch>(queries);
 }
 
 CollisionAnswer Box2dCollisionEngine::collide(const CollisionQuery& query) const {
-    if (query.dimension != 2) throw Unsupported("box2d has no three-dimensional shapes");
+    if (query.dimension != 2) throw notInLibrary("box2d", "three-dimensional shapes", kTwoDimensions);
     adapter::checkQueryInput(query);
     const Frame frame = frameOf(query);
     const Side a(query.a, frame), b(query.b, frame);
     const Closest closest = closestPoints(a, b, frame);
     CollisionAnswer answer;
     if (a.capsule || b.capsule) {
-        if (!closest.coresApart) throw Unsupported("box2d has no capsule: no depth once its core is reached");
+        if (!closest.coresApart)
+            throw notInLibrary("box2d", "depth of a capsule once its core is reached", kShapes);
         if (closest.distance <= 0.0) {
             ContactPoint contact;
             contact.bodyB = 1;

@@ -15,6 +15,11 @@ namespace rigor::box2d {
 using adapter::Pose;
 using adapter::Vec3;
 
+inline constexpr const char* kTwoDimensions =
+    "manual v2.4, Overview: \"Box2D is a 2D rigid body simulation library\"";
+/// What says that Box2D counts in single precision.
+inline constexpr const char* kSinglePrecision = "b2_math.h, struct b2Vec2: float x, y";
+
 inline b2Vec2 toBox2d(const Vec3& v, double scale) {
     return {static_cast<float>(scale * v.x), static_cast<float>(scale * v.y)};
 }

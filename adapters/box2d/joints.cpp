@@ -38,8 +38,8 @@ float toBound(double x, double scale) {
     return static_cast<float>(std::clamp(scale * x, -1e6, 1e6));
 }
 
-[[noreturn]] void unsupported(const Joint& joint, const std::string& what) {
-    throw adapter::Unsupported("box2d has no " + what + " (joint '" + joint.name + "')");
+[[noreturn]] void unsupported(const Joint& joint, const std::string& what, const char* documentation) {
+    throw adapter::notInLibrary("box2d", what, documentation, "joint '" + joint.name + "'");
 }
 
 /// Stiffness [N/m] and damping [N s/m] of a spring along the unit vector n in the world. From frequency and
@@ -74,14 +74,18 @@ void addDistance(b2World& world, const Joint& joint, const Ends& ends, double sc
         def.maxLength = limited ? toBound(axis.upper, scale) : 1e6f;
         if (axis.hasSpring()) {
             b2Vec2 n = ends.b.body->GetWorldPoint(ends.anchorB) - ends.a.body->GetWorldPoint(ends.anchorA);
-            if (n.Normalize() <= b2_linearSlop) unsupported(joint, "spring between anchors that coincide");
+            if (n.Normalize() <= b2_linearSlop)
+                unsupported(joint, "spring between anchors that coincide",
+                            "b2_distance_joint.h, m_minLength: at least b2_linearSlop");
             def.length = static_cast<float>(scale * axis.target);
             setSpring(axis, ends, n, def.stiffness, def.damping);
         } else {
             def.length = std::max(def.length, 2.0f * b2_linearSlop);
         }
     }
-    if (def.length <= b2_linearSlop) unsupported(joint, "distance joint shorter than its slop");
+    if (def.length <= b2_linearSlop)
+        unsupported(joint, "distance joint shorter than its slop",
+                    "b2_distance_joint.h, length: clamped to a stable range");
     world.CreateJoint(&def);
 }
 
@@ -91,7 +95,9 @@ void addWheel(b2World& world, const Joint& joint, const Ends& ends, double scale
     auto def = common<b2WheelJointDef>(ends);
     const scenario::JointAxis &travel = joint.axes[0], &angle = joint.axes[1];
     if (travel.hasMotor() || angle.hasSpring() || angle.mode == scenario::AxisMode::Limited)
-        unsupported(joint, "motor along a wheel's travel, spring or stop of its angle");
+        unsupported(
+            joint, "motor along a wheel's travel, spring or stop of its angle",
+            "b2_wheel_joint.h, b2WheelJointDef: spring and stops of the translation, motor of the angle");
     def.localAxisA = toBox2d(joint.axisA, 1.0);
     def.localAnchorA += static_cast<float>(scale * travel.target) * def.localAxisA;
     def.enableLimit = travel.mode == scenario::AxisMode::Limited;
@@ -160,7 +166,8 @@ void addJoint(b2World& world, const Joint& joint, const JointEnd& a, const Joint
         case JointType::SixDof:
             break;
     }
-    unsupported(joint, std::string("joint '") + jointName(joint.type) + "'");
+    throw adapter::notInAdapter("box2d", std::string("joint '") + jointName(joint.type) + "'",
+                                "joint '" + joint.name + "'");
 }
 
 }  // namespace rigor::box2d

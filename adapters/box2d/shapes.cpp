@@ -12,7 +12,7 @@
 namespace rigor::box2d {
 namespace {
 
-using adapter::Unsupported;
+using adapter::notInLibrary;
 using Shapes = std::vector<std::unique_ptr<b2Shape>>;
 
 /// b2PolygonShape::Set welds vertices closer than half a slop and aborts when fewer than three are left.
@@ -20,7 +20,8 @@ void refuseWelding(const std::vector<b2Vec2>& points) {
     for (std::size_t i = 0; i < points.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (b2Distance(points[i], points[j]) <= 0.51f * b2_linearSlop)
-                throw Unsupported("box2d welds polygon vertices closer than half its slop (option scale)");
+                throw notInLibrary("box2d", "polygon with vertices closer than half its slop (option scale)",
+                                   "b2_common.h, b2_linearSlop: a tolerance of collision in lengths");
 }
 
 /// ... and aborts on an area that rounds to nothing.
@@ -28,7 +29,8 @@ void refuseSliver(const std::vector<b2Vec2>& points) {
     double area = 0.0;
     for (std::size_t i = 1; i + 1 < points.size(); ++i)
         area += 0.5 * static_cast<double>(b2Cross(points[i] - points[0], points[i + 1] - points[0]));
-    if (std::abs(area) < 1e-6) throw Unsupported("box2d cannot hold a polygon of so small an area");
+    if (std::abs(area) < 1e-6)
+        throw notInLibrary("box2d", "polygon of so small an area (option scale)", kSinglePrecision);
 }
 
 struct Builder {
@@ -55,8 +57,9 @@ struct Builder {
     }
     Shapes operator()(const scenario::ConvexHull& h) const {
         if (h.vertices.size() > b2_maxPolygonVertices)
-            throw Unsupported("box2d has no polygon of " + std::to_string(h.vertices.size()) +
-                              " vertices (at most " + std::to_string(b2_maxPolygonVertices) + ")");
+            throw notInLibrary(
+                "box2d", "polygon of " + std::to_string(h.vertices.size()) + " vertices",
+                "b2_settings.h, b2_maxPolygonVertices " + std::to_string(b2_maxPolygonVertices));
         std::vector<b2Vec2> points;
         for (const Vec3& v : h.vertices) points.push_back(toBox2d(inBody * v, settings.scale));
         refuseWelding(points);
@@ -87,7 +90,7 @@ struct Builder {
     }
     template <class Other>
     Shapes operator()(const Other& other) const {
-        throw Unsupported(std::string("box2d has no shape '") + scenario::geometryName(other, 2) + "'");
+        throw adapter::notInAdapter("box2d", std::string("shape '") + scenario::geometryName(other, 2) + "'");
     }
 
   private:

@@ -12,7 +12,7 @@
 
 namespace rigor::box2d {
 
-using adapter::Unsupported;
+using adapter::notInLibrary;
 using scenario::BodyType;
 
 namespace {
@@ -27,8 +27,10 @@ double dampingFor(double keptPerSecond, double dt) {
 
 void refuseFar(const Vec3& position, const std::string& what) {
     if (std::max(std::abs(position.x), std::abs(position.y)) > kLargestCoordinate)
-        throw Unsupported("box2d: " + what + " is more than " + std::to_string(kLargestCoordinate) +
-                          " m from the origin, too far for single precision");
+        throw notInLibrary(
+            "box2d",
+            "place for " + what + " more than " + std::to_string(kLargestCoordinate) + " m from the origin",
+            kSinglePrecision);
 }
 
 }  // namespace
@@ -132,8 +134,8 @@ void Box2dWorld::setMass(b2Body& body, const scenario::Body& source) const {
     const float left = data.I - data.mass * b2Dot(data.center, data.center);
     const double wanted = scale_ * scale_ * central;
     if (!(data.mass > 0.0f) || !(std::abs(static_cast<double>(left) - wanted) < 1e-3 * wanted))
-        throw Unsupported("box2d's single precision cannot hold the inertia of body '" + source.name +
-                          "' about its origin");
+        throw notInLibrary("box2d", "number for the inertia about the body's origin", kSinglePrecision,
+                           "body '" + source.name + "'");
     body.SetMassData(&data);
 }
 

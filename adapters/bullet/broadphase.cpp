@@ -129,9 +129,9 @@ std::unique_ptr<adapter::TimedBroadPhase> BulletBroadPhaseEngine::createTimed(
     const std::string& algorithm, int dimension, const adapter::Settings*) const {
     const auto known = algorithms();
     if (std::find(known.begin(), known.end(), algorithm) == known.end())
-        throw adapter::Unsupported("bullet has no broad phase '" + algorithm + "'");
+        throw adapter::notInAdapter("bullet", "broad phase '" + algorithm + "'");
     if (dimension != 2 && dimension != 3)
-        throw adapter::Unsupported("bullet has no broad phase of dimension " + std::to_string(dimension));
+        throw adapter::notInAdapter("bullet", "broad phase of dimension " + std::to_string(dimension));
     return std::make_unique<BulletBroadPhase>(algorithm);
 }
 

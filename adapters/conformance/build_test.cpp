@@ -152,6 +152,16 @@ TEST_P(Build, StepsRepeatBitForBitAndWorldsDoNotMeet) {
     EXPECT_EQ(std::memcmp(expected.data(), found.data(), expected.size() * sizeof(BodyState)), 0);
 }
 
+/// A refusal is the library's where Capabilities has a document for it, and only there.
+void expectKindDeclared(const adapter::Unsupported& refused, const std::string& name) {
+    const auto lacks = engine().capabilities().libraryLacks;
+    const auto declared = lacks.find(name);
+    EXPECT_EQ(refused.refusal() == adapter::Refusal::NotInLibrary, declared != lacks.end()) << refused.what();
+    if (declared != lacks.end()) {
+        EXPECT_EQ(refused.documentation(), declared->second);
+    }
+}
+
 TEST_P(Build, WhatTheEngineLacksIsRefusedByName) {
     using scenario::Chain, scenario::HeightField;
     const scenario::TriangleMesh mesh{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}, {{0, 1, 2}}};
@@ -184,6 +194,7 @@ TEST_P(Build, WhatTheEngineLacksIsRefusedByName) {
             ADD_FAILURE() << "built without the shape";
         } catch (const adapter::Unsupported& refused) {
             EXPECT_NE(std::string(refused.what()).find(name), std::string::npos) << refused.what();
+            expectKindDeclared(refused, name);
         }
     }
     for (const auto type :
@@ -202,6 +213,7 @@ TEST_P(Build, WhatTheEngineLacksIsRefusedByName) {
             ADD_FAILURE() << "built without the joint";
         } catch (const adapter::Unsupported& refused) {
             EXPECT_NE(std::string(refused.what()).find(jointName(type)), std::string::npos) << refused.what();
+            expectKindDeclared(refused, jointName(type));
         }
     }
     const auto dimensions = queryDimensions();
@@ -211,7 +223,21 @@ TEST_P(Build, WhatTheEngineLacksIsRefusedByName) {
         s.dimension = dimension;
         addBody(s, ball(0.1), {});
         s.bodies[0].massProperties.inertia = Mat3::diagonal(0.1, 0.1, 0.1);
-        EXPECT_THROW(build(s, 0.01), adapter::Unsupported);
+        try {
+            build(s, 0.01);
+            ADD_FAILURE() << "built without the dimension";
+        } catch (const adapter::Unsupported& refused) {
+            expectKindDeclared(
+                refused, engine().capabilities().dynamics ? std::to_string(dimension) + "D" : "dynamics");
+        }
+    }
+}
+
+TEST_P(Build, NothingIsBothThereAndDocumentedToBeLacking) {
+    const adapter::Capabilities c = engine().capabilities();
+    for (const auto& [name, documentation] : c.libraryLacks) {
+        EXPECT_FALSE(documentation.empty()) << name;
+        EXPECT_FALSE(hasShape(name.c_str()) || hasJoint(name.c_str())) << name;
     }
 }
 

@@ -25,6 +25,8 @@ class FclEngine final : public adapter::Engine {
         c.shapes = {"sphere", "box",        "capsule", "cylinder", "cone",
                     "hull",   "half_space", "circle",  "polygon",  "half_plane"};
         c.signedDistance = true;
+        c.libraryLacks = {
+            {"dynamics", "README: \"FCL is a library for performing three types of proximity queries\""}};
         return c;
     }
     std::vector<adapter::Option> options() const override {

@@ -153,10 +153,10 @@ std::unique_ptr<adapter::TimedBroadPhase> FclBroadPhaseEngine::createTimed(const
                                                                            int dimension,
                                                                            const adapter::Settings*) const {
     if (dimension != 2 && dimension != 3)
-        throw adapter::Unsupported("fcl has no broad phase of dimension " + std::to_string(dimension));
+        throw adapter::notInAdapter("fcl", "broad phase of dimension " + std::to_string(dimension));
     for (const Algorithm& algorithm : kAlgorithms)
         if (name == algorithm.name) return std::make_unique<FclBroadPhase>(algorithm);
-    throw adapter::Unsupported("fcl has no broad phase '" + name + "'");
+    throw adapter::notInAdapter("fcl", "broad phase '" + name + "'");
 }
 
 }  // namespace rigor::fcl_adapter

@@ -163,8 +163,8 @@ void bringIntoPlane(std::vector<ContactPoint>& contacts) {
 Geometry solidOf(const Geometry& geometry, int dimension) {
     if (dimension == 3) return geometry;
     if (is<scenario::Segment>(geometry) || is<scenario::Chain>(geometry))
-        throw adapter::Unsupported(std::string("fcl has no shape '") + scenario::geometryName(geometry, 2) +
-                                   "'");
+        throw adapter::notInAdapter("fcl",
+                                    std::string("shape '") + scenario::geometryName(geometry, 2) + "'");
     return adapter::planarGeometry(geometry);
 }
 
@@ -235,8 +235,7 @@ CollisionAnswer FclCollisionEngine::collide(const CollisionQuery& query) const {
     const Geometry solidA = solidOf(*query.a.geometry, query.dimension);
     const Geometry solidB = solidOf(*query.b.geometry, query.dimension);
     const bool unboundedA = is<scenario::HalfSpace>(solidA), unboundedB = is<scenario::HalfSpace>(solidB);
-    if (unboundedA && unboundedB)
-        throw adapter::Unsupported("fcl adapter: two half-spaces have no contact points");
+    if (unboundedA && unboundedB) throw adapter::notInAdapter("fcl", "contact points of two half-spaces");
     const FclShape a = toFcl(solidA, query.a.pose), b = toFcl(solidB, query.b.pose);
 
     fcl::CollisionRequestd request(kMostContacts, true);

@@ -64,8 +64,7 @@ struct ToGeometry {
     }
     template <class Other>
     std::shared_ptr<fcl::CollisionGeometryd> operator()(const Other& other) {
-        throw adapter::Unsupported(std::string("fcl has no shape '") + scenario::geometryName(other, 3) +
-                                   "'");
+        throw adapter::notInAdapter("fcl", std::string("shape '") + scenario::geometryName(other, 3) + "'");
     }
 };
 

@@ -130,7 +130,7 @@ class Engine {
 };
 
 /// Raised with every change of this folder's headers or of scenarios/model that an adapter could notice.
-inline constexpr int kAdapterAbi = 6;
+inline constexpr int kAdapterAbi = 7;
 
 struct Module {
     int abi = 0;

@@ -249,41 +249,76 @@ void checkQueryInput(const CollisionQuery& query) {
     }
 }
 
+namespace {
+
+/// Refuses what is missing by its name among Capabilities::libraryLacks.
+class Lacks {
+  public:
+    Lacks(const Capabilities& capabilities, const std::string& engine)
+        : capabilities_(capabilities), engine_(engine) {}
+
+    [[noreturn]] void operator()(const std::string& name, const std::string& shown,
+                                 const std::string& user = "") const {
+        const auto documented = capabilities_.libraryLacks.find(name);
+        if (documented == capabilities_.libraryLacks.end()) throw notInAdapter(engine_, shown, user);
+        throw notInLibrary(engine_, shown, documented->second, user);
+    }
+
+  private:
+    const Capabilities& capabilities_;
+    const std::string& engine_;
+};
+
+void checkBodies(const Scenario& scenario, const Capabilities& capabilities, const Lacks& lacks) {
+    for (const auto& body : scenario.bodies) {
+        const std::string user = "body '" + body.name + "'";
+        for (const auto& shape : body.shapes) {
+            const std::string name = geometryName(shape.geometry, scenario.dimension);
+            if (body.collides && !contains(capabilities.shapes, name))
+                lacks(name, "shape '" + name + "'", user);
+        }
+        if (body.type == BodyType::Kinematic && !capabilities.kinematicBodies)
+            lacks("kinematic_bodies", "kinematic bodies", user);
+        if ((body.linearVelocityKept != 1.0 || body.angularVelocityKept != 1.0) && !capabilities.damping)
+            lacks("damping", "velocity damping", user);
+        if (body.gravityScale != 1.0 && !capabilities.gravityScale)
+            lacks("gravity_scale", "gravity scale per body", user);
+        if (body.type == BodyType::Dynamic && norm(body.massProperties.centerOfMass) > 0.0 &&
+            !capabilities.centerOfMassOffset)
+            lacks("center_of_mass_offset", "centre of mass offset", user);
+    }
+}
+
+void checkJoints(const Scenario& scenario, const Capabilities& capabilities, const Lacks& lacks) {
+    const auto require = [&](const std::string& name, const scenario::Joint& joint) {
+        if (!contains(capabilities.joints, name))
+            lacks(name, "joint '" + name + "'", "joint '" + joint.name + "'");
+    };
+    for (const auto& joint : scenario.joints) require(jointName(joint.type), joint);
+    for (const auto& joint : scenario.joints)
+        for (const std::string& feature : joint.features())
+            require(std::string(jointName(joint.type)) + "." + feature, joint);
+}
+
+}  // namespace
+
 void checkSupported(const Scenario& scenario, const Capabilities& capabilities, const std::string& engine) {
-    const auto lacks = [&](const std::string& what) { throw Unsupported(engine + " has no " + what); };
-    if (!capabilities.dynamics) lacks("dynamics");
+    const Lacks lacks(capabilities, engine);
+    if (!capabilities.dynamics) lacks("dynamics", "dynamics");
     const auto& dims = capabilities.dimensions;
     const bool native = std::find(dims.begin(), dims.end(), scenario.dimension) != dims.end();
-    if (!native && !(scenario.dimension == 2 && capabilities.planar))
-        lacks(std::to_string(scenario.dimension) + "D dynamics");
+    if (!native && !(scenario.dimension == 2 && capabilities.planar)) {
+        const std::string name = std::to_string(scenario.dimension) + "D";
+        lacks(name, name + " dynamics");
+    }
     if (!capabilities.staticFriction) {
         const auto sticks = [](const auto& m) { return m.staticFriction > m.friction; };
         if (std::any_of(scenario.materials.begin(), scenario.materials.end(), sticks) ||
             std::any_of(scenario.pairs.begin(), scenario.pairs.end(), sticks))
-            lacks("static friction apart from that of sliding");
+            lacks("static_friction", "static friction apart from that of sliding");
     }
-    for (const auto& body : scenario.bodies) {
-        const std::string of = " (body '" + body.name + "')";
-        for (const auto& shape : body.shapes) {
-            const std::string name = geometryName(shape.geometry, scenario.dimension);
-            if (body.collides && !contains(capabilities.shapes, name)) lacks("shape '" + name + "'" + of);
-        }
-        if (body.type == BodyType::Kinematic && !capabilities.kinematicBodies) lacks("kinematic bodies" + of);
-        if ((body.linearVelocityKept != 1.0 || body.angularVelocityKept != 1.0) && !capabilities.damping)
-            lacks("velocity damping" + of);
-        if (body.gravityScale != 1.0 && !capabilities.gravityScale) lacks("gravity scale per body" + of);
-        if (body.type == BodyType::Dynamic && norm(body.massProperties.centerOfMass) > 0.0 &&
-            !capabilities.centerOfMassOffset)
-            lacks("centre of mass offset" + of);
-    }
-    for (const auto& joint : scenario.joints)
-        if (!contains(capabilities.joints, jointName(joint.type)))
-            lacks(std::string("joint '") + jointName(joint.type) + "' (joint '" + joint.name + "')");
-    for (const auto& joint : scenario.joints)
-        for (const std::string& feature : joint.features()) {
-            const std::string name = std::string(jointName(joint.type)) + "." + feature;
-            if (!contains(capabilities.joints, name)) lacks("'" + name + "' (joint '" + joint.name + "')");
-        }
+    checkBodies(scenario, capabilities, lacks);
+    checkJoints(scenario, capabilities, lacks);
 }
 
 }  // namespace rigor::adapter

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/interface/unsupported.hpp"
 #include "scenarios/model/scenario.hpp"
 
 namespace rigor::adapter {
@@ -105,6 +106,11 @@ struct Capabilities {
     bool kinematicBodies = false, damping = false, gravityScale = false, centerOfMassOffset = false;
     bool contactSolvers = false;  ///< solves frozen contact problems (contact_problem.hpp)
     bool staticFriction = false;  ///< contacts that stick up to a coefficient above that of sliding
+    /// What the library itself does not have, and the document of its authors that says so (manual and
+    /// chapter, or header and declaration), by name: of `shapes` and `joints` as above, "dynamics", "2D",
+    /// "3D", or a flag above in snake_case ("static_friction"). Everything else that is missing is missing
+    /// in the adapter.
+    std::map<std::string, std::string> libraryLacks;
 };
 
 /// One key of an engine spec.
@@ -125,6 +131,8 @@ struct EngineInfo {
     std::string precision;   ///< "f32" or "f64", of the library's state (the default one if selectable)
     std::string title;       ///< "Bullet Physics"
     std::string buildNotes;  ///< flags that matter: "asserts off, SSE2"
+    /// Version of the package it was built against, where that is another than the library says; "" else.
+    std::string package = {};
 };
 
 /// Key/value pairs of a spec after defaults and the preset were applied; every key of Option is present.
@@ -133,11 +141,6 @@ double numberSetting(const Settings& settings, const std::string& key);
 int integerSetting(const Settings& settings, const std::string& key);
 const std::string& textSetting(const Settings& settings, const std::string& key);
 
-/// A scenario asks for what the engine does not have. Not an error of anyone: a recorded outcome.
-class Unsupported : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
 /// Input that must never reach a library: NaN, zero mass, degenerate shape, unknown key.
 class BadInput : public std::runtime_error {
   public:

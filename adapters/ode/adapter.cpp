@@ -47,6 +47,11 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
             c.joints.push_back(joint + std::string(".break"));
         c.contactImpulses = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
+        c.libraryLacks = {
+            {"cone", "ode/collision.h, geom class numbers: none is a cone"},
+            {"cone_twist", "ode/common.h, dJointType: none limits a cone"},
+            {"distance.limit", "ode/objects.h, dJointSetDBallDistance: a distance kept, without bounds"},
+            {"static_friction", "ode/contact.h, dSurfaceParameters: mu, one coefficient in each direction"}};
         return c;
     }
 

@@ -121,9 +121,9 @@ std::unique_ptr<adapter::TimedBroadPhase> OdeBroadPhaseEngine::createTimed(const
                                                                            const adapter::Settings*) const {
     const auto known = algorithms();
     if (std::find(known.begin(), known.end(), algorithm) == known.end())
-        throw adapter::Unsupported("ode has no broad phase '" + algorithm + "'");
+        throw adapter::notInAdapter("ode", "broad phase '" + algorithm + "'");
     if (dimension != 2 && dimension != 3)
-        throw adapter::Unsupported("ode has no broad phase of dimension " + std::to_string(dimension));
+        throw adapter::notInAdapter("ode", "broad phase of dimension " + std::to_string(dimension));
     useLibrary();
     return std::make_unique<OdeBroadPhase>(algorithm);
 }

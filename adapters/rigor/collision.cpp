@@ -28,7 +28,7 @@ std::shared_ptr<const engine::NarrowPhase<S>> narrowPhaseOf(const std::string& n
         if constexpr (S::dim == 3)
             return makeForeignNarrowPhase<S>(name);
         else
-            throw Unsupported("narrow_phase=" + name + " is 3D only");
+            throw notInAdapter("rigor", "narrow_phase=" + name + " in 2D");
     }
     return engine::makeNarrowPhase<S>(name);
 }

@@ -62,7 +62,7 @@ engine::Shape<engine::Space<R, 2>> toPlaneShape(const Geometry& geometry) {
         return engine::Segment<S>{toEngineVec<S>(s->a), toEngineVec<S>(s->b)};
     if (const auto* s = std::get_if<scenario::Chain>(&geometry))
         return engine::makeChain<S>(toEngineVecs<S>(s->vertices), s->loop);
-    throw Unsupported(std::string("rigor has no shape ") + scenario::geometryName(geometry, 2) + " in 2D");
+    throw notInAdapter("rigor", std::string("shape '") + scenario::geometryName(geometry, 2) + "' in 2D");
 }
 
 template <class R>
@@ -85,7 +85,7 @@ engine::Shape<engine::Space<R, 3>> toSpaceShape(const Geometry& geometry) {
         return engine::makeHeightField<S>(s->columns, s->rows, static_cast<R>(s->spacingX),
                                           static_cast<R>(s->spacingZ), heights, static_cast<R>(s->thickness));
     }
-    throw Unsupported(std::string("rigor has no shape ") + scenario::geometryName(geometry, 3) + " in 3D");
+    throw notInAdapter("rigor", std::string("shape '") + scenario::geometryName(geometry, 3) + "' in 3D");
 }
 
 /// Throws Unsupported for shapes of the other dimension.

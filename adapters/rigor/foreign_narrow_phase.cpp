@@ -39,7 +39,7 @@ Geometry toGeometry(const engine::Shape<S>& shape) {
         for (const typename S::Vec& v : s->data->vertices) hull.vertices.push_back(fromEngineVec(v));
         return hull;
     }
-    throw Unsupported("a narrow phase of another engine has no such shape");
+    throw notInAdapter("rigor", "such a shape in a narrow phase of another engine");
 }
 
 template <class S>

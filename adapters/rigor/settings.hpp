@@ -31,7 +31,7 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
         if constexpr (S::dim == 3)
             def.customNarrowPhase = makeForeignNarrowPhase<S>(def.narrowPhase);
         else
-            throw Unsupported("narrow_phase=" + def.narrowPhase + " is 3D only");
+            throw notInAdapter("rigor", "narrow_phase=" + def.narrowPhase + " in 2D");
     }
     def.solver = textSetting(settings, "solver");
     def.positionCorrection = textSetting(settings, "position_correction");

@@ -162,6 +162,12 @@ void spoil(CaseRow& c, Outcome outcome, Verdict verdict, const char* reason) {
     c.trajectoryFile.clear();
 }
 
+void refuse(CaseRow& c, const char* refusal) {
+    spoil(c, Outcome::Unsupported, Verdict::Unsupported, "dimension 3");
+    c.refusal = refusal;
+    c.ledger = {{"refused", "3D dynamics", "nothing", "unsupported", "its documentation: manual"}};
+}
+
 CaseRow makeCase(const ScenarioRow& s, const Kind& kind, const std::string& spec, double dt, int number) {
     Dice dice(static_cast<std::uint64_t>(number) + 17);
     CaseRow c;
@@ -175,7 +181,7 @@ CaseRow makeCase(const ScenarioRow& s, const Kind& kind, const std::string& spec
     fillNumbers(c, kind, error, dice);
     const double fate = dice();
     if (c.engine == "box2d" && s.dimension == 3)
-        spoil(c, Outcome::Unsupported, Verdict::Unsupported, "dimension 3");
+        refuse(c, number % 4 == 0 ? "adapter" : "library");
     else if (fate < 0.01)
         spoil(c, Outcome::Crashed, Verdict::Crashed, "SIGSEGV after 12 steps <at> 0x0 & more");
     else if (fate < 0.015)

@@ -170,6 +170,27 @@ TEST(Summary, FitsAPullRequestComment) {
     }
 }
 
+/// What an adapter has not been taught is not said of the library; both are counted by one code.
+TEST(Summary, RefusalsAreToldApart) {
+    const auto run = synthetic::makeRun();
+    std::map<std::string, int> count;
+    for (const auto& c : run.cases)
+        if (!c.refusal.empty()) ++count[c.refusal];
+    ASSERT_GT(count["adapter"], 0);
+    ASSERT_GT(count["library"], 0);
+    const std::string both = std::to_string(count["adapter"]) + " not in the adapter yet, " +
+                             std::to_string(count["library"]) + " not in the library";
+    const ViewModel view(run);
+    EXPECT_EQ(detailOf(view.totals(), Shown::Unsupported), both);
+    EXPECT_EQ(detailOf(view.totals(), Shown::Pass), "");
+    const std::string text = markdownSummary(view);
+    EXPECT_NE(text.find("unsupported (" + both + ")"), std::string::npos);
+    EXPECT_NE(text.find("### Refused: " + both), std::string::npos);
+    EXPECT_NE(text.find("| box2d | 3D dynamics | " + std::to_string(count["library"])), std::string::npos);
+    EXPECT_NE(terminalSummary(run, 60, 160, false).find("unsupported (" + both + ")"), std::string::npos);
+    EXPECT_NE(overviewJson(view).find(both), std::string::npos);
+}
+
 /// Where not all scenarios fit, those with trouble are there, and the others are counted.
 TEST(Summary, LeavesOutWhatIsNoTrouble) {
     auto run = synthetic::makeRun(1000);

@@ -68,15 +68,16 @@ std::vector<CaseRow> readCases(SQLite::Database& database) {
     std::vector<CaseRow> cases;
     SQLite::Statement select(
         database,
-        "SELECT id, position, scenario, spec, engine, preset, dt, outcome, verdict, reason, "
-        "wall_seconds, cpu_seconds, steps, peak_memory_kib, state_hash, trajectory_file, "
-        "command FROM cases ORDER BY position, id");
+        std::string("SELECT id, position, scenario, spec, engine, preset, dt, outcome, verdict, reason, "
+                    "wall_seconds, cpu_seconds, steps, peak_memory_kib, state_hash, trajectory_file, "
+                    "command, ") +
+            (schemaVersionOf(database) >= 6 ? "refusal" : "''") + " FROM cases ORDER BY position, id");
     while (select.executeStep()) {
         CaseRow& c = cases.emplace_back();
         std::string outcome, verdict;
         Taker(select) >> c.id >> c.position >> c.scenario >> c.spec >> c.engine >> c.preset >> c.dt >>
             outcome >> verdict >> c.reason >> c.wallSeconds >> c.cpuSeconds >> c.steps >> c.peakMemoryKiB >>
-            c.stateHash >> c.trajectoryFile >> c.command;
+            c.stateHash >> c.trajectoryFile >> c.command >> c.refusal;
         c.outcome = parseOutcome(outcome);
         c.verdict = parseVerdict(verdict);
     }
@@ -163,12 +164,13 @@ void readHeader(SQLite::Database& database, Run& run) {
         run.environment[environment.getColumn(0).getString()] = environment.getColumn(1).getString();
     SQLite::Statement engines(database,
                               std::string("SELECT name, title, version, precision, build_notes, problem, ") +
-                                  (schemaVersionOf(database) >= 4 ? "capabilities" : "''") +
+                                  (schemaVersionOf(database) >= 4 ? "capabilities, " : "'', ") +
+                                  (schemaVersionOf(database) >= 6 ? "package" : "''") +
                                   " FROM engines ORDER BY position");
     while (engines.executeStep()) {
         EngineRow& e = run.engines.emplace_back();
         Taker(engines) >> e.name >> e.title >> e.version >> e.precision >> e.buildNotes >> e.problem >>
-            e.capabilities;
+            e.capabilities >> e.package;
     }
     SQLite::Statement scenarios(
         database,
@@ -214,11 +216,11 @@ void writeHeaderRows(SQLite::Database& database, const Run& run) {
     (Binder(one) << 1 << run.suite << run.command << run.started << run.finished << run.plannedCases).run();
     SQLite::Statement environment(database, insertInto("environment", 2));
     for (const auto& [key, value] : run.environment) (Binder(environment) << key << value).run();
-    SQLite::Statement engines(database, insertInto("engines", 8));
+    SQLite::Statement engines(database, insertInto("engines", 9));
     int position = 0;
     for (const EngineRow& e : run.engines)
         (Binder(engines) << position++ << e.name << e.title << e.version << e.precision << e.buildNotes
-                         << e.problem << e.capabilities)
+                         << e.problem << e.capabilities << e.package)
             .run();
     SQLite::Statement scenarios(database, insertInto("scenarios", 19));
     position = 0;
@@ -233,11 +235,11 @@ void writeHeaderRows(SQLite::Database& database, const Run& run) {
 void writeCaseRows(SQLite::Database& database, const CaseRow& c) {
     SQLite::Statement forget(database, "DELETE FROM cases WHERE id = ?");
     (Binder(forget) << c.id).run();
-    SQLite::Statement insert(database, insertInto("cases", 17));
+    SQLite::Statement insert(database, insertInto("cases", 18));
     (Binder(insert) << c.id << c.position << c.scenario << c.spec << c.engine << c.preset << c.dt
                     << outcomeName(c.outcome) << verdictName(c.verdict) << c.reason << c.wallSeconds
                     << c.cpuSeconds << c.steps << c.peakMemoryKiB << c.stateHash << c.trajectoryFile
-                    << c.command)
+                    << c.command << c.refusal)
         .run();
     writeMeasured(database, c);
     writeParity(database, c);

@@ -23,7 +23,7 @@ CREATE TABLE run (
 CREATE TABLE environment (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;
 CREATE TABLE engines (
     position INTEGER PRIMARY KEY, name TEXT, title TEXT, version TEXT, precision TEXT, build_notes TEXT, problem TEXT,
-    capabilities TEXT);
+    capabilities TEXT, package TEXT);
 CREATE TABLE scenarios (
     position INTEGER PRIMARY KEY, name TEXT UNIQUE, title TEXT, description TEXT, source TEXT, isolates TEXT,
     tags TEXT, observed TEXT, metrics TEXT, dimension INTEGER, duration, time_steps TEXT, reference TEXT,
@@ -32,7 +32,7 @@ CREATE TABLE scenarios (
 CREATE TABLE cases (
     id TEXT PRIMARY KEY, position INTEGER, scenario TEXT, spec TEXT, engine TEXT, preset TEXT, dt, outcome TEXT,
     verdict TEXT, reason TEXT, wall_seconds, cpu_seconds, steps INTEGER, peak_memory_kib INTEGER, state_hash TEXT,
-    trajectory_file TEXT, command TEXT) WITHOUT ROWID;
+    trajectory_file TEXT, command TEXT, refusal TEXT) WITHOUT ROWID;
 CREATE TABLE settings (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, key TEXT, value TEXT,
     PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
@@ -80,6 +80,11 @@ ALTER TABLE timings ADD COLUMN bodies INTEGER DEFAULT 0;
 
 constexpr const char* kColumnsOfSchema4 = "ALTER TABLE engines ADD COLUMN capabilities TEXT DEFAULT ''";
 
+constexpr const char* kColumnsOfSchema6 = R"sql(
+ALTER TABLE cases ADD COLUMN refusal TEXT DEFAULT '';
+ALTER TABLE engines ADD COLUMN package TEXT DEFAULT '';
+)sql";
+
 /// A committed transaction is on the disk: rollback journal, synced. One file, whole at rest, that can be
 /// copied while nobody writes.
 void prepare(SQLite::Database& database) {
@@ -108,6 +113,7 @@ void upgrade(SQLite::Database& database) {
     if (version < 3) database.exec(kColumnsOfSchema3);
     if (version < 4) database.exec(kColumnsOfSchema4);
     if (version < 5) database.exec(kBenchTables);
+    if (version < 6) database.exec(kColumnsOfSchema6);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
 }

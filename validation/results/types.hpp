@@ -99,7 +99,10 @@ struct CaseRow {
     double dt = 0.0;
     Outcome outcome = Outcome::Completed;
     Verdict verdict = Verdict::Pass;
-    std::string reason;        ///< message of the failure, missing capability, signal name, ...
+    std::string reason;  ///< message of the failure, missing capability, signal name, ...
+    /// Of an unsupported case "adapter" (not in the adapter yet) or "library" (the library does not have it,
+    /// by its documentation); "" in runs before schema 6.
+    std::string refusal;
     double wallSeconds = 0.0;  ///< whole child process
     double cpuSeconds = 0.0;
     std::int64_t steps = 0;
@@ -156,6 +159,8 @@ struct EngineRow {
     /// What it says that it can do, JSON: {"capabilities": {...}, "options": [...]}; "" in runs before
     /// schema 4.
     std::string capabilities = {};
+    /// Version of its package, where that is another than the library says; "" in runs before schema 6.
+    std::string package = {};
 };
 
 struct Run {

@@ -19,6 +19,10 @@ std::optional<double> steppingTime(const CaseRow& row) {
     return std::nullopt;
 }
 
+std::string versionText(const EngineRow& engine) {
+    return engine.version + (engine.package.empty() ? "" : " (package " + engine.package + ")");
+}
+
 std::string exactText(double value) {
     if (std::isnan(value)) return "nan";  // to_chars tells its sign
     char text[32];

@@ -17,6 +17,9 @@ const MetricRow* wholeScene(const CaseRow& row, const std::string& metric);
 /// Wall time of all steps [s]: the median of a step times their number. Empty where it was not measured.
 std::optional<double> steppingTime(const CaseRow& row);
 
+/// "2.4.0", or "2.4.0 (package 2.4.1)" where library and package do not agree.
+std::string versionText(const EngineRow& engine);
+
 /// The shortest text that reads back as the same double; "nan", "inf", "-inf".
 std::string exactText(double value);
 

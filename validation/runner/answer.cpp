@@ -166,6 +166,7 @@ json caseToJson(const CaseRow& c) {
             {"outcome", outcomeName(c.outcome)},
             {"verdict", verdictName(c.verdict)},
             {"reason", c.reason},
+            {"refusal", c.refusal},
             {"wall", numberToJson(c.wallSeconds)},
             {"cpu", numberToJson(c.cpuSeconds)},
             {"steps", c.steps},
@@ -187,7 +188,7 @@ CaseRow caseFromJson(const json& j) {
     c.id = j.at("id"), c.position = j.at("position"), c.scenario = j.at("scenario"), c.spec = j.at("spec");
     c.engine = j.at("engine"), c.preset = j.at("preset"), c.dt = numberFromJson(j.at("dt"));
     c.outcome = parseOutcome(j.at("outcome")), c.verdict = parseVerdict(j.at("verdict"));
-    c.reason = j.at("reason");
+    c.reason = j.at("reason"), c.refusal = j.at("refusal");
     c.wallSeconds = numberFromJson(j.at("wall")), c.cpuSeconds = numberFromJson(j.at("cpu"));
     c.steps = j.at("steps"), c.peakMemoryKiB = j.at("memory"), c.stateHash = j.at("hash");
     c.trajectoryFile = j.at("trajectory"), c.command = j.at("command");

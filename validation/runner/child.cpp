@@ -38,6 +38,18 @@ CaseRow refusedRow(const json& request, const adapter::EngineSpec& spec, Outcome
     return row;
 }
 
+/// The ledger of a refused case is what was refused.
+CaseRow refusedRow(const json& request, const adapter::EngineSpec& spec, const adapter::Unsupported& error) {
+    CaseRow row = refusedRow(request, spec, Outcome::Unsupported, error.what());
+    row.refusal = adapter::refusalName(error.refusal());
+    const bool documented = !error.documentation().empty();
+    row.ledger.push_back(
+        {"refused", error.lacking(), adapter::refusalText(error.refusal()),
+         adapter::realisationName(adapter::Realisation::Unsupported),
+         documented ? "its documentation: " + error.documentation() : "no work of ours yet"});
+    return row;
+}
+
 CaseRow runRequested(const json& request, const scenario::Scenario& s, const adapter::EngineSpec& spec) {
     const double dt = numberFromJson(request.at("dt"));
     WholeCase whole = runWholeCase(s, spec, dt, {});
@@ -60,7 +72,7 @@ int caseChild(const std::filesystem::path& requestFile) {
     try {
         row = runRequested(*request, s, spec);
     } catch (const adapter::Unsupported& error) {
-        row = refusedRow(*request, spec, Outcome::Unsupported, error.what());
+        row = refusedRow(*request, spec, error);
     } catch (const std::exception& error) {
         row = refusedRow(*request, spec, Outcome::Error, error.what());
     }

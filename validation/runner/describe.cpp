@@ -55,7 +55,8 @@ json capabilitiesToJson(const adapter::Capabilities& c) {
             {"gravity_scale", c.gravityScale},
             {"center_of_mass_offset", c.centerOfMassOffset},
             {"contact_solvers", c.contactSolvers},
-            {"static_friction", c.staticFriction}};
+            {"static_friction", c.staticFriction},
+            {"library_lacks", c.libraryLacks}};
 }
 
 adapter::Capabilities capabilitiesFromJson(const json& j) {
@@ -71,12 +72,14 @@ adapter::Capabilities capabilitiesFromJson(const json& j) {
     c.gravityScale = j.at("gravity_scale"), c.centerOfMassOffset = j.at("center_of_mass_offset");
     c.contactSolvers = j.at("contact_solvers");
     c.staticFriction = j.at("static_friction");
+    c.libraryLacks = j.at("library_lacks").get<std::map<std::string, std::string>>();
     return c;
 }
 
 void readDescription(const json& j, EngineDescription& d) {
     // The name is the one its module goes by: specs and reports use that.
-    d.info = {d.info.name, j.at("version"), j.at("precision"), j.at("title"), j.at("build_notes")};
+    d.info = {d.info.name,   j.at("version"),     j.at("precision"),
+              j.at("title"), j.at("build_notes"), j.at("package")};
     d.capabilities = capabilitiesFromJson(j.at("capabilities"));
     for (const json& o : j.at("options")) d.options.push_back(optionFromJson(o));
 }
@@ -116,6 +119,7 @@ int describeChild(const std::string& engine, const std::filesystem::path& answer
                            {"precision", info.precision},
                            {"title", info.title},
                            {"build_notes", info.buildNotes},
+                           {"package", info.package},
                            {"capabilities", capabilitiesToJson(loaded->capabilities())},
                            {"options", std::move(options)}});
     return 0;

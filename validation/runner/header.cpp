@@ -39,8 +39,8 @@ results::ScenarioRow scenarioRow(const CasePlan& plan) {
 }
 
 results::EngineRow engineRow(const EngineDescription& d) {
-    return {d.info.name,       d.info.title, d.info.version,     d.info.precision,
-            d.info.buildNotes, d.problem,    capabilitiesText(d)};
+    return {d.info.name,       d.info.title, d.info.version,      d.info.precision,
+            d.info.buildNotes, d.problem,    capabilitiesText(d), d.info.package};
 }
 
 }  // namespace
@@ -83,7 +83,8 @@ results::Run runHeader(const std::vector<CasePlan>& plan, const RunOptions& opti
     for (const EngineDescription& d : engines) {
         run.engines.push_back(engineRow(d));
         if (d.problem.empty())
-            run.environment["engine_" + d.info.name] = d.info.version + " " + d.info.precision;
+            run.environment["engine_" + d.info.name] =
+                results::versionText(run.engines.back()) + " " + d.info.precision;
     }
     std::set<std::string> seen;
     for (const CasePlan& c : plan)

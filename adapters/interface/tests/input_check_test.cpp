@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 
+#include "adapters/interface/missing.hpp"
 #include "adapters/interface/planar.hpp"
 
 namespace rigor::adapter {
@@ -170,6 +171,63 @@ TEST(Supported, TheFirstThingMissingIsNamed) {
     refuses("damping", [](Scenario& s) { s.bodies[1].linearVelocityKept = 0.5; });
     refuses("gravity", [](Scenario& s) { s.bodies[1].gravityScale = 0.5; });
     refuses("centre of mass", [](Scenario& s) { s.bodies[1].massProperties.centerOfMass = {0.1, 0, 0}; });
+}
+
+TEST(Supported, ARefusalSaysWhoLacksIt) {
+    Capabilities c;
+    c.dynamics = true;
+    c.dimensions = {3};
+    c.shapes = {"half_space", "sphere"};
+    const auto refusedFor = [&](const Scenario& s) {
+        try {
+            checkSupported(s, c, "toy");
+        } catch (const Unsupported& error) {
+            return error;
+        }
+        return Unsupported("nothing was refused");
+    };
+    const Unsupported adapters = refusedFor(goodScenario());
+    EXPECT_EQ(adapters.refusal(), Refusal::NotInAdapter);
+    EXPECT_STREQ(adapters.what(), "toy: not in the adapter yet: joint 'distance' for joint 'rod'");
+    EXPECT_EQ(adapters.lacking(), "joint 'distance'");
+    EXPECT_EQ(adapters.documentation(), "");
+
+    c.libraryLacks = {{"distance", "toy.h, joints"}, {"2D", "manual, chapter 1"}};
+    const Unsupported librarys = refusedFor(goodScenario());
+    EXPECT_EQ(librarys.refusal(), Refusal::NotInLibrary);
+    EXPECT_STREQ(
+        librarys.what(),
+        "toy: the library has no joint 'distance' for joint 'rod' (its documentation: toy.h, joints)");
+    EXPECT_EQ(librarys.documentation(), "toy.h, joints");
+
+    // A joint that is there, with something that is documented not to be, and with something that is not.
+    c.joints = {"distance"};
+    c.libraryLacks = {{"distance.break", "toy.h, strength"}};
+    Scenario s = goodScenario();
+    s.joints[0].breakForce = 5.0;
+    EXPECT_EQ(refusedFor(s).refusal(), Refusal::NotInLibrary);
+    s.joints[0].breakForce = 1e300, s.joints[0].axes[0].stiffness = 3.0;
+    EXPECT_EQ(refusedFor(s).refusal(), Refusal::NotInAdapter);
+    EXPECT_THROW((void)notInLibrary("toy", "shape", ""), std::logic_error) << "without a document";
+}
+
+TEST(Missing, IsWhatTheFormatHasAndNobodyClaims) {
+    Capabilities c;
+    c.dynamics = true;
+    c.dimensions = {2};
+    c.shapes = {"circle", "box", "capsule", "polygon", "half_plane"};
+    c.joints = {"ball", "ball.break", "hinge", "slider", "slider.limit", "fixed", "wheel"};
+    c.libraryLacks = {{"six_dof", "a"}, {"segment", "b"}, {"distance", "c"}, {"wheel.motor", "d"}};
+    EXPECT_EQ(notInAdapterYet(c),
+              (std::vector<std::string>{"chain", "hinge.limit", "hinge.motor", "hinge.spring", "hinge.break",
+                                        "slider.motor", "slider.spring", "slider.break", "fixed.break",
+                                        "wheel.limit", "wheel.spring", "wheel.break"}));
+    c.dynamics = false;
+    EXPECT_EQ(notInAdapterYet(c), std::vector<std::string>{"chain"});
+    c.planar = true, c.dimensions = {3};
+    EXPECT_EQ(notInAdapterYet(c),
+              (std::vector<std::string>{"chain", "sphere", "hull", "half_space", "cylinder", "cone",
+                                        "triangle_mesh", "height_field"}));
 }
 
 TEST(Planar, ShapesBecomeSolidsAroundThePlane) {

@@ -140,6 +140,8 @@ TEST(BenchStore, ARunOfTheSchemaBeforeHasNone) {
         for (const char* table : {"bench_values", "bench_repetitions", "bench_summaries", "bench_changes",
                                   "bench_cases", "bench_settings"})
             database.exec(std::string("DROP TABLE ") + table);
+        database.exec("ALTER TABLE engines DROP COLUMN package");
+        database.exec("ALTER TABLE cases DROP COLUMN refusal");
         database.exec("PRAGMA user_version = 4");
     }
     EXPECT_TRUE(readRun(folder.path()).bench.empty());

@@ -50,6 +50,7 @@ inline CaseRow caseRow(const std::string& id, std::int64_t position) {
     c.dt = 1.0 / 240.0;
     c.outcome = Outcome::Completed, c.verdict = Verdict::KnownDeviation;
     c.reason = "quote ' and \"line\nbreak\" and \xc3\xa9";
+    c.refusal = "library";
     c.wallSeconds = 0.1, c.cpuSeconds = 1.0 / 3.0;
     c.steps = 1ll << 40, c.peakMemoryKiB = 12345;
     c.stateHash = "00ff", c.trajectoryFile = "trajectories/x.h5", c.command = "./rigor run slide";
@@ -73,8 +74,9 @@ inline Run header() {
     Run run;
     run.suite = "smoke", run.command = "rigor validate smoke", run.started = "2026-01-01T00:00:00Z";
     run.environment = {{"cpu", "some cpu"}, {"kernel", "6.1"}};
-    run.engines = {{"rigor", "Rigor", "0.1", "f64", "flags", "", R"({"capabilities":{"planar":true}})"},
-                   {"gone", "", "", "", "", "not installed"}};
+    run.engines = {
+        {"rigor", "Rigor", "0.1", "f64", "flags", "", R"({"capabilities":{"planar":true}})", "0.1.1"},
+        {"gone", "", "", "", "", "not installed"}};
     ScenarioRow s;
     s.name = "slide", s.title = "A block", s.description = "d", s.source = "Coulomb 1785";
     s.isolates = {"friction"}, s.tags = {"a", "b"}, s.observed = {"block"}, s.metrics = {"position_final"};

@@ -96,10 +96,10 @@ void expectSameParity(const CaseRow& a, const CaseRow& b) {
 void expectSame(const CaseRow& a, const CaseRow& b) {
     EXPECT_EQ(std::tie(a.id, a.position, a.scenario, a.spec, a.engine, a.preset, a.dt, a.outcome, a.verdict,
                        a.reason, a.wallSeconds, a.cpuSeconds, a.steps, a.peakMemoryKiB, a.stateHash,
-                       a.trajectoryFile, a.command),
+                       a.trajectoryFile, a.command, a.refusal),
               std::tie(b.id, b.position, b.scenario, b.spec, b.engine, b.preset, b.dt, b.outcome, b.verdict,
                        b.reason, b.wallSeconds, b.cpuSeconds, b.steps, b.peakMemoryKiB, b.stateHash,
-                       b.trajectoryFile, b.command));
+                       b.trajectoryFile, b.command, b.refusal));
     expectSameMeasured(a, b);
     expectSameParity(a, b);
 }
@@ -137,6 +137,8 @@ TEST(Store, EveryFieldSurvivesBitForBit) {
     EXPECT_EQ(read.finished, "2026-01-01T00:01:00Z");
     ASSERT_EQ(read.engines.size(), 2u);
     EXPECT_EQ(read.engines[0].buildNotes, "flags");
+    EXPECT_EQ(read.engines[0].package, "0.1.1");
+    EXPECT_EQ(read.engines[1].package, "");
     EXPECT_EQ(read.engines[1].problem, "not installed");
     EXPECT_EQ(read.engines[0].capabilities, R"({"capabilities":{"planar":true}})");
     ASSERT_EQ(read.scenarios.size(), 1u);
@@ -247,7 +249,9 @@ void takeBackTo(SQLite::Database& database, int version) {
     for (const char* table : {"bench_values", "bench_repetitions", "bench_summaries", "bench_changes",
                               "bench_cases", "bench_settings"})
         database.exec(std::string("DROP TABLE ") + table);
-    database.exec("ALTER TABLE engines DROP COLUMN capabilities");
+    for (const char* column : {"capabilities", "package"})
+        database.exec(std::string("ALTER TABLE engines DROP COLUMN ") + column);
+    database.exec("ALTER TABLE cases DROP COLUMN refusal");
     if (version < 3) {
         database.exec("ALTER TABLE scenarios DROP COLUMN reference_tex");
         for (const char* column : {"low", "high", "bodies"})
@@ -302,6 +306,7 @@ TEST(Store, WhatOlderSchemasLackedIsEmpty) {
         EXPECT_EQ(run.scenarios[0].referenceFormula, header().scenarios[0].referenceFormula);
         EXPECT_EQ(run.scenarios[0].referenceTex, "");
         EXPECT_EQ(run.engines.at(0).capabilities, "");
+        EXPECT_EQ(run.cases.at(0).refusal, "");
         const TimingRow& timing = run.cases.at(0).timings.at(0);
         EXPECT_EQ(timing.median, caseRow("a", 0).timings[0].median);
         EXPECT_EQ(timing.low, std::nullopt);

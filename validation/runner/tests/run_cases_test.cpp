@@ -310,6 +310,26 @@ TEST_F(RunCases, AKilledRunIsResumedToTheSameResults) {
     }
 }
 
+TEST_F(RunCases, ARefusalKeepsWhoLacksWhat) {
+    const auto refused = [&](const std::string& preset) {
+        return RunCases::run(plan({thrownBall("ball")}, "double_refusing:preset=" + preset), options(preset))
+            .cases.at(0);
+    };
+    const auto adapters = refused("matched"), librarys = refused("default");
+    EXPECT_EQ(adapters.verdict, Verdict::Unsupported);
+    EXPECT_EQ(adapters.refusal, "adapter");
+    EXPECT_EQ(adapters.reason, "refusing: not in the adapter yet: balls for 'ball'");
+    ASSERT_EQ(adapters.ledger.size(), 1u);
+    EXPECT_EQ(adapters.ledger[0].requested, "balls");
+    EXPECT_EQ(adapters.ledger[0].resolved, "not in the adapter yet");
+    EXPECT_EQ(librarys.verdict, Verdict::Unsupported);
+    EXPECT_EQ(librarys.refusal, "library");
+    ASSERT_EQ(librarys.ledger.size(), 1u);
+    EXPECT_EQ(librarys.ledger[0].resolved, "not in the library");
+    EXPECT_EQ(librarys.ledger[0].realisation, "unsupported");
+    EXPECT_THAT(librarys.ledger[0].reason, HasSubstr("refusing.h, shapes"));
+}
+
 TEST_F(RunCases, DescribesEnginesAndWhatIsWrongWithThem) {
     const auto good = describeEngine("double_free_flight", options().binary);
     EXPECT_EQ(good.problem, "");

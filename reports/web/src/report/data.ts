@@ -98,6 +98,7 @@ export interface BriefCase {
   verdict: string;
   shown: Shown;
   reason: string;
+  refusal?: string; // of an unsupported case: adapter or library
   value: Maybe; // of the scenario's main metric
   bound: Maybe;
   step: Step | null;
@@ -190,7 +191,7 @@ export interface Run {
   total: number;
   environment: Record<string, string>;
   bench?: Bench | null; // of `rigor bench`
-  symbols: Record<Shown, { symbol: string; word: string; count: number }>;
+  symbols: Record<Shown, { symbol: string; word: string; count: number; detail: string }>;
   columns: Column[];
   engines: Engine[];
   scenarios: Scenario[];

@@ -15,7 +15,10 @@ function said(value: Capability): Child {
     return value.length
       ? value.map((v) => el('span', { class: 'tag' }, String(v)))
       : el('span', { class: 'muted' }, 'none');
-  return typeof value === 'object' ? JSON.stringify(value) : String(value);
+  if (typeof value !== 'object') return String(value);
+  return Object.entries(value).map(([name, text]) =>
+    el('div', null, el('span', { class: 'tag' }, name), ` ${typeof text === 'string' ? text : JSON.stringify(text)}`),
+  );
 }
 
 function optionRow(o: EngineOption): HTMLElement {
@@ -46,7 +49,7 @@ export function capabilities({ described }: Engine): HTMLElement | null {
     el(
       'p',
       { class: 'muted' },
-      'As the engine’s adapter says, and as the run stored it. What a scenario needs beyond this is “unsupported”.',
+      'As the engine’s adapter says, and as the run stored it. What a scenario needs beyond this is “unsupported”: not in the library where its documentation is named here, else not in our adapter yet.',
     ),
     facts(Object.entries(capabilities).map(([key, value]) => [words(key), said(value)])),
     options.length ? [el('h3', null, 'Settings, in both presets'), scroll(settings)] : null,

@@ -51,6 +51,7 @@ export function headline(): HTMLElement {
             el('span', { 'aria-hidden': 'true' }, v.symbol),
             el('b', null, v.count),
             v.word,
+            v.detail ? el('span', { class: 'muted' }, ` (${v.detail})`) : null,
           ),
         ),
     ),

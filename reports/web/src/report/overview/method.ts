@@ -85,7 +85,10 @@ export function method(): HTMLElement {
       verdict('non_finite', 'a state became NaN or infinite'),
       verdict('timeout', 'no end within the time limit'),
       verdict('crashed', 'the process died or ran out of memory'),
-      verdict('unsupported', 'the engine lacks what the scenario needs; said by the engine, not found by failing'),
+      verdict(
+        'unsupported',
+        'refused before it ran: what the scenario needs is not in our adapter yet (“not yet”), or the library does not have it by its own documentation, which is named (“n/a”)',
+      ),
     ),
     el('h3', null, 'What cannot be matched'),
     el(

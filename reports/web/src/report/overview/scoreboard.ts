@@ -20,7 +20,7 @@ const meaning: Record<Shown, string> = {
   non_finite: 'NaN or infinity',
   timeout: 'over the time limit',
   crashed: 'the process died',
-  unsupported: 'the engine cannot do it',
+  unsupported: 'refused: not in the adapter yet, or not in the library',
 };
 
 /** What the cell says in words, for its tooltip and for those who do not see it. */
@@ -49,7 +49,7 @@ function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): str
 
 function said(cell: Cell, number: Filters['number'], digits: number): string {
   const { shown } = cell.worst;
-  if (shown === 'unsupported') return 'n/a';
+  if (shown === 'unsupported') return cell.worst.refusal === 'adapter' ? 'not yet' : 'n/a';
   if (isLost(shown)) return verdictText(shown).word;
   if (number === 'cost') return duration(costOf(cell));
   if (number === 'bounds') return Number.isNaN(errorInBounds(cell)) ? '—' : `${format(errorInBounds(cell), 2)}×`;

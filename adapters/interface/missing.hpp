@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What the scenario format can ask for and an engine does not do, for people who want to know before a run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "adapters/interface/types.hpp"
+
+namespace rigor::adapter {
+
+/// Shapes, joints and what joints may have besides ("hinge.spring"), of the dimensions that the engine runs,
+/// that are neither among its capabilities nor among Capabilities::libraryLacks: not in the adapter yet.
+/// Without dynamics the joints are left out.
+std::vector<std::string> notInAdapterYet(const Capabilities& capabilities);
+
+}  // namespace rigor::adapter
