@@ -23,11 +23,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json optionJson(const adapter::Option& option) {
+Json optionJson(const adapter::Option& option, const std::vector<adapter::Preset>& own) {
     Json json{{"key", option.key},
               {"default", option.defaultValue},
               {"matched", option.matchedValue},
               {"help", option.help}};
+    for (const auto& preset : own) json[preset.name] = adapter::presetValue(option, preset.name, own);
     if (option.values.empty())
         json["range"] = {option.min, option.max};
     else
@@ -61,11 +62,12 @@ Json engines() {
                   {"package", d.info.package},
                   {"precision", d.info.precision}};
         json["precisions"] = d.precisions;
+        json["presets"] = adapter::presetNames(d.presets);
         json["build"] = d.info.buildNotes;
         json["problem"] = d.problem;
         json["capabilities"] = capabilitiesJson(d.capabilities);
         json["options"] = Json::array();
-        for (const auto& option : d.options) json["options"].push_back(optionJson(option));
+        for (const auto& option : d.options) json["options"].push_back(optionJson(option, d.presets));
         list.push_back(std::move(json));
     }
     return list;
@@ -282,13 +284,21 @@ void printLacks(const Json& engineList) {
 void printOptions(const Json& engineList) {
     for (const auto& engine : engineList) {
         if (engine.at("options").empty()) continue;
-        std::printf("\n%s keys (default | matched):\n", cellText(engine.at("name")).c_str());
+        const auto byPreset = [&](auto&& cell) {
+            std::string line;
+            for (const auto& preset : engine.at("presets"))
+                line += (line.empty() ? "" : " | ") + cell(preset);
+            return line;
+        };
+        std::printf("\n%s keys (%s):\n", cellText(engine.at("name")).c_str(),
+                    byPreset([](const Json& preset) { return cellText(preset); }).c_str());
         for (const auto& o : engine.at("options")) {
             const std::string allowed =
                 o.contains("values") ? cellText(o.at("values")) : cellText(o.at("range"));
-            std::printf("  %-28s %s | %s   %s  %s\n", cellText(o.at("key")).c_str(),
-                        cellText(o.at("default")).c_str(), cellText(o.at("matched")).c_str(), allowed.c_str(),
-                        cellText(o.at("help")).c_str());
+            const std::string values =
+                byPreset([&](const Json& preset) { return cellText(o.at(cellText(preset))); });
+            std::printf("  %-28s %s   %s  %s\n", cellText(o.at("key")).c_str(), values.c_str(),
+                        allowed.c_str(), cellText(o.at("help")).c_str());
         }
     }
 }

@@ -16,6 +16,7 @@
 #include "reports/report.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/results/store.hpp"
+#include "validation/runner/describe.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace rigor::cli {
@@ -160,7 +161,7 @@ int validate(const Arguments& given) {
         arguments.what = arguments.resume ? resumedWhat(arguments) : std::vector{kDefaultSuite};
     checkBaseline(arguments.baseline);
     const Selection selection = select(arguments);
-    const auto specs = chooseEngines(arguments, selection);
+    const auto specs = validation::withAllPresets(chooseEngines(arguments, selection), ownBinary());
     std::vector<double> timeSteps = selection.timeSteps;
     if (!arguments.timeSteps.empty()) timeSteps.clear();
     for (const auto& text : arguments.timeSteps) timeSteps.push_back(parseTimeStep(text));
@@ -208,7 +209,7 @@ void addValidate(CLI::App& app, Action& action) {
     command->add_option("WHAT", a->what,
                         "Suites or scenarios (names or files); default: the suite 'standard'");
     command->add_option("--engines", a->engines,
-                        "Engine specs, comma separated; default: all installed, both presets");
+                        "Engine specs, comma separated; default: all installed, each in all of its presets");
     command
         ->add_option("--dt", a->timeSteps,
                      "Time steps in seconds (0.004 or 1/240) instead of the scenarios' own")

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "adapters/conformance/kit.hpp"
+#include "adapters/interface/presets.hpp"
 
 namespace rigor::conformance {
 namespace {
@@ -38,17 +39,30 @@ TEST(Describe, FacesAndCapabilitiesAgree) {
 }
 
 TEST(Describe, EveryOptionTakesItsOwnDefaults) {
+    const auto own = adapter::ownPresets(engine());
     std::set<std::string> keys;
     for (const auto& option : engine().options()) {
         SCOPED_TRACE(option.key);
         EXPECT_TRUE(keys.insert(option.key).second) << "listed twice";
         EXPECT_NE(option.key, "preset");
         EXPECT_FALSE(option.help.empty());
-        for (const auto& value : {option.defaultValue, option.matchedValue}) {
+        for (const auto& preset : adapter::presetNames(own)) {
+            const auto& value = adapter::presetValue(option, preset, own);
             auto spec = engineSpec();
             spec.options[option.key] = value;
             EXPECT_EQ(adapter::resolveSettings(spec, engine()).at(option.key), value);
         }
+    }
+}
+
+TEST(Describe, FurtherPresetsHaveNamesAndKeysOfTheirOwn) {
+    std::set<std::string> names{"default", "matched"}, keys;
+    for (const auto& option : engine().options()) keys.insert(option.key);
+    for (const auto& preset : adapter::ownPresets(engine())) {
+        EXPECT_TRUE(names.insert(preset.name).second) << preset.name << " is there twice";
+        EXPECT_FALSE(preset.values.empty()) << preset.name;
+        for (const auto& [key, value] : preset.values)
+            EXPECT_TRUE(keys.contains(key)) << preset.name << ": " << key << " is no option";
     }
 }
 

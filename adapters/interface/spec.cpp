@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "adapters/interface/presets.hpp"
 #include "adapters/interface/registry.hpp"
 
 namespace rigor::adapter {
@@ -106,13 +107,14 @@ std::vector<EngineSpec> parseSpecList(const std::string& text) {
 
 Settings resolveSettings(const EngineSpec& spec, const Engine& engine) {
     const std::string preset = spec.preset();
-    if (preset != "default" && preset != "matched")
+    const auto own = ownPresets(engine);
+    const auto presets = presetNames(own);
+    if (std::find(presets.begin(), presets.end(), preset) == presets.end())
         throw BadInput("engine '" + spec.engine + "', key 'preset': found '" + preset +
-                       "', expected one of default, matched");
+                       "', expected one of " + joined(presets));
     const auto options = engine.options();
     Settings settings{{"preset", preset}, {"precision", engine.info().precision}};
-    for (const auto& option : options)
-        settings[option.key] = preset == "matched" ? option.matchedValue : option.defaultValue;
+    for (const auto& option : options) settings[option.key] = presetValue(option, preset, own);
     for (const auto& [key, value] : spec.options) {
         if (key == "preset") continue;
         const auto option =

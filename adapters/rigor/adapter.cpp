@@ -6,16 +6,34 @@
 #include <algorithm>
 
 #include "adapters/interface/options.hpp"
+#include "adapters/interface/presets.hpp"
 #include "adapters/rigor/foreign_narrow_phase.hpp"
 #include "adapters/rigor/parts.hpp"
 #include "adapters/rigor/settings.hpp"
 #include "engine/constraints/joint.hpp"
 #include "engine/pipeline/algorithms.hpp"
+#include "engine/state/prefer_speed.hpp"
 
 namespace rigor::adapter {
 namespace {
 
-class RigorEngine final : public Engine {
+/// What engine::preferSpeed sets, with the solver's own number of iterations.
+Preset fastPreset() {
+    engine::WorldDef<engine::Space3d> def;
+    engine::preferSpeed(def);
+    return {"fast",
+            {{"solver", def.solver},
+             {"broad_phase", def.broadPhase},
+             {"substeps", std::to_string(def.substeps)},
+             {"velocity_iterations", std::to_string(def.velocityIterations)},
+             {"contact_frequency", shown(def.contactFrequency)},
+             {"reuse_distance", shown(def.reuseDistance)},
+             {"box_margin", shown(def.boxMargin)},
+             {"speculative_distance", shown(def.speculativeDistance)},
+             {"curved_joints", def.curvedJoints ? "on" : "off"}}};
+}
+
+class RigorEngine final : public EngineWithPresets {
   public:
     RigorEngine()
         : dynamics_(makeRigorDynamics()),
@@ -96,6 +114,7 @@ class RigorEngine final : public Engine {
             choice("precision", {"f32", "f64"}, "f64", "f64", "number type of state and computation"));
         return options;
     }
+    std::vector<Preset> presets() const override { return {fastPreset()}; }
     const DynamicsEngine* dynamics() const override { return dynamics_.get(); }
     const CollisionEngine* collision() const override { return collision_.get(); }
     const BroadPhaseEngine* broadPhase() const override { return broadPhase_.get(); }

@@ -40,7 +40,7 @@ TEST_F(CompareCommand, TheSameRunTwiceIsTheSame) {
     const json out =
         json::parse(rigor("compare --json " + path("a") + " " + path("b") + "," + path("a"), false).out);
     EXPECT_FALSE(out.at("worse"));
-    EXPECT_EQ(out.at("specs").size(), 2u);  // both presets
+    EXPECT_EQ(out.at("specs").size(), 3u);  // default, matched, fast
     EXPECT_GT(out.at("specs")[0].at("same"), 5);
 }
 

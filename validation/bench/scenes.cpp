@@ -87,7 +87,8 @@ std::vector<BenchWork> planScenes(const SceneRequest& request,
             const auto engine = std::find_if(engines.begin(), engines.end(),
                                              [&](const auto& d) { return d.info.name == asked.engine; });
             if (engine == engines.end() || !couldRun(*engine, scene.scenario)) continue;
-            const EngineSpec spec = withScenarioSettings(asked, scene.text);
+            EngineSpec spec = withScenarioSettings(asked, scene.text);
+            spec.options.emplace("preset", request.preset);
             if (engine->problem.empty()) checkSettings(spec, *engine);
             for (const auto& threaded : threadedSpecs(spec, request.preset, request.threads, *engine)) {
                 PlannedBench planned;

@@ -6,7 +6,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "validation/runner/answer.hpp"
 #include "validation/runner/process_pool.hpp"
@@ -37,6 +39,12 @@ adapter::Option optionFromJson(const json& j) {
     o.integer = j.at("integer");
     o.defaultValue = j.at("default"), o.matchedValue = j.at("matched"), o.help = j.at("help");
     return o;
+}
+
+json presetsToJson(const std::vector<adapter::Preset>& presets) {
+    json list = json::array();
+    for (const auto& p : presets) list.push_back({{"name", p.name}, {"values", p.values}});
+    return list;
 }
 
 json capabilitiesToJson(const adapter::Capabilities& c) {
@@ -82,15 +90,18 @@ void readDescription(const json& j, EngineDescription& d) {
               j.at("title"), j.at("build_notes"), j.at("package")};
     d.capabilities = capabilitiesFromJson(j.at("capabilities"));
     for (const json& o : j.at("options")) d.options.push_back(optionFromJson(o));
+    for (const json& p : j.at("presets"))
+        d.presets.push_back({p.at("name"), p.at("values").get<std::map<std::string, std::string>>()});
 }
 
 /// What resolveSettings asks of an engine, from its description: the library stays out of this process.
-class DescribedEngine final : public adapter::Engine {
+class DescribedEngine final : public adapter::EngineWithPresets {
   public:
     explicit DescribedEngine(const EngineDescription& d) : d_(d) {}
     adapter::EngineInfo info() const override { return d_.info; }
     adapter::Capabilities capabilities() const override { return d_.capabilities; }
     std::vector<adapter::Option> options() const override { return d_.options; }
+    std::vector<adapter::Preset> presets() const override { return d_.presets; }
 
   private:
     const EngineDescription& d_;
@@ -121,7 +132,8 @@ int describeChild(const std::string& engine, const std::filesystem::path& answer
                            {"build_notes", info.buildNotes},
                            {"package", info.package},
                            {"capabilities", capabilitiesToJson(loaded->capabilities())},
-                           {"options", std::move(options)}});
+                           {"options", std::move(options)},
+                           {"presets", presetsToJson(adapter::ownPresets(*loaded))}});
     return 0;
 }
 
@@ -129,7 +141,10 @@ std::string capabilitiesText(const EngineDescription& description) {
     if (!description.problem.empty()) return "";
     json options = json::array();
     for (const auto& o : description.options) options.push_back(optionToJson(o));
-    return json{{"capabilities", capabilitiesToJson(description.capabilities)}, {"options", options}}.dump();
+    return json{{"capabilities", capabilitiesToJson(description.capabilities)},
+                {"options", options},
+                {"presets", presetsToJson(description.presets)}}
+        .dump();
 }
 
 std::vector<EngineDescription> describeEngines(const std::vector<std::string>& engines,
@@ -171,6 +186,27 @@ std::vector<EngineDescription> describeEngines(const std::vector<std::string>& e
 
 EngineDescription describeEngine(const std::string& engine, const std::filesystem::path& binary) {
     return describeEngines({engine}, binary, 1).front();
+}
+
+std::vector<adapter::EngineSpec> withAllPresets(const std::vector<adapter::EngineSpec>& specs,
+                                                const std::filesystem::path& binary) {
+    std::set<std::string> names;
+    for (const auto& spec : specs)
+        if (!spec.options.contains("preset")) names.insert(spec.engine);
+    std::map<std::string, std::vector<adapter::Preset>> own;
+    for (auto& d : describeEngines({names.begin(), names.end()}, binary, 1)) own[d.info.name] = d.presets;
+    std::vector<adapter::EngineSpec> expanded;
+    for (const auto& spec : specs) {
+        if (spec.options.contains("preset")) {
+            expanded.push_back(spec);
+            continue;
+        }
+        for (const auto& preset : adapter::presetNames(own[spec.engine])) {
+            expanded.push_back(spec);
+            expanded.back().options["preset"] = preset;
+        }
+    }
+    return expanded;
 }
 
 void checkSettings(const adapter::EngineSpec& spec, const EngineDescription& description) {

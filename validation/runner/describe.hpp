@@ -21,6 +21,11 @@ std::string capabilitiesText(const EngineDescription& description);
 std::vector<EngineDescription> describeEngines(const std::vector<std::string>& engines,
                                                const std::filesystem::path& binary, int jobs);
 
+/// Specs that name no preset, once for every preset of their engine; for engines that can not be described
+/// the usual ones.
+std::vector<adapter::EngineSpec> withAllPresets(const std::vector<adapter::EngineSpec>& specs,
+                                                const std::filesystem::path& binary);
+
 /// Throws BadInput for keys and values of a spec that the described engine does not have; no library is
 /// loaded.
 void checkSettings(const adapter::EngineSpec& spec, const EngineDescription& description);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "adapters/interface/presets.hpp"
 #include "validation/runner/read_back.hpp"
 #include "validation/runner/runner.hpp"
 
@@ -32,6 +33,13 @@ const Entry* entryFor(const std::vector<Entry>& entries, const std::string& engi
         if (rank > bestRank) best = &e, bestRank = rank;
     }
     return best;
+}
+
+/// Bounds and recorded deviations are written for the presets that every engine has. An engine's further
+/// presets trade accuracy for something else: what they miss by is shown, not judged.
+bool isJudgedByScenario(const std::string& preset) {
+    const auto& usual = adapter::usualPresets();
+    return std::find(usual.begin(), usual.end(), preset) != usual.end();
 }
 
 /// What holds wherever it has a value, in every scenario that says nothing else.
@@ -94,6 +102,7 @@ void judgeCompleted(CaseRow& row) {
 }  // namespace
 
 const scenario::Bound* boundFor(const Scenario& scenario, const CaseRow& row, const std::string& metric) {
+    if (!isJudgedByScenario(row.preset)) return nullptr;
     const auto precision = row.settings.find("precision");
     const bool isSingle = precision != row.settings.end() && precision->second == "f32";
     return entryFor(scenario.accept, isSingle ? "" : row.engine, row.preset, metric);
@@ -101,6 +110,7 @@ const scenario::Bound* boundFor(const Scenario& scenario, const CaseRow& row, co
 
 const scenario::KnownDeviation* deviationFor(const Scenario& scenario, const std::string& engine,
                                              const std::string& preset, const std::string& metric) {
+    if (!isJudgedByScenario(preset)) return nullptr;
     return entryFor(scenario.knownDeviations, engine, preset, metric);
 }
 

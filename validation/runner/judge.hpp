@@ -16,7 +16,7 @@ inline constexpr const char* kInHouseEngine = "rigor";
 
 /// The bound of a case for a metric: the entry for its engine and preset, else for its engine, else for "*";
 /// null when there is none. Bounds that name an engine are meant for double precision: in single precision
-/// everyone's holds.
+/// everyone's holds. None judges a preset that only some engines have.
 const scenario::Bound* boundFor(const scenario::Scenario& scenario, const results::CaseRow& row,
                                 const std::string& metric);
 const scenario::KnownDeviation* deviationFor(const scenario::Scenario& scenario, const std::string& engine,

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/interface/presets.hpp"
 #include "adapters/interface/registry.hpp"
 #include "scenarios/model/scenario.hpp"
 #include "validation/results/types.hpp"
@@ -72,6 +73,7 @@ struct EngineDescription {
     adapter::EngineInfo info;
     adapter::Capabilities capabilities;
     std::vector<adapter::Option> options;
+    std::vector<adapter::Preset> presets;  ///< beside the usual ones
     std::vector<std::string> precisions;
     std::string problem;
 };

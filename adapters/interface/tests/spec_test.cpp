@@ -3,19 +3,23 @@
 #include <gtest/gtest.h>
 
 #include "adapters/interface/options.hpp"
+#include "adapters/interface/presets.hpp"
 #include "adapters/interface/registry.hpp"
 
 namespace rigor::adapter {
 namespace {
 
 /// An engine that is nothing but its options.
-class OptionsOnly final : public Engine {
+class OptionsOnly final : public EngineWithPresets {
   public:
     EngineInfo info() const override { return {"toy", "1", "f64", "Toy", ""}; }
     Capabilities capabilities() const override { return {}; }
     std::vector<Option> options() const override {
         return {choice("solver", {"fast", "exact"}, "fast", "exact", ""),
                 integer("iterations", 1, 100, "10", "50", ""), number("slop", 0, 1, "0.01", "0", "")};
+    }
+    std::vector<Preset> presets() const override {
+        return {{"rough", {{"iterations", "3"}, {"slop", "0.1"}}}};
     }
 };
 
@@ -66,10 +70,20 @@ TEST(Spec, PresetsFillWhatIsNotGiven) {
                                  {"slop", "0"}}));
 }
 
+TEST(Spec, AFurtherPresetStandsOnTheMatchedOne) {
+    const auto rough = resolveSettings(parseSpec("toy:preset=rough,slop=0.2"), OptionsOnly());
+    EXPECT_EQ(rough, (Settings{{"preset", "rough"},
+                               {"precision", "f64"},
+                               {"solver", "exact"},
+                               {"iterations", "3"},
+                               {"slop", "0.2"}}));
+}
+
 TEST(Spec, WrongKeysAndValuesNameWhatIsAllowed) {
     EXPECT_NE(messageOf("toy:sover=fast").find("solver"), std::string::npos);
     EXPECT_NE(messageOf("toy:solver=slow").find("fast, exact"), std::string::npos);
-    EXPECT_NE(messageOf("toy:preset=best").find("default, matched"), std::string::npos);
+    EXPECT_NE(messageOf("toy:preset=best").find("'best', expected one of default, matched, rough"),
+              std::string::npos);
     EXPECT_NE(messageOf("toy:precision=f16").find("f32, f64"), std::string::npos);
     for (const char* spec :
          {"toy:iterations=0", "toy:iterations=101", "toy:iterations=1.5", "toy:iterations=ten",
