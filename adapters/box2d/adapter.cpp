@@ -31,15 +31,17 @@ class Box2dEngine final : public adapter::Engine, public adapter::DynamicsEngine
         adapter::Capabilities c;
         c.dynamics = c.collision = c.broadPhase = true;
         c.dimensions = {2};
-        c.shapes = {"circle", "box", "capsule", "polygon", "half_plane", "segment"};
-        c.joints = {"ball",        "hinge",          "hinge.limit",     "hinge.motor",
-                    "slider",      "slider.limit",   "slider.motor",    "fixed",
-                    "distance",    "distance.limit", "distance.spring", "wheel",
-                    "wheel.limit", "wheel.motor",    "wheel.spring"};
+        c.shapes = {"circle", "box", "capsule", "polygon", "half_plane", "segment", "chain"};
+        c.joints = {"ball",           "ball.break",     "hinge",           "hinge.limit",  "hinge.motor",
+                    "hinge.spring",   "hinge.break",    "slider",          "slider.limit", "slider.motor",
+                    "slider.spring",  "slider.break",   "fixed",           "fixed.break",  "distance",
+                    "distance.limit", "distance.break", "distance.spring", "wheel",        "wheel.limit",
+                    "wheel.motor",    "wheel.spring",   "wheel.break"};
         c.contactImpulses = c.signedDistance = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.libraryLacks = {
             {"3D", kTwoDimensions},
+            {"distance.motor", "b2_distance_joint.h, b2DistanceJointDef: length, bounds and spring"},
             {"six_dof", "b2_joint.h, enum b2JointType: none has three axes to choose for"},
             {"static_friction", "b2_fixture.h, b2FixtureDef::friction: the one coefficient of friction"}};
         return c;

@@ -45,6 +45,7 @@ struct Extent {
     }
     double operator()(const Segment& s) const { return std::max(norm(s.a), norm(s.b)); }
     double operator()(const HalfSpace&) const { return 0.0; }
+    double operator()(const scenario::Chain& c) const { return (*this)(scenario::ConvexHull{c.vertices}); }
     template <class Other>
     double operator()(const Other& other) const {
         throw adapter::notInAdapter("box2d",
@@ -83,6 +84,12 @@ struct Side {
     float radius = 0.0f;
     b2Transform pose;
 
+    /// One link of a chain, which both stay with.
+    Side(const b2ChainShape& chain, int32 link, const b2Transform& where) : pose(where) {
+        auto edge = std::make_unique<b2EdgeShape>();
+        chain.GetChildEdge(edge.get(), link);
+        shape = std::move(edge);
+    }
     Side(const PosedShape& posed, const Frame& frame) {
         const Pose local = frame.local(posed.pose);
         pose = toBox2d(local, frame.scale);
@@ -93,11 +100,14 @@ struct Side {
             radius = static_cast<float>(frame.scale * c->radius);
             return;
         }
+        shape = std::move(buildGeometry(*posed.geometry, {}, local, settingsOf(frame)).front());
+    }
+    static ShapeSettings settingsOf(const Frame& frame) {
         ShapeSettings settings;
         settings.scale = frame.scale;
         settings.skin = {0.0f, 0.0f};
         settings.halfPlaneReach = settings.halfPlaneDepth = 40.0 / frame.scale;
-        shape = std::move(buildGeometry(*posed.geometry, {}, local, settings).front());
+        return settings;
     }
 
     /// The proxy for b2Distance: vertices and radius.
@@ -110,6 +120,22 @@ struct Side {
         return p;
     }
 };
+
+/// What is asked about for one shape: itself, or every link of a chain from both of its sides.
+std::vector<Side> sidesOf(const PosedShape& posed, const Frame& frame) {
+    std::vector<Side> sides;
+    if (!std::holds_alternative<scenario::Chain>(*posed.geometry)) {
+        sides.emplace_back(posed, frame);
+        return sides;
+    }
+    const Pose local = frame.local(posed.pose);
+    const b2Transform pose = toBox2d(local, frame.scale);
+    for (const auto& shape : buildGeometry(*posed.geometry, {}, local, Side::settingsOf(frame))) {
+        const auto& chain = static_cast<const b2ChainShape&>(*shape);
+        for (int32 link = 0; link < chain.GetChildCount(); ++link) sides.emplace_back(chain, link, pose);
+    }
+    return sides;
+}
 
 /// The manifold of two shapes that both are Box2D's, in the order Box2D wants them; false when it wants the
 /// other order.
@@ -155,6 +181,9 @@ class Box2dBatch final : public adapter::CollisionBatch {
   public:
     explicit Box2dBatch(std::span<const CollisionQuery> queries) : manifolds_(queries.size()) {
         for (const CollisionQuery& query : queries) {
+            for (const PosedShape* posed : {&query.a, &query.b})
+                if (std::holds_alternative<scenario::Chain>(*posed->geometry))
+                    throw adapter::notInAdapter("box2d", "timed query of shape 'chain'");
             const Frame frame = frameOf(query);
             BatchPair pair{{query.a, frame}, {query.b, frame}, frame, false};
             if (pair.first.capsule || pair.second.capsule)
@@ -239,6 +268,30 @@ Closest closestPoints(const Side& a, const Side& b, const Frame& frame) {
     return closest;
 }
 
+/// Contacts of two sides into `answer`, and their closest points where they are nearer than what it has.
+void ask(const Side& a, const Side& b, const Frame& frame, CollisionAnswer& answer) {
+    const Closest closest = closestPoints(a, b, frame);
+    if (a.capsule || b.capsule) {
+        if (!closest.coresApart)
+            throw notInLibrary("box2d", "depth of a capsule once its core is reached", kShapes);
+        if (closest.distance <= 0.0) {
+            ContactPoint contact;
+            contact.bodyB = 1;
+            contact.pointA = closest.onA, contact.pointB = closest.onB;
+            contact.normal = closest.normal;
+            contact.depth = -closest.distance;
+            answer.contacts.push_back(contact);
+        }
+    } else {
+        for (const ContactPoint& contact : shapeContacts(a, b, frame))
+            if (contact.depth >= 0.0) answer.contacts.push_back(contact);
+    }
+    if (closest.coresApart && !(answer.signedDistance && *answer.signedDistance <= closest.distance)) {
+        answer.signedDistance = closest.distance;
+        answer.witnessA = closest.onA, answer.witnessB = closest.onB;
+    }
+}
+
 }  // namespace
 
 std::unique_ptr<adapter::CollisionBatch> Box2dCollisionEngine::batch(
@@ -254,24 +307,10 @@ CollisionAnswer Box2dCollisionEngine::collide(const CollisionQuery& query) const
     if (query.dimension != 2) throw notInLibrary("box2d", "three-dimensional shapes", kTwoDimensions);
     adapter::checkQueryInput(query);
     const Frame frame = frameOf(query);
-    const Side a(query.a, frame), b(query.b, frame);
-    const Closest closest = closestPoints(a, b, frame);
     CollisionAnswer answer;
-    if (a.capsule || b.capsule) {
-        if (!closest.coresApart)
-            throw notInLibrary("box2d", "depth of a capsule once its core is reached", kShapes);
-        if (closest.distance <= 0.0) {
-            ContactPoint contact;
-            contact.bodyB = 1;
-            contact.pointA = closest.onA, contact.pointB = closest.onB;
-            contact.normal = closest.normal;
-            contact.depth = -closest.distance;
-            answer.contacts.push_back(contact);
-        }
-    } else {
-        answer.contacts = shapeContacts(a, b, frame);
-        std::erase_if(answer.contacts, [](const ContactPoint& c) { return c.depth < 0.0; });
-    }
+    const std::vector<Side> sidesB = sidesOf(query.b, frame);
+    for (const Side& a : sidesOf(query.a, frame))
+        for (const Side& b : sidesB) ask(a, b, frame, answer);
     std::stable_sort(answer.contacts.begin(), answer.contacts.end(),
                      [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
     answer.overlap = !answer.contacts.empty();
@@ -279,9 +318,6 @@ CollisionAnswer Box2dCollisionEngine::collide(const CollisionQuery& query) const
         const ContactPoint& deepest = answer.contacts.front();
         answer.signedDistance = -deepest.depth;
         answer.witnessA = deepest.pointA, answer.witnessB = deepest.pointB;
-    } else if (closest.coresApart) {
-        answer.signedDistance = closest.distance;
-        answer.witnessA = closest.onA, answer.witnessB = closest.onB;
     }
     if (static_cast<int>(answer.contacts.size()) > query.maxContacts)
         answer.contacts.resize(static_cast<std::size_t>(std::max(query.maxContacts, 0)));

@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Joints of the scenario format as Box2D joints: hinge and ball are a revolute joint in the plane, slider a
-// prismatic joint, fixed a weld, distance a distance joint (rod, rope or spring), wheel a wheel joint.
-// Reference angles are the initial ones.
+// prismatic joint, fixed a weld, distance a distance joint (rod, rope or spring), wheel a wheel joint. The
+// spring of a hinge is a weld joint that gives way about its anchor, that of a slider a wheel joint along the
+// same axis. Reference angles are the initial ones.
 #include "adapters/box2d/joints.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rigor::box2d {
 namespace {
@@ -33,6 +35,56 @@ Def common(const Ends& ends) {
     return def;
 }
 
+/// Too little to be felt, enough for Box2D to take a damper for a spring.
+constexpr float kLeastStiffness = 1e-20f;
+
+/// The velocity of B against A along one direction of a joint, as a row of its Jacobian: n (vB - vA) +
+/// turnB wB - turnA wA, with the velocities of the centres of mass.
+struct Row {
+    b2Vec2 n{0.0f, 0.0f};
+    double turnA = 0.0, turnB = 0.0;
+};
+const Row kAngle{{0.0f, 0.0f}, 1.0, 1.0};
+
+/// Of the anchors along the unit vector n in the world.
+Row along(const Ends& ends, b2Vec2 n) {
+    const auto arm = [&](const b2Body& body, b2Vec2 anchor) {
+        return static_cast<double>(b2Cross(body.GetWorldPoint(anchor) - body.GetWorldCenter(), n));
+    };
+    return {n, arm(*ends.a.body, ends.anchorA), arm(*ends.b.body, ends.anchorB)};
+}
+
+/// How much an impulse along row r changes the velocity along row s [1/kg]; Box2D lengths.
+double coupling(const Ends& ends, const Row& r, const Row& s) {
+    double sum = 0.0;
+    const auto add = [&](const b2Body& body, double turnR, double turnS) {
+        if (body.GetType() != b2_dynamicBody) return;
+        const double central =
+            body.GetInertia() - body.GetMass() * b2Dot(body.GetLocalCenter(), body.GetLocalCenter());
+        sum += b2Dot(r.n, s.n) / body.GetMass() + turnR * turnS / central;
+    };
+    add(*ends.a.body, r.turnA, s.turnA);
+    add(*ends.b.body, r.turnB, s.turnB);
+    return sum;
+}
+
+/// One over the effective mass of a coordinate while the joint holds up to two others: what is left of its
+/// coupling with itself after theirs is eliminated.
+double mobilityOf(const Ends& ends, const Row& row) {
+    return coupling(ends, row, row);
+}
+double mobilityOf(const Ends& ends, const Row& row, const Row& held) {
+    const double k = coupling(ends, row, held);
+    return coupling(ends, row, row) - k * k / coupling(ends, held, held);
+}
+double mobilityOf(const Ends& ends, const Row& row, const Row& held, const Row& heldToo) {
+    const double k = coupling(ends, row, held), kToo = coupling(ends, row, heldToo);
+    const double a = coupling(ends, held, held), b = coupling(ends, held, heldToo),
+                 c = coupling(ends, heldToo, heldToo);
+    const double eliminated = (c * k * k - 2.0 * b * k * kToo + a * kToo * kToo) / (a * c - b * b);
+    return coupling(ends, row, row) - eliminated;
+}
+
 /// A bound in Box2D's units; what is no bound in the format is far away.
 float toBound(double x, double scale) {
     return static_cast<float>(std::clamp(scale * x, -1e6, 1e6));
@@ -42,29 +94,20 @@ float toBound(double x, double scale) {
     throw adapter::notInLibrary("box2d", what, documentation, "joint '" + joint.name + "'");
 }
 
-/// Stiffness [N/m] and damping [N s/m] of a spring along the unit vector n in the world. From frequency and
-/// damping ratio on the mass that n moves: 1/m = sum 1/m_i + (r_i x n)^2 / I_i.
-void setSpring(const scenario::JointAxis& axis, const Ends& ends, b2Vec2 n, float& stiffness,
+/// Stiffness and damping of a spring on this coordinate, Box2D's units for a length that is scaled by
+/// `scale`; 1 for lengths of Box2D. Box2D takes no notice of the damping of a spring without stiffness.
+void setSpring(const scenario::JointAxis& axis, double mobility, double scale, float& stiffness,
                float& damping) {
-    stiffness = static_cast<float>(axis.stiffness), damping = static_cast<float>(axis.damping);
-    if (!(axis.frequency > 0.0)) return;
-    double mobility = 0.0;
-    const auto add = [&](const b2Body& body, b2Vec2 anchor) {
-        if (body.GetType() != b2_dynamicBody) return;
-        const double arm = b2Cross(body.GetWorldPoint(anchor) - body.GetWorldCenter(), n);
-        const double central =
-            body.GetInertia() - body.GetMass() * b2Dot(body.GetLocalCenter(), body.GetLocalCenter());
-        mobility += 1.0 / body.GetMass() + arm * arm / central;
-    };
-    add(*ends.a.body, ends.anchorA);
-    add(*ends.b.body, ends.anchorB);
     const double w = 2.0 * 3.14159265358979323846 * axis.frequency;
-    stiffness = static_cast<float>(w * w / mobility);
-    damping = static_cast<float>(2.0 * axis.dampingRatio * w / mobility);
+    const bool tuned = axis.frequency > 0.0;
+    const double k = tuned ? w * w / mobility : scale * scale * axis.stiffness;
+    const double c = tuned ? 2.0 * axis.dampingRatio * w / mobility : scale * scale * axis.damping;
+    stiffness = std::max(static_cast<float>(k), kLeastStiffness);
+    damping = static_cast<float>(c);
 }
 
 /// Rod, rope, spring, or spring between stops.
-void addDistance(b2World& world, const Joint& joint, const Ends& ends, double scale) {
+b2Joint* addDistance(b2World& world, const Joint& joint, const Ends& ends, double scale) {
     auto def = common<b2DistanceJointDef>(ends);
     const scenario::JointAxis& axis = joint.axes[0];
     def.length = def.minLength = def.maxLength = static_cast<float>(scale * joint.length);
@@ -78,7 +121,7 @@ void addDistance(b2World& world, const Joint& joint, const Ends& ends, double sc
                 unsupported(joint, "spring between anchors that coincide",
                             "b2_distance_joint.h, m_minLength: at least b2_linearSlop");
             def.length = static_cast<float>(scale * axis.target);
-            setSpring(axis, ends, n, def.stiffness, def.damping);
+            setSpring(axis, mobilityOf(ends, along(ends, n)), 1.0, def.stiffness, def.damping);
         } else {
             def.length = std::max(def.length, 2.0f * b2_linearSlop);
         }
@@ -86,12 +129,12 @@ void addDistance(b2World& world, const Joint& joint, const Ends& ends, double sc
     if (def.length <= b2_linearSlop)
         unsupported(joint, "distance joint shorter than its slop",
                     "b2_distance_joint.h, length: clamped to a stable range");
-    world.CreateJoint(&def);
+    return world.CreateJoint(&def);
 }
 
 /// Box2D's wheel has spring and stops along its axis and a motor about its pin. The spring pulls to zero: its
 /// target moves A's anchor instead.
-void addWheel(b2World& world, const Joint& joint, const Ends& ends, double scale) {
+b2Joint* addWheel(b2World& world, const Joint& joint, const Ends& ends, double scale) {
     auto def = common<b2WheelJointDef>(ends);
     const scenario::JointAxis &travel = joint.axes[0], &angle = joint.axes[1];
     if (travel.hasMotor() || angle.hasSpring() || angle.mode == scenario::AxisMode::Limited)
@@ -107,14 +150,65 @@ void addWheel(b2World& world, const Joint& joint, const Ends& ends, double scale
     def.enableMotor = angle.hasMotor();
     def.motorSpeed = static_cast<float>(angle.motorSpeed);
     def.maxMotorTorque = static_cast<float>(scale * scale * angle.motorMaxForce);
-    if (travel.hasSpring())
-        setSpring(travel, ends, ends.a.body->GetWorldVector(def.localAxisA), def.stiffness, def.damping);
-    world.CreateJoint(&def);
+    if (travel.hasSpring()) {
+        const b2Vec2 n = ends.a.body->GetWorldVector(def.localAxisA);
+        const double mobility = mobilityOf(ends, along(ends, n), along(ends, b2Cross(1.0f, n)));
+        setSpring(travel, mobility, 1.0, def.stiffness, def.damping);
+    }
+    return world.CreateJoint(&def);
+}
+
+/// A revolute joint where there is no spring, or stops or a motor beside it, and a weld joint for the spring.
+Parts addHinge(b2World& world, const Joint& joint, const Ends& ends, double scale) {
+    Parts parts;
+    const scenario::JointAxis& axis = joint.axes[0];
+    auto def = common<b2RevoluteJointDef>(ends);
+    def.referenceAngle = ends.referenceAngle;
+    def.enableLimit = axis.mode == scenario::AxisMode::Limited;
+    if (def.enableLimit) def.lowerAngle = toBound(axis.lower, 1.0), def.upperAngle = toBound(axis.upper, 1.0);
+    def.enableMotor = axis.hasMotor();
+    def.motorSpeed = static_cast<float>(axis.motorSpeed);
+    def.maxMotorTorque = static_cast<float>(scale * scale * axis.motorMaxForce);
+    if (!axis.hasSpring() || def.enableLimit || def.enableMotor) parts.push_back(world.CreateJoint(&def));
+    if (axis.hasSpring()) {
+        auto spring = common<b2WeldJointDef>(ends);
+        spring.referenceAngle = ends.referenceAngle + static_cast<float>(axis.target);
+        const double mobility =
+            mobilityOf(ends, kAngle, along(ends, {1.0f, 0.0f}), along(ends, {0.0f, 1.0f}));
+        setSpring(axis, mobility, scale, spring.stiffness, spring.damping);
+        parts.push_back(world.CreateJoint(&spring));
+    }
+    return parts;
+}
+
+/// A prismatic joint, and for a spring a wheel joint along its axis, whose spring pulls to zero.
+Parts addSlider(b2World& world, const Joint& joint, const Ends& ends, double scale) {
+    auto def = common<b2PrismaticJointDef>(ends);
+    def.referenceAngle = ends.referenceAngle;
+    def.localAxisA = toBox2d(joint.axisA, 1.0);
+    const scenario::JointAxis& axis = joint.axes[0];
+    def.enableLimit = axis.mode == scenario::AxisMode::Limited;
+    if (def.enableLimit)
+        def.lowerTranslation = toBound(axis.lower, scale), def.upperTranslation = toBound(axis.upper, scale);
+    def.enableMotor = axis.hasMotor();
+    def.motorSpeed = static_cast<float>(scale * axis.motorSpeed);
+    def.maxMotorForce = static_cast<float>(scale * axis.motorMaxForce);
+    Parts parts{world.CreateJoint(&def)};
+    if (axis.hasSpring()) {
+        auto spring = common<b2WheelJointDef>(ends);
+        spring.localAxisA = def.localAxisA;
+        spring.localAnchorA += static_cast<float>(scale * axis.target) * def.localAxisA;
+        const b2Vec2 n = ends.a.body->GetWorldVector(def.localAxisA);
+        const double mobility = mobilityOf(ends, along(ends, n), along(ends, b2Cross(1.0f, n)), kAngle);
+        setSpring(axis, mobility, 1.0, spring.stiffness, spring.damping);
+        parts.push_back(world.CreateJoint(&spring));
+    }
+    return parts;
 }
 
 }  // namespace
 
-void addJoint(b2World& world, const Joint& joint, const JointEnd& a, const JointEnd& b, double scale) {
+Parts addJoint(b2World& world, const Joint& joint, const JointEnd& a, const JointEnd& b, double scale) {
     const double turn = angleAboutZ(conjugate(a.bodyPose.orientation) * b.bodyPose.orientation);
     const Ends ends{a,
                     b,
@@ -124,50 +218,36 @@ void addJoint(b2World& world, const Joint& joint, const JointEnd& a, const Joint
                     joint.collideConnected};
     switch (joint.type) {
         case JointType::Ball:
-        case JointType::Hinge: {
-            auto def = common<b2RevoluteJointDef>(ends);
-            def.referenceAngle = ends.referenceAngle;
-            const scenario::JointAxis& axis = joint.axes[0];
-            def.enableLimit = axis.mode == scenario::AxisMode::Limited;
-            if (def.enableLimit)
-                def.lowerAngle = toBound(axis.lower, 1.0), def.upperAngle = toBound(axis.upper, 1.0);
-            def.enableMotor = axis.hasMotor();
-            def.motorSpeed = static_cast<float>(axis.motorSpeed);
-            def.maxMotorTorque = static_cast<float>(scale * scale * axis.motorMaxForce);
-            world.CreateJoint(&def);
-            return;
-        }
-        case JointType::Slider: {
-            auto def = common<b2PrismaticJointDef>(ends);
-            def.referenceAngle = ends.referenceAngle;
-            def.localAxisA = toBox2d(joint.axisA, 1.0);
-            const scenario::JointAxis& axis = joint.axes[0];
-            def.enableLimit = axis.mode == scenario::AxisMode::Limited;
-            if (def.enableLimit)
-                def.lowerTranslation = toBound(axis.lower, scale),
-                def.upperTranslation = toBound(axis.upper, scale);
-            def.enableMotor = axis.hasMotor();
-            def.motorSpeed = static_cast<float>(scale * axis.motorSpeed);
-            def.maxMotorForce = static_cast<float>(scale * axis.motorMaxForce);
-            world.CreateJoint(&def);
-            return;
-        }
+        case JointType::Hinge:
+            return addHinge(world, joint, ends, scale);
+        case JointType::Slider:
+            return addSlider(world, joint, ends, scale);
         case JointType::Fixed: {
             auto def = common<b2WeldJointDef>(ends);
             def.referenceAngle = ends.referenceAngle;
-            world.CreateJoint(&def);
-            return;
+            return {world.CreateJoint(&def)};
         }
         case JointType::Distance:
-            return addDistance(world, joint, ends, scale);
+            return {addDistance(world, joint, ends, scale)};
         case JointType::Wheel:
-            return addWheel(world, joint, ends, scale);
+            return {addWheel(world, joint, ends, scale)};
         case JointType::ConeTwist:
         case JointType::SixDof:
             break;
     }
     throw adapter::notInAdapter("box2d", std::string("joint '") + jointName(joint.type) + "'",
                                 "joint '" + joint.name + "'");
+}
+
+Reaction reactionOf(const Parts& parts, double dt, double scale) {
+    const auto perSecond = static_cast<float>(1.0 / dt);
+    b2Vec2 force(0.0f, 0.0f);
+    float torque = 0.0f;
+    for (const b2Joint* part : parts) {
+        force += part->GetReactionForce(perSecond);
+        torque += part->GetReactionTorque(perSecond);
+    }
+    return {norm(fromBox2d(force, scale)), std::abs(static_cast<double>(torque)) / (scale * scale)};
 }
 
 }  // namespace rigor::box2d

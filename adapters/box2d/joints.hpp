@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #pragma once
 
+#include <vector>
+
 #include "adapters/box2d/convert.hpp"
 
 namespace rigor::box2d {
@@ -13,8 +15,18 @@ struct JointEnd {
     Pose bodyPose;
 };
 
+/// The Box2D joints that together are one of the scenario's; the world owns them.
+using Parts = std::vector<b2Joint*>;
+
 /// Creates the joint in the world of its bodies. Throws Unsupported.
-void addJoint(b2World& world, const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
-              double scale);
+Parts addJoint(b2World& world, const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
+               double scale);
+
+/// What a joint did to its bodies in the last step of dt, on average.
+struct Reaction {
+    double force = 0.0;   ///< [N]
+    double torque = 0.0;  ///< about B's anchor [N m]
+};
+Reaction reactionOf(const Parts& parts, double dt, double scale);
 
 }  // namespace rigor::box2d

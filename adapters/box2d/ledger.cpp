@@ -81,6 +81,25 @@ void Box2dWorld::appendShapeLedger(std::vector<LedgerEntry>& lines) const {
     if (adapter::hasCollidingShape<scenario::Capsule>(scenario_))
         add("capsule", "one shape", "a rectangle and two circles", Realisation::Approximate,
             "Box2D has no capsule; contacts may come twice where the parts meet");
+    if (adapter::hasCollidingShape<scenario::Chain>(scenario_))
+        add("chain", "two-sided",
+            "two b2ChainShapes back to back, one-sided each, ghost vertices at the joints",
+            Realisation::Approximate,
+            "Box2D's chains have one side; what lies on one side by its centroid "
+            "meets that side alone");
+    const auto sprung = [](const scenario::Joint& j) {
+        return (j.type == scenario::JointType::Hinge || j.type == scenario::JointType::Slider) &&
+               j.axes[0].hasSpring();
+    };
+    if (std::any_of(scenario_.joints.begin(), scenario_.joints.end(), sprung))
+        add("joint_springs", "of hinges and sliders",
+            "a weld joint with an angular spring, a wheel joint along the slider's axis");
+    const auto breaks = [](const scenario::Joint& j) {
+        return j.breakForce < 1e299 || j.breakTorque < 1e299;
+    };
+    if (std::any_of(scenario_.joints.begin(), scenario_.joints.end(), breaks))
+        add("breaking_joints", "a step's mean reaction above the strength",
+            "GetReactionForce and GetReactionTorque after each step; broken from the next step on");
     const bool damped = std::any_of(
         scenario_.bodies.begin(), scenario_.bodies.end(),
         [](const scenario::Body& b) { return b.linearVelocityKept != 1.0 || b.angularVelocityKept != 1.0; });

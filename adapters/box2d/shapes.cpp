@@ -33,6 +33,14 @@ void refuseSliver(const std::vector<b2Vec2>& points) {
         throw notInLibrary("box2d", "polygon of so small an area (option scale)", kSinglePrecision);
 }
 
+/// b2ChainShape aborts on neighbours within a slop.
+void refuseShortLinks(const std::vector<b2Vec2>& points, bool loop) {
+    for (std::size_t i = loop ? 0 : 1; i < points.size(); ++i)
+        if (b2Distance(points[i], points[(i + points.size() - 1) % points.size()]) <= 1.02f * b2_linearSlop)
+            throw notInLibrary("box2d", "chain with vertices closer than its slop (option scale)",
+                               "b2_common.h, b2_linearSlop: a tolerance of collision in lengths");
+}
+
 struct Builder {
     const Pose& inBody;
     const Pose& bodyPose;
@@ -86,6 +94,26 @@ struct Builder {
         edge->m_radius = settings.skin.polygon;
         Shapes shapes;
         shapes.push_back(std::move(edge));
+        return shapes;
+    }
+    /// Box2D's chains have one side, the format's two: one chain there and one back. At a free end the ghost
+    /// vertex is the neighbour, as if the chain came back itself, so that bodies meet its last vertex.
+    Shapes operator()(const scenario::Chain& c) const {
+        std::vector<b2Vec2> points;
+        for (const Vec3& v : c.vertices) points.push_back(toBox2d(inBody * v, settings.scale));
+        refuseShortLinks(points, c.loop);
+        Shapes shapes;
+        for (int side = 0; side < 2; ++side) {
+            auto chain = std::make_unique<b2ChainShape>();
+            const auto count = static_cast<int32>(points.size());
+            if (c.loop)
+                chain->CreateLoop(points.data(), count);
+            else
+                chain->CreateChain(points.data(), count, points[1], points[points.size() - 2]);
+            chain->m_radius = settings.skin.polygon;
+            shapes.push_back(std::move(chain));
+            std::reverse(points.begin(), points.end());
+        }
         return shapes;
     }
     template <class Other>

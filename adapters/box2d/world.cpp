@@ -115,7 +115,8 @@ void Box2dWorld::addFixtures(BodyRecord& record, int index) {
             fixture.shape = part.get();
             fixture.density = 0.0f;  // the mass is given as a whole
             fixture.userData.pointer = reinterpret_cast<uintptr_t>(tag.get());
-            record.body->CreateFixture(&fixture);
+            // Box2D copies a chain without its radius.
+            record.body->CreateFixture(&fixture)->GetShape()->m_radius = part->m_radius;
         }
         record.fixtureTags.push_back(std::move(tag));
     }
@@ -145,7 +146,34 @@ void Box2dWorld::addJoint(const scenario::Joint& joint) {
         const BodyRecord& record = *records_[static_cast<std::size_t>(index)];
         return JointEnd{record.body, record.frame, scenario_.bodies[static_cast<std::size_t>(index)].pose};
     };
-    box2d::addJoint(*world_, joint, endOf(joint.bodyA), endOf(joint.bodyB), scale_);
+    joints_.push_back(box2d::addJoint(*world_, joint, endOf(joint.bodyA), endOf(joint.bodyB), scale_));
+}
+
+/// As the manual does it: after a step the reaction is compared with the strength, and the joint destroyed.
+void Box2dWorld::breakJoints() {
+    bool any = false;
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+        const scenario::Joint& joint = scenario_.joints[i];
+        if (joints_[i].empty() || (joint.breakForce > 1e299 && joint.breakTorque > 1e299)) continue;
+        const Reaction reaction = reactionOf(joints_[i], dt_, scale_);
+        if (reaction.force <= joint.breakForce && reaction.torque <= joint.breakTorque) continue;
+        for (b2Joint* part : joints_[i]) world_->DestroyJoint(part);
+        joints_[i].clear();
+        any = true;
+    }
+    if (any) collidePairsOfBrokenJoints();
+}
+
+/// What a joint kept apart may touch once it has broken. Box2D looks for new pairs of fixtures that have
+/// moved, or were told to be filtered again.
+void Box2dWorld::collidePairsOfBrokenJoints() {
+    adapter::Scenario left = scenario_;
+    left.joints.clear();
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+        if (!joints_[i].empty()) left.joints.push_back(scenario_.joints[i]);
+    pairs_ = adapter::PairTable(left);
+    for (auto& record : records_)
+        for (b2Fixture* f = record->body->GetFixtureList(); f != nullptr; f = f->GetNext()) f->Refilter();
 }
 
 void Box2dWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
@@ -163,6 +191,7 @@ void Box2dWorld::step() {
     for (std::size_t i = 0; i < records_.size(); ++i) before_[i] = records_[i]->body->GetTransform();
     world_->Step(static_cast<float>(dt_), velocityIterations_, positionIterations_);
     for (auto& record : records_) record->tag = BodyTag{};
+    breakJoints();
     ++steps_;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adapters/box2d/contact_rules.hpp"
+#include "adapters/box2d/joints.hpp"
 #include "adapters/box2d/shapes.hpp"
 #include "adapters/interface/engine.hpp"
 #include "adapters/interface/pair_table.hpp"
@@ -27,6 +28,7 @@ class Box2dWorld final : public adapter::World {
     adapter::StepCounters counters() const override;
     adapter::Scheme scheme() const override { return adapter::Scheme::SymplecticEuler; }
     bool isAsleep(int body) const override;
+    bool jointHolds(int joint) const override { return !joints_[static_cast<std::size_t>(joint)].empty(); }
 
   private:
     struct BodyRecord {
@@ -41,6 +43,8 @@ class Box2dWorld final : public adapter::World {
     void addFixtures(BodyRecord& record, int index);
     void setMass(b2Body& body, const scenario::Body& source) const;
     void addJoint(const scenario::Joint& joint);
+    void breakJoints();
+    void collidePairsOfBrokenJoints();
     void appendContact(const b2Contact& contact, std::vector<adapter::ContactPoint>& contacts) const;
     adapter::BodyState stateOf(const BodyRecord& record) const;
     void appendShapeLedger(std::vector<adapter::LedgerEntry>& lines) const;
@@ -58,6 +62,7 @@ class Box2dWorld final : public adapter::World {
     std::unique_ptr<ContactRules> rules_;
     std::unique_ptr<b2World> world_;   // after what its bodies and callbacks point at
     b2Body* ground_ = nullptr;         ///< what joints to the world hold on to
+    std::vector<Parts> joints_;        ///< by the scenario's index; empty once broken
     std::vector<b2Transform> before_;  ///< poses at the start of the last step, by body
 };
 
