@@ -49,8 +49,8 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.libraryLacks = {
             {"cone", "ode/collision.h, geom class numbers: none is a cone"},
-            {"cone_twist", "ode/common.h, dJointType: none limits a cone"},
             {"distance.limit", "ode/objects.h, dJointSetDBallDistance: a distance kept, without bounds"},
+            {"distance.motor", "ode/objects.h, dJointSetDBallParam: ERP and CFM alone"},
             {"static_friction", "ode/contact.h, dSurfaceParameters: mu, one coefficient in each direction"}};
         return c;
     }
@@ -65,6 +65,8 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
                     "a step with more contacts than this is done by QuickStep; 0: never"),
             number("erp", 0, 1, "0.2", "0.2", "error reduction of contacts and joints per step"),
             number("cfm", 1e-15, 1, "1e-10", "1e-10", "constraint force mixing; 0 would be singular"),
+            number("contact_cfm", 0, 1, "0", "0",
+                   "of the normals of contacts that do not bounce; 0: that of everything else"),
             number("max_correcting_velocity", 0, 1e30, "1e30", "0.1",
                    "fastest push out of penetration [m/s]; 1e30: none"),
             number("surface_layer", 0, 1, "0", "0", "penetration left uncorrected [m]"),

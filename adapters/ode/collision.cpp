@@ -20,8 +20,8 @@ adapter::Geometry solidOf(const adapter::Geometry& geometry, int dimension) {
     if (dimension == 3) return geometry;
     if (std::holds_alternative<scenario::Segment>(geometry) ||
         std::holds_alternative<scenario::Chain>(geometry))
-        throw adapter::Unsupported(std::string("ode has no shape '") + scenario::geometryName(geometry, 2) +
-                                   "'");
+        throw adapter::notInAdapter("ode",
+                                    std::string("shape '") + scenario::geometryName(geometry, 2) + "'");
     return adapter::planarGeometry(geometry);
 }
 
@@ -84,7 +84,7 @@ adapter::CollisionAnswer OdeCollisionEngine::collide(const adapter::CollisionQue
     adapter::checkQueryInput(query);
     useLibrary();
     if (isSurface(*query.a.geometry) && isSurface(*query.b.geometry))
-        throw adapter::Unsupported("ode has no collider for two surfaces without inside");
+        throw adapter::notInAdapter("ode", "collisions of two surfaces without inside");
     const adapter::Geometry solidA = solidOf(*query.a.geometry, query.dimension);
     const adapter::Geometry solidB = solidOf(*query.b.geometry, query.dimension);
     const Geom a(solidA, query.a.pose), b(solidB, query.b.pose);

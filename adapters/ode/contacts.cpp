@@ -80,7 +80,7 @@ void mergeNormals(double cosine, std::vector<FoundPoint>& points) {
     points.swap(kept);
 }
 
-dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bounceThreshold) {
+dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bounceThreshold, double cfm) {
     dSurfaceParameters surface{};
     // Without the approximation mu would be a force and not a coefficient.
     surface.mode = dContactApprox1;
@@ -89,6 +89,9 @@ dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bou
         surface.mode |= dContactBounce;
         surface.bounce = pair.restitution;
         surface.bounce_vel = bounceThreshold;
+    } else if (cfm > 0.0) {
+        surface.mode |= dContactSoftCFM;
+        surface.soft_cfm = cfm;
     }
     return surface;
 }

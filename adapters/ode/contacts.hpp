@@ -30,7 +30,8 @@ void reducePoints(std::size_t count, std::vector<FoundPoint>& points);
 /// angle of this cosine: ODE reports each triangle that a ball dips into, and those ahead of it act as walls.
 void mergeNormals(double cosine, std::vector<FoundPoint>& points);
 
-/// How ODE treats one contact between surfaces of these coefficients.
-dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bounceThreshold);
+/// How ODE treats one contact between surfaces of these coefficients. `cfm` > 0 softens the normal of a
+/// contact that does not bounce; a bounce would lose speed in proportion to it.
+dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bounceThreshold, double cfm);
 
 }  // namespace rigor::ode

@@ -67,7 +67,7 @@ OdeJoint::OdeJoint(dWorldID world, const scenario::Joint& joint, const JointEnd&
 }
 
 void OdeJoint::refuse(const std::string& what) const {
-    throw adapter::Unsupported("ode: " + what + " (joint '" + joint_.name + "')");
+    throw adapter::notInAdapter("ode", what, "joint '" + joint_.name + "'");
 }
 
 void OdeJoint::build(bool planar) {
@@ -164,8 +164,8 @@ void OdeJoint::buildSlider() {
 
 void OdeJoint::buildDistance() {
     const JointAxis& axis = joint_.axes[0];
-    if (axis.mode == AxisMode::Limited) refuse("DBall keeps a distance and has no stops: no ropes");
-    if (axis.hasMotor()) refuse("DBall has no motor");
+    if (axis.mode == AxisMode::Limited) refuse("ropes: DBall keeps a distance and has no stops");
+    if (axis.hasMotor()) refuse("motors along a distance: DBall has none");
     if (!asks(axis)) return;
     const dJointID id = dJointCreateDBall(world_, nullptr);
     dJointAttach(id, b_.body, a_.body);
@@ -185,7 +185,7 @@ void OdeJoint::buildDistance() {
 void OdeJoint::buildWheel() {
     const JointAxis &travel = joint_.axes[0], &angle = joint_.axes[1];
     if (travel.mode == AxisMode::Limited || travel.hasMotor())
-        refuse("Hinge2 has no stops and no motor along its suspension");
+        refuse("stops and motors along a suspension: Hinge2 has none");
     const Vec3 along = motion_.axis(0), pin = motion_.turningAxis();
     const dBodyID a = standIn(a_, motion_.anchorA()), b = standIn(b_, motion_.anchorB());
     const dJointID id = dJointCreateHinge2(world_, nullptr);
@@ -261,8 +261,8 @@ bool OdeJoint::buildSixDofTravels() {
     for (std::size_t i = 0; i < 3; ++i) {
         const JointAxis& motor = joint_.axes[i];
         if (!asks(motor)) continue;
-        if (motor.mode == AxisMode::Limited) refuse("LMotor has no stops for this combination of travels");
-        if (!atCenter) refuse("LMotor acts at the centre of mass, where this joint has no anchor");
+        if (motor.mode == AxisMode::Limited) refuse("stops of these travels of a six_dof: LMotor has none");
+        if (!atCenter) refuse("these travels of a six_dof away from the centre of mass, where LMotor acts");
         if (motor.hasMotor()) {
             JointAxis drive = motor;
             drive.frequency = drive.stiffness = drive.damping = 0.0;

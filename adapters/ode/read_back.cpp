@@ -36,8 +36,8 @@ adapter::ReadBack OdeWorld::readBack() const {
     }
     // Coefficients live in each contact alone; this is the function that every contact gets them from.
     for (const auto& meeting : pairs_.meetings()) {
-        const dSurfaceParameters surface =
-            surfaceFor(pairs_.coefficients(meeting.materialA, meeting.materialB), bounceThreshold_);
+        const dSurfaceParameters surface = surfaceFor(
+            pairs_.coefficients(meeting.materialA, meeting.materialB), bounceThreshold_, contactCfm_);
         all.pairs.push_back({meeting.materialA, meeting.materialB, surface.mu,
                              (surface.mode & dContactBounce) != 0 ? surface.bounce : 0.0});
     }

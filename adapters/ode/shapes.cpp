@@ -13,7 +13,6 @@
 namespace rigor::ode {
 
 using adapter::Geometry;
-using adapter::Unsupported;
 
 namespace {
 
@@ -51,7 +50,7 @@ Geom::Geom(const Geometry& geometry, const Pose& pose) {
         id_ = dCreatePlane(nullptr, n.x, n.y, n.z, half->offset + dot(n, pose.position));
         return;
     } else {
-        throw Unsupported(std::string("ode has no shape '") + geometryName(geometry, 3) + "'");
+        throw adapter::notInAdapter("ode", std::string("shape '") + geometryName(geometry, 3) + "'");
     }
     place(id_, pose * frame_);
     if (back_ != nullptr) place(back_, pose * frame_);

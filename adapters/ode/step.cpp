@@ -144,7 +144,8 @@ void OdeWorld::createContactJoints() {
         const dBodyID bodyA = records_[static_cast<std::size_t>(c.a.body)]->body;
         const dBodyID bodyB = records_[static_cast<std::size_t>(c.b.body)]->body;
         dContact contact{};
-        contact.surface = surfaceFor(pairs_.coefficients(c.a.material, c.b.material), bounceThreshold_);
+        contact.surface =
+            surfaceFor(pairs_.coefficients(c.a.material, c.b.material), bounceThreshold_, contactCfm_);
         toOde(c.point.position, contact.geom.pos);
         toOde(-c.point.normal, contact.geom.normal);
         contact.geom.depth = c.point.depth;

@@ -33,6 +33,7 @@ OdeWorld::OdeWorld(const Scenario& scenario, double dt, const Settings& settings
       maxContacts_(static_cast<std::size_t>(adapter::integerSetting(settings, "max_contacts"))),
       worldStepLimit_(static_cast<std::size_t>(adapter::integerSetting(settings, "worldstep_limit"))),
       bounceThreshold_(numberSetting(settings, "bounce_threshold")),
+      contactCfm_(numberSetting(settings, "contact_cfm")),
       pairs_(scenario_) {
     if (const double merge = numberSetting(settings, "ball_merge_deg"); merge > 0.0)
         ballMergeCosine_ = std::cos(merge * 3.14159265358979323846 / 180.0);

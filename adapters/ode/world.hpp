@@ -94,7 +94,7 @@ class OdeWorld final : public adapter::World, public adapter::Snapshots {
     Friction friction_ = Friction::PyramidWorld;
     std::size_t maxContacts_ = 0;
     std::size_t worldStepLimit_ = 0;
-    double bounceThreshold_ = 0.0;
+    double bounceThreshold_ = 0.0, contactCfm_ = 0.0;
     double ballMergeCosine_ = 2.0;  ///< above 1: balls keep all their points
 
     adapter::PairTable pairs_;
