@@ -46,10 +46,16 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
         c.dynamics = c.collision = c.broadPhase = true;
         c.dimensions = {3};
         c.planar = true;
-        c.shapes = {"sphere", "box",        "capsule", "cylinder", "cone",
-                    "hull",   "half_space", "circle",  "polygon",  "half_plane"};
-        c.joints = {"ball",   "hinge",        "hinge.limit",  "hinge.motor",
-                    "slider", "slider.limit", "slider.motor", "fixed"};
+        c.shapes = {"sphere", "box",     "capsule",    "cylinder",      "cone",         "hull",  "half_space",
+                    "circle", "polygon", "half_plane", "triangle_mesh", "height_field", "chain", "segment"};
+        c.joints = {"ball", "ball.limit", "cone_twist", "cone_twist.limit", "fixed"};
+        for (const char* type : {"hinge", "slider", "six_dof", "wheel"}) {
+            c.joints.push_back(type);
+            for (const char* feature : {".limit", ".motor", ".spring"})
+                c.joints.push_back(std::string(type) + feature);
+        }
+        for (const char* type : {"ball", "cone_twist", "fixed", "hinge", "slider", "six_dof", "wheel"})
+            c.joints.push_back(std::string(type) + ".break");
         c.contactImpulses = c.signedDistance = c.contactSolvers = true;
         c.queryOptions = {"sat", "box_margin", "cylinder_margin", "hull_margin", "query_path"};
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
@@ -92,6 +98,25 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
                 "of collision queries alone: as a step finds contacts, or btCollisionWorld::contactPairTest"),
             choice("half_space", {"plane", "box"}, "plane", "box",
                    "half-spaces as btStaticPlaneShape, or as a large box with full manifolds"),
+            choice("articulation", {"maximal", "multibody"}, "maximal", "maximal",
+                   "bodies on joints as rigid bodies with constraints, or as links of btMultiBody "
+                   "(Featherstone)"),
+            choice("multibody_integrator", {"euler", "rk4"}, "euler", "euler",
+                   "of btMultiBody; rk4 is btMultiBody::useRK4Integration"),
+            number("multibody_damping", 0, 1, "0.04", "0",
+                   "of btMultiBody: linear and angular, grows with the speed"),
+            number("multibody_velocity_limit", 1, 1e9, "100", "1e9",
+                   "of btMultiBody: no coordinate goes faster [m/s or rad/s]"),
+            choice("internal_edges", {"on", "off"}, "off", "on",
+                   "contacts with inner edges of triangle meshes and height fields take the face's normal "
+                   "(btGenerateInternalEdgeInfo)"),
+            choice("frame_offset", {"on", "off"}, "on", "off",
+                   "of hinges: anchors weighted by the bodies' masses (setUseFrameOffset)"),
+            choice("spring_limits", {"on", "off"}, "on", "off",
+                   "springs of joints are softened where they are stiff for the step, dampers likewise"),
+            choice("breaking", {"impulse_threshold", "feedback"}, "impulse_threshold", "feedback",
+                   "joints with a break force alone: by Bullet's threshold on each row's impulse, or by the "
+                   "force that its joint feedback reports; with a break torque always the latter"),
             choice("broadphase", {"dbvt", "axis_sweep_3", "simple"}, "dbvt", "dbvt", "broad phase"),
             choice("sleeping", {"on", "off"}, "on", "off", "bodies at rest are stopped and skipped"),
             number("erp", 0, 1, "0.2", "0.2", "error reduction of joints per step"),

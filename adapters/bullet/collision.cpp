@@ -31,7 +31,6 @@ using adapter::CollisionAnswer;
 using adapter::CollisionQuery;
 using adapter::ContactPoint;
 using adapter::Geometry;
-using adapter::Unsupported;
 
 /// Distance from a bounded shape's origin to its farthest point in the plane [m].
 double planarExtent(const Geometry& geometry) {
@@ -41,6 +40,10 @@ double planarExtent(const Geometry& geometry) {
     if (const auto* box = std::get_if<scenario::Box>(&geometry))
         return std::hypot(box->halfExtents.x, box->halfExtents.y);
     double most = 0.0;
+    if (const auto* segment = std::get_if<scenario::Segment>(&geometry))
+        most = std::max(std::hypot(segment->a.x, segment->a.y), std::hypot(segment->b.x, segment->b.y));
+    if (const auto* chain = std::get_if<scenario::Chain>(&geometry))
+        for (const Vec3& v : chain->vertices) most = std::max(most, std::hypot(v.x, v.y));
     if (const auto* hull = std::get_if<scenario::ConvexHull>(&geometry))
         for (const Vec3& v : hull->vertices) most = std::max(most, std::hypot(v.x, v.y));
     return most;
@@ -51,11 +54,14 @@ Geometry lifted(const Geometry& geometry, double halfDepth) {
     try {
         solid = adapter::planarGeometry(geometry);
     } catch (const std::invalid_argument&) {
-        throw Unsupported(std::string("bullet has no shape '") + scenario::geometryName(geometry, 2) + "'");
+        throw adapter::notInAdapter(
+            "bullet", std::string("shape '") + scenario::geometryName(geometry, 2) + "' in the plane");
     }
     if (auto* box = std::get_if<scenario::Box>(&solid)) box->halfExtents.z = halfDepth;
     if (auto* hull = std::get_if<scenario::ConvexHull>(&solid))
         for (Vec3& v : hull->vertices) v.z = std::copysign(halfDepth, v.z);
+    if (auto* strip = std::get_if<scenario::TriangleMesh>(&solid))
+        for (Vec3& v : strip->vertices) v.z = std::copysign(halfDepth, v.z);
     return solid;
 }
 
@@ -76,15 +82,17 @@ ShapeSettings shapeSettings(const adapter::Settings* given) {
 struct Side {
     /// `halfDepth` of the prisms of a two-dimensional query; 0 for three dimensions.
     Side(const adapter::PosedShape& posed, double halfDepth, const ShapeSettings& settings) {
-        shape = buildGeometry(halfDepth > 0.0 ? lifted(*posed.geometry, halfDepth) : *posed.geometry,
-                              posed.pose, settings)
-                    .shape;
+        BuiltShape built = buildGeometry(
+            halfDepth > 0.0 ? lifted(*posed.geometry, halfDepth) : *posed.geometry, posed.pose, settings);
+        shape = std::move(built.shape);
+        surface = std::move(built.surface);
         object.setCollisionShape(shape.get());
-        object.setWorldTransform(toBullet(posed.pose));
+        object.setWorldTransform(toBullet(posed.pose * built.offset));
     }
     bool isPlane() const { return shape->getShapeType() == STATIC_PLANE_PROXYTYPE; }
     const btConvexShape& convex() const { return static_cast<const btConvexShape&>(*shape); }
 
+    std::unique_ptr<SurfaceData> surface;
     std::unique_ptr<btCollisionShape> shape;
     btCollisionObject object;
 };
@@ -261,18 +269,21 @@ Closest planeDistance(const Side& plane, const Side& convex, bool planeIsA) {
     return {static_cast<double>(distance), planeIsA ? foot : tip, planeIsA ? tip : foot};
 }
 
+/// None of a surface: GJK is of convex shapes.
 std::optional<Closest> closestPoints(const Side& a, const Side& b) {
+    if (a.surface || b.surface) return std::nullopt;
     if (a.isPlane()) return planeDistance(a, b, true);
     if (b.isPlane()) return planeDistance(b, a, false);
     return gjkDistance(a, b);
 }
 
-/// Drops what a prism says about z and the doubled ends of its edges.
-std::vector<ContactPoint> projected(const std::vector<ContactPoint>& contacts) {
+/// Drops what a prism says about z and the doubled ends of its edges; of a strip of triangles also what its
+/// diagonals say, whose normals lean towards z.
+std::vector<ContactPoint> projected(const std::vector<ContactPoint>& contacts, bool strip) {
     std::vector<ContactPoint> planar;
     for (ContactPoint c : contacts) {
         const double inPlane = std::hypot(c.normal.x, c.normal.y);
-        if (inPlane < 0.5) continue;
+        if (inPlane < (strip ? 0.999 : 0.5)) continue;
         c.normal = Vec3{c.normal.x, c.normal.y, 0.0} / inPlane;
         c.pointA.z = c.pointB.z = 0.0;
         const bool known = std::any_of(planar.begin(), planar.end(), [&](const ContactPoint& other) {
@@ -288,7 +299,8 @@ std::vector<ContactPoint> projected(const std::vector<ContactPoint>& contacts) {
 std::unique_ptr<adapter::CollisionBatch> BulletCollisionEngine::batch(
     std::span<const CollisionQuery> queries) const {
     if (queries.empty()) throw adapter::BadInput("a batch of no pairs");
-    if (queries.front().dimension != 3) throw Unsupported("bullet has no two-dimensional shapes");
+    if (queries.front().dimension != 3)
+        throw adapter::notInAdapter("bullet", "batches of two-dimensional shapes");
     for (const CollisionQuery& query : queries) adapter::checkQueryInput(query);
     return std::make_unique<BulletBatch>(queries, shapeSettings(queries.front().settings));
 }
@@ -301,13 +313,18 @@ CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) cons
         query.dimension == 2 ? planarExtent(*query.a.geometry) + planarExtent(*query.b.geometry) : 0.0;
     const ShapeSettings settings = shapeSettings(query.settings);
     Side a(query.a, halfDepth, settings), b(query.b, halfDepth, settings);
-    if (a.isPlane() && b.isPlane()) throw Unsupported("bullet has no contact of half-space with half-space");
+    if (a.shape->isConcave() && b.shape->isConcave() && !(a.isPlane() && b.isPlane()))
+        throw adapter::notInLibrary("bullet", "contact of two surfaces",
+                                    "btDefaultCollisionConfiguration.h: concave shapes meet convex ones");
+    if (a.isPlane() && b.isPlane())
+        throw adapter::notInLibrary("bullet", "contact of half-space with half-space",
+                                    "btDefaultCollisionConfiguration.h: concave shapes meet convex ones");
     ContactFinder finder(query.settings == nullptr);
     const bool pairTest =
         query.settings != nullptr && query.settings->at("query_path") == "contact_pair_test";
     std::vector<ContactPoint> contacts =
         pairTest ? finder.findByPairTest(a, b) : finder.find(a, b, settings.polyhedralFeatures);
-    if (query.dimension == 2) contacts = projected(contacts);
+    if (query.dimension == 2) contacts = projected(contacts, a.surface || b.surface);
     std::erase_if(contacts, [](const ContactPoint& c) { return c.depth < 0.0; });
     std::stable_sort(contacts.begin(), contacts.end(),
                      [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });

@@ -18,8 +18,8 @@ namespace rigor::bullet {
 struct BodyTag {
     const adapter::PairTable* table = nullptr;
     int body = 0;
-    std::vector<int> materials;  ///< by shape index; Bullet's child index (-1 for a single shape)
-    int materialOf(int child) const;
+    std::vector<int> materials;  ///< by shape index
+    int materialOf(int shape) const;
 };
 
 /// Installs the process-wide callback that writes the pair's coefficients into each new contact point. The

@@ -11,34 +11,28 @@
 #include <cmath>
 
 #include "adapters/bullet/convert.hpp"
+#include "adapters/bullet/six_dof.hpp"
 
 namespace rigor::bullet {
-namespace {
-
 using scenario::Joint;
 using scenario::JointType;
 
-/// The shortest rotation that takes +x to the unit vector n: Bullet's slider travels along x of its frame.
 Quat fromXTo(const Vec3& n) {
     if (n.x < -1.0 + 1e-12) return {0.0, 0.0, 1.0, 0.0};
     const Vec3 axis = cross(Vec3{1.0, 0.0, 0.0}, n);
     return normalized(Quat{1.0 + n.x, axis.x, axis.y, axis.z});
 }
 
-/// The joint frame in A and in B, both as Bullet wants them: anchors as given, one common orientation at the
-/// initial poses whose x axis is the joint's axis.
-struct Frames {
-    btTransform inA, inB;
-};
-Frames jointFrames(const Joint& joint, const JointEnd& a, const JointEnd& b) {
-    const Quat inBodyA = fromXTo(joint.axisA);
-    const Quat inBodyB = conjugate(b.bodyPose.orientation) * a.bodyPose.orientation * inBodyA;
-    return {toBullet(inverse(a.comFrame) * Pose{joint.anchorA, inBodyA}),
-            toBullet(inverse(b.comFrame) * Pose{joint.anchorB, normalized(inBodyB)})};
+Frames framesOf(const Joint& joint, const Quat& inA, const JointEnd& a, const JointEnd& b) {
+    const Quat inB = conjugate(b.bodyPose.orientation) * a.bodyPose.orientation * inA;
+    return {toBullet(inverse(a.comFrame) * Pose{joint.anchorA, inA}),
+            toBullet(inverse(b.comFrame) * Pose{joint.anchorB, normalized(inB)})};
 }
 
-[[noreturn]] void unsupported(const Joint& joint, const std::string& what) {
-    throw adapter::Unsupported("bullet has no " + what + " (joint '" + joint.name + "')");
+namespace {
+
+[[noreturn]] void notInLibrary(const Joint& joint, const std::string& what, const char* document) {
+    throw adapter::notInLibrary("bullet", what, document, "joint '" + joint.name + "'");
 }
 
 /// A bound of the format; what is none there is far away.
@@ -53,7 +47,8 @@ void setAxis(const Joint& joint, btScalar dt, btHingeConstraint& hinge) {
     if (axis.mode == scenario::AxisMode::Limited) {
         if (axis.upper - axis.lower > 6.283 || std::abs(axis.upper) > 3.141592 ||
             std::abs(axis.lower) > 3.141592)
-            unsupported(joint, "hinge limits beyond half a turn, or on one side alone");
+            notInLibrary(joint, "hinge limits beyond half a turn, or on one side alone",
+                         "btTypedConstraint.h, btAngularLimit: normalised");
         hinge.setLimit(static_cast<btScalar>(axis.lower), static_cast<btScalar>(axis.upper), btScalar(0.9),
                        btScalar(0.3), btScalar(0.0));
     }
@@ -76,41 +71,91 @@ void setAxis(const Joint& joint, btSliderConstraint& slider) {
     slider.setMaxLinMotorForce(static_cast<btScalar>(axis.motorMaxForce));
 }
 
+/// A ball joint whose swing is limited to a cone, and its twist (cone_twist alone) to a range. Bullet's twist
+/// limit is symmetric: the joint frame of B is turned by the middle of the range. A relaxation factor of 1,
+/// the default, keeps the limits: with 0 they are gone.
+std::unique_ptr<btTypedConstraint> buildConeTwist(const Joint& joint, const JointEnd& a, const JointEnd& b) {
+    const bool hasTwist = joint.type == JointType::ConeTwist;
+    const scenario::JointAxis& swing = joint.axes[hasTwist ? 1 : 0];
+    const auto limited = [](const scenario::JointAxis& axis) {
+        return axis.mode == scenario::AxisMode::Limited;
+    };
+    const btScalar none = btScalar(BT_LARGE_FLOAT);
+    btScalar cone = none, twistSpan = none;
+    if (limited(swing)) {
+        if (swing.lower > 0.0)
+            notInLibrary(joint, "lower limit of a swing", "btConeTwistConstraint.h, setLimit: spans");
+        cone = toBound(swing.upper);
+    }
+    const Quat inA = fromXTo(joint.axisA);
+    Frames frames = framesOf(joint, inA, a, b);
+    if (hasTwist && limited(joint.axes[0])) {
+        const double lower = joint.axes[0].lower, upper = joint.axes[0].upper;
+        if (std::abs(lower) > 3.141592 || std::abs(upper) > 3.141592)
+            notInLibrary(joint, "twist limits beyond half a turn, or on one side alone",
+                         "btConeTwistConstraint.h, setLimit: spans");
+        twistSpan = static_cast<btScalar>(0.5 * (upper - lower));
+        const Quat middle = scenario::fromAxisAngle(Vec3{1.0, 0.0, 0.0}, -0.5 * (upper + lower));
+        frames.inB = frames.inB * btTransform(toBullet(middle));
+    }
+    auto coneTwist = std::make_unique<btConeTwistConstraint>(*a.body, *b.body, frames.inA, frames.inB);
+    coneTwist->setLimit(cone, cone, twistSpan, btScalar(1.0), btScalar(0.3), btScalar(1.0));
+    return coneTwist;
+}
+
+void refuseMissing(const Joint& joint) {
+    const bool swinging = joint.type == JointType::Ball || joint.type == JointType::ConeTwist;
+    for (const scenario::JointAxis& axis : joint.axes)
+        if (swinging && (axis.hasMotor() || axis.hasSpring()))
+            throw adapter::notInAdapter("bullet",
+                                        std::string("motor or spring of a '") + jointName(joint.type) + "'",
+                                        "joint '" + joint.name + "'");
+}
+
 }  // namespace
 
 std::unique_ptr<btTypedConstraint> buildJoint(const Joint& joint, const JointEnd& a, const JointEnd& b,
-                                              double dt) {
+                                              const JointSettings& settings) {
+    refuseMissing(joint);
     const btVector3 anchorA = toBullet(inverse(a.comFrame) * joint.anchorA);
     const btVector3 anchorB = toBullet(inverse(b.comFrame) * joint.anchorB);
+    const bool sprung = joint.axes[0].hasSpring();
     switch (joint.type) {
         case JointType::Ball:
+            if (joint.axes[0].mode == scenario::AxisMode::Limited) return buildConeTwist(joint, a, b);
             return std::make_unique<btPoint2PointConstraint>(*a.body, *b.body, anchorA, anchorB);
         case JointType::Hinge: {
+            if (sprung) return buildSixDof(joint, a, b, settings);
             const btVector3 axisA = toBullet(rotateInverse(a.comFrame.orientation, joint.axisA));
             const btVector3 axisB = toBullet(rotateInverse(b.comFrame.orientation, joint.axisB));
             auto hinge =
                 std::make_unique<btHingeConstraint>(*a.body, *b.body, anchorA, anchorB, axisA, axisB, true);
-            setAxis(joint, static_cast<btScalar>(dt), *hinge);
+            hinge->setUseFrameOffset(settings.frameOffset);
+            setAxis(joint, static_cast<btScalar>(settings.dt), *hinge);
             return hinge;
         }
         case JointType::Slider: {
-            const Frames frames = jointFrames(joint, a, b);
+            if (sprung) return buildSixDof(joint, a, b, settings);
+            const Frames frames = framesOf(joint, fromXTo(joint.axisA), a, b);
             auto slider =
                 std::make_unique<btSliderConstraint>(*a.body, *b.body, frames.inA, frames.inB, true);
             setAxis(joint, *slider);
             return slider;
         }
         case JointType::Fixed: {
-            const Frames frames = jointFrames(joint, a, b);
+            const Frames frames = framesOf(joint, fromXTo(joint.axisA), a, b);
             return std::make_unique<btFixedConstraint>(*a.body, *b.body, frames.inA, frames.inB);
         }
-        case JointType::Distance:
         case JointType::ConeTwist:
+            return buildConeTwist(joint, a, b);
         case JointType::SixDof:
         case JointType::Wheel:
+            return buildSixDof(joint, a, b, settings);
+        case JointType::Distance:
             break;
     }
-    unsupported(joint, std::string("joint '") + jointName(joint.type) + "'");
+    notInLibrary(joint, std::string("joint '") + jointName(joint.type) + "'",
+                 "btTypedConstraint.h, enum btTypedConstraintType: none keeps a distance");
 }
 
 }  // namespace rigor::bullet

@@ -5,21 +5,40 @@
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
 #include <memory>
+#include <string>
 
 #include "adapters/interface/types.hpp"
 
 namespace rigor::bullet {
 
-/// One end of a joint: the Bullet body, its frame in the scenario's body frame, and the scenario's body pose.
+/// One end of a joint: the Bullet body, its frame in the scenario's body frame, and the scenario's body with
+/// its pose; null for the world.
 struct JointEnd {
     btRigidBody* body = nullptr;
     adapter::Pose comFrame;
     adapter::Pose bodyPose;
+    const scenario::Body* scenarioBody = nullptr;
 };
 
-/// The joint as a Bullet constraint for steps of dt; axes and signs follow the format (B relative to A).
-/// Throws Unsupported for what Bullet does not have.
+struct JointSettings {
+    double dt = 0.0;           ///< [s]
+    bool frameOffset = true;   ///< Bullet's hinge weights its anchors by the bodies' masses
+    bool limitSprings = true;  ///< Bullet softens springs and dampers that are stiff for the step
+};
+
+/// The shortest rotation that takes +x to the unit vector n.
+adapter::Quat fromXTo(const adapter::Vec3& n);
+
+/// A joint frame in A and in B, in Bullet's body frames: anchors as given, one common orientation at the
+/// initial poses, which is `inA` in A's body frame.
+struct Frames {
+    btTransform inA, inB;
+};
+Frames framesOf(const scenario::Joint& joint, const adapter::Quat& inA, const JointEnd& a, const JointEnd& b);
+
+/// The joint as a Bullet constraint; axes and signs follow the format (B relative to A). Throws Unsupported
+/// for what Bullet does not have.
 std::unique_ptr<btTypedConstraint> buildJoint(const scenario::Joint& joint, const JointEnd& a,
-                                              const JointEnd& b, double dt);
+                                              const JointEnd& b, const JointSettings& settings);
 
 }  // namespace rigor::bullet

@@ -13,6 +13,7 @@
 namespace rigor::bullet {
 
 using adapter::LedgerEntry;
+using adapter::numberSetting;
 using adapter::Realisation;
 using adapter::shown;
 
@@ -63,6 +64,7 @@ std::vector<LedgerEntry> BulletWorld::ledger() const {
     add("joint_error_reduction", "rigid", "ERP " + setting("erp"),
         scenario_.joints.empty() ? Realisation::Exact : Realisation::Approximate,
         scenario_.joints.empty() ? "" : "drift is corrected through velocities");
+    appendJointLedger(lines);
     add("sleeping", "off", is("sleeping", "on") ? "on: below 0.8 m/s and 1 rad/s for 2 s" : "off",
         is("sleeping", "on") ? Realisation::Approximate : Realisation::Exact,
         is("sleeping", "on") ? "Bullet sets the velocity of slow bodies to zero, even in free space" : "");
@@ -70,11 +72,78 @@ std::vector<LedgerEntry> BulletWorld::ledger() const {
     return lines;
 }
 
+void BulletWorld::appendJointLedger(std::vector<LedgerEntry>& lines) const {
+    const auto add = [&](const char* topic, std::string requested, std::string resolved,
+                         Realisation realisation = Realisation::Exact, std::string reason = "") {
+        lines.push_back({topic, std::move(requested), std::move(resolved), realisation, std::move(reason)});
+    };
+    const auto setting = [&](const char* key) { return adapter::textSetting(settings_, key); };
+    bool sprung = false, breaking = false, angles = false, cones = false, hinges = false;
+    for (const scenario::Joint& joint : scenario_.joints) {
+        const auto limited = [&](std::size_t k) { return joint.axes[k].mode == scenario::AxisMode::Limited; };
+        for (const auto& axis : joint.axes) sprung = sprung || axis.hasSpring();
+        breaking = breaking || joint.breakForce < 1e299 || joint.breakTorque < 1e299;
+        if (joint.type == scenario::JointType::SixDof) {
+            int turns = 0;
+            for (std::size_t k = 3; k < 6; ++k)
+                turns += joint.axes[k].mode == scenario::AxisMode::Free || limited(k) ? 1 : 0;
+            angles = angles || turns > 1;
+        }
+        cones = cones || joint.type == scenario::JointType::ConeTwist;
+        hinges = hinges || joint.type == scenario::JointType::Hinge;
+    }
+    if (articulations_) {
+        const std::string damping = setting("multibody_damping");
+        const bool damped = numberSetting(settings_, "multibody_damping") > 0.0;
+        add("articulation", "rigid joints",
+            "btMultiBody, " + std::to_string(articulations_->loops()) + " loops closed by constraints");
+        add("multibody_damping", "0", damping, damped ? Realisation::Approximate : Realisation::Exact,
+            damped ? "a force against the motion that grows with its speed and its square" : "");
+        add("multibody_integrator", "symplectic_euler", setting("multibody_integrator"),
+            Realisation::Approximate,
+            "forces of the velocities at the start of the step (explicit): fast spherical joints gain "
+            "energy");
+        return;
+    }
+    if (hinges)
+        add("hinge_anchors", "each body's own",
+            is("frame_offset", "on") ? "weighted by the masses" : "each body's own",
+            is("frame_offset", "on") ? Realisation::Approximate : Realisation::Exact,
+            is("frame_offset", "on")
+                ? "a hinge to a turning body that nothing moves drifts (measured: 12 times "
+                  "farther at 1/60 s than with each body's own)"
+                : "");
+    if (sprung)
+        add("joint_springs", "stiffness and damping of the coordinate",
+            is("spring_limits", "on")
+                ? "force of the start of the step, softened where it is stiff for the step"
+                : "force of the start of the step",
+            Realisation::Approximate,
+            is("spring_limits", "on")
+                ? "Bullet lowers a stiffness k above m / (16 dt^2) and a damping above m / dt"
+                : "explicit in position and velocity");
+    if (breaking)
+        add("breaking", "force and torque of a step",
+            is("breaking", "feedback") ? "norms of the joint feedback's vectors" : "each row's impulse",
+            is("breaking", "feedback") ? Realisation::Exact : Realisation::Approximate,
+            is("breaking", "feedback")
+                ? ""
+                : "along each axis of the joint by itself, torques by the same number");
+    if (angles)
+        add("six_dof_angles", "twist and swing", "Euler angles", Realisation::Approximate,
+            "equal where one turn alone is free, else from the second order on different");
+    if (cones)
+        add("cone_twist_limits", "stops without rebound", "btConeTwistConstraint, bias 0.3, relaxation 1",
+            Realisation::Approximate,
+            "a twist stop gives back 0.3 of the speed; relaxation 0 would lift the limits");
+}
+
 void BulletWorld::appendGeometryLedger(std::vector<LedgerEntry>& lines) const {
     const auto add = [&](const char* topic, std::string requested, std::string resolved,
                          Realisation realisation = Realisation::Exact, std::string reason = "") {
         lines.push_back({topic, std::move(requested), std::move(resolved), realisation, std::move(reason)});
     };
+    const auto setting = [&](const char* key) { return adapter::textSetting(settings_, key); };
     const ShapeSettings shapes = shapeSettings();
     if (adapter::hasCollidingShape<scenario::HalfSpace>(scenario_)) {
         if (shapes.halfSpaceAsBox)
@@ -97,7 +166,9 @@ void BulletWorld::appendGeometryLedger(std::vector<LedgerEntry>& lines) const {
         addMargin("cylinder_margin", shapes.cylinderMargin,
                   "rounds rims (GJK); 0 would leave flat contacts to EPA");
     if (adapter::hasCollidingShape<scenario::ConvexHull, scenario::Cone>(scenario_))
-        addMargin("hull_margin", shapes.hullMargin, "hulls and cones are grown outwards");
+        addMargin("hull_margin", shapes.hullMargin,
+                  "hulls and cones are grown outwards: what touches at the start overlaps by the margin, two "
+                  "hulls by twice that");
     if (adapter::hasCollidingShape<scenario::ConvexHull>(scenario_))
         add("hull_contacts", "full manifold",
             shapes.polyhedralFeatures ? "SAT and clipping with hulls and boxes"
@@ -105,6 +176,15 @@ void BulletWorld::appendGeometryLedger(std::vector<LedgerEntry>& lines) const {
             Realisation::Approximate,
             shapes.polyhedralFeatures ? "edge-edge contacts are clipped as faces, and may read too deep"
                                       : "the manifold fills over several steps");
+    if (adapter::hasCollidingShape<scenario::HeightField>(scenario_))
+        add("height_field", "solid under the surface", "surface alone", Realisation::Approximate,
+            "what gets below a triangle is pushed down");
+    if (adapter::hasCollidingShape<scenario::HeightField, scenario::TriangleMesh>(scenario_))
+        add("internal_edges", "do not catch", setting("internal_edges"),
+            is("internal_edges", "on") ? Realisation::Exact : Realisation::Approximate,
+            is("internal_edges", "on")
+                ? ""
+                : "each triangle meets a body by itself, edges between faces included");
     if (planar_) {
         add("planar", "two dimensions",
             "3D prisms of half depth 0.5 m, z translation and x, y rotation locked", Realisation::Approximate,

@@ -18,6 +18,12 @@ using adapter::ContactPoint;
 using adapter::Mat3;
 
 BodyState BulletWorld::stateOf(const BodyRecord& record) const {
+    if (record.linked) {
+        const int body = record.tag.body;
+        const Pose pose = fromBullet(articulations_->pose(body)) * inverse(record.comFrame);
+        return {pose.position, pose.orientation, fromBullet(articulations_->velocity(body)),
+                fromBullet(articulations_->angularVelocity(body))};
+    }
     const Pose pose = fromBullet(record.body->getWorldTransform()) * inverse(record.comFrame);
     BodyState state{pose.position, pose.orientation, fromBullet(record.body->getLinearVelocity()),
                     fromBullet(record.body->getAngularVelocity())};
@@ -115,9 +121,11 @@ adapter::ReadBack BulletWorld::readBack() const {
     for (const auto& record : records_) {
         const btRigidBody& body = *record->body;
         adapter::BodyReadBack entry;
-        entry.mass = static_cast<double>(body.getMass());
+        entry.mass =
+            record->linked ? articulations_->mass(record->tag.body) : static_cast<double>(body.getMass());
         entry.centerOfMass = record->comFrame.position;
-        const btVector3 moments = body.getLocalInertia();
+        const btVector3 moments =
+            record->linked ? articulations_->moments(record->tag.body) : body.getLocalInertia();
         const Mat3 principal =
             Mat3::diagonal(static_cast<double>(moments.x()), static_cast<double>(moments.y()),
                            static_cast<double>(moments.z()));
@@ -125,7 +133,11 @@ adapter::ReadBack BulletWorld::readBack() const {
         entry.inertia = axes * principal * transpose(axes);
         if (planar_) entry.inertia = Mat3::diagonal(0.0, 0.0, entry.inertia(2, 2));
         entry.state = stateOf(*record);
-        if (!body.isStaticOrKinematicObject()) entry.gravity = fromBullet(body.getGravity());
+        if (record->linked)
+            entry.gravity = scenario_.bodies[static_cast<std::size_t>(record->tag.body)].gravityScale *
+                            fromBullet(world_->getGravity());
+        else if (!body.isStaticOrKinematicObject())
+            entry.gravity = fromBullet(body.getGravity());
         back.bodies.push_back(entry);
     }
     const auto bodyOf = [&](const adapter::PairTable::ShapeRef& ref) -> const btRigidBody& {
@@ -139,6 +151,7 @@ adapter::ReadBack BulletWorld::readBack() const {
 }
 
 bool BulletWorld::isAsleep(int body) const {
+    if (records_[static_cast<std::size_t>(body)]->linked) return articulations_->asleep(body);
     const btRigidBody& object = *records_[static_cast<std::size_t>(body)]->body;
     return !object.isStaticOrKinematicObject() && object.getActivationState() == ISLAND_SLEEPING;
 }
@@ -151,7 +164,7 @@ adapter::StepCounters BulletWorld::counters() const {
         counters.contacts += dispatcher_->getManifoldByIndexInternal(i)->getNumContacts();
     std::set<int> islands;
     for (const auto& record : records_)
-        if (!record->body->isStaticOrKinematicObject() && record->body->isActive())
+        if (!record->linked && !record->body->isStaticOrKinematicObject() && record->body->isActive())
             islands.insert(record->body->getIslandTag());
     if (steps_ > 0) counters.islands = static_cast<std::int64_t>(islands.size());
     const btSolverAnalyticsData& analytics = solver_->m_analyticsData;

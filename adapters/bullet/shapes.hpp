@@ -4,6 +4,8 @@
 
 #include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
+#include <BulletCollision/CollisionShapes/btTriangleInfoMap.h>
 
 #include <memory>
 #include <vector>
@@ -25,19 +27,30 @@ struct ShapeSettings {
     bool halfSpaceAsBox = false;
     double halfSpaceReach = 100.0;  ///< half width of that box [m]
     adapter::Vec3 halfSpaceCenter;  ///< its middle is the projection of this world point
+    bool internalEdges = false;     ///< contacts with inner edges of surfaces are given the face's normal
+};
+
+/// Numbers that a surface of Bullet reads and does not own.
+struct SurfaceData {
+    std::vector<btScalar> numbers;  ///< coordinates of vertices, or heights [m]
+    std::vector<int> indices;       ///< three of each triangle
+    btTriangleIndexVertexArray mesh;
+    btTriangleInfoMap edges;
 };
 
 /// A shape and where its frame stands in the frame of the scenario's shape.
 struct BuiltShape {
     std::unique_ptr<btCollisionShape> shape;
     adapter::Pose offset;
+    std::unique_ptr<SurfaceData> surface;  ///< null but for triangle meshes and height fields
 };
 
 /// One geometry. `pose` (shape frame to world) matters for half-spaces alone. Throws Unsupported.
 BuiltShape buildGeometry(const adapter::Geometry& geometry, const adapter::Pose& pose,
                          const ShapeSettings& settings);
 
-/// The shapes of one body as Bullet's single collision shape, and what owns the parts.
+/// The shapes of one body as Bullet's single collision shape, and what owns the parts. The user index of each
+/// part is the index of the scenario's shape.
 class BodyShape {
   public:
     /// `comFrame` is the frame of the Bullet body in the body frame of the scenario. Bodies without contacts
@@ -46,7 +59,7 @@ class BodyShape {
     btCollisionShape* get() const { return root_; }
 
   private:
-    std::vector<std::unique_ptr<btCollisionShape>> parts_;
+    std::vector<BuiltShape> parts_;
     std::unique_ptr<btCompoundShape> compound_;
     btCollisionShape* root_ = nullptr;
 };

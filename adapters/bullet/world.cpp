@@ -6,6 +6,7 @@
 #include "adapters/bullet/world.hpp"
 
 #include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <BulletDynamics/MLCPSolvers/btLemkeSolver.h>
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
@@ -63,15 +64,22 @@ BulletWorld::BulletWorld(const Scenario& scenario, double dt, const Settings& se
     installContactCallback();
     createPipeline();
     configureSolver();
+    linked_.resize(scenario_.bodies.size());
+    if (is("articulation", "multibody")) linked_ = Articulations::linkedBodies(scenario_, planar_);
     for (int i = 0; i < static_cast<int>(scenario_.bodies.size()); ++i) addBody(i);
     groundShape_ = std::make_unique<btEmptyShape>();
     ground_ = std::make_unique<btRigidBody>(btScalar(0.0), nullptr, groundShape_.get());
-    for (const auto& joint : scenario_.joints) addJoint(joint);
+    if (is("articulation", "multibody"))
+        articulate();
+    else
+        for (const auto& joint : scenario_.joints) addJoint(joint);
 }
 
 BulletWorld::~BulletWorld() {
-    for (auto& joint : joints_) world_->removeConstraint(joint.get());
-    for (auto& record : records_) world_->removeRigidBody(record->body.get());
+    for (auto& joint : joints_) world_->removeConstraint(joint->constraint.get());
+    articulations_.reset();
+    for (auto& record : records_)
+        if (!record->linked) world_->removeRigidBody(record->body.get());
 }
 
 bool BulletWorld::is(const std::string& key, const std::string& value) const {
@@ -93,8 +101,13 @@ void BulletWorld::createPipeline() {
     filter_ = std::make_unique<PairFilter>(pairs_);
     broadphase_->getOverlappingPairCache()->setOverlapFilterCallback(filter_.get());
     createSolver();
-    world_ = std::make_unique<btDiscreteDynamicsWorld>(dispatcher_.get(), broadphase_.get(), solver_.get(),
-                                                       configuration_.get());
+    if (is("articulation", "multibody"))
+        world_ = std::make_unique<btMultiBodyDynamicsWorld>(
+            dispatcher_.get(), broadphase_.get(), static_cast<btMultiBodyConstraintSolver*>(solver_.get()),
+            configuration_.get());
+    else
+        world_ = std::make_unique<btDiscreteDynamicsWorld>(dispatcher_.get(), broadphase_.get(),
+                                                           solver_.get(), configuration_.get());
     world_->setGravity(toBullet(scenario_.gravity));
     world_->setInternalTickCallback(&BulletWorld::beforeStep, this, true);
     world_->getDispatchInfo().m_enableSatConvex = is("sat", "on");
@@ -102,6 +115,11 @@ void BulletWorld::createPipeline() {
 
 void BulletWorld::createSolver() {
     const std::string& name = adapter::textSetting(settings_, "solver");
+    if (is("articulation", "multibody")) {
+        if (name != "si") throw adapter::notInAdapter("bullet", "btMultiBody with a solver other than si");
+        solver_ = std::make_unique<btMultiBodyConstraintSolver>();
+        return;
+    }
     if (name == "mlcp_dantzig")
         mlcp_ = std::make_unique<btDantzigSolver>();
     else if (name == "mlcp_pgs")
@@ -147,6 +165,7 @@ ShapeSettings BulletWorld::shapeSettings() const {
     shapes.cylinderMargin = numberSetting(settings_, "cylinder_margin");
     shapes.hullMargin = numberSetting(settings_, "hull_margin");
     shapes.halfSpaceAsBox = is("half_space", "box");
+    shapes.internalEdges = is("internal_edges", "on");
     // Single precision resolves 3e-5 m at 500 m, so the box stays no larger than it has to be.
     const double most = sizeof(btScalar) == sizeof(double) ? 5000.0 : 500.0;
     const adapter::Reach reach = adapter::reachOf(scenario_, 50.0, most);
@@ -201,6 +220,11 @@ void BulletWorld::addBody(int index) {
         rigid.setLinearFactor(btVector3(1, 1, 0));
         rigid.setAngularFactor(btVector3(0, 0, 1));
     }
+    record->linked = linked_[static_cast<std::size_t>(index)];
+    if (record->linked) {
+        records_.push_back(std::move(record));
+        return;
+    }
     world_->addRigidBody(&rigid);
     // After adding: the world overwrites a body's own gravity.
     if (dynamic) rigid.setGravity(toBullet(body.gravityScale * scenario_.gravity));
@@ -209,17 +233,92 @@ void BulletWorld::addBody(int index) {
 
 void BulletWorld::addJoint(const scenario::Joint& joint) {
     const auto endOf = [&](int index) {
-        if (index == scenario::kNone) return JointEnd{ground_.get(), {}, {}};
+        if (index == scenario::kNone) return JointEnd{ground_.get(), {}, {}, nullptr};
         const BodyRecord& record = *records_[static_cast<std::size_t>(index)];
-        return JointEnd{record.body.get(), record.comFrame,
-                        scenario_.bodies[static_cast<std::size_t>(index)].pose};
+        const scenario::Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
+        return JointEnd{record.body.get(), record.comFrame, body.pose, &body};
     };
-    joints_.push_back(buildJoint(joint, endOf(joint.bodyA), endOf(joint.bodyB), dt_));
+    const JointSettings settings{dt_, is("frame_offset", "on"), is("spring_limits", "on")};
+    auto record = std::make_unique<JointRecord>();
+    record->constraint = buildJoint(joint, endOf(joint.bodyA), endOf(joint.bodyB), settings);
+    setBreaking(joint, *record);
     // Whether the two collide is the pair filter's business.
-    world_->addConstraint(joints_.back().get(), false);
+    world_->addConstraint(record->constraint.get(), false);
+    joints_.push_back(std::move(record));
+}
+
+/// Bullet's own threshold is one impulse that no row may reach, be it of a force along one axis of the joint
+/// or of a torque; the feedback gives force and torque as vectors.
+void BulletWorld::setBreaking(const scenario::Joint& joint, JointRecord& record) {
+    const bool byForce = joint.breakForce < 1e299, byTorque = joint.breakTorque < 1e299;
+    if (!byForce && !byTorque) return;
+    if (is("breaking", "impulse_threshold") && !byTorque) {
+        record.constraint->setBreakingImpulseThreshold(static_cast<btScalar>(joint.breakForce * dt_));
+        return;
+    }
+    record.watched = true;
+    record.constraint->setJointFeedback(&record.feedback);
+}
+
+/// As Bullet's threshold: what broke in this step acts no more from the next one on.
+void BulletWorld::breakJoints() {
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+        JointRecord& record = *joints_[i];
+        if (!record.watched || !record.constraint->isEnabled()) continue;
+        const scenario::Joint& joint = scenario_.joints[i];
+        Vec3 force = fromBullet(record.feedback.m_appliedForceBodyB);
+        Vec3 torque = fromBullet(record.feedback.m_appliedTorqueBodyB);
+        const auto b = static_cast<std::size_t>(joint.bodyB);
+        const BodyRecord& body = *records_[b];
+        const Pose pose = fromBullet(body.body->getWorldTransform()) * inverse(body.comFrame);
+        const Vec3 arm = pose * joint.anchorB - fromBullet(body.body->getWorldTransform().getOrigin());
+        torque = torque - cross(arm, force);
+        if (planar_) force.z = 0.0, torque.x = torque.y = 0.0;
+        if (norm(force) > joint.breakForce || norm(torque) > joint.breakTorque)
+            record.constraint->setEnabled(false);
+    }
+}
+
+adapter::Scheme BulletWorld::scheme() const {
+    const bool other = articulations_ && is("multibody_integrator", "rk4");
+    return other ? adapter::Scheme::Unknown : adapter::Scheme::SymplecticEuler;
+}
+
+bool BulletWorld::jointHolds(int joint) const {
+    return articulations_ || joints_[static_cast<std::size_t>(joint)]->constraint->isEnabled();
+}
+
+void BulletWorld::articulate() {
+    std::vector<Articulations::LinkSource> sources;
+    for (const auto& record : records_)
+        sources.push_back({record->comFrame, record->body->getLocalInertia(), record->shape->get(),
+                           &record->tag, record->body->getContactProcessingThreshold()});
+    ArticulationSettings settings;
+    settings.dt = dt_;
+    settings.damping = numberSetting(settings_, "multibody_damping");
+    settings.maximalVelocity = numberSetting(settings_, "multibody_velocity_limit");
+    settings.rungeKutta = is("multibody_integrator", "rk4");
+    settings.gyroscopic = !is("gyroscopic", "none");
+    settings.maySleep = is("sleeping", "on");
+    articulations_ = std::make_unique<Articulations>(
+        scenario_, std::move(sources), static_cast<btMultiBodyDynamicsWorld&>(*world_), settings);
+}
+
+/// The world pulls at every link alike.
+void BulletWorld::pullScaledGravity() {
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        const scenario::Body& body = scenario_.bodies[i];
+        if (!records_[i]->linked || body.gravityScale == 1.0) continue;
+        const Vec3 rest = (body.massProperties.mass * (body.gravityScale - 1.0)) * scenario_.gravity;
+        articulations_->addForce(static_cast<int>(i), toBullet(rest), btVector3(0, 0, 0));
+    }
 }
 
 void BulletWorld::applyForce(int body, const Vec3& force, const Vec3& torque) {
+    if (records_[static_cast<std::size_t>(body)]->linked) {
+        articulations_->addForce(body, toBullet(force), toBullet(torque));
+        return;
+    }
     btRigidBody& rigid = *records_[static_cast<std::size_t>(body)]->body;
     if (rigid.isStaticOrKinematicObject()) return;
     rigid.activate();
@@ -231,8 +330,11 @@ void BulletWorld::step() {
     std::vector<btMatrix3x3> bases;
     if (externalGyro_)
         for (const auto& record : records_) bases.push_back(record->body->getWorldTransform().getBasis());
+    if (articulations_) pullScaledGravity();
     // Zero sub-steps allowed means: exactly one step of this length.
     world_->stepSimulation(static_cast<btScalar>(dt_), 0);
+    if (articulations_) articulations_->update();
+    breakJoints();
     moveKinematicBodies();
     if (externalGyro_) turnAngularMomenta(bases);
     ++steps_;
@@ -265,7 +367,7 @@ void BulletWorld::moveKinematicBodies() {
 void BulletWorld::turnAngularMomenta(const std::vector<btMatrix3x3>& basesBefore) {
     for (std::size_t i = 0; i < records_.size(); ++i) {
         btRigidBody& body = *records_[i]->body;
-        if (body.isStaticOrKinematicObject() || !body.isActive()) continue;
+        if (records_[i]->linked || body.isStaticOrKinematicObject() || !body.isActive()) continue;
         const btVector3 inertia = body.getLocalInertia(), inverseInertia = body.getInvInertiaDiagLocal();
         const btMatrix3x3& before = basesBefore[i];
         const btMatrix3x3& after = body.getWorldTransform().getBasis();

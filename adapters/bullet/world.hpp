@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/bullet/articulation.hpp"
 #include "adapters/bullet/contact_rules.hpp"
 #include "adapters/bullet/shapes.hpp"
 #include "adapters/interface/engine.hpp"
@@ -18,7 +19,9 @@ class btMLCPSolverInterface;
 namespace rigor::bullet {
 
 /// One scenario in one btDiscreteDynamicsWorld. Two-dimensional scenarios are lifted (adapters/interface/
-/// planar.hpp) and kept in the plane by Bullet's linear and angular factors.
+/// planar.hpp) and kept in the plane by Bullet's linear and angular factors. With articulation=multibody
+/// bodies on joints are links of btMultiBody and their rigid bodies are not in the world; those give shapes
+/// and masses.
 class BulletWorld final : public adapter::World {
   public:
     BulletWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings);
@@ -31,8 +34,9 @@ class BulletWorld final : public adapter::World {
     adapter::ReadBack readBack() const override;
     std::vector<adapter::LedgerEntry> ledger() const override;
     adapter::StepCounters counters() const override;
-    adapter::Scheme scheme() const override { return adapter::Scheme::SymplecticEuler; }
+    adapter::Scheme scheme() const override;
     bool isAsleep(int body) const override;
+    bool jointHolds(int joint) const override;
 
   private:
     /// What one scenario body is in Bullet. Addresses are stable: Bullet keeps pointers to all of it.
@@ -43,6 +47,12 @@ class BulletWorld final : public adapter::World {
         std::unique_ptr<btRigidBody> body;
         BodyTag tag;
         btVector3 velocity{0, 0, 0}, angularVelocity{0, 0, 0};  ///< of a kinematic body
+        bool linked = false;                                    ///< a link of articulations_
+    };
+    struct JointRecord {
+        std::unique_ptr<btTypedConstraint> constraint;
+        btJointFeedback feedback;  ///< mean force and torque of the last step on both bodies
+        bool watched = false;      ///< broken by its feedback
     };
     class PairFilter;
 
@@ -51,6 +61,10 @@ class BulletWorld final : public adapter::World {
     void configureSolver();
     void addBody(int index);
     void addJoint(const scenario::Joint& joint);
+    void articulate();
+    void pullScaledGravity();
+    void setBreaking(const scenario::Joint& joint, JointRecord& record);
+    void breakJoints();
     ShapeSettings shapeSettings() const;
     adapter::BodyState stateOf(const BodyRecord& record) const;
     void moveKinematicBodies();
@@ -58,6 +72,7 @@ class BulletWorld final : public adapter::World {
     void readImpulses(const btManifoldPoint& point, double towardsB, adapter::ContactPoint& contact) const;
     void appendManifold(const btPersistentManifold& manifold,
                         std::vector<adapter::ContactPoint>& contacts) const;
+    void appendJointLedger(std::vector<adapter::LedgerEntry>& lines) const;
     void appendGeometryLedger(std::vector<adapter::LedgerEntry>& lines) const;
     static void beforeStep(btDynamicsWorld* world, btScalar dt);
     bool is(const std::string& key, const std::string& value) const;
@@ -71,10 +86,11 @@ class BulletWorld final : public adapter::World {
     int steps_ = 0;
 
     adapter::PairTable pairs_;
+    std::vector<bool> linked_;  ///< bodies that are links; see Articulations::linkedBodies
     std::vector<std::unique_ptr<BodyRecord>> records_;
     std::unique_ptr<btEmptyShape> groundShape_;
     std::unique_ptr<btRigidBody> ground_;  ///< what joints to the world hold on to; not in the world
-    std::vector<std::unique_ptr<btTypedConstraint>> joints_;
+    std::vector<std::unique_ptr<JointRecord>> joints_;  ///< by scenario index
 
     std::unique_ptr<btDefaultCollisionConfiguration> configuration_;
     std::unique_ptr<btCollisionDispatcher> dispatcher_;
@@ -84,6 +100,7 @@ class BulletWorld final : public adapter::World {
     std::unique_ptr<btSequentialImpulseConstraintSolver> solver_;
     btMLCPSolver* mlcpSolver_ = nullptr;
     std::unique_ptr<btDiscreteDynamicsWorld> world_;
+    std::unique_ptr<Articulations> articulations_;  ///< null with maximal coordinates
 };
 
 }  // namespace rigor::bullet

@@ -3,12 +3,27 @@
 #include "adapters/interface/planar.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 namespace rigor::adapter {
 
 using namespace scenario;
 
 namespace {
+
+/// Two triangles over each segment.
+Geometry strip(const std::vector<Vec3>& points, bool loop) {
+    TriangleMesh mesh;
+    for (const Vec3& p : points)
+        for (const double z : {-kPlanarHalfDepth, kPlanarHalfDepth}) mesh.vertices.push_back({p.x, p.y, z});
+    const int count = static_cast<int>(points.size());
+    for (int i = 0; i + (loop ? 0 : 1) < count; ++i) {
+        const int here = 2 * i, next = 2 * ((i + 1) % count);
+        mesh.triangles.push_back({here, here + 1, next});
+        mesh.triangles.push_back({next, here + 1, next + 1});
+    }
+    return mesh;
+}
 
 struct Lift {
     Geometry operator()(const Sphere& s) const { return s; }
@@ -23,6 +38,8 @@ struct Lift {
             for (const Vec3& v : polygon.vertices) prism.vertices.push_back({v.x, v.y, z});
         return prism;
     }
+    Geometry operator()(const Segment& s) const { return strip({s.a, s.b}, false); }
+    Geometry operator()(const Chain& c) const { return strip(c.vertices, c.loop); }
     template <class Other>
     Geometry operator()(const Other&) const {
         throw std::invalid_argument("this shape has no solid over the plane");
@@ -43,8 +60,16 @@ Scenario planarLift(const Scenario& scenario) {
         const double inertia = body.massProperties.inertia(2, 2);
         body.massProperties.inertia = Mat3::diagonal(inertia, inertia, inertia);
     }
-    for (Joint& joint : lifted.joints)
-        if (joint.type == JointType::Hinge) joint.axisA = joint.axisB = {0.0, 0.0, 1.0};
+    for (Joint& joint : lifted.joints) {
+        const Vec3 up{0.0, 0.0, 1.0};
+        if (joint.type == JointType::Hinge) joint.axisA = joint.axisB = up;
+        if (joint.type == JointType::Wheel) joint.spinAxisB = up;
+        if (joint.type == JointType::SixDof) {
+            // x, y and the angle: the swing about z of the lifted joint.
+            joint.normalA = cross(up, joint.axisA);
+            std::swap(joint.axes[2], joint.axes[5]);
+        }
+    }
     return lifted;
 }
 

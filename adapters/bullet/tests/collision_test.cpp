@@ -113,10 +113,23 @@ TEST(BulletCollisionPlanar, PrismsAnswerInThePlaneHoweverDeep) {
     EXPECT_EQ(answer.contacts[0].pointA.z, 0.0);
 }
 
+/// A strip of triangles over the segment.
+TEST(BulletPlanar, ASegmentIsTouchedFromBothSides) {
+    for (const double side : {0.4, -0.4}) {
+        const auto answer =
+            ask(scenario::Segment{{-1, 0, 0}, {1, 0, 0}}, {}, Sphere{0.5}, {{0.2, side, 0}, {}}, 2);
+        ASSERT_EQ(answer.contacts.size(), 1u);
+        EXPECT_NEAR(answer.contacts[0].depth, 0.1, tol(1e-9, 1e-6));
+        EXPECT_NEAR(answer.contacts[0].normal.y, side > 0 ? 1.0 : -1.0, 1e-6);
+    }
+}
+
 TEST(BulletCollisionInput, BadQueriesAreRefused) {
     EXPECT_THROW(ask(Sphere{-1}, {}, Sphere{1}, {}), adapter::BadInput);
     EXPECT_THROW(ask(HalfSpace{}, {}, HalfSpace{}, {}), adapter::Unsupported);
-    EXPECT_THROW(ask(scenario::Segment{{0, 0, 0}, {1, 0, 0}}, {}, Sphere{1}, {}, 2), adapter::Unsupported);
+    const scenario::HeightField flat{2, 2, 1.0, 1.0, {0, 0, 0, 0}, 1.0};
+    EXPECT_THROW(ask(flat, {}, flat, {}), adapter::Unsupported);
+    EXPECT_THROW(ask(flat, {}, Sphere{1}, {}, 2), adapter::Unsupported);
 }
 
 TEST(BulletBroadPhase, AgreesWithBruteForceWhileBoxesMove) {

@@ -185,10 +185,6 @@ TEST(BulletRefuses, WhatItDoesNotHaveAndWhatIsNotANumber) {
     distance.joints[0].length = 1.0;
     EXPECT_THROW(build(distance), adapter::Unsupported);
 
-    Scenario segment = scene(0, 0, 2);
-    addStatic(segment, scenario::Segment{{-1, 0, 0}, {1, 0, 0}});
-    EXPECT_THROW(build(segment), adapter::Unsupported);
-
     Scenario good = scene();
     addBody(good, Sphere{0.1}, {});
     EXPECT_NO_THROW(build(good));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 
 #include "adapters/interface/missing.hpp"
 #include "adapters/interface/planar.hpp"
@@ -251,7 +252,42 @@ TEST(Planar, ShapesBecomeSolidsAroundThePlane) {
     EXPECT_EQ(lifted.bodies[0].massProperties.mass, body.massProperties.mass);
     EXPECT_EQ(lifted.bodies[0].massProperties.inertia(2, 2), body.massProperties.inertia(2, 2));
     EXPECT_NO_THROW(checkScenarioInput(lifted, 0.01));
-    EXPECT_THROW((void)planarGeometry(Segment{{0, 0, 0}, {1, 0, 0}}), std::invalid_argument);
+    EXPECT_THROW((void)planarGeometry(HeightField{}), std::invalid_argument);
+}
+
+TEST(Planar, ChainsBecomeStripsOfTriangles) {
+    const Chain open{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, false}, loop{open.vertices, true};
+    EXPECT_EQ(std::get<TriangleMesh>(planarGeometry(Segment{{0, 0, 0}, {1, 0, 0}})).triangles.size(), 2u);
+    EXPECT_EQ(std::get<TriangleMesh>(planarGeometry(open)).triangles.size(), 4u);
+    const auto closed = std::get<TriangleMesh>(planarGeometry(loop));
+    ASSERT_EQ(closed.triangles.size(), 6u);
+    // Every triangle stands over one segment of the chain: its points are two vertices of it, at both depths.
+    for (const auto& triangle : closed.triangles) {
+        std::set<std::pair<double, double>> columns;
+        std::set<double> depths;
+        for (const int i : triangle) {
+            const Vec3& v = closed.vertices[static_cast<std::size_t>(i)];
+            columns.insert({v.x, v.y});
+            depths.insert(v.z);
+        }
+        EXPECT_EQ(columns.size(), 2u);
+        EXPECT_EQ(depths, (std::set<double>{-kPlanarHalfDepth, kPlanarHalfDepth}));
+    }
+}
+
+TEST(Planar, TheAngleOfASixDofIsItsSwingAboutZ) {
+    Scenario s;
+    s.dimension = 2;
+    Joint joint;
+    joint.type = JointType::SixDof;
+    joint.axisA = {0.6, 0.8, 0};
+    joint.axes[0].motorSpeed = 1.0, joint.axes[2].motorSpeed = 3.0;
+    s.joints = {joint};
+    const Joint lifted = planarLift(s).joints[0];
+    EXPECT_EQ(lifted.axes[0].motorSpeed, 1.0);
+    EXPECT_EQ(lifted.axes[2].motorSpeed, 0.0);
+    EXPECT_EQ(lifted.axes[5].motorSpeed, 3.0);
+    EXPECT_EQ(cross(lifted.axisA, lifted.normalA), (Vec3{0, 0, 1}));
 }
 
 }  // namespace

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Conventions of btMultiBody (Bullet 3.24), found by experiment: rotations of links go from the parent's
+// frame to the link's; offsets are in the parent's frame up to the joint and in the link's from it; a
+// spherical joint's velocity is in the link's frame; the cached poses lag by a step until forwardKinematics;
+// tree velocities are in the links' frames.
+#include "adapters/bullet/articulation.hpp"
+
+#include <BulletDynamics/Featherstone/btMultiBodyFixedConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
+#include <BulletDynamics/Featherstone/btMultiBodyPoint2Point.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "adapters/bullet/convert.hpp"
+
+namespace rigor::bullet {
+
+using adapter::Scenario;
+using scenario::BodyType;
+using scenario::Joint;
+using scenario::JointType;
+
+/// A joint of the tree: from its parent (kNone: the fixed base) to its child; `turned` where the child is the
+/// joint's A.
+struct Articulations::Edge {
+    const Joint* joint = nullptr;
+    int parent = scenario::kNone, child = scenario::kNone;
+    bool turned = false;
+};
+struct Articulations::Tree {
+    int base = scenario::kNone;  ///< a body; kNone: fixed
+    std::vector<Edge> edges;     ///< parents before children
+    std::vector<const Joint*> loops;
+};
+
+namespace {
+
+bool moves(const Scenario& scenario, int body) {
+    return body != scenario::kNone &&
+           scenario.bodies[static_cast<std::size_t>(body)].type == BodyType::Dynamic;
+}
+
+void refuseMissing(const Joint& joint, const Scenario& scenario) {
+    const auto refuse = [&](const std::string& what) {
+        throw adapter::notInLibrary("bullet", what + " of a btMultiBody", "btMultiBody.h, setup functions",
+                                    "joint '" + joint.name + "'");
+    };
+    const bool known = joint.type == JointType::Ball || joint.type == JointType::Hinge ||
+                       joint.type == JointType::Slider || joint.type == JointType::Fixed;
+    if (!known) refuse(std::string("joint '") + jointName(joint.type) + "'");
+    for (const auto& axis : joint.axes) {
+        if (axis.hasSpring()) refuse("spring");
+        const bool driven = axis.hasMotor() || axis.mode == scenario::AxisMode::Limited;
+        if (joint.type == JointType::Ball && driven)
+            throw adapter::notInAdapter("bullet", "limit or motor of a btMultiBody's spherical joint",
+                                        "joint '" + joint.name + "'");
+    }
+    if (joint.breakForce < 1e299 || joint.breakTorque < 1e299) refuse("breaking joint");
+    for (const int body : {joint.bodyA, joint.bodyB})
+        if (body != scenario::kNone &&
+            scenario.bodies[static_cast<std::size_t>(body)].type == BodyType::Kinematic)
+            throw adapter::notInAdapter("bullet", "btMultiBody on a kinematic body",
+                                        "joint '" + joint.name + "'");
+}
+
+btScalar scalar(double x) {
+    return static_cast<btScalar>(x);
+}
+
+}  // namespace
+
+std::vector<bool> Articulations::linkedBodies(const Scenario& scenario, bool planar) {
+    std::vector<bool> linked(scenario.bodies.size());
+    for (const Joint& joint : scenario.joints) {
+        refuseMissing(joint, scenario);
+        for (const int body : {joint.bodyA, joint.bodyB})
+            if (moves(scenario, body)) linked[static_cast<std::size_t>(body)] = true;
+    }
+    for (std::size_t i = 0; i < linked.size(); ++i) {
+        const scenario::Body& body = scenario.bodies[i];
+        if (linked[i] && (body.linearVelocityKept != 1.0 || body.angularVelocityKept != 1.0))
+            throw adapter::notInLibrary("bullet", "damping of single links of a btMultiBody",
+                                        "btMultiBody.h, setLinearDamping: one value for all links",
+                                        "body '" + body.name + "'");
+    }
+    if (planar && std::any_of(linked.begin(), linked.end(), [](bool is) { return is; }))
+        throw adapter::notInAdapter("bullet", "btMultiBody in two dimensions");
+    return linked;
+}
+
+Articulations::Articulations(const Scenario& scenario, std::vector<LinkSource> sources,
+                             btMultiBodyDynamicsWorld& world, const ArticulationSettings& settings)
+    : scenario_(scenario),
+      sources_(std::move(sources)),
+      world_(world),
+      settings_(settings),
+      links_(scenario.bodies.size()) {
+    const std::vector<bool> linked = linkedBodies(scenario, false);
+    std::vector<bool> placed(linked.size());
+    std::vector<bool> used(scenario.joints.size());
+    // Breadth first over joints in the scenario's order, from the world, then from each body still left.
+    const auto grow = [&](int base) {
+        Tree tree;
+        tree.base = base;
+        std::deque<int> open{base};
+        if (base != scenario::kNone) placed[static_cast<std::size_t>(base)] = true;
+        while (!open.empty()) {
+            const int parent = open.front();
+            open.pop_front();
+            for (std::size_t j = 0; j < scenario.joints.size(); ++j) {
+                const Joint& joint = scenario.joints[j];
+                const auto standsFor = [&](int body) {
+                    return parent == scenario::kNone ? !moves(scenario, body) : body == parent;
+                };
+                const bool fromA = standsFor(joint.bodyA);
+                if (used[j] || (!fromA && !standsFor(joint.bodyB))) continue;
+                const int child = fromA ? joint.bodyB : joint.bodyA;
+                used[j] = true;
+                if (!moves(scenario, child)) {
+                    if (parent != scenario::kNone) tree.loops.push_back(&joint);
+                } else if (placed[static_cast<std::size_t>(child)]) {
+                    tree.loops.push_back(&joint);
+                } else {
+                    placed[static_cast<std::size_t>(child)] = true;
+                    tree.edges.push_back({&joint, parent, child, !fromA});
+                    open.push_back(child);
+                }
+            }
+        }
+        if (base != scenario::kNone || !tree.edges.empty()) build(tree);
+    };
+    grow(scenario::kNone);
+    for (std::size_t i = 0; i < linked.size(); ++i)
+        if (linked[i] && !placed[i]) grow(static_cast<int>(i));
+    update();
+}
+
+Articulations::~Articulations() {
+    for (auto& constraint : constraints_) world_.removeMultiBodyConstraint(constraint.get());
+    for (auto& collider : colliders_) world_.removeCollisionObject(collider.get());
+    for (auto& multiBody : multiBodies_) world_.removeMultiBody(multiBody.get());
+}
+
+btTransform Articulations::startPose(int body) const {
+    if (!moves(scenario_, body)) return btTransform::getIdentity();
+    const auto i = static_cast<std::size_t>(body);
+    return toBullet(scenario_.bodies[i].pose * sources_[i].comFrame);
+}
+
+void Articulations::build(const Tree& tree) {
+    const bool fixed = tree.base == scenario::kNone;
+    const auto base = static_cast<std::size_t>(std::max(tree.base, 0));
+    const btScalar mass = fixed ? btScalar(0) : scalar(scenario_.bodies[base].massProperties.mass);
+    multiBodies_.push_back(std::make_unique<btMultiBody>(static_cast<int>(tree.edges.size()), mass,
+                                                         fixed ? btVector3(0, 0, 0) : sources_[base].moments,
+                                                         fixed, settings_.maySleep));
+    btMultiBody& multiBody = *multiBodies_.back();
+    multiBody.setBaseWorldTransform(startPose(tree.base));
+    if (!fixed) links_[base] = {&multiBody, -1};
+    for (std::size_t i = 0; i < tree.edges.size(); ++i) {
+        links_[static_cast<std::size_t>(tree.edges[i].child)] = {&multiBody, static_cast<int>(i)};
+        addLink(multiBody, static_cast<int>(i), tree.edges[i]);
+    }
+    multiBody.finalizeMultiDof();
+    multiBody.setHasSelfCollision(true);  // the pair filter decides
+    multiBody.setLinearDamping(scalar(settings_.damping));
+    multiBody.setAngularDamping(scalar(settings_.damping));
+    multiBody.setMaxCoordinateVelocity(scalar(settings_.maximalVelocity));
+    multiBody.setUseGyroTerm(settings_.gyroscopic);
+    multiBody.useRK4Integration(settings_.rungeKutta);
+    if (!fixed) {
+        multiBody.setBaseVel(toBullet(scenario_.bodies[base].velocity));
+        multiBody.setBaseOmega(toBullet(scenario_.bodies[base].angularVelocity));
+    }
+    for (std::size_t i = 0; i < tree.edges.size(); ++i)
+        setCoordinates(multiBody, static_cast<int>(i), tree.edges[i]);
+    world_.addMultiBody(&multiBody);
+    if (!fixed) addCollider(tree.base);
+    for (const Edge& edge : tree.edges) addCollider(edge.child);
+    for (std::size_t i = 0; i < tree.edges.size(); ++i)
+        addDrives(multiBody, static_cast<int>(i), tree.edges[i]);
+    for (const Joint* joint : tree.loops) closeLoop(multiBody, *joint);
+}
+
+void Articulations::addLink(btMultiBody& multiBody, int index, const Edge& edge) {
+    const Joint& joint = *edge.joint;
+    const auto child = static_cast<std::size_t>(edge.child);
+    const scenario::Body& body = scenario_.bodies[child];
+    const btTransform parentPose = startPose(edge.parent), childPose = startPose(edge.child);
+    const btVector3 anchor = toBullet(body.pose * (edge.turned ? joint.anchorA : joint.anchorB));
+    const btVector3 axis = toBullet(rotate(body.pose.orientation, edge.turned ? joint.axisA : joint.axisB));
+    const btVector3 axisHere = childPose.getBasis().transpose() * axis;
+    const btQuaternion turn = childPose.getRotation().inverse() * parentPose.getRotation();
+    const btVector3 toJoint = parentPose.inverse() * anchor;
+    const btVector3 fromJoint = -(childPose.inverse() * anchor);
+    const btScalar mass = scalar(body.massProperties.mass);
+    const btVector3& moments = sources_[child].moments;
+    const int parent =
+        edge.parent == scenario::kNone ? -1 : links_[static_cast<std::size_t>(edge.parent)].index;
+    if (joint.type == JointType::Hinge)
+        multiBody.setupRevolute(index, mass, moments, parent, turn, axisHere, toJoint, fromJoint);
+    else if (joint.type == JointType::Slider)
+        multiBody.setupPrismatic(index, mass, moments, parent, turn, axisHere, toJoint, fromJoint, false);
+    else if (joint.type == JointType::Ball)
+        multiBody.setupSpherical(index, mass, moments, parent, turn, toJoint, fromJoint);
+    else
+        multiBody.setupFixed(index, mass, moments, parent, turn, toJoint, fromJoint, false);
+}
+
+/// The rates of the joint's coordinates, from the velocities of its bodies; they have to agree with the
+/// joint.
+void Articulations::setCoordinates(btMultiBody& multiBody, int index, const Edge& edge) {
+    const Joint& joint = *edge.joint;
+    const scenario::Body& body = scenario_.bodies[static_cast<std::size_t>(edge.child)];
+    const Vec3 anchor = body.pose * (edge.turned ? joint.anchorA : joint.anchorB);
+    const auto at = [&](int i) {
+        if (!moves(scenario_, i)) return Vec3{};
+        const scenario::Body& b = scenario_.bodies[static_cast<std::size_t>(i)];
+        return b.velocity + cross(b.angularVelocity, anchor - b.pose * b.massProperties.centerOfMass);
+    };
+    const auto turnOf = [&](int i) {
+        return moves(scenario_, i) ? scenario_.bodies[static_cast<std::size_t>(i)].angularVelocity : Vec3{};
+    };
+    const Vec3 axis = rotate(body.pose.orientation, edge.turned ? joint.axisA : joint.axisB);
+    const Vec3 turn = turnOf(edge.child) - turnOf(edge.parent);
+    if (joint.type == JointType::Hinge) multiBody.setJointVel(index, scalar(dot(turn, axis)));
+    if (joint.type == JointType::Slider)
+        multiBody.setJointVel(index, scalar(dot(at(edge.child) - at(edge.parent), axis)));
+    if (joint.type == JointType::Ball) {
+        const btVector3 here = startPose(edge.child).getBasis().transpose() * toBullet(turn);
+        const btScalar rates[] = {here.x(), here.y(), here.z()};
+        multiBody.setJointVelMultiDof(index, rates);
+    }
+}
+
+/// Limits and motors; the coordinate of a turned joint runs backwards.
+void Articulations::addDrives(btMultiBody& multiBody, int index, const Edge& edge) {
+    const scenario::JointAxis& axis = edge.joint->axes[0];
+    const double sign = edge.turned ? -1.0 : 1.0;
+    if (axis.mode == scenario::AxisMode::Limited) {
+        const auto bound = [](double x) { return std::clamp(x, -1e9, 1e9); };
+        const double lower = edge.turned ? -bound(axis.upper) : bound(axis.lower);
+        const double upper = edge.turned ? -bound(axis.lower) : bound(axis.upper);
+        addConstraint(std::make_unique<btMultiBodyJointLimitConstraint>(&multiBody, index, scalar(lower),
+                                                                        scalar(upper)));
+    }
+    if (axis.hasMotor())
+        addConstraint(std::make_unique<btMultiBodyJointMotor>(
+            &multiBody, index, scalar(sign * axis.motorSpeed), scalar(axis.motorMaxForce * settings_.dt)));
+}
+
+/// A ball joint is one coincident point, a hinge two of its axis (one row of six is then redundant).
+void Articulations::closeLoop(btMultiBody& multiBody, const Joint& joint) {
+    // The first end is one that moves.
+    const bool fromB = moves(scenario_, joint.bodyB);
+    const int first = fromB ? joint.bodyB : joint.bodyA, second = fromB ? joint.bodyA : joint.bodyB;
+    const Pose& pose = scenario_.bodies[static_cast<std::size_t>(first)].pose;
+    const Vec3 anchor = pose * (fromB ? joint.anchorB : joint.anchorA);
+    const Vec3 axis = rotate(pose.orientation, fromB ? joint.axisB : joint.axisA);
+    const auto linkOf = [&](int body) {
+        return moves(scenario_, body) ? links_[static_cast<std::size_t>(body)].index : -1;
+    };
+    const btTransform poseA = startPose(first), poseB = startPose(second);
+    const auto pin = [&](const Vec3& point) {
+        addConstraint(std::make_unique<btMultiBodyPoint2Point>(
+            &multiBody, linkOf(first), &multiBody, linkOf(second), poseA.inverse() * toBullet(point),
+            poseB.inverse() * toBullet(point)));
+    };
+    if (joint.axes[0].hasMotor() || joint.axes[0].mode == scenario::AxisMode::Limited)
+        throw adapter::notInAdapter("bullet", "limit or motor of a joint that closes a loop of a btMultiBody",
+                                    "joint '" + joint.name + "'");
+    if (joint.type == JointType::Ball) {
+        pin(anchor);
+    } else if (joint.type == JointType::Hinge) {
+        pin(anchor + 0.5 * axis);
+        pin(anchor - 0.5 * axis);
+    } else {
+        throw adapter::notInAdapter(
+            "bullet", std::string("loop of a btMultiBody closed by a '") + jointName(joint.type) + "'",
+            "joint '" + joint.name + "'");
+    }
+    ++loops_;
+}
+
+void Articulations::addConstraint(std::unique_ptr<btMultiBodyConstraint> constraint) {
+    constraint->finalizeMultiDof();
+    world_.addMultiBodyConstraint(constraint.get());
+    constraints_.push_back(std::move(constraint));
+}
+
+void Articulations::addCollider(int body) {
+    const auto i = static_cast<std::size_t>(body);
+    Link& link = links_[i];
+    auto collider = std::make_unique<btMultiBodyLinkCollider>(link.multiBody, link.index);
+    collider->setCollisionShape(sources_[i].shape);
+    collider->setWorldTransform(startPose(body));
+    collider->setUserPointer(sources_[i].tag);
+    collider->setCollisionFlags(collider->getCollisionFlags() |
+                                btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK);
+    collider->setContactProcessingThreshold(sources_[i].contactProcessingThreshold);
+    if (!settings_.maySleep) collider->setActivationState(DISABLE_DEACTIVATION);
+    if (link.index < 0)
+        link.multiBody->setBaseCollider(collider.get());
+    else
+        link.multiBody->getLink(link.index).m_collider = collider.get();
+    world_.addCollisionObject(collider.get(), btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter);
+    colliders_.push_back(std::move(collider));
+}
+
+void Articulations::update() {
+    btAlignedObjectArray<btQuaternion> rotations;
+    btAlignedObjectArray<btVector3> origins;
+    std::vector<btVector3> turns, velocities;
+    for (auto& multiBody : multiBodies_) {
+        multiBody->forwardKinematics(rotations, origins);
+        const auto count = static_cast<std::size_t>(multiBody->getNumLinks()) + 1;
+        turns.resize(count), velocities.resize(count);
+        multiBody->compTreeLinkVelocities(turns.data(), velocities.data());
+        for (Link& link : links_) {
+            if (link.multiBody != multiBody.get()) continue;
+            const auto slot = static_cast<std::size_t>(link.index + 1);
+            link.pose = link.index < 0 ? multiBody->getBaseWorldTransform()
+                                       : multiBody->getLink(link.index).m_cachedWorldTransform;
+            link.velocity = link.pose.getBasis() * velocities[slot];
+            link.angularVelocity = link.pose.getBasis() * turns[slot];
+        }
+    }
+}
+
+btTransform Articulations::pose(int body) const {
+    return links_[static_cast<std::size_t>(body)].pose;
+}
+btVector3 Articulations::velocity(int body) const {
+    return links_[static_cast<std::size_t>(body)].velocity;
+}
+btVector3 Articulations::angularVelocity(int body) const {
+    return links_[static_cast<std::size_t>(body)].angularVelocity;
+}
+double Articulations::mass(int body) const {
+    const Link& link = links_[static_cast<std::size_t>(body)];
+    return static_cast<double>(link.index < 0 ? link.multiBody->getBaseMass()
+                                              : link.multiBody->getLinkMass(link.index));
+}
+btVector3 Articulations::moments(int body) const {
+    const Link& link = links_[static_cast<std::size_t>(body)];
+    return link.index < 0 ? link.multiBody->getBaseInertia() : link.multiBody->getLinkInertia(link.index);
+}
+
+void Articulations::addForce(int body, const btVector3& force, const btVector3& torque) {
+    Link& link = links_[static_cast<std::size_t>(body)];
+    link.multiBody->wakeUp();
+    if (link.index < 0) {
+        link.multiBody->addBaseForce(force);
+        link.multiBody->addBaseTorque(torque);
+        return;
+    }
+    link.multiBody->addLinkForce(link.index, force);
+    link.multiBody->addLinkTorque(link.index, torque);
+}
+
+bool Articulations::asleep(int body) const {
+    return !links_[static_cast<std::size_t>(body)].multiBody->isAwake();
+}
+
+}  // namespace rigor::bullet

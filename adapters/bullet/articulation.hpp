@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Bodies on joints in reduced coordinates: btMultiBody, Featherstone's articulated-body algorithm. Every set
+// of dynamic bodies that joints connect becomes one multibody: a spanning tree of its joints from the world,
+// or from its first body where nothing holds it, and constraints for the joints that close loops.
+#pragma once
+
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include <memory>
+#include <vector>
+
+#include "adapters/interface/engine.hpp"
+
+namespace rigor::bullet {
+
+struct ArticulationSettings {
+    double dt = 0.0;               ///< [s]
+    double damping = 0.0;          ///< btMultiBody's, linear and angular
+    double maximalVelocity = 1e9;  ///< of a coordinate; Bullet clamps it [m/s] or [rad/s]
+    bool rungeKutta = false;       ///< RK4 instead of semi-implicit Euler
+    bool gyroscopic = true;
+    bool maySleep = false;
+};
+
+class Articulations {
+  public:
+    /// What a link needs of its body's record.
+    struct LinkSource {
+        adapter::Pose comFrame;  ///< centre of mass and principal axes, in the body frame
+        btVector3 moments;       ///< [kg m^2]
+        btCollisionShape* shape = nullptr;
+        void* tag = nullptr;
+        btScalar contactProcessingThreshold = btScalar(BT_LARGE_FLOAT);
+    };
+
+    /// Which bodies become links: the dynamic ones that a joint names. Throws Unsupported where btMultiBody
+    /// lacks what their joints ask for.
+    static std::vector<bool> linkedBodies(const adapter::Scenario& scenario, bool planar);
+
+    /// Adds the multibodies to the world; `sources` is indexed by body.
+    Articulations(const adapter::Scenario& scenario, std::vector<LinkSource> sources,
+                  btMultiBodyDynamicsWorld& world, const ArticulationSettings& settings);
+    ~Articulations();
+
+    bool has(int body) const { return links_[static_cast<std::size_t>(body)].multiBody != nullptr; }
+    /// Forward kinematics of all links: Bullet's cached poses are those of the start of its step.
+    void update();
+    btTransform pose(int body) const;  ///< of the centre-of-mass frame
+    btVector3 velocity(int body) const;
+    btVector3 angularVelocity(int body) const;
+    double mass(int body) const;
+    btVector3 moments(int body) const;
+    void addForce(int body, const btVector3& force, const btVector3& torque);  ///< of the next step
+    bool asleep(int body) const;
+    int loops() const { return loops_; }
+
+  private:
+    struct Link {
+        btMultiBody* multiBody = nullptr;
+        int index = -1;  ///< -1: the base
+        btTransform pose = btTransform::getIdentity();
+        btVector3 velocity{0, 0, 0}, angularVelocity{0, 0, 0};
+    };
+    struct Edge;
+    struct Tree;
+
+    void build(const Tree& tree);
+    void addLink(btMultiBody& multiBody, int index, const Edge& edge);
+    void setCoordinates(btMultiBody& multiBody, int index, const Edge& edge);
+    void addDrives(btMultiBody& multiBody, int index, const Edge& edge);
+    void closeLoop(btMultiBody& multiBody, const scenario::Joint& joint);
+    void addCollider(int body);
+    btTransform startPose(int body) const;  ///< kNone, static: the world frame
+    void addConstraint(std::unique_ptr<btMultiBodyConstraint> constraint);
+
+    const adapter::Scenario& scenario_;
+    std::vector<LinkSource> sources_;
+    btMultiBodyDynamicsWorld& world_;
+    ArticulationSettings settings_;
+    std::vector<Link> links_;  ///< by body
+    std::vector<std::unique_ptr<btMultiBody>> multiBodies_;
+    std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
+    std::vector<std::unique_ptr<btMultiBodyConstraint>> constraints_;
+    int loops_ = 0;
+};
+
+}  // namespace rigor::bullet

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Joints of the format as btGeneric6DofSpring2Constraint. Signs of Bullet 3.24, measured: its travel is that
+// of B's anchor in A's frame, as the format's; its angles are those of A against B, so limits, targets and
+// speeds of turns are negated; the target velocity of a motor is that of A against B in both kinds. Angles
+// are Euler angles: where at most one turn is free or limited they are the format's twist and swing, else
+// they differ from the second order on. The middle angle of the rotation order ends at a quarter turn.
+#include "adapters/bullet/six_dof.hpp"
+
+#include <btBulletDynamicsCommon.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "adapters/bullet/convert.hpp"
+#include "adapters/bullet/effective_mass.hpp"
+
+namespace rigor::bullet {
+namespace {
+
+using scenario::AxisMode;
+using scenario::Joint;
+using scenario::JointAxis;
+using scenario::JointType;
+
+/// A joint in Bullet's terms: its frame in A's body frame, and what each of Bullet's six coordinates (travel
+/// along x, y, z, turn about x, y, z) does; null is locked.
+struct Layout {
+    Vec3 x, y;  ///< unit, orthogonal, in A's body frame
+    std::array<const JointAxis*, 6> axis{};
+
+    Vec3 direction(std::size_t k) const { return k % 3 == 0 ? x : k % 3 == 1 ? y : cross(x, y); }
+};
+
+Vec3 anyNormalOf(const Vec3& n) {
+    const Vec3 other = std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 side = other - dot(other, n) * n;
+    return side / norm(side);
+}
+
+Layout layoutOf(const Joint& joint, const JointEnd& a, const JointEnd& b) {
+    Layout layout;
+    layout.x = joint.axisA;
+    switch (joint.type) {
+        case JointType::Hinge:
+            layout.axis[3] = &joint.axes[0];
+            break;
+        case JointType::Slider:
+            layout.axis[0] = &joint.axes[0];
+            break;
+        case JointType::Wheel: {
+            // Bullet's own suspension joint: x is the spin axis, the suspension is normal to it.
+            const Vec3 spinWorld = rotate(b.bodyPose.orientation, joint.spinAxisB);
+            layout.x = rotateInverse(a.bodyPose.orientation, spinWorld);
+            layout.y = joint.axisA;
+            layout.axis[1] = &joint.axes[0];
+            layout.axis[3] = &joint.axes[1];
+            if (std::abs(dot(layout.x, layout.y)) > 1e-9)
+                throw adapter::notInAdapter("bullet", "wheel whose spin axis is not normal to its strut",
+                                            "joint '" + joint.name + "'");
+            return layout;
+        }
+        default:
+            layout.y = joint.normalA;
+            for (std::size_t k = 0; k < 6; ++k) {
+                const AxisMode mode = joint.axes[k].mode;
+                const bool locked = mode == AxisMode::Locked || mode == AxisMode::Usual;
+                if (!locked || joint.axes[k].hasMotor() || joint.axes[k].hasSpring())
+                    layout.axis[k] = &joint.axes[k];
+            }
+            return layout;
+    }
+    layout.y = anyNormalOf(layout.x);
+    return layout;
+}
+
+/// The rotation order whose middle angle, which ends at a quarter turn, is one that does not turn.
+RotateOrder rotationOrder(const Layout& layout) {
+    if (layout.axis[4] == nullptr) return RO_XYZ;
+    if (layout.axis[5] == nullptr) return RO_XZY;
+    if (layout.axis[3] == nullptr) return RO_YXZ;
+    return RO_XYZ;
+}
+
+struct SpringLaw {
+    double stiffness = 0.0, damping = 0.0;
+};
+/// A frequency is that of the coordinate's effective mass at the initial poses, the locked coordinates held.
+SpringLaw springLaw(const Layout& layout, std::size_t k, const Joint& joint, const JointEnd& a,
+                    const JointEnd& b) {
+    const JointAxis& axis = *layout.axis[k];
+    if (axis.frequency <= 0.0) return {axis.stiffness, axis.damping};
+    const Vec3 anchor = b.bodyPose * joint.anchorB;
+    const auto centerOf = [](const JointEnd& end) { return end.bodyPose * end.comFrame.position; };
+    const auto row = [&](std::size_t i) {
+        const Vec3 world = rotate(a.bodyPose.orientation, layout.direction(i));
+        return i < 3 ? travelRow(world, anchor, centerOf(a), centerOf(b)) : turnRow(world);
+    };
+    std::vector<CoordinateRow> held;
+    for (std::size_t i = 0; i < 6; ++i)
+        if (layout.axis[i] == nullptr) held.push_back(row(i));
+    const auto inverseOf = [](const JointEnd& end) {
+        return end.scenarioBody == nullptr ? InverseInertia() : InverseInertia(*end.scenarioBody);
+    };
+    const double mass = effectiveMass(row(k), held, inverseOf(a), inverseOf(b));
+    const double omega = 2.0 * std::numbers::pi * axis.frequency;
+    return {mass * omega * omega, 2.0 * axis.dampingRatio * mass * omega};
+}
+
+/// The joint frame in A's body frame: its x axis along the layout's, then its y axis turned about that.
+Quat frameOf(const Layout& layout) {
+    const Quat swing = fromXTo(layout.x);
+    const Vec3 y = rotate(swing, Vec3{0, 1, 0});
+    const double angle = std::atan2(dot(cross(y, layout.y), layout.x), dot(y, layout.y));
+    return normalized(scenario::fromAxisAngle(layout.x, angle) * swing);
+}
+
+btScalar scalar(double x) {
+    return static_cast<btScalar>(x);
+}
+
+/// Bounds of one coordinate in the format's sign; lower above upper is free.
+struct Range {
+    double lower = 0.0, upper = 0.0;
+};
+Range rangeOf(const JointAxis* axis, bool turn, const Joint& joint) {
+    if (axis == nullptr) return {0.0, 0.0};
+    if (axis->mode == AxisMode::Locked) return {0.0, 0.0};
+    if (axis->mode != AxisMode::Limited) return {1.0, -1.0};
+    if (turn && (std::abs(axis->lower) > 3.141592 || std::abs(axis->upper) > 3.141592))
+        throw adapter::notInLibrary("bullet", "limits of a turn beyond half a turn, or on one side alone",
+                                    "btGeneric6DofSpring2Constraint.h, setAngularLowerLimit: normalised",
+                                    "joint '" + joint.name + "'");
+    const auto bound = [](double x) { return std::min(std::max(x, -1e9), 1e9); };
+    return {bound(axis->lower), bound(axis->upper)};
+}
+
+}  // namespace
+
+std::unique_ptr<btTypedConstraint> buildSixDof(const Joint& joint, const JointEnd& a, const JointEnd& b,
+                                               const JointSettings& settings) {
+    const Layout layout = layoutOf(joint, a, b);
+    const Frames frames = framesOf(joint, frameOf(layout), a, b);
+    auto sixDof = std::make_unique<btGeneric6DofSpring2Constraint>(*a.body, *b.body, frames.inA, frames.inB,
+                                                                   rotationOrder(layout));
+    for (std::size_t k = 0; k < 6; ++k) {
+        const bool turn = k >= 3;
+        const int index = static_cast<int>(k);
+        const JointAxis* axis = layout.axis[k];
+        const Range range = rangeOf(axis, turn, joint);
+        if (turn && range.lower <= range.upper)
+            sixDof->setLimit(index, scalar(-range.upper), scalar(-range.lower));
+        else
+            sixDof->setLimit(index, scalar(range.lower), scalar(range.upper));
+        if (axis == nullptr) continue;
+        if (axis->hasMotor()) {
+            sixDof->enableMotor(index, true);
+            sixDof->setTargetVelocity(index, scalar(-axis->motorSpeed));
+            sixDof->setMaxMotorForce(index, scalar(axis->motorMaxForce));
+        }
+        if (axis->hasSpring()) {
+            const SpringLaw law = springLaw(layout, k, joint, a, b);
+            sixDof->enableSpring(index, true);
+            sixDof->setStiffness(index, scalar(law.stiffness), settings.limitSprings);
+            sixDof->setDamping(index, scalar(law.damping), settings.limitSprings);
+            sixDof->setEquilibriumPoint(index, scalar(turn ? -axis->target : axis->target));
+        }
+    }
+    return sixDof;
+}
+
+}  // namespace rigor::bullet
