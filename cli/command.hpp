@@ -22,7 +22,7 @@ namespace rigor::cli {
 
 /// Exit codes, documented in `rigor --help` and the README.
 enum ExitCode : int {
-    kOk = 0,            ///< done; for `validate`: every bound and recorded expectation held
+    kOk = 0,            ///< done; for `validate`: what runIsGreen() (runner.hpp) asks for holds
     kRed = 1,           ///< the run finished and something in it is red
     kBadInput = 2,      ///< command line, scenario file or engine spec
     kInternal = 3,      ///< the environment or Rigor itself failed
@@ -83,6 +83,8 @@ inline constexpr const char* kBoundsNote =
 /// Says on stderr what became better or worse in a run since `baseline`: run folders with commas between, or
 /// "recorded". Throws std::invalid_argument where there is no such run.
 bool becameWorseThan(const std::string& baseline, const std::filesystem::path& run);
+/// Where the library keeps what each engine version gave.
+std::filesystem::path recordedFolder();
 /// Throws std::invalid_argument when `baseline` names no run; empty is fine.
 void checkBaseline(const std::string& baseline);
 

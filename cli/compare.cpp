@@ -28,10 +28,6 @@ struct Arguments {
     bool json = false;
 };
 
-fs::path recordedFolder() {
-    return scenario::libraryFolder() / kRecorded;
-}
-
 std::vector<Run> readRuns(const std::string& folders) {
     std::vector<Run> runs;
     std::istringstream list(folders);
@@ -66,15 +62,19 @@ int compare(const Arguments& a) {
     return validation::becameWorse(comparison) ? kRed : kOk;
 }
 
-int record(const std::string& folder, const std::string& out) {
+int record(const std::string& folder, const std::string& out, bool add) {
     const auto runs = readRuns(folder);
     for (const auto& file :
-         validation::writeRecorded(runs.front(), out.empty() ? recordedFolder() : fs::path(out)))
+         validation::writeRecorded(runs.front(), out.empty() ? recordedFolder() : fs::path(out), add))
         std::printf("%s\n", file.string().c_str());
     return kOk;
 }
 
 }  // namespace
+
+fs::path recordedFolder() {
+    return scenario::libraryFolder() / kRecorded;
+}
 
 bool becameWorseThan(const std::string& baseline, const fs::path& run) {
     Arguments a;
@@ -112,10 +112,17 @@ void addCompare(CLI::App& app, Action& action) {
 
 void addRecord(CLI::App& app, Action& action) {
     auto folder = std::make_shared<std::string>(), out = std::make_shared<std::string>();
-    auto* command = app.add_subcommand("record", "Put the numbers of a run on record for `compare recorded`");
+    auto add = std::make_shared<bool>(false);
+    auto* command = app.add_subcommand(
+        "record",
+        "Put the cases of a run on record: what `validate` and `compare recorded` hold later ones against");
     command->add_option("RUN", *folder, "Run folder")->required();
     command->add_option("--out", *out, "Folder of the records (default: the library's)");
-    command->callback([folder, out, &action] { action = [folder, out] { return record(*folder, *out); }; });
+    command->add_flag(
+        "--add", *add,
+        "Keep the numbers on record beside these: their range is then what counts as unchanged");
+    command->callback(
+        [folder, out, add, &action] { action = [folder, out, add] { return record(*folder, *out, *add); }; });
 }
 
 }  // namespace rigor::cli

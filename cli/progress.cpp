@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "cli/command.hpp"
+#include "reports/view_model.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -45,6 +46,19 @@ std::string ProgressLine::liveText(const validation::Progress& p) const {
     return text;
 }
 
+namespace {
+
+/// "C ran", "E known deviation", "C ran, worse than on record".
+std::string endingOf(const results::CaseRow& row) {
+    std::string text = results::gradeName(row.accuracy.grade);
+    text += (text.empty() ? "" : " ") + std::string(report::shownText(report::shownOf(row)).word);
+    if (row.regression == results::Regression::Worse || row.regression == results::Regression::Better)
+        text += std::string(", ") + results::regressionName(row.regression) + " than on record";
+    return text;
+}
+
+}  // namespace
+
 void ProgressLine::update(const validation::Progress& p) {
     if (quiet_) return;
     if (live_) {
@@ -56,7 +70,7 @@ void ProgressLine::update(const validation::Progress& p) {
         const std::string eta = p.etaSeconds >= 0.0 && p.done < p.total ? "  ETA " + clock(p.etaSeconds) : "";
         std::fprintf(stderr, "[%lld/%lld] %s  %s  dt=%.6g  %s  %.2f s%s%s%s\n",
                      static_cast<long long>(p.done), static_cast<long long>(p.total), c.scenario.c_str(),
-                     c.spec.c_str(), c.dt, results::verdictName(c.verdict), c.wallSeconds, eta.c_str(),
+                     c.spec.c_str(), c.dt, endingOf(c).c_str(), c.wallSeconds, eta.c_str(),
                      c.reason.empty() ? "" : "  ", c.reason.c_str());
     }
 }

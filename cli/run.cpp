@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "reports/view_model.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/results/values.hpp"
 #include "validation/runner/event_log.hpp"
@@ -54,6 +55,16 @@ void writeLog(const std::string& lines) {
     std::fflush(stderr);
 }
 
+nlohmann::ordered_json accuracyJson(const results::CaseRow& row) {
+    const auto number = [](const std::optional<double>& v) {
+        return v ? nlohmann::ordered_json(*v) : nlohmann::ordered_json(nullptr);
+    };
+    return {{"grade", results::gradeName(row.accuracy.grade)},
+            {"metric", row.accuracy.metric},
+            {"relative", number(row.accuracy.relative)},
+            {"ideal", number(row.accuracy.ideal)}};
+}
+
 void printCase(const results::CaseRow& row, bool json) {
     if (json) {
         nlohmann::ordered_json out{{"name", row.scenario},
@@ -64,6 +75,7 @@ void printCase(const results::CaseRow& row, bool json) {
                                    {"reason", row.reason},
                                    {"steps", row.steps},
                                    {"state_hash", row.stateHash},
+                                   {"accuracy", accuracyJson(row)},
                                    {"metrics", nlohmann::json::array()},
                                    {"quantities", nlohmann::json::array()}};
         for (const auto& m : row.metrics)
@@ -83,7 +95,9 @@ void printCase(const results::CaseRow& row, bool json) {
     }
     std::printf("%s  %s  dt=%s  %lld steps  %s%s%s\n", row.scenario.c_str(), row.spec.c_str(),
                 results::exactText(row.dt).c_str(), static_cast<long long>(row.steps),
-                results::verdictName(row.verdict), row.reason.empty() ? "" : ": ", row.reason.c_str());
+                report::shownText(report::shownOf(row)).word, row.reason.empty() ? "" : ": ",
+                row.reason.c_str());
+    std::printf("  %s\n", report::accuracySentence(row).c_str());
     for (const auto& m : row.metrics) {
         if (!m.subject.empty()) continue;
         std::printf("  %-26s %-13s %14.6g %-8s", m.name.c_str(), m.kind.c_str(), m.value, m.unit.c_str());

@@ -6,9 +6,11 @@
 namespace rigor::report {
 namespace {
 
+constexpr std::size_t kColumns = 27;
 constexpr const char* kHeader =
     "scenario,engine,spec,preset,precision,dt,outcome,verdict,metric,subject,kind,value,unit,at,bound,"
-    "metric_verdict,note,expectation,exact,scheme_exact,command\n";
+    "metric_verdict,note,expectation,exact,scheme_exact,grade,regression,scale,relative,ideal,recorded,"
+    "command\n";
 
 std::string optionalNumber(const std::optional<double>& value) {
     return value ? fullNumber(*value) : std::string();
@@ -38,13 +40,16 @@ std::string csvReport(const results::Run& run) {
         const auto line = [&](const std::vector<std::string>& rest) {
             auto fields = head;
             fields.insert(fields.end(), rest.begin(), rest.end());
+            fields.resize(kColumns - 1);
             fields.push_back(row.command);
             appendLine(out, fields);
         };
         for (const auto& m : row.metrics)
             line({m.name, m.subject, m.kind, fullNumber(m.value), m.unit, m.at < 0.0 ? "" : fullNumber(m.at),
                   optionalNumber(m.bound), results::verdictName(m.verdict), m.note,
-                  optionalNumber(m.expectation), "", ""});
+                  optionalNumber(m.expectation), "", "", results::gradeName(row.accuracy.grade),
+                  results::regressionName(row.regression), optionalNumber(m.scale),
+                  optionalNumber(m.relative), optionalNumber(m.ideal), optionalNumber(m.recorded)});
         for (const auto& q : row.quantities)
             line({q.name, "", "quantity", optionalNumber(q.measured), q.unit, "", "", "", "", "",
                   fullNumber(q.exact), optionalNumber(q.schemeExact)});

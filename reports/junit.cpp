@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "reports/text.hpp"
+#include "reports/view_model.hpp"
 #include "reports/writers.hpp"
+#include "validation/results/judgement.hpp"
 
 namespace rigor::report {
 namespace {
@@ -50,9 +52,11 @@ std::string element(const char* name, const std::string& type, const std::string
 
 std::string outcomeElement(const CaseRow& row) {
     const std::string verdict = results::verdictName(row.verdict);
+    if (row.regression == results::Regression::Worse && results::isRed(row) &&
+        row.outcome == results::Outcome::Completed && row.verdict != Verdict::Fail)
+        return element("failure", "worse than on record", row.regressionReason, regressionSentence(row));
     switch (row.verdict) {
         case Verdict::Pass:
-            return "";
         case Verdict::KnownDeviation:
             return "";
         case Verdict::Unsupported:
@@ -79,6 +83,8 @@ std::string testcase(const CaseRow& row) {
     out += outcomeElement(row);
     std::string note = "verdict: " + std::string(results::verdictName(row.verdict)) + "\n";
     note += metricLines(row, Verdict::KnownDeviation);
+    note += accuracySentence(row) + "\n";
+    if (const std::string change = regressionSentence(row); !change.empty()) note += change + "\n";
     if (!row.command.empty()) note += "reproduce: " + row.command + "\n";
     return out + "      <system-out>" + body(note) + "</system-out>\n    </testcase>\n";
 }
@@ -89,7 +95,7 @@ struct Counts {
 
     void add(const CaseRow& row) {
         ++tests;
-        failures += row.verdict == Verdict::Fail;
+        failures += outcomeElement(row).find("<failure") != std::string::npos;
         skipped += row.verdict == Verdict::Unsupported;
         errors += row.verdict == Verdict::Crashed || row.verdict == Verdict::Timeout ||
                   row.verdict == Verdict::NonFinite;

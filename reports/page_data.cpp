@@ -12,6 +12,7 @@
 #include "reports/page_json.hpp"
 #include "reports/text.hpp"
 #include "reports/writers.hpp"
+#include "validation/results/judgement.hpp"
 #include "validation/results/values.hpp"
 
 namespace rigor::report {
@@ -39,7 +40,12 @@ Json metricsJson(const CaseRow& row) {
                         {"bound", number(m.bound)},
                         {"expectation", number(m.expectation)},
                         {"verdict", results::verdictName(m.verdict)},
-                        {"note", m.note}});
+                        {"note", m.note},
+                        {"scale", number(m.scale)},
+                        {"relative", number(m.relative)},
+                        {"ideal", number(m.ideal)},
+                        {"recorded", number(m.recorded)},
+                        {"grade", m.relative ? results::gradeName(results::gradeOf(*m.relative)) : ""}});
     return list;
 }
 
@@ -125,6 +131,23 @@ Json worstMiss(const CaseRow& row) {
             {"value", number(worst->value)}, {"bound", number(worst->bound)}, {"at", number(worst->at)}};
 }
 
+/// How near it is to the physics, and whether it changed.
+Json judgementJson(const ViewModel& view, const CaseRow& row) {
+    const auto& a = row.accuracy;
+    const Ratios& ratios = view.ratios(row);
+    return {{"grade", results::gradeName(a.grade)},
+            {"by", a.metric},
+            {"relative", number(a.relative)},
+            {"ideal", number(a.ideal)},
+            {"beside", results::againstSchemeName(results::againstScheme(a.relative, a.ideal))},
+            {"toBest", number(ratios.toBest)},
+            {"toOurs", number(ratios.toOurs)},
+            {"regression", results::regressionName(row.regression)},
+            {"red", results::isRed(row)},
+            {"says", accuracySentence(row)},
+            {"change", regressionSentence(row)}};
+}
+
 /// One line of the scoreboard and of the timing table.
 Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) {
     Json brief{{"id", row.id},
@@ -142,6 +165,7 @@ Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) 
     brief["step"] = timing ? stepJson(row, *timing) : Json(nullptr);
     brief["inRun"] = inRunJson(row);
     brief["miss"] = worstMiss(row);
+    brief["judged"] = judgementJson(view, row);
     return brief;
 }
 
@@ -179,20 +203,47 @@ Json scenariosJson(const ViewModel& view) {
     return list;
 }
 
-Json mechanismsJson(const ViewModel& view) {
+Json standingJson(const Standing& s) {
+    return {{"scenarios", s.scenarios},   {"lost", s.lost},         {"grades", s.grades},
+            {"within", s.within()},       {"ungraded", s.ungraded}, {"known", s.known},
+            {"farther", s.farther},       {"red", s.red},           {"toBest", number(s.toBest)},
+            {"toOurs", number(s.toOurs)}, {"cost", number(s.cost)}, {"costRatio", number(s.costRatio)}};
+}
+
+Json mechanismJson(const Mechanism& m) {
+    Json standings = Json::array();
+    for (const auto& s : m.standings) standings.push_back(standingJson(s));
+    return {{"name", m.name},   {"title", m.title}, {"about", m.about},      {"scenarios", m.scenarios},
+            {"order", m.order}, {"best", m.best},   {"standings", standings}};
+}
+
+Json mechanismsJson(const std::vector<Mechanism>& mechanisms) {
     Json list = Json::array();
-    for (const auto& m : view.mechanisms()) {
-        Json standings = Json::array();
-        for (const auto& s : m.standings)
-            standings.push_back({{"scenarios", s.scenarios},
-                                 {"ran", s.ran},
-                                 {"good", s.good},
-                                 {"bad", s.bad},
-                                 {"ratio", number(s.ratio)}});
-        list.push_back(
-            {{"name", m.name}, {"scenarios", m.scenarios}, {"best", m.best}, {"standings", standings}});
-    }
+    for (const auto& m : mechanisms) list.push_back(mechanismJson(m));
     return list;
+}
+
+Json gradesJson(const ViewModel& view) {
+    Json list = Json::array();
+    const auto add = [&](results::Grade grade) {
+        const auto found = view.totals().grades.find(grade);
+        list.push_back({{"name", results::gradeName(grade)},
+                        {"meaning", results::gradeMeaning(grade)},
+                        {"count", found == view.totals().grades.end() ? 0 : found->second}});
+    };
+    for (const results::Grade grade : results::kGrades) add(grade);
+    add(results::Grade::None);
+    return list;
+}
+
+Json regressionsJson(const ViewModel& view) {
+    Json counts = Json::object();
+    for (const auto r : {results::Regression::Unchanged, results::Regression::Better,
+                         results::Regression::Worse, results::Regression::NoRecord}) {
+        const auto found = view.totals().regressions.find(r);
+        counts[results::regressionName(r)] = found == view.totals().regressions.end() ? 0 : found->second;
+    }
+    return counts;
 }
 
 Json gatheredLedger(const ViewModel& view) {
@@ -343,7 +394,13 @@ std::string overviewJson(const ViewModel& view) {
                  {"columns", columns},
                  {"engines", engines},
                  {"scenarios", scenariosJson(view)},
-                 {"mechanisms", mechanismsJson(view)},
+                 {"grades", gradesJson(view)},
+                 {"regressions", regressionsJson(view)},
+                 {"red", view.totals().red},
+                 {"inHouse", results::kInHouseEngine},
+                 {"mechanisms", mechanismsJson(view.mechanisms())},
+                 {"tasks", mechanismsJson(view.tasks())},
+                 {"overall", mechanismJson(view.overall())},
                  {"audit", gatheredAudit(run)},
                  {"ledger", gatheredLedger(view)}});
 }
@@ -375,6 +432,7 @@ std::string scenarioJson(const ViewModel& view, std::size_t index, const Traject
                        {"readBack", readBackJson(*row)},
                        {"audit", auditJson(*row)},
                        {"timings", timingsJson(*row)},
+                       {"judged", judgementJson(view, *row)},
                        {"curves", nullptr}};
             if (const auto file = load(*row); file && !file->times.empty()) {
                 const bool first =

@@ -19,26 +19,11 @@ constexpr int kMostChoices = 3;
 constexpr std::size_t kMostCommand = 1000;
 constexpr std::size_t kMostBytes = 65000;  // a comment holds 65536 characters; bytes are at least as many
 
-std::string totalsLine(const ViewModel& view) {
-    std::string line;
-    for (const auto& [shown, count] : view.totals().cases) {
-        line += (line.empty() ? "" : " · ") + std::string(shownText(shown).symbol) + " " +
-                std::to_string(count) + " " + shownText(shown).word;
-        if (const auto detail = detailOf(view.totals(), shown); !detail.empty()) line += " (" + detail + ")";
-    }
-    return line;
-}
-
-std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t column) {
-    const Cell& cell = view.cell(scenario, column);
-    if (cell.cases.empty()) return " ";
-    std::string text = shownText(cell.worst).symbol;
-    const auto* metric = findMetric(*cell.cases.front(), view.mainMetric(scenario).name);
-    const bool lost =
-        cell.worst == Shown::Crashed || cell.worst == Shown::Timeout || cell.worst == Shown::NonFinite;
-    if (metric && !lost) return text + " " + shortNumber(metric->value);
-    if (cell.worst != Shown::Unsupported) text += std::string(" ") + shownText(cell.worst).word;
-    return text;
+/// Accuracy and regression are two lines, and never one.
+std::string totalsLines(const ViewModel& view) {
+    std::string lines;
+    for (const auto& [what, counts] : totalsText(view)) lines += "- " + what + ": " + counts + "\n";
+    return lines;
 }
 
 std::string scoreboardRow(const ViewModel& view, std::size_t s) {
@@ -46,7 +31,7 @@ std::string scoreboardRow(const ViewModel& view, std::size_t s) {
     std::string out =
         "| " + markdownCell(view.run().scenarios[s].name) + " | " + markdownCell(metric.name) +
         (metric.unit.empty() || metric.unit == "1" ? "" : " [" + markdownCell(metric.unit) + "]") + " |";
-    for (std::size_t c = 0; c < view.columns().size(); ++c) out += " " + cellText(view, s, c) + " |";
+    for (std::size_t c = 0; c < view.columns().size(); ++c) out += " " + cellText(view, s, c, true) + " |";
     return out + "\n";
 }
 
@@ -60,8 +45,11 @@ std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
     for (const auto& column : view.columns()) out += " " + markdownCell(column.label) + " |", rule += "---|";
     out += "\n" + rule + "\n";
     const std::string end =
-        "\nA cell shows the worst verdict over all time steps and the metric at the finest "
-        "one.\n\n</details>\n";
+        "\nA cell: grade of accuracy (A to 1e-6, B to 1e-4, C to 1e-2, D to 1e-1 of the scenario's own "
+        "scale, E "
+        "beyond), △ wrong physics with a reason on file, ▼ ▲ worse or better than on record, and the metric "
+        "at the "
+        "finest time step.\n\n</details>\n";
     std::size_t used = out.size() + end.size() + 100, shown = 0;
     std::vector<std::string> rows(scenarios);
     for (const std::size_t s : byTrouble(view)) {
@@ -80,7 +68,7 @@ std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
 std::string offenderList(const ViewModel& view) {
     const auto offenders = view.offenders();
     if (offenders.empty()) return "";
-    std::string out = "\n### What fails (" + std::to_string(offenders.size()) + ", worst first)\n\n";
+    std::string out = "\n### What is red (" + std::to_string(offenders.size()) + ", worst first)\n\n";
     for (std::size_t i = 0; i < std::min(offenders.size(), kMostOffenders); ++i) {
         const auto& row = *offenders[i].row;
         std::string text = offenders[i].text;
@@ -126,6 +114,10 @@ std::string refusalSection(const ViewModel& view) {
            "\n\n| engine | asked for | cases | which is | why |\n|---|---|---:|---|---|\n" + rows;
 }
 
+std::string times(double ratio) {
+    return shortNumber(std::round(10 * ratio) / 10) + "x";
+}
+
 /// Who to trust for what: the first choice of every mechanism and who comes next.
 std::string trustSection(const ViewModel& view) {
     std::string rows;
@@ -133,12 +125,13 @@ std::string trustSection(const ViewModel& view) {
         if (m.best < 0) continue;
         rows += "| " + markdownCell(m.name) + " | " + std::to_string(m.scenarios.size()) + " |";
         int named = 0;
-        for (const std::size_t c : ranked(m)) {
+        for (const std::size_t c : m.order) {
             const Standing& s = m.standings[c];
-            if (named == kMostChoices || !std::isfinite(s.ratio)) break;
+            if (named == kMostChoices || !std::isfinite(s.toBest)) break;
             const std::string label = markdownCell(view.columns()[c].label);
-            rows += " " + (named == 0 ? "**" + label + "**" : label) + " " + std::to_string(s.good) + "/" +
-                    std::to_string(s.scenarios) + ", " + shortNumber(std::round(10 * s.ratio) / 10) + "x |";
+            rows += " " + (named == 0 ? "**" + label + "**" : label) + " " + std::to_string(s.within()) +
+                    "/" + std::to_string(s.scenarios) + ", " + times(s.toBest) +
+                    (std::isfinite(s.toOurs) ? ", " + times(s.toOurs) + " ours" : "") + " |";
             ++named;
         }
         for (; named < kMostChoices; ++named) rows += " |";
@@ -148,15 +141,15 @@ std::string trustSection(const ViewModel& view) {
     return "\n### Who to trust for what\n\n| mechanism | scenarios | first choice | next | then |\n"
            "|---|---:|---|---|---|\n" +
            rows +
-           "\nBeside each engine: scenarios without a failure of those it took part in, and its error over "
-           "the "
-           "best engine's (geometric mean).\n";
+           "\nBeside each engine: scenarios within a hundredth of their own scale (grade C or better) of "
+           "those it "
+           "took part in, its error over the best engine's and over the in-house one's (geometric means).\n";
 }
 
 std::string headline(const ViewModel& view) {
     const auto& run = view.run();
     const auto planned = std::max<std::int64_t>(run.plannedCases, view.totals().total);
-    return "## Rigor, " + markdownCell(verdictSentence(view)) + "\n\n" + totalsLine(view) + " — " +
+    return "## Rigor, " + markdownCell(verdictSentence(view)) + "\n\n" + totalsLines(view) + "\n" +
            std::to_string(view.totals().total) + " of " + std::to_string(planned) + " cases" +
            (run.finished.empty() ? " (**unfinished**)\n" : "\n");
 }

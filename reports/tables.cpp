@@ -39,6 +39,14 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
+/// Calls `use` with the column and the row of every case, in the order of the report.
+template <class Use>
+void forEachCase(const ViewModel& view, Use use) {
+    for (std::size_t s = 0; s < view.run().scenarios.size(); ++s)
+        for (std::size_t c = 0; c < view.columns().size(); ++c)
+            for (const auto* row : view.cell(s, c).cases) use(s, view.columns()[c], *row);
+}
+
 // ---- who is accurate where ----
 
 std::vector<Table> scoreboard(const ViewModel& view) {
@@ -66,30 +74,76 @@ std::vector<Table> scoreboard(const ViewModel& view) {
 }
 
 std::vector<Table> trust(const ViewModel& view) {
-    Table table{"trust",
-                "Who to trust for what: scenarios that isolate a mechanism, those without a failure at any "
-                "time step, and the geometric mean of the main error over the best engine's",
-                {{"mechanism"},
-                 {"engine"},
-                 {"preset"},
-                 {"options"},
-                 {"scenarios", ColumnKind::Number},
-                 {"ran", ColumnKind::Number},
-                 {"good", ColumnKind::Number},
-                 {"bad", ColumnKind::Number},
-                 {"error over the best", ColumnKind::Number},
-                 {"first choice"}},
-                {}};
+    Table table{
+        "trust",
+        "Who to trust for what: scenarios that isolate a mechanism, by grade of accuracy at the finest time "
+        "step, and the geometric mean of the main error over the best engine's and over the in-house one's",
+        {{"mechanism"},
+         {"engine"},
+         {"preset"},
+         {"options"},
+         {"scenarios", ColumnKind::Number},
+         {"A", ColumnKind::Number},
+         {"B", ColumnKind::Number},
+         {"C", ColumnKind::Number},
+         {"D", ColumnKind::Number},
+         {"E", ColumnKind::Number},
+         {"not graded", ColumnKind::Number},
+         {"lost", ColumnKind::Number},
+         {"farther than its scheme", ColumnKind::Number},
+         {"error over the best", ColumnKind::Number},
+         {"error over ours", ColumnKind::Number},
+         {"first choice"}},
+        {}};
     for (const auto& m : view.mechanisms())
-        for (const std::size_t c : ranked(m)) {
+        for (const std::size_t c : m.order) {
             const auto& column = view.columns()[c];
             const Standing& s = m.standings[c];
             const auto count = [](int n) { return TableCell(static_cast<std::int64_t>(n)); };
-            table.rows.push_back({m.name, column.engine, column.preset, column.options, count(s.scenarios),
-                                  count(s.ran), count(s.good), count(s.bad),
-                                  std::isnan(s.ratio) ? TableCell() : TableCell(s.ratio),
-                                  static_cast<int>(c) == m.best ? "yes" : ""});
+            const auto times = [](double ratio) {
+                return std::isnan(ratio) ? TableCell() : TableCell(ratio);
+            };
+            std::vector<TableCell> row{m.name, column.engine, column.preset, column.options,
+                                       count(s.scenarios)};
+            for (const int n : s.grades) row.push_back(count(n));
+            for (const int n : {s.ungraded, s.lost, s.farther}) row.push_back(count(n));
+            for (const double ratio : {s.toBest, s.toOurs}) row.push_back(times(ratio));
+            row.push_back(static_cast<int>(c) == m.best ? "yes" : "");
+            table.rows.push_back(row);
         }
+    return {table};
+}
+
+/// One row for each case: what it claims.
+std::vector<Table> accuracy(const ViewModel& view) {
+    Table table{
+        "accuracy",
+        "Grade of accuracy of every case, what it rests on, what an ideal run of the engine's scheme would "
+        "have, the error beside other engines', and the change against the record",
+        caseColumns(),
+        {}};
+    for (const char* title : {"grade", "metric"}) table.columns.push_back({title});
+    for (const char* title : {"relative error", "of its scheme"})
+        table.columns.push_back({title, ColumnKind::Number});
+    table.columns.push_back({"beside its scheme"});
+    for (const char* title : {"over the best", "over ours"})
+        table.columns.push_back({title, ColumnKind::Number});
+    for (const char* title : {"against the record", "change"}) table.columns.push_back({title});
+    forEachCase(view, [&](std::size_t, const SpecColumn& column, const CaseRow& row) {
+        const auto& a = row.accuracy;
+        auto cells = caseCells(column, row);
+        const auto number = [](double x) { return std::isnan(x) ? TableCell() : TableCell(x); };
+        cells.emplace_back(results::gradeName(a.grade));
+        cells.emplace_back(a.metric);
+        cells.emplace_back(a.relative);
+        cells.emplace_back(a.ideal);
+        cells.emplace_back(results::againstSchemeName(results::againstScheme(a.relative, a.ideal)));
+        cells.push_back(number(view.ratios(row).toBest));
+        cells.push_back(number(view.ratios(row).toOurs));
+        cells.emplace_back(results::regressionName(row.regression));
+        cells.emplace_back(row.regressionReason);
+        table.rows.push_back(cells);
+    });
     return {table};
 }
 
@@ -143,14 +197,6 @@ void appendTiming(std::vector<TableCell>& cells, const results::TimingRow& t) {
     for (const TableCell& cell : {TableCell(t.median), TableCell(t.low), TableCell(t.high), TableCell(t.p10),
                                   TableCell(t.p90), TableCell(t.total), TableCell(t.samples)})
         cells.push_back(cell);
-}
-
-/// Calls `use` with the column and the row of every case, in the order of the report.
-template <class Use>
-void forEachCase(const ViewModel& view, Use use) {
-    for (std::size_t s = 0; s < view.run().scenarios.size(); ++s)
-        for (std::size_t c = 0; c < view.columns().size(); ++c)
-            for (const auto* row : view.cell(s, c).cases) use(s, view.columns()[c], *row);
 }
 
 std::vector<Table> timing(const ViewModel& view) {
@@ -277,10 +323,9 @@ std::vector<Table> ledger(const ViewModel& view) {
 
 const std::vector<TableEntry>& tableEntries() {
     static const std::vector<TableEntry> entries{
-        {"scoreboard", scoreboard}, {"trust", trust},
-        {"timing", timing},         {"phases", phases},
-        {"audit", audit},           {"contacts", contactsOfRuns},
-        {"ledger", ledger},         {"scenarios", metricsOfScenarios},
+        {"scoreboard", scoreboard},   {"trust", trust},   {"accuracy", accuracy},
+        {"timing", timing},           {"phases", phases}, {"audit", audit},
+        {"contacts", contactsOfRuns}, {"ledger", ledger}, {"scenarios", metricsOfScenarios},
         {"bench", benchTables}};
     return entries;
 }

@@ -15,6 +15,23 @@
 namespace rigor::report {
 namespace {
 
+const char* colourOf(results::Grade grade) {
+    switch (grade) {
+        case results::Grade::A:
+        case results::Grade::B:
+            return "32";
+        case results::Grade::C:
+            return "36";
+        case results::Grade::D:
+            return "33";
+        case results::Grade::E:
+            return "35";
+        case results::Grade::None:
+            break;
+    }
+    return "0";
+}
+
 const char* colourOf(Shown shown) {
     switch (shown) {
         case Shown::Pass:
@@ -28,6 +45,14 @@ const char* colourOf(Shown shown) {
         default:
             return "1;31";
     }
+}
+
+/// What went wrong has the colour of its ending; a number the colour of its grade.
+const char* colourOf(const Cell& cell) {
+    const bool ran =
+        cell.worst == Shown::Pass || cell.worst == Shown::NoBound || cell.worst == Shown::KnownDeviation;
+    const auto grade = cell.cases.front()->accuracy.grade;
+    return ran && grade != results::Grade::None ? colourOf(grade) : colourOf(cell.worst);
 }
 
 struct Painter {
@@ -124,7 +149,7 @@ std::vector<std::string> keyLines(const Names& names, std::size_t width) {
 /// How a table of this run fits the terminal.
 struct Layout {
     std::size_t nameWidth = 8, cellWidth = 0;
-    bool letters = false;  ///< columns headed A, B, ... with a key below
+    bool letters = false;  ///< columns headed a, b, ... with a key below
     bool values = false;   ///< main metric beside the symbol
 };
 
@@ -150,7 +175,7 @@ Layout layoutOf(const ViewModel& view, const Names& names, std::size_t columns) 
 std::string letter(std::size_t i) {
     std::string text;
     do {
-        text.insert(text.begin(), static_cast<char>('A' + i % 26));
+        text.insert(text.begin(), static_cast<char>('a' + i % 26));
         i /= 26;
     } while (i-- > 0);
     return text;
@@ -192,14 +217,8 @@ std::string scenarioLine(const ViewModel& view, std::size_t s, const Layout& lay
     std::string line = pad(plain(view.run().scenarios[s].name), layout.nameWidth);
     for (std::size_t c = 0; c < view.columns().size(); ++c) {
         const Cell& cell = view.cell(s, c);
-        std::string text;
-        if (!cell.cases.empty()) {
-            text = shownText(cell.worst).symbol;
-            const auto* m = findMetric(*cell.cases.front(), view.mainMetric(s).name);
-            if (layout.values && m && cell.worst < Shown::NonFinite) text += " " + shortNumber(m->value);
-        }
-        const std::string padded = pad(text, layout.cellWidth - 1);
-        line += " " + (cell.cases.empty() ? padded : paint(padded, colourOf(cell.worst)));
+        const std::string padded = pad(cellText(view, s, c, layout.values), layout.cellWidth - 1);
+        line += " " + (cell.cases.empty() ? padded : paint(padded, colourOf(cell)));
     }
     return line;
 }
@@ -215,36 +234,23 @@ std::vector<std::size_t> order(const ViewModel& view, std::size_t room) {
     return chosen;
 }
 
-/// "3 pass   1 fail   of 4 cases", in as many lines as the width asks for.
-std::vector<std::string> totalsLines(const ViewModel& view, std::size_t width, const Painter& paint) {
-    struct Part {
-        std::string text;
-        const char* colour;
-    };
-    std::vector<Part> parts;
-    for (const auto& [shown, count] : view.totals().cases) {
-        const std::string detail = detailOf(view.totals(), shown);
-        parts.push_back({std::string(shownText(shown).symbol) + " " + std::to_string(count) + " " +
-                             shownText(shown).word + (detail.empty() ? "" : " (" + detail + ")"),
-                         colourOf(shown)});
-    }
+/// Accuracy, regression and endings, each in as many lines as the width asks for.
+std::vector<std::string> totalsLines(const ViewModel& view, std::size_t width) {
+    std::vector<std::string> lines;
     const auto planned = std::max<std::int64_t>(view.run().plannedCases, view.totals().total);
-    std::string total = "of " + std::to_string(planned) + " cases";
-    if (view.totals().total < planned) total += ", " + std::to_string(view.totals().total) + " done";
-    parts.push_back({total, nullptr});
-
-    std::vector<std::string> lines(1);
-    std::size_t used = 0;
-    for (const auto& part : parts) {
-        const std::size_t gap = used == 0 ? 0 : 3;
-        if (used > 0 && used + gap + displayWidth(part.text) > width) {
-            lines.emplace_back();
-            used = 0;
-        }
-        lines.back() += std::string(used == 0 ? 0 : gap, ' ') +
-                        (part.colour != nullptr ? paint(part.text, part.colour) : part.text);
-        used += (used == 0 ? 0 : gap) + displayWidth(part.text);
+    for (const auto& [what, counts] : totalsText(view)) {
+        std::istringstream words(what + ": " + counts +
+                                 (what == "endings" ? " of " + std::to_string(planned) + " cases" : ""));
+        lines.emplace_back();
+        for (std::string word; words >> word;)
+            if (lines.back().empty())
+                lines.back() = word;
+            else if (displayWidth(lines.back()) + 1 + displayWidth(word) > width)
+                lines.push_back("  " + word);
+            else
+                lines.back() += " " + word;
     }
+    if (view.totals().total < planned) lines.push_back("  " + std::to_string(view.totals().total) + " done");
     return lines;
 }
 
@@ -256,20 +262,21 @@ std::vector<std::string> trustLines(const ViewModel& view, const Names& names, s
     auto mechanisms = view.mechanisms();
     std::erase_if(mechanisms, [](const Mechanism& m) { return m.best < 0; });
     if (mechanisms.empty() || most < 2) return lines;
-    lines.push_back(
-        paint(cut("Who to trust for what (scenarios without a failure, error over the best)", width), "1"));
+    lines.push_back(paint(
+        cut("Who to trust for what (scenarios within 1e-2, error over the best and over ours)", width), "1"));
     if (mechanisms.size() > most - 1) mechanisms.resize(most - 1);
     for (const auto& m : mechanisms) nameWidth = std::max(nameWidth, displayWidth(plain(m.name)));
     nameWidth = std::min(nameWidth, width / 3);
     for (const auto& m : mechanisms) {
         std::string line = "  " + pad(plain(m.name), nameWidth);
         bool first = true;
-        for (const std::size_t c : ranked(m)) {
+        for (const std::size_t c : m.order) {
             const Standing& s = m.standings[c];
-            if (!std::isfinite(s.ratio)) continue;
-            const std::string entry = (first ? "  " : ", ") + plain(names.columns[c].label) + " " +
-                                      std::to_string(s.good) + "/" + std::to_string(s.scenarios) + " " +
-                                      timesText(s.ratio);
+            if (!std::isfinite(s.toBest)) continue;
+            std::string entry = (first ? "  " : ", ") + plain(names.columns[c].label) + " " +
+                                std::to_string(s.within()) + "/" + std::to_string(s.scenarios) + " " +
+                                timesText(s.toBest);
+            if (std::isfinite(s.toOurs)) entry += " " + timesText(s.toOurs);
             if (!first && displayWidth(line) + displayWidth(entry) > width) break;
             line += entry, first = false;
         }
@@ -291,7 +298,7 @@ std::vector<std::string> offenderLines(const ViewModel& view, const Names& names
                                 timeStepLabel(o.row->dt) + "  " + plain(o.text),
                             width));
     }
-    std::string title = "What fails, worst first";
+    std::string title = "What is red, worst first";
     if (seen.size() > lines.size())
         title += " (" + std::to_string(lines.size()) + " of " + std::to_string(seen.size()) + ")";
     lines.insert(lines.begin(), paint(cut(title, width), "1"));
@@ -304,7 +311,7 @@ std::vector<std::string> verdictLines(const ViewModel& view, std::size_t width, 
     const std::string sentence =
         plain(verdictSentence(view)) + (view.run().finished.empty() ? ", unfinished" : "");
     std::vector<std::string> lines{paint(cut(sentence, width), bad ? "1;31" : "1;32")};
-    for (auto& line : totalsLines(view, width, paint)) lines.push_back(line);
+    for (auto& line : totalsLines(view, width)) lines.push_back(line);
     return lines;
 }
 

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "reports/text.hpp"
+#include "validation/results/judgement.hpp"
 
 namespace rigor::report {
 namespace {
@@ -68,67 +69,17 @@ MainMetric chooseMain(const Run& run, const results::ScenarioRow& scenario) {
     return find([](const MetricRow&) { return true; });
 }
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
-
 bool isBad(Shown s) {
     return s == Shown::Fail || s == Shown::Crashed || s == Shown::Timeout || s == Shown::NonFinite;
 }
 
-/// Main errors of a scenario at the finest time step, per column; NaN where there is none.
-std::vector<double> mainErrors(const ViewModel& view, std::size_t scenario) {
-    std::vector<double> errors(view.columns().size(), std::numeric_limits<double>::quiet_NaN());
-    if (view.run().scenarios[scenario].reference.empty()) return errors;  // nobody knows who is right
-    double finest = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < errors.size(); ++c)
-        for (const auto* row : view.cell(scenario, c).cases)
-            if (row->outcome == results::Outcome::Completed) finest = std::min(finest, row->dt);
-    for (std::size_t c = 0; c < errors.size(); ++c)
-        for (const auto* row : view.cell(scenario, c).cases) {
-            if (row->dt != finest) continue;  // errors are compared at the same time step alone
-            const auto* m = findMetric(*row, view.mainMetric(scenario).name);
-            if (m && std::isfinite(m->value)) errors[c] = std::abs(m->value);
-        }
-    return errors;
-}
-
-/// In SI units and scenes of about a metre: what single precision can hold. Below it errors count as equal.
-constexpr double kRoundingFloor = 1e-6;
-
-/// Error over the best one's. Differences far below the typical error, or below single-precision rounding,
-/// count as none: a floor is added to both, so an engine that is exact to rounding does not make the next one
-/// look 1e9 worse.
-std::vector<double> ratiosToBest(const std::vector<double>& errors) {
-    std::vector<double> finite;
-    for (const double e : errors)
-        if (std::isfinite(e)) finite.push_back(e);
-    std::vector<double> ratios(errors.size(), std::numeric_limits<double>::quiet_NaN());
-    if (finite.empty()) return ratios;
-    const double floor = std::max(1e-3 * median(finite), kRoundingFloor);
-    const double best = *std::min_element(finite.begin(), finite.end()) + floor;
-    for (std::size_t i = 0; i < errors.size(); ++i)
-        if (std::isfinite(errors[i])) ratios[i] = (errors[i] + floor) / best;
-    return ratios;
-}
-
-/// Whoever ran less than half of what somebody ran, or has no error to show, can not be the best.
-bool isCandidate(const Mechanism& m, std::size_t column) {
-    int most = 0;
-    for (const auto& s : m.standings) most = std::max(most, s.ran);
-    const Standing& s = m.standings[column];
-    return s.ran > 0 && 2 * s.ran >= most && std::isfinite(s.ratio);
-}
-
-int bestOf(const Mechanism& m) {
-    const auto order = ranked(m);
-    return order.empty() || !isCandidate(m, order.front()) ? -1 : static_cast<int>(order.front());
-}
-
 Offender offenderOf(const CaseRow& row) {
     Offender offender{&row, nullptr, std::numeric_limits<double>::infinity(), ""};
+    if (!isBad(shownOf(row)) && row.regression == results::Regression::Worse) {
+        offender.excess = 1.0;
+        offender.text = "worse than on record: " + row.regressionReason;
+        return offender;
+    }
     if (row.verdict != Verdict::Fail) {
         offender.text = row.reason.empty() ? results::verdictName(row.verdict) : row.reason;
         return offender;
@@ -167,8 +118,8 @@ std::string detailOf(const Totals& totals, Shown shown) {
 }
 
 ShownText shownText(Shown shown) {
-    static constexpr std::array<ShownText, 8> table{{{"pass", "✓", "pass"},
-                                                     {"no_bound", "○", "no bound"},
+    static constexpr std::array<ShownText, 8> table{{{"pass", "✓", "bounds kept"},
+                                                     {"no_bound", "○", "ran"},
                                                      {"known_deviation", "△", "known deviation"},
                                                      {"fail", "✗", "fail"},
                                                      {"non_finite", "∞", "non-finite"},
@@ -206,34 +157,13 @@ Shown shownOf(const MetricRow& metric) {
     return metric.bound || metric.expectation ? Shown::Pass : Shown::NoBound;
 }
 
-std::vector<std::size_t> ranked(const Mechanism& mechanism) {
-    std::vector<std::size_t> order;
-    for (std::size_t c = 0; c < mechanism.standings.size(); ++c)
-        if (mechanism.standings[c].scenarios > 0) order.push_back(c);
-    // Fewest failing scenarios first, then the smallest error.
-    const auto key = [&](std::size_t c) {
-        const Standing& s = mechanism.standings[c];
-        return std::tuple(!isCandidate(mechanism, c), static_cast<double>(s.bad) / s.scenarios,
-                          std::isfinite(s.ratio) ? s.ratio : 1e300);
-    };
-    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
-    return order;
-}
-
-std::string verdictSentence(const ViewModel& view) {
-    const std::string name = view.run().suite.empty() ? "run" : view.run().suite;
-    const auto bad = view.offenders().size();
-    if (bad == 0) return name + ": no case fails";
-    return name + ": " + std::to_string(bad) + " of " + std::to_string(view.totals().total) +
-           (bad == 1 ? " cases fails" : " cases fail");
-}
-
 std::vector<std::size_t> byTrouble(const ViewModel& view) {
     std::vector<std::size_t> all(view.run().scenarios.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
     const auto trouble = [&](std::size_t s) {
         int count = 0;
-        for (std::size_t c = 0; c < view.columns().size(); ++c) count += isBad(view.cell(s, c).worst);
+        for (std::size_t c = 0; c < view.columns().size(); ++c)
+            for (const auto* row : view.cell(s, c).cases) count += results::isRed(*row);
         return count;
     };
     std::stable_sort(all.begin(), all.end(), [&](auto a, auto b) { return trouble(a) > trouble(b); });
@@ -275,6 +205,9 @@ ViewModel::ViewModel(const Run& run) : run_(run), columns_(columnsOf(run)) {
         ++totals_.total;
         ++totals_.cases[shownOf(row)];
         if (!row.refusal.empty()) ++totals_.refusals[row.refusal];
+        ++totals_.regressions[row.regression];
+        if (row.outcome == results::Outcome::Completed) ++totals_.grades[row.accuracy.grade];
+        totals_.red += results::isRed(row);
         const auto scenario = scenarioIndex.find(row.scenario);
         if (scenario == scenarioIndex.end()) continue;
         cells_[scenario->second * columns_.size() + columnIndex.at(row.spec)].cases.push_back(&row);
@@ -287,51 +220,13 @@ ViewModel::ViewModel(const Run& run) : run_(run), columns_(columnsOf(run)) {
         for (const auto* row : cell.cases)
             if (severity(shownOf(*row)) > severity(cell.worst)) cell.worst = shownOf(*row);
     }
-}
-
-std::vector<Mechanism> ViewModel::mechanisms() const {
-    std::vector<Mechanism> all;
-    std::vector<std::vector<double>> logSums;
-    std::vector<std::vector<int>> counts;
-    for (std::size_t s = 0; s < run_.scenarios.size(); ++s) {
-        const auto ratios = ratiosToBest(mainErrors(*this, s));
-        for (const auto& name : run_.scenarios[s].isolates) {
-            auto found = std::find_if(all.begin(), all.end(), [&](const auto& m) { return m.name == name; });
-            if (found == all.end()) {
-                all.push_back({name, {}, std::vector<Standing>(columns_.size()), -1});
-                logSums.emplace_back(columns_.size(), 0.0);
-                counts.emplace_back(columns_.size(), 0);
-                found = all.end() - 1;
-            }
-            const auto index = static_cast<std::size_t>(found - all.begin());
-            found->scenarios.push_back(run_.scenarios[s].name);
-            for (std::size_t c = 0; c < columns_.size(); ++c) {
-                const Cell& here = cell(s, c);
-                Standing& standing = found->standings[c];
-                if (here.cases.empty() || here.worst == Shown::Unsupported) continue;
-                ++standing.scenarios;
-                standing.ran += here.cases.front()->outcome == results::Outcome::Completed;
-                isBad(here.worst) ? ++standing.bad : ++standing.good;
-                if (std::isfinite(ratios[c])) logSums[index][c] += std::log(ratios[c]), ++counts[index][c];
-            }
-        }
-    }
-    for (std::size_t m = 0; m < all.size(); ++m) {
-        for (std::size_t c = 0; c < columns_.size(); ++c)
-            all[m].standings[c].ratio = counts[m][c] ? std::exp(logSums[m][c] / counts[m][c])
-                                                     : std::numeric_limits<double>::quiet_NaN();
-        all[m].best = bestOf(all[m]);
-    }
-    std::stable_sort(all.begin(), all.end(), [](const Mechanism& a, const Mechanism& b) {
-        return a.scenarios.size() > b.scenarios.size();
-    });
-    return all;
+    ratios_ = ratiosOf(*this);
 }
 
 std::vector<Offender> ViewModel::offenders() const {
     std::vector<Offender> list;
     for (const auto& row : run_.cases)
-        if (isBad(shownOf(row))) list.push_back(offenderOf(row));
+        if (results::isRed(row)) list.push_back(offenderOf(row));
     std::stable_sort(list.begin(), list.end(),
                      [](const Offender& a, const Offender& b) { return a.excess > b.excess; });
     return list;

@@ -6,6 +6,8 @@
 // agree.
 #pragma once
 
+#include <array>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -27,7 +29,8 @@ struct MainMetric {
     std::string name, unit, kind;  ///< empty name: no case of this scenario has a metric
 };
 
-/// A verdict as shown: a completed case that nothing was demanded of is not shown as a pass.
+/// How a case ended as shown. A completed case that nothing was demanded of is not shown as a pass; how near
+/// it is to the physics is its grade, and whether it changed its regression.
 enum class Shown { Pass, NoBound, KnownDeviation, Fail, NonFinite, Timeout, Crashed, Unsupported };
 struct ShownText {
     const char* key;     ///< stable name, also the CSS class: "pass", "no_bound", ...
@@ -44,26 +47,49 @@ struct Cell {
     Shown worst = Shown::Unsupported;            ///< over all time steps
 };
 
-/// One row of "who to trust for what": how a spec did in the scenarios that isolate one mechanism.
-struct Standing {
-    int scenarios = 0;   ///< that have this mechanism and a case of this spec
-    int ran = 0;         ///< completed at the finest time step
-    int good = 0;        ///< scenarios where every time step passed, was unjudged, or deviates as recorded
-    int bad = 0;         ///< scenarios with a fail, crash, timeout or non-finite value at any time step
-    double ratio = 0.0;  ///< geometric mean of main error over the best engine's; NaN without a number
+inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
+/// The error of the scenario's main metric over other engines' at the same time step. Errors within grade A
+/// count as its limit: what is exact to rounding does not make the next one look 1e9 times worse.
+struct Ratios {
+    double toBest = kNoNumber;  ///< over the smallest
+    double toOurs = kNoNumber;  ///< over the in-house engine's in the same preset, else in its default one
 };
+
+/// How a spec did over some scenarios, each at the finest time step that anybody completed there.
+struct Standing {
+    int scenarios = 0;            ///< that it could take part in
+    int lost = 0;                 ///< crashed, timed out, not finite or failed, at any time step
+    std::array<int, 5> grades{};  ///< scenarios of grade A to E
+    int ungraded = 0;             ///< ran, without an exact answer
+    int known = 0;                ///< wrong physics with a reason on file
+    int farther = 0;              ///< farther from the exact solution than its own scheme
+    int red = 0;                  ///< with a red case at any time step
+    double toBest = kNoNumber;    ///< geometric means of Ratios
+    double toOurs = kNoNumber;
+    double cost = kNoNumber;       ///< median over the scenarios of the median of a step [s]
+    double costRatio = kNoNumber;  ///< geometric mean over the cheapest one's
+
+    /// Scenarios of grade C or better: within a hundredth of the scenario's own scale.
+    int within() const { return grades[0] + grades[1] + grades[2]; }
+    int graded() const { return within() + grades[3] + grades[4]; }
+};
+
+/// Scenarios that speak to one mechanism, or to one thing that people simulate.
 struct Mechanism {
-    std::string name;
+    std::string name;          ///< as scenarios say what they isolate; of a task its key
+    std::string title, about;  ///< of a task
     std::vector<std::string> scenarios;
     std::vector<Standing> standings;  ///< per column
+    std::vector<std::size_t> order;   ///< columns that took part, the most trusted first
     int best = -1;                    ///< column; -1: nobody
 };
 
 struct Offender {
     const results::CaseRow* row = nullptr;
     const results::MetricRow* metric = nullptr;  ///< null where the case has no numbers
-    double excess = 0.0;                         ///< value over bound; infinite without a number
-    std::string text;                            ///< "energy_drift 0.12 > 0.02 (1/60 s)" or the reason
+    double excess = 0.0;  ///< value over bound; infinite without a number, 1 for a change
+    std::string text;     ///< "energy_drift 0.12 > 0.02 (1/60 s)" or the reason
 };
 
 /// Equal ledger lines of one engine and preset, gathered over scenarios.
@@ -82,8 +108,10 @@ struct GatheredAudit {
 
 struct Totals {
     std::map<Shown, int> cases;
-    std::map<std::string, int> refusals;  ///< unsupported cases by CaseRow::refusal, where it is known
-    int total = 0;
+    std::map<std::string, int> refusals;   ///< unsupported cases by CaseRow::refusal, where it is known
+    std::map<results::Grade, int> grades;  ///< of completed cases; None: no exact answer
+    std::map<results::Regression, int> regressions;
+    int total = 0, red = 0;
 };
 /// What a count of `shown` consists of: "68 not in the adapter yet, 220 not in the library"; mostly "".
 std::string detailOf(const Totals& totals, Shown shown);
@@ -100,8 +128,14 @@ class ViewModel {
         return cells_[scenario * columns_.size() + column];
     }
     const Totals& totals() const { return totals_; }
+    const Ratios& ratios(const results::CaseRow& row) const { return ratios_.at(&row); }
+    /// One for each word that scenarios isolate, the most frequent first.
     std::vector<Mechanism> mechanisms() const;
-    /// Cases that fail, crash, time out or blow up, worst first.
+    /// What people simulate (tasks.cpp); only those that the run has scenarios for.
+    std::vector<Mechanism> tasks() const;
+    /// Over all scenarios of the run.
+    Mechanism overall() const;
+    /// Cases that make the run red, worst first.
     std::vector<Offender> offenders() const;
     std::vector<GatheredLedger> ledger() const;
 
@@ -110,15 +144,25 @@ class ViewModel {
     std::vector<SpecColumn> columns_;
     std::vector<MainMetric> mainMetrics_;
     std::vector<Cell> cells_;
+    std::map<const results::CaseRow*, Ratios> ratios_;
     Totals totals_;
 };
 
-/// "standard: 12 of 1430 cases fail"; failing, crashed, timed out or not finite. Text of the run, unescaped.
+/// "standard: 12 of 1430 cases are red" (results::isRed). Text of the run, unescaped.
 std::string verdictSentence(const ViewModel& view);
+/// What was counted, in one line each: accuracy, regression, endings. Every report says the same.
+std::vector<std::pair<std::string, std::string>> totalsText(const ViewModel& view);
+/// "C 0.0323", "E△ 1.2", "C▼ 0.04", "! crashed": grade, known deviation, change against the record, number.
+std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t column, bool withNumber);
+/// One sentence on the accuracy of a case and one on its record: what is claimed, and nothing more.
+std::string accuracySentence(const results::CaseRow& row);
+std::string regressionSentence(const results::CaseRow& row);
+/// The same over several scenarios: standings, who comes first, from the indices of scenarios.
+Mechanism standingsOver(const ViewModel& view, const std::vector<std::size_t>& scenarios);
+/// The ratios of every case of the run.
+std::map<const results::CaseRow*, Ratios> ratiosOf(const ViewModel& view);
 Shown shownOf(const results::CaseRow& row);
 Shown shownOf(const results::MetricRow& metric);
-/// The columns that took part in a mechanism, the most trusted first: bestOf()'s order, then the others.
-std::vector<std::size_t> ranked(const Mechanism& mechanism);
 /// Scenarios, those in which the most engines fail first.
 std::vector<std::size_t> byTrouble(const ViewModel& view);
 std::vector<GatheredAudit> gatherAudit(const results::Run& run);

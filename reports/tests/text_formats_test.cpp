@@ -13,6 +13,7 @@
 #include "reports/tests/csv_reader.hpp"
 #include "reports/tests/synthetic_run.hpp"
 #include "reports/text.hpp"
+#include "validation/results/judgement.hpp"
 
 namespace rigor::report {
 namespace {
@@ -140,11 +141,16 @@ TEST(Junit, IsWellFormedAndCountsRight) {
     ASSERT_NO_THROW(xml.element());
     xml.space();
     EXPECT_EQ(xml.at, xml.text.size());
-    std::map<results::Verdict, int> verdicts;
-    for (const auto& c : run.cases) ++verdicts[c.verdict];
     using V = results::Verdict;
+    std::map<V, int> verdicts;
+    for (const auto& c : run.cases) ++verdicts[c.verdict];
     EXPECT_EQ(xml.elements["testcase"], static_cast<int>(run.cases.size()));
-    EXPECT_EQ(xml.elements["failure"], verdicts[V::Fail]);
+    const auto worse = std::count_if(run.cases.begin(), run.cases.end(), [](const results::CaseRow& c) {
+        return c.regression == results::Regression::Worse && results::isRed(c) && c.verdict != V::Fail &&
+               c.outcome == results::Outcome::Completed;
+    });
+    EXPECT_GT(worse, 0) << "worse than on record is a failure, whatever the grade";
+    EXPECT_EQ(xml.elements["failure"], verdicts[V::Fail] + worse);
     EXPECT_EQ(xml.elements["skipped"], verdicts[V::Unsupported]);
     EXPECT_EQ(xml.elements["error"], verdicts[V::Crashed] + verdicts[V::Timeout] + verdicts[V::NonFinite]);
     EXPECT_EQ(xml.names.back(), synthetic::kHostileName);
@@ -159,13 +165,13 @@ TEST(Summary, FitsAPullRequestComment) {
         EXPECT_LE(text.size(), 65000u) << scenarios;
         EXPECT_GT(text.size(), 10000u) << scenarios;
         EXPECT_EQ(text.find("<img"), std::string::npos);
-        for (const char* word :
-             {"pass", "fail", "known deviation", "crashed", "timeout", "non-finite", "unsupported"})
+        for (const char* word : {"bounds kept", "fail", "known deviation", "crashed", "timeout", "non-finite",
+                                 "unsupported", "accuracy: A ", "against the record: "})
             EXPECT_NE(text.find(word), std::string::npos) << word;
         const auto at = [&](const char* heading) { return text.find(heading); };
         ASSERT_NE(at("</details>"), std::string::npos) << "the scoreboard is there, and closed";
-        EXPECT_LT(at("### Who to trust for what"), at("### What fails"));
-        EXPECT_LT(at("### What fails"), at("<details>"));
+        EXPECT_LT(at("### Who to trust for what"), at("### What is red"));
+        EXPECT_LT(at("### What is red"), at("<details>"));
         EXPECT_NE(at("`./rigor view runs/standard-20260101-000000`"), std::string::npos);
     }
 }
@@ -187,7 +193,9 @@ TEST(Summary, RefusalsAreToldApart) {
     EXPECT_NE(text.find("unsupported (" + both + ")"), std::string::npos);
     EXPECT_NE(text.find("### Refused: " + both), std::string::npos);
     EXPECT_NE(text.find("| box2d | 3D dynamics | " + std::to_string(count["library"])), std::string::npos);
-    EXPECT_NE(terminalSummary(run, 60, 160, false).find("unsupported (" + both + ")"), std::string::npos);
+    EXPECT_NE(std::regex_replace(terminalSummary(run, 60, 160, false), std::regex("\\s+"), " ")
+                  .find("unsupported (" + both + ")"),
+              std::string::npos);
     EXPECT_NE(overviewJson(view).find(both), std::string::npos);
 }
 
@@ -198,6 +206,7 @@ TEST(Summary, LeavesOutWhatIsNoTrouble) {
         const bool troubled = c.scenario == "pile_125";  // the last of its kind
         c.outcome = results::Outcome::Completed;
         c.verdict = troubled ? results::Verdict::Fail : results::Verdict::Pass;
+        c.regression = results::Regression::Unchanged;
     }
     const std::string text = markdownSummary(ViewModel(run));
     EXPECT_NE(text.find("| pile\\_125 |"), std::string::npos);
@@ -283,8 +292,8 @@ TEST(Terminal, TellsTheStory) {
     const auto at = [&](const char* words) { return text.find(words); };
     ASSERT_NE(at("Where"), 0u);
     EXPECT_EQ(at("standard: "), 0u);
-    EXPECT_LT(at("Who to trust for what"), at("What fails, worst first"));
-    EXPECT_LT(at("What fails, worst first"), at("more scenarios in the report"));
+    EXPECT_LT(at("Who to trust for what"), at("What is red, worst first"));
+    EXPECT_LT(at("What is red, worst first"), at("more scenarios in the report"));
     EXPECT_LT(at("more scenarios in the report"), at("Report: "));
     const ViewModel view(run);
     const auto mechanisms = view.mechanisms();
@@ -319,11 +328,12 @@ TEST(Terminal, LongSpecsAreNumbered) {
 
 TEST(Terminal, AGreenRunSaysSo) {
     auto run = synthetic::makeRun(3);
-    for (auto& c : run.cases) c.verdict = results::Verdict::Pass;
+    for (auto& c : run.cases)
+        c.verdict = results::Verdict::Pass, c.regression = results::Regression::Unchanged;
     run.finished.clear();
     const auto text = terminalSummary(run, 40, 160, false);
-    EXPECT_EQ(text.find("standard: no case fails, unfinished"), 0u) << text;
-    EXPECT_EQ(text.find("What fails"), std::string::npos);
+    EXPECT_EQ(text.find("standard: no case is red, unfinished"), 0u) << text;
+    EXPECT_EQ(text.find("What is red"), std::string::npos);
 }
 
 TEST(Terminal, ColourChangesNothingButColour) {

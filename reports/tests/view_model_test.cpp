@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "reports/writers.hpp"
+#include "validation/results/judgement.hpp"
 
 namespace rigor::report {
 namespace {
@@ -23,7 +24,8 @@ CaseRow makeCase(const std::string& scenario, const std::string& engine, double 
     c.scenario = scenario, c.engine = engine, c.preset = "matched", c.dt = dt;
     c.spec = engine + ":preset=matched";
     c.verdict = bound && error > *bound ? Verdict::Fail : Verdict::Pass;
-    c.metrics = {{"error", "", "m", "exact", error, -1.0, bound, {}, c.verdict, ""}};
+    c.metrics = {{"error", "", "m", "exact", error, -1.0, bound, {}, c.verdict, "", 10.0, error / 10.0}};
+    c.accuracy = {results::gradeOf(error / 10.0), "error", error / 10.0, {}, ""};
     return c;
 }
 
@@ -44,10 +46,74 @@ TEST(ViewModel, RatiosAreGeometricMeansOverTheBestOfEachScenario) {
                  makeCase("b", "one", 0.01, 9.0), makeCase("b", "two", 0.01, 1.0)};
     const auto mechanisms = ViewModel(run).mechanisms();
     ASSERT_EQ(mechanisms.size(), 1u);
-    // one: sqrt(1 * 9) = 3, two: sqrt(4 * 1) = 2, up to the floor of a thousandth of the median.
-    EXPECT_NEAR(mechanisms[0].standings[0].ratio, 3.0, 0.05);
-    EXPECT_NEAR(mechanisms[0].standings[1].ratio, 2.0, 0.05);
-    EXPECT_EQ(mechanisms[0].best, 1);
+    EXPECT_NEAR(mechanisms[0].standings[0].toBest, 3.0, 1e-12) << "sqrt(1 * 9)";
+    EXPECT_NEAR(mechanisms[0].standings[1].toBest, 2.0, 1e-12) << "sqrt(4 * 1)";
+    EXPECT_TRUE(std::isnan(mechanisms[0].standings[1].toOurs)) << "the in-house engine is not here";
+}
+
+TEST(ViewModel, StandsBesideTheInHouseEngineInTheSamePresetElseItsDefault) {
+    results::Run run = twoScenarios();
+    const auto ours = [](const std::string& preset, double error) {
+        CaseRow c = makeCase("a", results::kInHouseEngine, 0.01, error);
+        c.preset = preset, c.spec = c.engine + ":preset=" + preset, c.id += preset;
+        return c;
+    };
+    run.cases = {ours("default", 2.0), ours("matched", 4.0), ours("fast", 8.0),
+                 makeCase("a", "one", 0.01, 1.0)};
+    const ViewModel view(run);
+    EXPECT_DOUBLE_EQ(view.ratios(run.cases[3]).toOurs, 0.25) << "matched beside matched";
+    EXPECT_DOUBLE_EQ(view.ratios(run.cases[2]).toOurs, 1.0) << "fast is a preset of its own";
+    EXPECT_DOUBLE_EQ(view.ratios(run.cases[2]).toBest, 8.0);
+    run.cases[3].preset = "other";
+    EXPECT_DOUBLE_EQ(ViewModel(run).ratios(run.cases[3]).toOurs, 0.5) << "else the default";
+}
+
+TEST(ViewModel, FewestWrongOutcomesThenMostWithinAHundredthThenTheSmallestErrorComeFirst) {
+    results::Run run = twoScenarios();
+    run.cases = {makeCase("a", "wrong", 0.01, 1e-9), makeCase("b", "wrong", 0.01, 5.0),
+                 makeCase("a", "rough", 0.01, 0.01), makeCase("b", "rough", 0.01, 0.5),
+                 makeCase("a", "near", 0.01, 0.09),  makeCase("b", "near", 0.01, 0.09)};
+    const auto m = ViewModel(run).mechanisms().at(0);
+    EXPECT_EQ(m.order, (std::vector<std::size_t>{2, 1, 0}));
+    EXPECT_EQ(m.standings[0].grades, (std::array<int, 5>{1, 0, 0, 0, 1}));
+    EXPECT_EQ(m.standings[1].within(), 1);
+    EXPECT_EQ(m.standings[2].within(), 2);
+    EXPECT_EQ(m.best, 2);
+}
+
+TEST(ViewModel, SentencesSayWhatWasComparedWithWhat) {
+    CaseRow c = makeCase("a", "one", 1.0 / 60.0, 0.2);
+    EXPECT_EQ(accuracySentence(c),
+              "Grade D at 1/60 s: error 0.2 m of 10 m, relative error 0.02; what its scheme allows here is "
+              "not known.");
+    c.accuracy.ideal = 0.005;
+    EXPECT_EQ(accuracySentence(c),
+              "Grade D at 1/60 s: error 0.2 m of 10 m, relative error 0.02; an ideal run of its "
+              "scheme has 0.005 (C), so it is farther off than its scheme.");
+    c.accuracy.ideal = 0.02;
+    EXPECT_NE(accuracySentence(c).find("as good as its scheme allows"), std::string::npos);
+    c.accuracy = {results::Grade::None, "", {}, {}, "no exact answer"};
+    EXPECT_EQ(accuracySentence(c), "Not graded: no exact answer.");
+    c.outcome = Outcome::Timeout;
+    EXPECT_EQ(accuracySentence(c), "Not graded: timeout.");
+    c.regression = Regression::Worse, c.regressionReason = "error 0.1 -> 0.2 m";
+    EXPECT_EQ(regressionSentence(c), "Worse than on record: error 0.1 -> 0.2 m.");
+}
+
+TEST(ViewModel, AChangeAgainstTheRecordIsNoMatterOfAccuracy) {
+    results::Run run = twoScenarios();
+    run.cases = {makeCase("a", results::kInHouseEngine, 0.01, 1e-9),
+                 makeCase("b", results::kInHouseEngine, 0.01, 9.0)};
+    run.cases[0].regression = Regression::Worse, run.cases[0].regressionReason = "error 1e-10 -> 1e-09 m";
+    run.cases[1].regression = Regression::Unchanged;
+    const ViewModel view(run);
+    ASSERT_EQ(view.offenders().size(), 1u);
+    EXPECT_EQ(view.offenders()[0].row, &run.cases[0]) << "grade A, and worse";
+    EXPECT_EQ(view.offenders()[0].text, "worse than on record: error 1e-10 -> 1e-09 m");
+    EXPECT_EQ(view.totals().red, 1);
+    EXPECT_EQ(view.totals().grades.at(results::Grade::A), 1);
+    EXPECT_EQ(view.totals().grades.at(results::Grade::E), 1);
+    EXPECT_EQ(view.totals().regressions.at(Regression::Unchanged), 1);
 }
 
 TEST(ViewModel, CompanionsHaveNumbersButNoPage) {
@@ -74,14 +140,14 @@ TEST(ViewModel, AFailureAtAnyTimeStepWeighsMoreThanASmallError) {
     EXPECT_EQ(view.cell(0, 0).worst, Shown::Fail);
     EXPECT_EQ(view.cell(0, 0).cases.front()->dt, 0.01) << "finest first";
     EXPECT_EQ(view.mechanisms()[0].best, 1);
-    EXPECT_EQ(view.mechanisms()[0].standings[0].bad, 1);
+    EXPECT_EQ(view.mechanisms()[0].standings[0].lost, 1);
 }
 
 TEST(ViewModel, ErrorsAreComparedAtTheSameTimeStepAlone) {
     results::Run run = twoScenarios();
     run.cases = {makeCase("a", "one", 0.001, 1e-6), makeCase("a", "two", 0.1, 1e-9)};
     const auto mechanisms = ViewModel(run).mechanisms();
-    EXPECT_TRUE(std::isnan(mechanisms[0].standings[1].ratio));
+    EXPECT_TRUE(std::isnan(mechanisms[0].standings[1].toBest));
     EXPECT_EQ(mechanisms[0].best, 0);
 }
 
@@ -94,8 +160,11 @@ TEST(ViewModel, WithoutAReferenceNobodyIsRanked) {
 
 TEST(ViewModel, RoundingCountsAsEqual) {
     results::Run run = twoScenarios();
-    run.cases = {makeCase("a", "one", 0.01, 1e-16), makeCase("a", "two", 0.01, 1e-9)};
-    EXPECT_NEAR(ViewModel(run).mechanisms()[0].standings[1].ratio, 1.0, 0.01);
+    run.cases = {makeCase("a", "one", 0.01, 1e-16), makeCase("a", "two", 0.01, 9e-6),
+                 makeCase("a", "three", 0.01, 2e-5)};
+    const auto m = ViewModel(run).mechanisms()[0];
+    EXPECT_DOUBLE_EQ(m.standings[1].toBest, 1.0) << "within 1e-6 of ten metres";
+    EXPECT_DOUBLE_EQ(m.standings[2].toBest, 2.0);
 }
 
 TEST(ViewModel, WhoNeverFinishesIsNotRanked) {
@@ -107,7 +176,7 @@ TEST(ViewModel, WhoNeverFinishesIsNotRanked) {
         run.cases.push_back(c);
     }
     EXPECT_EQ(ViewModel(run).mechanisms()[0].best, 0);
-    EXPECT_EQ(ViewModel(run).mechanisms()[0].standings[1].bad, 2);
+    EXPECT_EQ(ViewModel(run).mechanisms()[0].standings[1].lost, 2);
 }
 
 TEST(ViewModel, NothingDemandedIsNotShownAsAPass) {

@@ -3,6 +3,7 @@
 //
 // The reference, the bounds that engines have to keep, and the recorded deviations.
 #include <algorithm>
+#include <limits>
 
 #include "scenarios/loader/node.hpp"
 
@@ -39,7 +40,7 @@ void readBounds(const Node& node, Scenario& scenario) {
 
 void readDeviations(const Node& list, Scenario& scenario) {
     for (const Node& node : list.items()) {
-        node.isObject({"engine", "preset", "metric", "max", "reason"});
+        node.isObject({"engine", "preset", "metric", "max", "reason", "evidence"});
         KnownDeviation deviation;
         if (const auto n = node.require("engine")) deviation.engine = n->name();
         if (const auto n = node.find("preset")) {
@@ -48,10 +49,17 @@ void readDeviations(const Node& list, Scenario& scenario) {
                 n->problem("accept.preset", "default or matched");
         }
         if (const auto n = node.require("metric")) deviation.metric = n->name();
-        if (const auto n = node.require("max")) deviation.max = n->number(0.0, kLargestBound);
+        deviation.max = std::numeric_limits<double>::infinity();
+        if (const auto n = node.find("max")) deviation.max = n->number(0.0, kLargestBound);
         if (const auto n = node.require("reason")) {
             deviation.reason = n->text();
             if (deviation.reason.size() < 10) n->problem("deviation.reason", "a sentence that says why");
+        }
+        if (const auto n = node.find("evidence")) {
+            const std::string evidence = n->text();
+            if (evidence != "experiment" && evidence != "inferred")
+                n->problem("deviation.evidence", "experiment or inferred");
+            deviation.reason += " (" + evidence + ")";
         }
         scenario.knownDeviations.push_back(deviation);
     }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <map>
+#include <set>
 #include <stdexcept>
 
 #include "validation/comparison/compare.hpp"
@@ -22,12 +22,6 @@ using results::Run;
 const std::string kHeader = "scenario;scenario_hash;spec;dt;outcome;verdict;metric;unit;value";
 constexpr std::size_t kColumns = 9;
 
-std::string hashOf(const std::string& scenarioText) {
-    Fnv1a hash;
-    hash.bytes(physicsOf(scenarioText));
-    return hash.hex();
-}
-
 fs::path fileOf(const fs::path& folder, const results::EngineRow& engine) {
     return folder / (engine.name + "-" + engine.version + ".csv");
 }
@@ -41,19 +35,6 @@ const results::ScenarioRow* scenarioOf(const Run& run, const std::string& name) 
 bool isNamed(const results::ScenarioRow& scenario, const MetricRow& m) {
     return m.subject.empty() &&
            std::find(scenario.metrics.begin(), scenario.metrics.end(), m.name) != scenario.metrics.end();
-}
-
-void writeCase(std::ostream& out, const results::ScenarioRow& scenario, const CaseRow& c) {
-    const std::string head = c.scenario + ";" + hashOf(scenario.text) + ";" + c.spec + ";" +
-                             results::exactText(c.dt) + ";" + results::outcomeName(c.outcome) + ";" +
-                             results::verdictName(c.verdict) + ";";
-    bool any = false;
-    for (const MetricRow& m : c.metrics)
-        if (isNamed(scenario, m)) {
-            out << head << m.name << ";" << m.unit << ";" << results::exactText(m.value) << "\n";
-            any = true;
-        }
-    if (!any) out << head << ";;\n";
 }
 
 std::vector<std::string> fieldsOf(const std::string& line) {
@@ -80,73 +61,143 @@ double numberIn(const std::string& text, const fs::path& file, std::size_t line)
     damaged(file, line, "a number, found '" + text + "'");
 }
 
-/// Adds the cases of one file; scenarios whose text is no longer the recorded one get an empty text.
-void readFile(const fs::path& file, const Run& like, Run& recorded) {
+using Cases = std::map<Record::Key, RecordedCase>;
+
+RecordedMetric& metricIn(RecordedCase& recorded, const std::string& name, const std::string& unit) {
+    for (RecordedMetric& m : recorded.metrics)
+        if (m.name == name) return m;
+    return recorded.metrics.emplace_back(RecordedMetric{name, unit, {}});
+}
+
+void readFile(const fs::path& file, Cases& cases) {
     std::ifstream in(file);
     std::string text;
     std::size_t line = 1;
     if (!std::getline(in, text) || text != kHeader) damaged(file, line, "'" + kHeader + "'");
-    std::map<std::string, std::size_t> index;
     while (std::getline(in, text)) {
         ++line;
         const auto f = fieldsOf(text);
         if (f.size() != kColumns) damaged(file, line, std::to_string(kColumns) + " fields");
-        const auto [it, isNew] = index.emplace(f[0] + ";" + f[2] + ";" + f[3], recorded.cases.size());
-        if (isNew) {
-            CaseRow& c = recorded.cases.emplace_back();
-            c.scenario = f[0], c.spec = f[2], c.dt = numberIn(f[3], file, line);
-            c.outcome = results::parseOutcome(f[4]), c.verdict = results::parseVerdict(f[5]);
-            const auto* now = scenarioOf(like, c.scenario);
-            if (now != nullptr && scenarioOf(recorded, c.scenario) == nullptr) {
-                recorded.scenarios.push_back(*now);
-                if (hashOf(now->text) != f[1]) recorded.scenarios.back().text.clear();
-            }
-        }
-        if (f[6].empty()) continue;
-        MetricRow m;
-        m.name = f[6], m.unit = f[7], m.value = numberIn(f[8], file, line);
-        recorded.cases[it->second].metrics.push_back(m);
+        RecordedCase& c = cases[{f[0], f[2], numberIn(f[3], file, line)}];
+        c.scenarioHash = f[1];
+        c.outcome = results::parseOutcome(f[4]), c.verdict = results::parseVerdict(f[5]);
+        if (!f[6].empty()) metricIn(c, f[6], f[7]).values.push_back(numberIn(f[8], file, line));
     }
+}
+
+void writeFile(const fs::path& file, const Cases& cases) {
+    std::ofstream out(file, std::ios::trunc);
+    out << kHeader << "\n";
+    for (const auto& [key, c] : cases) {
+        const auto& [scenario, spec, dt] = key;
+        const std::string head = scenario + ";" + c.scenarioHash + ";" + spec + ";" + results::exactText(dt) +
+                                 ";" + results::outcomeName(c.outcome) + ";" +
+                                 results::verdictName(c.verdict) + ";";
+        for (const RecordedMetric& m : c.metrics)
+            for (const double value : m.values)
+                out << head << m.name << ";" << m.unit << ";" << results::exactText(value) << "\n";
+        if (c.metrics.empty()) out << head << ";;\n";
+    }
+    if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+RecordedCase recordOf(const results::ScenarioRow& scenario, const CaseRow& row) {
+    RecordedCase recorded;
+    recorded.scenarioHash = recordedHash(scenario.text);
+    recorded.outcome = row.outcome, recorded.verdict = row.verdict;
+    for (const MetricRow& m : row.metrics)
+        if (isNamed(scenario, m)) metricIn(recorded, m.name, m.unit).values = {m.value};
+    return recorded;
+}
+
+/// The new numbers beside the old ones, each once.
+void addTo(RecordedCase& old, const RecordedCase& fresh) {
+    for (const RecordedMetric& m : fresh.metrics) {
+        auto& values = metricIn(old, m.name, m.unit).values;
+        for (const double value : m.values) {
+            const auto isSame = [&](double other) {
+                return results::exactText(other) == results::exactText(value);
+            };
+            if (std::none_of(values.begin(), values.end(), isSame)) values.push_back(value);
+        }
+    }
+}
+
+bool tookPart(const Run& run, const results::EngineRow& engine) {
+    return std::any_of(run.cases.begin(), run.cases.end(),
+                       [&](const CaseRow& c) { return c.engine == engine.name; });
 }
 
 }  // namespace
 
-std::vector<fs::path> writeRecorded(const Run& run, const fs::path& folder) {
+std::string recordedHash(const std::string& scenarioText) {
+    Fnv1a hash;
+    hash.bytes(physicsOf(scenarioText));
+    return hash.hex();
+}
+
+Record::Record(const fs::path& folder, const std::vector<results::EngineRow>& engines) {
+    for (const auto& engine : engines)
+        if (const fs::path file = fileOf(folder, engine); fs::exists(file))
+            readFile(file, cases_);
+        else
+            missing_.push_back(engine.name + " " + engine.version);
+}
+
+const RecordedCase* Record::find(const std::string& scenario, const std::string& spec, double dt) const {
+    const auto it = cases_.find({scenario, spec, dt});
+    return it == cases_.end() ? nullptr : &it->second;
+}
+
+std::vector<fs::path> writeRecorded(const Run& run, const fs::path& folder, bool add) {
     fs::create_directories(folder);
     std::vector<fs::path> files;
     for (const auto& engine : run.engines) {
-        const auto mine = [&](const CaseRow& c) { return c.engine == engine.name; };
-        if (std::none_of(run.cases.begin(), run.cases.end(), mine)) continue;
+        if (!tookPart(run, engine)) continue;
         const fs::path file = fileOf(folder, engine);
-        std::ofstream out(file, std::ios::trunc);
-        out << kHeader << "\n";
-        for (const CaseRow& c : run.cases)
-            if (mine(c))
-                if (const auto* scenario = scenarioOf(run, c.scenario)) writeCase(out, *scenario, c);
-        if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+        Cases cases;
+        if (fs::exists(file)) readFile(file, cases);
+        for (const CaseRow& c : run.cases) {
+            const auto* scenario = scenarioOf(run, c.scenario);
+            if (c.engine != engine.name || scenario == nullptr) continue;
+            const RecordedCase fresh = recordOf(*scenario, c);
+            const auto [it, isNew] = cases.emplace(Record::Key{c.scenario, c.spec, c.dt}, fresh);
+            if (isNew) continue;
+            if (add && it->second.scenarioHash == fresh.scenarioHash && it->second.outcome == fresh.outcome)
+                addTo(it->second, fresh);
+            else
+                it->second = fresh;
+        }
+        writeFile(file, cases);
         files.push_back(file);
     }
     return files;
 }
 
 Run readRecorded(const fs::path& folder, const Run& run, std::vector<std::string>& missing) {
+    std::vector<results::EngineRow> engines;
+    for (const auto& engine : run.engines)
+        if (tookPart(run, engine)) engines.push_back(engine);
+    const Record record(folder, engines);
+    missing = record.missing();
     Run recorded;
     recorded.suite = "recorded";
-    for (const auto& engine : run.engines) {
-        const bool took = std::any_of(run.cases.begin(), run.cases.end(),
-                                      [&](const CaseRow& c) { return c.engine == engine.name; });
-        if (!took) continue;
-        if (const fs::path file = fileOf(folder, engine); fs::exists(file))
-            readFile(file, run, recorded);
-        else
-            missing.push_back(engine.name + " " + engine.version);
+    std::set<std::string> known;
+    for (const CaseRow& row : run.cases) {  // what this run did not run is no change
+        const RecordedCase* old = record.find(row.scenario, row.spec, row.dt);
+        if (old == nullptr) continue;
+        CaseRow& c = recorded.cases.emplace_back();
+        c.scenario = row.scenario, c.spec = row.spec, c.dt = row.dt;
+        c.outcome = old->outcome, c.verdict = old->verdict;
+        for (const RecordedMetric& m : old->metrics) {
+            MetricRow& metric = c.metrics.emplace_back();
+            metric.name = m.name, metric.unit = m.unit, metric.value = m.values.front();
+        }
+        const auto* now = scenarioOf(run, row.scenario);
+        if (now == nullptr || !known.insert(row.scenario).second) continue;
+        recorded.scenarios.push_back(*now);
+        if (recordedHash(now->text) != old->scenarioHash) recorded.scenarios.back().text.clear();
     }
-    // What this run did not run is no change.
-    std::erase_if(recorded.cases, [&](const CaseRow& c) {
-        return std::none_of(run.cases.begin(), run.cases.end(), [&](const CaseRow& other) {
-            return other.scenario == c.scenario && other.spec == c.spec && other.dt == c.dt;
-        });
-    });
     return recorded;
 }
 

@@ -37,6 +37,9 @@ const std::string& bodyName(const MetricInput& input, int body);
 /// Number of frames that the reference answers for.
 std::size_t validFrames(const MetricInput& input);
 
+/// What an error of the quantity is measured against: its own scale, else |expected|; 1 where both are zero.
+double scaleOf(const Quantity& quantity, double expected);
+
 /// Angle between two directions [rad, 0..pi]; they need not be unit. Small angles keep their digits.
 double angleBetween(const scenario::Vec3& a, const scenario::Vec3& b);
 /// Angle to the nearest of equally good directions [rad]; pi where there is none.

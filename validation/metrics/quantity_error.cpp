@@ -9,11 +9,6 @@
 namespace rigor::validation {
 namespace {
 
-double scaleOf(const Quantity& q, double exact) {
-    const double scale = q.scale > 0.0 ? q.scale : std::abs(exact);
-    return scale > 0.0 ? scale : 1.0;
-}
-
 std::vector<MetricValue> relativeErrors(const MetricInput& input, bool scheme) {
     std::vector<MetricValue> rows;
     if (!input.reference || input.trajectory.frames() < 2) return rows;
@@ -29,6 +24,11 @@ std::vector<MetricValue> relativeErrors(const MetricInput& input, bool scheme) {
 }
 
 }  // namespace
+
+double scaleOf(const Quantity& q, double expected) {
+    const double scale = q.scale > 0.0 ? q.scale : std::abs(expected);
+    return scale > 0.0 ? scale : 1.0;
+}
 
 std::vector<MetricValue> quantityError(const MetricInput& input) {
     return relativeErrors(input, false);

@@ -35,9 +35,9 @@ void writeList(SQLite::Database& database, const char* table, int columns, const
 }
 
 void writeMeasured(SQLite::Database& database, const CaseRow& c) {
-    writeList(database, "metrics", 12, c.id, c.metrics, [](Binder& b, const MetricRow& m) {
+    writeList(database, "metrics", 16, c.id, c.metrics, [](Binder& b, const MetricRow& m) {
         b << m.name << m.subject << m.unit << m.kind << m.value << m.at << m.bound << m.expectation
-          << verdictName(m.verdict) << m.note;
+          << verdictName(m.verdict) << m.note << m.scale << m.relative << m.ideal << m.recorded;
     });
     writeList(database, "quantities", 7, c.id, c.quantities, [](Binder& b, const QuantityRow& q) {
         b << q.name << q.unit << q.exact << q.schemeExact << q.measured;
@@ -66,18 +66,26 @@ void writeParity(SQLite::Database& database, const CaseRow& c) {
 
 std::vector<CaseRow> readCases(SQLite::Database& database) {
     std::vector<CaseRow> cases;
+    const bool isGraded = schemaVersionOf(database) >= kSchemaOfGrades;
     SQLite::Statement select(
         database,
         std::string("SELECT id, position, scenario, spec, engine, preset, dt, outcome, verdict, reason, "
                     "wall_seconds, cpu_seconds, steps, peak_memory_kib, state_hash, trajectory_file, "
                     "command, ") +
-            (schemaVersionOf(database) >= 6 ? "refusal" : "''") + " FROM cases ORDER BY position, id");
+            (schemaVersionOf(database) >= 6 ? "refusal, " : "'', ") +
+            (isGraded
+                 ? "grade, graded_by, relative_error, ideal_error, grade_note, regression, regression_reason"
+                 : "'', '', NULL, NULL, '', 'no record', ''") +
+            " FROM cases ORDER BY position, id");
     while (select.executeStep()) {
         CaseRow& c = cases.emplace_back();
-        std::string outcome, verdict;
+        std::string outcome, verdict, grade, regression;
         Taker(select) >> c.id >> c.position >> c.scenario >> c.spec >> c.engine >> c.preset >> c.dt >>
             outcome >> verdict >> c.reason >> c.wallSeconds >> c.cpuSeconds >> c.steps >> c.peakMemoryKiB >>
-            c.stateHash >> c.trajectoryFile >> c.command >> c.refusal;
+            c.stateHash >> c.trajectoryFile >> c.command >> c.refusal >> grade >> c.accuracy.metric >>
+            c.accuracy.relative >> c.accuracy.ideal >> c.accuracy.note >> regression >> c.regressionReason;
+        c.accuracy.grade = parseGrade(grade);
+        c.regression = parseRegression(regression);
         c.outcome = parseOutcome(outcome);
         c.verdict = parseVerdict(verdict);
     }
@@ -103,13 +111,18 @@ void readList(SQLite::Database& database, const CaseIndex& cases, const char* ta
 }
 
 void readMeasured(SQLite::Database& database, const CaseIndex& cases) {
+    const bool isGraded = schemaVersionOf(database) >= kSchemaOfGrades;
     readList(database, cases, "metrics",
-             "name, subject, unit, kind, value, at, bound, expectation, verdict, note",
+             isGraded
+                 ? "name, subject, unit, kind, value, at, bound, expectation, verdict, note, scale, "
+                   "relative_error, ideal_error, recorded"
+                 : "name, subject, unit, kind, value, at, bound, expectation, verdict, note, NULL, NULL, "
+                   "NULL, NULL",
              [](CaseRow& c, Taker& t) {
                  MetricRow& m = c.metrics.emplace_back();
                  std::string verdict;
                  t >> m.name >> m.subject >> m.unit >> m.kind >> m.value >> m.at >> m.bound >>
-                     m.expectation >> verdict >> m.note;
+                     m.expectation >> verdict >> m.note >> m.scale >> m.relative >> m.ideal >> m.recorded;
                  m.verdict = parseVerdict(verdict);
              });
     readList(database, cases, "quantities", "name, unit, exact, scheme_exact, measured",
@@ -235,11 +248,13 @@ void writeHeaderRows(SQLite::Database& database, const Run& run) {
 void writeCaseRows(SQLite::Database& database, const CaseRow& c) {
     SQLite::Statement forget(database, "DELETE FROM cases WHERE id = ?");
     (Binder(forget) << c.id).run();
-    SQLite::Statement insert(database, insertInto("cases", 18));
+    SQLite::Statement insert(database, insertInto("cases", 25));
     (Binder(insert) << c.id << c.position << c.scenario << c.spec << c.engine << c.preset << c.dt
                     << outcomeName(c.outcome) << verdictName(c.verdict) << c.reason << c.wallSeconds
                     << c.cpuSeconds << c.steps << c.peakMemoryKiB << c.stateHash << c.trajectoryFile
-                    << c.command << c.refusal)
+                    << c.command << c.refusal << gradeName(c.accuracy.grade) << c.accuracy.metric
+                    << c.accuracy.relative << c.accuracy.ideal << c.accuracy.note
+                    << regressionName(c.regression) << c.regressionReason)
         .run();
     writeMeasured(database, c);
     writeParity(database, c);

@@ -32,13 +32,15 @@ CREATE TABLE scenarios (
 CREATE TABLE cases (
     id TEXT PRIMARY KEY, position INTEGER, scenario TEXT, spec TEXT, engine TEXT, preset TEXT, dt, outcome TEXT,
     verdict TEXT, reason TEXT, wall_seconds, cpu_seconds, steps INTEGER, peak_memory_kib INTEGER, state_hash TEXT,
-    trajectory_file TEXT, command TEXT, refusal TEXT) WITHOUT ROWID;
+    trajectory_file TEXT, command TEXT, refusal TEXT, grade TEXT, graded_by TEXT, relative_error, ideal_error, grade_note TEXT,
+    regression TEXT, regression_reason TEXT) WITHOUT ROWID;
 CREATE TABLE settings (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, key TEXT, value TEXT,
     PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE metrics (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, subject TEXT, unit TEXT, kind TEXT,
-    value, at, bound, expectation, verdict TEXT, note TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+    value, at, bound, expectation, verdict TEXT, note TEXT, scale, relative_error, ideal_error, recorded,
+    PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE quantities (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, unit TEXT, exact, scheme_exact,
     measured, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
@@ -85,6 +87,20 @@ ALTER TABLE cases ADD COLUMN refusal TEXT DEFAULT '';
 ALTER TABLE engines ADD COLUMN package TEXT DEFAULT '';
 )sql";
 
+constexpr const char* kColumnsOfGrades = R"sql(
+ALTER TABLE cases ADD COLUMN grade TEXT DEFAULT '';
+ALTER TABLE cases ADD COLUMN graded_by TEXT DEFAULT '';
+ALTER TABLE cases ADD COLUMN relative_error;
+ALTER TABLE cases ADD COLUMN ideal_error;
+ALTER TABLE cases ADD COLUMN grade_note TEXT DEFAULT '';
+ALTER TABLE cases ADD COLUMN regression TEXT DEFAULT 'no record';
+ALTER TABLE cases ADD COLUMN regression_reason TEXT DEFAULT '';
+ALTER TABLE metrics ADD COLUMN scale;
+ALTER TABLE metrics ADD COLUMN relative_error;
+ALTER TABLE metrics ADD COLUMN ideal_error;
+ALTER TABLE metrics ADD COLUMN recorded;
+)sql";
+
 /// A committed transaction is on the disk: rollback journal, synced. One file, whole at rest, that can be
 /// copied while nobody writes.
 void prepare(SQLite::Database& database) {
@@ -114,6 +130,7 @@ void upgrade(SQLite::Database& database) {
     if (version < 4) database.exec(kColumnsOfSchema4);
     if (version < 5) database.exec(kBenchTables);
     if (version < 6) database.exec(kColumnsOfSchema6);
+    if (version < kSchemaOfGrades) database.exec(kColumnsOfGrades);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
 }

@@ -26,6 +26,12 @@ constexpr std::array<std::pair<Verdict, const char*>, 7> kVerdicts{
      {Verdict::Timeout, "timeout"},
      {Verdict::NonFinite, "non-finite"}}};
 
+constexpr std::array<std::pair<Regression, const char*>, 4> kRegressions{
+    {{Regression::NoRecord, "no record"},
+     {Regression::Unchanged, "unchanged"},
+     {Regression::Better, "better"},
+     {Regression::Worse, "worse"}}};
+
 template <class Table, class Value>
 const char* nameIn(const Table& table, Value value) {
     for (const auto& [entry, name] : table)
@@ -51,11 +57,17 @@ const char* outcomeName(Outcome outcome) {
 const char* verdictName(Verdict verdict) {
     return nameIn(kVerdicts, verdict);
 }
+const char* regressionName(Regression regression) {
+    return nameIn(kRegressions, regression);
+}
 Outcome parseOutcome(const std::string& name) {
     return valueIn(kOutcomes, name, "outcome");
 }
 Verdict parseVerdict(const std::string& name) {
     return valueIn(kVerdicts, name, "verdict");
+}
+Regression parseRegression(const std::string& name) {
+    return valueIn(kRegressions, name, "regression");
 }
 
 }  // namespace rigor::results

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "validation/results/bench_types.hpp"
+#include "validation/results/grades.hpp"
 
 namespace rigor::results {
 
@@ -25,6 +26,11 @@ const char* verdictName(Verdict verdict);  ///< "pass", "fail", "known deviation
 Outcome parseOutcome(const std::string& name);
 Verdict parseVerdict(const std::string& name);
 
+/// A case beside the record of its engine's version.
+enum class Regression { NoRecord, Unchanged, Better, Worse };
+const char* regressionName(Regression regression);  ///< "no record", "unchanged", "better", "worse"
+Regression parseRegression(const std::string& name);
+
 struct MetricRow {
     std::string name;     ///< of validation/metrics' table
     std::string subject;  ///< body, joint, quantity; "" the whole scene
@@ -36,6 +42,21 @@ struct MetricRow {
     std::optional<double> expectation;  ///< recorded expectation of a known deviation at this dt
     Verdict verdict = Verdict::Pass;    ///< Pass, Fail or KnownDeviation; Pass where there is no bound
     std::string note;                   ///< reason of a known deviation, or why there is no value
+    /// What the value is measured against, in its unit: of the scenario and its exact solution alone. None
+    /// where nothing is (validation/accuracy).
+    std::optional<double> scale = std::nullopt;
+    std::optional<double> relative = std::nullopt;  ///< error over scale, >= 0, infinite for no number
+    std::optional<double> ideal = std::nullopt;     ///< the same of an ideal run of the engine's scheme
+    std::optional<double> recorded = std::nullopt;  ///< value on record for this version of the engine
+};
+
+/// The worst relative error over the metrics that the scenario names: what its grade rests on.
+struct AccuracyRow {
+    Grade grade = Grade::None;
+    std::string metric;              ///< that decides; "" for None
+    std::optional<double> relative;  ///< of that metric
+    std::optional<double> ideal;     ///< likewise, of an ideal run of the scheme; none: unknown
+    std::string note;                ///< why there is no grade
 };
 
 /// A number of the exact solution beside the engine's.
@@ -117,6 +138,9 @@ struct CaseRow {
     std::vector<ReadBackRow> readBack;
     std::vector<AuditRow> audit;
     std::vector<TimingRow> timings;
+    AccuracyRow accuracy = {};
+    Regression regression = Regression::NoRecord;
+    std::string regressionReason = {};  ///< what changed most, or why there is no record
 };
 
 /// Observed order of convergence of a metric over a ladder of time steps: slope of ln error on ln dt.

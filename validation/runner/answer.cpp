@@ -32,7 +32,11 @@ json metricToJson(const MetricRow& m) {
             optional(m.bound),
             optional(m.expectation),
             verdictName(m.verdict),
-            m.note};
+            m.note,
+            optional(m.scale),
+            optional(m.relative),
+            optional(m.ideal),
+            optional(m.recorded)};
 }
 MetricRow metricFromJson(const json& j) {
     return {j.at(0),
@@ -44,7 +48,18 @@ MetricRow metricFromJson(const json& j) {
             optionalFrom(j.at(6)),
             optionalFrom(j.at(7)),
             parseVerdict(j.at(8)),
-            j.at(9)};
+            j.at(9),
+            optionalFrom(j.at(10)),
+            optionalFrom(j.at(11)),
+            optionalFrom(j.at(12)),
+            optionalFrom(j.at(13))};
+}
+
+json accuracyToJson(const AccuracyRow& a) {
+    return {gradeName(a.grade), a.metric, optional(a.relative), optional(a.ideal), a.note};
+}
+AccuracyRow accuracyFromJson(const json& j) {
+    return {parseGrade(j.at(0)), j.at(1), optionalFrom(j.at(2)), optionalFrom(j.at(3)), j.at(4)};
 }
 
 json quantityToJson(const QuantityRow& q) {
@@ -180,7 +195,9 @@ json caseToJson(const CaseRow& c) {
             {"ledger", listToJson(c.ledger, ledgerToJson)},
             {"read_back", listToJson(c.readBack, readBackToJson)},
             {"audit", listToJson(c.audit, auditToJson)},
-            {"timings", listToJson(c.timings, timingToJson)}};
+            {"timings", listToJson(c.timings, timingToJson)},
+            {"accuracy", accuracyToJson(c.accuracy)},
+            {"regression", {regressionName(c.regression), c.regressionReason}}};
 }
 
 CaseRow caseFromJson(const json& j) {
@@ -199,6 +216,8 @@ CaseRow caseFromJson(const json& j) {
     c.readBack = listFromJson(j.at("read_back"), readBackFromJson);
     c.audit = listFromJson(j.at("audit"), auditFromJson);
     c.timings = listFromJson(j.at("timings"), timingFromJson);
+    c.accuracy = accuracyFromJson(j.at("accuracy"));
+    c.regression = parseRegression(j.at("regression").at(0)), c.regressionReason = j.at("regression").at(1);
     return c;
 }
 

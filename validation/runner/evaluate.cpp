@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "validation/accuracy/accuracy.hpp"
 #include "validation/runner/judge.hpp"
 
 namespace rigor::validation {
@@ -39,11 +40,11 @@ MetricRow metricRow(const MetricEntry& entry, const MetricValue& value) {
     return row;
 }
 
-void keepWorstSubjects(std::vector<MetricValue>& values) {
-    if (values.size() <= kMostSubjects) return;
-    std::stable_sort(values.begin() + 1, values.end(),
-                     [](const MetricValue& a, const MetricValue& b) { return a.value > b.value; });
-    values.resize(kMostSubjects);
+void keepWorstSubjects(std::vector<MetricRow>& rows) {
+    if (rows.size() <= kMostSubjects) return;
+    std::stable_sort(rows.begin() + 1, rows.end(),
+                     [](const MetricRow& a, const MetricRow& b) { return a.value > b.value; });
+    rows.resize(kMostSubjects);
 }
 
 /// A bound that is set must be answered: a metric that gives no value is a miss, unless it compares with a
@@ -62,7 +63,8 @@ void addMissing(const MetricEntry& entry, const MetricInput& input, const std::s
     row.metrics.push_back(missing);
 }
 
-void evaluateMetric(const MetricEntry& entry, const MetricInput& input, CaseRow& row) {
+void evaluateMetric(const MetricEntry& entry, const MetricInput& input, RelativeErrors& relative,
+                    CaseRow& row) {
     std::vector<MetricValue> values;
     std::string problem;
     try {
@@ -74,10 +76,13 @@ void evaluateMetric(const MetricEntry& entry, const MetricInput& input, CaseRow&
         addMissing(entry, input, problem, row);
         return;
     }
-    keepWorstSubjects(values);
-    for (const MetricValue& value : values) {
-        row.metrics.push_back(metricRow(entry, value));
-        if (value.subject.empty()) judgeMetric(row.metrics.back(), input.scenario, row);
+    std::vector<MetricRow> rows;
+    for (const MetricValue& value : values) rows.push_back(metricRow(entry, value));
+    relative.fill(entry, rows);
+    keepWorstSubjects(rows);
+    for (MetricRow& metric : rows) {
+        if (metric.subject.empty()) judgeMetric(metric, input.scenario, row);
+        row.metrics.push_back(std::move(metric));
     }
 }
 
@@ -173,7 +178,10 @@ ReferenceOrProblem referenceOf(const Scenario& scenario) {
 }
 
 void evaluateCase(const MetricInput& input, CaseRow& row) {
-    for (const MetricEntry* entry : orderedMetrics(input.scenario)) evaluateMetric(*entry, input, row);
+    RelativeErrors relative(input);
+    for (const MetricEntry* entry : orderedMetrics(input.scenario))
+        evaluateMetric(*entry, input, relative, row);
+    row.accuracy = relative.accuracyOf(row.metrics);
     if (input.reference == nullptr) return;
     for (const Quantity& q : input.reference->quantities(row.dt, input.scheme))
         row.quantities.push_back(

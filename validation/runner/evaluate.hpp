@@ -21,8 +21,8 @@ struct ReferenceOrProblem {
 };
 ReferenceOrProblem referenceOf(const scenario::Scenario& scenario);
 
-/// Fills metrics (those that matter to the scenario first) and quantities of `row`, whose engine, preset and
-/// dt are set.
+/// Fills metrics (those that matter to the scenario first), accuracy and quantities of `row`, whose engine,
+/// preset and dt are set.
 void evaluateCase(const MetricInput& input, results::CaseRow& row);
 
 /// The trajectory, the exact states at the same times, and the diagnostic curves, ready to be written.

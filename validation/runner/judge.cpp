@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "adapters/interface/presets.hpp"
+#include "validation/results/judgement.hpp"
 #include "validation/runner/read_back.hpp"
 #include "validation/runner/runner.hpp"
 
@@ -124,15 +125,17 @@ void judgeMetric(MetricRow& row, const Scenario& scenario, const CaseRow& judged
     if (bound == nullptr) bound = boundEverywhere(row.name);
     const auto* known = deviationFor(scenario, judged.engine, judged.preset, row.name);
     if (bound != nullptr) row.bound = boundAt(*bound, scenario, judged.dt);
-    if (known != nullptr) row.expectation = known->max;
-    const bool within = bound != nullptr && row.value <= *row.bound;  // false for NaN
+    if (known != nullptr && std::isfinite(known->max)) row.expectation = known->max;
+    const bool misses = bound != nullptr && !(row.value <= *row.bound);  // true for NaN
     const bool asKnown = known != nullptr && row.value <= known->max;
-    if (bound == nullptr && known == nullptr)
-        row.verdict = Verdict::Pass;
-    else if (within || (bound == nullptr && asKnown))
-        row.verdict = Verdict::Pass;
-    else
+    const bool isWrong = row.relative && results::gradeOf(*row.relative) == results::Grade::E;
+    if (misses)
         row.verdict = asKnown ? Verdict::KnownDeviation : Verdict::Fail;
+    else if (bound == nullptr && known != nullptr && !asKnown)
+        row.verdict = Verdict::Fail;
+    else
+        row.verdict =
+            bound == nullptr && known != nullptr && isWrong ? Verdict::KnownDeviation : Verdict::Pass;
     if (row.verdict == Verdict::KnownDeviation) row.note = known->reason;
 }
 
@@ -144,17 +147,7 @@ void judgeCase(CaseRow& row, const Scenario& scenario) {
 }
 
 bool runIsGreen(const results::Run& run) {
-    return std::none_of(run.cases.begin(), run.cases.end(), [](const CaseRow& c) {
-        switch (c.verdict) {
-            case Verdict::Pass:
-            case Verdict::Unsupported:
-                return false;
-            case Verdict::KnownDeviation:
-                return c.engine == kInHouseEngine;
-            default:
-                return true;
-        }
-    });
+    return std::none_of(run.cases.begin(), run.cases.end(), results::isRed);
 }
 
 }  // namespace rigor::validation

@@ -7,12 +7,11 @@
 #include <string>
 
 #include "scenarios/model/scenario.hpp"
-#include "validation/results/types.hpp"
+#include "validation/results/judgement.hpp"
 
 namespace rigor::validation {
 
-/// The one engine that is held to its bounds without excuses: a known deviation of it is a missed bound.
-inline constexpr const char* kInHouseEngine = "rigor";
+using results::kInHouseEngine;
 
 /// The bound of a case for a metric: the entry for its engine and preset, else for its engine, else for "*";
 /// null when there is none. Bounds that name an engine are meant for double precision: in single precision
@@ -26,7 +25,9 @@ const scenario::KnownDeviation* deviationFor(const scenario::Scenario& scenario,
 double boundAt(const scenario::Bound& bound, const scenario::Scenario& scenario, double dt);
 
 /// Sets bound, expectation, verdict and note of a whole-scene row ("" as subject) from the scenario, or from
-/// what holds everywhere (what contacts say of themselves). A value that is NaN misses every bound.
+/// what holds everywhere (what contacts say of themselves). A value that is NaN misses every bound. Without a
+/// bound a known deviation is one of wrong physics: it counts where the relative error, set before, is of
+/// grade E.
 void judgeMetric(results::MetricRow& row, const scenario::Scenario& scenario, const results::CaseRow& judged);
 
 /// Sets verdict (and reason where it has none) of a case from its outcome, metrics and read-back. A known

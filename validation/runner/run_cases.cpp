@@ -9,6 +9,7 @@
 #include <set>
 
 #include "validation/comparison/ladders.hpp"
+#include "validation/comparison/regression.hpp"
 #include "validation/results/store.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/audit.hpp"
@@ -120,6 +121,8 @@ class RunInProgress {
         writer_.writeHeader(header);
         writeScenarioFiles(plan_, directory_);
         for (const auto& s : header.scenarios) fromLibrary_[s.name] = isLibraryScenario(s.name, s.text);
+        for (const auto& s : header.scenarios) scenarios_[s.name] = s;
+        if (!options_.records.empty()) record_ = Record(options_.records, header.engines);
 
         progress_.total = static_cast<std::int64_t>(plan_.size());
         for (const CasePlan& c : plan_) ++open_[c.scenario.name];
@@ -152,10 +155,9 @@ class RunInProgress {
     /// A case that an earlier part of the run has stored.
     void keep(std::size_t index, const CaseRow& stored) {
         CaseRow row = stored;
-        if (row.position != static_cast<std::int64_t>(index)) {
-            row.position = static_cast<std::int64_t>(index);
-            writer_.writeCase(row);
-        }
+        row.position = static_cast<std::int64_t>(index);
+        compareWithRecord(record_, scenarios_.at(row.scenario), row);
+        if (row.position != stored.position || row.regression != stored.regression) writer_.writeCase(row);
         ++progress_.skipped;
         count(row);
         closed(plan_[index], row);
@@ -190,6 +192,7 @@ class RunInProgress {
         row.command = reproduceCommand(c, options_.directory, fromLibrary_[c.scenario.name]);
         removePart(c.id);
         if (json && fs::exists(directory_ / trajectoryName(c.id))) row.trajectoryFile = trajectoryName(c.id);
+        compareWithRecord(record_, scenarios_.at(row.scenario), row);
         writer_.writeCase(row);
         std::error_code ignored;
         fs::remove(answer, ignored);
@@ -255,6 +258,8 @@ class RunInProgress {
     Progress progress_;
     std::chrono::steady_clock::time_point started_;
     std::map<std::string, bool> fromLibrary_;
+    std::map<std::string, results::ScenarioRow> scenarios_;
+    Record record_;
     std::map<std::string, int> open_;  ///< cases of a scenario still to come
     std::map<std::string, std::map<std::string, CaseRow>> unaudited_;
 };

@@ -37,6 +37,7 @@ struct RunOptions {
     bool resume = false;
     bool audit = true;
     std::size_t memoryLimitMiB = 4096;  ///< per child
+    std::filesystem::path records;      ///< folder of what engine versions gave; "": nothing is on record
     std::string suite, command;
 };
 
@@ -95,8 +96,7 @@ struct LiveOptions {
 LiveCase runInProcess(const scenario::Scenario& scenario, const adapter::EngineSpec& spec, double dt,
                       const LiveOptions& options);
 
-/// 0 unless the in-house engine missed a bound, an engine left its recorded expectation, or a case crashed
-/// unexpectedly.
+/// No case is red (validation/results/judgement.hpp).
 bool runIsGreen(const results::Run& run);
 
 }  // namespace rigor::validation

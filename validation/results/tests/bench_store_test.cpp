@@ -142,6 +142,11 @@ TEST(BenchStore, ARunOfTheSchemaBeforeHasNone) {
             database.exec(std::string("DROP TABLE ") + table);
         database.exec("ALTER TABLE engines DROP COLUMN package");
         database.exec("ALTER TABLE cases DROP COLUMN refusal");
+        for (const char* column : {"grade", "graded_by", "relative_error", "ideal_error", "grade_note",
+                                   "regression", "regression_reason"})
+            database.exec(std::string("ALTER TABLE cases DROP COLUMN ") + column);
+        for (const char* column : {"scale", "relative_error", "ideal_error", "recorded"})
+            database.exec(std::string("ALTER TABLE metrics DROP COLUMN ") + column);
         database.exec("PRAGMA user_version = 4");
     }
     EXPECT_TRUE(readRun(folder.path()).bench.empty());

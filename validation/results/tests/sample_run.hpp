@@ -55,10 +55,10 @@ inline CaseRow caseRow(const std::string& id, std::int64_t position) {
     c.steps = 1ll << 40, c.peakMemoryKiB = 12345;
     c.stateHash = "00ff", c.trajectoryFile = "trajectories/x.h5", c.command = "./rigor run slide";
     c.settings = {{"iterations", "20"}, {"solver", "quickstep"}};
-    c.metrics = {
-        {"position_final", "", "m", "exact", 0.1 + 0.2, 1.5, 0.02, 0.5, Verdict::KnownDeviation, "skin"},
-        {"energy_drift", "block", "1", "invariant", kNanValue, -1.0, {}, {}, Verdict::Pass, ""},
-        {"sink", "", "m", "rest", kInf, -0.0, -kInf, kDenormal, Verdict::Fail, ""}};
+    c.metrics = {{"position_final", "", "m", "exact", 0.1 + 0.2, 1.5, 0.02, 0.5, Verdict::KnownDeviation,
+                  "skin", 1.0 / 3.0, kInf, kDenormal, -0.0},
+                 {"energy_drift", "block", "1", "invariant", kNanValue, -1.0, {}, {}, Verdict::Pass, ""},
+                 {"sink", "", "m", "rest", kInf, -0.0, -kInf, kDenormal, Verdict::Fail, ""}};
     c.quantities = {{"stop_distance", "m", 1.63, 1.64, {}}, {"t", "s", 1.0, {}, kNanValue}};
     c.ledger = {{"friction_law", "cone", "pyramid", "approximate", "the library has no other"}};
     c.readBack = {{"mass", "block", 2.0, std::nextafter(2.0, 3.0), 4.4e-16, true},
@@ -67,6 +67,8 @@ inline CaseRow caseRow(const std::string& id, std::int64_t position) {
         {"bullet", "completed", 20, 40, 10, 1, 2, 3, 1e-3, {}, kDenormal, -0.0, {}, "block|floor", "note"}};
     c.timings = {{"step", 1e-6, 5e-7, 2e-6, 0.5, 360, 4.0, 0.1 + 0.2, kDenormal, 7},
                  {"build", 1e-6, 5e-7, 2e-6, 0.5, 1, 4.0}};
+    c.accuracy = {Grade::D, "position_final", 0.1 / 3.0, {}, "why not"};
+    c.regression = Regression::Worse, c.regressionReason = "position_final 0.2 -> 0.3 m";
     return c;
 }
 

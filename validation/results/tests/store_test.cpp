@@ -45,6 +45,10 @@ void expectSameMeasured(const CaseRow& a, const CaseRow& b) {
         expectSame("at", m.at, n.at);
         expectSame("bound", m.bound, n.bound);
         expectSame("expectation", m.expectation, n.expectation);
+        expectSame("scale", m.scale, n.scale);
+        expectSame("relative", m.relative, n.relative);
+        expectSame("ideal", m.ideal, n.ideal);
+        expectSame("recorded", m.recorded, n.recorded);
     }
     ASSERT_EQ(a.quantities.size(), b.quantities.size());
     for (std::size_t i = 0; i < a.quantities.size(); ++i) {
@@ -100,6 +104,10 @@ void expectSame(const CaseRow& a, const CaseRow& b) {
               std::tie(b.id, b.position, b.scenario, b.spec, b.engine, b.preset, b.dt, b.outcome, b.verdict,
                        b.reason, b.wallSeconds, b.cpuSeconds, b.steps, b.peakMemoryKiB, b.stateHash,
                        b.trajectoryFile, b.command, b.refusal));
+    const AccuracyRow &x = a.accuracy, &y = b.accuracy;
+    EXPECT_EQ(std::tie(x.grade, x.metric, x.relative, x.ideal, x.note),
+              std::tie(y.grade, y.metric, y.relative, y.ideal, y.note));
+    EXPECT_EQ(std::tie(a.regression, a.regressionReason), std::tie(b.regression, b.regressionReason));
     expectSameMeasured(a, b);
     expectSameParity(a, b);
 }
@@ -244,8 +252,17 @@ TEST(Store, AnalysisIsReplacedAsAWhole) {
     expectAnalysed(readRun(folder.path()));
 }
 
+void takeBackGrades(SQLite::Database& database) {
+    for (const char* column : {"grade", "graded_by", "relative_error", "ideal_error", "grade_note",
+                               "regression", "regression_reason"})
+        database.exec(std::string("ALTER TABLE cases DROP COLUMN ") + column);
+    for (const char* column : {"scale", "relative_error", "ideal_error", "recorded"})
+        database.exec(std::string("ALTER TABLE metrics DROP COLUMN ") + column);
+}
+
 /// Makes the store what an older rigor would have written.
 void takeBackTo(SQLite::Database& database, int version) {
+    takeBackGrades(database);
     for (const char* table : {"bench_values", "bench_repetitions", "bench_summaries", "bench_changes",
                               "bench_cases", "bench_settings"})
         database.exec(std::string("DROP TABLE ") + table);
@@ -312,6 +329,9 @@ TEST(Store, WhatOlderSchemasLackedIsEmpty) {
         EXPECT_EQ(timing.low, std::nullopt);
         EXPECT_EQ(timing.high, std::nullopt);
         EXPECT_EQ(timing.bodies, 0);
+        EXPECT_EQ(run.cases[0].accuracy.grade, Grade::None);
+        EXPECT_EQ(run.cases[0].regression, Regression::NoRecord);
+        EXPECT_EQ(run.cases[0].metrics.at(0).relative, std::nullopt);
     };
     expectOld(2);
     { RunWriter(folder.path(), true); }

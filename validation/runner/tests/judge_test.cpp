@@ -80,6 +80,31 @@ TEST(MetricVerdict, SinglePrecisionIsHeldToEveryonesBound) {
     EXPECT_EQ(row.verdict, Verdict::Pass);
 }
 
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+/// Without a bound a deviation is one of wrong physics: its grade decides, not an amount.
+TEST(MetricVerdict, ADeviationWithoutABoundIsOneOfGradeE) {
+    Scenario s;
+    s.timeSteps = {0.1};
+    s.knownDeviations = {{"ode", "", "way", kInf, "another law of friction"},
+                         {"ode", "", "turn", 3.0, "another law of friction"}};
+    results::CaseRow c;
+    c.engine = "ode", c.dt = 0.1;
+    const auto judged = [&](const std::string& metric, double value, std::optional<double> relative) {
+        results::MetricRow row;
+        row.name = metric, row.value = value, row.relative = relative;
+        judgeMetric(row, s, c);
+        return row;
+    };
+    EXPECT_EQ(judged("way", 1.0, 0.1).verdict, Verdict::Pass) << "grade D is accuracy, not another law";
+    EXPECT_EQ(judged("way", 1.0, 0.11).verdict, Verdict::KnownDeviation);
+    EXPECT_EQ(judged("way", 1.0, 0.11).note, "another law of friction");
+    EXPECT_EQ(judged("way", 1e9, {}).verdict, Verdict::Pass) << "nothing to be wrong against";
+    EXPECT_EQ(judged("turn", 2.9, 0.5).verdict, Verdict::KnownDeviation);
+    EXPECT_EQ(judged("turn", 3.1, 0.5).verdict, Verdict::Fail) << "beyond the amount it was given";
+    EXPECT_EQ(judged("other", 1e9, 9.0).verdict, Verdict::Pass) << "accuracy is graded, not judged";
+}
+
 results::CaseRow caseWith(const std::string& engine, Outcome outcome) {
     results::CaseRow row;
     row.engine = engine, row.preset = "default", row.outcome = outcome;
@@ -148,6 +173,24 @@ TEST(Green, IsWhatTheExitCodeSays) {
     }
     EXPECT_TRUE(green("ode", Verdict::KnownDeviation));
     EXPECT_FALSE(green(kInHouseEngine, Verdict::KnownDeviation)) << "it may not excuse itself";
+}
+
+TEST(Green, TheInHouseEngineMayNotBecomeWorseAndOthersMayNotLoseAGrade) {
+    const auto green = [](const std::string& engine, results::Regression regression, double value) {
+        results::Run run;
+        results::CaseRow& c = run.cases.emplace_back();
+        c.engine = engine, c.regression = regression;
+        results::MetricRow& m = c.metrics.emplace_back();
+        m.name = "way", m.scale = 2.0, m.value = value, m.recorded = 0.018, m.relative = value / 2.0;
+        c.accuracy.grade = results::gradeOf(value / 2.0);
+        return runIsGreen(run);
+    };
+    using results::Regression;
+    EXPECT_FALSE(green(kInHouseEngine, Regression::Worse, 0.019));
+    EXPECT_TRUE(green("ode", Regression::Worse, 0.019)) << "told, and still of grade C";
+    EXPECT_FALSE(green("ode", Regression::Worse, 0.021)) << "of grade D now";
+    for (const auto r : {Regression::NoRecord, Regression::Unchanged, Regression::Better})
+        EXPECT_TRUE(green(kInHouseEngine, r, 0.9));
 }
 
 }  // namespace

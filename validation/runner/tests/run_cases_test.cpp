@@ -11,6 +11,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "validation/comparison/recorded.hpp"
+#include "validation/results/judgement.hpp"
 #include "validation/results/store.hpp"
 #include "validation/results/trajectory_file.hpp"
 #include "validation/runner/answer.hpp"
@@ -193,6 +195,40 @@ TEST_F(RunCases, BoundsDecideTheVerdict) {
     EXPECT_THAT(rowOf(wide, "double_drifting").reason, HasSubstr("position_final"));
     const auto narrow = judged("narrow", "0.005");
     EXPECT_EQ(rowOf(narrow, "double_free_flight").verdict, Verdict::Fail);
+}
+
+/// The ball flies 4 m and more; symplectic Euler is 0.0074 m off, a thousandth: grade C, as its scheme has
+/// it. The one that drifts is a metre off.
+TEST_F(RunCases, AccuracyIsGradedAndChangesAreSeenAgainstTheRecord) {
+    const std::string engines = "double_free_flight:preset=default,double_drifting:preset=default";
+    const auto cases = plan({thrownBall("ball")}, engines);
+    const auto first = RunCases::run(cases, options("first"));
+    const auto &honest = rowOf(first, "double_free_flight"), &drifting = rowOf(first, "double_drifting");
+    EXPECT_EQ(honest.accuracy.grade, results::Grade::C) << *honest.accuracy.relative;
+    EXPECT_EQ(honest.accuracy.metric, "position_final");
+    EXPECT_EQ(results::againstScheme(honest.accuracy.relative, honest.accuracy.ideal),
+              results::AgainstScheme::Same);
+    EXPECT_EQ(drifting.accuracy.grade, results::Grade::E) << *drifting.accuracy.relative;
+    EXPECT_EQ(results::againstScheme(drifting.accuracy.relative, drifting.accuracy.ideal),
+              results::AgainstScheme::Farther);
+    EXPECT_EQ(honest.regression, results::Regression::NoRecord);
+    EXPECT_TRUE(runIsGreen(first)) << "a metre off, and nothing that was better before";
+
+    auto again = options("again");
+    again.records = options("record").directory;
+    (void)writeRecorded(first, again.records);
+    const auto second = RunCases::run(cases, again);
+    for (const auto& c : second.cases)
+        EXPECT_EQ(c.regression, results::Regression::Unchanged) << c.regressionReason;
+
+    auto better = first;  // of another day
+    for (auto& c : better.cases)
+        for (auto& m : c.metrics) m.value *= 0.01;
+    (void)writeRecorded(better, again.records);
+    again.directory = options("third").directory;
+    const auto third = RunCases::run(cases, again);
+    for (const auto& c : third.cases) EXPECT_EQ(c.regression, results::Regression::Worse);
+    EXPECT_FALSE(runIsGreen(third)) << "they lost a grade";
 }
 
 /// The reference's assumption (no contact) is broken by the scenario itself: the case runs, the reason is

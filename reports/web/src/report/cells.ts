@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A cell of the scoreboard: the cases of one scenario in one column, their verdict, error and cost.
+// A cell of the scoreboard: the cases of one scenario in one column, their grade, ending, error and cost.
 import { toNumber } from '../common/format.ts';
 import type { BriefCase, Column, Scenario, Shown } from './data.ts';
 
@@ -43,13 +43,12 @@ export function cellOf(scenario: Scenario, column: Column, step: StepChoice = 'a
 export const errorOf = (cell: Cell | null): number =>
   cell === null || isLost(cell.worst.shown) ? NaN : Math.abs(toNumber(cell.at.value));
 
-/** Error in bounds; NaN where nothing was demanded. A bound of zero is met or missed by any factor. */
-export function errorInBounds(cell: Cell | null): number {
-  const error = errorOf(cell);
-  const bound = toNumber(cell?.at.bound);
-  if (bound === 0) return error === 0 ? 0 : Infinity;
-  return error / bound;
-}
+/** The error over the scenario's own scale that its grade rests on; NaN where it has none. */
+export const relativeOf = (cell: Cell | null): number =>
+  cell === null || isLost(cell.worst.shown) ? NaN : toNumber(cell.at.judged.relative);
+
+/** What a cell is marked with: its grade where it ran, else how it ended. */
+export const gradeOf = (cell: Cell): string => (isLost(cell.worst.shown) ? '' : cell.at.judged.grade);
 
 export const costOf = (cell: Cell | null): number => toNumber(cell?.at.step?.median);
 

@@ -89,6 +89,23 @@ export interface Miss {
   at: Stored; // [s]; < 0 unknown
 }
 
+export type Regression = 'unchanged' | 'better' | 'worse' | 'no record';
+
+/** How near a case is to the physics, and whether it changed: counted and worded by reports/standings.cpp, sentences.cpp. */
+export interface Judged {
+  grade: string; // "A" .. "E"; "": not graded
+  by: string; // the metric that decides
+  relative: Maybe; // its error over the scenario's own scale
+  ideal: Maybe; // the same of an ideal run of the engine's scheme; null: not known
+  beside: 'unknown' | 'nearer' | 'same' | 'farther'; // that ideal run
+  toBest: Maybe; // main error over the smallest at this time step
+  toOurs: Maybe; // over the in-house engine's
+  regression: Regression;
+  red: boolean;
+  says: string; // on accuracy, a sentence
+  change: string; // on the record, a sentence; may be ""
+}
+
 /** A case as the overview knows it. */
 export interface BriefCase {
   id: string;
@@ -104,6 +121,7 @@ export interface BriefCase {
   step: Step | null;
   inRun: InRun | null;
   miss?: Miss | null; // the metric furthest outside its bound
+  judged: Judged;
 }
 
 export interface MainMetric {
@@ -134,17 +152,29 @@ export interface Scenario {
   cases: BriefCase[];
 }
 
+/** How a column did over some scenarios, each at its finest time step. */
 export interface Standing {
-  scenarios: number;
-  ran: number;
-  good: number;
-  bad: number;
-  ratio: Stored; // typical error over the best engine's
+  scenarios: number; // it could take part in
+  lost: number; // crashed, timed out, not finite, or not what was asked for
+  grades: number[]; // scenarios of grade A to E
+  within: number; // of grade C or better
+  ungraded: number;
+  known: number; // wrong physics with a reason on file
+  farther: number; // than its own scheme
+  red: number;
+  toBest: Maybe; // typical error over the best engine's
+  toOurs: Maybe; // over the in-house engine's
+  cost: Maybe; // median of a step [s]
+  costRatio: Maybe; // over the cheapest engine's
 }
 
+/** Scenarios of one mechanism, or of one thing that people simulate. */
 export interface Mechanism {
-  name: string;
+  name: string; // of a task: its key
+  title: string; // of a task
+  about: string;
   scenarios: string[];
+  order: number[]; // columns that took part, the most trusted first
   best: number; // column; -1: nobody
   standings: Standing[]; // per column
 }
@@ -195,7 +225,13 @@ export interface Run {
   columns: Column[];
   engines: Engine[];
   scenarios: Scenario[];
+  grades: { name: string; meaning: string; count: number }[]; // A to E, then ""
+  regressions: Record<Regression, number>;
+  red: number;
+  inHouse: string; // engine of the authors
   mechanisms: Mechanism[];
+  tasks: Mechanism[];
+  overall: Mechanism;
   audit: { scenario: string; rows: Audit[] }[];
   ledger: GatheredLedger[];
 }
@@ -261,6 +297,11 @@ export interface Metric {
   expectation: Maybe;
   verdict: string;
   note: string;
+  scale: Maybe; // what the value is measured against, in its unit
+  relative: Maybe;
+  ideal: Maybe;
+  recorded: Maybe;
+  grade: string;
 }
 
 export interface Quantity {
@@ -327,6 +368,7 @@ export interface Case {
   audit: Audit[];
   timings: Timing[];
   curves: Curves | null;
+  judged: Judged;
 }
 
 export interface Order {

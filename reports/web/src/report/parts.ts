@@ -4,7 +4,7 @@
 // What the sections are made of: panels, chips, number cells, heads of tables with a column per engine.
 import { type Attributes, type Child, el } from '../common/elements.ts';
 import { duration, format, full, type Maybe, timeStep } from '../common/format.ts';
-import type { Column, Shown } from './data.ts';
+import type { Column, Regression, Shown } from './data.ts';
 import { engineLink, subtitleOf, verdictText } from './run.ts';
 
 export const panel = (id: string, title: string | null, ...children: Child[]): HTMLElement =>
@@ -17,6 +17,27 @@ export function chip(shown: Shown, text?: Child, title?: string): HTMLElement {
   const v = verdictText(shown);
   const symbol = el('span', { class: 'sym', 'aria-hidden': 'true' }, v.symbol);
   return el('span', { class: `chip v v-${shown}`, title }, symbol, text ?? v.word);
+}
+
+/** A grade of accuracy: its letter, or what is said instead; how a case ended where it has none. */
+export const gradeChip = (grade: string, text?: Child, title?: string): HTMLElement =>
+  el('span', { class: `chip v g-${grade || 'none'}`, title }, text ?? (grade || 'not graded'));
+
+/** ▼ worse, ▲ better than on record. */
+export const changeMark = (regression: Regression): string =>
+  regression === 'worse' ? '▼' : regression === 'better' ? '▲' : '';
+
+/** Scenarios by grade, as a bar of five parts and in numbers. */
+export function gradeBar(grades: number[]): HTMLElement {
+  const names = ['A', 'B', 'C', 'D', 'E'];
+  const text = names.map((name, i) => `${name} ${grades[i] ?? 0}`).join(', ');
+  return el(
+    'span',
+    { class: 'gradebar', title: text, role: 'img', 'aria-label': text },
+    names.map((name, i) =>
+      grades[i] ? el('i', { class: `v g-${name}`, style: `flex-grow:${grades[i]}` }, `${name} ${grades[i]}`) : null,
+    ),
+  );
 }
 
 /** A number in a table: short to read, all digits on hover and in `data-value`. */

@@ -27,6 +27,33 @@ describe('the report of a real run', { skip }, () => {
     it.clean();
   });
 
+  test('counts grades and changes as the store does, and never together', async () => {
+    await it.open();
+    const texts = async (what: string) =>
+      (await it.page.locator(`#summary [data-count="${what}"] .stat b`).allTextContents()).map((t) => t.trim());
+    const grades = query(
+      it.run,
+      "SELECT CASE grade WHEN '' THEN '–' ELSE grade END || ' ' || count(*) FROM cases WHERE outcome = 'completed' GROUP BY grade",
+    ).flat();
+    assert.deepEqual((await texts('accuracy')).sort(), grades.sort());
+    const changes = query(it.run, 'SELECT count(*) FROM cases GROUP BY regression').flat().map(String);
+    assert.deepEqual((await texts('regression')).sort(), changes.sort());
+    it.clean();
+  });
+
+  test('a scenario says what is claimed of every run', async () => {
+    await it.open('#/scenario/slide_and_stop');
+    const rows = it.page.locator('#verdicts tbody tr');
+    const ran = query(
+      it.run,
+      "SELECT count(*) FROM cases WHERE scenario = 'slide_and_stop' AND outcome = 'completed'",
+    ).flat()[0];
+    assert.equal(await rows.count(), ran);
+    for (const claim of await rows.locator('td.claim:nth-of-type(2)').allTextContents())
+      assert.match(claim, /^Grade [A-E] at 1\/\d+ s: .*(scheme|known)/);
+    it.clean();
+  });
+
   test('filters and sorts', async () => {
     await it.open();
     const all = await rows();
@@ -42,12 +69,15 @@ describe('the report of a real run', { skip }, () => {
     const columns = query(it.run, "SELECT count(DISTINCT spec) FROM cases WHERE preset = 'matched'").flat()[0];
     assert.equal(await it.page.locator('#scoreboard tbody tr').first().locator('a.cell').count(), columns);
     await it.page.getByRole('button', { name: 'Reset' }).click();
-    await it.page.getByLabel('Verdict').selectOption('known_deviation');
+    await it.page.getByLabel('Ending').selectOption('known_deviation');
     const deviating = query(
       it.run,
       "SELECT count(DISTINCT scenario) FROM cases WHERE verdict = 'known deviation'",
     ).flat()[0];
     assert.equal(await rows(), deviating);
+    await it.page.getByRole('button', { name: 'Reset' }).click();
+    await it.page.getByLabel('Grade').selectOption('C');
+    assert.equal(await rows(), query(it.run, "SELECT count(DISTINCT scenario) FROM cases WHERE grade = 'C'").flat()[0]);
     await it.page.getByRole('button', { name: 'Reset' }).click();
     await it.page.locator('#scoreboard thead th').first().getByRole('button').click();
     const sorted = await it.page.locator('#scoreboard tbody th a').allTextContents();
@@ -190,7 +220,7 @@ describe('the report of a real run', { skip }, () => {
     ).flat()[0];
     assert.match(
       (await it.page.locator('#deviations').textContent()) ?? '',
-      new RegExp(`Deviates as recorded: ${deviating}`),
+      new RegExp(deviating ? `Wrong physics with a reason on file: ${deviating}` : ''),
     );
     await it.page.screenshot({ path: join(screenshots, 'engine.png') });
     it.clean();

@@ -4,11 +4,11 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { newCursor } from '../../src/common/cursor.ts';
 import { angle, duration, format, median, ratio, timeStep, toNumber } from '../../src/common/format.ts';
-import { cellOf, errorInBounds, errorOf, logPlace, severity } from '../../src/report/cells.ts';
+import { cellOf, errorOf, gradeOf, logPlace, relativeOf, severity } from '../../src/report/cells.ts';
 import { barScale } from '../../src/report/charts/bars.ts';
 import { logTicks, nearest, spreadsByDecades, unpack, widened, withGaps } from '../../src/report/charts/samples.ts';
-import type { BriefCase, Column, Scenario } from '../../src/report/data.ts';
-import { ranked, ratiosToBest, standings, worstMiss } from '../../src/report/standing.ts';
+import type { BriefCase, Column, Judged, Mechanism, Scenario, Standing } from '../../src/report/data.ts';
+import { placed, wrongIn } from '../../src/report/standing.ts';
 
 test('numbers are read and written', () => {
   assert.equal(toNumber('inf'), Infinity);
@@ -39,6 +39,20 @@ test('an observable tells of changes alone, with who made them', () => {
 });
 
 const column = (spec: string): Column => ({ spec, engine: spec, preset: '', options: '', label: spec });
+const judged = (more: Partial<Judged> = {}): Judged => ({
+  grade: 'C',
+  by: 'position_final',
+  relative: 0.005,
+  ideal: null,
+  beside: 'unknown',
+  toBest: 1,
+  toOurs: null,
+  regression: 'unchanged',
+  red: false,
+  says: '',
+  change: '',
+  ...more,
+});
 const brief = (spec: string, value: number, more: Partial<BriefCase> = {}): BriefCase => ({
   id: '',
   spec,
@@ -51,6 +65,7 @@ const brief = (spec: string, value: number, more: Partial<BriefCase> = {}): Brie
   bound: 1,
   step: { median: 1e-6, p10: 1e-6, p90: 1e-6, samples: 9, contacts: 1 },
   inRun: null,
+  judged: judged(),
   ...more,
 });
 const scenario = (name: string, cases: BriefCase[]) => ({ name, reference: 'exact', cases }) as unknown as Scenario;
@@ -60,7 +75,8 @@ test('a cell is the worst of its time steps, with the numbers of the finest', ()
   const cell = cellOf(s, column('x'));
   assert.equal(cell?.worst.shown, 'fail');
   assert.equal(errorOf(cell), 0.25);
-  assert.equal(errorInBounds(cell), 0.25);
+  assert.equal(relativeOf(cell), 0.005);
+  assert.deepEqual([gradeOf(cell as NonNullable<typeof cell>)], ['C']);
   assert.equal(cellOf(s, column('z')), null);
   assert.ok(
     Number.isNaN(errorOf(cellOf(scenario('b', [brief('x', 1, { shown: 'crashed' })]), column('x')))),
@@ -78,29 +94,43 @@ test('places on a logarithmic bar', () => {
   assert.ok(Number.isNaN(logPlace(Number.NaN, 1e-3, 1)));
 });
 
-test('errors below rounding count as equal', () => {
-  const [a, b, c] = ratiosToBest([1e-16, 1e-9, 1e-3]) as [number, number, number];
-  assert.ok(b / a < 1.01);
-  assert.ok(c > 100);
-  assert.deepEqual(ratiosToBest([Number.NaN]), [Number.NaN]);
-});
-
-test('who fails least is named first, then who is within bounds, then who is most accurate', () => {
-  const lists = [
-    scenario('one', [brief('good', 0.2), brief('off', 0.1, { shown: 'known_deviation' }), brief('bad', 0.1)]),
-    scenario('two', [
-      brief('good', 0.2),
-      brief('off', 0.1),
-      brief('bad', 5, { shown: 'fail', miss: { name: 'm', subject: '', unit: '', value: 5, bound: 1, at: -1 } }),
-    ]),
-  ];
-  const summary = ranked(standings(lists, ['bad', 'off', 'good'].map(column)));
+test('standings meet their columns in the order that was counted', () => {
+  const standing = (within: number): Standing => ({
+    scenarios: 2,
+    lost: 0,
+    grades: [0, 0, within, 0, 2 - within],
+    within,
+    ungraded: 0,
+    known: 0,
+    farther: 0,
+    red: 0,
+    toBest: 1,
+    toOurs: null,
+    cost: null,
+    costRatio: null,
+  });
+  const m: Mechanism = {
+    name: 'm',
+    title: '',
+    about: '',
+    scenarios: ['one', 'two'],
+    order: [1, 0],
+    best: 1,
+    standings: [standing(1), standing(2)],
+  };
   assert.deepEqual(
-    summary.map((s) => s.column.spec),
-    ['good', 'off', 'bad'],
+    placed(m, ['bad', 'good'].map(column)).map((s) => [s.column.spec, s.within]),
+    [
+      ['good', 2],
+      ['bad', 1],
+    ],
   );
-  const worst = worstMiss(summary[2] as (typeof summary)[number]);
-  assert.deepEqual([worst?.scenario.name, worst?.times], ['two', 5]);
+  const lists = [
+    scenario('one', [brief('bad', 0.1), brief('lost', 1, { shown: 'crashed' })]),
+    scenario('two', [brief('bad', 5, { judged: judged({ grade: 'E' }) })]),
+  ];
+  const wrong = (spec: string) => wrongIn(lists, column(spec)).map((w) => w.scenario.name);
+  assert.deepEqual([wrong('bad'), wrong('lost'), wrong('good')], [['two'], ['one'], []]);
 });
 
 test('samples', () => {

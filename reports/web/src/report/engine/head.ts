@@ -1,53 +1,50 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { type Child, el } from '../../common/elements.ts';
-import { duration, format, ratio } from '../../common/format.ts';
+import { duration, ratio } from '../../common/format.ts';
 import type { Engine } from '../data.ts';
-import { chip, facts, headRow, panel, scroll } from '../parts.ts';
-import { engineLink, run, scenarioLink } from '../run.ts';
-import { standings } from '../standing.ts';
+import { wrongText } from '../overview/trust.ts';
+import { chip, facts, gradeBar, headRow, panel, scroll } from '../parts.ts';
+import { engineLink, run } from '../run.ts';
+import { type Placed, placed } from '../standing.ts';
 
 /** What it is, and how its columns did over all scenarios. */
 export function engineHead(engine: Engine): HTMLElement {
-  const columns = run.columns.filter((c) => c.engine === engine.name);
-  const list = standings(run.scenarios, run.columns).filter((s) => columns.includes(s.column));
+  const list = placed(run.overall, run.columns).filter((s) => s.column.engine === engine.name);
   const others = run.engines.filter((e) => e !== engine);
   const rows: [string, Child][] = [
     ['Version', engine.version],
     ['Precision', engine.precision],
     ['Build', engine.buildNotes],
   ];
-  const row = (s: (typeof list)[number]) =>
+  const row = (s: Placed) =>
     el(
       'tr',
       null,
       el('th', { class: 'sticky', scope: 'row' }, s.column.label),
       el('td', { class: 'num' }, `${s.scenarios} of ${run.scenarios.length}`),
-      el('td', { class: 'num' }, s.bad.length ? chip('fail', s.bad.length) : s.scenarios ? chip('pass', 0) : '—'),
-      el('td', { class: 'num' }, s.known.length ? chip('known_deviation', s.known.length) : 0),
-      el('td', { class: 'num' }, ratio(s.ratio) || '—'),
-      el('td', { class: 'num' }, Number.isFinite(s.inBounds) ? `${format(100 * s.inBounds, 3)} %` : '—'),
+      el('td', null, gradeBar(s.grades)),
+      el('td', { class: 'num' }, s.lost ? chip('fail', s.lost) : 0),
+      el('td', { class: 'num' }, s.known ? chip('known_deviation', s.known) : 0),
+      el('td', { class: 'num' }, s.farther),
+      el('td', { class: 'num' }, ratio(s.toBest) || '—'),
+      el('td', { class: 'num' }, ratio(s.toOurs) || '—'),
       el('td', { class: 'num' }, duration(s.cost)),
       el('td', { class: 'num' }, ratio(s.costRatio) || '—'),
-      el(
-        'td',
-        { class: 'small' },
-        s.bad
-          .slice(0, 6)
-          .map((b, i) => [i ? ', ' : '', el('a', { href: scenarioLink(b.name, { spec: s.column.spec }) }, b.name)]),
-        s.bad.length > 6 ? ` and ${s.bad.length - 6} more` : '',
-      ),
+      el('td', { class: 'small' }, wrongText(run.overall, s)),
     );
   const heads = [
     'As',
     'Scenarios it can run',
-    'Fails in',
-    'Off as recorded in',
-    'Error against the best',
-    'Error, median of the bound',
+    'Grades of accuracy',
+    'Lost',
+    'Wrong physics, explained',
+    'Farther than its scheme',
+    'Error × the best',
+    'Error × ours',
     'Median of a step',
-    'Against the fastest',
-    'Where it fails',
+    'Cost × the fastest',
+    'Grade E, or lost',
   ];
   return panel(
     'engine',
@@ -60,7 +57,7 @@ export function engineHead(engine: Engine): HTMLElement {
     ),
     el('h1', null, engine.title || engine.name),
     engine.problem ? el('p', { class: 'notice' }, engine.problem) : null,
-    engine.name === 'rigor'
+    engine.name === run.inHouse
       ? el('p', { class: 'notice small' }, 'This is the engine of the authors of this comparison.')
       : null,
     facts(rows.filter(([, v]) => v)),
@@ -69,7 +66,7 @@ export function engineHead(engine: Engine): HTMLElement {
           el(
             'table',
             { class: 'full' },
-            headRow(heads, (i) => i > 0 && i < 8),
+            headRow(heads, (i) => i > 0 && i !== 2 && i < 10),
             el('tbody', null, list.map(row)),
           ),
         )

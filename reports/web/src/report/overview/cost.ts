@@ -21,7 +21,13 @@ function cell(s: Scenario, column: Column, first: boolean): HTMLElement {
   const title =
     `median ${full(t.median)} s per step, ${interval}, ${t.samples} steps, ${format(t.contacts)} contacts on average; ` +
     `${s.main.name} ${full(found.value)} ${s.main.unit}`;
-  const accuracy = el('span', { class: 'bound' }, verdictText(found.shown).symbol, ' ', format(found.value, 3));
+  const accuracy = el(
+    'span',
+    { class: 'bound' },
+    found.judged.grade || verdictText(found.shown).symbol,
+    ' ',
+    format(found.value, 3),
+  );
   return el('td', { class: `num${side}`, title }, duration(t.median), accuracy);
 }
 

@@ -4,10 +4,9 @@
 // What the scoreboard shows: filters and order. They outlive a visit to another page of the report.
 
 import { Observable } from '../../common/cursor.ts';
-import { toNumber } from '../../common/format.ts';
-import { cellOf, costOf, errorInBounds, errorOf, type StepChoice, severity } from '../cells.ts';
+import { cellOf, costOf, errorOf, gradeOf, relativeOf, type StepChoice, severity } from '../cells.ts';
 import type { Column, Scenario } from '../data.ts';
-import { belongs, tasks } from '../tasks.ts';
+import { run } from '../run.ts';
 
 export interface Filters {
   text: string;
@@ -15,9 +14,11 @@ export interface Filters {
   mechanism: string; // or tag
   dimension: string;
   preset: string;
-  verdict: string;
+  grade: string;
+  change: string; // against the record
+  verdict: string; // how it ended
   step: StepChoice;
-  number: 'error' | 'bounds' | 'cost'; // what the cells say
+  number: 'error' | 'relative' | 'ours' | 'cost'; // what the cells say
   sort: string; // "name", "metric", a spec; "": as stored
   descending: boolean;
 }
@@ -27,6 +28,8 @@ export const allScenarios: Filters = {
   mechanism: '',
   dimension: '',
   preset: '',
+  grade: '',
+  change: '',
   verdict: '',
   step: 'all',
   number: 'error',
@@ -46,10 +49,19 @@ export function matches(s: Scenario, columns: Column[], f: Filters): boolean {
   const wanted = f.text.toLowerCase().split(/\s+/);
   if (!wanted.every((word) => text.includes(word))) return false;
   if (f.mechanism && !s.isolates.includes(f.mechanism) && !s.tags.includes(f.mechanism)) return false;
-  const task = tasks.find((t) => t.key === f.task);
-  if (task && !belongs(task, s)) return false;
+  const task = run.tasks.find((t) => t.name === f.task);
+  if (task && !task.scenarios.includes(s.name)) return false;
   if (f.dimension && String(s.dimension) !== f.dimension) return false;
-  return !f.verdict || columns.some((c) => cellOf(s, c, f.step)?.worst.shown === f.verdict);
+  if (!f.verdict && !f.grade && !f.change) return true;
+  return columns.some((c) => {
+    const cell = cellOf(s, c, f.step);
+    if (cell === null) return false;
+    return (
+      (!f.verdict || cell.worst.shown === f.verdict) &&
+      (!f.grade || gradeOf(cell) === f.grade) &&
+      (!f.change || cell.cases.some((x) => x.judged.regression === f.change))
+    );
+  });
 }
 
 /** In the order asked for; by a column: by what its cells say, those without a number last. */
@@ -61,9 +73,9 @@ export function ordered(list: Scenario[], columns: Column[], f: Filters): Scenar
     if (f.sort === 'metric') return [s.main.name];
     const cell = column ? cellOf(s, column, f.step) : null;
     if (cell === null) return [Infinity];
-    const value = f.number === 'cost' ? costOf(cell) : f.number === 'bounds' ? errorInBounds(cell) : errorOf(cell);
+    const value = f.number === 'cost' ? costOf(cell) : f.number === 'error' ? errorOf(cell) : relativeOf(cell);
     const last = Number.isNaN(value) ? Infinity : value;
-    return f.number === 'cost' ? [last] : [severity(cell.worst.shown), last];
+    return f.number === 'cost' ? [last] : [severity(cell.worst.shown), gradeOf(cell) || 'F', last];
   };
   const keyed = list.map((s) => ({ s, key: key(s) }));
   keyed.sort((a, b) => {
@@ -80,20 +92,14 @@ export function ordered(list: Scenario[], columns: Column[], f: Filters): Scenar
 /** Of a row: what its bars are measured against. */
 export interface RowScale {
   bestError: number; // the smallest of the row; NaN when fewer than two have one
-  leastError: number; // of the error bars: three decades below the bound, or below the largest where there is none
-  mostError: number;
   leastCost: number; // the fastest of the row
 }
 export function rowScale(s: Scenario, columns: Column[], step: StepChoice): RowScale {
   const cells = columns.map((c) => cellOf(s, c, step));
   const errors = cells.map(errorOf).filter(Number.isFinite);
   const costs = cells.map(costOf).filter((c) => c > 0);
-  const bounds = cells.map((c) => toNumber(c?.at.bound)).filter((b) => b > 0 && Number.isFinite(b));
-  const top = bounds.length ? Math.max(...bounds) : Math.max(...errors, 0);
   return {
     bestError: errors.length > 1 ? Math.min(...errors) : NaN,
-    leastError: top * 1e-3,
-    mostError: top,
     leastCost: costs.length ? Math.min(...costs) : NaN,
   };
 }

@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-import { el } from '../../common/elements.ts';
-import type { Shown } from '../data.ts';
+import { type Child, el } from '../../common/elements.ts';
 import { panel } from '../parts.ts';
 import { run } from '../run.ts';
 
 /** Title, totals, what is unfinished, and who wrote this. */
 export function headline(): HTMLElement {
   const engines = new Set(run.columns.map((c) => c.engine));
-  const count = (shown: Shown) => run.symbols[shown]?.count ?? 0;
-  const judged = run.total - count('unsupported') - count('no_bound');
   const unfinished = run.planned > run.total || !run.finished;
-  const known = count('known_deviation');
-  const verdict =
-    judged > 0
-      ? [
-          el('b', null, `${count('pass')} of ${judged} judged cases are within their bounds`),
-          known ? `, ${known} more deviate as recorded and explained.` : '.',
-        ]
-      : 'nothing was demanded of them, so errors can be compared but nothing passes or fails.';
+  const graded = run.grades.filter((g) => g.name);
+  const all = graded.reduce((sum, g) => sum + g.count, 0);
+  const near = graded.filter((g) => g.name <= 'C').reduce((sum, g) => sum + g.count, 0);
+  const stat = (key: string, ...children: Child[]) => el('span', { class: `stat v ${key}` }, children);
   return panel(
     'summary',
     null,
@@ -36,12 +29,30 @@ export function headline(): HTMLElement {
     el(
       'p',
       null,
-      `${engines.size} engines in ${run.columns.length} configurations ran ${run.scenarios.length} scenarios, each against the same reference: `,
-      verdict,
+      `${engines.size} engines in ${run.columns.length} configurations ran ${run.scenarios.length} scenarios, each against the same reference. `,
+      el('b', null, `${near} of ${all} graded runs are within a hundredth of the scenario’s own scale. `),
+      run.red ? `${run.red} cases are red: ▼ worse than on record, or they did not end.` : 'No case is red.',
     ),
     el(
       'div',
-      { class: 'stats' },
+      { class: 'stats', 'data-count': 'accuracy' },
+      el('span', { class: 'muted small' }, 'Accuracy'),
+      run.grades.map((g) =>
+        g.count ? stat(`g-${g.name || 'none'}`, el('b', null, g.name || '–', ' ', g.count), g.meaning) : null,
+      ),
+    ),
+    el(
+      'div',
+      { class: 'stats', 'data-count': 'regression' },
+      el('span', { class: 'muted small' }, 'Against the record of each version'),
+      Object.entries(run.regressions).map(([name, count]) =>
+        count ? stat(`r-${name.replace(' ', '-')}`, el('b', null, count), name) : null,
+      ),
+    ),
+    el(
+      'div',
+      { class: 'stats', 'data-count': 'endings' },
+      el('span', { class: 'muted small' }, 'Endings'),
       Object.entries(run.symbols)
         .filter(([, v]) => v.count)
         .map(([key, v]) =>

@@ -4,7 +4,8 @@
 // What is measured and how, what the verdicts mean, what cannot be matched, and who wrote this.
 import { el } from '../../common/elements.ts';
 import type { Shown } from '../data.ts';
-import { chip, panel } from '../parts.ts';
+import { chip, gradeChip, panel } from '../parts.ts';
+import { run } from '../run.ts';
 
 const item = (head: string, text: string) => el('li', null, el('b', null, head), ' ', text);
 const verdict = (shown: Shown, text: string) => el('li', null, chip(shown), text);
@@ -15,8 +16,8 @@ const measured: [string, string][] = [
     'A scenario is written once, in SI units. Each engine is given the same bodies, masses, pair friction and restitution; after the build, what it says it was given is read back and compared.',
   ],
   [
-    'Two presets.',
-    '“default” is the engine as it ships, with the scenario’s pair values. “matched” turns sleeping, damping, clamps and margins off or down and uses the same friction and restitution law as nearly as the library allows.',
+    'Presets.',
+    '“default” is the engine as it ships, with the scenario’s pair values. “matched” turns sleeping, damping, clamps and margins off or down and uses the same friction and restitution law as nearly as the library allows. A preset that an engine offers for speed is a column of its own, with its errors beside its cost.',
   ],
   [
     'Exact and scheme-exact.',
@@ -48,7 +49,7 @@ const measured: [string, string][] = [
 const cannot: [string, string][] = [
   [
     'Precision.',
-    'A library built in single precision stays so. Bounds that name an engine are for double precision; a single-precision case is held to the bounds for everyone.',
+    'A library built in single precision stays so. Grade A is what single precision can hold, so it is not graded down for that.',
   ],
   [
     'Laws.',
@@ -74,14 +75,43 @@ export function method(): HTMLElement {
       null,
       measured.map(([head, text]) => item(head, text)),
     ),
-    el('h3', null, 'What the verdicts mean'),
+    el('h3', null, 'Accuracy: the grade'),
+    el(
+      'p',
+      null,
+      'Every metric that compares with an exact answer or a known zero is divided by the scenario’s own scale of it: the distance gone, the angle turned, the largest speed, the energy turned over, ',
+      'the time to the event, the size of the smallest body for gaps and overlaps. Scales come from the scenario and its exact solution, never from a run, and are the same for every engine and time step. ',
+      'The worst of the metrics that the scenario names is its grade. Scenes without an exact answer have none.',
+    ),
     el(
       'ul',
       { class: 'plain' },
-      verdict('pass', 'every metric with a bound stayed within it'),
-      verdict('no_bound', 'it ran, and nothing was demanded: compare its errors with the others’'),
-      verdict('known_deviation', 'outside a bound, but within what was recorded beforehand, with the reason given'),
-      verdict('fail', 'a bound was missed, or a recorded deviation grew'),
+      run.grades.map((g) => el('li', null, gradeChip(g.name), g.meaning)),
+    ),
+    el(
+      'p',
+      null,
+      'Beside it stands the same number for an ideal run of the engine’s own time-stepping scheme, where that has a closed form. The error of a run is at most the ideal’s plus the distance between the two, so above twice the ideal’s ',
+      'more of it is the engine’s own: “farther off than its scheme”. Up to that it is “as good as its scheme allows”; below half of it the run is not the scheme’s and happens to lie nearer.',
+    ),
+    el('h3', null, 'Regression: the record'),
+    el(
+      'p',
+      null,
+      'Each version of each engine has its numbers on record. A run is unchanged within 1 % of them and the rounding of its precision, else better or worse; of scenes without an exact answer the ending is compared. ',
+      'A run is red where the in-house engine became worse, another engine lost a grade or an ending, or a case crashed, timed out or was not finite. This says nothing of accuracy.',
+    ),
+    el('h3', null, 'How a case ended'),
+    el(
+      'ul',
+      { class: 'plain' },
+      verdict('no_bound', 'it ran: how near it is to the physics is its grade'),
+      verdict('pass', 'it ran within the bounds that its scenario sets; the library sets few, users may set their own'),
+      verdict(
+        'known_deviation',
+        'wrong physics (grade E: another law, another outcome), with the reason on file and whether that was isolated by experiment or is inferred',
+      ),
+      verdict('fail', 'a bound of the scenario was missed, or what was built is not what was asked for'),
       verdict('non_finite', 'a state became NaN or infinite'),
       verdict('timeout', 'no end within the time limit'),
       verdict('crashed', 'the process died or ran out of memory'),
@@ -100,8 +130,8 @@ export function method(): HTMLElement {
     el(
       'p',
       null,
-      'The hosts of this comparison are the authors of one of the engines in it, rigor. Scenarios, bounds, adapters and presets were chosen by them, and ',
-      'bounds named for rigor are tighter than those for everyone because they also serve as its tests. Read its column with that in mind. Everything is in ',
+      'The hosts of this comparison are the authors of one of the engines in it, rigor. Scenarios, references, adapters and presets were chosen by them. ',
+      'Grades have the same limits for every engine, and none of them was taken from a result. Everything is in ',
       'the repository, and every column can be rerun and challenged with the commands given.',
     ),
   );

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Scenario x engine: verdict, main error and cost of a step in one cell; filters and order.
+// Scenario x engine: grade, change against the record, main error and cost of a step in one cell; filters and order.
 import { type Child, el } from '../../common/elements.ts';
 import { duration, format, full, ratio, timeStep, toNumber, words } from '../../common/format.ts';
-import { type Cell, cellOf, costOf, errorInBounds, errorOf, isLost, logPlace } from '../cells.ts';
+import { type Cell, cellOf, costOf, errorOf, gradeOf, isLost, logPlace, relativeOf } from '../cells.ts';
 import type { Column, Scenario, Shown } from '../data.ts';
-import { chip, panel, select, specHead } from '../parts.ts';
+import { changeMark, chip, gradeChip, panel, select, specHead } from '../parts.ts';
 import { isFirstOfEngine, run, scenarioLink, subtitleOf, verdictText } from '../run.ts';
-import { tasks } from '../tasks.ts';
 import { allScenarios, type Filters, filters, matches, ordered, type RowScale, rowScale } from './filters.ts';
 import { withPreview } from './preview.ts';
 
 const meaning: Record<Shown, string> = {
-  pass: 'within its bounds',
-  no_bound: 'ran, nothing was demanded',
-  known_deviation: 'off, as recorded and explained',
-  fail: 'misses a bound',
+  pass: 'ran, within the bounds that its scenario sets',
+  no_bound: 'ran',
+  known_deviation: 'wrong physics, with a reason on file',
+  fail: 'misses a bound that its scenario sets, or was not what was asked for',
   non_finite: 'NaN or infinity',
   timeout: 'over the time limit',
   crashed: 'the process died',
@@ -26,13 +25,16 @@ const meaning: Record<Shown, string> = {
 /** What the cell says in words, for its tooltip and for those who do not see it. */
 function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): string[] {
   const { at, worst, cases } = cell;
-  const lines = [`${column.label}, ${s.name}: ${verdictText(worst.shown).word}`];
+  const lines = [`${column.label}, ${s.name}: ${verdictText(worst.shown).word}`, at.judged.says];
+  if (at.judged.change) lines.push(at.judged.change);
   if (at.value !== null && !isLost(worst.shown)) {
-    const bound =
-      at.bound === null ? 'nothing demanded' : `bound ${format(at.bound)}, ${format(errorInBounds(cell), 3)} of it`;
-    lines.push(
-      `${words(s.main.name)} ${full(at.value)} ${s.main.unit === '1' ? '' : s.main.unit} at ${timeStep(at.dt)} (${bound})`,
-    );
+    const times = [
+      ratio(at.judged.toBest) ? `${ratio(at.judged.toBest)} the best` : '',
+      ratio(at.judged.toOurs) ? `${ratio(at.judged.toOurs)} ours` : '',
+    ].filter(Boolean);
+    const beside = times.length ? ` (${times.join(', ')})` : '';
+    const unit = s.main.unit === '1' ? '' : ` ${s.main.unit}`;
+    lines.push(`${words(s.main.name)} ${full(at.value)}${unit} at ${timeStep(at.dt)}${beside}`);
   }
   const cost = costOf(cell);
   if (cost > 0) lines.push(`${duration(cost)} a step, ${ratio(cost / scale.leastCost)} the fastest here`);
@@ -52,7 +54,8 @@ function said(cell: Cell, number: Filters['number'], digits: number): string {
   if (shown === 'unsupported') return cell.worst.refusal === 'adapter' ? 'not yet' : 'n/a';
   if (isLost(shown)) return verdictText(shown).word;
   if (number === 'cost') return duration(costOf(cell));
-  if (number === 'bounds') return Number.isNaN(errorInBounds(cell)) ? '—' : `${format(errorInBounds(cell), 2)}×`;
+  if (number === 'relative') return Number.isNaN(relativeOf(cell)) ? '—' : format(relativeOf(cell), 2);
+  if (number === 'ours') return ratio(cell.at.judged.toOurs) || '—';
   return cell.at.value === null ? verdictText(shown).word : format(cell.at.value, digits);
 }
 
@@ -66,19 +69,25 @@ function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters, digi
   if (cell === null) return el('span', { class: 'muted small', title: 'not in the plan' });
   const lines = sentence(s, column, cell, scale);
   const { shown } = cell.worst;
+  const grade = gradeOf(cell);
   const best = f.number !== 'cost' && errorOf(cell) === scale.bestError;
+  const sign = [
+    grade || verdictText(shown).symbol,
+    grade && shown !== 'pass' && shown !== 'no_bound' ? verdictText(shown).symbol : '',
+    cell.cases.map((c) => changeMark(c.judged.regression)).find(Boolean) ?? '',
+  ].join('');
   return el(
     'a',
     {
-      class: `cell v v-${shown}`,
+      class: `cell v ${grade ? `g-${grade}` : `v-${shown}`}${cell.cases.some((c) => c.judged.red) ? ' red' : ''}`,
       title: lines.join('\n'),
       'aria-label': lines.slice(0, 3).join('; '),
       tabindex: -1,
       href: scenarioLink(s.name, { spec: column.spec, dt: cell.worst.dt }),
     },
-    el('span', { class: 'sym', 'aria-hidden': 'true' }, verdictText(shown).symbol),
+    el('span', { class: 'sym', 'aria-hidden': 'true' }, sign),
     el('span', { class: best ? 'value best' : 'value' }, said(cell, f.number, digits)),
-    meter('error', logPlace(errorOf(cell), scale.leastError, scale.mostError)),
+    meter('error', logPlace(relativeOf(cell), 1e-6, 1)),
     meter('cost', logPlace(costOf(cell), scale.leastCost, 1000 * scale.leastCost)),
   );
 }
@@ -141,6 +150,8 @@ function controls(f: Filters): HTMLElement[] {
   const named = [...new Set(run.scenarios.flatMap((s) => [...s.isolates, ...s.tags]))].sort();
   const presets = [...new Set(run.columns.map((c) => c.preset))].filter(Boolean);
   const verdicts = Object.entries(run.symbols).map(([k, v]): [string, string] => [k, `${v.symbol} ${v.word}`]);
+  const grades = run.grades.filter((g) => g.name).map((g): [string, string] => [g.name, `${g.name}: ${g.meaning}`]);
+  const changes = Object.keys(run.regressions).map((k): [string, string] => [k, k]);
   const all = (text: string): [string, string] => ['', text];
   const search = el('input', {
     type: 'search',
@@ -151,7 +162,7 @@ function controls(f: Filters): HTMLElement[] {
   });
   return [
     el('label', null, 'Search', search),
-    select('Task', [all('all'), ...tasks.map((t): [string, string] => [t.key, t.title])], f.task, (task) =>
+    select('Task', [all('all'), ...run.tasks.map((t): [string, string] => [t.name, t.title])], f.task, (task) =>
       set({ task }),
     ),
     select('Mechanism or tag', [all('all'), ...named.map((w): [string, string] => [w, w])], f.mechanism, (mechanism) =>
@@ -161,11 +172,13 @@ function controls(f: Filters): HTMLElement[] {
     select('Preset', [all('all'), ...presets.map((p): [string, string] => [p, p])], f.preset, (preset) =>
       set({ preset }),
     ),
-    select('Verdict', [all('all'), ...verdicts], f.verdict, (verdict) => set({ verdict })),
+    select('Grade', [all('all'), ...grades], f.grade, (grade) => set({ grade })),
+    select('Record', [all('all'), ...changes], f.change, (change) => set({ change })),
+    select('Ending', [all('all'), ...verdicts], f.verdict, (verdict) => set({ verdict })),
     select(
       'Time step',
       [
-        ['all', 'worst verdict of all'],
+        ['all', 'all'],
         ['finest', 'finest'],
         ['coarsest', 'coarsest'],
       ],
@@ -176,7 +189,8 @@ function controls(f: Filters): HTMLElement[] {
       'Number',
       [
         ['error', 'error'],
-        ['bounds', 'error ÷ bound'],
+        ['relative', 'relative error'],
+        ['ours', 'error ÷ ours'],
         ['cost', 'time of a step'],
       ],
       f.number,
@@ -189,10 +203,10 @@ function controls(f: Filters): HTMLElement[] {
 function legend(): HTMLElement {
   const sample = el(
     'span',
-    { class: 'cell v v-pass sample', 'aria-hidden': 'true' },
-    el('span', { class: 'sym' }, verdictText('pass').symbol),
-    el('span', { class: 'value' }, '1.2e-4'),
-    meter('error', 0.6),
+    { class: 'cell v g-C sample', 'aria-hidden': 'true' },
+    el('span', { class: 'sym' }, 'C'),
+    el('span', { class: 'value' }, '0.0012'),
+    meter('error', 0.5),
     meter('cost', 0.3),
   );
   return el(
@@ -202,16 +216,20 @@ function legend(): HTMLElement {
     el(
       'span',
       { class: 'small muted' },
-      'The number is the error of the scenario’s main metric at the finest time step; the best of a row is underlined. ',
-      el('b', null, 'Upper bar: error'),
-      ', empty at a thousandth of the bound, full at the bound. ',
+      'The letter is the grade of accuracy at the finest time step: the worst error over the metrics that the scenario names, each over the scenario’s own scale. ',
+      'The number is the error of its main metric; the best of a row is underlined. ▼ ▲: worse or better than on record. ',
+      el('b', null, 'Upper bar: that relative error'),
+      ', empty at 1e-6, full at 1. ',
       el('b', null, 'Lower bar: cost'),
       ' of a step, empty for the fastest engine of the row, full at a thousand times that. Both logarithmic; short and short is good.',
     ),
     el(
       'div',
       null,
-      (Object.keys(run.symbols) as Shown[]).map((key) => chip(key, `${verdictText(key).word}: ${meaning[key]}`)),
+      run.grades.filter((g) => g.name).map((g) => gradeChip(g.name, `${g.name} ${g.meaning}`)),
+      (Object.keys(run.symbols) as Shown[])
+        .filter((key) => run.symbols[key].count > 0)
+        .map((key) => chip(key, `${verdictText(key).word}: ${meaning[key]}`)),
     ),
   );
 }
@@ -281,16 +299,11 @@ export function scoreboard(): HTMLElement {
     el(
       'p',
       { class: 'muted' },
-      'Every cell is one engine in one preset, and opens its case. Its sign is the worst verdict over the time steps.',
+      'Every cell is one engine in one preset, and opens its case. Accuracy and regression are two questions: how near a run is to the physics, ',
+      'and whether it changed against the record of its version.',
     ),
     legend(),
     bar,
     el('div', { class: 'scroll wide' }, table),
   );
 }
-
-/** The worst distance from its bound that the run has, for the summary of an engine. */
-export const excessOf = (cell: Cell | null): number => {
-  const excess = errorInBounds(cell);
-  return Number.isNaN(excess) && cell !== null && isLost(cell.worst.shown) ? Infinity : toNumber(excess);
-};

@@ -3,14 +3,14 @@
 //
 // Timing: how the cost of a step grows with the scene, cost against accuracy, phases; the machine beside it.
 import { el } from '../../common/elements.ts';
-import { duration, format, median, toNumber } from '../../common/format.ts';
-import { cellOf, costOf, errorInBounds } from '../cells.ts';
+import { duration, format, median, ratio, toNumber } from '../../common/format.ts';
+import { cellOf, costOf, relativeOf } from '../cells.ts';
 import { barList } from '../charts/bars.ts';
 import { type Line, plotCard } from '../charts/plot.ts';
 import type { Column, Step } from '../data.ts';
-import { facts, folded, headRow, panel, scroll, select } from '../parts.ts';
+import { facts, folded, gradeBar, headRow, panel, scroll, select } from '../parts.ts';
 import { dashOf, engineColour, run } from '../run.ts';
-import { standings } from '../standing.ts';
+import { placed } from '../standing.ts';
 import { costTable } from './cost.ts';
 
 interface Sample {
@@ -70,7 +70,7 @@ export function families(names: string[]): Map<string, string[]> {
 function accuracyLines(column: Column): Line {
   const samples = run.scenarios.flatMap((s) => {
     const cell = cellOf(s, column, 'finest');
-    const error = errorInBounds(cell);
+    const error = relativeOf(cell);
     return cell && error > 0 ? [{ x: costOf(cell), y: error, low: NaN, high: NaN, note: s.name }] : [];
   });
   return lineOf(column, samples, true);
@@ -125,13 +125,13 @@ function scaling(columns: Column[]): HTMLElement[] {
 
 const accuracy = (columns: Column[]): HTMLElement[] => {
   const lines = columns.map(accuracyLines).filter((line) => line.x.length > 0);
-  const title = 'Error in bounds over the cost of a step: each point a scenario; lower left is better, 1 is the bound';
+  const title = 'Relative error over the cost of a step: each point a scenario; lower left is better';
   if (lines.length === 0) return [];
   return [
     plotCard({
       title,
       name: 'accuracy over cost',
-      unit: 'bounds',
+      unit: '',
       xTitle: 'time of a step [s]',
       xUnit: 's',
       logX: true,
@@ -144,7 +144,7 @@ const accuracy = (columns: Column[]): HTMLElement[] => {
 
 /** Medians over the scenarios; what an engine tells of its phases as shares of its step. */
 function summaryTable(): HTMLElement {
-  const list = standings(run.scenarios, run.columns).filter((s) => Number.isFinite(s.cost));
+  const list = placed(run.overall, run.columns).filter((s) => toNumber(s.cost) > 0);
   const phases = (spec: string) => {
     const shares = new Map<string, number[]>();
     for (const s of run.scenarios) {
@@ -164,11 +164,13 @@ function summaryTable(): HTMLElement {
           'Engine',
           'Median of a step, over scenarios',
           'Typically × the fastest',
-          'Error, median of the bound',
-          'Off a bound',
+          'Error × the best',
+          'Error × ours',
+          'C or better',
+          'Grades',
           'Phases, share of a step',
         ],
-        (i) => i < 5,
+        (i) => i < 6,
       ),
       el(
         'tbody',
@@ -180,8 +182,10 @@ function summaryTable(): HTMLElement {
             el('th', { class: 'sticky', scope: 'row' }, s.column.label),
             el('td', { class: 'num' }, duration(s.cost)),
             el('td', { class: 'num' }, format(s.costRatio, 3)),
-            el('td', { class: 'num' }, Number.isFinite(s.inBounds) ? `${format(100 * s.inBounds, 3)} %` : '—'),
-            el('td', { class: 'num' }, `${s.bad.length + s.known.length} of ${s.scenarios}`),
+            el('td', { class: 'num' }, ratio(s.toBest) || '—'),
+            el('td', { class: 'num' }, ratio(s.toOurs) || '—'),
+            el('td', { class: 'num' }, `${s.within} of ${s.scenarios}`),
+            el('td', null, gradeBar(s.grades)),
             el('td', { class: 'small' }, told[i] || '—'),
           ),
         ),
@@ -191,14 +195,12 @@ function summaryTable(): HTMLElement {
 }
 
 function costBars(columns: Column[]): HTMLElement {
-  const list = standings(run.scenarios, run.columns).filter(
-    (s) => columns.includes(s.column) && Number.isFinite(s.costRatio),
-  );
-  const bars = list
-    .sort((a, b) => a.costRatio - b.costRatio)
+  const bars = placed(run.overall, run.columns)
+    .filter((s) => columns.includes(s.column) && toNumber(s.costRatio) > 0)
+    .sort((a, b) => toNumber(a.costRatio) - toNumber(b.costRatio))
     .map((s) => ({
       label: s.column.label,
-      value: s.costRatio,
+      value: toNumber(s.costRatio),
       text: `×${format(s.costRatio, 3)}`,
       colour: engineColour(s.column.engine),
     }));
@@ -224,7 +226,7 @@ export function timing(): HTMLElement | null {
       'p',
       { class: 'muted' },
       'Wall time of one step by the monotonic clock: the median, with its 95 % interval where there are enough samples (else from the 10th to the ',
-      '90th percentile). A fast step that misses its bound is not fast. Times hold for the machine below, and for cases that may have run beside others: ',
+      '90th percentile), always beside the errors of the same runs. Times hold for the machine below, and for cases that may have run beside others: ',
       el('code', null, 'rigor bench'),
       ' measures alone and interleaved.',
     ),
@@ -232,7 +234,7 @@ export function timing(): HTMLElement | null {
     summaryTable(),
     el('h3', null, 'Scaling, and cost against accuracy'),
     toggled((columns) => [costBars(columns), ...accuracy(columns), ...scaling(columns)]),
-    folded('Every scenario: time of a step, below it the verdict and the main error of the same run', () =>
+    folded('Every scenario: time of a step, below it the grade and the main error of the same run', () =>
       scroll(costTable()),
     ),
   );

@@ -3,120 +3,99 @@
 //
 // Which engine for what, and why: a card for each thing that people simulate, then every mechanism in a table.
 import { type Child, el } from '../../common/elements.ts';
-import { duration, format, ratio, toNumber, words } from '../../common/format.ts';
+import { duration, ratio, toNumber } from '../../common/format.ts';
 import { isLost } from '../cells.ts';
-import type { Mechanism, Standing } from '../data.ts';
-import { chip, folded, headRow, looseHeadRow, panel, scroll } from '../parts.ts';
-import { engineLink, run, scenarioLink, verdictText } from '../run.ts';
-import { ranked, type Summary, standings, within, worstMiss } from '../standing.ts';
-import { belongs, type Task, tasks } from '../tasks.ts';
+import type { Mechanism } from '../data.ts';
+import { folded, gradeBar, gradeChip, headRow, looseHeadRow, panel, scroll } from '../parts.ts';
+import { engineLink, run, scenarioLink, scenarioOf, verdictText } from '../run.ts';
+import { type Placed, placed, wrongIn } from '../standing.ts';
 import { filterScoreboard } from './filters.ts';
 
-/** "worst: coulomb residual ×10 its bound in slide_and_stop", with a link to that moment. */
-export function missText(s: Summary): Child {
-  const miss = worstMiss(s);
-  if (miss === null) return null;
-  const { scenario, at, times } = miss;
-  const t = toNumber(at.miss?.at);
-  const pair = at.miss?.subject ?? '';
-  const href = scenarioLink(scenario.name, { spec: at.spec, dt: at.dt, t: t >= 0 ? t : null, pair });
-  const what = isLost(at.shown)
-    ? verdictText(at.shown).word
-    : `${words(at.miss?.name ?? '')} ${ratio(times)} its bound`;
-  return ['worst: ', what, ' in ', el('a', { href }, scenario.name)];
+const mostNamed = 4;
+
+/** "E or lost in: a, b and 3 more", with links; null where there is none. */
+export function wrongText(m: Mechanism, s: Placed): Child {
+  const scenarios = m.scenarios.flatMap((name) => scenarioOf(name) ?? []);
+  const wrong = wrongIn(scenarios, s.column);
+  if (wrong.length === 0) return null;
+  const link = ({ scenario, at }: (typeof wrong)[number], i: number): Child => [
+    i ? ', ' : '',
+    el('a', { href: scenarioLink(scenario.name, { spec: at.spec, dt: at.dt }), title: at.judged.says }, scenario.name),
+    isLost(at.shown) ? ` (${verdictText(at.shown).word})` : '',
+  ];
+  return [
+    'wrong in ',
+    wrong.slice(0, mostNamed).map(link),
+    wrong.length > mostNamed ? ` and ${wrong.length - mostNamed} more` : '',
+  ];
 }
 
-const shownOf = (s: Summary) => (s.bad.length ? 'fail' : s.known.length ? 'known_deviation' : 'pass');
-const percent = (v: number) => (v < 0.01 ? '< 1 %' : v < 10 ? `${format(100 * v, 2)} %` : `×${format(v, 2)}`);
-
-function line(s: Summary): HTMLElement[] {
-  const met = s.scenarios - s.bad.length - s.known.length;
-  const miss = missText(s);
+function line(m: Mechanism, s: Placed): HTMLElement[] {
+  const wrong = wrongText(m, s);
   const row = el(
     'tr',
     { 'data-spec': s.column.spec },
-    el('th', { scope: 'row' }, chip(shownOf(s), s.column.label)),
-    el('td', { class: 'num' }, `${met} of ${s.scenarios}`),
-    el('td', { class: 'num' }, Number.isFinite(s.inBounds) ? percent(s.inBounds) : '—'),
-    el('td', { class: 'num' }, ratio(s.ratio) || '—'),
+    el('th', { scope: 'row' }, s.column.label),
+    el('td', null, gradeBar(s.grades)),
+    el('td', { class: 'num' }, `${s.within} of ${s.scenarios}`),
+    el('td', { class: 'num' }, ratio(s.toBest) || '—'),
+    el('td', { class: 'num' }, ratio(s.toOurs) || '—'),
     el('td', { class: 'num' }, duration(s.cost)),
   );
-  return miss ? [row, el('tr', { class: 'why' }, el('td', { colspan: 5 }, miss))] : [row];
+  return wrong ? [row, el('tr', { class: 'why' }, el('td', { colspan: 6 }, wrong))] : [row];
 }
 
 /** The answer in a sentence. */
-function answer(first: Summary[], total: number): Child {
-  const [best] = first;
-  if (best === undefined) return null;
-  const met = best.scenarios - best.bad.length - best.known.length;
-  const share =
-    met === total ? `within all bounds in all ${total}` : `within all bounds in ${met} of ${best.scenarios}`;
-  const others =
-    first.length > 1
-      ? `, as well as ${first
-          .slice(1)
-          .map((s) => s.column.label)
-          .join(', ')}`
-      : '';
-  const error = Number.isFinite(best.inBounds) ? `, typical error ${percent(best.inBounds)} of the bound` : '';
-  const cost = Number.isFinite(best.cost) ? `, ${duration(best.cost)} a step` : '';
-  return el('p', { class: 'answer' }, 'Trust ', el('b', null, best.column.label), others, `: ${share}${error}${cost}.`);
+function answer(m: Mechanism, list: Placed[]): Child {
+  const best = list.find((s) => run.columns[m.best] === s.column);
+  if (best === undefined) return el('p', { class: 'answer' }, 'No engine can be ranked here.');
+  const error = Number.isFinite(toNumber(best.toBest)) ? `, typical error ${ratio(best.toBest)} the best one’s` : '';
+  const cost = Number.isFinite(toNumber(best.cost)) ? `, ${duration(best.cost)} a step` : '';
+  return el(
+    'p',
+    { class: 'answer' },
+    'Nearest to the exact answers: ',
+    el('b', null, best.column.label),
+    `, within a hundredth of the scene’s own scale in ${best.within} of ${best.scenarios}${error}${cost}.`,
+  );
 }
 
-function card(task: Task): HTMLElement | null {
-  const scenarios = run.scenarios.filter((s) => belongs(task, s));
-  if (scenarios.length === 0) return null;
-  const list = ranked(standings(scenarios, run.columns));
-  const share = (s: Summary) => s.bad.length / Math.max(1, s.scenarios);
-  const best = list.find((s) => Number.isFinite(s.ratio));
-  if (best === undefined) return null;
-  const most = Math.max(...list.map((s) => s.scenarios));
-  // Differences below five per cent are no reason to prefer one of them: then the cheaper one is named first.
-  const equal = (s: Summary) =>
-    2 * s.scenarios >= most && share(s) === share(best) && within(s) === within(best) && s.ratio < 1.05 * best.ratio;
-  const first = list.filter(equal).sort((a, b) => (a.cost || Infinity) - (b.cost || Infinity));
-  const rest = list.filter((s) => !first.includes(s));
-  const heads = ['Engine', 'In bounds', 'Error / bound', '× best', 'Step'];
+function card(task: Mechanism): HTMLElement {
+  const list = placed(task, run.columns);
   return el(
     'article',
-    { class: 'task', 'data-task': task.key },
+    { class: 'task', 'data-task': task.name },
     el('h3', null, task.title),
     el('p', { class: 'muted small' }, task.about),
-    answer(first, scenarios.length),
+    answer(task, list),
     el(
       'table',
       { class: 'full ranking' },
-      looseHeadRow(heads, (i) => i > 0),
-      el('tbody', null, [...first, ...rest].map(line)),
+      looseHeadRow(['Engine', 'Grades', 'C or better', '× best', '× ours', 'Step'], (i) => i > 1),
+      el(
+        'tbody',
+        null,
+        list.map((s) => line(task, s)),
+      ),
     ),
     el(
       'button',
-      { class: 'button noprint', onclick: () => filterScoreboard({ task: task.key }) },
-      scenarios.length === 1 ? 'Show this scenario' : `Show these ${scenarios.length} scenarios`,
+      { class: 'button noprint', onclick: () => filterScoreboard({ task: task.name }) },
+      task.scenarios.length === 1 ? 'Show this scenario' : `Show these ${task.scenarios.length} scenarios`,
     ),
   );
 }
 
-interface Placed extends Standing {
-  label: string;
-  index: number;
-}
-const share = (s: Placed) => s.bad / Math.max(1, s.scenarios);
-
 function mechanismRow(m: Mechanism): HTMLElement {
-  const all = m.standings.map((s, index): Placed => ({ ...s, label: run.columns[index]?.label ?? '', index }));
-  const list = all.filter((s) => s.ran > 0);
-  list.sort((a, b) => share(a) - share(b) || toNumber(a.ratio) - toNumber(b.ratio));
-  const best = list.find((s) => s.index === m.best);
-  const equal = (s: Placed) =>
-    best !== undefined && share(s) === share(best) && toNumber(s.ratio) < 1.05 * toNumber(best.ratio);
-  const first = best ? list.filter((s) => s === best || equal(s)) : [];
-  const close = list.filter((s) => !first.includes(s) && s.bad === 0 && Number.isFinite(toNumber(s.ratio))).slice(0, 3);
-  const poor = all.filter((s) => s.bad > 0).sort((a, b) => share(b) - share(a) || b.bad - a.bad);
-  const title = (s: Placed) =>
-    `${s.label}: ${s.good} of ${s.scenarios} scenarios without a failure; typical error ${ratio(s.ratio) || 'unknown'} of the best`;
-  const none = (text: string) => el('span', { class: 'muted' }, text);
   const filter = () => filterScoreboard({ mechanism: m.name });
+  const list = placed(m, run.columns);
+  const wrong = list.filter((s) => s.lost + (s.grades[4] ?? 0) > 0);
+  const who = (s: Placed) =>
+    gradeChip(
+      '',
+      [s.column.label, ' ', el('b', null, `${s.within}/${s.scenarios}`), ' ', ratio(s.toBest)],
+      `${s.column.label}: ${s.within} of ${s.scenarios} within a hundredth, error ${ratio(s.toBest) || 'unknown'} the best, ${ratio(s.toOurs) || 'unknown'} ours`,
+    );
   return el(
     'tr',
     null,
@@ -124,44 +103,28 @@ function mechanismRow(m: Mechanism): HTMLElement {
     el('td', { class: 'num', 'data-label': 'Scenarios' }, m.scenarios.length),
     el(
       'td',
-      { 'data-label': 'Trust first' },
-      first.length
-        ? first.map((s) =>
-            chip(
-              s.bad ? 'fail' : 'pass',
-              s.bad ? `${s.label}, fails in ${s.bad} of ${s.scenarios}` : s.label,
-              title(s),
-            ),
-          )
-        : none('nobody ranked'),
+      { 'data-label': 'Nearest first' },
+      m.best >= 0 ? list.slice(0, mostNamed).map(who) : el('span', { class: 'muted' }, 'nobody ranked'),
     ),
     el(
       'td',
-      { 'data-label': 'Also without failure' },
-      close.length
-        ? close.map((s) =>
-            el('span', { class: 'chip v', title: title(s) }, s.label, ' ', el('b', null, ratio(s.ratio))),
-          )
-        : none('—'),
-    ),
-    el(
-      'td',
-      { 'data-label': 'Fails' },
-      poor.slice(0, 4).map((s) => chip('fail', `${s.label} ${s.bad}/${s.scenarios}`, title(s))),
-      poor.length > 4 ? el('span', { class: 'small muted' }, `and ${poor.length - 4} more`) : null,
-      poor.length ? null : none('—'),
+      { 'data-label': 'Wrong or lost' },
+      wrong
+        .slice(0, mostNamed)
+        .map((s) => gradeChip('E', `${s.column.label} ${s.lost + (s.grades[4] ?? 0)}/${s.scenarios}`)),
+      wrong.length > mostNamed ? el('span', { class: 'small muted' }, `and ${wrong.length - mostNamed} more`) : null,
+      wrong.length ? null : el('span', { class: 'muted' }, '—'),
     ),
   );
 }
 
 export function trust(): HTMLElement | null {
   if (run.mechanisms.length === 0) return null;
-  const cards = tasks.map(card).filter((c) => c !== null);
   const table = () =>
     el(
       'table',
       { class: 'full trust' },
-      headRow(['Mechanism', 'Scenarios', 'Trust first', 'Also without failure', 'Fails'], (i) => i === 1),
+      headRow(['Mechanism', 'Scenarios', 'Nearest first', 'Wrong or lost'], (i) => i === 1),
       el('tbody', null, run.mechanisms.map(mechanismRow)),
     );
   return panel(
@@ -170,18 +133,23 @@ export function trust(): HTMLElement | null {
     el(
       'p',
       { class: 'muted' },
-      'Best first: fewest failures, then most scenarios within all their bounds, then the smallest error at the same time step; differences below 5 % ',
-      'or below single-precision rounding (1e-6) count as none. △ is off as recorded and explained, ✗ a missed bound, crash, timeout or NaN. “Error/bound” ',
-      'is the median of the main error over its bound, “× best” the typical error relative to the most accurate engine. An engine by itself: ',
+      'In the order of: fewest runs lost or of grade E, then most within a hundredth of the scenario’s own scale (grade C or better), then the smallest error, all at the same ',
+      'time step. “× best” is the typical error over the most accurate engine’s, “× ours” over that of ',
+      run.inHouse,
+      ' in the same preset; errors within grade A count as equal. An engine by itself: ',
       [...new Set(run.columns.map((c) => c.engine))].map((e, i) => [
         i ? ', ' : '',
         el('a', { href: engineLink(e) }, e),
       ]),
       '.',
     ),
-    el('div', { class: 'tasks' }, cards),
+    el('div', { class: 'tasks' }, run.tasks.map(card)),
     folded(`By mechanism: ${run.mechanisms.length} of them`, () => [
-      el('p', { class: 'muted small' }, '×n is the typical error relative to the most accurate engine.'),
+      el(
+        'p',
+        { class: 'muted small' },
+        'Beside each engine: scenarios within a hundredth of their own scale, and the typical error over the best one’s.',
+      ),
       scroll(table()),
     ]),
   );

@@ -5,7 +5,7 @@
 import { type Child, el } from '../../common/elements.ts';
 import { format, timeStep } from '../../common/format.ts';
 import { formula } from '../formula.ts';
-import { facts, panel } from '../parts.ts';
+import { changeMark, facts, panel } from '../parts.ts';
 import { labelOf, run, scenarioLink, verdictText } from '../run.ts';
 import type { Context } from './context.ts';
 import { drawing } from './drawing.ts';
@@ -94,10 +94,11 @@ export function head(context: Context): HTMLElement {
         el(
           'span',
           {
-            class: `stat v v-${c.shown}${c.spec === spec ? ' focus' : ''}`,
-            title: c.reason || verdictText(c.shown).word,
+            class: `stat v ${c.judged.grade ? `g-${c.judged.grade}` : `v-${c.shown}`}${c.spec === spec ? ' focus' : ''}`,
+            title: c.judged.says,
           },
-          verdictText(c.shown).symbol,
+          c.judged.grade || verdictText(c.shown).symbol,
+          changeMark(c.judged.regression),
           ' ',
           labelOf(c.spec),
         ),

@@ -28,19 +28,20 @@ const kinds: [kind: string, title: string, meaning: string][] = [
 function cell(context: Context, column: Column, name: string, subject: string): HTMLElement {
   const m = caseOf(context.cases, column)?.metrics.find((x) => x.name === name && x.subject === subject);
   if (!m) return el('td', { class: 'num muted' });
-  const judged = m.bound !== null || m.expectation !== null;
+  const judged = m.bound !== null || m.verdict !== 'pass';
   const shown = metricShown(m.verdict);
   const at = toNumber(m.at);
   const text: Child =
     at >= 0 ? moment(context, column.spec, at, bodiesOf(m.subject), format(m.value)) : format(m.value);
-  const title = `${full(m.value)} ${m.unit}${at >= 0 ? ` at t = ${format(at)} s` : ''}${m.note ? `\n${m.note}` : ''}`;
+  const title = `${full(m.value)} ${m.unit}${at >= 0 ? ` at t = ${format(at)} s` : ''}${m.scale !== null ? `\nover its scale ${format(m.scale)} ${m.unit}: ${full(m.relative)}` : ''}${m.recorded !== null ? `\non record: ${full(m.recorded)}` : ''}${m.note ? `\n${m.note}` : ''}`;
   const small = (line: string) => el('span', { class: 'bound' }, line);
   return el(
     'td',
     { class: 'num', title, 'data-value': full(m.value), 'data-spec': column.spec },
     judged ? chip(shown, text, verdictText(shown).word) : text,
     m.bound !== null ? small(`≤ ${format(m.bound)}`) : null,
-    m.expectation !== null ? small(`expected ${format(m.expectation)}`) : null,
+    m.grade && !m.subject ? small(`${m.grade} ${format(m.relative, 2)}`) : null,
+    m.ideal !== null ? small(`scheme ${format(m.ideal, 2)}`) : null,
   );
 }
 

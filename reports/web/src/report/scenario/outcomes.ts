@@ -1,15 +1,37 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { type Child, el } from '../../common/elements.ts';
-import { format, toNumber, unitText, words } from '../../common/format.ts';
+import { format, ratio, toNumber, unitText, words } from '../../common/format.ts';
 import type { Case, Metric } from '../data.ts';
-import { chip, panel, scroll } from '../parts.ts';
+import { changeMark, chip, gradeChip, headRow, panel, scroll } from '../parts.ts';
 import { labelOf } from '../run.ts';
 import { type Context, moment } from './context.ts';
 
 const most = 4; // lines of one case
 
-/** What did not simply pass, and why: with the moment where it was worst. */
+/** What is claimed of every run, on accuracy and on the record, and how its error stands beside others'. */
+export function verdicts(context: Context): HTMLElement | null {
+  const ran = context.cases.filter((c) => c.shown !== 'unsupported');
+  if (ran.length === 0) return null;
+  const row = (c: Case) =>
+    el(
+      'tr',
+      { class: c.spec === context.spec ? 'focus' : null, 'data-spec': c.spec },
+      el('th', { class: 'sticky', scope: 'row' }, labelOf(c.spec)),
+      el('td', null, c.judged.grade ? gradeChip(c.judged.grade) : chip(c.shown)),
+      el('td', { class: 'small claim' }, c.judged.says),
+      el('td', { class: 'num' }, ratio(c.judged.toBest) || '—'),
+      el('td', { class: 'num' }, ratio(c.judged.toOurs) || '—'),
+      el('td', { class: 'small claim' }, changeMark(c.judged.regression), ' ', c.judged.change || '—'),
+    );
+  const heads = headRow(
+    ['Engine', 'Accuracy', 'What is claimed', '× best', '× ours', 'Against the record'],
+    (i) => i === 3 || i === 4,
+  );
+  return panel('verdicts', 'Verdicts', scroll(el('table', { class: 'full' }, heads, el('tbody', null, ran.map(row)))));
+}
+
+/** What ended otherwise than by running through, or has wrong physics, and why: with the moment where it was worst. */
 export function outcomes(context: Context): HTMLElement | null {
   const odd = context.cases.filter((c) => !['pass', 'no_bound', 'unsupported'].includes(c.shown));
   const unable = context.cases.filter((c) => c.shown === 'unsupported');
@@ -47,7 +69,7 @@ export function outcomes(context: Context): HTMLElement | null {
     return el('p', null, chip('unsupported', `unsupported by ${who.join(', ')}`), reason);
   });
   const table = rows.length ? scroll(el('table', { class: 'full' }, el('tbody', null, rows))) : null;
-  return panel('outcomes', 'What did not simply pass', reasons, table);
+  return panel('outcomes', 'Wrong physics, bounds missed, and what did not run', reasons, table);
 }
 
 /** Bodies that a subject speaks of: "block", "block|floor"; a joint's or quantity's name is none, and does no harm. */

@@ -16,7 +16,7 @@ import { curves } from './curves.ts';
 import { head } from './head.ts';
 import { ladder } from './ladder.ts';
 import { metrics } from './metrics.ts';
-import { outcomes } from './outcomes.ts';
+import { outcomes, verdicts } from './outcomes.ts';
 import { parity } from './parity.ts';
 import { quantities } from './quantities.ts';
 import { replay } from './replay.ts';
@@ -24,6 +24,7 @@ import { caseTiming } from './timing.ts';
 
 const sections: Section[] = [
   head,
+  verdicts,
   outcomes,
   replay,
   curves,
