@@ -110,8 +110,9 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
             choice("internal_edges", {"on", "off"}, "off", "on",
                    "contacts with inner edges of triangle meshes and height fields take the face's normal "
                    "(btGenerateInternalEdgeInfo)"),
-            choice("frame_offset", {"on", "off"}, "on", "off",
-                   "of hinges: anchors weighted by the bodies' masses (setUseFrameOffset)"),
+            choice("frame_offset", {"on", "off", "by_body"}, "on", "by_body",
+                   "of hinges: anchors weighted by the bodies' masses (setUseFrameOffset); by_body: but for "
+                   "hinges to kinematic bodies"),
             choice("spring_limits", {"on", "off"}, "on", "off",
                    "springs of joints are softened where they are stiff for the step, dampers likewise"),
             choice("breaking", {"impulse_threshold", "feedback"}, "impulse_threshold", "feedback",

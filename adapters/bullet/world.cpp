@@ -238,7 +238,13 @@ void BulletWorld::addJoint(const scenario::Joint& joint) {
         const scenario::Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
         return JointEnd{record.body.get(), record.comFrame, body.pose, &body};
     };
-    const JointSettings settings{dt_, is("frame_offset", "on"), is("spring_limits", "on")};
+    const auto moved = [&](int index) {
+        return index != scenario::kNone &&
+               scenario_.bodies[static_cast<std::size_t>(index)].type == BodyType::Kinematic;
+    };
+    const bool weighted =
+        is("frame_offset", "by_body") ? !moved(joint.bodyA) && !moved(joint.bodyB) : is("frame_offset", "on");
+    const JointSettings settings{dt_, weighted, is("spring_limits", "on")};
     auto record = std::make_unique<JointRecord>();
     record->constraint = buildJoint(joint, endOf(joint.bodyA), endOf(joint.bodyB), settings);
     setBreaking(joint, *record);
