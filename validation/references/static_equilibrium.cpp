@@ -3,39 +3,38 @@
 //
 // Do bodies that lean on each other stand? Stacks, overhangs, pyramids, ladders, arches: a force f_c at every
 // touching point, inside the friction cone, must balance gravity and torque on every body:
-//   sum f_c + m g + F = 0,  sum (p_c - x) x f_c + T = 0,  f_c = sum of rays of the cone, weights >= 0:
-// a linear program (linear_program.hpp), exact in two dimensions. In three the cone lies between two pyramids
-// of 16 sides; the answer stands where both agree. Feasible: everything rests, the exact solution is the
-// start (the law of maximal dissipation allows other answers only to bodies already moving). Infeasible: no
-// forces hold the bodies, something must move. The total force between two bodies is determinate where the
-// least and the greatest value over all solutions agree. Source: Heyman, The Stone Skeleton, 1966; Livesley,
-// Int. J. Numer. Meth. Eng. 12 (1978) 1853; Gilbert and Melbourne, Struct. Eng. 72 (1994) 356; Milankovitch
-// 1907 (arch); Paterson and Zwick, Am. Math. Mon. 116 (2009) 19 (overhang). Assumes: rest at the start;
-// shapes of touching.hpp; gravity, constant forces and contact only. Quantities: moves (0 or 1; a run shows 1
-// where a body moved by 5 % of its size or turned by 0.1 rad); where they rest and it is determinate,
-// force_<a>_<b>: the normal force between two bodies [N], from the impulses of the last quarter of the run.
+//   sum f_c + m g + F = 0,  sum (p_c - x) x f_c + T = 0,  f_c in the cone of Coulomb.
+// Where such forces exist everything rests, and the exact solution is the start (the law of maximal
+// dissipation allows other answers only to bodies already moving). Where none do, something must move. A
+// linear program looks for the forces or for a virtual motion in which the loads gain energy
+// (contact_forces.hpp); each answer is checked on its own in exact rational arithmetic (force_balance.hpp),
+// and where neither check holds the scene is refused as undecided. The total force between two bodies is
+// determinate where certified bounds from below and above agree. Source: Heyman, The Stone Skeleton, 1966;
+// Livesley, Int. J. Numer. Meth. Eng. 12 (1978) 1853; Gilbert and Melbourne, Struct. Eng. 72 (1994) 356;
+// Milankovitch 1907 (arch); Paterson and Zwick, Am. Math. Mon. 116 (2009) 19 (overhang). Assumes: rest at
+// the start; shapes of touching.hpp; gravity, constant forces and contact only. Quantities: moves (0 or 1; a
+// run shows 1 where a body moved by 2 % of its size or turned by 0.05 rad); where they rest and it is
+// determinate, force_<a>_<b>: the normal force between two bodies [N], from the impulses of the last quarter
+// of the run.
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "validation/references/numerics/linear_program.hpp"
+#include "validation/references/contact_forces.hpp"
 #include "validation/references/touching.hpp"
 
 namespace rigor::validation {
 namespace {
 
-using numerics::LinearProgram;
-using numerics::Real;
 using scenario::BodyType;
 
-constexpr int kSides = 16;  // of the pyramids that stand for a cone in space
 constexpr double kMoved = 0.02,
                  kTurned = 0.05;  // beside the size; [rad]: far above what any engine at rest shows
 
 class StaticEquilibrium : public Reference {
   public:
     StaticEquilibrium(const Scenario& scenario, std::vector<int> bodies)
-        : scenario_(scenario), dynamic_(std::move(bodies)), points_(touchingPoints(scenario)) {
+        : scenario_(scenario), dynamic_(std::move(bodies)) {
         require(scenario.joints.empty(), "joints hold bodies, which this reference does not know");
         for (int i = 0; i < static_cast<int>(scenario.bodies.size()); ++i) {
             const Body& body = at(i);
@@ -47,12 +46,16 @@ class StaticEquilibrium : public Reference {
             weight_ += body.massProperties.mass * norm(gravityOn(scenario, i));
         }
         require(weight_ > 0.0, "nothing has a weight");
-        LinearProgram inner = build(false);
-        stands_ = inner.feasible(1e-9L);
-        if (scenario.dimension == 3 && !stands_)
-            require(!build(true).feasible(1e-9L), "too near the limit of equilibrium to decide");
-        require(stands_ || inner.infeasibility() > 1e-6L, "too near the limit of equilibrium to decide");
-        if (stands_) findForces(inner);
+        const LoadedBodies problem = loadedBodies();
+        ContactForces found(problem);
+        require(
+            found.verdict() != ContactForces::Verdict::Undecided,
+            "undecided: neither contact forces that balance the loads nor a motion that gains energy could "
+            "be certified");
+        stands_ = found.verdict() == ContactForces::Verdict::Balance;
+        if (!stands_) return;
+        for (const auto& [pair, force] : found.determinate())
+            forces_[pairs_[static_cast<std::size_t>(pair)]] = force;
     }
     std::vector<int> bodies() const override { return stands_ ? dynamic_ : std::vector<int>{}; }
     PartialState exact(int index, double) const override {
@@ -83,83 +86,38 @@ class StaticEquilibrium : public Reference {
   private:
     const Body& at(int i) const { return scenario_.bodies[static_cast<std::size_t>(i)]; }
 
-    /// Rays of the friction cone of a point; force on b.
-    std::vector<Vec3> raysOf(const TouchingPoint& p, bool outer) const {
-        const Vec3 t = perpendicular(p.normal), s = cross(p.normal, t);
-        if (p.friction == 0.0) return {p.normal};
-        if (scenario_.dimension == 2) return {p.normal + p.friction * t, p.normal - p.friction * t};
-        std::vector<Vec3> rays;
-        const double pi = 3.14159265358979323846,
-                     reach = outer ? p.friction / std::cos(pi / kSides) : p.friction;
-        for (int i = 0; i < kSides; ++i) {
-            const double a = 2 * pi * i / kSides;
-            rays.push_back(p.normal + (reach * std::cos(a)) * t + (reach * std::sin(a)) * s);
-        }
-        return rays;
-    }
-
-    /// Forces over the weight, torques over the weight times the size of each body: entries of order 1.
-    LinearProgram build(bool outer) {
-        const std::size_t torques = scenario_.dimension == 2 ? 1 : 3,
-                          forces = scenario_.dimension == 2 ? 2 : 3, each = torques + forces;
-        std::vector<std::vector<Real>> rows(each * dynamic_.size());
-        std::vector<Real> right(rows.size(), 0);
-        const auto write = [&](std::size_t slot, Vec3 force, Vec3 torque, double size, auto put) {
-            const double f[3] = {force.x, force.y, force.z};
-            const double t[3] = {scenario_.dimension == 2 ? torque.z : torque.x, torque.y, torque.z};
-            for (std::size_t i = 0; i < forces; ++i) put(each * slot + i, static_cast<Real>(f[i]));
-            for (std::size_t i = 0; i < torques; ++i)
-                put(each * slot + forces + i, static_cast<Real>(t[i]) / static_cast<Real>(size));
-        };
-        columnPoint_.clear();
-        for (std::size_t c = 0; c < points_.size(); ++c)
-            for (const Vec3 ray : raysOf(points_[c], outer)) {
-                columnPoint_.push_back(c);
-                for (auto& row : rows) row.push_back(0);
-                for (std::size_t slot = 0; slot < dynamic_.size(); ++slot) {
-                    const bool onB = dynamic_[slot] == points_[c].b;
-                    if (!onB && dynamic_[slot] != points_[c].a) continue;
-                    const Vec3 force = onB ? ray : -ray,
-                               arm = points_[c].point - centerOfMass(at(dynamic_[slot]));
-                    write(slot, force, cross(arm, force), sizeOf(at(dynamic_[slot])),
-                          [&](std::size_t row, Real v) { rows[row].back() = v; });
-                }
-            }
-        for (std::size_t slot = 0; slot < dynamic_.size(); ++slot) {
-            const int index = dynamic_[slot];
-            Vec3 load = at(index).massProperties.mass * gravityOn(scenario_, index), torque;
+    LoadedBodies loadedBodies() {
+        LoadedBodies problem;
+        problem.dimension = scenario_.dimension;
+        for (const int index : dynamic_) {
+            LoadedBodies::LoadedBody body;
+            body.center = centerOfMass(at(index));
+            body.size = sizeOf(at(index));
+            body.force = at(index).massProperties.mass * gravityOn(scenario_, index);
             for (const auto& force : scenario_.forces)
                 if (const auto* f = std::get_if<scenario::ConstantForce>(&force); f && f->body == index) {
                     require(f->start <= 0.0 && f->end >= scenario_.duration,
                             "a force does not act all the time");
-                    load += f->force;
-                    torque += f->torque;
+                    body.force += f->force;
+                    body.torque += f->torque;
                 }
-            write(slot, -load / weight_, -torque / weight_, sizeOf(at(index)),
-                  [&](std::size_t row, Real v) { right[row] = v; });
+            // A body of next to no load is measured against all of them.
+            body.load = std::max(norm(body.force) + norm(body.torque) / body.size, 1e-9 * weight_);
+            problem.bodies.push_back(body);
         }
-        return {rows, right};
-    }
-
-    /// Total normal force between each two touching bodies, where all solutions agree.
-    void findForces(LinearProgram& program) {
-        std::map<std::pair<int, int>, bool> pairs;
-        for (const auto& p : points_) pairs[{p.a, p.b}] = true;
-        for (const auto& [pair, unused] : pairs) {
-            std::vector<Real> cost(columnPoint_.size(), 0);
-            for (std::size_t j = 0; j < cost.size(); ++j) {
-                const TouchingPoint& p = points_[columnPoint_[j]];
-                if (p.a == pair.first && p.b == pair.second) cost[j] = 1;  // every ray has a unit normal part
-            }
-            const auto least = program.minimise(cost);
-            for (Real& c : cost) c = -c;
-            const auto most = program.minimise(cost);
-            if (least.status != LinearProgram::Status::Optimal ||
-                most.status != LinearProgram::Status::Optimal)
-                continue;
-            if (std::abs(-most.value - least.value) > 1e-9L) continue;
-            forces_[pair] = weight_ * static_cast<double>(least.value);
+        const auto slotOf = [&](int index) {
+            const auto place = std::find(dynamic_.begin(), dynamic_.end(), index);
+            return place == dynamic_.end() ? -1 : static_cast<int>(place - dynamic_.begin());
+        };
+        for (const auto& p : touchingPoints(scenario_)) {
+            const int a = slotOf(p.a), b = slotOf(p.b);
+            if (a < 0 && b < 0) continue;
+            const std::pair<int, int> pair{p.a, p.b};
+            if (pairs_.empty() || pairs_.back() != pair) pairs_.push_back(pair);
+            problem.contacts.push_back(
+                {a, b, static_cast<int>(pairs_.size()) - 1, p.point, p.normal, p.friction});
         }
+        return problem;
     }
 
     bool moved(const Trajectory& run) const {
@@ -190,8 +148,7 @@ class StaticEquilibrium : public Reference {
 
     const Scenario& scenario_;
     std::vector<int> dynamic_;
-    std::vector<TouchingPoint> points_;
-    std::vector<std::size_t> columnPoint_;
+    std::vector<std::pair<int, int>> pairs_;  ///< bodies that touch
     std::map<std::pair<int, int>, double> forces_;
     double weight_ = 0.0;
     bool stands_ = false;

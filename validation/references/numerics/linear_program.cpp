@@ -4,103 +4,202 @@
 // See linear_program.hpp.
 #include "validation/references/numerics/linear_program.hpp"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace rigor::validation::numerics {
 namespace {
 
-constexpr Real kTiny = 1e-13L;  // beside entries of order 1; 18 digits and a few hundred pivots
+constexpr Real kCost = 1e-14L;      // beside the multipliers: which reduced costs count as negative
+constexpr Real kFeasible = 1e-15L;  // how far below zero the ratio test lets an unknown go
+constexpr Real kPivot = 1e-10L;     // beside the largest entry of its column
+constexpr int kRefactor = 100;      // pivots on one inverse
 
 }  // namespace
 
-LinearProgram::LinearProgram(std::vector<std::vector<Real>> rows, std::vector<Real> right) {
-    const std::size_t m = rows.size();
-    columns_ = m > 0 ? rows[0].size() : 0;
-    table_ = std::move(rows);
-    for (std::size_t i = 0; i < m; ++i) {
-        if (table_[i].size() != columns_) throw std::invalid_argument("a linear program has ragged rows");
-        if (right[i] < 0) {
-            for (Real& a : table_[i]) a = -a;
-            right[i] = -right[i];
-        }
-        table_[i].resize(columns_ + m + 1, 0);
-        table_[i][columns_ + i] = 1;
-        table_[i].back() = right[i];
-        basis_.push_back(columns_ + i);
+LinearProgram::LinearProgram(std::vector<Real> right)
+    : rows_(static_cast<Eigen::Index>(right.size())), right_(rows_) {
+    for (std::size_t i = 0; i < right.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        right_[row] = right[i];
+        sign_.push_back(right[i] < 0 ? -1 : 1);
     }
-    std::vector<Real> cost(columns_ + m, 0);
-    for (std::size_t i = 0; i < m; ++i) cost[columns_ + i] = 1;
-    run(cost, columns_ + m, infeasibility_);
-    // Artificial unknowns left in the basis at zero: leave it where an original one can take the place.
-    for (std::size_t i = 0; i < m; ++i) {
-        if (basis_[i] < columns_) continue;
-        for (std::size_t j = 0; j < columns_; ++j)
-            if (std::abs(table_[i][j]) > 1e-9L) {
-                if (std::abs(table_[i].back()) <= 1e-9L) pivot(i, j);
-                break;
-            }
-    }
+    basis_.resize(right.size());
+    restart();
 }
 
-void LinearProgram::pivot(std::size_t row, std::size_t column) {
-    std::vector<Real>& r = table_[row];
-    const Real scale = 1 / r[column];
-    for (Real& a : r) a *= scale;
-    r[column] = 1;
-    for (std::size_t i = 0; i < table_.size(); ++i) {
-        const Real factor = table_[i][column];
-        if (i == row || factor == 0) continue;
-        for (std::size_t j = 0; j < r.size(); ++j) table_[i][j] -= factor * r[j];
-        table_[i][column] = 0;
+/// The basis of artificial unknowns alone.
+void LinearProgram::restart() {
+    inBasis_.assign(columns_.size(), false);
+    inverse_ = Matrix::Zero(rows_, rows_);
+    for (std::size_t i = 0; i < basis_.size(); ++i) {
+        basis_[i] = {true, i};
+        inverse_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) = sign_[i];
     }
-    basis_[row] = column;
+    value_ = right_.cwiseAbs();
+    y_ = Vector::Zero(rows_);
 }
 
-LinearProgram::Status LinearProgram::run(std::vector<Real> cost, std::size_t columns, Real& value) {
-    // Reduced costs: what a unit of a column outside the basis adds.
-    cost.resize(table_.empty() ? columns + 1 : table_[0].size(), 0);
-    for (std::size_t i = 0; i < table_.size(); ++i) {
-        const Real factor = cost[basis_[i]];
-        if (factor == 0) continue;
-        for (std::size_t j = 0; j < cost.size(); ++j) cost[j] -= factor * table_[i][j];
-    }
-    for (;;) {
-        std::size_t enter = columns;
-        for (std::size_t j = 0; j < columns && enter == columns; ++j)
-            if (cost[j] < -kTiny) enter = j;
-        if (enter == columns) break;
-        std::size_t leave = table_.size();
-        Real least = 0;
-        for (std::size_t i = 0; i < table_.size(); ++i) {
-            if (table_[i][enter] <= kTiny) continue;
-            const Real ratio = table_[i].back() / table_[i][enter];
-            const bool better = leave == table_.size() || ratio < least - kTiny ||
-                                (ratio < least + kTiny && basis_[i] < basis_[leave]);
-            if (better) leave = i, least = ratio;
+std::size_t LinearProgram::addColumn(Column column) {
+    columns_.push_back(std::move(column));
+    inBasis_.push_back(false);
+    return columns_.size() - 1;
+}
+
+Real LinearProgram::costOf(Basic basic, Phase phase, const std::vector<Real>& cost) const {
+    if (phase == Phase::Violation) return basic.artificial ? 1 : 0;
+    return basic.artificial ? 0 : cost[basic.index];
+}
+
+/// Inverse, values and multipliers from the basis alone; false where it is singular to rounding.
+bool LinearProgram::refactor(Phase phase, const std::vector<Real>& cost) {
+    Matrix basis = Matrix::Zero(rows_, rows_);
+    Vector prices(rows_);
+    for (Eigen::Index i = 0; i < rows_; ++i) {
+        const Basic basic = basis_[static_cast<std::size_t>(i)];
+        prices[i] = costOf(basic, phase, cost);
+        if (basic.artificial) {
+            basis(static_cast<Eigen::Index>(basic.index), i) = sign_[basic.index];
+        } else {
+            for (const Entry& e : columns_[basic.index]) basis(static_cast<Eigen::Index>(e.row), i) = e.value;
         }
-        if (leave == table_.size()) return Status::Unbounded;
-        pivot(leave, enter);
-        const Real factor = cost[enter];
-        for (std::size_t j = 0; j < cost.size(); ++j) cost[j] -= factor * table_[leave][j];
-        cost[enter] = 0;
     }
-    value = cost.empty() ? 0 : -cost.back();
-    return Status::Optimal;
+    inverse_ = basis.partialPivLu().inverse();
+    value_ = inverse_ * right_;
+    value_ += inverse_ * (right_ - basis * value_);
+    y_ = inverse_.transpose() * prices;
+    y_ += inverse_.transpose() * (prices - basis.transpose() * y_);
+    const Real scale = 1 + value_.cwiseAbs().sum();
+    return inverse_.allFinite() && (right_ - basis * value_).cwiseAbs().maxCoeff() <= 1e-14L * scale;
+}
+
+std::size_t LinearProgram::entering(Phase phase, const std::vector<Real>& cost, Real& reduced) {
+    std::uniform_real_distribution<double> factor(0.5, 1.0);
+    std::size_t best = columns_.size();
+    Real least = 0;
+    const Real largest = y_.cwiseAbs().maxCoeff();
+    for (std::size_t j = 0; j < columns_.size(); ++j) {
+        if (inBasis_[j]) continue;
+        const Real own = phase == Phase::Cost ? cost[j] : 0;
+        Real sum = own, size = std::abs(own) + largest;
+        for (const Entry& e : columns_[j]) {
+            const Real term = y_[static_cast<Eigen::Index>(e.row)] * e.value;
+            sum -= term;
+            size += std::abs(term);
+        }
+        if (sum >= -kCost * size) continue;
+        const Real weighted = sum * static_cast<Real>(factor(random_));
+        if (weighted < least) {
+            least = weighted;
+            reduced = sum;
+            best = j;
+        }
+    }
+    return best;
+}
+
+Eigen::Index LinearProgram::leaving(Phase phase, const Vector& direction) const {
+    const Real small = kPivot * direction.cwiseAbs().maxCoeff();
+    // In the second phase an artificial unknown stays zero: it leaves before it would move.
+    const auto pinned = [&](Eigen::Index i) {
+        return phase == Phase::Cost && basis_[static_cast<std::size_t>(i)].artificial;
+    };
+    Real bound = -1;
+    for (Eigen::Index i = 0; i < rows_; ++i) {
+        const Real d = pinned(i) ? std::abs(direction[i]) : direction[i];
+        if (d <= small) continue;
+        const Real most = pinned(i) ? 0 : (std::max(value_[i], Real(0)) + kFeasible) / d;
+        if (bound < 0 || most < bound) bound = most;
+    }
+    if (bound < 0) return rows_;
+    Eigen::Index best = rows_;
+    Real largest = 0;
+    for (Eigen::Index i = 0; i < rows_; ++i) {
+        const Real d = pinned(i) ? std::abs(direction[i]) : direction[i];
+        if (d <= small || d <= largest) continue;
+        if (!pinned(i) && value_[i] > bound * d) continue;
+        largest = d;
+        best = i;
+    }
+    return best;
+}
+
+LinearProgram::Status LinearProgram::run(Phase phase, const std::vector<Real>& cost) {
+    if (rows_ == 0) return Status::Optimal;
+    int restarts = phase == Phase::Violation ? 3 : 0;
+    const auto rebuild = [&] {
+        if (refactor(phase, cost)) return true;
+        if (restarts-- == 0) return false;
+        restart();
+        return refactor(phase, cost);
+    };
+    if (!rebuild()) return Status::Stalled;
+    const auto allowed = 1000 + 20 * (static_cast<std::size_t>(rows_) + columns_.size());
+    int onInverse = 0;
+    for (std::size_t pivots = 0; pivots < allowed; ++pivots) {
+        if (onInverse >= kRefactor) {
+            if (!rebuild()) return Status::Stalled;
+            onInverse = 0;
+        }
+        Real reduced = 0;
+        const std::size_t enter = entering(phase, cost, reduced);
+        Vector direction = Vector::Zero(rows_);
+        Eigen::Index leave = rows_;
+        if (enter != columns_.size()) {
+            for (const Entry& e : columns_[enter])
+                direction += e.value * inverse_.col(static_cast<Eigen::Index>(e.row));
+            leave = leaving(phase, direction);
+        }
+        if (leave == rows_) {
+            if (onInverse == 0) return enter == columns_.size() ? Status::Optimal : Status::Unbounded;
+            onInverse = kRefactor;  // an answer is given from a fresh inverse only
+            continue;
+        }
+        const Real pivot = direction[leave];
+        const Real step = std::max(value_[leave] / pivot, Real(0));
+        value_ -= step * direction;
+        value_[leave] = step;
+        inverse_.row(leave) /= pivot;
+        for (Eigen::Index i = 0; i < rows_; ++i)
+            if (i != leave && direction[i] != 0) inverse_.row(i) -= direction[i] * inverse_.row(leave);
+        y_ += reduced * inverse_.row(leave).transpose();
+        Basic& place = basis_[static_cast<std::size_t>(leave)];
+        if (!place.artificial) inBasis_[place.index] = false;
+        place = {false, enter};
+        inBasis_[enter] = true;
+        ++onInverse;
+    }
+    return Status::Stalled;
+}
+
+LinearProgram::Status LinearProgram::reduceViolation() {
+    return run(Phase::Violation, {});
+}
+
+LinearProgram::Status LinearProgram::minimise(const std::vector<Real>& cost) {
+    return run(Phase::Cost, cost);
+}
+
+Real LinearProgram::violation() const {
+    Vector rest = -right_;
+    const std::vector<Real> x = point();
+    for (std::size_t j = 0; j < columns_.size(); ++j)
+        for (const Entry& e : columns_[j]) rest[static_cast<Eigen::Index>(e.row)] += x[j] * e.value;
+    return rest.cwiseAbs().sum();
 }
 
 std::vector<Real> LinearProgram::point() const {
-    std::vector<Real> x(columns_, 0);
-    for (std::size_t i = 0; i < basis_.size(); ++i)
-        if (basis_[i] < columns_) x[basis_[i]] = table_[i].back();
+    std::vector<Real> x(columns_.size(), 0);
+    for (Eigen::Index i = 0; i < rows_; ++i) {
+        const Basic basic = basis_[static_cast<std::size_t>(i)];
+        if (!basic.artificial) x[basic.index] = std::max(value_[i], Real(0));
+    }
     return x;
 }
 
-LinearProgram::Result LinearProgram::minimise(const std::vector<Real>& cost) {
-    Result result;
-    // Only original columns may enter; artificial ones stay at zero where rows are redundant.
-    result.status = run(cost, columns_, result.value);
-    return result;
+std::vector<Real> LinearProgram::multipliers() const {
+    return {y_.data(), y_.data() + rows_};
 }
 
 }  // namespace rigor::validation::numerics

@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Small linear programs: minimise c.x over A x = b, x >= 0, by the two-phase simplex method on a dense
-// tableau in extended precision, with Bland's rule, which cannot cycle. Source: Dantzig, Linear Programming
-// and Extensions, 1963; Bland, Math. Oper. Res. 2 (1977) 103.
+// Linear programs, minimise c.x over A x = b, x >= 0, by the two-phase revised simplex method in extended
+// precision. Columns may be added between two calls; the basis is kept. Entries of A and b should be of order
+// 1. Pivots are bounded, so a call always ends, and what it returns is a candidate: x and the multipliers y
+// have to be checked by whoever uses them, in arithmetic of his own (force_balance.hpp).
+// Pricing takes the least reduced cost, each weighted with a random factor, which leaves cycles; the ratio
+// test is that of Harris, which chooses the largest pivot among the nearly equal ratios. The inverse of the
+// basis is computed anew every 100 pivots and before every answer; where it is singular to rounding, the
+// first phase starts again with other random factors. Source: Dantzig, Linear Programming and Extensions,
+// 1963; Harris, Math. Program. 5 (1973) 1.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstddef>
+#include <random>
 #include <vector>
 
 #include "validation/references/numerics/elliptic.hpp"
@@ -14,31 +23,66 @@ namespace rigor::validation::numerics {
 
 class LinearProgram {
   public:
-    /// `rows` equations of `columns` unknowns each. Looks for a feasible point at once.
-    LinearProgram(std::vector<std::vector<Real>> rows, std::vector<Real> right);
-
-    /// Least sum of violations |A x - b| over x >= 0: 0 where feasible, up to rounding.
-    Real infeasibility() const { return infeasibility_; }
-    bool feasible(Real tolerance) const { return infeasibility_ <= tolerance; }
-    /// A feasible point (after minimise: the last optimum).
-    std::vector<Real> point() const;
-
-    enum class Status { Optimal, Unbounded };
-    struct Result {
-        Status status = Status::Optimal;
+    struct Entry {
+        std::size_t row = 0;
         Real value = 0;
     };
-    /// Least c.x over the feasible set. To be asked only where feasible.
-    Result minimise(const std::vector<Real>& cost);
+    using Column = std::vector<Entry>;
+
+    explicit LinearProgram(std::vector<Real> right);
+
+    /// Adds an unknown with its entries of A; returns its index.
+    std::size_t addColumn(Column column);
+    std::size_t columns() const { return columns_.size(); }
+
+    enum class Status {
+        Optimal,
+        Unbounded,
+        Stalled  ///< no answer within the allowed pivots, or the basis is singular to rounding
+    };
+    /// Least violation, the sum of |A x - b| over x >= 0. Afterwards y.A_j <= 0 for every column, and y.b is
+    /// the violation.
+    Status reduceViolation();
+    /// Least c.x over the feasible set, from a point that reduceViolation() has found to be feasible.
+    /// Afterwards y.A_j <= c_j for every column, and y.b is the value.
+    Status minimise(const std::vector<Real>& cost);
+
+    /// Sum of |A x - b| at the last point.
+    Real violation() const;
+    /// The last point, one value for each column, none negative.
+    std::vector<Real> point() const;
+    /// The multipliers y of the last call, one for each row.
+    std::vector<Real> multipliers() const;
 
   private:
-    void pivot(std::size_t row, std::size_t column);
-    Status run(std::vector<Real> cost, std::size_t columns, Real& value);
+    using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+    /// A basic unknown: a column, or the artificial unknown of a row.
+    struct Basic {
+        bool artificial = true;
+        std::size_t index = 0;
+    };
+    enum class Phase { Violation, Cost };
 
-    std::size_t columns_ = 0;
-    std::vector<std::vector<Real>> table_;  ///< rows of (A | artificials | b), basis columns are unit vectors
-    std::vector<std::size_t> basis_;
-    Real infeasibility_ = 0;
+    void restart();
+    Status run(Phase phase, const std::vector<Real>& cost);
+    bool refactor(Phase phase, const std::vector<Real>& cost);
+    Real costOf(Basic basic, Phase phase, const std::vector<Real>& cost) const;
+    /// The column to enter, or columns() where none has a negative reduced cost.
+    std::size_t entering(Phase phase, const std::vector<Real>& cost, Real& reduced);
+    /// The row of the basis to leave, or rows where none limits the step.
+    Eigen::Index leaving(Phase phase, const Vector& direction) const;
+
+    Eigen::Index rows_ = 0;
+    Vector right_;
+    std::vector<Column> columns_;
+    std::vector<bool> inBasis_;
+    std::vector<Basic> basis_;
+    std::vector<Real> sign_;  ///< of the artificial unknown of each row
+    Matrix inverse_;          ///< of the basis
+    Vector value_;            ///< of the basic unknowns
+    Vector y_;
+    std::mt19937 random_{20};
 };
 
 }  // namespace rigor::validation::numerics
