@@ -9,7 +9,7 @@
 // impulse with the slip after it. Routh's incremental law and Poisson's and Stronge's restitution agree with
 // it where the slip does not change its direction during the impact. Assumes: motion in a plane across the
 // floor (2D, or 3D with a body that is the same on both sides of it); corners and caps (boxes, polygons,
-// hulls, capsules, spheres); gravity and constant forces; nothing else. Valid until a flat side slides.
+// hulls, capsules, spheres); gravity and constant forces; nothing else. A flat side may rest or slide.
 // Quantities: impact_time_n of the first four impacts; peak_n, the turn between impacts n and n + 1 of a
 // rocking body; along_after, above_after, spin_after the first impact in free flight.
 #include <algorithm>

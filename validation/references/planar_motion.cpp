@@ -21,7 +21,13 @@ using Kind = PlanarMotion::Kind;
 constexpr Real kStill = 1e-10L;  // beside the speeds of the scene: rounding of events, not physics
 constexpr int kChunks = 48;      // pieces of the duration that are integrated at a time
 constexpr int kLooks = 64;       // samples of the event functions in a piece
-constexpr std::size_t kMostEvents = 60;
+constexpr std::size_t kMostEvents = 200;
+constexpr Real kZero = 1e-15L;  // of the event functions beside lengths, speeds and forces of the scene
+constexpr Real kNear = 1e-3L;   // beside the size: a corner that may land soon
+constexpr int kHalvings = 30;   // of the first sample, for motions that come back at once
+constexpr std::size_t kMostPhases = 5000;
+constexpr int kMostStops = 8;      // changes of the mode in a row in which no time passes
+constexpr Real kSettling = 1e-5L;  // rocking beside its natural rate from which the limit is extrapolated
 
 OdeState pack(const PlanarMotion::State& s) {
     return {s.x, s.z, s.angle, s.vx, s.vz, s.rate};
@@ -31,6 +37,9 @@ PlanarMotion::State unpack(const OdeState& y) {
 }
 bool isSlip(Kind kind) {
     return kind == Kind::SlipForward || kind == Kind::SlipBackward;
+}
+bool isSlide(Kind kind) {
+    return kind == Kind::SlideForward || kind == Kind::SlideBackward;
 }
 Real signOf(Kind kind) {
     return kind == Kind::SlipForward ? 1 : (kind == Kind::SlipBackward ? -1 : 0);
@@ -99,11 +108,16 @@ PlanarMotion::PlanarMotion(Setup setup, State start, double duration)
     double t = 0.0;
     State s = start;
     Mode mode = startMode(s);
+    int stops = 0;
     while (t < duration_ && validUntil_ > 1e299) {
+        const double before = t;
         mode = follow(t, s, mode);
-        // Bounces that come closer and closer: known up to here.
-        if (events_.size() >= kMostEvents) validUntil_ = std::min(validUntil_, t);
+        stops = t > before ? 0 : stops + 1;
+        // Bounces that come closer and closer, or modes that alternate at one instant: known up to here.
+        if (events_.size() >= kMostEvents || stops > kMostStops || phases_.size() >= kMostPhases)
+            validUntil_ = std::min(validUntil_, t);
     }
+    require(validUntil_ > 0.0, "the contact changes its mode again and again at the start");
 }
 
 /// The mode that the contact forces of a single touching corner choose.
@@ -133,38 +147,79 @@ bool PlanarMotion::restsOn(const std::vector<int>& corners, const State& s) cons
     return na >= 0 && nb >= 0;
 }
 
-PlanarMotion::Mode PlanarMotion::startMode(State& s) const {
-    std::vector<int> touching;
-    const Real speed = std::abs(s.vx) + std::abs(s.vz) + setup_.size * std::abs(s.rate);
-    for (int i = 0; i < static_cast<int>(setup_.corners.size()); ++i) {
-        const Real gap = gapOf(i, s), rate = closingOf(i, s);
-        require(gap > -1e-6L * setup_.size, "the body starts inside the floor");
-        if (gap > 1e-6L * setup_.size || rate > 1e-6L * speed) continue;
-        require(rate >= -1e-6L * speed, "a corner of the body moves into the floor at the start");
-        touching.push_back(i);
+/// Whether the friction of a side that slides leaves a pressing force at both of its ends.
+bool PlanarMotion::slidesOn(const std::vector<int>& corners, const State& s, Real sign) const {
+    if (corners.size() != 2 || setup_.pullAbove >= 0) return false;
+    const Arm a = armOf(corners[0], s.angle), b = armOf(corners[1], s.angle);
+    const Real normal = -setup_.mass * setup_.pullAbove, tangential = -sign * setup_.friction * normal;
+    const Real nb = (tangential * a.cz - setup_.torque - normal * a.cx) / (b.cx - a.cx), na = normal - nb;
+    return na >= 0 && nb >= 0;
+}
+
+/// The mode of a body whose flat side touches with both ends and does not turn: it rests, slides, or tips.
+PlanarMotion::Mode PlanarMotion::flatMode(const std::vector<int>& corners, State& s) const {
+    const Real pull = std::hypot(setup_.pullAlong, setup_.pullAbove);
+    s.vz = s.rate = 0;
+    Real sign = s.vx > 0 ? 1 : -1;
+    if (std::abs(s.vx) <= kStill * std::sqrt(pull * setup_.size)) {
+        s.vx = 0;
+        if (restsOn(corners, s)) return {Kind::Rest, -1};
+        sign = setup_.pullAlong > 0 ? 1 : -1;
     }
-    if (touching.empty()) return {Kind::Flight, -1};
-    if (touching.size() == 1) return contactMode(touching[0], s);
-    require(touching.size() == 2 && speed == 0, "the body slides on a flat side");
-    if (restsOn(touching, s)) return {Kind::Rest, -1};
-    // At rest on a side but not held: it tips over one of its ends.
-    for (const int i : touching) {
-        const int other = i == touching[0] ? touching[1] : touching[0];
+    const bool moves = s.vx != 0 || std::abs(setup_.pullAlong) > -setup_.friction * setup_.pullAbove;
+    if (moves && slidesOn(corners, s, sign)) return {sign > 0 ? Kind::SlideForward : Kind::SlideBackward, -1};
+    // Not held: it tips over one of its ends.
+    for (const int i : corners) {
+        const int other = i == corners[0] ? corners[1] : corners[0];
         const Mode mode = contactMode(i, s);
         if (mode.kind == Kind::Flight) continue;
         const auto f = forcesIn(mode, s);
         if (f && f->load.normal >= 0 && f->az + f->spin * armOf(other, s.angle).x > 0) return mode;
     }
-    violated("the body slides on a flat side");
+    violated("the body leaves the floor with a flat side");
+}
+
+PlanarMotion::Mode PlanarMotion::startMode(State& s) const {
+    std::vector<int> touching;
+    const Real speed = std::abs(s.vx) + std::abs(s.vz) + setup_.size * std::abs(s.rate);
+    const Real natural = std::sqrt(std::hypot(setup_.pullAlong, setup_.pullAbove) * setup_.size);
+    const Real small = 1e-6L * speed + 1e-12L * natural;
+    for (int i = 0; i < static_cast<int>(setup_.corners.size()); ++i) {
+        const Real gap = gapOf(i, s), rate = closingOf(i, s);
+        require(gap > -1e-6L * setup_.size, "the body starts inside the floor");
+        if (gap > 1e-6L * setup_.size || rate > small) continue;
+        require(rate >= -small, "a corner of the body moves into the floor at the start");
+        touching.push_back(i);
+    }
+    if (touching.empty()) return {Kind::Flight, -1};
+    if (touching.size() == 1) return contactMode(touching[0], s);
+    require(touching.size() == 2, "more than two corners touch the floor");
+    return flatMode(touching, s);
+}
+
+/// How far to integrate at a time: a part of the duration, or a few times the flight of a corner that is
+/// near.
+double PlanarMotion::pieceFrom(const State& s, const Mode& mode) const {
+    Real piece = static_cast<Real>(duration_) / kChunks;
+    const Real pull = std::hypot(setup_.pullAlong, setup_.pullAbove);
+    for (int i = 0; i < static_cast<int>(setup_.corners.size()) && pull > 0; ++i) {
+        const Real gap = std::max(gapOf(i, s), Real(0));
+        const Real flight = (std::abs(closingOf(i, s)) + std::sqrt(2 * gap * pull)) / pull;
+        // Of a corner at rest on the floor nothing is told.
+        if (i == mode.corner || gap > kNear * setup_.size || flight < 1e-9L * duration_) continue;
+        piece = std::min(piece, 32 * flight);
+    }
+    return static_cast<double>(piece);
 }
 
 /// Integrates one mode to its next event and says which mode follows.
 PlanarMotion::Mode PlanarMotion::follow(double& t, State& s, Mode mode) {
     if (mode.kind == Kind::Rest) {
-        phases_.push_back({t, 1e300, mode, s, {}});
+        phases_.push_back({t, 1e300, mode, s, 0, t, {}});
         t = duration_;
         return mode;
     }
+    if (isSlide(mode.kind)) return slide(t, s, mode);
     if (!forcesIn(mode, s)) {
         const Arm a = armOf(mode.corner, s.angle);
         require(setup_.pullAbove + setup_.torque / setup_.inertia * a.x - s.rate * s.rate * a.z < 0,
@@ -174,30 +229,38 @@ PlanarMotion::Mode PlanarMotion::follow(double& t, State& s, Mode mode) {
         s = next;
         return after;
     }
-    const double end = std::min(duration_, t + duration_ / kChunks);
+    const double end = std::min(duration_, t + pieceFrom(s, mode));
     const auto rhs = [this, mode](Real, const OdeState& y, OdeState& d) {
         const auto f = forcesIn(mode, unpack(y));
         if (!f) throw std::runtime_error("a slipping contact approaches the state that Painleve found");
         d = {y[3], y[4], y[5], f->ax, f->az, f->spin};
     };
-    Phase phase{t, end, mode, s, numerics::DenseSolution(rhs, t, pack(s), end, 1e-14L)};
+    Phase phase{t, end, mode, s, 0, t, numerics::DenseSolution(rhs, t, pack(s), end, 1e-14L)};
     const auto stateAt = [&](Real at) { return unpack(phase.solution.at(at)); };
-    // Functions that are positive while the mode holds.
-    std::vector<std::function<Real(Real)>> watched;
+    // Functions that are positive while the mode holds, and what of them is zero.
+    struct Watched {
+        std::function<Real(Real)> value;
+        Real small = 0;
+    };
+    std::vector<Watched> watched;
+    const Real pull = std::hypot(setup_.pullAlong, setup_.pullAbove), load = kZero * setup_.mass * pull;
     if (mode.kind != Kind::Flight)
-        watched.push_back([&](Real at) { return forcesIn(mode, stateAt(at))->load.normal; });
+        watched.push_back({[&](Real at) { return forcesIn(mode, stateAt(at))->load.normal; }, load});
     if (isSlip(mode.kind))
-        watched.push_back([&](Real at) { return signOf(mode.kind) * slipOf(mode.corner, stateAt(at)); });
+        watched.push_back({[&](Real at) { return signOf(mode.kind) * slipOf(mode.corner, stateAt(at)); },
+                           kZero * std::sqrt(pull * setup_.size)});
     if (mode.kind == Kind::Stick)
-        watched.push_back([&](Real at) {
-            const auto f = forcesIn(mode, stateAt(at));
-            return setup_.friction * f->load.normal - std::abs(f->load.tangential);
-        });
+        watched.push_back({[&](Real at) {
+                               const auto f = forcesIn(mode, stateAt(at));
+                               return setup_.friction * f->load.normal - std::abs(f->load.tangential);
+                           },
+                           load});
     for (int i = 0; i < static_cast<int>(setup_.corners.size()); ++i)
-        if (i != mode.corner) watched.push_back([&, i](Real at) { return gapOf(i, stateAt(at)); });
+        if (i != mode.corner)
+            watched.push_back({[&, i](Real at) { return gapOf(i, stateAt(at)); }, kZero * setup_.size});
     Real first = end;
     bool found = false;
-    for (const auto& f : watched) {
+    for (const auto& [f, small] : watched) {
         Real low = t;
         for (int k = 1; k <= kLooks; ++k) {
             const Real high = t + (static_cast<Real>(end) - t) * k / kLooks;
@@ -206,8 +269,13 @@ PlanarMotion::Mode PlanarMotion::follow(double& t, State& s, Mode mode) {
                 low = high;
                 continue;
             }
-            Real root = low;
-            if (f(low) > 0) root = numerics::findRoot(f, low, high);
+            // An excursion from zero and back that is shorter than a sample: look nearer to the start.
+            Real above = low, below = high;
+            for (int halving = 0; k == 1 && !(f(above) > small) && halving < kHalvings; ++halving) {
+                const Real middle = low + (below - low) / 2;
+                (f(middle) > small ? above : below) = middle;
+            }
+            const Real root = k > 1 || f(above) > small ? numerics::findRoot(f, above, below) : low;
             if (root < first || !found) first = std::min(first, root), found = true;
             break;
         }
@@ -220,11 +288,73 @@ PlanarMotion::Mode PlanarMotion::follow(double& t, State& s, Mode mode) {
     return resolve(t, s, mode);
 }
 
+/// Slides on a flat side with constant acceleration, to the end or to a stop.
+PlanarMotion::Mode PlanarMotion::slide(double& t, State& s, Mode mode) {
+    const Real sign = mode.kind == Kind::SlideForward ? 1 : -1;
+    const Real rate = setup_.pullAlong + sign * setup_.friction * setup_.pullAbove;
+    Phase phase{t, 1e300, mode, s, rate, t, {}};
+    const Real stop = s.vx * rate < 0 ? static_cast<Real>(t) - s.vx / rate : 1e300L;
+    if (stop < static_cast<Real>(duration_)) phase.end = static_cast<double>(stop);
+    phases_.push_back(phase);
+    if (phase.end > duration_) {
+        t = duration_;
+        return mode;
+    }
+    const Real past = phase.end - static_cast<Real>(t);
+    s.x += past * (s.vx + past * rate / 2);
+    s.vx = 0;
+    t = phase.end;
+    events_.push_back({t, EventKind::Stick, -1, s, s});
+    return flatMode(lowest(s), s);
+}
+
+/// The corners of the side that the body lies on.
+std::vector<int> PlanarMotion::lowest(const State& s) const {
+    std::vector<int> corners;
+    for (int i = 0; i < static_cast<int>(setup_.corners.size()); ++i)
+        if (gapOf(i, s) < 1e-6L * setup_.size) corners.push_back(i);
+    return corners;
+}
+
+/// A body that rocks between two corners at ever shorter intervals comes to lie flat after a finite time: the
+/// times and velocities after every second impact form geometric series, whose limits Aitken's rule finds.
+/// True where the motion has come so far; t and s are then those of the limit.
+bool PlanarMotion::settles(double& t, State& s) const {
+    const Real natural = std::sqrt(std::abs(setup_.pullAbove) * setup_.size);
+    if (!(std::abs(s.rate) * setup_.size <= kSettling * natural)) return false;
+    std::vector<const Event*> impacts;
+    for (const Event& event : events_)
+        if (event.kind == EventKind::Impact) impacts.push_back(&event);
+    const std::size_t n = impacts.size();
+    if (n < 5) return false;
+    const Event &last = *impacts[n - 1], &before = *impacts[n - 3], &first = *impacts[n - 5];
+    const int other = impacts[n - 2]->corner;
+    if (last.corner != before.corner || last.corner != first.corner || other == last.corner) return false;
+    if (std::abs(last.after.rate) >= std::abs(before.after.rate)) return false;
+    const auto limit = [&](auto read) {
+        const Real a = read(first), b = read(before), c = read(last), bend = (c - b) - (b - a);
+        return bend == 0 ? c : c - (c - b) * (c - b) / bend;
+    };
+    State flat = s;
+    flat.x = limit([](const Event& e) { return e.after.x; });
+    flat.vx = limit([](const Event& e) { return e.after.vx; });
+    flat.vz = flat.rate = 0;
+    for (int newton = 0; newton < 3; ++newton) {
+        const Arm a = armOf(last.corner, flat.angle), b = armOf(other, flat.angle);
+        flat.angle -= (a.cz - b.cz) / (a.x - b.x);
+    }
+    flat.z = -armOf(last.corner, flat.angle).cz;
+    t = static_cast<double>(limit([](const Event& e) { return static_cast<Real>(e.time); }));
+    s = flat;
+    return true;
+}
+
 /// The mode after the event at time t.
-PlanarMotion::Mode PlanarMotion::resolve(double t, State& s, const Mode& mode) {
+PlanarMotion::Mode PlanarMotion::resolve(double& t, State& s, const Mode& mode) {
     std::vector<int> landing;
     for (int i = 0; i < static_cast<int>(setup_.corners.size()); ++i)
-        if (i != mode.corner && gapOf(i, s) < 1e-12L * setup_.size && closingOf(i, s) < 0)
+        if (i != mode.corner && closingOf(i, s) < 0 &&
+            gapOf(i, s) < 1e-14L * setup_.size - 1e-15L * static_cast<Real>(t) * closingOf(i, s))
             landing.push_back(i);
     std::vector<int> touching;
     if (mode.kind != Kind::Flight) touching.push_back(mode.corner);
@@ -245,7 +375,7 @@ PlanarMotion::Mode PlanarMotion::resolve(double t, State& s, const Mode& mode) {
 }
 
 /// Impulses at the corners that touch and land, each in one of the modes leave, stick, slip either way.
-PlanarMotion::Mode PlanarMotion::impact(double t, State& s, const std::vector<int>& touching,
+PlanarMotion::Mode PlanarMotion::impact(double& t, State& s, const std::vector<int>& touching,
                                         const std::vector<int>& landing, EventKind kind) {
     std::vector<int> corners = landing;
     corners.insert(corners.end(), touching.begin(), touching.end());
@@ -339,13 +469,9 @@ PlanarMotion::Mode PlanarMotion::impact(double t, State& s, const std::vector<in
     for (const int i : corners)
         if (closingOf(i, s) <= tiny) staying.push_back(i);
     if (staying.empty()) return {Kind::Flight, -1};
-    if (staying.size() == 1) return contactMode(staying[0], s);
-    if (std::abs(s.vx) <= tiny && restsOn(staying, s)) {
-        s.vx = s.vz = s.rate = 0;
-        return {Kind::Rest, -1};
-    }
-    validUntil_ = t;
-    return {Kind::Rest, -1};
+    if (staying.size() == 2) return flatMode(staying, s);
+    if (!settles(t, s)) return contactMode(staying[0], s);
+    return flatMode(lowest(s), s);
 }
 
 const PlanarMotion::Phase& PlanarMotion::phaseAt(double t) const {
@@ -356,7 +482,12 @@ const PlanarMotion::Phase& PlanarMotion::phaseAt(double t) const {
 
 PlanarMotion::State PlanarMotion::at(double t) const {
     const Phase& phase = phaseAt(t);
-    return phase.mode.kind == Kind::Rest ? phase.held : unpack(phase.solution.at(t));
+    if (phase.mode.kind != Kind::Rest && !isSlide(phase.mode.kind)) return unpack(phase.solution.at(t));
+    State s = phase.held;
+    const Real past = static_cast<Real>(t) - static_cast<Real>(phase.from);
+    s.x += past * (s.vx + past * phase.acceleration / 2);
+    s.vx += past * phase.acceleration;
+    return s;
 }
 
 PlanarMotion::Mode PlanarMotion::modeAt(double t) const {
@@ -365,7 +496,7 @@ PlanarMotion::Mode PlanarMotion::modeAt(double t) const {
 
 std::optional<PlanarMotion::Load> PlanarMotion::loadAt(double t) const {
     const Phase& phase = phaseAt(t);
-    if (phase.mode.kind == Kind::Rest) return std::nullopt;
+    if (phase.mode.kind == Kind::Rest || isSlide(phase.mode.kind)) return std::nullopt;
     const auto f = forcesIn(phase.mode, at(t));
     if (!f) return std::nullopt;
     return f->load;

@@ -9,6 +9,8 @@
 //   contact holds:  z'' + phi'' (R rho)_x - phi'^2 (R rho)_z = 0,
 //   slips, s = x' - phi' c_z:  F = -mu N sign(s);   sticks:  s' = 0 with |F| <= mu N.
 // Events: N = 0 (flight), s = 0 (stick, or slip the other way), |F| = mu N (slip), another corner lands.
+// Where both ends of a flat side touch the body rests, slides as a whole or tips over one of them. A block
+// that rocks between two corners at ever shorter intervals lies flat at the limit of the geometric series.
 // Impacts: all laws at the level of impulses at once (Newton's restitution at the corner that lands, Coulomb
 // with the slip after the impact), the answer by trying every mode. Where a slipping contact can carry no
 // force and not open either (Painleve), it stops in an impact without collision.
@@ -44,7 +46,8 @@ class PlanarMotion {
     struct State {
         Real x = 0, z = 0, angle = 0, vx = 0, vz = 0, rate = 0;
     };
-    enum class Kind { Rest, Flight, Stick, SlipForward, SlipBackward };
+    /// Slip: of one corner; Slide: of a flat side, along which the body does not turn.
+    enum class Kind { Rest, Flight, Stick, SlipForward, SlipBackward, SlideForward, SlideBackward };
     struct Mode {
         Kind kind = Kind::Flight;
         int corner = -1;
@@ -62,11 +65,11 @@ class PlanarMotion {
     };
 
     /// Follows the motion for `duration`. Throws AssumptionViolated for a start inside the floor, contacts
-    /// that do not fit the velocities, and motion with both ends of a flat side sliding.
+    /// that do not fit the velocities, and impacts without one answer.
     PlanarMotion(Setup setup, State start, double duration);
 
     State at(double t) const;
-    /// Contact force at time t; zero in flight, empty at rest on two corners.
+    /// Contact force at time t; zero in flight, empty on two corners.
     std::optional<Load> loadAt(double t) const;
     Mode modeAt(double t) const;
     const std::vector<Event>& events() const { return events_; }
@@ -77,7 +80,9 @@ class PlanarMotion {
     struct Phase {
         double begin = 0.0, end = 0.0;
         Mode mode;
-        State held;  ///< Kind::Rest
+        State held;             ///< at `from`: rest, and sliding on a flat side
+        Real acceleration = 0;  ///< of x, of the same
+        double from = 0.0;
         numerics::DenseSolution solution;
     };
     struct Forces {
@@ -98,9 +103,15 @@ class PlanarMotion {
     Mode startMode(State& s) const;
     Mode contactMode(int corner, const State& s) const;
     bool restsOn(const std::vector<int>& corners, const State& s) const;
+    bool slidesOn(const std::vector<int>& corners, const State& s, Real sign) const;
+    Mode flatMode(const std::vector<int>& corners, State& s) const;
+    std::vector<int> lowest(const State& s) const;
+    bool settles(double& t, State& s) const;
+    double pieceFrom(const State& s, const Mode& mode) const;
     Mode follow(double& t, State& s, Mode mode);
-    Mode resolve(double t, State& s, const Mode& mode);
-    Mode impact(double t, State& s, const std::vector<int>& touching, const std::vector<int>& landing,
+    Mode slide(double& t, State& s, Mode mode);
+    Mode resolve(double& t, State& s, const Mode& mode);
+    Mode impact(double& t, State& s, const std::vector<int>& touching, const std::vector<int>& landing,
                 EventKind kind);
     const Phase& phaseAt(double t) const;
 
