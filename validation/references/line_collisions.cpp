@@ -51,11 +51,13 @@ LineCollisions::LineCollisions(const Scenario& scenario, std::vector<int> bodies
         direction_ = -planeOf(scenario, i, origin_).normal;
     }
     require(direction_ != Vec3{}, "the centres of mass coincide");
+    double fastest = 0.0;
+    for (const int i : bodies_) fastest = std::max(fastest, norm(body(i).velocity));
     for (const int i : bodies_) {
         const std::string who = bodyTitle(scenario, i);
         const Body& b = body(i);
         require(b.angularVelocity == Vec3{}, who + " spins");
-        require(negligible(norm(cross(b.velocity, direction_)), norm(b.velocity)),
+        require(negligible(norm(cross(b.velocity, direction_)), fastest),
                 "the velocity of " + who + " is not along the line of the centres");
         if (b.type != BodyType::Dynamic) {
             require(norm(gravity_) == 0.0, "gravity acts beside the fixed " + who);

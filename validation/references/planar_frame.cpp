@@ -59,7 +59,8 @@ PlanarFrame::PlanarFrame(const Scenario& scenario, int index, int floor)
     const Vec3 com = centerOfMass(body_);
     origin_ += dot(axis_, com - origin_) * axis_;
     const Vec3 v = body_.velocity, w = body_.angularVelocity, g = gravityOn(scenario, index);
-    require(std::abs(dot(v, axis_)) <= 1e-9 * norm(v) && norm(w - dot(w, axis_) * axis_) <= 1e-9 * norm(w) &&
+    const double fast = norm(v) + sizeOf(body_) * norm(w);
+    require(std::abs(dot(v, axis_)) <= 1e-9 * fast && norm(w - dot(w, axis_) * axis_) <= 1e-9 * norm(w) &&
                 std::abs(dot(g, axis_)) <= 1e-9 * norm(g),
             who + " does not move in a plane across the floor");
     double moment = body_.massProperties.inertia(2, 2);

@@ -28,8 +28,8 @@ RollingBall::RollingBall(const Scenario& scenario, int index, int floor)
     const Vec3 n = plane_.normal, g = gravityOn(scenario, index);
     const double load = -dot(g, n);
     require(load > 0.0, "gravity does not press " + who + " against the floor");
-    require(negligible(dot(ball_.velocity, n), norm(ball_.velocity)),
-            "the velocity of " + who + " is not along the floor");
+    const double fast = norm(ball_.velocity) + ball_.radius * norm(ball_.spin);
+    require(negligible(dot(ball_.velocity, n), fast), "the velocity of " + who + " is not along the floor");
     pull_ = g + load * n;
     if (negligible(norm(pull_), norm(g))) pull_ = {};
     const double mu = pairCoefficients(scenario, ball_.material, plane_.material).friction;
@@ -37,7 +37,6 @@ RollingBall::RollingBall(const Scenario& scenario, int index, int floor)
     slip0_ = ball_.velocity - ball_.radius * cross(ball_.spin, n);
     slip0_ = slip0_ - dot(slip0_, n) * n;
     // Rolling up to rounding of the scenario's numbers is rolling.
-    const double fast = norm(ball_.velocity) + ball_.radius * norm(ball_.spin);
     if (norm(slip0_) <= 1e-12 * fast) slip0_ = {};
     slip_ = PlanarSlide(pull_, friction_, slip0_);
     const double end = horizon(scenario);

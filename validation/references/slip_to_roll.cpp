@@ -6,8 +6,8 @@
 // k = 2/5 solid sphere, 2/3 shell, 1/2 disc; the final velocity does not depend on mu, nor on the time step.
 // Source: Coriolis 1835; Routh, Dynamics of a System of Rigid Bodies, 1905.
 // Assumes: level floor, contact from the start; see rolling_ball.hpp.
-// Quantities: roll_time (extrapolated from the last slipping frames), rolling_speed, rolling_direction (angle
-// of the final velocity from the exact one, so exactly 0), final_spin.
+// Quantities: roll_time (extrapolated from the last slipping frames), rolling_speed, direction_error
+// (angle of the final velocity from the exact one, so exactly 0), final_spin.
 #include <cmath>
 
 #include "validation/references/rolling_ball.hpp"
@@ -53,7 +53,7 @@ class SlipToRoll : public Reference {
         result.push_back(std::move(speed));
         const Vec3 axis = unit(end.velocity), side = cross(rolling_.normal(), axis);
         if (norm(end.velocity) > 1e-9 * fast) {
-            Quantity direction{"rolling_direction", "rad", 0.0, 0.0, 1.0, {}};
+            Quantity direction{"direction_error", "rad", 0.0, 0.0, 1.0, {}};
             direction.measure = [=](const Trajectory& run) -> std::optional<double> {
                 const Vec3 v = run.state(run.frames() - 1, index).velocity;
                 return std::atan2(dot(v, side), dot(v, axis));

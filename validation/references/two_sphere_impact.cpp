@@ -7,8 +7,9 @@
 //   s.
 // Source: Brach, Mechanical Impact Dynamics, 1991; Walton 1993; Foerster et al. 1994.
 // Assumes: free flight in the same gravity before and after; they meet within the duration.
-// Quantities: impact_time and, for each body, velocity_<body> and spin_<body>: the length of the difference
-// from the exact vectors after the impact (exactly 0).
+// Quantities, for each body: velocity_x_<body>, velocity_y_<body> (velocity_z_<body>) right after the impact,
+// taken from the end of the run less what gravity has added since, and spin_<body>, in space spin_x_<body>
+// and so on.
 #include <cmath>
 
 #include "validation/references/impact_law.hpp"
@@ -59,22 +60,27 @@ class TwoSphereImpact : public Reference {
         const double scale = norm(partners_[0].ball.velocity - partners_[1].ball.velocity) +
                              partners_[0].ball.radius * norm(partners_[0].ball.spin) +
                              partners_[1].ball.radius * norm(partners_[1].ball.spin);
+        const bool space = scenario_.dimension == 3;
         for (const auto& p : partners_) {
             const int index = p.ball.body;
-            const double end = scenario_.duration;
-            const Vec3 v = *exact(index, end).velocity - end * gravity_, w = p.spin;
-            const std::string name = "_" + p.body->name;
-            Quantity velocity{"velocity" + name, "m/s", 0.0, {}, scale, {}};
-            velocity.measure = [=, g = gravity_](const Trajectory& run) -> std::optional<double> {
-                const std::size_t last = run.frames() - 1;
-                return norm(run.state(last, index).velocity - run.times[last] * g - v);
+            const auto add = [&](const std::string& name, const char* unitName, double exact, double against,
+                                 auto read) {
+                Quantity q{name + "_" + p.body->name, unitName, exact, {}, against, {}};
+                q.measure = [this, index, read](const Trajectory& run) -> std::optional<double> {
+                    const double since = run.times.back() - time_;
+                    if (since <= 0.0) return std::nullopt;
+                    const auto& state = run.state(run.frames() - 1, index);
+                    return read(state.velocity - since * gravity_, state.angularVelocity);
+                };
+                result.push_back(std::move(q));
             };
-            result.push_back(std::move(velocity));
-            Quantity spin{"spin" + name, "rad/s", 0.0, {}, scale / p.ball.radius, {}};
-            spin.measure = [=](const Trajectory& run) -> std::optional<double> {
-                return norm(run.state(run.frames() - 1, index).angularVelocity - w);
-            };
-            result.push_back(std::move(spin));
+            add("velocity_x", "m/s", p.velocity.x, scale, [](Vec3 v, Vec3) { return v.x; });
+            add("velocity_y", "m/s", p.velocity.y, scale, [](Vec3 v, Vec3) { return v.y; });
+            if (space) add("velocity_z", "m/s", p.velocity.z, scale, [](Vec3 v, Vec3) { return v.z; });
+            const double turning = scale / p.ball.radius;
+            if (space) add("spin_x", "rad/s", p.spin.x, turning, [](Vec3, Vec3 w) { return w.x; });
+            if (space) add("spin_y", "rad/s", p.spin.y, turning, [](Vec3, Vec3 w) { return w.y; });
+            add(space ? "spin_z" : "spin", "rad/s", p.spin.z, turning, [](Vec3, Vec3 w) { return w.z; });
         }
         return result;
     }

@@ -285,8 +285,31 @@ TEST(TwoSphereImpact, CatalogueAndConservation) {
     const Vec3 after = cross(*a.position, *a.velocity) + 2.0 * cross(*b.position, *b.velocity) +
                        0.004 * *a.angularVelocity + 0.008 * *b.angularVelocity;
     expectVec(after, before, 1e-14);
+    // The quantities are the components themselves, and are found in a run.
+    const auto quantities = reference->quantities(0.01, Scheme::Unknown);
+    EXPECT_NEAR(findQuantity(quantities, "velocity_x_a")->exact, 0.6971428571, 1e-9);
+    EXPECT_NEAR(findQuantity(quantities, "velocity_y_b")->exact, 0.4647619048, 1e-9);
+    EXPECT_NEAR(findQuantity(quantities, "spin_z_b")->exact, 10.47619048, 1e-8);
+    EXPECT_EQ(findQuantity(quantities, "velocity_a"), nullptr);
+    const Trajectory run = exactRun(s, *reference, 0.01, 100);
+    for (const auto& q : quantities) EXPECT_NEAR(q.measure(run).value(), q.exact, 1e-12) << q.name;
     s.bodies[0].velocity = {-2, 0, 0};
     EXPECT_THROW(makeReference(s), AssumptionViolated);
+}
+
+TEST(TwoSphereImpact, VelocitiesRightAfterAnImpactInFreeFall) {
+    Scenario s = emptyScene(2, {0, -9.81, 0}, 1);
+    addBall(s, "a", 0.1, 1, 0.5, {0, 0, 0}, {2, 0, 0});
+    addBall(s, "b", 0.1, 2, 0.5, {0.56, 0.12, 0});
+    setReference(s, "two_sphere_impact");
+    const auto reference = makeReference(s);
+    const auto quantities = reference->quantities(0.01, Scheme::Unknown);
+    const double t = (0.56 - 0.16) / 2;
+    EXPECT_NEAR(findQuantity(quantities, "velocity_y_a")->exact, reference->exact(0, t + 1e-9).velocity->y,
+                1e-7);
+    const Trajectory run = exactRun(s, *reference, 0.01, 100);
+    for (const auto& q : quantities) EXPECT_NEAR(q.measure(run).value(), q.exact, 1e-12) << q.name;
+    EXPECT_NE(findQuantity(quantities, "spin_a"), nullptr);
 }
 
 TEST(SlipToRoll, CatalogueMasseAndDisc) {

@@ -354,6 +354,24 @@ TEST(SphericalPendulum, CatalogueValues) {
     expectVec(*makeReference(s)->exact(0, 1).position, {-0.7333494232, -0.392626553, -0.555016228}, 1e-9);
 }
 
+TEST(SphericalPendulum, ATopReleasedFromRestSpinsAboutItsArm) {
+    // w x r is zero up to rounding, and so is the velocity, whichever way it is written.
+    const Vec3 arm{0, 0, 0.3};
+    for (const double tilt : {0.3, 0.7, 1.1, 2.0}) {
+        const Quat q = fromAxisAngle(unit({1, 2, 3}), tilt);
+        const Vec3 spin = 40.0 * rotate(q, {0, 0, 1});
+        Scenario s = fixedPointBody(Mat3::diagonal(0.06, 0.06, 0.02), 1, arm, {0, 0, -9.81}, q, spin, 1);
+        const auto rounded = makeReference(s);
+        s.bodies[0].velocity = {};
+        const auto still = makeReference(s);
+        expectVec(*still->exact(0, 1).position, *rounded->exact(0, 1).position, 1e-12);
+        s.bodies[0].velocity = {0, 1e-14, 0};
+        EXPECT_NO_THROW(makeReference(s));
+        s.bodies[0].velocity = {0, 1e-3, 0};
+        EXPECT_THROW(makeReference(s), AssumptionViolated);
+    }
+}
+
 /// The Lagrange top in closed form: cos(theta) by Jacobi sn, the second method beside integration.
 TEST(SphericalPendulum, HeavySymmetricTopAgreesWithItsEllipticForm) {
     const double I1 = 0.06, I3 = 0.02, m = 1, l = 0.2, g = 9.81, theta0 = 0.5, spin = 50;
