@@ -156,6 +156,9 @@ std::vector<BenchWork> planAll(const Arguments& a) {
     request.preset = a.preset, request.threads = a.threads;
     if (!a.dt.empty()) request.dt = parseTimeStep(a.dt);
     const auto engines = describe(request.specs);
+    for (const auto& spec : request.specs)
+        for (const auto& d : engines)
+            if (d.info.name == spec.engine && d.problem.empty()) validation::checkSettings(spec, d);
     auto work = validation::planScenes(request, engines);
     validation::BenchRequest parts;
     if (!a.engines.empty())

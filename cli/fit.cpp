@@ -12,6 +12,7 @@
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
 #include "validation/fit/fit.hpp"
+#include "validation/runner/describe.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -42,6 +43,7 @@ int runFit(const Arguments& a) {
     std::vector<adapter::EngineSpec> engines;
     if (!a.engines.empty()) engines = adapter::parseSpecList(a.engines);
     validation::FitTask task = validation::loadFit(a.file, engines);
+    validation::checkSpecs(task.specs, ownBinary());
     if (a.budget > 0) task.budget = a.budget;
     validation::FitOptions options;
     options.directory = chooseRunFolder(a.out, a.resume, "fit-" + task.name);

@@ -10,6 +10,7 @@
 #include "cli/progress.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
+#include "validation/runner/describe.hpp"
 #include "validation/studies/print.hpp"
 
 namespace rigor::cli {
@@ -51,6 +52,7 @@ int runStudy(const Arguments& a) {
             return loadWithReference(name, set, false);
         },
         [](const std::string& engine) { return validation::describeEngine(engine, ownBinary()).options; });
+    validation::checkPlan(plan.cases, ownBinary());
 
     validation::RunOptions options;
     options.directory = chooseRunFolder(a.out, a.resume, study.name);

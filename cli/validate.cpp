@@ -174,6 +174,8 @@ int validate(const Arguments& given) {
     std::vector<double> timeSteps = selection.timeSteps;
     if (!arguments.timeSteps.empty()) timeSteps.clear();
     for (const auto& text : arguments.timeSteps) timeSteps.push_back(parseTimeStep(text));
+    const auto plan = validation::planCases(selection.scenarios, specs, timeSteps);
+    validation::checkPlan(plan, ownBinary());
 
     validation::RunOptions options;
     options.directory = chooseRunFolder(arguments.out, arguments.resume, selection.title);
@@ -186,7 +188,6 @@ int validate(const Arguments& given) {
     options.suite = selection.title;
     options.command = ownCommandLine();
 
-    const auto plan = validation::planCases(selection.scenarios, specs, timeSteps);
     if (options.resume) checkResumed(options.directory, plan);
     std::signal(SIGINT, onInterrupt);
     std::signal(SIGTERM, onInterrupt);

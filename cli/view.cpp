@@ -16,6 +16,7 @@
 #include "cli/view/run_site.hpp"
 #include "cli/view/server.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "validation/runner/describe.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -80,7 +81,7 @@ int viewRun(const Arguments& a) {
 int viewScenario(const Arguments& a) {
     const auto loaded = loadWithReference(a.what, a.overrides, false);
     const std::vector<adapter::EngineSpec> specs = adapter::parseSpecList(a.engines);
-    for (const adapter::EngineSpec& spec : specs) (void)adapter::moduleFor(spec);
+    validation::checkSpecs(specs, ownBinary());
     if (specs.size() > validation::Session::kMostLanes)
         throw std::invalid_argument("--engines: no more than 8 at a time");
     validation::SessionOptions options;

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <set>
 
+#include "adapters/interface/nearest.hpp"
+
 namespace rigor::adapter {
 namespace {
 
@@ -84,9 +86,10 @@ std::filesystem::path moduleFor(const EngineSpec& spec) {
         }
     if (!plain.empty()) return plain;
     std::string known;
-    for (const auto& name : availableEngines()) known += (known.empty() ? "" : ", ") + name;
-    throw BadInput("engine '" + spec.engine +
-                   "' is not installed; known engines: " + (known.empty() ? "none" : known));
+    const auto names = availableEngines();
+    for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
+    throw BadInput("engine '" + spec.engine + "' is not installed; known engines: " +
+                   (known.empty() ? "none" : known) + didYouMean(spec.engine, names));
 }
 
 LoadedEngine::LoadedEngine(const std::filesystem::path& module) {

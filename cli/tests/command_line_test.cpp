@@ -226,6 +226,45 @@ TEST(CommandLine, BadReferencesAreRefusedEverywhere) {
     EXPECT_FALSE(std::filesystem::exists(folder / "run")) << "nothing is written for a bad file";
 }
 
+/// Every command that takes specs refuses what an engine does not have before it runs or writes anything, and
+/// names what was probably meant.
+TEST(CommandLine, UnknownEnginesKeysAndValuesStopEverythingBeforeItBegins) {
+    const auto folder = freshFolder("unknown_options");
+    const auto file = writeProjectile().string(), out = " --out " + (folder / "run").string();
+    std::ofstream(folder / "study.json") << R"({"rigor_study": 1, "name": "s", "parts": [{"name": "p",
+        "scenarios": [")" + file + R"("], "dt": [0.01], "metrics": ["position_final"],
+        "variants": ["rigor", "ode:stper=quickstep"]}]})";
+    std::ofstream(folder / "asks.json")
+        << replaced(projectileText(), R"("duration": 1.0)",
+                    R"("duration": 1.0, "engines": {"ode": {"stepper": "quikstep"}})");
+    const std::pair<std::string, const char*> cases[] = {
+        {"validate " + file + " --engines bulet" + out, "bullet"},
+        {"validate " + file + " --engines ode:preset=matchd" + out, "matched"},
+        {"validate " + file + " --engines rigor,ode:itertions=20" + out, "iterations"},
+        {"validate " + file + " --engines ode:stepper=quikstep" + out, "quickstep"},
+        {"validate " + (folder / "asks.json").string() + " --engines ode" + out, "quickstep"},
+        {"run " + file + " --engine ode:itertions=20", "iterations"},
+        {"run " + file + " --engine bulet", "bullet"},
+        {"bench " + file + " --any-build --engines ode:itertions=20" + out, "iterations"},
+        {"study " + (folder / "study.json").string() + out, "stepper"},
+        {"collide analytic --engines rigor:narow_phase=sat", "narrow_phase"},
+        {"freeze " + file + " --engine ode:itertions=20" + out, "iterations"},
+        {"view " + file + " --engines ode:itertions=20", "iterations"},
+    };
+    for (const auto& [command, meant] : cases) {
+        const Result result = rigor(command);
+        EXPECT_EQ(result.code, 2) << command << "\n" << result.out;
+        EXPECT_NE(result.out.find("did you mean '" + std::string(meant) + "'?"), std::string::npos)
+            << command << "\n"
+            << result.out;
+        EXPECT_FALSE(std::filesystem::exists(folder / "run")) << command;
+    }
+    const Result precision = rigor("validate " + file + " --engines ode:precision=f16" + out);
+    EXPECT_EQ(precision.code, 2);
+    EXPECT_NE(precision.out.find("key 'precision': found 'f16', expected one of f64"), std::string::npos)
+        << precision.out;
+}
+
 TEST(CommandLine, TwoScenariosOfOneNameAreRefused) {
     const auto folder = freshFolder("same_name");
     const auto one = (folder / "one.json").string(), two = (folder / "two.json").string();

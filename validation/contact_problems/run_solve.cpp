@@ -95,6 +95,7 @@ std::vector<adapter::EngineSpec> contactSolverSpecs(const std::vector<adapter::E
         for (const std::string& engine : adapter::availableEngines()) wanted.push_back({engine, {}});
     std::vector<adapter::EngineSpec> specs;
     for (const adapter::EngineSpec& spec : wanted) {
+        (void)adapter::moduleFor(spec);
         const EngineDescription engine = describeEngine(spec.engine, binary);
         if (!engine.problem.empty() || !engine.capabilities.contactSolvers) {
             if (asked.empty()) continue;
@@ -102,6 +103,7 @@ std::vector<adapter::EngineSpec> contactSolverSpecs(const std::vector<adapter::E
                                         ? spec.engine + " has no solvers for frozen contact problems"
                                         : spec.engine + ": " + engine.problem);
         }
+        checkSettings(spec, engine);
         if (spec.options.count("solver") > 0) {
             specs.push_back(spec);
             continue;

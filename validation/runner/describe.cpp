@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <map>
@@ -210,7 +211,37 @@ std::vector<adapter::EngineSpec> withAllPresets(const std::vector<adapter::Engin
 }
 
 void checkSettings(const adapter::EngineSpec& spec, const EngineDescription& description) {
+    const auto given = spec.options.find("precision");
+    const auto& built = description.precisions;
+    if (given != spec.options.end() && !built.empty() &&
+        std::find(built.begin(), built.end(), given->second) == built.end()) {
+        std::string names;
+        for (const auto& name : built) names += (names.empty() ? "" : ", ") + name;
+        throw adapter::BadInput("engine '" + spec.engine + "', key 'precision': found '" + given->second +
+                                "', expected one of " + names);
+    }
     (void)adapter::resolveSettings(spec, DescribedEngine(description));
+}
+
+void checkSpecs(const std::vector<adapter::EngineSpec>& specs, const std::filesystem::path& binary) {
+    std::vector<std::string> engines;
+    for (const auto& spec : specs) {
+        (void)adapter::moduleFor(spec);
+        if (std::find(engines.begin(), engines.end(), spec.engine) == engines.end())
+            engines.push_back(spec.engine);
+    }
+    const auto descriptions = describeEngines(engines, binary, 1);
+    for (const auto& spec : specs)
+        for (const auto& d : descriptions)
+            if (d.info.name == spec.engine && d.problem.empty()) checkSettings(spec, d);
+}
+
+void checkPlan(const std::vector<CasePlan>& plan, const std::filesystem::path& binary) {
+    std::map<std::string, adapter::EngineSpec> specs;
+    for (const CasePlan& c : plan) specs.emplace(c.spec.text(), c.spec);
+    std::vector<adapter::EngineSpec> each;
+    for (const auto& [text, spec] : specs) each.push_back(spec);
+    checkSpecs(each, binary);
 }
 
 }  // namespace rigor::validation

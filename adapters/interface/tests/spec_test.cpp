@@ -80,7 +80,9 @@ TEST(Spec, AFurtherPresetStandsOnTheMatchedOne) {
 }
 
 TEST(Spec, WrongKeysAndValuesNameWhatIsAllowed) {
-    EXPECT_NE(messageOf("toy:sover=fast").find("solver"), std::string::npos);
+    EXPECT_NE(messageOf("toy:sover=fast").find("did you mean 'solver'?"), std::string::npos);
+    EXPECT_NE(messageOf("toy:solver=exakt").find("did you mean 'exact'?"), std::string::npos);
+    EXPECT_NE(messageOf("toy:preset=matchd").find("did you mean 'matched'?"), std::string::npos);
     EXPECT_NE(messageOf("toy:solver=slow").find("fast, exact"), std::string::npos);
     EXPECT_NE(messageOf("toy:preset=best").find("'best', expected one of default, matched, rough"),
               std::string::npos);
