@@ -25,6 +25,7 @@ struct Arguments {
     std::string before, after;  ///< folders with commas between
     validation::CompareOptions options;
     std::size_t most = 20;
+    std::string pairBy;
     bool json = false;
 };
 
@@ -38,6 +39,17 @@ std::vector<Run> readRuns(const std::string& folders) {
     }
     if (runs.empty()) throw std::invalid_argument("found no run folder, expected one or more");
     return runs;
+}
+
+/// Cases that differ on purpose: in one run, or in two.
+validation::RunComparison pairedComparison(const Arguments& a) {
+    validation::CompareOptions options = a.options;
+    options.pairBy = *validation::parsePairBy(a.pairBy);
+    if (a.before == kRecorded || a.after == kRecorded)
+        throw std::invalid_argument("--pair: found 'recorded', expected run folders");
+    const auto before = readRuns(a.before);
+    if (a.after.empty()) return validation::compareRuns(before, before, options);
+    return validation::compareRuns(before, readRuns(a.after), options);
 }
 
 validation::RunComparison comparisonOf(const Arguments& a) {
@@ -55,11 +67,14 @@ validation::RunComparison comparisonOf(const Arguments& a) {
 }
 
 int compare(const Arguments& a) {
-    const auto comparison = comparisonOf(a);
+    if (a.after.empty() && a.pairBy.empty())
+        throw std::invalid_argument(
+            "compare: found one run, expected AFTER as well, or --pair engine|spec|dt");
+    const auto comparison = a.pairBy.empty() ? comparisonOf(a) : pairedComparison(a);
     const auto text = a.json ? validation::comparisonJson(comparison)
                              : validation::comparisonText(comparison, a.options, a.most);
     std::fputs(text.c_str(), stdout);
-    return validation::becameWorse(comparison) ? kRed : kOk;
+    return a.pairBy.empty() && validation::becameWorse(comparison) ? kRed : kOk;
 }
 
 int record(const std::string& folder, const std::string& out, bool add) {
@@ -91,14 +106,20 @@ void checkBaseline(const std::string& baseline) {
 
 void addCompare(CLI::App& app, Action& action) {
     auto a = std::make_shared<Arguments>();
-    auto* command =
-        app.add_subcommand("compare", "What became better or worse between runs, with statistics");
+    auto* command = app.add_subcommand(
+        "compare",
+        "What became better or worse between runs, or differs between two engines, specs or time steps");
     command
         ->add_option("BEFORE", a->before,
                      "Run folder, several with commas between, or 'recorded': what the repository has on "
                      "record for the engine versions of AFTER")
         ->required();
-    command->add_option("AFTER", a->after, "Run folder, or several")->required();
+    command->add_option("AFTER", a->after, "Run folder, or several; with --pair it may be left out");
+    command
+        ->add_option("--pair", a->pairBy,
+                     "Compare what differs on purpose, in one run or two: engine (of one preset), spec, dt "
+                     "(in one run each with the next finer)")
+        ->check(CLI::IsMember({"engine", "spec", "dt"}));
     command
         ->add_option("--tolerance", a->options.tolerance,
                      "Errors that differ by a smaller share count as equal (default 0.01)")
@@ -106,7 +127,8 @@ void addCompare(CLI::App& app, Action& action) {
     command->add_option("--limit", a->most, "Lines of each list (default 20)");
     command->add_flag("--json", a->json, "Print the comparison as JSON");
     command->footer(
-        "Exit codes: 0 no verdict and no error became worse, 1 some did, 2 bad command line or no run.");
+        "Exit codes: 0 no verdict and no error became worse (with --pair: there was something to compare), 1 "
+        "some did,\n            2 bad command line, no run, or not one case to compare.");
     command->callback([a, &action] { action = [a] { return compare(*a); }; });
 }
 

@@ -83,6 +83,27 @@ TEST_F(CompareCommand, ValidateAgainstABaseline) {
     EXPECT_FALSE(fs::exists(folder_ / "c")) << "said before anything runs";
 }
 
+/// Two runs without a common case say what each has; what differs on purpose is compared when that is asked
+/// for.
+TEST_F(CompareCommand, NothingInCommonIsAnErrorAndPairsAreCompared) {
+    ASSERT_EQ(rigor(validate("ode", "ode")).code, 0);
+    const auto nothing = rigor("compare " + path("a") + " " + path("ode"));
+    EXPECT_EQ(nothing.code, 2) << nothing.out;
+    EXPECT_NE(nothing.out.find("engines: ode:preset=default, ode:preset=matched; dt: 0.0166667"),
+              std::string::npos)
+        << nothing.out;
+    const auto engines = rigor("compare --pair engine " + path("a") + " " + path("ode"));
+    EXPECT_EQ(engines.code, 0) << engines.out;
+    EXPECT_NE(engines.out.find("rigor:preset=default -> ode:preset=default"), std::string::npos)
+        << engines.out;
+    const json presets = json::parse(rigor("compare --json --pair spec " + path("a"), false).out);
+    ASSERT_EQ(presets.at("specs").size(), 3u) << "of default, fast and matched every two";
+    EXPECT_EQ(presets.at("specs")[0].at("cases"), 2);
+    EXPECT_EQ(rigor("compare --pair dt " + path("a")).code, 2) << "one step alone";
+    EXPECT_EQ(rigor("compare --pair colour " + path("a")).code, 2);
+    EXPECT_EQ(rigor("compare --pair engine recorded " + path("a")).code, 2);
+}
+
 TEST_F(CompareCommand, WhatIsNoRunIsSaid) {
     const auto none = rigor("compare " + path("nowhere") + " " + path("a"));
     EXPECT_EQ(none.code, 2);

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
 #include <tuple>
 
 namespace rigor::validation {
@@ -25,10 +27,10 @@ Key keyOf(const CaseRow& c) {
     return {c.scenario, c.spec, c.dt};
 }
 
-std::string nameOf(const Key& key) {
+std::string nameOf(const CaseRow& c) {
     char dt[32];
-    std::snprintf(dt, sizeof dt, "%.6g", std::get<2>(key));
-    return std::get<0>(key) + " " + std::get<1>(key) + " dt=" + dt;
+    std::snprintf(dt, sizeof dt, "%.6g", c.dt);
+    return c.scenario + " " + c.spec + " dt=" + dt;
 }
 
 /// The cases of each run of a side.
@@ -65,30 +67,34 @@ double growth(double before, double after, const CompareOptions& options) {
     return std::abs(b - a) <= options.tolerance * std::max(a, b) ? 1.0 : ratio;
 }
 
+ComparedPlace placeOf(const CasePair& pair) {
+    return {pair.before->scenario, pair.before->spec, pair.after->spec, pair.before->dt, pair.after->dt};
+}
+
 const MetricRow* find(const CaseRow& c, const MetricRow& like) {
     for (const MetricRow& m : c.metrics)
         if (m.name == like.name && m.subject == like.subject) return &m;
     return nullptr;
 }
 
-void compareMetrics(const CaseRow& before, const CaseRow& after, const CompareOptions& options,
-                    SpecChange& spec, RunComparison& all) {
-    for (const MetricRow& m : before.metrics) {
-        const MetricRow* other = find(after, m);
+void compareMetrics(const CasePair& pair, const CompareOptions& options, SpecChange& spec,
+                    RunComparison& all) {
+    for (const MetricRow& m : pair.before->metrics) {
+        const MetricRow* other = find(*pair.after, m);
         if (m.kind == "cost" || m.kind == "outcome" || other == nullptr) continue;
         const double ratio = growth(m.value, other->value, options);
         if (m.subject.empty()) ++(ratio > 1.0 ? spec.worse : ratio < 1.0 ? spec.better : spec.same);
         if (ratio != 1.0 && m.subject.empty())
-            all.metrics.push_back({before.scenario, before.spec, m.name, m.subject, m.unit, before.dt,
-                                   m.value, other->value, ratio > 1.0});
+            all.metrics.push_back(
+                {placeOf(pair), m.name, m.subject, m.unit, m.value, other->value, ratio > 1.0});
     }
 }
 
-void compareVerdicts(const CaseRow& before, const CaseRow& after, RunComparison& all) {
-    if (before.verdict == after.verdict) return;
-    all.verdicts.push_back({before.scenario, before.spec, results::verdictName(before.verdict),
-                            results::verdictName(after.verdict), after.reason, before.dt,
-                            badness(after.verdict) > badness(before.verdict)});
+void compareVerdicts(const CasePair& pair, RunComparison& all) {
+    const Verdict before = pair.before->verdict, after = pair.after->verdict;
+    if (before == after) return;
+    all.verdicts.push_back({placeOf(pair), results::verdictName(before), results::verdictName(after),
+                            pair.after->reason, badness(after) > badness(before)});
 }
 
 /// Median over the runs of a side of the median time of a step [s].
@@ -140,6 +146,33 @@ std::vector<std::string> changedScenarios(const Run& before, const Run& after) {
     return names;
 }
 
+/// Cases that only one of two runs has.
+void listUnpaired(const Run& before, const Run& after, const std::vector<CasePair>& pairs,
+                  RunComparison& all) {
+    std::set<const CaseRow*> paired;
+    for (const CasePair& pair : pairs) paired.insert({pair.before, pair.after});
+    for (const CaseRow& c : before.cases)
+        if (!paired.contains(&c)) all.onlyBefore.push_back(nameOf(c));
+    for (const CaseRow& c : after.cases)
+        if (!paired.contains(&c)) all.onlyAfter.push_back(nameOf(c));
+}
+
+[[noreturn]] void refuse(const Run& before, const Run& after, const RunComparison& all) {
+    std::string text = "compare: nothing can be compared, as the runs have ";
+    if (all.pairBy == PairBy::Nothing)
+        text += "no case (scenario, spec, dt) in common";
+    else
+        text +=
+            std::string("no two cases of one scenario that differ in ") + pairByName(all.pairBy) + " alone";
+    if (!all.changedScenarios.empty()) {
+        text += "; these scenarios have the same name and other physics:";
+        for (const std::string& name : all.changedScenarios) text += " " + name;
+    }
+    text += "\n  before: " + contentsOf(before) + "\n  after:  " + contentsOf(after);
+    if (all.pairBy == PairBy::Nothing) text += "\n  --pair engine|spec|dt compares what differs on purpose";
+    throw std::invalid_argument(text);
+}
+
 double sizeOf(const MetricChange& m) {
     const double ratio = std::abs(m.after) / std::abs(m.before);
     return std::isfinite(ratio) && ratio > 0.0 ? std::abs(std::log(ratio))
@@ -160,34 +193,35 @@ std::string physicsOf(const std::string& scenarioText) {
 RunComparison compareRuns(const std::vector<Run>& before, const std::vector<Run>& after,
                           const CompareOptions& options) {
     RunComparison all;
+    all.pairBy = options.pairBy;
     all.runsBefore = static_cast<int>(before.size()), all.runsAfter = static_cast<int>(after.size());
     compareEnvironments(before.front(), after.front(), all);
     all.changedScenarios = changedScenarios(before.front(), after.front());
+    const auto pairs = pairCases(before.front(), after.front(), options.pairBy);
+    if (options.pairBy == PairBy::Nothing) listUnpaired(before.front(), after.front(), pairs, all);
     const auto casesBefore = casesOf(before), casesAfter = casesOf(after);
-    const Cases &old = casesBefore.front(), &now = casesAfter.front();
-    std::map<std::string, SpecChange> specs;
-    std::map<std::string, std::vector<double>> times;
-    for (const auto& [key, c] : old) {
-        const auto it = now.find(key);
-        if (it == now.end()) {
-            all.onlyBefore.push_back(nameOf(key));
+    using Place = std::tuple<std::string, std::string, double, double>;
+    std::map<Place, SpecChange> specs;
+    std::map<Place, std::vector<double>> times;
+    for (const CasePair& pair : pairs) {
+        const CaseRow &a = *pair.before, &b = *pair.after;
+        if (std::find(all.changedScenarios.begin(), all.changedScenarios.end(), a.scenario) !=
+            all.changedScenarios.end())
             continue;
-        }
-        const bool changed = std::find(all.changedScenarios.begin(), all.changedScenarios.end(),
-                                       c->scenario) != all.changedScenarios.end();
-        if (changed) continue;
-        SpecChange& spec = specs[c->spec];
-        spec.spec = c->spec, ++spec.cases;
-        compareVerdicts(*c, *it->second, all);
-        compareMetrics(*c, *it->second, options, spec, all);
-        const auto a = stepTime(casesBefore, key), b = stepTime(casesAfter, key);
-        if (a && b) times[c->spec].push_back(std::log(*b / *a));
+        const bool steps = options.pairBy == PairBy::TimeStep;
+        const Place place{a.spec, b.spec, steps ? a.dt : 0.0, steps ? b.dt : 0.0};
+        SpecChange& spec = specs[place];
+        std::tie(spec.spec, spec.specAfter, spec.dt, spec.dtAfter) = place;
+        ++spec.cases;
+        compareVerdicts(pair, all);
+        compareMetrics(pair, options, spec, all);
+        const auto timeBefore = stepTime(casesBefore, keyOf(a)), timeAfter = stepTime(casesAfter, keyOf(b));
+        if (timeBefore && timeAfter) times[place].push_back(std::log(*timeAfter / *timeBefore));
     }
-    for (const auto& [key, c] : now)
-        if (!old.contains(key)) all.onlyAfter.push_back(nameOf(key));
-    for (auto& [name, spec] : specs) {
+    if (specs.empty()) refuse(before.front(), after.front(), all);
+    for (auto& [place, spec] : specs) {
         spec.pErrors = signTest(spec.better, spec.worse);
-        summariseTimes(times[name], spec);
+        summariseTimes(times[place], spec);
         all.specs.push_back(spec);
     }
     std::stable_sort(all.metrics.begin(), all.metrics.end(),

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/comparison/pairs.hpp"
 #include "validation/comparison/statistics.hpp"
 #include "validation/results/types.hpp"
 
@@ -18,26 +19,34 @@ struct CompareOptions {
     /// alike.
     double tolerance = 0.01;
     double floor = 1e-9;  ///< errors that are both below this are equal, whatever their ratio
+    PairBy pairBy = PairBy::Nothing;
+};
+
+/// Which case stands beside which.
+struct ComparedPlace {
+    std::string scenario, spec, specAfter;
+    double dt = 0.0, dtAfter = 0.0;
 };
 
 /// A value of a metric that is not what it was.
 struct MetricChange {
-    std::string scenario, spec, metric, subject, unit;
-    double dt = 0.0;
+    ComparedPlace place;
+    std::string metric, subject, unit;
     double before = 0.0, after = 0.0;
     bool worse = false;  ///< further from zero, or not finite any more
 };
 
 /// A case that ends or is judged differently.
 struct VerdictChange {
-    std::string scenario, spec, before, after, reason;
-    double dt = 0.0;
+    ComparedPlace place;
+    std::string before, after, reason;
     bool worse = false;
 };
 
-/// One engine spec over all cases that both have.
+/// One engine spec over all cases that both have, or one pair of specs or of time steps over all scenarios.
 struct SpecChange {
-    std::string spec;
+    std::string spec, specAfter;
+    double dt = 0.0, dtAfter = 0.0;  ///< [s] of a pair of time steps, else 0
     int cases = 0;
     int better = 0, worse = 0, same = 0;  ///< errors
     double pErrors = 1.0;                 ///< sign test of better against worse
@@ -48,6 +57,7 @@ struct SpecChange {
 };
 
 struct RunComparison {
+    PairBy pairBy = PairBy::Nothing;
     std::vector<SpecChange> specs;
     std::vector<VerdictChange> verdicts;
     std::vector<MetricChange> metrics;               ///< by size of the change, largest first
@@ -58,7 +68,8 @@ struct RunComparison {
 };
 
 /// Errors are those of the first run of each side (a case is deterministic); step times are medians over the
-/// runs of a side.
+/// runs of a side. `before` and `after` may be the same object when something is paired on purpose. Throws
+/// std::invalid_argument, with what each side has, when there is not one case to compare.
 RunComparison compareRuns(const std::vector<results::Run>& before, const std::vector<results::Run>& after,
                           const CompareOptions& options = {});
 

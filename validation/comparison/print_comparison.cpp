@@ -22,6 +22,19 @@ std::string padded(const std::string& text, std::size_t width) {
     return text + std::string(width > text.size() ? width - text.size() : 0, ' ');
 }
 
+std::string placeName(const std::string& before, const std::string& after) {
+    return before == after ? before : before + " -> " + after;
+}
+
+std::string stepName(double before, double after) {
+    return "dt=" + placeName(number(before, "%.6g"), number(after, "%.6g"));
+}
+
+std::string specName(const SpecChange& s) {
+    const std::string name = placeName(s.spec, s.specAfter);
+    return s.dt > 0.0 ? name + " " + stepName(s.dt, s.dtAfter) : name;
+}
+
 /// "1.02 (0.98 .. 1.05), p = 0.3: no difference shown".
 std::string timeText(const SpecChange& s) {
     if (!s.timeRatio) return "not timed";
@@ -50,13 +63,13 @@ Json finite(double value) {
 std::string comparisonText(const RunComparison& c, const CompareOptions& options, std::size_t most) {
     std::string text;
     std::size_t width = 6;
-    for (const SpecChange& s : c.specs) width = std::max(width, s.spec.size());
+    for (const SpecChange& s : c.specs) width = std::max(width, specName(s).size());
     text += padded("engine", width) +
             "  cases  errors better/worse/same  sign test  time after/before, median over cases (95 %)\n";
     for (const SpecChange& s : c.specs) {
         const std::string errors =
             std::to_string(s.better) + "/" + std::to_string(s.worse) + "/" + std::to_string(s.same);
-        text += padded(s.spec, width) + "  " + padded(std::to_string(s.cases), 5) + "  " +
+        text += padded(specName(s), width) + "  " + padded(std::to_string(s.cases), 5) + "  " +
                 padded(errors, 24) + "  " + padded("p = " + number(s.pErrors, "%.2g"), 9) + "  " +
                 timeText(s) + "\n";
     }
@@ -65,14 +78,16 @@ std::string comparisonText(const RunComparison& c, const CompareOptions& options
             "Times: " + std::to_string(c.runsBefore) + " and " + std::to_string(c.runsAfter) +
             " run(s); a change of the machine's load between them is not seen. Give three of each or more.\n";
     const auto where = [](const auto& x) {
-        return x.scenario + " " + x.spec + " dt=" + number(x.dt, "%.6g");
+        return x.place.scenario + " " + placeName(x.place.spec, x.place.specAfter) + " " +
+               stepName(x.place.dt, x.place.dtAfter);
     };
-    addSome(text, "Verdicts that changed", c.verdicts, most, [&](const VerdictChange& v) {
+    const std::string changed = c.pairBy == PairBy::Nothing ? "changed" : "differ";
+    addSome(text, "Verdicts that " + changed, c.verdicts, most, [&](const VerdictChange& v) {
         return std::string(v.worse ? "worse   " : "better  ") + where(v) + ": " + v.before + " -> " +
                v.after + (v.reason.empty() ? "" : " (" + v.reason + ")");
     });
-    addSome(text, "Errors that changed by more than " + number(100.0 * options.tolerance) + " %", c.metrics,
-            most, [&](const MetricChange& m) {
+    addSome(text, "Errors that " + changed + " by more than " + number(100.0 * options.tolerance) + " %",
+            c.metrics, most, [&](const MetricChange& m) {
                 return std::string(m.worse ? "worse   " : "better  ") + where(m) + ": " + m.metric + " " +
                        number(m.before) + " -> " + number(m.after) + (m.unit == "1" ? "" : " " + m.unit);
             });
@@ -86,17 +101,22 @@ std::string comparisonText(const RunComparison& c, const CompareOptions& options
 }
 
 std::string comparisonJson(const RunComparison& c) {
-    Json out{{"worse", becameWorse(c)},
-             {"specs", Json::array()},
-             {"verdicts", Json::array()},
-             {"metrics", Json::array()},
-             {"changed_scenarios", c.changedScenarios},
-             {"only_before", c.onlyBefore},
-             {"only_after", c.onlyAfter},
+    const auto place = [&](const ComparedPlace& p) {
+        Json where{{"scenario", p.scenario}, {"spec", p.spec}, {"dt", p.dt}};
+        if (c.pairBy != PairBy::Nothing) {
+            where["spec_after"] = p.specAfter;
+            where["dt_after"] = p.dtAfter;
+        }
+        return where;
+    };
+    Json out{{"pair", pairByName(c.pairBy)}, {"worse", becameWorse(c)},
+             {"specs", Json::array()},       {"verdicts", Json::array()},
+             {"metrics", Json::array()},     {"changed_scenarios", c.changedScenarios},
+             {"only_before", c.onlyBefore},  {"only_after", c.onlyAfter},
              {"environment", c.environment}};
     for (const SpecChange& s : c.specs)
         out["specs"].push_back(
-            {{"name", s.spec},
+            {{"name", specName(s)},
              {"cases", s.cases},
              {"better", s.better},
              {"worse", s.worse},
@@ -107,23 +127,19 @@ std::string comparisonJson(const RunComparison& c) {
              {"time_interval",
               s.timeInterval ? Json::array({s.timeInterval->low, s.timeInterval->high}) : Json(nullptr)},
              {"p_time", s.pTime}});
-    for (const VerdictChange& v : c.verdicts)
-        out["verdicts"].push_back({{"scenario", v.scenario},
-                                   {"spec", v.spec},
-                                   {"dt", v.dt},
-                                   {"before", v.before},
-                                   {"after", v.after},
-                                   {"worse", v.worse},
-                                   {"reason", v.reason}});
-    for (const MetricChange& m : c.metrics)
-        out["metrics"].push_back({{"scenario", m.scenario},
-                                  {"spec", m.spec},
-                                  {"dt", m.dt},
-                                  {"metric", m.metric},
-                                  {"unit", m.unit},
-                                  {"before", finite(m.before)},
-                                  {"after", finite(m.after)},
-                                  {"worse", m.worse}});
+    for (const VerdictChange& v : c.verdicts) {
+        out["verdicts"].push_back(place(v.place));
+        out["verdicts"].back().update(
+            {{"before", v.before}, {"after", v.after}, {"worse", v.worse}, {"reason", v.reason}});
+    }
+    for (const MetricChange& m : c.metrics) {
+        out["metrics"].push_back(place(m.place));
+        out["metrics"].back().update({{"metric", m.metric},
+                                      {"unit", m.unit},
+                                      {"before", finite(m.before)},
+                                      {"after", finite(m.after)},
+                                      {"worse", m.worse}});
+    }
     return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -59,7 +59,7 @@ TEST(Compare, ErrorsInBothDirections) {
     EXPECT_EQ(c.specs[0].better, 1);
     EXPECT_EQ(c.specs[0].same, 6);
     ASSERT_EQ(c.metrics.size(), 2u);
-    EXPECT_EQ(c.metrics[0].scenario, "s1") << "the larger change first";
+    EXPECT_EQ(c.metrics[0].place.scenario, "s1") << "the larger change first";
     EXPECT_FALSE(c.metrics[0].worse);
     EXPECT_TRUE(c.metrics[1].worse);
     EXPECT_TRUE(becameWorse(c));
@@ -72,7 +72,7 @@ TEST(Compare, RoundOffIsNoChangeAndLostNumbersAre) {
     after.cases[1].metrics[0].value = std::numeric_limits<double>::quiet_NaN();
     const auto c = compareRuns({before}, {after});
     ASSERT_EQ(c.metrics.size(), 1u);
-    EXPECT_EQ(c.metrics[0].scenario, "s1");
+    EXPECT_EQ(c.metrics[0].place.scenario, "s1");
     EXPECT_TRUE(c.metrics[0].worse);
     EXPECT_FALSE(becameWorse(compareRuns({after}, {before})));
 }
@@ -134,6 +134,97 @@ TEST(Compare, WhatCannotBeComparedIsSaid) {
     EXPECT_EQ(c.onlyAfter, std::vector<std::string>{"s1 ode dt=0.02"});
     EXPECT_EQ(c.environment, std::vector<std::string>{"cpu: one -> another"});
     EXPECT_EQ(c.specs[0].cases, 6);
+}
+
+/// exampleRun() with Bullet beside ODE in two presets, at two steps, Bullet's errors half of ODE's.
+Stored fourWays() {
+    Stored run = exampleRun();
+    run.cases.resize(1);
+    const CaseRow one = run.cases[0];
+    run.cases.clear();
+    for (const double dt : {0.02, 0.01, 0.005})
+        for (const char* engine : {"ode", "bullet"})
+            for (const char* preset : {"default", "matched"}) {
+                CaseRow c = one;
+                c.engine = engine, c.preset = preset, c.spec = std::string(engine) + ":preset=" + preset;
+                c.dt = dt, c.position = static_cast<std::int64_t>(run.cases.size());
+                c.metrics[0].value = (c.engine == "ode" ? 1.0 : 0.5) * dt;
+                run.cases.push_back(c);
+            }
+    return run;
+}
+
+CompareOptions by(PairBy pairBy) {
+    CompareOptions options;
+    options.pairBy = pairBy;
+    return options;
+}
+
+TEST(Compare, TwoEnginesOfOneRun) {
+    const std::vector<Stored> run{fourWays()};
+    const auto c = compareRuns(run, run, by(PairBy::Engine));
+    ASSERT_EQ(c.specs.size(), 2u) << "ode beside bullet in each preset, once";
+    for (const SpecChange& s : c.specs) {
+        EXPECT_EQ(s.spec.substr(0, 3), "ode");
+        EXPECT_EQ(s.specAfter.substr(0, 6), "bullet");
+        EXPECT_EQ(s.spec.substr(4), s.specAfter.substr(7)) << "one preset";
+        EXPECT_EQ(s.cases, 3);
+        EXPECT_EQ(s.better, 3);
+    }
+    for (const MetricChange& m : c.metrics) EXPECT_DOUBLE_EQ(m.after / m.before, 0.5);
+    EXPECT_TRUE(c.onlyBefore.empty() && c.onlyAfter.empty());
+    EXPECT_NE(comparisonText(c, {}, 5).find("ode:preset=default -> bullet:preset=default"),
+              std::string::npos);
+}
+
+TEST(Compare, TwoEnginesOfTwoRuns) {
+    Stored ode = fourWays(), bullet = ode;
+    std::erase_if(ode.cases, [](const CaseRow& c) { return c.engine != "ode"; });
+    std::erase_if(bullet.cases, [](const CaseRow& c) { return c.engine != "bullet"; });
+    const auto c = compareRuns({bullet}, {ode}, by(PairBy::Engine));
+    ASSERT_EQ(c.specs.size(), 2u);
+    EXPECT_EQ(c.specs[0].spec, "bullet:preset=default");
+    EXPECT_EQ(c.specs[0].worse, 3);
+}
+
+TEST(Compare, TwoSpecsAndTwoSteps) {
+    const std::vector<Stored> run{fourWays()};
+    EXPECT_EQ(compareRuns(run, run, by(PairBy::Spec)).specs.size(), 6u) << "every two of four, once";
+    const auto steps = compareRuns(run, run, by(PairBy::TimeStep));
+    ASSERT_EQ(steps.specs.size(), 8u) << "of each of four specs two pairs of neighbours";
+    for (const SpecChange& s : steps.specs) {
+        EXPECT_EQ(s.spec, s.specAfter);
+        EXPECT_DOUBLE_EQ(s.dt / s.dtAfter, 2.0);
+        EXPECT_EQ(s.better, 1);
+    }
+}
+
+std::string refusalOf(const Stored& before, const Stored& after, PairBy pairBy) {
+    try {
+        (void)compareRuns({before}, {after}, by(pairBy));
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Compare, NothingInCommonIsRefusedWithWhatEachHas) {
+    Stored after = exampleRun();
+    for (auto& c : after.cases) c.spec = "bullet", c.engine = "bullet";
+    const std::string text = refusalOf(exampleRun(), after, PairBy::Nothing);
+    EXPECT_NE(text.find("no case (scenario, spec, dt) in common"), std::string::npos) << text;
+    EXPECT_NE(text.find("before: scenarios: s0, s1, s2, s3, s4, s5 and 2 more; engines: ode; dt: 0.01"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("engines: bullet"), std::string::npos) << text;
+    EXPECT_NE(text.find("--pair"), std::string::npos) << text;
+    EXPECT_EQ(refusalOf(exampleRun(), after, PairBy::Engine), "");
+    EXPECT_NE(refusalOf(exampleRun(), exampleRun(), PairBy::TimeStep).find("differ in dt alone"),
+              std::string::npos);
+    Stored changed = exampleRun();
+    for (auto& s : changed.scenarios) s.text = "{\"changed\": 1}";
+    EXPECT_NE(refusalOf(exampleRun(), changed, PairBy::Nothing).find("other physics: s0 s1"),
+              std::string::npos);
 }
 
 class Recorded : public ::testing::Test {
