@@ -100,7 +100,7 @@ TEST(Terminal, ShowsALiveLineWithEtaAndColours) {
     const auto result = atTerminal(validation(folder("rigor-terminal")), "TERM=xterm");
     EXPECT_GT(count(result.out, "\r\x1b[K["), 4u) << "one line, written again and again";
     EXPECT_GT(count(result.out, "  ETA "), 2u);
-    EXPECT_GT(count(result.out, "\x1b[32m"), 2u);
+    EXPECT_GT(count(result.out, "\x1b[3"), 2u) << "grades have colours";
     expectTable(result.out);
 }
 

@@ -89,7 +89,7 @@ TEST(MetricVerdict, ADeviationWithoutABoundIsOneOfGradeE) {
     s.knownDeviations = {{"ode", "", "way", kInf, "another law of friction"},
                          {"ode", "", "turn", 3.0, "another law of friction"}};
     results::CaseRow c;
-    c.engine = "ode", c.dt = 0.1;
+    c.engine = "ode", c.preset = "default", c.dt = 0.1;
     const auto judged = [&](const std::string& metric, double value, std::optional<double> relative) {
         results::MetricRow row;
         row.name = metric, row.value = value, row.relative = relative;
