@@ -46,8 +46,8 @@ class World {
     /// States of all bodies by scenario index; `states.size()` is the number of bodies.
     virtual void readStates(std::span<BodyState> states) const = 0;
 
-    /// Contacts that the last step acted upon (geometry at the pose where the engine found them). Replaces
-    /// `contacts`.
+    /// Contacts that the last step acted upon, placed at the poses at which it began: points lie on the
+    /// surfaces as they stood then, whatever the step has done with the bodies since. Replaces `contacts`.
     virtual void readContacts(std::vector<ContactPoint>& contacts) const = 0;
 
     virtual ReadBack readBack() const = 0;
