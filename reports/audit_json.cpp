@@ -7,6 +7,7 @@
 
 #include "reports/page_json.hpp"
 #include "reports/view_model.hpp"
+#include "validation/results/values.hpp"
 
 namespace rigor::report {
 
@@ -75,7 +76,7 @@ std::vector<GatheredAudit> gatherAudit(const results::Run& run) {
                 it->frames += a.frames, it->queries += a.queries, it->overlapping += a.overlapping;
                 it->missed += a.missed, it->spurious += a.spurious, it->undecided += a.undecided;
                 if (a.normalErrorMax && (!it->normalErrorMax || *a.normalErrorMax > *it->normalErrorMax))
-                    it->worst = a.worst + " (" + row.spec + ")";
+                    it->worst = a.worst + " (" + row.spec + ") (dt=" + results::exactText(row.dt) + ")";
                 worst(it->normalErrorMax, a.normalErrorMax);
                 worst(it->depthErrorMax, a.depthErrorMax);
                 worst(it->pointErrorMax, a.pointErrorMax);

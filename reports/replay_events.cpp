@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace rigor::report {
@@ -61,16 +62,25 @@ void addLargest(const TrajectoryFile& file, const results::CaseRow& row, std::ve
     }
 }
 
-/// "block|floor at t=0.25 (...)"
+/// Frame of "... at t=0.25, step 15 (...)", `at` the place of the time; by the time alone where a store of an
+/// older version names no step.
+std::size_t frameOf(const TrajectoryFile& file, const std::string& worst, std::size_t at) {
+    constexpr std::string_view kStep = ", step ";
+    char* end = nullptr;
+    const double time = std::strtod(worst.c_str() + at, &end);
+    if (std::string_view(end).substr(0, kStep.size()) != kStep) return nearestFrame(file.times, time);
+    const long step = std::strtol(end + kStep.size(), nullptr, 10);
+    const std::size_t frame = static_cast<std::size_t>(std::max(0L, step / std::max(1, file.stride)));
+    return std::min(frame, file.times.size() - 1);
+}
+
 void addAudit(const TrajectoryFile& file, const results::CaseRow& row, std::vector<ReplayEvent>& out) {
     for (const auto& audit : row.audit) {
         const auto at = audit.worst.find(" at t=");
         const bool wrong =
             audit.missed + audit.spurious > 0 || audit.normalErrorMax.value_or(0.0) >= kAngleWorthAMark;
         if (at == std::string::npos || !wrong) continue;
-        char* end = nullptr;
-        const double time = std::strtod(audit.worst.c_str() + at + 6, &end);
-        ReplayEvent event = eventAt(file, nearestFrame(file.times, time), "audit");
+        ReplayEvent event = eventAt(file, frameOf(file, audit.worst, at + 6), "audit");
         event.what = audit.auditor, event.subject = audit.worst.substr(0, at);
         event.value = audit.normalErrorMax.value_or(kNone), event.unit = "rad", event.text = audit.worst;
         out.push_back(std::move(event));
@@ -122,13 +132,14 @@ void addChanges(const TrajectoryFile& file, std::size_t frame, const Pairs& befo
     add(before, now, "contact_end");
 }
 
-/// Frame 0 has no contacts yet: what touches in the first stored frame begins there.
+/// What touches in the first frame that has contacts begins there.
 void addContactEvents(const TrajectoryFile& file, std::vector<ReplayEvent>& out) {
     std::vector<ReplayEvent> found;
     Pairs before;
     std::size_t next = 0;
     const auto stride = static_cast<std::size_t>(std::max(1, file.contactStride));
-    for (std::size_t f = stride; f < file.times.size() && found.size() < kMostContactEvents; f += stride) {
+    for (std::size_t f = 0; f < file.times.size() && found.size() < kMostContactEvents; f += stride) {
+        if (!results::contactsStored(file, f)) continue;
         Pairs now;
         for (; next < file.contacts.size() && file.contacts[next].time <= file.times[f]; ++next)
             if (const auto& c = file.contacts[next]; c.time == file.times[f])

@@ -24,7 +24,7 @@ struct Trajectory {
     std::vector<double> times;      ///< [s], one per frame
     std::vector<BodyState> states;  ///< frame-major: states[frame * bodyCount + body]
     std::vector<std::vector<ContactPoint>>
-        contacts;  ///< per frame: contacts the step before acted upon; frame 0 empty
+        contacts;  ///< of the step that begins at each frame, at the frame's poses; last frame: empty
 
     std::size_t frames() const { return times.size(); }
     const BodyState& state(std::size_t frame, int body) const {

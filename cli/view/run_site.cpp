@@ -161,11 +161,17 @@ Reply RunSite::trajectory(const std::string& id, const Question& question) {
     addContacts(bundle, *t, from, count);
     nlohmann::ordered_json names = nlohmann::ordered_json::array();
     for (const BodyChannels& body : t->bodies) names.push_back(body.name);
-    const nlohmann::ordered_json meta{{"case", t->caseId},   {"scenario", t->scenario},
-                                      {"spec", t->spec},     {"dt", t->dt},
-                                      {"stride", t->stride}, {"contact_stride", t->contactStride},
-                                      {"frames", frames},    {"from", from},
-                                      {"count", count},      {"bodies", std::move(names)}};
+    const nlohmann::ordered_json meta{{"case", t->caseId},
+                                      {"scenario", t->scenario},
+                                      {"spec", t->spec},
+                                      {"dt", t->dt},
+                                      {"stride", t->stride},
+                                      {"contact_stride", t->contactStride},
+                                      {"contact_instants", t->contactInstantsKnown},
+                                      {"frames", frames},
+                                      {"from", from},
+                                      {"count", count},
+                                      {"bodies", std::move(names)}};
     return {200, "application/octet-stream", bundle.bytes(meta)};
 }
 

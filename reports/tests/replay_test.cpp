@@ -16,86 +16,18 @@
 #include "reports/replay_data.hpp"
 #include "reports/replay_events.hpp"
 #include "reports/replay_frames.hpp"
+#include "reports/tests/replay_reader.hpp"
 
 namespace rigor::report {
 namespace {
 
 using nlohmann::json;
+using replay_reader::Bundle;
+using replay_reader::Codes;
 using results::CaseRow;
 using results::TrajectoryFile;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-// ---- reading back, as the page does it ----
-
-class Codes {
-  public:
-    explicit Codes(std::string bytes) : bytes_(std::move(bytes)) {}
-    std::vector<double> series(std::size_t samples, double quantum) {
-        std::vector<double> out;
-        double last = 0, before = 0;
-        int known = 0;
-        for (std::size_t i = 0; i < samples; ++i) {
-            double difference = 0;
-            if (!next(difference)) {
-                out.push_back(kNaN);
-                continue;
-            }
-            const double value = difference + (known >= 2 ? 2 * last - before : last);
-            before = last, last = value, ++known;
-            out.push_back(value * quantum);
-        }
-        return out;
-    }
-    std::vector<double> linked(const std::vector<std::int64_t>& previous, double quantum) {
-        std::vector<double> kept, out;
-        for (const auto link : previous) {
-            const double predicted = link < 0 ? 0.0 : kept.at(static_cast<std::size_t>(link));
-            double difference = 0;
-            const bool finite = next(difference);
-            kept.push_back(finite ? predicted + difference : predicted);
-            out.push_back(finite ? kept.back() * quantum : kNaN);
-        }
-        return out;
-    }
-
-  private:
-    bool next(double& difference) {
-        std::uint64_t code = 0;
-        for (int shift = 0;; shift += 7) {
-            const auto byte = static_cast<unsigned char>(bytes_.at(at_++));
-            code |= static_cast<std::uint64_t>(byte & 127) << shift;
-            if (byte < 128) break;
-        }
-        if (code == 0) return false;
-        const std::uint64_t z = code - 1;
-        difference =
-            static_cast<double>(static_cast<std::int64_t>(z >> 1) ^ -static_cast<std::int64_t>(z & 1));
-        return true;
-    }
-    std::string bytes_;
-    std::size_t at_ = 0;
-};
-
-struct Bundle {
-    json meta;
-    std::map<std::string, std::string> arrays;
-    explicit Bundle(const std::string& bytes) {
-        std::uint32_t length = 0;
-        std::memcpy(&length, bytes.data(), 4);
-        const json head = json::parse(bytes.substr(4, length));
-        meta = head["meta"];
-        const std::size_t start = (4 + length + 7) / 8 * 8;
-        for (const auto& a : head["arrays"]) {
-            const std::size_t width = a["type"] == "f64" ? 8 : 1;
-            arrays[a["name"]] =
-                bytes.substr(start + a["offset"].get<std::size_t>(), width * a["count"].get<std::size_t>());
-        }
-    }
-    std::vector<double> steps(std::size_t c) {
-        return Codes(arrays.at(std::to_string(c) + ".steps")).series(meta["cases"][c]["frames"], 1.0);
-    }
-};
 
 // ---- a run with two engines ----
 
@@ -268,6 +200,27 @@ TEST_F(ReplayFiles, HasTheFramesOfAllEvents) {
     EXPECT_EQ(kinds["audit"], 1);
     EXPECT_EQ(kinds["parting"], 1);
     EXPECT_EQ(kinds["contact_begin"] + kinds["contact_end"], static_cast<int>(kMostContactEvents));
+}
+
+/// A time of six digits ends before the frame: the step decides.
+TEST_F(ReplayFiles, TheFrameOfAnAuditIsThatOfItsStep) {
+    results::AuditRow audit;
+    audit.auditor = "in_run", audit.normalErrorMax = 0.7;
+    for (auto& row : run_.cases) row.dt = 1.0 / 60.0;
+    run_.scenarios[0].timeSteps = {1.0 / 60.0};
+    for (std::size_t i = 0; i < files_.size(); ++i) files_[i] = makeFile(run_.cases[i], 3, 401);
+    audit.worst = "floor|b1 at t=2.61, step 157 (normal)";  // as if it had even fewer digits
+    run_.cases[0].audit.push_back(audit);
+    Bundle bundle = write();
+    const auto c = caseOf(bundle, run_.cases[0].spec);
+    std::size_t audits = 0;
+    for (const auto& event : bundle.meta["cases"][c]["events"])
+        if (event["kind"] == "audit") {
+            EXPECT_DOUBLE_EQ(event["time"], 157 * (1.0 / 60.0));
+            ++audits;
+        }
+    EXPECT_EQ(audits, 1u);
+    EXPECT_TRUE(has(bundle.steps(c), 157));
 }
 
 TEST_F(ReplayFiles, DivergenceFromTheReferenceIsTheFirstFrameBeyondTheThreshold) {

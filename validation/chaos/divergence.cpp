@@ -61,7 +61,7 @@ std::optional<ContactSplit> firstSplit(const Trajectory& a, const Trajectory& b,
                                        std::size_t stride) {
     std::vector<double> times;
     std::vector<Pairs> inA, inB;
-    for (std::size_t f = 0; f < frames; f += stride) {
+    for (std::size_t f = 0; f + 1 < frames; f += stride) {  // no step begins at the last frame
         times.push_back(a.times[f]);
         inA.push_back(touching(a, f)), inB.push_back(touching(b, f));
     }

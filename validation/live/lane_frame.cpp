@@ -55,10 +55,21 @@ void addStates(Packet& packet, std::span<const BodyState> states) {
     velocity.into(packet, "velocity"), angularVelocity.into(packet, "angular_velocity");
 }
 
-void addContacts(Packet& packet, const std::vector<ContactPoint>& contacts) {
+/// A point of a body's surface, carried along from one state of the body to another.
+Vec3 carried(const Vec3& point, const BodyState& from, const BodyState& to) {
+    const scenario::Pose before{from.position, from.orientation};
+    return scenario::Pose{to.position, to.orientation} * (inverse(before) * point);
+}
+
+/// Contacts with the points where they were found, and where their bodies have carried those since.
+void addContacts(Packet& packet, const std::vector<ContactPoint>& contacts, std::span<const BodyState> before,
+                 std::span<const BodyState> now) {
     Indices bodyA, bodyB, shapeA, shapeB;
-    Numbers pointA, pointB, normal, depth, normalImpulse, frictionImpulse;
+    Numbers pointA, pointB, normal, depth, normalImpulse, frictionImpulse, carriedA, carriedB;
     for (const ContactPoint& c : contacts) {
+        const auto a = static_cast<std::size_t>(c.bodyA), b = static_cast<std::size_t>(c.bodyB);
+        carriedA << carried(c.pointA, before[a], now[a]);
+        carriedB << carried(c.pointB, before[b], now[b]);
         bodyA << c.bodyA, bodyB << c.bodyB, shapeA << c.shapeA, shapeB << c.shapeB;
         pointA << c.pointA, pointB << c.pointB, normal << c.normal, depth << c.depth;
         normalImpulse << (c.hasImpulse ? c.normalImpulse : std::numeric_limits<double>::quiet_NaN());
@@ -67,6 +78,7 @@ void addContacts(Packet& packet, const std::vector<ContactPoint>& contacts) {
     bodyA.into(packet, "contacts/body_a"), bodyB.into(packet, "contacts/body_b");
     shapeA.into(packet, "contacts/shape_a"), shapeB.into(packet, "contacts/shape_b");
     pointA.into(packet, "contacts/point_a"), pointB.into(packet, "contacts/point_b");
+    carriedA.into(packet, "contacts/carried_a"), carriedB.into(packet, "contacts/carried_b");
     normal.into(packet, "contacts/normal"), depth.into(packet, "contacts/depth");
     normalImpulse.into(packet, "contacts/normal_impulse");
     frictionImpulse.into(packet, "contacts/friction_impulse");
@@ -157,8 +169,9 @@ Packet laneFrame(LaneWorld& lane, bool stages) {
     header["message"] = lane.nonFinite();
     addStates(packet, lane.states());
     std::vector<ContactPoint> contacts;
-    if (lane.steps() > 0) lane.world().readContacts(contacts);
-    addContacts(packet, contacts);
+    const std::span<const BodyState> before = lane.statesBefore();
+    if (!before.empty()) lane.world().readContacts(contacts);
+    addContacts(packet, contacts, before, lane.states());
     header["counters"] = counters(lane.world().counters());
     if (const auto pull = lane.pull())
         header["drag"] = {{"body", lane.drag()->body},

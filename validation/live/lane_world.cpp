@@ -42,6 +42,7 @@ void LaneWorld::build() {
     stepper_.reset();
     world_ = dynamicsOf(*engine_, spec_.engine).build(scenario_, dt_, settings_);
     stepper_.emplace(scenario_, dt_, *world_);
+    before_.clear();
     coordinates_ = JointCoordinates(scenario_);
     nonFinite_ = stepper_->nonFinite();
     lastStage_.clear();
@@ -54,6 +55,7 @@ bool LaneWorld::inStep() const {
 }
 
 void LaneWorld::beginStep() {
+    start_.assign(stepper_->states().begin(), stepper_->states().end());
     const auto force = drag_ ? std::optional(dragForce(scenario_, *drag_, stepper_->states(), dt_))
                              : std::optional<DragPull>();
     stepper_->begin();
@@ -67,6 +69,7 @@ void LaneWorld::beginStep() {
 
 void LaneWorld::endStep() {
     stepper_->end();
+    before_.swap(start_);
     coordinates_.follow(stepper_->states());
     nonFinite_ = stepper_->nonFinite();
     if (nonFinite_.empty()) keep();
@@ -124,12 +127,13 @@ void LaneWorld::keep() {
     world_->snapshots()->save(now.bytes);
     now.bytes.shrink_to_fit();
     now.coordinates = coordinates_.values();
-    keptBytes_ += now.bytes.size();
+    now.before = before_;
+    keptBytes_ += now.size();
     while (keptBytes_ > kMostKeptBytes && kept_.size() > 2) {
         keepEvery_ *= 2;
         std::erase_if(kept_, [this](const auto& one) {
             if (one.first % keepEvery_ == 0) return false;
-            keptBytes_ -= one.second.bytes.size();
+            keptBytes_ -= one.second.size();
             return true;
         });
     }
@@ -144,6 +148,7 @@ bool LaneWorld::restore(std::size_t steps) {
     if (!world_->snapshots()->restore(kept.bytes)) return false;
     stepper_->jumpTo(at);
     coordinates_.restore(kept.coordinates);
+    before_ = kept.before;
     return true;
 }
 
@@ -168,7 +173,7 @@ void LaneWorld::goTo(std::size_t steps) {
     }
     drags_.erase(drags_.lower_bound(steps), drags_.end());
     for (auto it = kept_.upper_bound(steps); it != kept_.end(); it = kept_.erase(it))
-        keptBytes_ -= it->second.bytes.size();
+        keptBytes_ -= it->second.size();
     drag_ = held;
 }
 

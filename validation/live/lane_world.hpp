@@ -37,6 +37,8 @@ class LaneWorld {
     double dt() const { return dt_; }
     std::size_t steps() const { return stepper_->steps(); }
     std::span<const adapter::BodyState> states() { return stepper_->states(); }
+    /// States at which the last whole step began: its contacts belong to their poses. Empty before any step.
+    std::span<const adapter::BodyState> statesBefore() const { return before_; }
     /// A sentence once a state is not finite: the lane goes no further, only back.
     const std::string& nonFinite() const { return nonFinite_; }
 
@@ -67,6 +69,8 @@ class LaneWorld {
     struct Kept {
         std::vector<unsigned char> bytes;
         std::vector<double> coordinates;
+        std::vector<adapter::BodyState> before;
+        std::size_t size() const { return bytes.size() + before.size() * sizeof(adapter::BodyState); }
     };
 
     void build();
@@ -83,6 +87,8 @@ class LaneWorld {
     adapter::Settings settings_;
     std::unique_ptr<adapter::World> world_;
     std::optional<Stepper> stepper_;
+    std::vector<adapter::BodyState> before_;  ///< at which the last whole step began
+    std::vector<adapter::BodyState> start_;   ///< at which the one under way began
     JointCoordinates coordinates_;
     std::string nonFinite_, lastStage_;
     bool watched_ = false;  ///< the iterations of the solver

@@ -26,7 +26,7 @@
 //                slides against friction at its limit; at most the slip.
 //
 // Only contacts with told impulses and, if apart, with an impulse count. Only records of every step do for
-// the first and the last; frames further apart lack the states that the step began with. These are the parts
+// the first and the last; frames further apart lack the states that the step ended with. These are the parts
 // of the natural map of the contact problem (De Saxce and Feng, Math. Comput. Modelling 28, 1998; Facchinei
 // and Pang, 2003, section 1.5), each by itself. Newton's law of impact as in Moreau, 1988.
 #include <algorithm>
@@ -108,17 +108,16 @@ std::vector<MetricValue> largest(const MetricInput& input, double (*defect)(cons
     if (needsStates && t.stride != 1) return {};
     std::map<int, Worst> worst;
     const std::size_t frames = std::min(t.frames(), t.contacts.size());
-    for (std::size_t k = 1; k < frames; ++k)
+    for (std::size_t k = 0; k + 1 < frames; ++k)
         for (const ContactPoint& contact : t.contacts[k]) {
             if (!contact.hasImpulse || !isKnownContact(input.scenario, contact)) continue;
             if (contact.depth < 0.0 && contact.normalImpulse == 0.0) continue;
-            const auto found = t.frame(t.stride == 1 ? k - 1 : k);
             const Deed deed{input.scenario,
                             contact,
                             coefficientsOf(input.scenario, contact),
-                            {input.scenario, contact, found},
-                            found,
+                            {input.scenario, contact, t.frame(k)},
                             t.frame(k),
+                            t.frame(k + 1),
                             t.dt};
             const double value = defect(deed);
             for (const int body : {contact.bodyA, contact.bodyB})

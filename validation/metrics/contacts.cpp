@@ -63,8 +63,7 @@ std::vector<MetricValue> medianRow(std::vector<double> values) {
     return {{"", *middle, -1.0}};
 }
 
-/// Calls `look(contact, angle to the closed form's normal, time)` for every contact that has one. The
-/// contacts of a step are found at the poses before it, or after: either will do.
+/// Calls `look(contact, angle to the closed form's normal, time)` for every contact that has one.
 template <class Look>
 void overNormals(const MetricInput& input, Look&& look) {
     const int bodies = static_cast<int>(input.scenario.bodies.size());
@@ -74,13 +73,8 @@ void overNormals(const MetricInput& input, Look&& look) {
             if (contact.bodyA < 0 || contact.bodyB < 0 || contact.bodyA >= bodies ||
                 contact.bodyB >= bodies || !shapesAreKnown(input, contact))
                 continue;
-            std::optional<double> error;
-            for (std::size_t back = 0; back <= (k > 0 && input.trajectory.stride == 1 ? 1U : 0U); ++back)
-                if (const auto pair = exactPair(input, contact, k - back)) {
-                    const double angle = angleBetween(contact.normal, pair->normal);
-                    error = error ? std::min(*error, angle) : angle;
-                }
-            if (error) look(contact, *error, input.trajectory.times[k]);
+            if (const auto pair = exactPair(input, contact, k))
+                look(contact, angleBetween(contact.normal, pair->normal), input.trajectory.times[k]);
         }
 }
 

@@ -38,9 +38,10 @@ void overTriples(const MetricInput& input, Look&& look) {
     const auto& run = input.trajectory;
     if (run.stride != 1) return;
     std::array<Normals, 3> window;  // frame k at k % 3
-    for (std::size_t k = 1; k < std::min(run.frames(), run.contacts.size()); ++k) {
+    const std::size_t frames = std::min(run.frames(), run.contacts.size());
+    for (std::size_t k = 0; k + 1 < frames; ++k) {  // no step begins at the last one
         window[k % 3] = deepestNormals(run.contacts[k]);
-        if (k < 3) continue;
+        if (k < 2) continue;
         const Normals &before = window[(k - 2) % 3], &now = window[(k - 1) % 3], &after = window[k % 3];
         for (const auto& [key, normal] : before) {
             const auto last = after.find(key);

@@ -60,13 +60,14 @@ void addContacts(const MetricInput& input, std::vector<Series>& result) {
     bool any = false;
     Series depth{"penetration", "", "m", std::vector<double>(frames, 0.0)},
         count{"contacts", "", "1", std::vector<double>(frames, 0.0)};
-    for (std::size_t k = 0; k < frames; ++k) {
+    for (std::size_t k = 0; k + 1 < frames; ++k) {
         for (const auto& contact : input.trajectory.contacts[k])
             depth.values[k] = std::max(depth.values[k], contact.depth);
         count.values[k] = static_cast<double>(input.trajectory.contacts[k].size());
         any = any || !input.trajectory.contacts[k].empty();
     }
     if (!any) return;
+    depth.values.back() = count.values.back() = kNone;  // no step begins there
     result.push_back(std::move(depth));
     result.push_back(std::move(count));
 }

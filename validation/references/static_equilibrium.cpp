@@ -136,7 +136,8 @@ class StaticEquilibrium : public Reference {
         double sum = 0.0;
         std::size_t count = 0;
         bool told = false;
-        for (std::size_t k = run.frames() - run.frames() / 4; k < run.frames(); ++k, ++count)
+        // No step begins at the last frame.
+        for (std::size_t k = run.frames() - run.frames() / 4; k + 1 < run.frames(); ++k, ++count)
             for (const auto& c : run.contacts[k]) {
                 if (!((c.bodyA == a && c.bodyB == b) || (c.bodyA == b && c.bodyB == a))) continue;
                 told = told || c.hasImpulse;

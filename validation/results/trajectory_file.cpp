@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
+constexpr int kLastWithoutInstants = 2;
 constexpr const char* kScene = "_";  ///< dataset name of a series without a subject
 
 /// Names become HDF5 links: '/' and '.' have a meaning there, and "_" is ours.
@@ -172,12 +173,17 @@ std::vector<ContactSample> readContacts(Hdf5File& file) {
 
 }  // namespace
 
+bool contactsStored(const TrajectoryFile& file, std::size_t frame) {
+    if (frame % static_cast<std::size_t>(std::max(1, file.contactStride)) != 0) return false;
+    return file.contactInstantsKnown ? frame + 1 < file.times.size() : frame < file.times.size();
+}
+
 void writeTrajectory(const fs::path& target, const TrajectoryFile& data) {
     fs::path part = target;
     part += ".part";
     try {
         Hdf5File file = Hdf5File::create(part);
-        file.setInteger("/", "rigor_trajectory", kFormat);
+        file.setInteger("/", "rigor_trajectory", data.contactInstantsKnown ? kFormat : kLastWithoutInstants);
         file.setText("/", "scenario", data.scenario);
         file.setText("/", "spec", data.spec);
         file.setText("/", "case_id", data.caseId);
@@ -218,6 +224,7 @@ TrajectoryFile readTrajectory(const fs::path& source, bool withContacts) {
         data.bodies = readBodies(file, "/bodies");
         data.reference = readBodies(file, "/reference");
         data.series = readSeries(file);
+        data.contactInstantsKnown = format > kLastWithoutInstants;
         if (withContacts) data.contacts = readContacts(file);
         return data;
     } catch (const std::exception& error) {

@@ -3,7 +3,7 @@
 //
 // One HDF5 file per case: /time, /bodies/<name>/{position,orientation,velocity,angular_velocity},
 // /reference/<name>/{...}, /series/<name>/<subject> ("_" for the whole scene), /contacts/...; every dataset
-// has a `unit` attribute.
+// has a `unit` attribute. README.md has the whole list.
 #pragma once
 
 #include <filesystem>
@@ -30,6 +30,7 @@ struct SeriesChannel {
     Channel channel;  ///< one column
 };
 
+/// A contact belongs to the poses of the frame at `time`, at which its step began.
 struct ContactSample {
     double time = 0.0;
     int bodyA = 0, bodyB = 0, shapeA = 0, shapeB = 0;
@@ -50,9 +51,16 @@ struct TrajectoryFile {
         reference;  ///< exact states of the bodies that the reference knows; NaN where unknown
     std::vector<SeriesChannel> series;
     std::vector<ContactSample> contacts;  ///< in time order
+    /// False for a file of before format 3: its contacts stand at the frame after their step, and what poses
+    /// they belong to is not known.
+    bool contactInstantsKnown = true;
 };
 
-/// Replaces `file` at once: it is the old one or the whole new one, never a part. Throws std::runtime_error.
+/// Whether the contacts of the step that begins at this frame are stored; the last frame begins none.
+bool contactsStored(const TrajectoryFile& file, std::size_t frame);
+
+/// Replaces `file` at once: it is the old one or the whole new one, never a part. What was read from an older
+/// format without instants of contacts is written in that again. Throws std::runtime_error.
 void writeTrajectory(const std::filesystem::path& file, const TrajectoryFile& data);
 /// Throws std::runtime_error naming the file when it can not be read. `withContacts` false leaves contacts
 /// empty.

@@ -95,7 +95,7 @@ struct AuditRow {
     std::optional<double> normalErrorMax, normalErrorMedian;  ///< [rad] to the nearest minimising normal
     std::optional<double> depthErrorMax, depthErrorMedian;    ///< [m]
     std::optional<double> pointErrorMax;  ///< [m], of witness points from the exact surfaces
-    std::string worst;                    ///< "block|floor at t=0.25"
+    std::string worst;                    ///< "block|floor at t=0.25, step 15 (normal)"
     std::string note;
 };
 

@@ -26,13 +26,14 @@ inline constexpr double kTouchTolerance = 1e-6;
 
 /// One question: two shapes of two bodies at one moment, and what the oracle says.
 struct AuditQuery {
-    double time = 0.0;
+    double time = 0.0;      ///< [s] of a recorded frame
+    std::int64_t step = 0;  ///< steps taken up to that frame
     int bodyA = 0, bodyB = 0, shapeA = 0, shapeB = 0;
     scenario::Pose poseA, poseB;  ///< of the shapes, in the world
     bool decided = false;         ///< whether the oracle has an exact method for this pair
     double signedDistance = 0.0;
-    std::vector<scenario::Vec3> normals;     ///< all minimising directions, A to B
-    bool actedUpon = false;                  ///< whether the step that began at these poses was recorded
+    std::vector<scenario::Vec3> normals;  ///< all minimising directions, A to B
+    bool actedUpon = false;  ///< whether the contacts of the step that began at the frame are known
     std::vector<adapter::ContactPoint> own;  ///< the contacts of that step
 };
 
@@ -70,8 +71,8 @@ results::AuditRow pairRow(const std::string& a, const std::vector<AuditAnswer>& 
 inline constexpr const char* kInRun = "in_run";
 /// The contacts that the run acted upon, held against the oracle at the poses where its step began. A contact
 /// that the engine let act on an overlap counts as found whatever depth it gave it; one between shapes that
-/// are apart is spurious when its depth claims an overlap. Without questions where frames are several steps
-/// apart.
+/// are apart is spurious when its depth claims an overlap. Without questions where the file does not tell the
+/// poses.
 results::AuditRow inRunRow(const scenario::Scenario& scenario, const AuditCase& questions);
 /// Time [s] and worst angle [rad] between the normals of deepest contacts that the run acted upon and the
 /// nearest exact ones, for each sampled frame with an overlap that it found; in time order.

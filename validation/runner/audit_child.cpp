@@ -41,7 +41,8 @@ json queryToJson(const AuditQuery& q) {
             poseToJson(q.poseB),
             q.decided,
             numberToJson(q.signedDistance),
-            normals};
+            normals,
+            q.step};
 }
 
 AuditQuery queryFromJson(const json& j) {
@@ -52,6 +53,7 @@ AuditQuery queryFromJson(const json& j) {
     q.poseA = poseFromJson(j.at(2)), q.poseB = poseFromJson(j.at(3));
     q.decided = j.at(4), q.signedDistance = numberFromJson(j.at(5));
     for (const json& n : j.at(6)) q.normals.push_back(vectorFromJson(n));
+    q.step = j.at(7);
     return q;
 }
 

@@ -100,11 +100,11 @@ class Comparison {
     void name(const AuditQuery& q, const char* what, int rank) {
         if (rank < worstRank_ || (rank == worstRank_ && rank > 1)) return;
         worstRank_ = rank;
-        char time[32];
-        std::snprintf(time, sizeof time, "%.6g", q.time);
+        char place[64];
+        std::snprintf(place, sizeof place, " at t=%.6g, step %lld (", q.time, static_cast<long long>(q.step));
         const auto& bodies = scenario_.bodies;
         row_.worst = bodies[static_cast<std::size_t>(q.bodyA)].name + "|" +
-                     bodies[static_cast<std::size_t>(q.bodyB)].name + " at t=" + time + " (" + what + ")";
+                     bodies[static_cast<std::size_t>(q.bodyB)].name + place + what + ")";
     }
 
     const Scenario& scenario_;
@@ -170,7 +170,7 @@ results::AuditRow inRunRow(const Scenario& scenario, const AuditCase& questions)
     }
     for (const ContactPoint& contact : questions.stray) comparison.addStray(contact);
     comparison.finish();
-    if (row.queries == 0) row.note = "no two recorded frames are one step apart";
+    if (row.queries == 0) row.note = "no contacts are stored with the poses that they belong to";
     return row;
 }
 

@@ -104,8 +104,9 @@ std::vector<Candidate> candidates(const Scenario& s) {
     return pairs;
 }
 
-bool contactsStoredOf(const results::TrajectoryFile& file, std::size_t frame) {
-    return frame < file.times.size() && frame % static_cast<std::size_t>(file.contactStride) == 0;
+std::size_t frameAt(const results::TrajectoryFile& file, double time) {
+    return static_cast<std::size_t>(std::lower_bound(file.times.begin(), file.times.end(), time) -
+                                    file.times.begin());
 }
 
 /// Half of the frames evenly over the run, half evenly over those at which a step with contacts began.
@@ -118,12 +119,10 @@ std::vector<std::size_t> sampledFrames(const results::TrajectoryFile& file) {
     };
     std::vector<std::size_t> all, touching;
     for (std::size_t f = 0; f < file.times.size(); ++f)
-        if (file.contactStride == 1 || contactsStoredOf(file, f + 1)) all.push_back(f);
+        if (file.contactStride == 1 || results::contactsStored(file, f)) all.push_back(f);
     for (const auto& contact : file.contacts) {
-        const auto it = std::lower_bound(file.times.begin(), file.times.end(), contact.time);
-        auto frame = static_cast<std::size_t>(it - file.times.begin());
+        const std::size_t frame = frameAt(file, contact.time);
         if (frame >= file.times.size()) continue;
-        if (file.stride == 1 && frame > 0) --frame;
         if (touching.empty() || touching.back() != frame) touching.push_back(frame);
     }
     spread(all, kFrames / 2);
@@ -146,7 +145,7 @@ std::vector<AuditQuery> frameQueries(const Scenario& s, const std::vector<Candid
         const ShapeAt b = place(s, c.bodyB, c.shapeB, bodyPose(file, frame, c.bodyB));
         if (!isFinite(a.pose.position) || !isFinite(b.pose.position) || gap(a, b) > kNearby) continue;
         AuditQuery q;
-        q.time = file.times[frame];
+        q.time = file.times[frame], q.step = static_cast<std::int64_t>(frame) * file.stride;
         q.bodyA = c.bodyA, q.bodyB = c.bodyB, q.shapeA = c.shapeA, q.shapeB = c.shapeB;
         q.poseA = a.pose, q.poseB = b.pose;
         queries.push_back(std::move(q));
@@ -165,11 +164,11 @@ adapter::ContactPoint contactOf(const results::ContactSample& c) {
 /// Gives the questions of a frame the contacts of the step that began there; what is left over is stray.
 void addOwnContacts(const results::TrajectoryFile& file, std::size_t frame, std::vector<AuditQuery>& queries,
                     std::vector<adapter::ContactPoint>& stray) {
-    if (file.stride != 1 || !contactsStoredOf(file, frame + 1)) return;
+    if (!file.contactInstantsKnown || !results::contactsStored(file, frame)) return;
     for (AuditQuery& q : queries) q.actedUpon = true;
     const auto time = [](const results::ContactSample& c, double t) { return c.time < t; };
-    auto it = std::lower_bound(file.contacts.begin(), file.contacts.end(), file.times[frame + 1], time);
-    for (; it != file.contacts.end() && it->time == file.times[frame + 1]; ++it) {
+    auto it = std::lower_bound(file.contacts.begin(), file.contacts.end(), file.times[frame], time);
+    for (; it != file.contacts.end() && it->time == file.times[frame]; ++it) {
         const adapter::ContactPoint contact = contactOf(*it);
         const auto about = std::find_if(queries.begin(), queries.end(), [&](const AuditQuery& q) {
             return q.bodyA == contact.bodyA && q.bodyB == contact.bodyB && q.shapeA == contact.shapeA &&

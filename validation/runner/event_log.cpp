@@ -55,21 +55,26 @@ std::map<EventLog::Pair, EventLog::Manifold> EventLog::gathered(const std::vecto
 std::string EventLog::step(double time, std::span<const BodyState> states,
                            const std::vector<ContactPoint>& contacts, const Told& told) {
     out_.clear();
-    stamp_ = "t=" + results::exactText(time) + " step=" + std::to_string(step_) + " ";
+    const auto stampOf = [](double t, std::size_t step) {
+        return "t=" + results::exactText(t) + " step=" + std::to_string(step) + " ";
+    };
     const auto manifolds = gathered(contacts);
-    contactEvents(time, manifolds);
+    stamp_ = stampOf(beforeTime_, step_ > 0 ? step_ - 1 : 0);
+    contactEvents(manifolds);
     if (what_ != LogWhat::Contacts) impactEvents(states, manifolds);
+    stamp_ = stampOf(time, step_);
     if (what_ != LogWhat::Contacts) toldEvents(told);
     before_.assign(states.begin(), states.end());
+    beforeTime_ = time;
     ++step_;
     return out_;
 }
 
-void EventLog::contactEvents(double time, const std::map<Pair, Manifold>& manifolds) {
+void EventLog::contactEvents(const std::map<Pair, Manifold>& manifolds) {
     for (const auto& [pair, m] : manifolds) {
         const auto [it, begins] = touching_.try_emplace(pair);
         Touch& touch = it->second;
-        if (begins) touch.since = time;
+        if (begins) touch.since = beforeTime_;
         touch.seen = step_, ++touch.steps;
         touch.impulseSum += m.normalImpulse;
         touch.hasImpulses = touch.hasImpulses && m.hasImpulses;
@@ -115,7 +120,7 @@ double EventLog::separationSpeed(const Pair& pair, const ContactPoint& at,
     const auto velocity = [&](int body) {
         const auto i = static_cast<std::size_t>(body);
         const BodyState& s = states[i];
-        return s.velocity + cross(s.angularVelocity, p - centerOfMassOf(scenario_.bodies[i], s));
+        return s.velocity + cross(s.angularVelocity, p - centerOfMassOf(scenario_.bodies[i], before_[i]));
     };
     return dot(velocity(pair[1]) - velocity(pair[0]), at.normal);
 }

@@ -11,7 +11,11 @@
 //   t=<s> step=<n> break joint=<name> a=.. b=..
 //   t=<s> step=<n> sleep body=<name> id=..      and wake
 //
+// Contacts and impacts are of the step that begins at t, after n steps, at the poses of that moment; joints
+// that break and bodies that fall asleep do so in the step that ends at t.
+//
 // <ids>: a_id=<scenario index> b_id=.. a_shape=<index>:<geometry> b_shape=..
+//
 // A is the body of lower index, n the normal from A to B at the deepest point, depth [m] there (< 0: apart),
 // p the middle between its two surface points [m]; jn [N s] the normal impulses of all points together, jt [N
 // s] the sum of the friction impulses on B, both only where the engine tells them. vn [m/s]: speed at which B
@@ -49,8 +53,8 @@ class EventLog {
     /// The scenario must outlive the log.
     EventLog(const scenario::Scenario& scenario, double dt, LogWhat what);
 
-    /// The lines of the step that led to `time`, each ended by a line break; "" when nothing happened. The
-    /// first call is the start, before any step.
+    /// The lines of the step that led to `time`, with its contacts and the states after it, each ended by a
+    /// line break; "" when nothing happened. The first call is the start, before any step.
     std::string step(double time, std::span<const BodyState> states,
                      const std::vector<ContactPoint>& contacts, const Told& told);
 
@@ -72,7 +76,7 @@ class EventLog {
     };
 
     static std::map<Pair, Manifold> gathered(const std::vector<ContactPoint>& contacts);
-    void contactEvents(double time, const std::map<Pair, Manifold>& manifolds);
+    void contactEvents(const std::map<Pair, Manifold>& manifolds);
     void impactEvents(std::span<const BodyState> states, const std::map<Pair, Manifold>& manifolds);
     void toldEvents(const Told& told);
     double separationSpeed(const Pair& pair, const ContactPoint& at, std::span<const BodyState> states) const;
@@ -87,6 +91,7 @@ class EventLog {
     std::string stamp_, out_;
     std::map<Pair, Touch> touching_;
     std::vector<BodyState> before_;
+    double beforeTime_ = 0.0;  ///< [s] of before_
     std::vector<char> asleep_, broken_;
 };
 

@@ -75,11 +75,10 @@ class Stopwatch {
     std::size_t counted_ = 0;
 };
 
-void appendFrame(Trajectory& t, double time, std::span<const BodyState> states,
-                 const std::vector<ContactPoint>& contacts) {
+void appendFrame(Trajectory& t, double time, std::span<const BodyState> states) {
     t.times.push_back(time);
     t.states.insert(t.states.end(), states.begin(), states.end());
-    t.contacts.push_back(contacts);
+    t.contacts.emplace_back();
 }
 
 }  // namespace
@@ -105,25 +104,27 @@ Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, 
 
     Stepper stepper(scenario, dt, world);
     std::vector<ContactPoint> contacts;
-    appendFrame(t, 0.0, stepper.states(), {});
+    appendFrame(t, 0.0, stepper.states());
     if (options.onWorld) options.onWorld(world);
     if (options.onStep) options.onStep(0.0, stepper.states(), {});
     run.nonFinite = stepper.nonFinite();
 
     Stopwatch watch;
     while (stepper.steps() < total && run.nonFinite.empty()) {
+        const bool beginsAtFrame = stepper.steps() % stride == 0;
         stepper.begin();
         watch.measure(world);
         stepper.end();
-        const bool isFrame = stepper.steps() % stride == 0;
-        if (isFrame || options.onStep) world.readContacts(contacts);
-        if (isFrame) {
-            appendFrame(t, stepper.time(), stepper.states(), contacts);
+        if (beginsAtFrame || options.onStep) world.readContacts(contacts);
+        if (beginsAtFrame) t.contacts.back() = contacts;
+        if (stepper.steps() % stride == 0) {
+            appendFrame(t, stepper.time(), stepper.states());
             run.nonFinite = stepper.nonFinite();
         }
         if (options.onWorld) options.onWorld(world);
         if (options.onStep) options.onStep(stepper.time(), stepper.states(), contacts);
     }
+    t.contacts.back().clear();  // of steps that no frame ends
     if (run.nonFinite.empty()) run.nonFinite = stepper.nonFinite();
     run.steps = stepper.steps();
     run.stateHash = stepper.stateHash();

@@ -94,6 +94,7 @@ TEST_F(RunSites, TrajectoriesComeInFullAndByRange) {
     EXPECT_EQ(position[6 * 7 + 4], 107.25) << "frame 7, ball, y";
     EXPECT_EQ(all.arrays.integers("contacts/frame"), (std::vector<std::int32_t>{0, 7, 7, 20}));
     EXPECT_TRUE(std::isnan(all.arrays.doubles("contacts/normal_impulse")[0]));
+    EXPECT_EQ(all.header["contact_instants"], true);
 
     const Packet part = Packet::decode(get("/trajectory/c0ffee", {{"from", "7"}, {"count", "3"}}).body);
     EXPECT_EQ(part.header["from"], 7);

@@ -60,6 +60,31 @@ TEST_P(Lanes, GoBackToTheSameBits) {
     EXPECT_EQ(bits(*world), states[15]) << "what was dragged later is forgotten";
 }
 
+/// A block slides at metres a second: its contacts are told as the step found them, and drawn where they have
+/// gone with it; after a step back as well.
+TEST_P(Lanes, ContactsAreCarriedAlongWithTheirBodies) {
+    const auto world = lane(GetParam());
+    world->advance(5, kLong);
+    world->goTo(4);
+    const scenario::Vec3 at = world->states()[1].position;
+    const Packet packet = Packet::decode(laneFrame(*world, false).encode());
+    const scenario::Vec3 before = world->statesBefore()[1].position;
+    ASSERT_GT(norm(at - before), 1e-3) << "it slides";
+    const auto bodyB = packet.arrays.integers("contacts/body_b");
+    const auto found = packet.arrays.doubles("contacts/point_b");
+    const auto carried = packet.arrays.doubles("contacts/carried_b");
+    ASSERT_EQ(carried.size(), found.size());
+    std::size_t ofBlock = 0;
+    for (std::size_t i = 0; i < bodyB.size(); ++i) {
+        if (bodyB[i] != 1) continue;
+        ++ofBlock;
+        const auto vec = [i](const auto& v) { return scenario::Vec3{v[3 * i], v[3 * i + 1], v[3 * i + 2]}; };
+        EXPECT_NEAR(norm(vec(carried) - at), norm(vec(found) - before), 1e-9) << "on the same spot of it";
+        EXPECT_GT(norm(vec(carried) - vec(found)), 1e-3);
+    }
+    EXPECT_GT(ofBlock, 0u);
+}
+
 TEST_P(Lanes, ADragPullsABodyToItsTarget) {
     const auto world = lane(GetParam());
     world->drag(Drag{2, {0, 0, 0}, {1, 4, 2}, 200.0});

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kStep = 0.01;
 
-/// A ball of 2 kg and 0.25 m on a floor without gravity, two frames, one contact in the second.
+/// A ball of 2 kg and 0.25 m on a floor without gravity, two frames, one contact in the step between.
 struct OneStep {
     OneStep() : scenario(emptyScene(3, {}, kStep)) {
         scenario.materials[0].friction = 0.5;
@@ -29,11 +29,11 @@ struct OneStep {
         run.states = {floor, ball, floor, ball};
         ContactPoint c;
         c.bodyA = 0, c.bodyB = 1, c.normal = {0, 1, 0}, c.hasImpulse = true, c.normalImpulse = 2;
-        run.contacts = {{}, {c}};
+        run.contacts = {{c}, {}};
     }
     BodyState& before() { return run.states[1]; }
     BodyState& after() { return run.states[3]; }
-    ContactPoint& contact() { return run.contacts[1][0]; }
+    ContactPoint& contact() { return run.contacts[0][0]; }
     /// The row of the whole scene, or -1 where there is none.
     double value(const char* metric) const {
         const auto rows = findMetric(metric)->evaluate({scenario, run, nullptr, adapter::Scheme::Unknown});

@@ -244,6 +244,24 @@ std::unique_ptr<Case> resting() {
     return c;
 }
 
+/// A contact is held against the poses of its own frame: the box is tilted at frame 20 alone.
+TEST(Contacts, NormalsBelongToThePosesOfTheirFrame) {
+    const auto c = resting();
+    c->state(20, 1).orientation = scenario::fromAxisAngle({0, 0, 1}, 0.1);
+    ContactPoint touch;
+    touch.bodyA = 1, touch.bodyB = 2;
+    touch.normal = {-std::sin(0.1), std::cos(0.1), 0};
+    c->run.contacts[20] = {touch};
+    EXPECT_LT(c->worst("normal_error"), 1e-12);
+    for (const std::size_t other : {19, 21}) {
+        c->run.contacts[20].clear();
+        c->run.contacts[other] = {touch};
+        EXPECT_NEAR(c->worst("normal_error"), 0.1, 1e-12);
+        EXPECT_NEAR(c->rows("normal_error")[0].at, 0.01 * static_cast<double>(other), 1e-12);
+        c->run.contacts[other].clear();
+    }
+}
+
 TEST(Contacts, DepthOverlapAndNormals) {
     const auto c = resting();
     EXPECT_EQ(c->worst("penetration_max"), 0.0);

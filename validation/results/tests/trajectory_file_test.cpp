@@ -9,6 +9,7 @@
 #include <fstream>
 #include <random>
 
+#include "validation/results/hdf5_file.hpp"
 #include "validation/results/tests/sample_run.hpp"
 
 namespace rigor::results {
@@ -104,9 +105,36 @@ TEST_P(RoundTrip, IsBitExact) {
         EXPECT_TRUE(std::isnan(b.normalImpulse));
         EXPECT_TRUE(std::signbit(b.frictionImpulse[0]));
     }
+    EXPECT_TRUE(read.contactInstantsKnown);
     EXPECT_TRUE(readTrajectory(file, false).contacts.empty());
 }
 INSTANTIATE_TEST_SUITE_P(Frames, RoundTrip, testing::Values(1u, 7u, 20000u));
+
+/// Before format 3 contacts stood at the frame after their step: they are read, and said to be of an unknown
+/// instant, also after the file was written anew.
+TEST(TrajectoryFile, ContactsOfAnOlderFormatAreOfAnUnknownInstant) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "case.h5";
+    TrajectoryFile data = sampleFile(6);
+    data.contactInstantsKnown = false;
+    writeTrajectory(file, data);
+    EXPECT_EQ(Hdf5File::open(file).integer("/", "rigor_trajectory"), 2);
+    const TrajectoryFile read = readTrajectory(file);
+    EXPECT_FALSE(read.contactInstantsKnown);
+    EXPECT_EQ(read.contacts.size(), 6u);
+    EXPECT_TRUE(contactsStored(read, 4));
+    writeTrajectory(file, read);
+    EXPECT_FALSE(readTrajectory(file).contactInstantsKnown);
+}
+
+/// Every second frame, and never the last one, at which no step begins.
+TEST(TrajectoryFile, FramesWhoseContactsAreStored) {
+    const TrajectoryFile data = sampleFile(7);
+    std::vector<std::size_t> stored;
+    for (std::size_t f = 0; f < 9; ++f)
+        if (contactsStored(data, f)) stored.push_back(f);
+    EXPECT_THAT(stored, testing::ElementsAre(0, 2, 4));
+}
 
 TEST(TrajectoryFile, SmoothDataIsCompressed) {
     const TemporaryFolder folder;

@@ -43,7 +43,7 @@ class InRun : public fixtures::RunnerTest {
             }
         }
         for (int k = 0; k < kFrames; ++k) file_.times.push_back(k * kStep);
-        for (int k = 1; k < kFrames; ++k)
+        for (int k = 0; k + 1 < kFrames; ++k)
             for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {1, 2}}) addTruth(k, a, b);
     }
 
@@ -52,17 +52,17 @@ class InRun : public fixtures::RunnerTest {
                                .position.values[3 * static_cast<std::size_t>(frame)];
         return {p[0], p[1], p[2]};
     }
-    /// The contact that the step from frame k - 1 to k should act upon.
+    /// The contact that the step from frame k to k + 1 should act upon.
     void addTruth(int k, int a, int b) {
-        const Vec3 other = at(k - 1, b);
-        const Vec3 between = a == 0 ? Vec3{0, other.y, 0} : other - at(k - 1, a);
+        const Vec3 other = at(k, b);
+        const Vec3 between = a == 0 ? Vec3{0, other.y, 0} : other - at(k, a);
         const double distance = norm(between), depth = (a == 0 ? kRadius : 2 * kRadius) - distance;
         if (depth <= 0.0) return;
         const Vec3 n = between / distance;
         ContactSample c;
         c.time = file_.times[static_cast<std::size_t>(k)], c.bodyA = a, c.bodyB = b, c.depth = depth;
         set(c.normal, n);
-        set(c.pointA, a == 0 ? Vec3{other.x, 0, other.z} : at(k - 1, a) + kRadius * n);
+        set(c.pointA, a == 0 ? Vec3{other.x, 0, other.z} : at(k, a) + kRadius * n);
         set(c.pointB, other - kRadius * n);
         file_.contacts.push_back(c);
     }
@@ -102,9 +102,9 @@ TEST_F(InRun, FlippedNormals) {
 }
 
 TEST_F(InRun, TheCurveOfNormalErrorsTellsWhenTheyWereWrong) {
-    const double from = 0.5;  // [s]; of the poses, a step before the contacts
+    const double from = 0.5;  // [s]
     for (auto& c : file_.contacts)
-        if (c.time > from + 0.5 * kStep)
+        if (c.time > from - 0.5 * kStep)
             for (double& x : c.normal) x = -x;
     const auto path = scratch_.path() / "run.h5";
     writeTrajectory(path, file_);
@@ -134,7 +134,7 @@ TEST_F(InRun, ForgottenAndInvented) {
     ContactSample invented;
     invented.bodyA = 1, invented.bodyB = 2, invented.depth = 0.01, invented.normal[0] = 1;
     file_.contacts.clear();
-    for (int k = 1; k < kFrames; ++k) {
+    for (int k = 0; k + 1 < kFrames; ++k) {
         invented.time = k * kStep;
         file_.contacts.push_back(invented);
     }
@@ -152,10 +152,40 @@ TEST_F(InRun, FramesWithoutStoredContactsAreNotAsked) {
     const auto thinned = audited();
     EXPECT_GT(thinned.overlapping, 5);
     EXPECT_EQ(thinned.missed, 0) << thinned.worst;
+}
+
+/// Several steps between frames change nothing: contacts belong to the poses of the frame they are stored at.
+TEST_F(InRun, FramesSeveralStepsApartAreAsked) {
+    file_.stride = 3;
+    const auto row = audited();
+    EXPECT_GT(row.overlapping, 10);
+    EXPECT_EQ(row.missed + row.spurious, 0) << row.worst;
+    EXPECT_LT(row.normalErrorMax.value(), 1e-9);
+}
+
+/// The worst place names the step, which tells the frame where six digits of its time do not.
+TEST_F(InRun, TheWorstPlaceNamesItsStep) {
     file_.stride = 2;
-    const auto coarse = audited();
-    EXPECT_EQ(coarse.queries, 0);
-    EXPECT_NE(coarse.note, "");
+    for (auto& c : file_.contacts)
+        for (double& x : c.normal) x = -x;
+    const auto row = audited();
+    const auto at = row.worst.find(", step ");
+    ASSERT_NE(at, std::string::npos) << row.worst;
+    const double time = std::stod(row.worst.substr(row.worst.find(" at t=") + 6));
+    EXPECT_NEAR(std::stol(row.worst.substr(at + 7)) * (kStep / 2), time, 1e-4) << row.worst;
+}
+
+/// A file of an older format does not tell which poses its contacts belong to: they are not judged.
+TEST_F(InRun, ContactsOfAnUnknownInstantAreNotJudged) {
+    EXPECT_GT(audited().queries, 0);
+    file_.contactInstantsKnown = false;
+    const auto path = scratch_.path() / "run.h5";
+    writeTrajectory(path, file_);
+    const auto found = findQueries(scenario_, "run", path);
+    const auto row = inRunRow(scenario_, found);
+    EXPECT_EQ(row.queries, 0);
+    EXPECT_NE(row.note, "");
+    EXPECT_GT(oracleRow(found).queries, 0) << "the poses are asked about all the same";
 }
 
 }  // namespace

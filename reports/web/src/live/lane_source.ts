@@ -47,7 +47,7 @@ export class LaneSource implements FrameSource {
     this.arrays = arrays;
     while (this.times.length > 0 && (this.times[this.times.length - 1] as number) >= head.time - 1e-12) this.#drop(-1);
     const frame = frameOf(head, arrays);
-    const size = 8 * 13 * (frame.position.length / 3) + 8 * 16 * (frame.contacts?.count ?? 0);
+    const size = 8 * 13 * (frame.position.length / 3) + 8 * 22 * (frame.contacts?.count ?? 0);
     this.times.push(head.time);
     this.#frames.push(frame);
     this.#sizes.push(size);
@@ -95,5 +95,8 @@ function contactsOf(of: string, arrays: ArrayBundle): Contacts {
     depth: doubles(arrays, `${of}contacts/depth`),
     normalImpulse: doubles(arrays, `${of}contacts/normal_impulse`),
     frictionImpulse: doubles(arrays, `${of}contacts/friction_impulse`),
+    carriedA: doubles(arrays, `${of}contacts/carried_a`),
+    carriedB: doubles(arrays, `${of}contacts/carried_b`),
+    instant: 'where the last step began; drawn where the bodies have carried them',
   };
 }

@@ -4,7 +4,11 @@
 // What the 3D view shows, wherever it comes from: a report's replay file, a stored trajectory, a live run.
 // World frame, SI units; quaternions w x y z; bodies by their place in the scenario.
 
-/** Contacts of one frame, `count` of each; vectors have three numbers a contact. */
+/**
+ * Contacts of one frame, `count` of each; vectors have three numbers a contact. They belong to the poses of the frame:
+ * they are those of the step that begins there. In a live run they are those of the step that led there, and belong to
+ * the poses at which that began: `carriedA` and `carriedB` are their points carried along with the bodies since.
+ */
 export interface Contacts {
   count: number;
   bodyA: ArrayLike<number>;
@@ -17,6 +21,9 @@ export interface Contacts {
   depth: ArrayLike<number>; // [m], > 0: overlap
   normalImpulse: ArrayLike<number>; // [N s]; NaN where the engine does not tell
   frictionImpulse: ArrayLike<number>; // [N s] on B
+  instant?: string; // what else there is to say of the poses that they belong to
+  carriedA?: ArrayLike<number>; // [m] where points on A are drawn
+  carriedB?: ArrayLike<number>;
 }
 
 /** State of all bodies at one time. */
@@ -68,4 +75,11 @@ export function indexAt(times: ArrayLike<number>, t: number): number {
     else high = middle - 1;
   }
   return low;
+}
+
+/** Where a contact is drawn: in the middle between its points [m]. */
+export function middleOf(contacts: Contacts, i: number): [number, number, number] {
+  const { pointA, pointB, carriedA = pointA, carriedB = pointB } = contacts;
+  const middle = (k: number) => ((carriedA[3 * i + k] as number) + (carriedB[3 * i + k] as number)) / 2;
+  return [middle(0), middle(1), middle(2)];
 }

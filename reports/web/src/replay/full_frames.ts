@@ -4,12 +4,20 @@
 // All frames of a stored trajectory, as `rigor view RUN` gives them: /trajectory/<case id>?from=N&count=M answers an
 // ArrayBundle of as many frames as it likes to send at once. Their numbers are those of the HDF5 file.
 import { ArrayBundle } from '../common/arrays.ts';
-import { type ContactTable, contactColumns, type FrameTable, type SourceLook, StoredSource } from './stored_source.ts';
+import {
+  type ContactTable,
+  contactColumns,
+  type FrameTable,
+  idColumns,
+  type SourceLook,
+  StoredSource,
+} from './stored_source.ts';
 
 interface Part {
   dt: number;
   stride: number;
   contact_stride: number;
+  contact_instants: boolean; // whether contacts belong to the poses of their frames
   frames: number; // of the whole trajectory
   from: number;
   count: number;
@@ -80,7 +88,8 @@ function contactsOf(parts: ArrayBundle[], head: Part): ContactTable {
   const table: ContactTable = {
     start: new Int32Array(head.frames).fill(-1),
     count: new Int32Array(head.frames),
-    ids: new Int32Array(4 * total),
+    ids: new Int32Array(idColumns * total),
+    instantsKnown: head.contact_instants,
     numbers: new Float32Array(contactColumns * total),
   };
   let next = 0;
@@ -94,7 +103,7 @@ function contactsOf(parts: ArrayBundle[], head: Part): ContactTable {
       if (table.count[f] === 0) table.start[f] = next;
       table.count[f] = (table.count[f] as number) + 1;
       ['body_a', 'body_b', 'shape_a', 'shape_b'].forEach((name, k) => {
-        table.ids[4 * next + k] = get(name)[i] as number;
+        table.ids[idColumns * next + k] = get(name)[i] as number;
       });
       for (let k = 0; k < 3; ++k) {
         const [to, from] = [contactColumns * next + k, 3 * i + k];
@@ -107,8 +116,9 @@ function contactsOf(parts: ArrayBundle[], head: Part): ContactTable {
       table.numbers[contactColumns * next + 10] = get('normal_impulse')[i] as number;
     }
   }
-  // frames whose contacts are stored, but that have none
-  for (let f = 0; f < head.frames; f += Math.max(1, head.contact_stride))
+  // frames whose contacts are stored, but that have none; no step begins at the last one
+  const end = head.contact_instants ? head.frames - 1 : head.frames;
+  for (let f = 0; f < end; f += Math.max(1, head.contact_stride))
     if ((table.start[f] as number) < 0) table.start[f] = 0;
   return table;
 }

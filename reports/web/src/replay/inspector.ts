@@ -34,6 +34,7 @@ function contactRows(scene: Scene, { frame, contact }: Inspected): HTMLElement[]
     name(bodies[contact] as number, shapes[contact] as number);
   return [
     ...row('contact', `${contact} of ${c.count}`, '', 'contact'),
+    ...row('found', c.instant ?? 'at these poses, where a step begins', '', 'found'),
     ...row('A', side(c.bodyA, c.shapeA), '', 'a'),
     ...row('B', side(c.bodyB, c.shapeB), '', 'b'),
     ...row('point on A', three(c.pointA, contact), 'm', 'pointA'),

@@ -9,7 +9,8 @@ import { colourings, defaultOptions, type LayerName, layerNames, type ViewOption
 import type { Vec3 } from './vectors.ts';
 
 export interface LinkState {
-  time?: number;
+  time?: number; // [s]
+  step?: number; // steps up to that time, where a step ends there: finds the frame where a time has lost digits
   shown?: string[]; // specs
   options?: ViewOptions;
   camera?: CameraState;
@@ -23,6 +24,7 @@ const short = (x: number, digits = 5) => String(Number(x.toPrecision(digits)));
 export function encodeLink(state: LinkState): string {
   const out = new URLSearchParams();
   if (state.time !== undefined) out.set('t', short(state.time, 9));
+  if (state.step !== undefined) out.set('n', String(state.step));
   if (state.options) {
     const { layers, colouring, overlaid, exaggeration, arrows } = state.options;
     const on = (Object.keys(layerNames) as LayerName[]).filter((name) => layers[name]);
@@ -56,6 +58,8 @@ export function decodeLink(text: string): LinkState {
   const state: LinkState = {};
   const time = number('t', 0, 1e9);
   if (time !== undefined) state.time = time;
+  const step = number('n', 0, 1e12);
+  if (step !== undefined && Number.isInteger(step)) state.step = step;
   const speed = number('s', 1e-4, 1e3);
   if (speed !== undefined) state.speed = speed;
   const body = number('b', 0, 1e6);
@@ -84,11 +88,12 @@ export function viewOfHash(hash: string): string {
   return at < 0 ? '' : (new URLSearchParams(hash.slice(at + 1)).get('view') ?? '');
 }
 
-/** The same address with another view, which says more than the moment (time, pair) of the link that led here. */
+/** The same address with another view, which says more than the moment (time, step, pair) of the link that led here. */
 export function withView(hash: string, view: string): string {
   const at = hash.indexOf('?');
   const query = new URLSearchParams(at < 0 ? '' : hash.slice(at + 1));
   query.delete('t');
+  query.delete('step');
   query.delete('pair');
   query.set('view', view);
   return `${(at < 0 ? hash : hash.slice(0, at)) || '#'}?${query}`;

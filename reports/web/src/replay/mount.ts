@@ -26,6 +26,7 @@ export interface ReplayContext {
   cursor: Cursor;
   /** Colour of a spec, as the curves have it; "" is the reference. */
   colourOf: (spec: string, index: number) => string;
+  dt?: number; // [s] of the runs; else that of the replay file
   metrics?: readonly string[]; // in order of importance: whose largest error counts
   /** Where the replay file comes from; else from beside the page. */
   load?: () => Promise<ArrayBuffer>;
@@ -99,7 +100,7 @@ export function mountReplay(element: HTMLElement, context: ReplayContext): Repla
         const { id, frames, stored } = replay.head.cases[i] as (typeof replay.head.cases)[number];
         if (get && frames < (stored ?? 0)) thinned.set(source, () => fullSource(source, get(id)));
       });
-      stage = new ReplayStage(root, scene, sources, context, thinned);
+      stage = new ReplayStage(root, scene, sources, { dt: replay.head.dt, ...context }, thinned);
     } catch (error) {
       if (!(error instanceof NoWebGL)) console.error(error);
       say(

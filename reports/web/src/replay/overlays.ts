@@ -7,7 +7,7 @@ import { Color, Group } from 'three';
 import type { BodyLayer } from './body_layer.ts';
 import type { Bounds } from './bounds.ts';
 import type { Theme } from './colours.ts';
-import { type Contacts, type Frame, type FrameSource, indexAt } from './frames.ts';
+import { type Contacts, type Frame, type FrameSource, indexAt, middleOf } from './frames.ts';
 import type { ViewOptions } from './layers.ts';
 import { Dots, FatLines, ThinLines } from './line_batch.ts';
 import type { Scene, SceneJoint } from './scene.ts';
@@ -93,9 +93,7 @@ export class Overlays {
     const head = 0.3 * normalLength;
     for (let i = 0; i < contacts.count; ++i) {
       const at = (list: ArrayLike<number>, k: number) => list[3 * i + k] as number;
-      const x = (at(contacts.pointA, 0) + at(contacts.pointB, 0)) / 2;
-      const y = (at(contacts.pointA, 1) + at(contacts.pointB, 1)) / 2;
-      const z = (at(contacts.pointA, 2) + at(contacts.pointB, 2)) / 2;
+      const [x, y, z] = middleOf(contacts, i);
       const nx = at(contacts.normal, 0);
       const ny = at(contacts.normal, 1);
       const nz = at(contacts.normal, 2);

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // From the pointer to what it points at: which picture of the canvas, where in it, which contact is nearest.
-import type { Contacts } from './frames.ts';
+import { type Contacts, middleOf } from './frames.ts';
 
 /** In pixels of the page, from the upper left corner of the canvas. */
 export interface Rect {
@@ -69,8 +69,7 @@ export function nearestContact(
   let found = -1;
   let least = reach;
   for (let i = 0; i < contacts.count; ++i) {
-    const middle = (k: number) => ((contacts.pointA[3 * i + k] as number) + (contacts.pointB[3 * i + k] as number)) / 2;
-    const at = toPixels(rect, viewProjection, middle(0), middle(1), middle(2));
+    const at = toPixels(rect, viewProjection, ...middleOf(contacts, i));
     const distance = at === null ? Number.POSITIVE_INFINITY : Math.hypot(at[0] - x, at[1] - y);
     if (distance < least) [found, least] = [i, distance];
   }

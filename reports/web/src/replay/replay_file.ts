@@ -6,7 +6,14 @@
 import { ArrayBundle } from '../common/arrays.ts';
 import { CodeReader } from './codec.ts';
 import type { ReplayEvent } from './frames.ts';
-import { type ContactTable, contactColumns, type FrameTable, StoredSource } from './stored_source.ts';
+import {
+  type ContactTable,
+  contactColumns,
+  type FrameTable,
+  idColumns,
+  StoredSource,
+  unknownInstant,
+} from './stored_source.ts';
 
 interface FramesHead {
   frames: number;
@@ -15,6 +22,7 @@ interface FramesHead {
   turns: boolean;
   velocities: boolean;
   contacts: number | null;
+  contactInstants?: boolean; // whether contacts belong to the poses of their frames
   contactQuantum?: { point: number; offset: number; normal: number; depth: number; impulse: number };
   stride: number;
 }
@@ -76,7 +84,8 @@ function readContacts(bundle: ArrayBundle, prefix: string, head: FramesHead): Co
   const table: ContactTable = {
     start: new Int32Array(head.frames).fill(-1),
     count: new Int32Array(head.frames),
-    ids: new Int32Array(4 * total),
+    ids: new Int32Array(idColumns * total),
+    instantsKnown: head.contactInstants !== false,
     numbers: new Float32Array(contactColumns * total),
   };
   let next = 0;
@@ -91,9 +100,9 @@ function readContacts(bundle: ArrayBundle, prefix: string, head: FramesHead): Co
   const chain = Int32Array.from({ length: total }, (_, i) => i - 1);
   const ids = new CodeReader(bundle.get(`${prefix}.contactIds`));
   const column = new Float64Array(total);
-  for (let k = 0; k < 4; ++k) {
+  for (let k = 0; k < idColumns; ++k) {
     ids.linked(chain, 1, column);
-    for (let i = 0; i < total; ++i) table.ids[4 * i + k] = column[i] as number;
+    for (let i = 0; i < total; ++i) table.ids[idColumns * i + k] = column[i] as number;
   }
   const previous = predecessors(table, head.frames);
   const reader = new CodeReader(bundle.get(`${prefix}.contactNumbers`));
@@ -108,13 +117,13 @@ function readContacts(bundle: ArrayBundle, prefix: string, head: FramesHead): Co
 
 /** For each contact the one before with the same bodies and the same place among theirs, or -1. */
 function predecessors(table: ContactTable, frames: number): Int32Array {
-  const out = new Int32Array(table.ids.length / 4);
+  const out = new Int32Array(table.ids.length / idColumns);
   const latest = new Map<string, number>();
   for (let f = 0; f < frames; ++f) {
     const seen = new Map<string, number>();
     const start = table.start[f] as number;
     for (let i = start; i >= 0 && i < start + (table.count[f] as number); ++i) {
-      const pair = `${table.ids[4 * i]} ${table.ids[4 * i + 1]}`;
+      const pair = `${table.ids[idColumns * i]} ${table.ids[idColumns * i + 1]}`;
       const place = seen.get(pair) ?? 0;
       seen.set(pair, place + 1);
       out[i] = latest.get(`${pair} ${place}`) ?? -1;
@@ -176,6 +185,7 @@ function noteOf(head: CaseHead, table: FrameTable): string {
   if (table.steps.length === 0) return parts.join(', ') || 'no frames are stored';
   const every = spacing(table.steps);
   if (every > 1) parts.push(`every ${every} steps`);
+  if (head.contactInstants === false) parts.push(`contacts ${unknownInstant}`);
   return parts.join(', ');
 }
 

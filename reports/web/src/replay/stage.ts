@@ -3,6 +3,7 @@
 //
 // Picture, controls and keys of a replay, bound together.
 import { el } from '../common/elements.ts';
+import { stepAt } from '../common/steps.ts';
 import { Controls } from './controls.ts';
 import { followPointer, followTheme, type PointerActions } from './follow.ts';
 import { type Frame, type FrameSource, indexAt } from './frames.ts';
@@ -294,7 +295,9 @@ export class ReplayStage {
       if (known.length > 0) this.#chosen = new Set(known);
     }
     if (state.speed !== undefined) this.player.speed = state.speed;
-    if (state.time !== undefined) this.#context.cursor.time.set(Math.min(state.time, this.player.end));
+    const { dt } = this.#context;
+    const time = state.step !== undefined && dt ? state.step * dt : state.time;
+    if (time !== undefined) this.#context.cursor.time.set(Math.min(time, this.player.end));
     if (state.camera) this.view.camera = state.camera;
     const spec = this.shown[0]?.spec;
     if (state.body !== undefined && state.body < this.#scene.bodies.length && spec !== undefined)
@@ -313,8 +316,10 @@ export class ReplayStage {
 
   /** All that is needed to see the same again. */
   link(): string {
+    const step = stepAt(this.time, this.#context.dt ?? 0);
     return encodeLink({
       time: this.time,
+      ...(step === null ? {} : { step }),
       shown: this.shown.map((s) => s.spec),
       options: this.view.options,
       camera: this.view.camera,

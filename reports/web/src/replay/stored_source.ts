@@ -9,9 +9,13 @@ export interface ContactTable {
   start: Int32Array; // of each frame, -1: not stored
   count: Int32Array;
   ids: Int32Array; // bodyA, bodyB, shapeA, shapeB
+  instantsKnown: boolean; // they belong to the poses of their frame
   numbers: Float32Array; // 14 each: point A, B - A, normal, depth, normal impulse, friction impulse
 }
 export const contactColumns = 14;
+export const idColumns = 4;
+/** Of a file of an older format. */
+export const unknownInstant = 'at an instant that the stored file does not tell';
 
 /** All frames of a run, frame by frame. */
 export interface FrameTable {
@@ -107,7 +111,8 @@ export class StoredSource implements FrameSource {
         }
       return out;
     };
-    const id = (k: number) => Int32Array.from({ length: count }, (_, i) => table.ids[4 * (start + i) + k] as number);
+    const id = (k: number) =>
+      Int32Array.from({ length: count }, (_, i) => table.ids[idColumns * (start + i) + k] as number);
     return {
       count,
       bodyA: id(0),
@@ -120,6 +125,7 @@ export class StoredSource implements FrameSource {
       depth: column(9, 1),
       normalImpulse: column(10, 1),
       frictionImpulse: column(11, 3),
+      ...(table.instantsKnown ? {} : { instant: unknownInstant }),
     };
   }
 }

@@ -4,24 +4,37 @@
 export interface Place {
   pair: string; // "block|floor"; "" where none is named
   bodies: string[];
-  time: number; // [s]
+  time: number; // [s], six digits
+  step: number | null; // steps up to the frame; null where an older store names none
+  dt: number | null; // [s] of the run; null where none is named
   what: string; // "missed", "spurious" or "normal"; "" where it is not told
   spec: string; // "" where none is named
 }
 
-const kinds = new Set(['missed', 'spurious', 'normal']);
+const kinds = new Set(['missed', 'spurious', 'spurious, far apart', 'normal']);
 
 /**
- * Where the worst of an audit was: "block|floor at t=0.25 (normal)"; gathered over runs, the spec of the run stands in
- * a second pair of brackets.
+ * Where the worst of an audit was: "block|floor at t=0.25, step 15 (normal)"; gathered over runs, spec and time step of
+ * the run stand in brackets of their own: "(bullet:preset=default) (dt=0.01)".
  */
 export function worstPlace(text: string): Place | null {
-  const match = /^(.*?)\s*at t=([-+0-9.eE]+)((?: \([^()]*\))*)$/.exec(text.trim());
+  const match = /^(.*?)\s*at t=([-+0-9.eE]+)(?:, step (\d+))?((?: \([^()]*\))*)$/.exec(text.trim());
   const time = Number(match?.[2]);
   if (match === null || !Number.isFinite(time)) return null;
   const pair = match[1] ?? '';
-  const notes = [...(match[3] ?? '').matchAll(/\(([^()]*)\)/g)].map((note) => note[1] as string);
-  const spec = notes.find((note) => !kinds.has(note)) ?? '';
+  const notes = [...(match[4] ?? '').matchAll(/\(([^()]*)\)/g)].map((note) => note[1] as string);
+  const step = match[3] === undefined ? null : Number(match[3]);
+  const dtNote = notes.find((note) => note.startsWith('dt='));
+  const dt = dtNote === undefined ? null : Number(dtNote.slice(3));
+  const spec = notes.find((note) => !kinds.has(note) && note !== dtNote) ?? '';
   const what = notes.find((note) => kinds.has(note)) ?? '';
-  return { pair, bodies: pair ? pair.split('|') : [], time, what, spec };
+  return { pair, bodies: pair ? pair.split('|') : [], time, step, dt, what, spec };
 }
+
+/** What a link to the place says. The step finds the very frame, where the time has lost digits. */
+export function placeQuery(place: Place | null, dt: number | undefined) {
+  return { dt: dt ?? place?.dt, t: place?.time, step: place?.step, pair: place?.pair };
+}
+
+/** The moment of the place in a run of this time step [s]. */
+export const placeTime = (place: Place, dt: number): number => (place.step === null ? place.time : place.step * dt);

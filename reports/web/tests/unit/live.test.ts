@@ -10,7 +10,7 @@ import { curves, mostCurves } from '../../src/live/impulse_plot.ts';
 import { type KeyActions, keyAction } from '../../src/live/keys.ts';
 import { LaneSource } from '../../src/live/lane_source.ts';
 import { type StageData, stageData } from '../../src/live/stage_data.ts';
-import type { Frame } from '../../src/replay/frames.ts';
+import { type Frame, middleOf } from '../../src/replay/frames.ts';
 import type { Pick } from '../../src/replay/view.ts';
 
 /** What validation/results/array_bundle.cpp writes, said a second time. */
@@ -61,6 +61,8 @@ function frame(step: number): ArrayBundle {
       '3/angular_velocity': [0, 0, 0, 0, 0, 1],
       '3/contacts/point_a': [1, 2, 3],
       '3/contacts/point_b': [1, 2, 3],
+      '3/contacts/carried_a': [1 + step, 2, 3],
+      '3/contacts/carried_b': [1 + step, 2, 5],
       '3/contacts/normal': [0, 1, 0],
       '3/contacts/depth': [0.01],
       '3/contacts/normal_impulse': [Number.NaN],
@@ -83,6 +85,11 @@ test('a lane keeps its last frames, and forgets those after a step back', () => 
   assert.equal(lane.frame(0).position[3], 60);
   assert.equal(lane.newest?.contacts?.shapeB[0], 2);
   assert.ok(Number.isNaN(lane.newest?.contacts?.normalImpulse[0]));
+  const contacts = lane.newest?.contacts;
+  assert.ok(contacts);
+  assert.deepEqual(middleOf(contacts, 0), [300, 2, 4], 'drawn where the bodies have carried it');
+  assert.equal(contacts.pointA[0], 1, 'told as it was found');
+  assert.match(contacts.instant ?? '', /where the last step began/);
   lane.push(head(100), frame(100));
   assert.equal(lane.times.length, 41);
   assert.equal(lane.newest?.step, 100);

@@ -142,6 +142,7 @@ test('a replay file gives sources with frames, contacts, events and what is miss
   const c = last.contacts;
   assert.ok(c);
   assert.deepEqual([c.bodyA[0], c.bodyB[0], c.shapeA[0], c.shapeB[0]], [0, 1, 0, 2]);
+  assert.equal(c.instant, undefined, 'of the frame');
   assert.ok(Math.abs((c.pointB[1] as number) - 1.998) < 1e-6);
   assert.ok(Math.abs((c.depth[0] as number) - 0.002) < 1e-6);
   assert.ok(Number.isNaN(c.normalImpulse[0]));
@@ -158,7 +159,7 @@ test('a file that is cut off is refused', () => {
 
 test('all frames of a trajectory arrive in parts', async () => {
   const frames = 5;
-  const part = (from: number, count: number) => {
+  const part = (from: number, count: number, instants = false) => {
     const at = (columns: number) =>
       Float64Array.from({ length: count * columns }, (_, i) => 10 * (from + Math.floor(i / columns)) + (i % columns));
     const touching = [2, 2, 4].filter((f) => f >= from && f < from + count);
@@ -166,7 +167,7 @@ test('all frames of a trajectory arrive in parts', async () => {
     const ids = (k: number) => Int32Array.from({ length: n }, () => k);
     const three = (k: number) => Float64Array.from({ length: 3 * n }, (_, i) => k + (i % 3));
     return bundleOf(
-      { dt: 0.1, stride: 2, contact_stride: 2, frames, from, count, bodies: ['a'] },
+      { dt: 0.1, stride: 2, contact_stride: 2, contact_instants: instants, frames, from, count, bodies: ['a'] },
       {
         time: Float64Array.from({ length: count }, (_, i) => (from + i) * 0.2),
         position: at(3),
@@ -205,5 +206,8 @@ test('all frames of a trajectory arrive in parts', async () => {
   assert.equal(c.count, 2);
   assert.deepEqual([...(c.pointB as Float32Array)].slice(0, 3), [5, 6, 7]);
   assert.equal(source.frame(4).contacts?.count, 1);
+  assert.match(c.instant ?? '', /does not tell/, 'of an older file');
+  const known = await fullSource(look, async (from) => part(from, frames - from, true));
+  assert.equal(known.frame(2).contacts?.instant, undefined);
   await assert.rejects(fullSource(look, async (from) => part(from, 0)));
 });

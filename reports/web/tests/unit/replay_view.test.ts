@@ -231,6 +231,8 @@ test('a link restores the view', () => {
     },
   };
   assert.deepEqual(decodeLink(encodeLink(mutable)), mutable);
+  assert.deepEqual(decodeLink(encodeLink({ time: 100.016666666666, step: 6001 })).step, 6001);
+  assert.equal(decodeLink('n=1.5').step, undefined);
   assert.deepEqual(decodeLink('t=abc&cam=1_2&on=&by=nobody&x=-4&s=nan').options?.exaggeration, 1);
   assert.equal(decodeLink('t=abc').time, undefined);
   assert.equal(decodeLink('cam=1_2').camera, undefined);

@@ -2,23 +2,37 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { worstPlace } from '../../src/report/worst.ts';
+import { placeQuery, placeTime, worstPlace } from '../../src/report/worst.ts';
 
 test('the worst of one audit names pair, time and what was wrong', () => {
   assert.deepEqual(worstPlace('right|stone_3 at t=0.883333 (normal)'), {
     pair: 'right|stone_3',
     bodies: ['right', 'stone_3'],
     time: 0.883333,
+    step: null,
+    dt: null,
     what: 'normal',
     spec: '',
   });
 });
 
+test('the step tells the frame where the digits of the time end before it', () => {
+  const place = worstPlace('a|b at t=0.883333, step 53 (spurious, far apart)');
+  assert.ok(place);
+  assert.equal(place.step, 53);
+  assert.equal(place.what, 'spurious, far apart');
+  assert.equal(place.spec, '');
+  assert.equal(placeTime(place, 1 / 60), 53 / 60);
+  assert.deepEqual(placeQuery(place, 1 / 60), { dt: 1 / 60, t: 0.883333, step: 53, pair: 'a|b' });
+});
+
 test('gathered over runs it also names the run', () => {
-  const place = worstPlace('a|b at t=1e-05 (missed) (bullet:preset=default,solver=mlcp)');
+  const place = worstPlace('a|b at t=1e-05 (missed) (bullet:preset=default,solver=mlcp) (dt=0.016666666666666666)');
   assert.equal(place?.what, 'missed');
   assert.equal(place?.spec, 'bullet:preset=default,solver=mlcp');
   assert.equal(place?.time, 1e-5);
+  assert.equal(place?.dt, 1 / 60);
+  assert.equal(placeQuery(place, undefined).dt, 1 / 60);
   assert.equal(worstPlace('a|b at t=2 (ode:preset=matched)')?.spec, 'ode:preset=matched');
 });
 

@@ -8,7 +8,7 @@ import { angle, format, type Maybe, toNumber } from '../../common/format.ts';
 import type { Engine } from '../data.ts';
 import { chip, headRow, panel, scroll } from '../parts.ts';
 import { labelOf, run, scenarioLink } from '../run.ts';
-import { worstPlace } from '../worst.ts';
+import { placeQuery, worstPlace } from '../worst.ts';
 
 interface Row {
   scenario: string;
@@ -66,7 +66,7 @@ function table(rows: Row[]): Child {
   const wrong = rows.reduce((n, r) => n + r.wrong, 0);
   const body = byNormal.slice(0, shown).map((r) => {
     const place = worstPlace(r.worst);
-    const href = scenarioLink(r.scenario, { spec: r.spec, dt: r.dt, t: place?.time, pair: place?.pair });
+    const href = scenarioLink(r.scenario, { spec: r.spec, ...placeQuery(place, r.dt) });
     return el(
       'tr',
       null,

@@ -7,7 +7,7 @@ import { angle, format, full, type Maybe, toNumber } from '../../common/format.t
 import type { Audit, Column, InRun, Scenario } from '../data.ts';
 import { chip, headRow, panel, scroll, specHead, stickyHead } from '../parts.ts';
 import { run, scenarioLink } from '../run.ts';
-import { worstPlace } from '../worst.ts';
+import { placeQuery, worstPlace } from '../worst.ts';
 import { worstNormals } from './worst_normals.ts';
 
 const scenarioHead = (name: string) =>
@@ -43,7 +43,7 @@ function inRunCell(s: Scenario, column: Column): HTMLElement {
       .join('; ');
   const at = cases.find((c) => c.inRun?.normal === worst('normal'));
   const place = worstPlace(at?.inRun?.worst ?? '');
-  const href = scenarioLink(s.name, { spec: column.spec, dt: at?.dt, t: place?.time, pair: place?.pair });
+  const href = scenarioLink(s.name, { spec: column.spec, ...placeQuery(place, at?.dt) });
   return el(
     'td',
     { class: 'num', 'data-wrong': wrong, title },
@@ -72,7 +72,7 @@ export function contactsActedUpon(): HTMLElement | null {
     el(
       'p',
       { class: 'muted' },
-      'The contacts that each run itself acted upon, at sampled steps, against the exact oracle at the poses where the step began. Shown: the worst ',
+      'The contacts that each run itself acted upon, at sampled steps, against the exact oracle at the poses that they were found at. Shown: the worst ',
       'angle to the nearest exact normal, which opens that frame, and the worst depth error; “wrong” counts overlaps that were missed or invented; “blink” is ',
       'the share of steps in which a touching pair had lost its contact for just that step.',
     ),
@@ -90,7 +90,7 @@ function queryCell(scenario: string, rows: Audit[], auditor: string): HTMLElemen
     `${r.queries} pairs in ${r.frames} frames; ${r.overlapping} overlapping; ${r.missed} missed, ${r.spurious} spurious, ${r.undecided} undecided; ` +
     `worst normal ${full(r.normalErrorMax)} rad, depth ${full(r.depthErrorMax)} m; ${r.worst}`;
   const place = worstPlace(r.worst);
-  const href = place ? scenarioLink(scenario, { spec: place.spec, t: place.time, pair: place.pair }) : null;
+  const href = place ? scenarioLink(scenario, { spec: place.spec, ...placeQuery(place, undefined) }) : null;
   const text = angle(r.normalErrorMax);
   return el(
     'td',

@@ -7,7 +7,7 @@ import { angle, format, full, type Maybe, timeStep, toNumber } from '../../commo
 import type { Scenario } from '../data.ts';
 import { headRow, scroll } from '../parts.ts';
 import { engineLink, labelOf, run, scenarioLink } from '../run.ts';
-import { type Place, worstPlace } from '../worst.ts';
+import { type Place, placeQuery, worstPlace } from '../worst.ts';
 
 const perEngine = 3;
 const noticeable = 1e-4; // [rad], 0.006 degrees: less is rounding
@@ -47,7 +47,7 @@ function worstScenarios(engine: string): Wrong[] {
 }
 
 function row(w: Wrong, head: Child): HTMLElement {
-  const href = scenarioLink(w.scenario.name, { spec: w.spec, dt: w.dt, t: w.place.time, pair: w.place.pair });
+  const href = scenarioLink(w.scenario.name, { spec: w.spec, ...placeQuery(w.place, w.dt) });
   return el(
     'tr',
     null,

@@ -8,7 +8,7 @@ import { angle, full, type Maybe } from '../../common/format.ts';
 import type { Audit, Case } from '../data.ts';
 import { chip, headRow, numberCell, panel, scroll } from '../parts.ts';
 import { labelOf } from '../run.ts';
-import { worstPlace } from '../worst.ts';
+import { placeTime, worstPlace } from '../worst.ts';
 import { type Context, moment } from './context.ts';
 
 const count = (n: number, bad = false) => el('td', { class: 'num' }, bad && n ? chip('fail', n) : n);
@@ -17,7 +17,11 @@ const angleCell = (value: Maybe) =>
 
 function worstCell(context: Context, c: Case, a: Audit): Child {
   const place = worstPlace(a.worst);
-  return el('td', { class: 'small' }, place ? moment(context, c.spec, place.time, place.bodies, a.worst) : a.worst);
+  return el(
+    'td',
+    { class: 'small' },
+    place ? moment(context, c.spec, placeTime(place, context.dt), place.bodies, a.worst) : a.worst,
+  );
 }
 
 function auditorRow(context: Context, c: Case, a: Audit): HTMLElement {

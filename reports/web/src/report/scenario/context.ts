@@ -5,6 +5,7 @@
 import type { Cursor } from '../../common/cursor.ts';
 import { type Child, el } from '../../common/elements.ts';
 import { format } from '../../common/format.ts';
+import { stepAt } from '../../common/steps.ts';
 import type { Case, Scenario, ScenarioData } from '../data.ts';
 import { scenarioLink } from '../run.ts';
 
@@ -26,7 +27,7 @@ export type Section = (context: Context) => HTMLElement | null;
 /** A link that sets the shared time, the engine and the bodies looked at, and brings them into view. */
 export function moment(context: Context, spec: string, time: number, bodies: string[], text: Child): HTMLElement {
   const { scenario, dt, cursor } = context;
-  const href = scenarioLink(scenario.name, { dt, spec, t: time, pair: bodies.join('|') });
+  const href = scenarioLink(scenario.name, { dt, spec, t: time, step: stepAt(time, dt), pair: bodies.join('|') });
   const show = (e: Event) => {
     e.preventDefault();
     history.replaceState(null, '', href);

@@ -44,7 +44,9 @@ function contextOf(index: number, data: ScenarioData, query: URLSearchParams): C
   const steps = [...new Set(data.cases.map((c) => c.dt))].sort((a, b) => b - a);
   const asked = Number(query.get('dt'));
   const dt = steps.includes(asked) ? asked : (steps.at(-1) ?? 0);
-  const cursor = newCursor(Math.max(0, Number(query.get('t') ?? 0) || 0));
+  const step = query.has('step') && asked === dt ? Number(query.get('step')) : Number.NaN;
+  const time = step >= 0 ? step * dt : Number(query.get('t') ?? 0);
+  const cursor = newCursor(Math.max(0, time || 0));
   cursor.hidden.set(hidden);
   cursor.hidden.follow((now) => {
     hidden = now;
