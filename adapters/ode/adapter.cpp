@@ -65,7 +65,7 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
                     "a step with more contacts than this is done by QuickStep; 0: never"),
             number("erp", 0, 1, "0.2", "0.2", "error reduction of contacts and joints per step"),
             number("cfm", 1e-15, 1, "1e-10", "1e-10", "constraint force mixing; 0 would be singular"),
-            number("contact_cfm", 0, 1, "0", "0",
+            number("contact_cfm", 0, 1, "0", "3e-6",
                    "of the normals of contacts that do not bounce; 0: that of everything else"),
             number("max_correcting_velocity", 0, 1e30, "1e30", "0.1",
                    "fastest push out of penetration [m/s]; 1e30: none"),

@@ -61,7 +61,7 @@ std::vector<LedgerEntry> OdeWorld::ledger() const {
                                                : "square pyramid on axes fixed by the normal",
         quickStep_ || fallbackSteps_ > 0
             ? "each axis within mu N of its own"
-            : "each axis within mu N of its own, N from the problem without friction (dContactApprox1)");
+            : "each axis within mu N of its own, N of a solution without friction: dWorldStep takes it once");
     lines.add("friction_pair", "pair table", "written into each contact");
     lines.add("restitution", "pair coefficient, no threshold",
               "pair coefficient, none below " + setting("bounce_threshold") + " m/s",
@@ -71,8 +71,13 @@ std::vector<LedgerEntry> OdeWorld::ledger() const {
               "ERP " + setting("erp") +
                   (capped ? ", at most " + setting("max_correcting_velocity") + " m/s" : ", unlimited"),
               "penetration is pushed out through the velocity and leaves it behind");
-    lines.add("contact_softness", "rigid", "CFM " + setting("cfm"),
-              "regularises redundant contacts; bodies sink and impacts lose speed in proportion to it");
+    lines.add(
+        "contact_softness", "rigid",
+        contactCfm_ > 0.0 ? "CFM " + setting("contact_cfm") + ", of contacts that bounce " + setting("cfm")
+                          : "CFM " + setting("cfm"),
+        contactCfm_ > 0.0
+            ? "regularises redundant contacts; bodies sink in proportion to it"
+            : "redundant contacts are singular beside it, and stacks depend on the order of their bodies");
     lines.add("joint_error_reduction", "rigid", "ERP " + setting("erp"),
               scenario_.joints.empty() ? "" : "drift is corrected through velocities");
     lines.add("contacts_per_pair", "all", "at most " + setting("max_contacts"),
