@@ -17,7 +17,8 @@ class Collision1d : public Reference {
   public:
     Collision1d(const Scenario& scenario, int a, int b)
         : scenario_(scenario), a_(a), b_(b), line_(scenario, {a, b}, false) {
-        require(!line_.impacts().empty(), "the bodies do not meet within the duration");
+        require(!line_.impacts().empty() && line_.impacts().front().time <= scenario.duration,
+                "the bodies do not meet within the duration");
     }
     std::vector<int> bodies() const override {
         std::vector<int> result;

@@ -134,7 +134,7 @@ bool LineCollisions::nextImpact(const Phase& phase, double& time, std::size_t& l
         if (!(closing > 0.0)) continue;
         const double gap = std::max(0.0, b.position - b.low - a.position - a.high);
         const double t = phase.start + gap / closing;
-        const bool same = std::abs(t - time) <= 1e-12 * std::max(1.0, std::abs(t));
+        const bool same = std::abs(t - time) <= 1e-12 * t;
         if (same && k == left + 1) clash = true;
         if (t < time && !same) {
             time = t;

@@ -18,7 +18,8 @@ class NewtonsCradle : public Reference {
   public:
     NewtonsCradle(const Scenario& scenario, const std::vector<int>& balls)
         : scenario_(scenario), line_(scenario, balls, true) {
-        require(!line_.impacts().empty(), "no two bodies meet within the duration");
+        require(!line_.impacts().empty() && line_.impacts().front().time <= scenario.duration,
+                "no two bodies meet within the duration");
     }
     std::vector<int> bodies() const override {
         std::vector<int> result;
