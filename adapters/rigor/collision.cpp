@@ -18,6 +18,7 @@
 #include "engine/core/error.hpp"
 #include "engine/narrowphase/distance.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
+#include "engine/state/world_def.hpp"
 
 namespace rigor::adapter {
 namespace {
@@ -136,7 +137,7 @@ class RigorCollision final : public TimedCollisionEngine {
     }
     CollisionAnswer collide(const CollisionQuery& query) const override {
         checkQueryInput(query);
-        const std::string name = query.algorithm.empty() ? "sat" : query.algorithm;
+        const std::string name = algorithmOf(query);
         try {
             if (isSingle(query)) {
                 if (query.dimension == 2) return collideIn<engine::Space2f>(query, *planarSingle_.get(name));
@@ -153,7 +154,7 @@ class RigorCollision final : public TimedCollisionEngine {
         if (queries.empty()) throw BadInput("a batch of no pairs");
         for (const CollisionQuery& query : queries) checkQueryInput(query);
         const CollisionQuery& first = queries.front();
-        const std::string name = first.algorithm.empty() ? "sat" : first.algorithm;
+        const std::string name = algorithmOf(first);
         const auto in = [&]<class S>(const Made<S>& made) -> std::unique_ptr<CollisionBatch> {
             return std::make_unique<RigorBatch<S>>(queries, made.get(name));
         };
@@ -181,6 +182,9 @@ class RigorCollision final : public TimedCollisionEngine {
         mutable std::mutex mutex_;
         mutable std::map<std::string, std::shared_ptr<const engine::NarrowPhase<S>>> made_;
     };
+    static std::string algorithmOf(const CollisionQuery& query) {
+        return query.algorithm.empty() ? engine::WorldDef<engine::Space3d>().narrowPhase : query.algorithm;
+    }
     static bool isSingle(const CollisionQuery& query) {
         if (query.settings == nullptr) return false;
         const auto precision = query.settings->find("precision");

@@ -6,13 +6,13 @@
 // solvers that need no bodies.
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "adapters/interface/types.hpp"
 #include "adapters/rigor/contact_bodies.hpp"
 #include "adapters/rigor/parts.hpp"
 #include "engine/core/error.hpp"
 #include "engine/solvers/matrix_space.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::adapter {
 namespace {
@@ -25,11 +25,20 @@ using engine::Space2d;
 using engine::Space3d;
 using engine::Velocity;
 
-/// Solvers whose work is elsewhere than in one velocity-level problem.
-const std::map<std::string, std::string> kNotFrozen{
-    {"pgs_soft", "softens what position errors ask for; a frozen problem has none, and it is pgs then"},
-    {"tgs_soft", "moves the bodies between its sub-steps; a frozen problem has no positions"},
-    {"xpbd", "solves positions; a frozen problem has none"}};
+/// What a solver does elsewhere than in one velocity-level problem; null: nothing.
+const char* beyondFrozen(const engine::SolverTraits& traits) {
+    if (traits.errors == engine::ErrorHandling::Positions)
+        return "solves positions; a frozen problem has none";
+    if (traits.errors == engine::ErrorHandling::Correction) return nullptr;
+    return traits.substeps > 1 ? "moves the bodies between its sub-steps; a frozen problem has no positions"
+                               : "softens what position errors ask for; a frozen problem has none";
+}
+
+FrictionModel frictionModel(engine::FrictionShape shape, int directions) {
+    if (shape == engine::FrictionShape::Box) return {FrictionModel::Kind::Box};
+    if (shape == engine::FrictionShape::Polygon) return {FrictionModel::Kind::Polygon, directions};
+    return {};
+}
 
 template <class S>
 class Monitor final : public engine::IterationMonitor<S> {
@@ -53,9 +62,9 @@ class Frozen : public ContactSolve {
   public:
     Frozen(const Settings& settings, std::unique_ptr<engine::Solver<S>> solver)
         : solver_(std::move(solver)),
-          name_(textSetting(settings, "solver")),
-          frictionName_(textSetting(settings, "friction")),
-          friction_(frictionOf(frictionName_)),
+          friction_(frictionOf(textSetting(settings, "friction"))),
+          shape_(engine::solverTraits(textSetting(settings, "solver"))
+                     .friction.value_or(engine::frictionShape(textSetting(settings, "friction")))),
           directions_(integerSetting(settings, "pyramid_directions")) {}
 
     ContactSolution run(int iterations, double tolerance) final {
@@ -69,13 +78,7 @@ class Frozen : public ContactSolve {
         found.iterations = monitor.iterations, found.gaveUp = solver_->gaveUp();
         return found;
     }
-    FrictionModel friction() const final {
-        if (name_ == "nsgs") return {};
-        if (name_ == "dantzig") return {FrictionModel::Kind::Box};
-        if (name_ == "lemke") return {FrictionModel::Kind::Polygon, S::dim == 2 ? 2 : directions_};
-        if (frictionName_ == "pyramid") return {FrictionModel::Kind::Box};
-        return {};
-    }
+    FrictionModel friction() const final { return frictionModel(shape_, S::dim == 2 ? 2 : directions_); }
 
   protected:
     static engine::FrictionLaw<S> frictionOf(const std::string& name) {
@@ -90,8 +93,8 @@ class Frozen : public ContactSolve {
     std::vector<Velocity<S>> start_, velocities_;
 
   private:
-    std::string name_, frictionName_;
     engine::FrictionLaw<S> friction_;
+    engine::FrictionShape shape_;  ///< of the law that is really solved
     int directions_;
 };
 
@@ -222,8 +225,8 @@ class RigorContactSolvers final : public ContactSolverEngine {
     }
     std::unique_ptr<ContactSolve> take(const ContactProblem& p, const Settings& settings) const override {
         const std::string& name = textSetting(settings, "solver");
-        if (const auto it = kNotFrozen.find(name); it != kNotFrozen.end())
-            throw Unsupported(name + " " + it->second);
+        if (const char* beyond = beyondFrozen(engine::solverTraits(name)))
+            throw Unsupported(name + " " + beyond);
         if (textSetting(settings, "precision") == "f32")
             throw Unsupported("frozen problems are solved in double precision");
         try {

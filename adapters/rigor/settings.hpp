@@ -69,7 +69,13 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     return def;
 }
 
-/// The ledger that follows from the settings alone. `bounces`: some pair has a restitution above zero.
-std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings& settings, bool bounces);
+/// Whether the combine rules of the settings are those of the scenario format, sqrt(mu_a mu_b) and
+/// min(e_a, e_b).
+bool combinesAsScenarios(const Settings& settings);
+
+/// The ledger that follows from the settings. `bounces`: some pair has a restitution above zero; `substep`:
+/// what the solver steps by [s].
+std::vector<LedgerEntry> settingsLedger(const Scenario& scenario, const Settings& settings, bool bounces,
+                                        double substep);
 
 }  // namespace rigor::adapter

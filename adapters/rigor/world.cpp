@@ -11,6 +11,7 @@
 #include "adapters/rigor/parts.hpp"
 #include "adapters/rigor/settings.hpp"
 #include "adapters/rigor/staged.hpp"
+#include "engine/integrators/traits.hpp"
 #include "engine/pipeline/world.hpp"
 
 namespace rigor::adapter {
@@ -166,7 +167,8 @@ class RigorWorld final : public World {
         bool bounces = false;
         for (const PairTable::Meeting& m : pairs_.meetings())
             bounces = bounces || pairs_.coefficients(m.materialA, m.materialB).restitution > 0;
-        return settingsLedger(scenario_, settings_, bounces);
+        return settingsLedger(scenario_, settings_, bounces,
+                              static_cast<double>(dt_) / static_cast<double>(world_.substeps()));
     }
 
     StepCounters counters() const override {
@@ -183,12 +185,19 @@ class RigorWorld final : public World {
     }
 
     Scheme scheme() const override {
-        const std::string& name = world_.def().integrator;
         if (world_.substeps() != 1) return Scheme::Unknown;  // another step than the one reported
-        if (name == "symplectic_euler") return Scheme::SymplecticEuler;
-        if (name == "explicit_euler") return Scheme::ExplicitEuler;
-        if (name == "velocity_verlet") return Scheme::VelocityVerlet;
-        if (name == "rk4") return Scheme::RungeKutta4;
+        switch (engine::integratorTraits(world_.def().integrator).scheme) {
+            case engine::FlightScheme::SymplecticEuler:
+                return Scheme::SymplecticEuler;
+            case engine::FlightScheme::ExplicitEuler:
+                return Scheme::ExplicitEuler;
+            case engine::FlightScheme::VelocityVerlet:
+                return Scheme::VelocityVerlet;
+            case engine::FlightScheme::RungeKutta4:
+                return Scheme::RungeKutta4;
+            case engine::FlightScheme::Other:
+                return Scheme::Unknown;
+        }
         return Scheme::Unknown;
     }
 
@@ -204,8 +213,7 @@ class RigorWorld final : public World {
         return body == scenario::kNone ? engine::BodyId{} : bodies_[static_cast<std::size_t>(body)];
     }
     bool isEuler() const {
-        const std::string& name = world_.def().integrator;
-        return name == "symplectic_euler" || name == "explicit_euler";
+        return engine::integratorTraits(world_.def().integrator).forces == engine::ForceTimes::Start;
     }
     bool isDynamic(int body) const {
         return body != scenario::kNone &&
@@ -223,8 +231,7 @@ class RigorWorld final : public World {
     /// The scenario's pair table, in which pairs that it does not name have sqrt(mu_a mu_b) and min(e_a,
     /// e_b). Where another combine rule is asked for, those pairs are left to the engine.
     void addMaterials() {
-        const bool ownRule = textSetting(settings_, "friction_combine") != "geometric_mean" ||
-                             textSetting(settings_, "restitution_combine") != "min";
+        const bool ownRule = !combinesAsScenarios(settings_);
         const auto named = [&](int a, int b) {
             return std::any_of(scenario_.pairs.begin(), scenario_.pairs.end(), [=](const auto& pair) {
                 return std::minmax(pair.a, pair.b) == std::minmax(a, b);

@@ -7,6 +7,7 @@
 #include "engine/pipeline/benchmarks/scenes.hpp"
 #include "engine/solvers/benchmarks/joint_problem.hpp"
 #include "engine/solvers/joint_system.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine::counted {
 namespace {
@@ -61,8 +62,8 @@ void addSolversOf(const std::string& space, std::vector<Work>& all) {
     for (const auto& entry : solverTable<S>()) {
         if (entry.make()->style().positions) continue;
         const std::string name = entry.name;
-        const bool direct = name == "dantzig" || name == "lemke" || name == "nsgs";
-        const int base = direct ? 2 : (S::dim == 2 ? 8 : 3);
+        const bool toTheEnd = solverTraits(name).stops == StopRule::Residual;
+        const int base = toTheEnd ? 2 : (S::dim == 2 ? 8 : 3);
         all.push_back({"solver/" + name + "/" + space, [entry, base] { return solverWork<S>(entry, base); }});
     }
     for (const bool net : {false, true})

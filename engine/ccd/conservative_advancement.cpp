@@ -36,6 +36,7 @@
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/ccd/impact.hpp"
 #include "engine/ccd/time_of_impact.hpp"
+#include "engine/ccd/traits.hpp"
 #include "engine/pipeline/contact_set.hpp"
 #include "engine/state/sleep.hpp"
 
@@ -265,6 +266,10 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
 };
 
 }  // namespace
+
+ContinuousCollisionTraits makeConservativeAdvancementTraits() {
+    return {};
+}
 
 template <class S>
 std::unique_ptr<ContinuousCollision<S>> makeConservativeAdvancement() {

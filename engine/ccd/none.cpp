@@ -5,6 +5,7 @@
 // which lets resting bodies land without overlap but stops nothing fast: a body that moves further in a step
 // than it and the other are thick may pass through.
 #include "engine/ccd/continuous_collision.hpp"
+#include "engine/ccd/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -18,6 +19,10 @@ class NoContinuousCollision final : public ContinuousCollision<S> {
 };
 
 }  // namespace
+
+ContinuousCollisionTraits makeNoContinuousCollisionTraits() {
+    return {.acts = false};
+}
 
 template <class S>
 std::unique_ptr<ContinuousCollision<S>> makeNoContinuousCollision() {

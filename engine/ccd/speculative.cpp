@@ -31,6 +31,7 @@
 // stops nothing.
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/ccd/time_of_impact.hpp"
+#include "engine/ccd/traits.hpp"
 #include "engine/pipeline/contact_set.hpp"
 
 namespace rigor::engine {
@@ -130,6 +131,10 @@ class Speculative final : public ContinuousCollision<S> {
 };
 
 }  // namespace
+
+ContinuousCollisionTraits makeSpeculativeTraits() {
+    return {.losesRest = true};
+}
 
 template <class S>
 std::unique_ptr<ContinuousCollision<S>> makeSpeculative() {

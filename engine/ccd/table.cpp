@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/ccd/continuous_collision.hpp"
+#include "engine/ccd/traits.hpp"
 
 namespace rigor::engine {
 
@@ -23,5 +24,18 @@ template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space2f>>> co
 template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space2d>>> continuousCollisionTable();
 template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space3f>>> continuousCollisionTable();
 template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space3d>>> continuousCollisionTable();
+
+#define ALGORITHM(name, factory, summary) ContinuousCollisionTraits factory##Traits();
+#include "engine/ccd/continuous_collisions.def"
+#undef ALGORITHM
+
+std::span<const TraitsEntry<ContinuousCollisionTraits>> continuousCollisionTraitsTable() {
+    static const TraitsEntry<ContinuousCollisionTraits> table[] = {
+#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
+#include "engine/ccd/continuous_collisions.def"
+#undef ALGORITHM
+    };
+    return table;
+}
 
 }  // namespace rigor::engine

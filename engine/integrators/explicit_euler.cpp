@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "engine/integrators/integrator.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -19,6 +20,10 @@ void move(BodyArrays<S>& bodies, std::span<const Velocity<S>> start, std::span<V
 }
 
 }  // namespace
+
+IntegratorTraits integratorExplicitEulerTraits() {
+    return {.scheme = FlightScheme::ExplicitEuler};
+}
 
 template <class S>
 Integrator<S> integratorExplicitEuler() {

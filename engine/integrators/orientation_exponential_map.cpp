@@ -5,6 +5,7 @@
 // [HairerLubichWanner2006, section IV.8]. Without libm, see math/rotation.hpp. About 40 flops more than
 // first_order.
 #include "engine/integrators/integrator.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -15,6 +16,10 @@ typename S::Rot turn(const typename S::Rot& q, const typename S::Ang& v) {
 }
 
 }  // namespace
+
+OrientationTraits orientationExponentialMapTraits() {
+    return {.exact = true, .inBlocks = true};
+}
 
 template <class S>
 TurnRotation<S> orientationExponentialMap() {

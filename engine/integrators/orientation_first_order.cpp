@@ -7,6 +7,7 @@
 // at a fixed angular velocity, and never by more than half a turn in a step. In the plane the same rotation
 // is made from its cosine and sine.
 #include "engine/integrators/integrator.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -29,6 +30,10 @@ typename S::Rot turn(const typename S::Rot& q, const typename S::Ang& v) {
 }
 
 }  // namespace
+
+OrientationTraits orientationFirstOrderTraits() {
+    return {};
+}
 
 template <class S>
 TurnRotation<S> orientationFirstOrder() {

@@ -20,6 +20,7 @@
 //
 // Four evaluations of the forces per step.
 #include "engine/integrators/free_flow.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -125,6 +126,11 @@ void advance(FreeFlow<S>& flow, double begin, typename S::Real h) {
 }
 
 }  // namespace
+
+IntegratorTraits integratorRk4Traits() {
+    return {
+        .scheme = FlightScheme::RungeKutta4, .order = 4, .forces = ForceTimes::Stages, .ownsRotation = true};
+}
 
 template <class S>
 Integrator<S> integratorRk4() {

@@ -4,6 +4,7 @@
 // Euler's equations by an explicit step in the body frame: w' = w - h I^-1 (w x I w). Order 1; gains energy
 // and blows up for fast bodies.
 #include "engine/integrators/rotation.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -21,6 +22,10 @@ struct Explicit {
 };
 
 }  // namespace
+
+RotationTraits rotationExplicitTraits() {
+    return {.order = 1};
+}
 
 template <class S>
 RotationScheme<S> rotationExplicit() {

@@ -6,6 +6,7 @@
 // solved by Newton's iteration from w with the Jacobian I + h ([w']x I - [I w']x). Order 1; never gains
 // energy. Deviation from [Catto2015]: iterated to convergence instead of one step.
 #include "engine/integrators/rotation.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -32,6 +33,10 @@ struct Implicit {
 };
 
 }  // namespace
+
+RotationTraits rotationImplicitTraits() {
+    return {.order = 1};
+}
 
 template <class S>
 RotationScheme<S> rotationImplicit() {

@@ -15,6 +15,7 @@
 // Solved by Newton's iteration with the Jacobian I - h/2 [Pi_1]x (exp's derivative taken as that at zero,
 // hence linear convergence with a factor of order (h |W|)^2).
 #include "engine/integrators/angular_momentum.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -46,6 +47,10 @@ struct LieMidpoint {
 };
 
 }  // namespace
+
+RotationTraits rotationLieMidpointTraits() {
+    return {.order = 2, .keepsMomentum = true, .keepsEnergy = true, .inBlocks = true};
+}
 
 template <class S>
 RotationScheme<S> rotationLieMidpoint() {

@@ -21,6 +21,7 @@
 //
 // In a step with constraints as lie_midpoint. Cost: one to five Newton steps (h |w| = 0.01 .. 0.8).
 #include "engine/integrators/angular_momentum.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -83,6 +84,10 @@ struct MoserVeselov {
 };
 
 }  // namespace
+
+RotationTraits rotationMoserVeselovTraits() {
+    return {.order = 2, .keepsMomentum = true, .keepsEnergy = true};
+}
 
 template <class S>
 RotationScheme<S> rotationMoserVeselov() {

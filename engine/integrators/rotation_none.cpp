@@ -4,6 +4,7 @@
 // No gyroscopic term: without torque the angular velocity is constant in the world. Right for spheres and in
 // the plane; wrong for every other body, whose angular momentum then turns with it. What several engines do.
 #include "engine/integrators/rotation.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -15,6 +16,10 @@ typename S::Ang keep(const BodyConstants<S>&, const typename S::Rot&, const type
 }
 
 }  // namespace
+
+RotationTraits rotationNoneTraits() {
+    return {.order = 0, .keepsEnergy = true, .inBlocks = true};
+}
 
 template <class S>
 RotationScheme<S> rotationNone() {

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "engine/integrators/integrator.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -20,6 +21,10 @@ void move(BodyArrays<S>& bodies, std::span<const Velocity<S>> start, std::span<V
 }
 
 }  // namespace
+
+IntegratorTraits integratorSymplecticEulerTraits() {
+    return {.scheme = FlightScheme::SymplecticEuler, .inBlocks = true};
+}
 
 template <class S>
 Integrator<S> integratorSymplecticEuler() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/integrators/integrator.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 
@@ -58,5 +59,44 @@ RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)
 RIGOR_INSTANTIATE(Space3d)
 #undef RIGOR_INSTANTIATE
+
+#define ALGORITHM(name, factory, summary) IntegratorTraits factory##Traits();
+#include "engine/integrators/integrators.def"
+#undef ALGORITHM
+
+std::span<const TraitsEntry<IntegratorTraits>> integratorTraitsTable() {
+    static const TraitsEntry<IntegratorTraits> table[] = {
+#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
+#include "engine/integrators/integrators.def"
+#undef ALGORITHM
+    };
+    return table;
+}
+
+#define ALGORITHM(name, factory, summary) RotationTraits factory##Traits();
+#include "engine/integrators/rotations.def"
+#undef ALGORITHM
+
+std::span<const TraitsEntry<RotationTraits>> rotationTraitsTable() {
+    static const TraitsEntry<RotationTraits> table[] = {
+#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
+#include "engine/integrators/rotations.def"
+#undef ALGORITHM
+    };
+    return table;
+}
+
+#define ALGORITHM(name, factory, summary) OrientationTraits factory##Traits();
+#include "engine/integrators/orientation_updates.def"
+#undef ALGORITHM
+
+std::span<const TraitsEntry<OrientationTraits>> orientationTraitsTable() {
+    static const TraitsEntry<OrientationTraits> table[] = {
+#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
+#include "engine/integrators/orientation_updates.def"
+#undef ALGORITHM
+    };
+    return table;
+}
 
 }  // namespace rigor::engine

@@ -13,6 +13,7 @@
 //
 // Two evaluations of the forces per step.
 #include "engine/integrators/free_flow.hpp"
+#include "engine/integrators/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -66,6 +67,10 @@ void advance(FreeFlow<S>& flow, double begin, typename S::Real h) {
 }
 
 }  // namespace
+
+IntegratorTraits integratorVelocityVerletTraits() {
+    return {.scheme = FlightScheme::VelocityVerlet, .order = 2, .forces = ForceTimes::StartAndEnd};
+}
 
 template <class S>
 Integrator<S> integratorVelocityVerlet() {

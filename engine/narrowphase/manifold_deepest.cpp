@@ -5,8 +5,13 @@
 // box at rest has nothing to keep it from tipping about its point, which jumps from corner to corner. Of
 // equally deep points the first.
 #include "engine/narrowphase/manifolds.hpp"
+#include "engine/narrowphase/traits.hpp"
 
 namespace rigor::engine {
+
+ManifoldTraits manifoldDeepestTraits() {
+    return {};
+}
 
 template <class S>
 void manifoldDeepest(const ManifoldPair<S>&, ManifoldCache<S>&, Manifold<S>& manifold) {

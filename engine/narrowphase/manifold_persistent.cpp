@@ -15,6 +15,7 @@
 // make torques that a clipped manifold does not. O(points^2) per contact.
 #include "engine/narrowphase/detail.hpp"
 #include "engine/narrowphase/manifolds.hpp"
+#include "engine/narrowphase/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -36,6 +37,10 @@ std::uint32_t freeName(const Candidates<S>& points, int count) {
 }
 
 }  // namespace
+
+ManifoldTraits manifoldPersistentTraits() {
+    return {.remembers = true};
+}
 
 template <class S>
 void manifoldPersistent(const ManifoldPair<S>& pair, ManifoldCache<S>& cache, Manifold<S>& manifold) {

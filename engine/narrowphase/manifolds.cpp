@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/narrowphase/manifolds.hpp"
+#include "engine/narrowphase/traits.hpp"
 
 namespace rigor::engine {
 
@@ -18,5 +19,18 @@ template std::span<const AlgorithmEntry<ManifoldFunction<Space2f>>> manifoldTabl
 template std::span<const AlgorithmEntry<ManifoldFunction<Space2d>>> manifoldTable();
 template std::span<const AlgorithmEntry<ManifoldFunction<Space3f>>> manifoldTable();
 template std::span<const AlgorithmEntry<ManifoldFunction<Space3d>>> manifoldTable();
+
+#define ALGORITHM(name, function, summary) ManifoldTraits function##Traits();
+#include "engine/narrowphase/manifolds.def"
+#undef ALGORITHM
+
+std::span<const TraitsEntry<ManifoldTraits>> manifoldTraitsTable() {
+    static const TraitsEntry<ManifoldTraits> table[] = {
+#define ALGORITHM(name, function, summary) {#name, function##Traits()},
+#include "engine/narrowphase/manifolds.def"
+#undef ALGORITHM
+    };
+    return table;
+}
 
 }  // namespace rigor::engine

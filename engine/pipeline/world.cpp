@@ -5,8 +5,12 @@
 #include <algorithm>
 #include "engine/math/decompositions.hpp"
 
+#include "engine/ccd/traits.hpp"
+#include "engine/integrators/traits.hpp"
 #include "engine/narrowphase/narrowphases.hpp"
+#include "engine/narrowphase/traits.hpp"
 #include "engine/shapes/surface.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -125,17 +129,17 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
             "speculative distance must not be negative");
     require(def.reuseDistance >= 0 && std::isfinite(def.reuseDistance), "reuse_distance",
             "reuse distance must not be negative");
-    require(def.reuseDistance == 0 || def.manifold != "persistent", "reuse_manifold",
-            "the persistent manifold needs the narrow phase in every step: reuse distance must be 0");
+    require(def.reuseDistance == 0 || !manifoldTraits(def.manifold).remembers, "reuse_manifold",
+            "a manifold that remembers needs the narrow phase in every step: reuse distance must be 0");
     require(def.boxMargin >= 0 && std::isfinite(def.boxMargin), "box_margin",
             "box margin must not be negative");
     require(def.residualTolerance >= 0 && std::isfinite(def.residualTolerance), "residual_tolerance",
             "residual tolerance must not be negative");
     require(def.pyramidDirections >= 2 && def.pyramidDirections <= 64 && def.pyramidDirections % 2 == 0,
             "pyramid_directions", "pyramid directions must be even and in 2..64");
+    const RotationScheme<S> rotation = findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make();
     motion_ = {
-        findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make(),
-        findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make(),
+        findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make(), rotation,
         findAlgorithm(orientationUpdateTable<S>(), "orientation_update", def.orientationUpdate).make()};
     broadPhase_ = findAlgorithm(broadPhaseTable<S>(), "broad_phase", def.broadPhase).make();
     solver_ = findAlgorithm(solverTable<S>(), "solver", def.solver).make();
@@ -157,7 +161,7 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     if (solver_->patches() != nullptr) {
         require(fault_ == nullptr, "fault_solver",
                 "faults spoil rows of contacts, which this solver does not have");
-        require(def.friction == "cone", "friction_solver",
+        require(frictionShape(def.friction) == solverTraits(def.solver).friction, "friction_solver",
                 "this solver has a friction law of its own, the cone's: friction must be cone");
         require(!restitution_->solvesImpacts(), "restitution_solver",
                 "this restitution needs contacts as rows, which this solver does not have");
@@ -169,10 +173,10 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     friction_ = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;
     narrowPhase_ = def.customNarrowPhase ? def.customNarrowPhase : makeNarrowPhase<S>(def.narrowPhase);
     makeManifold_ = findAlgorithm(manifoldTable<S>(), "manifold", def.manifold).make;
-    if (solver_->patches() != nullptr && def.integrator == "symplectic_euler" &&
-        def.orientationUpdate == "exponential_map" && def.continuousCollision == "none" &&
-        (def.rotation == "lie_midpoint" || def.rotation == "none"))
-        motion_.moveInBlocks(def.rotation == "lie_midpoint");
+    if (solver_->patches() != nullptr && integratorTraits(def.integrator).inBlocks &&
+        orientationTraits(def.orientationUpdate).inBlocks && rotationTraits(def.rotation).inBlocks &&
+        !continuousCollisionTraits(def.continuousCollision).acts)
+        motion_.moveInBlocks(rotation.gyroscopic);
 
     // Body 0 is the world.
     bodies_.pose.emplace_back();

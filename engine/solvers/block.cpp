@@ -20,6 +20,7 @@
 #include "engine/solvers/natural_map.hpp"
 #include "engine/solvers/newton_finish.hpp"
 #include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -116,6 +117,10 @@ class BlockGaussSeidel final : public Solver<S> {
 };
 
 }  // namespace
+
+SolverTraits makeBlockTraits() {
+    return {};
+}
 
 template <class S>
 std::unique_ptr<Solver<S>> makeBlock() {

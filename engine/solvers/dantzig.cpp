@@ -32,6 +32,7 @@
 #include "engine/solvers/box_lcp.hpp"
 #include "engine/solvers/direct_rounds.hpp"
 #include "engine/solvers/matrix_space.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -191,6 +192,10 @@ class Dantzig final : public DirectRounds<S> {
 };
 
 }  // namespace
+
+SolverTraits makeDantzigTraits() {
+    return {.friction = FrictionShape::Box, .direct = true, .stops = StopRule::Residual};
+}
 
 template <class S>
 std::unique_ptr<Solver<S>> makeDantzig() {

@@ -14,8 +14,13 @@
 #include <limits>
 
 #include "engine/math/space.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
+
+FrictionTraits frictionConeTraits() {
+    return {FrictionShape::Cone};
+}
 
 template <class R>
 Eigen::Matrix<R, 2, 1> frictionCone(R k11, R k12, R k22, const Eigen::Matrix<R, 2, 1>& impulse,

@@ -7,8 +7,13 @@
 #include <algorithm>
 
 #include "engine/math/space.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
+
+FrictionTraits frictionPyramidTraits() {
+    return {FrictionShape::Box};
+}
 
 template <class R>
 Eigen::Matrix<R, 2, 1> frictionPyramid(R k11, R k12, R k22, const Eigen::Matrix<R, 2, 1>& impulse,

@@ -10,8 +10,13 @@
 #include <algorithm>
 
 #include "engine/math/space.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
+
+FrictionTraits frictionPyramid2Traits() {
+    return {FrictionShape::Line};
+}
 
 template <class R>
 Eigen::Matrix<R, 2, 1> frictionPyramid2(R k11, R k12, R k22, const Eigen::Matrix<R, 2, 1>& impulse,

@@ -18,6 +18,7 @@
 // residual.
 #include "engine/solvers/joint_inverses.hpp"
 #include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -156,6 +157,10 @@ class Jacobi final : public Solver<S> {
 };
 
 }  // namespace
+
+SolverTraits makeJacobiTraits() {
+    return {};
+}
 
 template <class S>
 std::unique_ptr<Solver<S>> makeJacobi() {

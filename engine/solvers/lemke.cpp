@@ -30,6 +30,7 @@
 #include "engine/solvers/direct_rounds.hpp"
 #include "engine/solvers/lemke_lcp.hpp"
 #include "engine/solvers/matrix_space.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -301,6 +302,10 @@ class Lemke final : public DirectRounds<S> {
 };
 
 }  // namespace
+
+SolverTraits makeLemkeTraits() {
+    return {.friction = FrictionShape::Polygon, .direct = true, .stops = StopRule::Residual};
+}
 
 template <class S>
 std::unique_ptr<Solver<S>> makeLemke() {

@@ -26,7 +26,7 @@
 //
 // The velocities come from incremental updates: rounding of a few thousand updates stays below 1e-13
 // m/s. Cost: iterations * (2 sweeps + 2 passes + kDepth^2 ... rows); hundreds of iterations for tall stacks.
-// A step of Newton's or the interior-point method costs 2/3 n^3. velocity_iterations, 0 for kIterations, is
+// A step of Newton's or the interior-point method costs 2/3 n^3. velocity_iterations, 0 for 1000, is
 // the most; below kFinishEvery there are sweeps alone. Known limits: no proof of convergence; where friction
 // has several solutions the one found depends on the order of the rows, and some problems have none. If the
 // iterations end first, gaveUp() says so and the best impulses stand. Measured on heaps of 30 boxes and balls
@@ -42,8 +42,13 @@
 #include "engine/solvers/matrix_space.hpp"
 #include "engine/solvers/newton_finish.hpp"
 #include "engine/solvers/solver.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
+
+SolverTraits makeNsgsTraits() {
+    return {.iterations = 1000, .friction = FrictionShape::Cone, .stops = StopRule::Residual};
+}
 
 namespace {
 
@@ -59,11 +64,7 @@ class Nsgs final : public Solver<S> {
 
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<Nsgs>(*this); }
     bool gaveUp() const override { return gaveUp_; }
-    SolverStyle<S> style() const override {
-        SolverStyle<S> style;
-        style.iterations = kIterations;
-        return style;
-    }
+    SolverStyle<S> style() const override { return styleOf<S>(makeNsgsTraits()); }
 
     void solve(const SolverInput<S>& input) override {
         prepare(input);
@@ -91,10 +92,9 @@ class Nsgs final : public Solver<S> {
     }
 
   private:
-    static constexpr int kIterations = 1000;  ///< where the world does not say
-    static constexpr int kDepth = 10;         ///< of Anderson's history
-    static constexpr int kFinishEvery = 25;   ///< iterations between attempts to finish
-    static constexpr int kPatience = 400;     ///< iterations without halving the residual
+    static constexpr int kDepth = 10;        ///< of Anderson's history
+    static constexpr int kFinishEvery = 25;  ///< iterations between attempts to finish
+    static constexpr int kPatience = 400;    ///< iterations without halving the residual
 
     void prepare(const SolverInput<S>& input) {
         const ConstraintRows<S>& all = input.constraints;

@@ -16,8 +16,13 @@
 // [Erleben2004]; corners of a box solved one by one leave it turning, which is what makes tall stacks rock.
 #include "engine/solvers/matrix_space.hpp"
 #include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
+
+SolverTraits makePgsTraits() {
+    return {};
+}
 
 template <class S>
 std::unique_ptr<Solver<S>> makePgs() {

@@ -12,15 +12,17 @@
 // Hz. A load is carried by an overlap in proportion to it: 1 mm under a box of 1 m, 35 mm in sum in a stack
 // of five of them, 0.3 m under a load of 100 times the mass; joints stretch by millimetres and lose energy.
 #include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
 
+SolverTraits makePgsSoftTraits() {
+    return {.errors = ErrorHandling::Springs};
+}
+
 template <class S>
 std::unique_ptr<Solver<S>> makePgsSoft() {
-    SolverStyle<S> style;
-    style.bias = softBiasRule<typename S::Real>();
-    style.ownsCorrection = true;
-    return std::make_unique<RowByRow<S>>(ContactOrder::FrictionFirst, style);
+    return std::make_unique<RowByRow<S>>(ContactOrder::FrictionFirst, styleOf<S>(makePgsSoftTraits()));
 }
 RIGOR_INSTANTIATE_FACTORY(makePgsSoft, Solver);
 

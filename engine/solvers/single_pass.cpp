@@ -25,8 +25,14 @@
 // loses most of its energy.
 #include "engine/solvers/matrix_space.hpp"
 #include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
+
+SolverTraits makeSinglePassTraits() {
+    return {.iterations = 1, .warmStarts = false};
+}
+
 namespace {
 
 template <class S>
@@ -36,11 +42,7 @@ class SinglePass final : public Solver<S> {
 
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<SinglePass>(*this); }
 
-    SolverStyle<S> style() const override {
-        SolverStyle<S> style;
-        style.iterations = 1;
-        return style;
-    }
+    SolverStyle<S> style() const override { return styleOf<S>(makeSinglePassTraits()); }
 
     void solve(const SolverInput<S>& input) override {
         if (!input.warmStarted)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/solvers/solver.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
 
@@ -46,5 +47,31 @@ RIGOR_INSTANTIATE(Space2d)
 RIGOR_INSTANTIATE(Space3f)
 RIGOR_INSTANTIATE(Space3d)
 #undef RIGOR_INSTANTIATE
+
+#define ALGORITHM(name, factory, summary) SolverTraits factory##Traits();
+#include "engine/solvers/solvers.def"
+#undef ALGORITHM
+
+std::span<const TraitsEntry<SolverTraits>> solverTraitsTable() {
+    static const TraitsEntry<SolverTraits> table[] = {
+#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
+#include "engine/solvers/solvers.def"
+#undef ALGORITHM
+    };
+    return table;
+}
+
+#define ALGORITHM(name, function, summary) FrictionTraits function##Traits();
+#include "engine/solvers/frictions.def"
+#undef ALGORITHM
+
+std::span<const TraitsEntry<FrictionTraits>> frictionTraitsTable() {
+    static const TraitsEntry<FrictionTraits> table[] = {
+#define ALGORITHM(name, function, summary) {#name, function##Traits()},
+#include "engine/solvers/frictions.def"
+#undef ALGORITHM
+    };
+    return table;
+}
 
 }  // namespace rigor::engine

@@ -24,18 +24,17 @@
 // a rod of 1 m gives way by 15 mm at the default 60 Hz, whatever the step (joint_frequency 240: 1 mm; a
 // spring of the masses alone gains energy without bound at 1/60).
 #include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
 
+SolverTraits makeTgsSoftTraits() {
+    return {.substeps = 8, .iterations = 1, .relaxIterations = 1, .errors = ErrorHandling::Springs};
+}
+
 template <class S>
 std::unique_ptr<Solver<S>> makeTgsSoft() {
-    SolverStyle<S> style;
-    style.substeps = 8;
-    style.iterations = 1;
-    style.bias = softBiasRule<typename S::Real>();
-    style.relaxIterations = 1;
-    style.ownsCorrection = true;
-    return std::make_unique<RowByRow<S>>(ContactOrder::FrictionLast, style);
+    return std::make_unique<RowByRow<S>>(ContactOrder::FrictionLast, styleOf<S>(makeTgsSoftTraits()));
 }
 RIGOR_INSTANTIATE_FACTORY(makeTgsSoft, Solver);
 

@@ -29,8 +29,14 @@
 // come from positions that end on the constraint, which damps a swing by (w h)^2 / 2 per sub-step, 18 % of a
 // pendulum's energy in 10 s.
 #include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
+
+SolverTraits makeXpbdTraits() {
+    return {.substeps = 20, .iterations = 1, .errors = ErrorHandling::Positions, .warmStarts = false};
+}
+
 namespace {
 
 template <class S>
@@ -41,15 +47,7 @@ class Xpbd final : public Solver<S> {
 
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<Xpbd>(*this); }
 
-    SolverStyle<S> style() const override {
-        SolverStyle<S> style;
-        style.substeps = 20;
-        style.iterations = 1;
-        style.positions = true;
-        style.bias = BiasRule<Real>{};
-        style.ownsCorrection = true;
-        return style;
-    }
+    SolverStyle<S> style() const override { return styleOf<S>(makeXpbdTraits()); }
 
     /// Row::impulse holds lambda meanwhile.
     void solvePositions(PositionProblem<S>& problem, const SolverInput<S>& input) override {

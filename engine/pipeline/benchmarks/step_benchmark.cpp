@@ -8,6 +8,7 @@
 
 #include "engine/core/benchmarks/register.hpp"
 #include "engine/pipeline/benchmarks/scenes.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -42,8 +43,8 @@ void registerAll(const std::string& space, bool everySolver) {
     const WorldDef<S> standard = benchmark_scene::onEarth<S>();
     for (const auto& entry : solverTable<S>()) {
         const std::string name = entry.name;
-        // Direct methods on hundreds of contacts take seconds per step.
-        if (name == "dantzig" || name == "lemke" || name == "nsgs") continue;
+        // What solves hundreds of contacts to a residual takes seconds per step.
+        if (solverTraits(name).stops == StopRule::Residual) continue;
         if (!everySolver && name != standard.solver) continue;
         WorldDef<S> def = standard;
         def.solver = name;

@@ -12,15 +12,12 @@
 #include "engine/pipeline/benchmarks/scenes.hpp"
 #include "engine/solvers/benchmarks/joint_problem.hpp"
 #include "engine/solvers/joint_system.hpp"
+#include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
 namespace {
 
 constexpr int kIterations = 10;
-
-bool isDirect(const std::string& name) {
-    return name == "dantzig" || name == "lemke" || name == "nsgs";
-}
 
 template <class S>
 void solve(benchmark::State& state, const AlgorithmEntry<SolverFactory<S>>& entry, int base) {
@@ -74,7 +71,8 @@ void registerAll(const std::string& space) {
     };
     for (const auto& entry : solverTable<S>()) {
         if (entry.make()->style().positions) continue;  // no solver of rows
-        const int base = isDirect(entry.name) ? (S::dim == 2 ? 4 : 2) : (S::dim == 2 ? 30 : 8);
+        const int base = solverTraits(entry.name).stops == StopRule::Residual ? (S::dim == 2 ? 4 : 2)
+                                                                              : (S::dim == 2 ? 30 : 8);
         add(std::string(entry.name) + "/pyramid_" + std::to_string(base),
             [=](benchmark::State& state) { solve<S>(state, entry, base); });
     }

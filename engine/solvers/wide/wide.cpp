@@ -22,9 +22,25 @@
 // Known limits: those of soft contacts, tgs_soft.cpp.
 #include "engine/solvers/joint_group.hpp"
 #include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/traits.hpp"
 #include "engine/solvers/wide/patches.hpp"
 
 namespace rigor::engine {
+
+SolverTraits makeWideTraits() {
+    return {.substeps = 4,
+            .iterations = 1,
+            .relaxIterations = 1,
+            .errors = ErrorHandling::Springs,
+            // One visit solves what is linear: rigid joints, half of whose drift goes in each sub-step, and
+            // the velocity of that with the relaxation. What is curved it takes as springs.
+            .linearJointShare = 0.5,
+            .friction = FrictionShape::Cone,
+            .frictionOfPatches = true,
+            .contactsInSingle = true,
+            .stops = StopRule::Never};
+}
+
 namespace {
 
 template <class S>
@@ -34,20 +50,7 @@ class Wide final : public Solver<S> {
 
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<Wide>(*this); }
 
-    SolverStyle<S> style() const override {
-        SolverStyle<S> style;
-        style.substeps = 4;
-        style.iterations = 1;
-        style.bias = softBiasRule<Real>();
-        // One visit solves what is linear: rigid joints, half of whose drift goes in each sub-step, and the
-        // velocity of that with the relaxation. What is curved it takes as springs.
-        BiasRule<Real> joints;
-        joints.share = Real(0.5);
-        style.linearJointBias = joints;
-        style.relaxIterations = 1;
-        style.ownsCorrection = true;
-        return style;
-    }
+    SolverStyle<S> style() const override { return styleOf<S>(makeWideTraits()); }
 
     Patches<S>* patches() override { return &patches_; }
 

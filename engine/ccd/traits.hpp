@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What choices of continuous collision declare of themselves (core/traits.hpp).
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/core/traits.hpp"
+
+namespace rigor::engine {
+
+struct ContinuousCollisionTraits {
+    bool acts = true;        ///< fast bodies do not pass through thin ones
+    bool losesRest = false;  ///< what an impact leaves of a step of a fast body is lost
+};
+std::span<const TraitsEntry<ContinuousCollisionTraits>> continuousCollisionTraitsTable();
+
+inline const ContinuousCollisionTraits& continuousCollisionTraits(const std::string& name) {
+    return findTraits(continuousCollisionTraitsTable(), "continuous_collision", name);
+}
+
+}  // namespace rigor::engine

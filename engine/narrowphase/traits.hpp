@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What manifolds declare of themselves (core/traits.hpp).
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/core/traits.hpp"
+
+namespace rigor::engine {
+
+struct ManifoldTraits {
+    bool remembers = false;  ///< keeps points from step to step: lives from the narrow phase of every step
+};
+std::span<const TraitsEntry<ManifoldTraits>> manifoldTraitsTable();
+
+inline const ManifoldTraits& manifoldTraits(const std::string& name) {
+    return findTraits(manifoldTraitsTable(), "manifold", name);
+}
+
+}  // namespace rigor::engine

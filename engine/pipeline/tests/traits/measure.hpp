@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Traits found by what an algorithm does in small scenes, whatever it declares and whatever it is called. The
+// name is looked up in the tables, as a world does.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/ccd/traits.hpp"
+#include "engine/integrators/traits.hpp"
+#include "engine/solvers/traits.hpp"
+
+namespace rigor::engine::test {
+
+/// What is measured of a solver beside its traits.
+struct MeasuredSolver {
+    SolverTraits traits;       ///< iterations with relaxation; linearJointShare: any value for "rigid"
+    double contactSpring = 0;  ///< frequency where kAskedContact is asked for [Hz]; 0: rigid
+    double jointSpring = 0;    ///< frequency where kAskedJoint is asked for [Hz]; 0: rigid
+    bool ownsCorrection = false;
+    bool countsIterations = false;  ///< traits.iterations could be told
+};
+inline constexpr double kAskedContact = 10, kAskedJoint = 12;
+
+MeasuredSolver measureSolver(const std::string& name);
+FrictionTraits measureFriction(const std::string& name);
+IntegratorTraits measureIntegrator(const std::string& name);
+RotationTraits measureRotation(const std::string& name);
+OrientationTraits measureOrientation(const std::string& name);
+ContinuousCollisionTraits measureContinuousCollision(const std::string& name);
+/// Whether the velocity that removes overlap stays in a body.
+bool correctionKeepsVelocity(const std::string& name);
+
+/// The traits in which what is declared is not what is measured; empty for an algorithm that tells the truth.
+std::vector<std::string> liesOfSolver(const std::string& name);
+std::vector<std::string> liesOfFriction(const std::string& name);
+std::vector<std::string> liesOfIntegrator(const std::string& name);
+std::vector<std::string> liesOfRotation(const std::string& name);
+std::vector<std::string> liesOfOrientation(const std::string& name);
+std::vector<std::string> liesOfContinuousCollision(const std::string& name);
+
+}  // namespace rigor::engine::test

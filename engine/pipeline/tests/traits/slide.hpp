@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Friction laws told by how bodies slide.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/solvers/traits.hpp"
+
+namespace rigor::engine::test {
+
+/// The law of a solver that steps by h / substeps, where the world asks for `friction`.
+FrictionShape frictionShapeOf(const std::string& solver, const std::string& friction, int substeps);
+
+/// The law that a solver has whatever the world asks for; empty: it obeys.
+std::optional<FrictionShape> ownFriction(const std::string& solver, int substeps);
+
+/// Whether a plate on three feet that slides and turns at once is slowed down otherwise than its feet would
+/// be each by itself.
+bool rubsInPatches(const std::string& solver);
+
+}  // namespace rigor::engine::test

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// This program's own tables in place of the engine's: all of its algorithms, and liars. A liar is an
+// algorithm of the engine that declares one trait otherwise; its name is "liar_" and its summary that trait.
+#include "engine/ccd/continuous_collision.hpp"
+#include "engine/ccd/traits.hpp"
+#include "engine/integrators/integrator.hpp"
+#include "engine/integrators/traits.hpp"
+#include "engine/solvers/traits.hpp"
+
+namespace rigor::engine {
+
+#define ALGORITHM(name, factory, summary) \
+    template <class S>                    \
+    std::unique_ptr<Solver<S>> factory(); \
+    SolverTraits factory##Traits();
+#include "engine/solvers/solvers.def"
+#undef ALGORITHM
+template <class R>
+using Vec2 = Eigen::Matrix<R, 2, 1>;
+#define ALGORITHM(name, function, summary)                        \
+    template <class R>                                            \
+    Vec2<R> function(R, R, R, const Vec2<R>&, const Vec2<R>&, R); \
+    FrictionTraits function##Traits();
+#include "engine/solvers/frictions.def"
+#undef ALGORITHM
+#define ALGORITHM(name, factory, summary) \
+    template <class S>                    \
+    Integrator<S> factory();              \
+    IntegratorTraits factory##Traits();
+#include "engine/integrators/integrators.def"
+#undef ALGORITHM
+#define ALGORITHM(name, factory, summary) \
+    template <class S>                    \
+    RotationScheme<S> factory();          \
+    RotationTraits factory##Traits();
+#include "engine/integrators/rotations.def"
+#undef ALGORITHM
+#define ALGORITHM(name, factory, summary) \
+    template <class S>                    \
+    TurnRotation<S> factory();            \
+    OrientationTraits factory##Traits();
+#include "engine/integrators/orientation_updates.def"
+#undef ALGORITHM
+#define ALGORITHM(name, factory, summary)              \
+    template <class S>                                 \
+    std::unique_ptr<ContinuousCollision<S>> factory(); \
+    ContinuousCollisionTraits factory##Traits();
+#include "engine/ccd/continuous_collisions.def"
+#undef ALGORITHM
+
+namespace {
+
+template <class T, class Change>
+T with(T traits, Change change) {
+    change(traits);
+    return traits;
+}
+
+/// Projected Gauss-Seidel whose springs of contacts are softer than asked for.
+template <class S>
+class Softer final : public Solver<S> {
+  public:
+    explicit Softer(std::unique_ptr<Solver<S>> inner) : inner_(std::move(inner)) {}
+    std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<Softer>(inner_->clone()); }
+    SolverStyle<S> style() const override { return inner_->style(); }
+    void solve(const SolverInput<S>& input) override {
+        using Real = typename S::Real;
+        for (const Block<S>& block : input.constraints.blocks) {
+            if (block.kind != BlockKind::Contact) continue;
+            Row<S>& row = input.constraints.rows[block.first];
+            const Real K = Real(1) / row.invK - row.softness;
+            row.softness *= Real(1.5);
+            row.invK = Real(1) / (K + row.softness);
+        }
+        inner_->solve(input);
+    }
+
+  private:
+    std::unique_ptr<Solver<S>> inner_;
+};
+template <class S>
+std::unique_ptr<Solver<S>> makeSofter() {
+    return std::make_unique<Softer<S>>(makePgsSoft<S>());
+}
+
+}  // namespace
+
+// name, honest factory, what is changed
+#define SOLVER_LIARS                                                             \
+    LIAR(contact_frequency, makeSofter, makePgsSoft, (void)t)                    \
+    LIAR(direct, makePgs, makePgs, t.direct = true)                              \
+    LIAR(friction, makePgs, makePgs, t.friction = FrictionShape::Cone)           \
+    LIAR(friction_of_patches, makeWide, makeWide, t.frictionOfPatches = false)   \
+    LIAR(iterations, makePgs, makePgs, t.iterations = 20)                        \
+    LIAR(linear_joint_share, makeWide, makeWide, t.linearJointShare.reset())     \
+    LIAR(friction_obeys, makeDantzig, makeDantzig, t.friction.reset())           \
+    LIAR(contacts_in_single, makeWide, makeWide, t.contactsInSingle = false)     \
+    LIAR(relax_iterations, makePgsSoft, makePgsSoft, t.relaxIterations = 1)      \
+    LIAR(errors, makeTgsSoft, makeTgsSoft, t.errors = ErrorHandling::Correction) \
+    LIAR(errors_springs, makePgs, makePgs, t.errors = ErrorHandling::Springs)    \
+    LIAR(correction, makeXpbd, makeXpbd, t.errors = ErrorHandling::Correction)   \
+    LIAR(stops, makePgs, makePgs, t.stops = StopRule::Residual)                  \
+    LIAR(substeps, makeTgsSoft, makeTgsSoft, t.substeps = 4)                     \
+    LIAR(warm_starts, makeSinglePass, makeSinglePass, t.warmStarts = true)
+#define FRICTION_LIARS LIAR(shape, frictionPyramid, frictionPyramid, t.shape = FrictionShape::Cone)
+#define INTEGRATOR_LIARS                                                                                     \
+    LIAR(order, integratorVelocityVerlet, integratorVelocityVerlet, t.order = 4)                             \
+    LIAR(scheme, integratorExplicitEuler, integratorExplicitEuler, t.scheme = FlightScheme::SymplecticEuler) \
+    LIAR(forces, integratorRk4, integratorRk4, t.forces = ForceTimes::Start)                                 \
+    LIAR(owns_rotation, integratorVelocityVerlet, integratorVelocityVerlet, t.ownsRotation = true)           \
+    LIAR(in_blocks, integratorExplicitEuler, integratorExplicitEuler, t.inBlocks = true)
+#define ROTATION_LIARS                                                           \
+    LIAR(order, rotationExplicit, rotationExplicit, t.order = 2)                 \
+    LIAR(keeps_momentum, rotationNone, rotationNone, t.keepsMomentum = true)     \
+    LIAR(keeps_energy, rotationImplicit, rotationImplicit, t.keepsEnergy = true) \
+    LIAR(in_blocks, rotationImplicit, rotationImplicit, t.inBlocks = true)
+#define ORIENTATION_LIARS                                                     \
+    LIAR(exact, orientationFirstOrder, orientationFirstOrder, t.exact = true) \
+    LIAR(in_blocks, orientationFirstOrder, orientationFirstOrder, t.inBlocks = true)
+#define COLLISION_LIARS                                                             \
+    LIAR(acts, makeNoContinuousCollision, makeNoContinuousCollision, t.acts = true) \
+    LIAR(loses_rest, makeSpeculative, makeSpeculative, t.losesRest = false)
+
+// --- algorithms
+#define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
+#define LIAR(lie, factory, honest, change) {"liar_" #lie, &factory<S>, #lie},
+template <class S>
+std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable() {
+    static constexpr AlgorithmEntry<SolverFactory<S>> table[] = {
+#include "engine/solvers/solvers.def"
+        SOLVER_LIARS};
+    return table;
+}
+template <class S>
+std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable() {
+    static constexpr AlgorithmEntry<IntegratorFactory<S>> table[] = {
+#include "engine/integrators/integrators.def"
+        INTEGRATOR_LIARS};
+    return table;
+}
+template <class S>
+std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable() {
+    static constexpr AlgorithmEntry<RotationFactory<S>> table[] = {
+#include "engine/integrators/rotations.def"
+        ROTATION_LIARS};
+    return table;
+}
+template <class S>
+std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable() {
+    static constexpr AlgorithmEntry<OrientationFactory<S>> table[] = {
+#include "engine/integrators/orientation_updates.def"
+        ORIENTATION_LIARS};
+    return table;
+}
+template <class S>
+std::span<const AlgorithmEntry<ContinuousCollisionFactory<S>>> continuousCollisionTable() {
+    static constexpr AlgorithmEntry<ContinuousCollisionFactory<S>> table[] = {
+#include "engine/ccd/continuous_collisions.def"
+        COLLISION_LIARS};
+    return table;
+}
+#undef ALGORITHM
+#undef LIAR
+#define ALGORITHM(name, function, summary) {#name, &function<typename S::Real>, summary},
+#define LIAR(lie, function, honest, change) {"liar_" #lie, &function<typename S::Real>, #lie},
+template <class S>
+std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable() {
+    static constexpr AlgorithmEntry<FrictionLaw<S>> table[] = {
+#include "engine/solvers/frictions.def"
+        FRICTION_LIARS};
+    return table;
+}
+#undef ALGORITHM
+#undef LIAR
+
+#define RIGOR_INSTANTIATE(S)                                                                     \
+    template std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable<S>();                 \
+    template std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable<S>();                 \
+    template std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable<S>();         \
+    template std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable<S>();             \
+    template std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable<S>(); \
+    template std::span<const AlgorithmEntry<ContinuousCollisionFactory<S>>> continuousCollisionTable<S>();
+RIGOR_INSTANTIATE(Space2f)
+RIGOR_INSTANTIATE(Space2d)
+RIGOR_INSTANTIATE(Space3f)
+RIGOR_INSTANTIATE(Space3d)
+#undef RIGOR_INSTANTIATE
+
+// --- traits
+#define ALGORITHM(name, factory, summary) {#name, factory##Traits()},
+#define LIAR(lie, factory, honest, change) {"liar_" #lie, with(honest##Traits(), [](auto& t) { change; })},
+std::span<const TraitsEntry<SolverTraits>> solverTraitsTable() {
+    static const TraitsEntry<SolverTraits> table[] = {
+#include "engine/solvers/solvers.def"
+        SOLVER_LIARS};
+    return table;
+}
+std::span<const TraitsEntry<FrictionTraits>> frictionTraitsTable() {
+    static const TraitsEntry<FrictionTraits> table[] = {
+#include "engine/solvers/frictions.def"
+        FRICTION_LIARS};
+    return table;
+}
+std::span<const TraitsEntry<IntegratorTraits>> integratorTraitsTable() {
+    static const TraitsEntry<IntegratorTraits> table[] = {
+#include "engine/integrators/integrators.def"
+        INTEGRATOR_LIARS};
+    return table;
+}
+std::span<const TraitsEntry<RotationTraits>> rotationTraitsTable() {
+    static const TraitsEntry<RotationTraits> table[] = {
+#include "engine/integrators/rotations.def"
+        ROTATION_LIARS};
+    return table;
+}
+std::span<const TraitsEntry<OrientationTraits>> orientationTraitsTable() {
+    static const TraitsEntry<OrientationTraits> table[] = {
+#include "engine/integrators/orientation_updates.def"
+        ORIENTATION_LIARS};
+    return table;
+}
+std::span<const TraitsEntry<ContinuousCollisionTraits>> continuousCollisionTraitsTable() {
+    static const TraitsEntry<ContinuousCollisionTraits> table[] = {
+#include "engine/ccd/continuous_collisions.def"
+        COLLISION_LIARS};
+    return table;
+}
+#undef ALGORITHM
+#undef LIAR
+
+}  // namespace rigor::engine

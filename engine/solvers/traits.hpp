@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What solvers and friction laws declare of themselves (core/traits.hpp).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "engine/core/traits.hpp"
+#include "engine/solvers/solver.hpp"
+
+namespace rigor::engine {
+
+/// The set that the friction impulse of a contact point with the normal impulse n is taken from. In the
+/// plane all but None are the same.
+enum class FrictionShape : std::uint8_t {
+    None,
+    Cone,     ///< |f| <= mu n, against the slip
+    Box,      ///< |f_1| <= mu n, |f_2| <= mu n: up to sqrt 2 mu n
+    Polygon,  ///< the hull of WorldDef::pyramidDirections directions of length mu n
+    Line,     ///< |f| <= mu n along the slip that there would be without friction
+};
+
+struct FrictionTraits {
+    FrictionShape shape = FrictionShape::Cone;
+};
+std::span<const TraitsEntry<FrictionTraits>> frictionTraitsTable();
+
+/// What becomes of position errors of contacts and joints.
+enum class ErrorHandling : std::uint8_t {
+    Correction,  ///< rows are rigid, the world's position correction sees to errors
+    Springs,     ///< damped springs of WorldDef::contactFrequency and jointFrequency, at most a quarter of
+                 ///< the sub-step rate
+    Positions,   ///< bodies move first, and the solver puts their positions right
+};
+
+/// When iterations end before there are as many as allowed.
+enum class StopRule : std::uint8_t {
+    Never,     ///< all are made
+    Change,    ///< one changes less than WorldDef::velocityTolerance
+    Residual,  ///< the problem is solved to WorldDef::residualTolerance
+};
+
+struct SolverTraits {
+    int substeps = 1;                    ///< where WorldDef::substeps is 0
+    std::optional<int> iterations = {};  ///< of a sub-step, where velocityIterations is 0; empty: 50
+    int relaxIterations = 0;             ///< more of them after the bodies have moved
+    ErrorHandling errors = ErrorHandling::Correction;
+    /// Of Springs: joints that are linearised (WorldDef::curvedJoints off) are rigid instead and lose this
+    /// share of their error in each sub-step.
+    std::optional<double> linearJointShare = {};
+    std::optional<FrictionShape> friction = {};  ///< a law of its own; empty: that of WorldDef::friction
+    /// The contacts of two shapes rub as one, at the centre of their pressure, which is the law of the points
+    /// only where they slide without turning or turn without sliding.
+    bool frictionOfPatches = false;
+    bool contactsInSingle = false;  ///< contacts are reckoned in f32 in worlds of f64, too
+    bool direct = false;            ///< one iteration solves contacts without friction, however many
+    StopRule stops = StopRule::Change;
+    bool warmStarts = true;  ///< the impulses of the last step matter to it, where WorldDef::warmStarting
+};
+std::span<const TraitsEntry<SolverTraits>> solverTraitsTable();
+
+inline const SolverTraits& solverTraits(const std::string& name) {
+    return findTraits(solverTraitsTable(), "solver", name);
+}
+inline FrictionShape frictionShape(const std::string& name) {
+    return findTraits(frictionTraitsTable(), "friction", name).shape;
+}
+
+/// What a solver of these traits asks of the step around it.
+template <class S>
+SolverStyle<S> styleOf(const SolverTraits& traits) {
+    using Real = typename S::Real;
+    SolverStyle<S> style;
+    style.substeps = traits.substeps;
+    style.iterations = traits.iterations;
+    style.relaxIterations = traits.relaxIterations;
+    style.positions = traits.errors == ErrorHandling::Positions;
+    style.ownsCorrection = traits.errors != ErrorHandling::Correction;
+    if (traits.errors == ErrorHandling::Springs) style.bias = softBiasRule<Real>();
+    if (traits.errors == ErrorHandling::Positions) style.bias = BiasRule<Real>{};
+    if (traits.linearJointShare) {
+        BiasRule<Real> joints;
+        joints.share = static_cast<Real>(*traits.linearJointShare);
+        style.linearJointBias = joints;
+    }
+    return style;
+}
+
+}  // namespace rigor::engine
