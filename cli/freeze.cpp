@@ -8,6 +8,7 @@
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/contact_problems/freeze.hpp"
+#include "validation/runner/judge.hpp"
 #include "validation/runner/scenario_settings.hpp"
 #include "validation/runner/simulate.hpp"
 
@@ -15,7 +16,7 @@ namespace rigor::cli {
 namespace {
 
 struct Arguments {
-    std::string scenario, engine = "rigor", dt, out;
+    std::string scenario, engine = validation::kInHouseEngine, dt, out;
     std::vector<std::string> overrides;
     std::size_t step = 0;
     double time = -1.0;

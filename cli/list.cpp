@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "adapters/interface/capability_fields.hpp"
 #include "adapters/interface/missing.hpp"
 #include "adapters/interface/registry.hpp"
 #include "cli/command.hpp"
@@ -15,6 +16,7 @@
 #include "scenarios/loader/study.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/references/reference.hpp"
+#include "validation/runner/judge.hpp"
 #include "validation/runner/runner.hpp"
 #include "validation/symmetry/symmetry.hpp"
 
@@ -36,20 +38,13 @@ Json optionJson(const adapter::Option& option, const std::vector<adapter::Preset
     return json;
 }
 
+/// What is missing goes by whose it is.
 Json capabilitiesJson(const adapter::Capabilities& c) {
-    return {{"dynamics", c.dynamics},
-            {"collision", c.collision},
-            {"broad_phase", c.broadPhase},
-            {"dimensions", c.dimensions},
-            {"planar", c.planar},
-            {"shapes", c.shapes},
-            {"joints", c.joints},
-            {"contact_impulses", c.contactImpulses},
-            {"contact_solvers", c.contactSolvers},
-            {"signed_distance", c.signedDistance},
-            {"query_options", c.queryOptions},
-            {"not_in_adapter", adapter::notInAdapterYet(c)},
-            {"not_in_library", c.libraryLacks}};
+    Json json = adapter::capabilitiesToJson<Json>(c);
+    json.erase("library_lacks");
+    json["not_in_adapter"] = adapter::notInAdapterYet(c);
+    json["not_in_library"] = c.libraryLacks;
+    return json;
 }
 
 Json engines() {
@@ -125,7 +120,7 @@ Json choiceJson(const std::string& stage, const std::string& name, bool isDefaul
             {"stage", stage},
             {"default", isDefault},
             {"summary", summary},
-            {"spec", "rigor:" + stage + "=" + name}};
+            {"spec", std::string(validation::kInHouseEngine) + ":" + stage + "=" + name}};
 }
 
 /// What is asked for by what a scenario (and in C++ the world) is made of, not by a key.
@@ -152,7 +147,7 @@ void appendParts(const adapter::Capabilities& capabilities, Json& list) {
 }
 
 Json algorithms() {
-    const auto rigor = validation::describeEngine("rigor", ownBinary());
+    const auto rigor = validation::describeEngine(validation::kInHouseEngine, ownBinary());
     Json list = Json::array();
     std::set<std::string> stages;
     for (const auto& family : engine::algorithmFamilies()) {

@@ -23,7 +23,7 @@ constexpr const char* kFooter =
     "            130 interrupted (a run can be resumed).\n"
     "The launcher ./rigor builds first; ./rigor test builds and runs the tests.\n"
     "Engines are named by a spec: bullet, ode:stepper=quickstep,iterations=50, "
-    "rigor:preset=matched,precision=f32.";
+    "bullet:preset=matched,precision=f32.";
 
 int runCommand(int argc, char** argv) {
     using namespace rigor::cli;

@@ -17,6 +17,7 @@
 #include "scenarios/loader/loader.hpp"
 #include "validation/results/values.hpp"
 #include "validation/runner/event_log.hpp"
+#include "validation/runner/judge.hpp"
 #include "validation/runner/runner.hpp"
 #include "validation/runner/scenario_settings.hpp"
 
@@ -24,7 +25,7 @@ namespace rigor::cli {
 namespace {
 
 struct Arguments {
-    std::string scenario, engine = "rigor", timeStep, csv, log;
+    std::string scenario, engine = validation::kInHouseEngine, timeStep, csv, log;
     std::vector<std::string> overrides;
     bool json = false;
 };

@@ -17,6 +17,7 @@
 #include "cli/view/server.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/runner/describe.hpp"
+#include "validation/runner/judge.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -24,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-    std::string what, engines = "rigor", timeStep, saveFolder = ".";
+    std::string what, engines = validation::kInHouseEngine, timeStep, saveFolder = ".";
     std::vector<std::string> overrides;
     int port = 0;
     bool open = false, json = false;

@@ -10,6 +10,7 @@
 #include "validation/contact_problems/solve.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/describe.hpp"
+#include "validation/runner/judge.hpp"
 #include "validation/runner/process_pool.hpp"
 
 namespace rigor::validation {
@@ -168,7 +169,7 @@ std::vector<SolvedProblem> solveFiles(const std::vector<std::filesystem::path>& 
 bool solveIsGreen(const std::vector<SolvedProblem>& problems) {
     for (const SolvedProblem& problem : problems)
         for (const SolveAnswer& answer : problem.answers) {
-            if (adapter::parseSpec(answer.solver).engine != "rigor") continue;
+            if (adapter::parseSpec(answer.solver).engine != kInHouseEngine) continue;
             if (answer.outcome != "solved" && answer.outcome != "unsupported") return false;
             for (const SolveStep& step : answer.steps)
                 if (!std::isfinite(step.residual.relative)) return false;

@@ -12,6 +12,7 @@
 
 #include "validation/import/csv.hpp"
 #include "validation/import/importer.hpp"
+#include "validation/runner/judge.hpp"
 
 namespace rigor::validation {
 
@@ -125,7 +126,7 @@ ordered_json fitJson(const Imported& imported, const std::string& name) {
             {"title", imported.title},
             {"train", {"train.json"}},
             {"test", {"test.json"}},
-            {"engines", {"rigor", "bullet", "ode"}},
+            {"engines", {kInHouseEngine, "bullet", "ode"}},
             {"parameters", parameters},
             {"metric", imported.metric},
             {"summary", "mean"},

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "adapters/interface/capability_fields.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/process_pool.hpp"
 #include "validation/runner/start_program.hpp"
@@ -48,48 +49,11 @@ json presetsToJson(const std::vector<adapter::Preset>& presets) {
     return list;
 }
 
-json capabilitiesToJson(const adapter::Capabilities& c) {
-    return {{"dynamics", c.dynamics},
-            {"collision", c.collision},
-            {"broad_phase", c.broadPhase},
-            {"dimensions", c.dimensions},
-            {"planar", c.planar},
-            {"shapes", c.shapes},
-            {"joints", c.joints},
-            {"contact_impulses", c.contactImpulses},
-            {"signed_distance", c.signedDistance},
-            {"query_options", c.queryOptions},
-            {"kinematic_bodies", c.kinematicBodies},
-            {"damping", c.damping},
-            {"gravity_scale", c.gravityScale},
-            {"center_of_mass_offset", c.centerOfMassOffset},
-            {"contact_solvers", c.contactSolvers},
-            {"static_friction", c.staticFriction},
-            {"library_lacks", c.libraryLacks}};
-}
-
-adapter::Capabilities capabilitiesFromJson(const json& j) {
-    adapter::Capabilities c;
-    c.dynamics = j.at("dynamics"), c.collision = j.at("collision"), c.broadPhase = j.at("broad_phase");
-    c.dimensions = j.at("dimensions").get<std::vector<int>>();
-    c.planar = j.at("planar");
-    c.shapes = j.at("shapes").get<std::vector<std::string>>();
-    c.joints = j.at("joints").get<std::vector<std::string>>();
-    c.contactImpulses = j.at("contact_impulses"), c.signedDistance = j.at("signed_distance");
-    c.queryOptions = j.at("query_options").get<std::vector<std::string>>();
-    c.kinematicBodies = j.at("kinematic_bodies"), c.damping = j.at("damping");
-    c.gravityScale = j.at("gravity_scale"), c.centerOfMassOffset = j.at("center_of_mass_offset");
-    c.contactSolvers = j.at("contact_solvers");
-    c.staticFriction = j.at("static_friction");
-    c.libraryLacks = j.at("library_lacks").get<std::map<std::string, std::string>>();
-    return c;
-}
-
 void readDescription(const json& j, EngineDescription& d) {
     // The name is the one its module goes by: specs and reports use that.
     d.info = {d.info.name,   j.at("version"),     j.at("precision"),
               j.at("title"), j.at("build_notes"), j.at("package")};
-    d.capabilities = capabilitiesFromJson(j.at("capabilities"));
+    d.capabilities = adapter::capabilitiesFromJson(j.at("capabilities"));
     for (const json& o : j.at("options")) d.options.push_back(optionFromJson(o));
     for (const json& p : j.at("presets"))
         d.presets.push_back({p.at("name"), p.at("values").get<std::map<std::string, std::string>>()});
@@ -132,7 +96,7 @@ int describeChild(const std::string& engine, const std::filesystem::path& answer
                            {"title", info.title},
                            {"build_notes", info.buildNotes},
                            {"package", info.package},
-                           {"capabilities", capabilitiesToJson(loaded->capabilities())},
+                           {"capabilities", adapter::capabilitiesToJson<json>(loaded->capabilities())},
                            {"options", std::move(options)},
                            {"presets", presetsToJson(adapter::ownPresets(*loaded))}});
     return 0;
@@ -142,7 +106,7 @@ std::string capabilitiesText(const EngineDescription& description) {
     if (!description.problem.empty()) return "";
     json options = json::array();
     for (const auto& o : description.options) options.push_back(optionToJson(o));
-    return json{{"capabilities", capabilitiesToJson(description.capabilities)},
+    return json{{"capabilities", adapter::capabilitiesToJson<json>(description.capabilities)},
                 {"options", options},
                 {"presets", presetsToJson(description.presets)}}
         .dump();
