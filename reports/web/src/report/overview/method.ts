@@ -106,7 +106,10 @@ export function method(): HTMLElement {
       'ul',
       { class: 'plain' },
       verdict('no_bound', 'it ran: how near it is to the physics is its grade'),
-      verdict('pass', 'it ran within the bounds that its scenario sets; the library sets none, users may set their own'),
+      verdict(
+        'pass',
+        'it ran within the bounds that its scenario sets; the library sets none, users may set their own',
+      ),
       verdict(
         'known_deviation',
         'wrong physics (grade E: another law, another outcome), with the reason on file and whether that was isolated by experiment or is inferred',

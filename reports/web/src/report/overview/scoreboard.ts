@@ -12,7 +12,7 @@ import { allScenarios, type Filters, filters, matches, ordered, type RowScale, r
 import { withPreview } from './preview.ts';
 
 const meaning: Record<Shown, string> = {
-  pass: 'ran, within the bounds that its scenario sets',
+  pass: 'ran, within the bounds that hold everywhere (contacts) or that its scenario sets',
   no_bound: 'ran',
   known_deviation: 'wrong physics, with a reason on file',
   fail: 'misses a bound that its scenario sets, or was not what was asked for',

@@ -24,7 +24,7 @@ export function wrongText(m: Mechanism, s: Placed): Child {
     isLost(at.shown) ? ` (${verdictText(at.shown).word})` : '',
   ];
   return [
-    'wrong in ',
+    'grade E or lost in ',
     wrong.slice(0, mostNamed).map(link),
     wrong.length > mostNamed ? ` and ${wrong.length - mostNamed} more` : '',
   ];
@@ -37,12 +37,11 @@ function line(m: Mechanism, s: Placed): HTMLElement[] {
     { 'data-spec': s.column.spec },
     el('th', { scope: 'row' }, s.column.label),
     el('td', null, gradeBar(s.grades)),
-    el('td', { class: 'num' }, `${s.within} of ${s.scenarios}`),
     el('td', { class: 'num' }, ratio(s.toBest) || '—'),
     el('td', { class: 'num' }, ratio(s.toOurs) || '—'),
     el('td', { class: 'num' }, duration(s.cost)),
   );
-  return wrong ? [row, el('tr', { class: 'why' }, el('td', { colspan: 6 }, wrong))] : [row];
+  return wrong ? [row, el('tr', { class: 'why' }, el('td', { colspan: 5 }, wrong))] : [row];
 }
 
 /** The answer in a sentence. */
@@ -71,7 +70,7 @@ function card(task: Mechanism): HTMLElement {
     el(
       'table',
       { class: 'full ranking' },
-      looseHeadRow(['Engine', 'Grades', 'C or better', '× best', '× ours', 'Step'], (i) => i > 1),
+      looseHeadRow(['Engine', 'Grades', '× best', '× ours', 'Step'], (i) => i > 1),
       el(
         'tbody',
         null,
@@ -108,7 +107,7 @@ function mechanismRow(m: Mechanism): HTMLElement {
     ),
     el(
       'td',
-      { 'data-label': 'Wrong or lost' },
+      { 'data-label': 'Grade E or lost' },
       wrong
         .slice(0, mostNamed)
         .map((s) => gradeChip('E', `${s.column.label} ${s.lost + (s.grades[4] ?? 0)}/${s.scenarios}`)),
@@ -124,7 +123,7 @@ export function trust(): HTMLElement | null {
     el(
       'table',
       { class: 'full trust' },
-      headRow(['Mechanism', 'Scenarios', 'Nearest first', 'Wrong or lost'], (i) => i === 1),
+      headRow(['Mechanism', 'Scenarios', 'Nearest first', 'Grade E or lost'], (i) => i === 1),
       el('tbody', null, run.mechanisms.map(mechanismRow)),
     );
   return panel(
