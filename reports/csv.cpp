@@ -10,11 +10,22 @@ constexpr std::size_t kColumns = 27;
 constexpr const char* kHeader =
     "scenario,engine,spec,preset,precision,dt,outcome,verdict,metric,subject,kind,value,unit,at,bound,"
     "metric_verdict,note,expectation,exact,scheme_exact,grade,regression,scale,relative,ideal,recorded,"
-    "command\n";
+    "command,non_finite\n";
 
-std::string optionalNumber(const std::optional<double>& value) {
-    return value ? fullNumber(*value) : std::string();
-}
+/// The numbers of a line; those that are not finite leave their cell empty and are named at its end.
+class Numbers {
+  public:
+    std::string operator()(const char* column, const std::optional<double>& value) {
+        if (!value) return "";
+        const std::string text = finiteText(*value);
+        if (text.empty()) reason_ += (reason_.empty() ? "" : "; ") + nonFiniteText(column, *value);
+        return text;
+    }
+    const std::string& reason() const { return reason_; }
+
+  private:
+    std::string reason_;
+};
 
 void appendLine(std::string& out, const std::vector<std::string>& fields) {
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -37,24 +48,34 @@ std::string csvReport(const results::Run& run) {
                                             fullNumber(row.dt),
                                             results::outcomeName(row.outcome),
                                             results::verdictName(row.verdict)};
-        const auto line = [&](const std::vector<std::string>& rest) {
+        const auto line = [&](const std::vector<std::string>& rest, const std::string& nonFinite) {
             auto fields = head;
             fields.insert(fields.end(), rest.begin(), rest.end());
             fields.resize(kColumns - 1);
             fields.push_back(row.command);
+            fields.push_back(nonFinite);
             appendLine(out, fields);
         };
-        for (const auto& m : row.metrics)
-            line({m.name, m.subject, m.kind, fullNumber(m.value), m.unit, m.at < 0.0 ? "" : fullNumber(m.at),
-                  optionalNumber(m.bound), results::verdictName(m.verdict), m.note,
-                  optionalNumber(m.expectation), "", "", results::gradeName(row.accuracy.grade),
-                  results::regressionName(row.regression), optionalNumber(m.scale),
-                  optionalNumber(m.relative), optionalNumber(m.ideal), optionalNumber(m.recorded)});
-        for (const auto& q : row.quantities)
-            line({q.name, "", "quantity", optionalNumber(q.measured), q.unit, "", "", "", "", "",
-                  fullNumber(q.exact), optionalNumber(q.schemeExact)});
+        for (const auto& m : row.metrics) {
+            Numbers number;
+            const std::string value = number("value", m.value), at = m.at < 0.0 ? "" : number("at", m.at),
+                              bound = number("bound", m.bound),
+                              expectation = number("expectation", m.expectation),
+                              scale = number("scale", m.scale), relative = number("relative", m.relative),
+                              ideal = number("ideal", m.ideal), recorded = number("recorded", m.recorded);
+            line({m.name, m.subject, m.kind, value, m.unit, at, bound, results::verdictName(m.verdict),
+                  m.note, expectation, "", "", results::gradeName(row.accuracy.grade),
+                  results::regressionName(row.regression), scale, relative, ideal, recorded},
+                 number.reason());
+        }
+        for (const auto& q : row.quantities) {
+            Numbers number;
+            const std::string value = number("value", q.measured), exact = number("exact", q.exact),
+                              scheme = number("scheme_exact", q.schemeExact);
+            line({q.name, "", "quantity", value, q.unit, "", "", "", "", "", exact, scheme}, number.reason());
+        }
         if (row.metrics.empty() && row.quantities.empty())  // every case is in the file
-            line({"", "", "", "", "", "", "", "", row.reason, "", "", ""});
+            line({"", "", "", "", "", "", "", "", row.reason, "", "", ""}, "");
     }
     return out;
 }

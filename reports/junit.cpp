@@ -60,6 +60,7 @@ std::string outcomeElement(const CaseRow& row) {
         case Verdict::KnownDeviation:
             return "";
         case Verdict::Unsupported:
+        case Verdict::NoReference:
             return "      <skipped" + attribute("message", row.reason.empty() ? verdict : row.reason) +
                    "/>\n";
         case Verdict::Fail: {
@@ -96,7 +97,7 @@ struct Counts {
     void add(const CaseRow& row) {
         ++tests;
         failures += outcomeElement(row).find("<failure") != std::string::npos;
-        skipped += row.verdict == Verdict::Unsupported;
+        skipped += row.verdict == Verdict::Unsupported || row.verdict == Verdict::NoReference;
         errors += row.verdict == Verdict::Crashed || row.verdict == Verdict::Timeout ||
                   row.verdict == Verdict::NonFinite;
         if (std::isfinite(row.wallSeconds)) time += row.wallSeconds;

@@ -99,7 +99,13 @@ Json timingsJson(const CaseRow& row) {
                         {"meanContacts", number(t.meanContacts)},
                         {"low", number(t.low)},
                         {"high", number(t.high)},
-                        {"bodies", t.bodies}});
+                        {"bodies", t.bodies},
+                        {"first", number(t.first)},
+                        {"mean", number(t.mean)},
+                        {"p95", number(t.p95)},
+                        {"p99", number(t.p99)},
+                        {"worst", number(t.worst)},
+                        {"realTimeFactor", number(t.realTimeFactor)}});
     return list;
 }
 
@@ -114,6 +120,11 @@ Json stepJson(const CaseRow& row, const results::TimingRow& step) {
             {"p10", number(step.p10)},
             {"p90", number(step.p90)},
             {"samples", step.samples},
+            {"first", number(step.first)},
+            {"mean", number(step.mean)},
+            {"p99", number(step.p99)},
+            {"worst", number(step.worst)},
+            {"realTimeFactor", number(step.realTimeFactor)},
             {"contacts", number(step.meanContacts)},
             {"bodies", step.bodies},
             {"phases", phases}};

@@ -43,8 +43,12 @@ void appendCsvLine(std::string& out, const std::vector<std::string>& fields) {
     out += '\n';
 }
 
-std::string csvValue(const TableCell& cell) {
-    return cell.number ? fullNumber(*cell.number) : cell.text;
+/// A number that is not finite leaves its cell empty and is named in `reason`.
+std::string csvValue(const std::string& title, const TableCell& cell, std::string& reason) {
+    if (!cell.number) return cell.text;
+    const std::string text = finiteText(*cell.number);
+    if (text.empty()) reason += (reason.empty() ? "" : "; ") + nonFiniteText(title, *cell.number);
+    return text;
 }
 
 // ---- Markdown ----
@@ -97,16 +101,20 @@ std::string tableCsv(const Table& table) {
         if (column.kind == ColumnKind::Judged)
             head.push_back(column.title + " verdict"), head.push_back(column.title + " bound");
     }
+    head.push_back("non_finite");
     std::string out;
     appendCsvLine(out, head);
     for (const auto& row : table.rows) {
         std::vector<std::string> fields;
+        std::string reason;
         for (std::size_t c = 0; c < table.columns.size(); ++c) {
-            fields.push_back(csvValue(row[c]));
+            const std::string& title = table.columns[c].title;
+            fields.push_back(csvValue(title, row[c], reason));
             if (table.columns[c].kind != ColumnKind::Judged) continue;
             fields.push_back(row[c].verdict ? shownText(*row[c].verdict).word : "");
-            fields.push_back(row[c].bound ? fullNumber(*row[c].bound) : "");
+            fields.push_back(csvValue(title + " bound", TableCell(row[c].bound), reason));
         }
+        fields.push_back(reason);
         appendCsvLine(out, fields);
     }
     return out;

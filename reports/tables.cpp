@@ -187,15 +187,20 @@ std::vector<Table> metricsOfScenarios(const ViewModel& view) {
 // ---- what it cost ----
 
 std::vector<TableColumn> timingColumns() {
-    return {{"median", ColumnKind::Duration, "s"}, {"low", ColumnKind::Duration, "s"},
-            {"high", ColumnKind::Duration, "s"},   {"p10", ColumnKind::Duration, "s"},
-            {"p90", ColumnKind::Duration, "s"},    {"total", ColumnKind::Duration, "s"},
-            {"samples", ColumnKind::Number}};
+    return {{"median", ColumnKind::Duration, "s"},   {"low", ColumnKind::Duration, "s"},
+            {"high", ColumnKind::Duration, "s"},     {"p10", ColumnKind::Duration, "s"},
+            {"p90", ColumnKind::Duration, "s"},      {"total", ColumnKind::Duration, "s"},
+            {"samples", ColumnKind::Number},         {"first", ColumnKind::Duration, "s"},
+            {"mean", ColumnKind::Duration, "s"},     {"p95", ColumnKind::Duration, "s"},
+            {"p99", ColumnKind::Duration, "s"},      {"worst", ColumnKind::Duration, "s"},
+            {"real-time factor", ColumnKind::Number}};
 }
 
 void appendTiming(std::vector<TableCell>& cells, const results::TimingRow& t) {
-    for (const TableCell& cell : {TableCell(t.median), TableCell(t.low), TableCell(t.high), TableCell(t.p10),
-                                  TableCell(t.p90), TableCell(t.total), TableCell(t.samples)})
+    for (const TableCell& cell :
+         {TableCell(t.median), TableCell(t.low), TableCell(t.high), TableCell(t.p10), TableCell(t.p90),
+          TableCell(t.total), TableCell(t.samples), TableCell(t.first), TableCell(t.mean), TableCell(t.p95),
+          TableCell(t.p99), TableCell(t.worst), TableCell(t.realTimeFactor)})
         cells.push_back(cell);
 }
 

@@ -39,6 +39,7 @@ const char* colourOf(Shown shown) {
         case Shown::KnownDeviation:
             return "33";
         case Shown::NoBound:
+        case Shown::NoReference:
             return "36";
         case Shown::Unsupported:
             return "2";
@@ -345,7 +346,9 @@ std::string terminalSummary(const results::Run& run, int lines, int columns, boo
     const auto most = static_cast<std::size_t>(std::max(lines, 6));
 
     // What must be there, then the sections in the order of what they tell for their lines.
-    const auto head = verdictLines(view, width, paint);
+    auto head = verdictLines(view, width, paint);
+    for (const auto& line : missingReferences(run))
+        if (head.size() + 4 < most) head.push_back(paint(cut("no reference: " + plain(line), width), "1;33"));
     auto where = whereLines(run);
     if (head.size() + where.size() > most) where.clear();
     std::size_t room = most - std::min(most, head.size() + where.size());
@@ -363,7 +366,7 @@ std::string terminalSummary(const results::Run& run, int lines, int columns, boo
 
     std::string text;
     for (const std::vector<std::string>* section :
-         {&head, &trust, &worst, &board, &key, &std::as_const(where)}) {
+         {&std::as_const(head), &trust, &worst, &board, &key, &std::as_const(where)}) {
         if (section->empty()) continue;
         if (!text.empty() && (section != &where || room > 0)) text += "\n";
         for (const auto& line : *section) text += (text.empty() ? "" : "\n") + line;

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "validation/results/values.hpp"
+
 namespace rigor::report {
 namespace {
 
@@ -47,6 +49,14 @@ bool allowedInXml(char32_t c) {
 }
 
 }  // namespace
+
+std::string finiteText(double value) {
+    return std::isfinite(value) ? fullNumber(value) : "";
+}
+
+std::string nonFiniteText(const std::string& column, double value) {
+    return column + " is " + results::nonFiniteWords(value);
+}
 
 std::string fullNumber(double value) {
     if (std::isnan(value)) return "nan";

@@ -13,6 +13,11 @@ namespace rigor::report {
 /// Seventeen significant digits: parses back to the same bits. "nan", "inf" and "-inf" where not finite.
 std::string fullNumber(double value);
 
+/// The same for a finite value, "" for any other: what a cell of a CSV file holds.
+std::string finiteText(double value);
+/// "value is not a number", "bound is infinite": what the CSV's column of reasons says of such a cell.
+std::string nonFiniteText(const std::string& column, double value);
+
 /// Four significant digits for reading: "0.01234", "1.234e-07", "NaN", "∞".
 std::string shortNumber(double value);
 

@@ -118,8 +118,9 @@ std::string detailOf(const Totals& totals, Shown shown) {
 }
 
 ShownText shownText(Shown shown) {
-    static constexpr std::array<ShownText, 8> table{{{"pass", "✓", "bounds kept"},
+    static constexpr std::array<ShownText, 9> table{{{"pass", "✓", "bounds kept"},
                                                      {"no_bound", "○", "ran"},
+                                                     {"no_reference", "?", "no reference"},
                                                      {"known_deviation", "△", "known deviation"},
                                                      {"fail", "✗", "fail"},
                                                      {"non_finite", "∞", "non-finite"},
@@ -145,6 +146,8 @@ Shown shownOf(const CaseRow& row) {
             return Shown::Timeout;
         case Verdict::NonFinite:
             return Shown::NonFinite;
+        case Verdict::NoReference:
+            return Shown::NoReference;
     }
     const bool judged = std::any_of(row.metrics.begin(), row.metrics.end(),
                                     [](const MetricRow& m) { return m.bound || m.expectation; });

@@ -31,7 +31,17 @@ struct MainMetric {
 
 /// How a case ended as shown. A completed case that nothing was demanded of is not shown as a pass; how near
 /// it is to the physics is its grade, and whether it changed its regression.
-enum class Shown { Pass, NoBound, KnownDeviation, Fail, NonFinite, Timeout, Crashed, Unsupported };
+enum class Shown {
+    Pass,
+    NoBound,
+    NoReference,
+    KnownDeviation,
+    Fail,
+    NonFinite,
+    Timeout,
+    Crashed,
+    Unsupported
+};
 struct ShownText {
     const char* key;     ///< stable name, also the CSS class: "pass", "no_bound", ...
     const char* symbol;  ///< one character
@@ -40,6 +50,10 @@ struct ShownText {
 ShownText shownText(Shown shown);
 /// Of CaseRow::refusal, which is not empty: "not in the adapter yet" or "not in the library".
 std::string refusalText(const std::string& refusal);
+
+/// "scenario: reference_timeout: the reference did not finish within 20 s" for every scenario with cases that
+/// are neither a pass nor a fail because its reference broke down.
+std::vector<std::string> missingReferences(const results::Run& run);
 
 /// All cases of one scenario on one spec.
 struct Cell {

@@ -35,14 +35,20 @@ TEST(Csv, EveryNumberComesBackWithItsBits) {
             expectBits(field("dt"), c.dt);
             EXPECT_EQ(field("verdict"), results::verdictName(c.verdict));
         };
+        const auto number = [&](const char* name, const std::optional<double>& wanted) {
+            const bool finite = wanted && std::isfinite(*wanted);
+            const bool named = field("non_finite").find(std::string(name) + " is ") != std::string::npos;
+            EXPECT_EQ(field(name).empty(), !finite) << name;
+            EXPECT_EQ(named, wanted && !finite) << name << ": " << field("non_finite");
+            if (finite) expectBits(field(name), *wanted);
+        };
         for (const auto& m : c.metrics) {
             head();
             EXPECT_EQ(field("metric"), m.name);
             EXPECT_EQ(field("subject"), m.subject);
-            expectBits(field("value"), m.value);
-            EXPECT_EQ(field("bound").empty(), !m.bound);
-            if (m.bound) expectBits(field("bound"), *m.bound);
-            if (m.expectation) expectBits(field("expectation"), *m.expectation);
+            number("value", m.value);
+            number("bound", m.bound);
+            number("expectation", m.expectation);
             EXPECT_EQ(field("metric_verdict"), results::verdictName(m.verdict));
             EXPECT_EQ(field("note"), m.note);
             ++next;
@@ -50,10 +56,9 @@ TEST(Csv, EveryNumberComesBackWithItsBits) {
         for (const auto& q : c.quantities) {
             head();
             EXPECT_EQ(field("kind"), "quantity");
-            EXPECT_EQ(field("value").empty(), !q.measured);
-            if (q.measured) expectBits(field("value"), *q.measured);
-            expectBits(field("exact"), q.exact);
-            if (q.schemeExact) expectBits(field("scheme_exact"), *q.schemeExact);
+            number("value", q.measured);
+            number("exact", q.exact);
+            number("scheme_exact", q.schemeExact);
             ++next;
         }
         if (c.metrics.empty() && c.quantities.empty()) {

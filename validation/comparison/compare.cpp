@@ -48,6 +48,7 @@ int badness(Verdict verdict) {
         case Verdict::Unsupported:
             return 0;
         case Verdict::KnownDeviation:
+        case Verdict::NoReference:
             return 1;
         case Verdict::Fail:
             return 2;
@@ -97,21 +98,44 @@ void compareVerdicts(const CasePair& pair, RunComparison& all) {
                             pair.after->reason, badness(after) > badness(before)});
 }
 
-/// Median over the runs of a side of the median time of a step [s].
-std::optional<double> stepTime(const std::vector<Cases>& runs, const Key& key) {
-    std::vector<double> medians;
+/// One way to say what a step costs [s].
+using StepCost = std::optional<double> (*)(const results::TimingRow&);
+
+/// Median over the runs of a side of what a step costs [s].
+std::optional<double> stepTime(const std::vector<Cases>& runs, const Key& key, StepCost cost) {
+    std::vector<double> costs;
     for (const Cases& cases : runs) {
         const auto it = cases.find(key);
         if (it == cases.end() || it->second->outcome != Outcome::Completed) continue;
         for (const auto& t : it->second->timings)
-            if (t.phase == "step" && t.median > 0.0) medians.push_back(t.median);
+            if (const auto value = cost(t); t.phase == "step" && value && *value > 0.0)
+                costs.push_back(*value);
     }
-    if (medians.empty()) return std::nullopt;
-    return median(medians);
+    if (costs.empty()) return std::nullopt;
+    return median(costs);
 }
 
+/// Logarithms of after / before, one per case.
+struct LogRatios {
+    std::vector<double> median, mean, first;
+
+    void add(const std::vector<Cases>& before, const std::vector<Cases>& after, const CasePair& pair) {
+        const auto ratio = [&](StepCost cost, std::vector<double>& list) {
+            const auto a = stepTime(before, keyOf(*pair.before), cost),
+                       b = stepTime(after, keyOf(*pair.after), cost);
+            if (a && b) list.push_back(std::log(*b / *a));
+        };
+        ratio([](const results::TimingRow& t) { return std::optional(t.median); }, median);
+        ratio([](const results::TimingRow& t) { return t.mean; }, mean);
+        ratio([](const results::TimingRow& t) { return t.first; }, first);
+    }
+};
+
 /// Ratios are compared on a logarithmic scale: twice and half are equally far from equal.
-void summariseTimes(const std::vector<double>& logRatios, SpecChange& spec) {
+void summariseTimes(const LogRatios& ratios, SpecChange& spec) {
+    if (!ratios.mean.empty()) spec.meanRatio = std::exp(median(ratios.mean));
+    if (!ratios.first.empty()) spec.firstRatio = std::exp(median(ratios.first));
+    const std::vector<double>& logRatios = ratios.median;
     spec.timed = static_cast<int>(logRatios.size());
     if (logRatios.empty()) return;
     spec.timeRatio = std::exp(median(logRatios));
@@ -202,7 +226,7 @@ RunComparison compareRuns(const std::vector<Run>& before, const std::vector<Run>
     const auto casesBefore = casesOf(before), casesAfter = casesOf(after);
     using Place = std::tuple<std::string, std::string, double, double>;
     std::map<Place, SpecChange> specs;
-    std::map<Place, std::vector<double>> times;
+    std::map<Place, LogRatios> times;
     for (const CasePair& pair : pairs) {
         const CaseRow &a = *pair.before, &b = *pair.after;
         if (std::find(all.changedScenarios.begin(), all.changedScenarios.end(), a.scenario) !=
@@ -215,8 +239,7 @@ RunComparison compareRuns(const std::vector<Run>& before, const std::vector<Run>
         ++spec.cases;
         compareVerdicts(pair, all);
         compareMetrics(pair, options, spec, all);
-        const auto timeBefore = stepTime(casesBefore, keyOf(a)), timeAfter = stepTime(casesAfter, keyOf(b));
-        if (timeBefore && timeAfter) times[place].push_back(std::log(*timeAfter / *timeBefore));
+        times[place].add(casesBefore, casesAfter, pair);
     }
     if (specs.empty()) refuse(before.front(), after.front(), all);
     for (auto& [place, spec] : specs) {

@@ -51,8 +51,10 @@ struct SpecChange {
     int better = 0, worse = 0, same = 0;  ///< errors
     double pErrors = 1.0;                 ///< sign test of better against worse
     int timed = 0;
-    std::optional<double> timeRatio;       ///< median over the cases of (step time after)/(before)
-    std::optional<Interval> timeInterval;  ///< 95 %, from six cases on
+    /// Medians over the cases of the ratio after / before of a step's median time, of its mean without the
+    /// first step (which shows the rare slow step that a median hides), and of the first step.
+    std::optional<double> timeRatio, meanRatio, firstRatio;
+    std::optional<Interval> timeInterval;  ///< 95 % of timeRatio, from six cases on
     double pTime = 1.0;                    ///< sign test of slower against faster
 };
 

@@ -35,14 +35,22 @@ std::string specName(const SpecChange& s) {
     return s.dt > 0.0 ? name + " " + stepName(s.dt, s.dtAfter) : name;
 }
 
-/// "1.02 (0.98 .. 1.05), p = 0.3: no difference shown".
+/// "1.02 (0.98 .. 1.05) no difference shown; mean 1.30, first step 0.99".
 std::string timeText(const SpecChange& s) {
     if (!s.timeRatio) return "not timed";
     std::string text = number(*s.timeRatio, "%.3f");
-    if (!s.timeInterval) return text + " (too few cases for an interval)";
-    text += " (" + number(s.timeInterval->low, "%.3f") + " .. " + number(s.timeInterval->high, "%.3f") + ")";
-    if (s.timeInterval->low > 1.0) return text + " slower";
-    return text + (s.timeInterval->high < 1.0 ? " faster" : " no difference shown");
+    if (s.timeInterval) {
+        text +=
+            " (" + number(s.timeInterval->low, "%.3f") + " .. " + number(s.timeInterval->high, "%.3f") + ")";
+        text += s.timeInterval->low > 1.0    ? " slower"
+                : s.timeInterval->high < 1.0 ? " faster"
+                                             : " no difference shown";
+    } else {
+        text += " (too few cases for an interval)";
+    }
+    if (s.meanRatio) text += "; mean " + number(*s.meanRatio, "%.3f");
+    if (s.firstRatio) text += ", first step " + number(*s.firstRatio, "%.3f");
+    return text;
 }
 
 template <class List, class Line>
@@ -65,7 +73,8 @@ std::string comparisonText(const RunComparison& c, const CompareOptions& options
     std::size_t width = 6;
     for (const SpecChange& s : c.specs) width = std::max(width, specName(s).size());
     text += padded("engine", width) +
-            "  cases  errors better/worse/same  sign test  time after/before, median over cases (95 %)\n";
+            "  cases  errors better/worse/same  sign test  time after/before: median of a step, median over "
+            "cases (95 %)\n";
     for (const SpecChange& s : c.specs) {
         const std::string errors =
             std::to_string(s.better) + "/" + std::to_string(s.worse) + "/" + std::to_string(s.same);
@@ -126,7 +135,9 @@ std::string comparisonJson(const RunComparison& c) {
              {"time_ratio", s.timeRatio ? Json(*s.timeRatio) : Json(nullptr)},
              {"time_interval",
               s.timeInterval ? Json::array({s.timeInterval->low, s.timeInterval->high}) : Json(nullptr)},
-             {"p_time", s.pTime}});
+             {"p_time", s.pTime},
+             {"mean_time_ratio", s.meanRatio ? Json(*s.meanRatio) : Json(nullptr)},
+             {"first_time_ratio", s.firstRatio ? Json(*s.firstRatio) : Json(nullptr)}});
     for (const VerdictChange& v : c.verdicts) {
         out["verdicts"].push_back(place(v.place));
         out["verdicts"].back().update(

@@ -18,17 +18,18 @@ CREATE TABLE bench_cases (
 CREATE TABLE bench_repetitions (
     case_id TEXT REFERENCES bench_cases ON DELETE CASCADE, round INTEGER, run_order INTEGER, outcome TEXT, reason TEXT,
     wall, cpu, samples INTEGER, state_hash TEXT, peak_memory_kib INTEGER, own_memory_kib INTEGER, allocations,
-    allocated_bytes, process_seconds, load, PRIMARY KEY (case_id, round)) WITHOUT ROWID;
+    allocated_bytes, process_seconds, load, non_finite TEXT, PRIMARY KEY (case_id, round)) WITHOUT ROWID;
 CREATE TABLE bench_values (
     case_id TEXT, round INTEGER, ordinal INTEGER, kind TEXT, name TEXT, unit TEXT, value, min, max, ok INTEGER,
-    PRIMARY KEY (case_id, round, ordinal),
+    non_finite TEXT, PRIMARY KEY (case_id, round, ordinal),
     FOREIGN KEY (case_id, round) REFERENCES bench_repetitions ON DELETE CASCADE) WITHOUT ROWID;
 CREATE TABLE bench_summaries (
     case_id TEXT PRIMARY KEY REFERENCES bench_cases ON DELETE CASCADE, repetitions INTEGER, clock TEXT, wall, cpu, low,
-    high, converged INTEGER, valid INTEGER, reason TEXT, base TEXT, ratio, ratio_low, ratio_high) WITHOUT ROWID;
+    high, converged INTEGER, valid INTEGER, reason TEXT, base TEXT, ratio, ratio_low, ratio_high,
+    non_finite TEXT) WITHOUT ROWID;
 CREATE TABLE bench_changes (
     case_id TEXT PRIMARY KEY REFERENCES bench_cases ON DELETE CASCADE, before, after, ratio, low, high, p, verdict TEXT,
-    reason TEXT) WITHOUT ROWID;
+    reason TEXT, non_finite TEXT) WITHOUT ROWID;
 )sql";
 
 namespace {
@@ -57,12 +58,13 @@ std::vector<std::string> storedCases(SQLite::Database& database) {
 }
 
 void writeValues(SQLite::Database& database, const std::string& caseId, const BenchRepetition& r) {
-    SQLite::Statement insert(database, "INSERT INTO bench_values VALUES (?,?,?,?,?,?,?,?,?,?)");
+    const auto names = tableColumns(database, "bench_values");
+    SQLite::Statement insert(database, insertInto("bench_values", names.size()));
     int ordinal = 0;
     const auto add = [&](const char* kind, const std::string& name, const std::string& unit, double value,
                          const std::optional<double>& min, const std::optional<double>& max, bool ok) {
-        (Binder(insert) << caseId << r.round << ordinal++ << kind << name << unit << value << min << max
-                        << ok)
+        (Binder(insert, names) << caseId << r.round << ordinal++ << kind << name << unit << value << min
+                               << max << ok)
             .run();
     };
     for (const BenchCount& c : r.counts) add(kCount, c.name, "1", c.value, {}, {}, true);
@@ -72,10 +74,11 @@ void writeValues(SQLite::Database& database, const std::string& caseId, const Be
 
 void readRepetitions(SQLite::Database& database, const Cases& cases) {
     SQLite::Statement rows(
-        database,
-        "SELECT case_id, round, run_order, outcome, reason, wall, cpu, samples, state_hash, peak_memory_kib, "
-        "own_memory_kib, allocations, allocated_bytes, process_seconds, load FROM bench_repetitions ORDER BY "
-        "case_id, round");
+        database, std::string("SELECT case_id, round, run_order, outcome, reason, wall, cpu, samples, "
+                              "state_hash, peak_memory_kib, "
+                              "own_memory_kib, allocations, allocated_bytes, process_seconds, load") +
+                      nonFiniteOf(database, "bench_repetitions") +
+                      " FROM bench_repetitions ORDER BY case_id, round");
     while (rows.executeStep()) {
         std::string id;
         Taker taker(rows);
@@ -94,9 +97,9 @@ BenchRepetition& repetitionOf(BenchCase& c, std::int64_t round) {
 }
 
 void readValues(SQLite::Database& database, const Cases& cases) {
-    SQLite::Statement rows(database,
-                           "SELECT case_id, round, kind, name, unit, value, min, max, ok FROM bench_values "
-                           "ORDER BY case_id, round, ordinal");
+    SQLite::Statement rows(database, "SELECT case_id, round, kind, name, unit, value, min, max, ok" +
+                                         nonFiniteOf(database, "bench_values") +
+                                         " FROM bench_values ORDER BY case_id, round, ordinal");
     while (rows.executeStep()) {
         std::string id, kind;
         std::int64_t round = 0;
@@ -117,8 +120,9 @@ void readValues(SQLite::Database& database, const Cases& cases) {
 void readSummaries(SQLite::Database& database, const Cases& cases) {
     SQLite::Statement rows(
         database,
-        "SELECT case_id, repetitions, clock, wall, cpu, low, high, converged, valid, reason, "
-        "base, ratio, ratio_low, ratio_high FROM bench_summaries");
+        std::string("SELECT case_id, repetitions, clock, wall, cpu, low, high, converged, valid, reason, "
+                    "base, ratio, ratio_low, ratio_high") +
+            nonFiniteOf(database, "bench_summaries") + " FROM bench_summaries");
     while (rows.executeStep()) {
         std::string id;
         Taker taker(rows);
@@ -146,11 +150,11 @@ void writeBenchPlan(SQLite::Database& database, const Bench& bench) {
 void writeBenchRepetition(SQLite::Database& database, const std::string& caseId, const BenchRepetition& r) {
     SQLite::Statement forget(database, "DELETE FROM bench_repetitions WHERE case_id = ? AND round = ?");
     (Binder(forget) << caseId << r.round).run();
-    SQLite::Statement insert(database,
-                             "INSERT INTO bench_repetitions VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
-    (Binder(insert) << caseId << r.round << r.order << r.outcome << r.reason << r.wall << r.cpu << r.samples
-                    << r.stateHash << r.peakMemoryKiB << r.ownMemoryKiB << r.allocations << r.allocatedBytes
-                    << r.processSeconds << r.load)
+    const auto names = tableColumns(database, "bench_repetitions");
+    SQLite::Statement insert(database, insertInto("bench_repetitions", names.size()));
+    (Binder(insert, names) << caseId << r.round << r.order << r.outcome << r.reason << r.wall << r.cpu
+                           << r.samples << r.stateHash << r.peakMemoryKiB << r.ownMemoryKiB << r.allocations
+                           << r.allocatedBytes << r.processSeconds << r.load)
         .run();
     writeValues(database, caseId, r);
 }
@@ -158,18 +162,20 @@ void writeBenchRepetition(SQLite::Database& database, const std::string& caseId,
 void writeBenchAnalysis(SQLite::Database& database, const Bench& bench) {
     for (const char* table : {"bench_summaries", "bench_changes"})
         database.exec(std::string("DELETE FROM ") + table);
-    SQLite::Statement summary(database, "INSERT INTO bench_summaries VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?)");
+    const auto summaryNames = tableColumns(database, "bench_summaries");
+    SQLite::Statement summary(database, insertInto("bench_summaries", summaryNames.size()));
     for (const BenchCase& c : bench.cases) {
         const BenchSummary& s = c.summary;
-        (Binder(summary) << c.id << s.repetitions << s.clock << s.wall << s.cpu << s.low << s.high
-                         << s.converged << s.valid << s.reason << s.base << s.ratio << s.ratioLow
-                         << s.ratioHigh)
+        (Binder(summary, summaryNames)
+         << c.id << s.repetitions << s.clock << s.wall << s.cpu << s.low << s.high << s.converged << s.valid
+         << s.reason << s.base << s.ratio << s.ratioLow << s.ratioHigh)
             .run();
     }
-    SQLite::Statement change(database, "INSERT INTO bench_changes VALUES (?,?,?,?,?,?,?,?,?)");
+    const auto changeNames = tableColumns(database, "bench_changes");
+    SQLite::Statement change(database, insertInto("bench_changes", changeNames.size()));
     for (const BenchChange& c : bench.changes)
-        (Binder(change) << c.caseId << c.before << c.after << c.ratio << c.low << c.high << c.p << c.verdict
-                        << c.reason)
+        (Binder(change, changeNames) << c.caseId << c.before << c.after << c.ratio << c.low << c.high << c.p
+                                     << c.verdict << c.reason)
             .run();
 }
 
@@ -192,8 +198,9 @@ Bench readBench(SQLite::Database& database) {
     readValues(database, cases);
     readSummaries(database, cases);
     SQLite::Statement changes(database,
-                              "SELECT case_id, before, after, ratio, low, high, p, verdict, reason FROM "
-                              "bench_changes JOIN bench_cases ON id = case_id ORDER BY position");
+                              "SELECT case_id, before, after, ratio, low, high, p, verdict, reason" +
+                                  nonFiniteOf(database, "bench_changes") +
+                                  " FROM bench_changes JOIN bench_cases ON id = case_id ORDER BY position");
     while (changes.executeStep()) {
         BenchChange& c = bench.changes.emplace_back();
         Taker(changes) >> c.caseId >> c.before >> c.after >> c.ratio >> c.low >> c.high >> c.p >> c.verdict >>

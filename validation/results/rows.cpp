@@ -13,21 +13,16 @@
 namespace rigor::results {
 namespace {
 
-std::string insertInto(const std::string& table, int columns) {
-    std::string text = "INSERT INTO " + table + " VALUES (?";
-    for (int i = 1; i < columns; ++i) text += ",?";
-    return text + ")";
-}
-
 /// Writes each element of `rows` with the case's id and its ordinal in front.
 template <class Rows, class Bind>
-void writeList(SQLite::Database& database, const char* table, int columns, const std::string& caseId,
-               const Rows& rows, Bind bind) {
+void writeList(SQLite::Database& database, const char* table, const std::string& caseId, const Rows& rows,
+               Bind bind) {
     if (rows.empty()) return;
-    SQLite::Statement insert(database, insertInto(table, columns));
+    const auto names = tableColumns(database, table);
+    SQLite::Statement insert(database, insertInto(table, names.size()));
     int ordinal = 0;
     for (const auto& row : rows) {
-        Binder binder(insert);
+        Binder binder(insert, names);
         binder << caseId << ordinal++;
         bind(binder, row);
         binder.run();
@@ -35,31 +30,31 @@ void writeList(SQLite::Database& database, const char* table, int columns, const
 }
 
 void writeMeasured(SQLite::Database& database, const CaseRow& c) {
-    writeList(database, "metrics", 16, c.id, c.metrics, [](Binder& b, const MetricRow& m) {
+    writeList(database, "metrics", c.id, c.metrics, [](Binder& b, const MetricRow& m) {
         b << m.name << m.subject << m.unit << m.kind << m.value << m.at << m.bound << m.expectation
           << verdictName(m.verdict) << m.note << m.scale << m.relative << m.ideal << m.recorded;
     });
-    writeList(database, "quantities", 7, c.id, c.quantities, [](Binder& b, const QuantityRow& q) {
+    writeList(database, "quantities", c.id, c.quantities, [](Binder& b, const QuantityRow& q) {
         b << q.name << q.unit << q.exact << q.schemeExact << q.measured;
     });
-    writeList(database, "audit", 17, c.id, c.audit, [](Binder& b, const AuditRow& a) {
+    writeList(database, "audit", c.id, c.audit, [](Binder& b, const AuditRow& a) {
         b << a.auditor << a.outcome << a.frames << a.queries << a.overlapping << a.missed << a.spurious
           << a.undecided << a.normalErrorMax << a.normalErrorMedian << a.depthErrorMax << a.depthErrorMedian
           << a.pointErrorMax << a.worst << a.note;
     });
-    writeList(database, "timings", 12, c.id, c.timings, [](Binder& b, const TimingRow& t) {
+    writeList(database, "timings", c.id, c.timings, [](Binder& b, const TimingRow& t) {
         b << t.phase << t.median << t.p10 << t.p90 << t.total << t.samples << t.meanContacts << t.low
-          << t.high << t.bodies;
+          << t.high << t.bodies << t.first << t.mean << t.p95 << t.p99 << t.worst << t.realTimeFactor;
     });
 }
 
 void writeParity(SQLite::Database& database, const CaseRow& c) {
-    writeList(database, "settings", 4, c.id, c.settings,
+    writeList(database, "settings", c.id, c.settings,
               [](Binder& b, const auto& setting) { b << setting.first << setting.second; });
-    writeList(database, "ledger", 7, c.id, c.ledger, [](Binder& b, const LedgerRow& l) {
+    writeList(database, "ledger", c.id, c.ledger, [](Binder& b, const LedgerRow& l) {
         b << l.topic << l.requested << l.resolved << l.realisation << l.reason;
     });
-    writeList(database, "read_back", 8, c.id, c.readBack, [](Binder& b, const ReadBackRow& r) {
+    writeList(database, "read_back", c.id, c.readBack, [](Binder& b, const ReadBackRow& r) {
         b << r.quantity << r.subject << r.expected << r.found << r.error << r.ok;
     });
 }
@@ -97,7 +92,8 @@ using CaseIndex = std::unordered_map<std::string, CaseRow*>;
 /// Hands every row of `table` to its case, in order.
 void readList(SQLite::Database& database, const CaseIndex& cases, const char* table, const char* columns,
               const std::function<void(CaseRow&, Taker&)>& take) {
-    SQLite::Statement select(database, std::string("SELECT case_id, ") + columns + " FROM " + table +
+    SQLite::Statement select(database, std::string("SELECT case_id, ") + columns +
+                                           nonFiniteOf(database, table) + " FROM " + table +
                                            " ORDER BY case_id, ordinal");
     while (select.executeStep()) {
         Taker taker(select);
@@ -139,15 +135,16 @@ void readMeasured(SQLite::Database& database, const CaseIndex& cases) {
                      a.spurious >> a.undecided >> a.normalErrorMax >> a.normalErrorMedian >>
                      a.depthErrorMax >> a.depthErrorMedian >> a.pointErrorMax >> a.worst >> a.note;
              });
-    const bool hasIntervals = schemaVersionOf(database) >= 3;
-    readList(database, cases, "timings",
-             hasIntervals ? "phase, median, p10, p90, total, samples, mean_contacts, low, high, bodies"
-                          : "phase, median, p10, p90, total, samples, mean_contacts, NULL, NULL, 0",
-             [](CaseRow& c, Taker& t) {
-                 TimingRow& r = c.timings.emplace_back();
-                 t >> r.phase >> r.median >> r.p10 >> r.p90 >> r.total >> r.samples >> r.meanContacts >>
-                     r.low >> r.high >> r.bodies;
-             });
+    const int schema = schemaVersionOf(database);
+    const std::string timings = std::string("phase, median, p10, p90, total, samples, mean_contacts, ") +
+                                (schema >= 3 ? "low, high, bodies, " : "NULL, NULL, 0, ") +
+                                (schema >= 8 ? "first, mean, p95, p99, worst, real_time_factor"
+                                             : "NULL, NULL, NULL, NULL, NULL, NULL");
+    readList(database, cases, "timings", timings.c_str(), [](CaseRow& c, Taker& t) {
+        TimingRow& r = c.timings.emplace_back();
+        t >> r.phase >> r.median >> r.p10 >> r.p90 >> r.total >> r.samples >> r.meanContacts >> r.low >>
+            r.high >> r.bodies >> r.first >> r.mean >> r.p95 >> r.p99 >> r.worst >> r.realTimeFactor;
+    });
 }
 
 void readParity(SQLite::Database& database, const CaseIndex& cases) {
@@ -190,29 +187,33 @@ void readHeader(SQLite::Database& database, Run& run) {
         std::string("SELECT name, title, description, source, isolates, tags, observed, metrics, dimension, "
                     "duration, time_steps, reference, reference_title, reference_formula, reference_source, "
                     "reference_problem, text, ") +
-            (schemaVersionOf(database) >= 3 ? "reference_tex" : "''") + " FROM scenarios ORDER BY position");
+            (schemaVersionOf(database) >= 3 ? "reference_tex" : "''") + ", " +
+            (schemaVersionOf(database) >= 8 ? "reference_outcome" : "''") +
+            " FROM scenarios ORDER BY position");
     while (scenarios.executeStep()) {
         ScenarioRow& s = run.scenarios.emplace_back();
         Taker(scenarios) >> s.name >> s.title >> s.description >> s.source >> s.isolates >> s.tags >>
             s.observed >> s.metrics >> s.dimension >> s.duration >> s.timeSteps >> s.reference >>
             s.referenceTitle >> s.referenceFormula >> s.referenceSource >> s.referenceProblem >> s.text >>
-            s.referenceTex;
+            s.referenceTex >> s.referenceOutcome;
     }
 }
 
 void readAnalysis(SQLite::Database& database, Run& run) {
     SQLite::Statement orders(
         database,
-        "SELECT scenario, spec, metric, unit, observed_order, low, high, points, finest, "
-        "coarsest, note FROM orders ORDER BY position");
+        std::string("SELECT scenario, spec, metric, unit, observed_order, low, high, points, finest, "
+                    "coarsest, note") +
+            nonFiniteOf(database, "orders") + " FROM orders ORDER BY position");
     while (orders.executeStep()) {
         OrderRow& o = run.orders.emplace_back();
         Taker(orders) >> o.scenario >> o.spec >> o.metric >> o.unit >> o.order >> o.low >> o.high >>
             o.points >> o.finest >> o.coarsest >> o.note;
     }
     SQLite::Statement fairness(database,
-                               "SELECT mode, scenario, metric, unit, competitor, case_id, spec, dt, error, "
-                               "cost, budget_or_target FROM fairness ORDER BY position");
+                               std::string("SELECT mode, scenario, metric, unit, competitor, case_id, spec, "
+                                           "dt, error, cost, budget_or_target") +
+                                   nonFiniteOf(database, "fairness") + " FROM fairness ORDER BY position");
     while (fairness.executeStep()) {
         FairnessRow& f = run.fairness.emplace_back();
         Taker(fairness) >> f.mode >> f.scenario >> f.metric >> f.unit >> f.competitor >> f.caseId >> f.spec >>
@@ -235,13 +236,13 @@ void writeHeaderRows(SQLite::Database& database, const Run& run) {
         (Binder(engines) << position++ << e.name << e.title << e.version << e.precision << e.buildNotes
                          << e.problem << e.capabilities << e.package)
             .run();
-    SQLite::Statement scenarios(database, insertInto("scenarios", 19));
+    SQLite::Statement scenarios(database, insertInto("scenarios", 20));
     position = 0;
     for (const ScenarioRow& s : run.scenarios)
         (Binder(scenarios) << position++ << s.name << s.title << s.description << s.source << s.isolates
                            << s.tags << s.observed << s.metrics << s.dimension << s.duration << s.timeSteps
                            << s.reference << s.referenceTitle << s.referenceFormula << s.referenceSource
-                           << s.referenceProblem << s.text << s.referenceTex)
+                           << s.referenceProblem << s.text << s.referenceTex << s.referenceOutcome)
             .run();
 }
 
@@ -262,17 +263,20 @@ void writeCaseRows(SQLite::Database& database, const CaseRow& c) {
 
 void writeAnalysisRows(SQLite::Database& database, const Run& run) {
     for (const char* table : {"orders", "fairness"}) database.exec(std::string("DELETE FROM ") + table);
-    SQLite::Statement orders(database, insertInto("orders", 12));
+    const auto ordersColumns = tableColumns(database, "orders");
+    SQLite::Statement orders(database, insertInto("orders", ordersColumns.size()));
     int position = 0;
     for (const OrderRow& o : run.orders)
-        (Binder(orders) << position++ << o.scenario << o.spec << o.metric << o.unit << o.order << o.low
-                        << o.high << o.points << o.finest << o.coarsest << o.note)
+        (Binder(orders, ordersColumns) << position++ << o.scenario << o.spec << o.metric << o.unit << o.order
+                                       << o.low << o.high << o.points << o.finest << o.coarsest << o.note)
             .run();
-    SQLite::Statement fairness(database, insertInto("fairness", 12));
+    const auto fairnessColumns = tableColumns(database, "fairness");
+    SQLite::Statement fairness(database, insertInto("fairness", fairnessColumns.size()));
     position = 0;
     for (const FairnessRow& f : run.fairness)
-        (Binder(fairness) << position++ << f.mode << f.scenario << f.metric << f.unit << f.competitor
-                          << f.caseId << f.spec << f.dt << f.error << f.cost << f.limit)
+        (Binder(fairness, fairnessColumns)
+         << position++ << f.mode << f.scenario << f.metric << f.unit << f.competitor << f.caseId << f.spec
+         << f.dt << f.error << f.cost << f.limit)
             .run();
 }
 

@@ -2,12 +2,14 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Columns that hold measured numbers have no declared type: SQLite then keeps every double as it is (a REAL
-// column would turn -0.0 into 0). NaN is the text 'nan', because SQLite has no NaN; NULL is "no value".
+// column would turn -0.0 into 0). A number that is not finite is NULL and named in the column non_finite of
+// its row; any other NULL is "no value". Stores before schema 8 have the text 'nan' for NaN.
 #include "validation/results/schema.hpp"
 
 #include <stdexcept>
 
 #include "validation/results/bench_rows.hpp"
+#include "validation/results/columns.hpp"
 #include "validation/results/store.hpp"
 
 namespace rigor::results {
@@ -28,7 +30,7 @@ CREATE TABLE scenarios (
     position INTEGER PRIMARY KEY, name TEXT UNIQUE, title TEXT, description TEXT, source TEXT, isolates TEXT,
     tags TEXT, observed TEXT, metrics TEXT, dimension INTEGER, duration, time_steps TEXT, reference TEXT,
     reference_title TEXT, reference_formula TEXT, reference_source TEXT, reference_problem TEXT, text TEXT,
-    reference_tex TEXT);
+    reference_tex TEXT, reference_outcome TEXT);
 CREATE TABLE cases (
     id TEXT PRIMARY KEY, position INTEGER, scenario TEXT, spec TEXT, engine TEXT, preset TEXT, dt, outcome TEXT,
     verdict TEXT, reason TEXT, wall_seconds, cpu_seconds, steps INTEGER, peak_memory_kib INTEGER, state_hash TEXT,
@@ -40,24 +42,25 @@ CREATE TABLE settings (
 CREATE TABLE metrics (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, subject TEXT, unit TEXT, kind TEXT,
     value, at, bound, expectation, verdict TEXT, note TEXT, scale, relative_error, ideal_error, recorded,
-    PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+    non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE quantities (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, unit TEXT, exact, scheme_exact,
-    measured, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+    measured, non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE ledger (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, topic TEXT, requested TEXT, resolved TEXT,
     realisation TEXT, reason TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE read_back (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, quantity TEXT, subject TEXT, expected, found,
-    error, ok INTEGER, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+    error, ok INTEGER, non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE audit (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, auditor TEXT, outcome TEXT, frames INTEGER,
     queries INTEGER, overlapping INTEGER, missed INTEGER, spurious INTEGER, undecided INTEGER, normal_error_max,
     normal_error_median, depth_error_max, depth_error_median, point_error_max, worst TEXT, note TEXT,
-    PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+    non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE timings (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, phase TEXT, median, p10, p90, total,
-    samples INTEGER, mean_contacts, low, high, bodies INTEGER, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+    samples INTEGER, mean_contacts, low, high, bodies INTEGER, first, mean, p95, p99, worst, real_time_factor,
+    non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE INDEX cases_by_scenario ON cases (scenario, engine, preset, dt);
 CREATE INDEX metrics_by_name ON metrics (name, subject);
 )sql";
@@ -66,10 +69,10 @@ CREATE INDEX metrics_by_name ON metrics (name, subject);
 constexpr const char* kAnalysisTables = R"sql(
 CREATE TABLE orders (
     position INTEGER PRIMARY KEY, scenario TEXT, spec TEXT, metric TEXT, unit TEXT, observed_order, low, high,
-    points INTEGER, finest, coarsest, note TEXT);
+    points INTEGER, finest, coarsest, note TEXT, non_finite TEXT);
 CREATE TABLE fairness (
     position INTEGER PRIMARY KEY, mode TEXT, scenario TEXT, metric TEXT, unit TEXT, competitor TEXT, case_id TEXT,
-    spec TEXT, dt, error, cost, budget_or_target);
+    spec TEXT, dt, error, cost, budget_or_target, non_finite TEXT);
 )sql";
 
 /// New columns stand at the end of their tables, where an older file gets them.
@@ -101,6 +104,29 @@ ALTER TABLE metrics ADD COLUMN ideal_error;
 ALTER TABLE metrics ADD COLUMN recorded;
 )sql";
 
+constexpr const char* kColumnsOfSchema8 = R"sql(
+ALTER TABLE scenarios ADD COLUMN reference_outcome TEXT DEFAULT '';
+ALTER TABLE timings ADD COLUMN first;
+ALTER TABLE timings ADD COLUMN mean;
+ALTER TABLE timings ADD COLUMN p95;
+ALTER TABLE timings ADD COLUMN p99;
+ALTER TABLE timings ADD COLUMN worst;
+ALTER TABLE timings ADD COLUMN real_time_factor;
+)sql";
+
+/// Tables with measured numbers: since schema 8 each says which of a row are not finite. A table that an
+/// older file gets whole has the column already.
+constexpr const char* kTablesWithNumbers[] = {
+    "metrics",  "quantities",   "read_back",         "audit",           "timings",      "orders",
+    "fairness", "bench_values", "bench_repetitions", "bench_summaries", "bench_changes"};
+
+void addNonFinite(SQLite::Database& database) {
+    for (const char* table : kTablesWithNumbers)
+        if (!hasNonFiniteColumn(database, table))
+            database.exec(std::string("ALTER TABLE ") + table + " ADD COLUMN " + kNonFiniteColumn +
+                          " TEXT DEFAULT ''");
+}
+
 /// A committed transaction is on the disk: rollback journal, synced. One file, whole at rest, that can be
 /// copied while nobody writes.
 void prepare(SQLite::Database& database) {
@@ -131,6 +157,10 @@ void upgrade(SQLite::Database& database) {
     if (version < 5) database.exec(kBenchTables);
     if (version < 6) database.exec(kColumnsOfSchema6);
     if (version < kSchemaOfGrades) database.exec(kColumnsOfGrades);
+    if (version < 8) {
+        database.exec(kColumnsOfSchema8);
+        addNonFinite(database);
+    }
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
 }

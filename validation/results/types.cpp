@@ -17,14 +17,15 @@ constexpr std::array<std::pair<Outcome, const char*>, 7> kOutcomes{{{Outcome::Co
                                                                     {Outcome::OutOfMemory, "out_of_memory"},
                                                                     {Outcome::Error, "error"}}};
 
-constexpr std::array<std::pair<Verdict, const char*>, 7> kVerdicts{
+constexpr std::array<std::pair<Verdict, const char*>, 8> kVerdicts{
     {{Verdict::Pass, "pass"},
      {Verdict::Fail, "fail"},
      {Verdict::KnownDeviation, "known deviation"},
      {Verdict::Unsupported, "unsupported"},
      {Verdict::Crashed, "crashed"},
      {Verdict::Timeout, "timeout"},
-     {Verdict::NonFinite, "non-finite"}}};
+     {Verdict::NonFinite, "non-finite"},
+     {Verdict::NoReference, "no reference"}}};
 
 constexpr std::array<std::pair<Regression, const char*>, 4> kRegressions{
     {{Regression::NoRecord, "no record"},

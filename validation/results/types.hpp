@@ -19,10 +19,11 @@ namespace rigor::results {
 /// What became of a case. Text in the store is the snake_case name.
 enum class Outcome { Completed, Unsupported, Crashed, Timeout, NonFinite, OutOfMemory, Error };
 /// Judgement of a case, derived from the outcome and its metrics.
-enum class Verdict { Pass, Fail, KnownDeviation, Unsupported, Crashed, Timeout, NonFinite };
+/// NoReference: it ran, and nothing that could be judged is missed, but its reference could not be computed.
+enum class Verdict { Pass, Fail, KnownDeviation, Unsupported, Crashed, Timeout, NonFinite, NoReference };
 const char* outcomeName(Outcome outcome);
 const char* verdictName(Verdict verdict);  ///< "pass", "fail", "known deviation", "unsupported", "crashed",
-                                           ///< "timeout", "non-finite"
+                                           ///< "timeout", "non-finite", "no reference"
 Outcome parseOutcome(const std::string& name);
 Verdict parseVerdict(const std::string& name);
 
@@ -108,6 +109,11 @@ struct TimingRow {
     /// 95 % interval of the median; none for fewer than six samples and in runs before schema 3.
     std::optional<double> low = std::nullopt, high = std::nullopt;
     std::int64_t bodies = 0;  ///< that move; 0 in runs before schema 3
+    /// The first sample apart from the others: caches are cold and nothing is warm-started. Mean, quantiles
+    /// and greatest of all others; none for fewer than two samples and in runs before schema 8.
+    std::optional<double> first = std::nullopt, mean = std::nullopt, p95 = std::nullopt, p99 = std::nullopt,
+                          worst = std::nullopt;
+    std::optional<double> realTimeFactor = std::nullopt;  ///< of the step: dt over the mean
 };
 
 struct CaseRow {
@@ -175,6 +181,9 @@ struct ScenarioRow {
     std::string referenceTex;      ///< the formula as TeX, display mode; "" in runs before schema 3
     std::string referenceProblem;  ///< why the reference does not hold for these values; "" when it does
     std::string text;              ///< the scenario file as run (JSON, overrides applied)
+    /// "none", "holds", "reference_assumption", "reference_timeout", "reference_out_of_memory",
+    /// "reference_crashed"; "" in runs before schema 8.
+    std::string referenceOutcome = {};
 };
 
 struct EngineRow {

@@ -23,6 +23,12 @@ std::string versionText(const EngineRow& engine) {
     return engine.version + (engine.package.empty() ? "" : " (package " + engine.package + ")");
 }
 
+const char* nonFiniteWords(double value) {
+    if (std::isnan(value)) return "not a number";
+    if (std::isinf(value)) return value > 0.0 ? "infinite" : "minus infinite";
+    return "";
+}
+
 std::string exactText(double value) {
     if (std::isnan(value)) return "nan";  // to_chars tells its sign
     char text[32];

@@ -20,6 +20,9 @@ std::optional<double> steppingTime(const CaseRow& row);
 /// "2.4.0", or "2.4.0 (package 2.4.1)" where library and package do not agree.
 std::string versionText(const EngineRow& engine);
 
+/// "not a number", "infinite", "minus infinite"; "" for a finite value.
+const char* nonFiniteWords(double value);
+
 /// The shortest text that reads back as the same double; "nan", "inf", "-inf".
 std::string exactText(double value);
 

@@ -95,7 +95,13 @@ json timingToJson(const TimingRow& t) {
             numberToJson(t.meanContacts),
             optional(t.low),
             optional(t.high),
-            t.bodies};
+            t.bodies,
+            optional(t.first),
+            optional(t.mean),
+            optional(t.p95),
+            optional(t.p99),
+            optional(t.worst),
+            optional(t.realTimeFactor)};
 }
 TimingRow timingFromJson(const json& j) {
     return {j.at(0),
@@ -107,7 +113,13 @@ TimingRow timingFromJson(const json& j) {
             numberFromJson(j.at(6)),
             optionalFrom(j.at(7)),
             optionalFrom(j.at(8)),
-            j.at(9)};
+            j.at(9),
+            optionalFrom(j.at(10)),
+            optionalFrom(j.at(11)),
+            optionalFrom(j.at(12)),
+            optionalFrom(j.at(13)),
+            optionalFrom(j.at(14)),
+            optionalFrom(j.at(15))};
 }
 
 template <class Row>

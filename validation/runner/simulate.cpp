@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "validation/comparison/statistics.hpp"
 #include "validation/runner/cost.hpp"
@@ -25,6 +26,19 @@ double quantile(const std::vector<double>& sorted, double q) {
     return sorted[low] * (1.0 - part) + sorted[high] * part;
 }
 
+/// The first sample apart: a first step that builds everything up, or iterates 401 times, hides in a median
+/// and drags a mean.
+void describeAfterFirst(const std::vector<double>& samples, results::TimingRow& row) {
+    if (samples.size() < 2) return;
+    row.first = samples.front();
+    std::vector<double> others(samples.begin() + 1, samples.end());
+    row.mean = std::accumulate(others.begin(), others.end(), 0.0) / static_cast<double>(others.size());
+    std::sort(others.begin(), others.end());
+    row.p95 = quantile(others, 0.95);
+    row.p99 = quantile(others, 0.99);
+    row.worst = others.back();
+}
+
 /// The interval of the median is that of statistics.hpp: what this run's steps tell of their median. Steps of
 /// one run resemble their neighbours, and another run may find the machine in another mood.
 results::TimingRow timingRow(const std::string& phase, std::vector<double> samples, double meanContacts) {
@@ -34,6 +48,7 @@ results::TimingRow timingRow(const std::string& phase, std::vector<double> sampl
     if (samples.empty()) return row;
     for (const double s : samples) row.total += s;
     if (const auto interval = medianInterval(samples)) row.low = interval->low, row.high = interval->high;
+    describeAfterFirst(samples, row);
     std::sort(samples.begin(), samples.end());
     row.median = quantile(samples, 0.5), row.p10 = quantile(samples, 0.1), row.p90 = quantile(samples, 0.9);
     return row;
@@ -56,6 +71,7 @@ class Stopwatch {
         const double contacts =
             counted_ > 0 ? contacts_ / static_cast<double>(counted_) : recordedContacts(trajectory);
         std::vector<results::TimingRow> rows{timingRow("step", steps_, contacts)};
+        if (rows[0].mean && *rows[0].mean > 0.0) rows[0].realTimeFactor = trajectory.dt / *rows[0].mean;
         for (const auto& [phase, samples] : phases_) rows.push_back(timingRow(phase, samples, contacts));
         return rows;
     }

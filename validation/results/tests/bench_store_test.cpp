@@ -141,6 +141,9 @@ TEST(BenchStore, ARunOfTheSchemaBeforeHasNone) {
                                   "bench_cases", "bench_settings"})
             database.exec(std::string("DROP TABLE ") + table);
         database.exec("ALTER TABLE engines DROP COLUMN package");
+        database.exec("ALTER TABLE scenarios DROP COLUMN reference_outcome");
+        for (const char* column : {"first", "mean", "p95", "p99", "worst", "real_time_factor", "non_finite"})
+            database.exec(std::string("ALTER TABLE timings DROP COLUMN ") + column);
         database.exec("ALTER TABLE cases DROP COLUMN refusal");
         for (const char* column : {"grade", "graded_by", "relative_error", "ideal_error", "grade_note",
                                    "regression", "regression_reason"})

@@ -65,7 +65,8 @@ inline CaseRow caseRow(const std::string& id, std::int64_t position) {
                   {"inertia", "block", 1.0, 2.0, 1.0, false}};
     c.audit = {
         {"bullet", "completed", 20, 40, 10, 1, 2, 3, 1e-3, {}, kDenormal, -0.0, {}, "block|floor", "note"}};
-    c.timings = {{"step", 1e-6, 5e-7, 2e-6, 0.5, 360, 4.0, 0.1 + 0.2, kDenormal, 7},
+    c.timings = {{"step", 1e-6, 5e-7, 2e-6, 0.5, 360, 4.0, 0.1 + 0.2, kDenormal, 7, 4e-4, 1.1e-6, kDenormal,
+                  2e-6, kInf, 1e4},
                  {"build", 1e-6, 5e-7, 2e-6, 0.5, 1, 4.0}};
     c.accuracy = {Grade::D, "position_final", 0.1 / 3.0, {}, "why not"};
     c.regression = Regression::Worse, c.regressionReason = "position_final 0.2 -> 0.3 m";
@@ -86,6 +87,7 @@ inline Run header() {
     s.reference = "sliding_stop", s.referenceTitle = "rt", s.referenceFormula = "x = v0 t - mu g t^2 / 2";
     s.referenceTex = "x = v_0 t - \\tfrac12 \\mu g t^2", s.referenceSource = "rs", s.referenceProblem = "",
     s.text = "{\"rigor\": 1}";
+    s.referenceOutcome = "holds";
     run.scenarios = {s};
     run.plannedCases = 3;
     return run;

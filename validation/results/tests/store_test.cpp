@@ -62,9 +62,9 @@ void expectSameMeasured(const CaseRow& a, const CaseRow& b) {
     for (std::size_t i = 0; i < a.timings.size(); ++i) {
         const TimingRow &m = a.timings[i], &n = b.timings[i];
         EXPECT_EQ(std::tie(m.phase, m.median, m.p10, m.p90, m.total, m.samples, m.meanContacts, m.low, m.high,
-                           m.bodies),
+                           m.bodies, m.first, m.mean, m.p95, m.p99, m.worst, m.realTimeFactor),
                   std::tie(n.phase, n.median, n.p10, n.p90, n.total, n.samples, n.meanContacts, n.low, n.high,
-                           n.bodies));
+                           n.bodies, n.first, n.mean, n.p95, n.p99, n.worst, n.realTimeFactor));
     }
 }
 
@@ -151,12 +151,13 @@ TEST(Store, EveryFieldSurvivesBitForBit) {
     EXPECT_EQ(read.engines[0].capabilities, R"({"capabilities":{"planar":true}})");
     ASSERT_EQ(read.scenarios.size(), 1u);
     const ScenarioRow &s = asked.scenarios[0], &r = read.scenarios[0];
-    EXPECT_EQ(std::tie(s.name, s.title, s.description, s.source, s.isolates, s.tags, s.observed, s.metrics,
-                       s.dimension, s.duration, s.timeSteps, s.reference, s.referenceTitle,
-                       s.referenceFormula, s.referenceTex, s.referenceSource, s.referenceProblem, s.text),
-              std::tie(r.name, r.title, r.description, r.source, r.isolates, r.tags, r.observed, r.metrics,
-                       r.dimension, r.duration, r.timeSteps, r.reference, r.referenceTitle,
-                       r.referenceFormula, r.referenceTex, r.referenceSource, r.referenceProblem, r.text));
+    EXPECT_EQ(
+        std::tie(s.name, s.title, s.description, s.source, s.isolates, s.tags, s.observed, s.metrics,
+                 s.dimension, s.duration, s.timeSteps, s.reference, s.referenceTitle, s.referenceFormula,
+                 s.referenceTex, s.referenceSource, s.referenceProblem, s.text, s.referenceOutcome),
+        std::tie(r.name, r.title, r.description, r.source, r.isolates, r.tags, r.observed, r.metrics,
+                 r.dimension, r.duration, r.timeSteps, r.reference, r.referenceTitle, r.referenceFormula,
+                 r.referenceTex, r.referenceSource, r.referenceProblem, r.text, r.referenceOutcome));
     ASSERT_EQ(read.cases.size(), 1u);
     expectSame(caseRow("a", 0), read.cases[0]);
 }
@@ -253,11 +254,49 @@ TEST(Store, AnalysisIsReplacedAsAWhole) {
 }
 
 void takeBackGrades(SQLite::Database& database) {
+    database.exec("ALTER TABLE scenarios DROP COLUMN reference_outcome");
+    for (const char* column : {"first", "mean", "p95", "p99", "worst", "real_time_factor"})
+        database.exec(std::string("ALTER TABLE timings DROP COLUMN ") + column);
+    database.exec("UPDATE metrics SET value = 'nan' WHERE non_finite = 'value is not a number'");
+    for (const char* table : {"metrics", "quantities", "read_back", "audit", "timings", "orders", "fairness"})
+        database.exec(std::string("ALTER TABLE ") + table + " DROP COLUMN non_finite");
     for (const char* column : {"grade", "graded_by", "relative_error", "ideal_error", "grade_note",
                                "regression", "regression_reason"})
         database.exec(std::string("ALTER TABLE cases DROP COLUMN ") + column);
     for (const char* column : {"scale", "relative_error", "ideal_error", "recorded"})
         database.exec(std::string("ALTER TABLE metrics DROP COLUMN ") + column);
+}
+
+/// A text among numbers makes pandas take the whole column for objects.
+TEST(Store, WhatIsNotFiniteIsNullAndNamed) {
+    const TemporaryFolder folder;
+    CaseRow c = caseRow("a", 0);
+    c.readBack[0].error = sample::kNanValue;
+    {
+        RunWriter writer(folder.path(), false);
+        writer.writeHeader(header());
+        writer.writeCase(c);
+    }
+    SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READONLY);
+    for (const char* column : {"value", "at", "bound", "expectation"})
+        EXPECT_EQ(database
+                      .execAndGet(std::string("SELECT count(*) FROM metrics WHERE typeof(") + column +
+                                  ") = 'text' OR abs(" + column + ") > 1e308")
+                      .getInt(),
+                  0)
+            << column;
+    const auto reasonOf = [&](const std::string& table, int ordinal) {
+        return database
+            .execAndGet("SELECT non_finite FROM " + table + " WHERE ordinal = " + std::to_string(ordinal))
+            .getString();
+    };
+    EXPECT_EQ(reasonOf("metrics", 0), "relative_error is infinite");
+    EXPECT_EQ(reasonOf("metrics", 1), "value is not a number");
+    EXPECT_EQ(reasonOf("metrics", 2), "value is infinite; bound is minus infinite");
+    EXPECT_EQ(reasonOf("quantities", 1), "measured is not a number");
+    EXPECT_EQ(reasonOf("read_back", 0), "error is not a number");
+    EXPECT_EQ(reasonOf("timings", 0), "worst is infinite");
+    EXPECT_TRUE(std::isnan(readRun(folder.path()).cases.at(0).readBack.at(0).error));
 }
 
 /// Makes the store what an older rigor would have written.
@@ -332,6 +371,10 @@ TEST(Store, WhatOlderSchemasLackedIsEmpty) {
         EXPECT_EQ(run.cases[0].accuracy.grade, Grade::None);
         EXPECT_EQ(run.cases[0].regression, Regression::NoRecord);
         EXPECT_EQ(run.cases[0].metrics.at(0).relative, std::nullopt);
+        EXPECT_EQ(timing.mean, std::nullopt);
+        EXPECT_EQ(timing.worst, std::nullopt);
+        EXPECT_EQ(run.scenarios[0].referenceOutcome, "");
+        EXPECT_TRUE(std::isnan(run.cases.at(0).metrics.at(1).value)) << "the text nan";
     };
     expectOld(2);
     { RunWriter(folder.path(), true); }

@@ -9,6 +9,7 @@ import type { Maybe, Stored } from '../common/format.ts';
 export type Shown =
   | 'pass'
   | 'no_bound'
+  | 'no_reference'
   | 'known_deviation'
   | 'fail'
   | 'non_finite'
@@ -64,6 +65,11 @@ export interface Step {
   contacts: Stored; // mean number of contacts
   bodies?: number; // that move; 0: not stored
   phases?: Record<string, Stored>; // medians
+  first?: Maybe; // the first step; the following are of all others
+  mean?: Maybe;
+  p99?: Maybe;
+  worst?: Maybe;
+  realTimeFactor?: Maybe; // dt over the mean
 }
 
 /** Contacts that a run acted upon, against the exact oracle. */
@@ -329,6 +335,12 @@ export interface Timing {
   samples: number;
   meanContacts: Stored;
   bodies?: number;
+  first?: Maybe; // the first sample; the following are of all others
+  mean?: Maybe;
+  p95?: Maybe;
+  p99?: Maybe;
+  worst?: Maybe;
+  realTimeFactor?: Maybe; // dt over the mean of a step
 }
 
 export interface BodyCurve {

@@ -18,8 +18,12 @@ function cell(s: Scenario, column: Column, first: boolean): HTMLElement {
     t.low !== undefined && t.low !== null
       ? `95 % interval ${duration(t.low)} to ${duration(t.high)}`
       : `10 % ${duration(t.p10)}, 90 % ${duration(t.p90)}`;
+  const mean =
+    t.mean !== undefined && t.mean !== null
+      ? `mean ${duration(t.mean)}, 99 % ${duration(t.p99 ?? null)}, worst ${duration(t.worst ?? null)}, first step apart ${duration(t.first ?? null)}, ${format(t.realTimeFactor ?? null, 3)} × real time, `
+      : '';
   const title =
-    `median ${full(t.median)} s per step, ${interval}, ${t.samples} steps, ${format(t.contacts)} contacts on average; ` +
+    `median ${full(t.median)} s per step, ${interval}, ${mean}${t.samples} steps, ${format(t.contacts)} contacts on average; ` +
     `${s.main.name} ${full(found.value)} ${s.main.unit}`;
   const accuracy = el(
     'span',

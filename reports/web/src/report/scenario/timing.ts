@@ -12,6 +12,7 @@ export function caseTiming({ scenario, cases }: Context): HTMLElement | null {
   const timed = cases.filter((c) => c.timings.length);
   if (timed.length === 0) return null;
   const hasInterval = timed.some((c) => c.timings.some((t) => (t.low ?? null) !== null));
+  const hasMean = timed.some((c) => c.timings.some((t) => (t.mean ?? null) !== null));
   const main = (c: Case) =>
     c.metrics.find((m) => m.name === scenario.main.name && m.subject === '') ??
     c.metrics.find((m) => m.name === scenario.main.name);
@@ -25,6 +26,16 @@ export function caseTiming({ scenario, cases }: Context): HTMLElement | null {
       hasInterval ? [durationCell(t.low ?? null), durationCell(t.high ?? null)] : null,
       durationCell(t.p10),
       durationCell(t.p90),
+      hasMean
+        ? [
+            durationCell(t.first ?? null),
+            durationCell(t.mean ?? null),
+            durationCell(t.p95 ?? null),
+            durationCell(t.p99 ?? null),
+            durationCell(t.worst ?? null),
+            numberCell(t.realTimeFactor ?? null),
+          ]
+        : null,
       durationCell(t.total),
       el('td', { class: 'num' }, t.samples),
       numberCell(t.meanContacts),
@@ -32,6 +43,7 @@ export function caseTiming({ scenario, cases }: Context): HTMLElement | null {
       el('td', null, first ? chip(c.shown) : ''),
     );
   const interval = hasInterval ? ['95 % from', 'to'] : [];
+  const means = hasMean ? ['First', 'Mean', '95 %', '99 %', 'Worst', '× real time'] : [];
   const heads = [
     'Engine',
     'Phase',
@@ -39,6 +51,7 @@ export function caseTiming({ scenario, cases }: Context): HTMLElement | null {
     ...interval,
     '10 %',
     '90 %',
+    ...means,
     'Total',
     'Samples',
     'Contacts',
@@ -48,6 +61,13 @@ export function caseTiming({ scenario, cases }: Context): HTMLElement | null {
   return panel(
     'case-timing',
     'Cost, beside accuracy',
+    hasMean
+      ? el(
+          'p',
+          { class: 'muted small' },
+          'Mean, 95 %, 99 % and worst are of all steps but the first, which stands apart; × real time is the time step over the mean.',
+        )
+      : null,
     scroll(
       el(
         'table',
