@@ -81,7 +81,7 @@ validation::SceneRequest::Scene loadScene(const std::string& name, int size, con
         overrides.push_back("size=" + std::to_string(size));
         arguments += " --size " + std::to_string(size);
     }
-    auto loaded = loadWithReference(name, overrides, false);
+    auto loaded = loadWithReference(name, overrides, {});
     if (!a.dt.empty()) arguments += " --dt " + a.dt;
     return {std::move(loaded.scenario), std::move(loaded.text), std::move(arguments)};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -10,27 +11,30 @@
 namespace rigor::cli {
 namespace {
 
-int checkFiles(const std::vector<std::string>& files, const std::vector<std::string>& overrides, bool json) {
+struct Arguments {
+    std::vector<std::string> files, overrides;
+    validation::ReferenceLimits referenceLimits;
+    bool json = false;
+};
+
+int checkFiles(const Arguments& a) {
     std::vector<scenario::Problem> problems;
-    for (const auto& file : files) {
+    for (const auto& file : a.files) {
         try {
-            const auto loaded = loadWithReference(file, overrides, true);
-            if (!json) std::printf("%s: ok (%s)\n", file.c_str(), loaded.scenario.name.c_str());
+            const auto loaded = loadWithReference(file, a.overrides, a.referenceLimits, true);
+            if (!a.json) std::printf("%s: ok (%s)\n", file.c_str(), loaded.scenario.name.c_str());
         } catch (const scenario::LoadError& error) {
             problems.insert(problems.end(), error.problems().begin(), error.problems().end());
         }
     }
-    if (json || !problems.empty()) printProblems(scenario::LoadError(problems), json);
-    return problems.empty() ? kOk : kBadInput;
+    if (a.json || !problems.empty()) printProblems(scenario::LoadError(problems), a.json);
+    if (problems.empty()) return kOk;
+    return std::all_of(problems.begin(), problems.end(), isBrokenReference) ? kNoReference : kBadInput;
 }
 
 }  // namespace
 
 void addCheck(CLI::App& app, Action& action) {
-    struct Arguments {
-        std::vector<std::string> files, overrides;
-        bool json = false;
-    };
     auto arguments = std::make_shared<Arguments>();
     auto* command = app.add_subcommand("check", "Validate scenario files: schema, meaning, reference");
     command->add_option("FILE", arguments->files, "Scenario files or names")->required();
@@ -38,9 +42,11 @@ void addCheck(CLI::App& app, Action& action) {
         ->add_option("--set", arguments->overrides, "Override a value: KEY=VALUE, e.g. bodies.block.mass=2")
         ->allow_extra_args(false);
     command->add_flag("--json", arguments->json, "Problems as a JSON array on stdout");
-    command->callback([arguments, &action] {
-        action = [arguments] { return checkFiles(arguments->files, arguments->overrides, arguments->json); };
-    });
+    addReferenceLimit(*command, arguments->referenceLimits);
+    command->footer(
+        "Exit codes: 0 all is well, 2 bad input, 6 a reference did not finish, ran out of memory or "
+        "crashed.");
+    command->callback([arguments, &action] { action = [arguments] { return checkFiles(*arguments); }; });
 }
 
 }  // namespace rigor::cli

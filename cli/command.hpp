@@ -10,12 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "validation/runner/reference_guard.hpp"
+
 namespace CLI {
 class App;
 }
 namespace rigor::scenario {
 class LoadError;
 struct LoadedScenario;
+struct Problem;
 }  // namespace rigor::scenario
 
 namespace rigor::cli {
@@ -28,6 +31,7 @@ enum ExitCode : int {
     kInternal = 3,      ///< the environment or Rigor itself failed
     kUnsupported = 4,   ///< `run`: the engine lacks what the scenario needs
     kCrashed = 5,       ///< `run`: the engine crashed
+    kNoReference = 6,   ///< nothing is red, but a reference did not finish, ran out of memory or crashed
     kInterrupted = 130  ///< Ctrl-C; `validate --resume` goes on
 };
 
@@ -65,12 +69,18 @@ int terminalColumns(int fileDescriptor);
 /// "0.004", "1/240": a time step in seconds. Throws std::invalid_argument.
 double parseTimeStep(const std::string& text);
 
-/// A scenario of the library or a file, with its reference checked: its name and its bodies always. Values
-/// for which the reference does not hold are an error when `assumptionsMustHold`, else a line on stderr.
-/// Throws LoadError.
+/// A scenario of the library or a file, and what became of its reference, which is computed in a child with
+/// limits. Throws LoadError for an unknown reference and wrong parameters. Values for which the reference
+/// does not hold, and a reference that breaks down, are told on stderr; with `mustHold` they are LoadErrors,
+/// of which `isBrokenReference` tells the second kind.
 scenario::LoadedScenario loadWithReference(const std::string& nameOrFile,
                                            const std::vector<std::string>& overrides,
-                                           bool assumptionsMustHold);
+                                           const validation::ReferenceLimits& limits, bool mustHold = false,
+                                           validation::ReferenceCheck* found = nullptr);
+bool isBrokenReference(const scenario::Problem& problem);
+
+/// --reference-limit SECONDS
+void addReferenceLimit(CLI::App& command, validation::ReferenceLimits& limits);
 
 /// Whether `--set` changed more than the acceptance bounds: simulation and reference follow the new values,
 /// the bounds in the file were measured at its own.

@@ -23,7 +23,7 @@ struct Arguments {
 };
 
 int freeze(const Arguments& a) {
-    const auto loaded = loadWithReference(a.scenario, a.overrides, false);
+    const auto loaded = loadWithReference(a.scenario, a.overrides, {});
     validation::FreezeRequest request;
     request.scenarioText = loaded.text, request.scenarioName = loaded.scenario.name;
     request.spec = validation::withScenarioSettings(adapter::parseSpec(a.engine), loaded.text);

@@ -1,34 +1,69 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
-#include "validation/references/reference.hpp"
 
 namespace rigor::cli {
+namespace {
+
+using validation::ReferenceOutcome;
+
+/// "reference.timeout" of "reference_timeout".
+std::string problemId(ReferenceOutcome outcome) {
+    std::string id = validation::referenceOutcomeName(outcome);
+    std::replace(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(id.find('_') + 1), '_', '.');
+    return id;
+}
+
+const char* expectedOf(ReferenceOutcome outcome) {
+    switch (outcome) {
+        case ReferenceOutcome::Assumption:
+            return "values for which the reference holds";
+        case ReferenceOutcome::Timeout:
+            return "an answer in that time; --reference-limit SECONDS gives it more";
+        case ReferenceOutcome::Invalid:
+            return "a reference of `rigor list references`";
+        default:
+            return "an answer";
+    }
+}
+
+}  // namespace
 
 scenario::LoadedScenario loadWithReference(const std::string& nameOrFile,
                                            const std::vector<std::string>& overrides,
-                                           bool assumptionsMustHold) {
+                                           const validation::ReferenceLimits& limits, bool mustHold,
+                                           validation::ReferenceCheck* found) {
     const auto path = scenario::findScenario(nameOrFile);
     auto loaded = scenario::loadScenario(path, overrides);
-    const auto problem = [&](const char* id, const std::exception& error, const char* expected) {
-        return scenario::Problem{id,           path.string(), "/reference", loaded.referenceLine,
-                                 error.what(), expected};
-    };
-    try {
-        (void)validation::makeReference(loaded.scenario);
-    } catch (const validation::AssumptionViolated& error) {
-        const auto violated = problem("reference.assumption", error, "values for which the reference holds");
-        if (assumptionsMustHold) throw scenario::LoadError({violated});
-        std::fprintf(stderr, "%s; it runs without a reference\n", violated.text().c_str());
-    } catch (const std::invalid_argument& error) {
-        throw scenario::LoadError(
-            {problem("reference.invalid", error, "a reference of `rigor list references`")});
-    }
+    const auto check = validation::checkReference(
+        {loaded.text, loaded.scenario.name, loaded.scenario.reference.has_value()}, limits, ownBinary());
+    if (found != nullptr) *found = check;
+    if (check.problem.empty()) return loaded;
+    const scenario::Problem problem{problemId(check.outcome), path.string(), "/reference",
+                                    loaded.referenceLine,     check.problem, expectedOf(check.outcome)};
+    if (mustHold || check.outcome == ReferenceOutcome::Invalid) throw scenario::LoadError({problem});
+    std::fprintf(stderr, "%s; it runs without a reference\n", problem.text().c_str());
     return loaded;
+}
+
+bool isBrokenReference(const scenario::Problem& problem) {
+    return problem.id == problemId(ReferenceOutcome::Timeout) ||
+           problem.id == problemId(ReferenceOutcome::OutOfMemory) ||
+           problem.id == problemId(ReferenceOutcome::Crashed);
+}
+
+void addReferenceLimit(CLI::App& command, validation::ReferenceLimits& limits) {
+    command
+        .add_option(
+            "--reference-limit", limits.seconds,
+            "Time that the reference of a scenario may take [s] (default 20); beyond it the case runs "
+            "without one")
+        ->check(CLI::PositiveNumber);
 }
 
 bool setsMoreThanBounds(const std::vector<std::string>& overrides) {

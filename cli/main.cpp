@@ -20,6 +20,7 @@ namespace {
 constexpr const char* kFooter =
     "Exit codes: 0 done and green, 1 something in the run is red, 2 bad command line or input file,\n"
     "            3 internal error, 4 the engine lacks what the scenario needs, 5 the engine crashed,\n"
+    "            6 nothing is red, but a reference did not finish, ran out of memory or crashed,\n"
     "            130 interrupted (a run can be resumed).\n"
     "The launcher ./rigor builds first; ./rigor test builds and runs the tests.\n"
     "Engines are named by a spec: bullet, ode:stepper=quickstep,iterations=50, "

@@ -19,6 +19,7 @@ namespace {
 struct Arguments {
     std::string study, out;
     std::vector<std::string> parts;
+    validation::ReferenceLimits referenceLimits;
     int jobs = 1;
     bool resume = false, audit = false, json = false, quiet = false;
 };
@@ -46,15 +47,19 @@ scenario::Study chosenParts(scenario::Study study, const std::vector<std::string
 
 int runStudy(const Arguments& a) {
     const auto study = chosenParts(scenario::loadStudy(scenario::findStudy(a.study)), a.parts);
+    validation::RunOptions options;
+    options.referenceLimits = a.referenceLimits;
     auto plan = validation::planStudy(
         study,
-        [](const std::string& name, const std::vector<std::string>& set) {
-            return loadWithReference(name, set, false);
+        [&](const std::string& name, const std::vector<std::string>& set) {
+            validation::ReferenceCheck reference;
+            auto loaded = loadWithReference(name, set, a.referenceLimits, false, &reference);
+            options.references[loaded.scenario.name] = reference;
+            return loaded;
         },
         [](const std::string& engine) { return validation::describeEngine(engine, ownBinary()).options; });
     validation::checkPlan(plan.cases, ownBinary());
 
-    validation::RunOptions options;
     options.directory = chooseRunFolder(a.out, a.resume, study.name);
     prepareRunFolder(options.directory, a.resume);
     options.binary = ownBinary(), options.jobs = a.jobs, options.resume = a.resume;
@@ -99,6 +104,7 @@ void addStudy(CLI::App& app, Action& action) {
     command->add_option("--out", a->out, "Run folder (default: runs/<study>-<time>)");
     command->add_option("-j,--jobs", a->jobs, "Cases at a time (default 1: timings are taken alone)")
         ->check(CLI::Range(1, 1024));
+    addReferenceLimit(*command, a->referenceLimits);
     command->add_flag("--resume", a->resume, "Go on with an interrupted run (--out, or the latest)");
     command->add_flag("--audit", a->audit,
                       "Also the contact audit of `validate` (on where a column needs it)");

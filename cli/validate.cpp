@@ -29,6 +29,7 @@ struct Arguments {
     std::vector<std::string> what, overrides, timeSteps;
     std::string engines, out, baseline;
     int jobs = 0;
+    validation::ReferenceLimits referenceLimits;
     bool resume = false, noAudit = false, json = false, quiet = false;
 };
 
@@ -45,12 +46,15 @@ struct Selection {
     std::vector<std::pair<scenario::Scenario, std::string>> scenarios;
     std::vector<std::string> engines;
     std::vector<double> timeSteps;
+    std::map<std::string, validation::ReferenceCheck> references;
     std::string title;
 };
 
-void addScenario(Selection& selection, const std::string& name, const std::vector<std::string>& overrides,
+void addScenario(Selection& selection, const std::string& name, const Arguments& arguments,
                  int maxTimeSteps) {
-    auto loaded = loadWithReference(name, overrides, false);
+    validation::ReferenceCheck reference;
+    auto loaded = loadWithReference(name, arguments.overrides, arguments.referenceLimits, false, &reference);
+    selection.references[loaded.scenario.name] = reference;
     for (const auto& present : selection.scenarios) {
         if (present.first.name != loaded.scenario.name) continue;
         if (present.second == loaded.text) return;
@@ -73,12 +77,12 @@ Selection select(const Arguments& arguments) {
     for (const auto& name : arguments.what) {
         selection.title += (selection.title.empty() ? "" : " ") + fs::path(name).stem().string();
         if (!isSuite(name)) {
-            addScenario(selection, name, arguments.overrides, 0);
+            addScenario(selection, name, arguments, 0);
             continue;
         }
         const auto suite = scenario::loadSuite(scenario::findSuite(name));
         for (const auto& scenarioName : suite.scenarios)
-            addScenario(selection, scenarioName, arguments.overrides, suite.maxTimeSteps);
+            addScenario(selection, scenarioName, arguments, suite.maxTimeSteps);
         selection.engines.insert(selection.engines.end(), suite.engines.begin(), suite.engines.end());
         selection.timeSteps.insert(selection.timeSteps.end(), suite.timeSteps.begin(), suite.timeSteps.end());
     }
@@ -186,6 +190,7 @@ int validate(const Arguments& given) {
     options.audit = !arguments.noAudit;
     options.records = recordedFolder();
     options.suite = selection.title;
+    options.referenceLimits = arguments.referenceLimits, options.references = selection.references;
     options.command = ownCommandLine();
 
     if (options.resume) checkResumed(options.directory, plan);
@@ -210,6 +215,7 @@ int validate(const Arguments& given) {
                                     [](const auto& c) { return c.verdict == results::Verdict::Fail; });
     if (misses && setsMoreThanBounds(arguments.overrides)) std::fprintf(stderr, "note: %s\n", kBoundsNote);
     const bool worse = !arguments.baseline.empty() && becameWorseThan(arguments.baseline, options.directory);
+    if (!worse && validation::lacksReferencesAlone(run)) return kNoReference;
     return green && !worse ? kOk : kRed;
 }
 
@@ -235,6 +241,7 @@ void addValidate(CLI::App& app, Action& action) {
     command->add_flag("--resume", a->resume, "Go on with an interrupted run (--out, or the latest)");
     command->add_option("--baseline", a->baseline,
                         "Also compare with an earlier run, or with 'recorded'; worse is red");
+    addReferenceLimit(*command, a->referenceLimits);
     command->add_flag("--no-audit", a->noAudit, "Leave out the contact audit");
     command->add_flag("--json", a->json, "Print the results as JSON");
     command->add_flag("-q,--quiet", a->quiet, "No progress");

@@ -80,7 +80,7 @@ int viewRun(const Arguments& a) {
 }
 
 int viewScenario(const Arguments& a) {
-    const auto loaded = loadWithReference(a.what, a.overrides, false);
+    const auto loaded = loadWithReference(a.what, a.overrides, {});
     const std::vector<adapter::EngineSpec> specs = adapter::parseSpecList(a.engines);
     validation::checkSpecs(specs, ownBinary());
     if (specs.size() > validation::Session::kMostLanes)

@@ -146,6 +146,13 @@ std::string trustSection(const ViewModel& view) {
            "took part in, its error over the best engine's and over the in-house one's (geometric means).\n";
 }
 
+/// Scenarios whose reference broke down: the engines ran, and nobody could say how well.
+std::string withoutReferences(const ViewModel& view) {
+    std::string out;
+    for (const auto& line : missingReferences(view.run())) out += "- " + markdownCell(line) + "\n";
+    return out.empty() ? "" : "\n**References that could not be computed** (no engine is to blame)\n\n" + out;
+}
+
 std::string headline(const ViewModel& view) {
     const auto& run = view.run();
     const auto planned = std::max<std::int64_t>(run.plannedCases, view.totals().total);
@@ -177,8 +184,8 @@ std::string markdownSummary(const ViewModel& view) {
                             "\n\nThe authors of this comparison wrote one of the engines in it (rigor).\n";
     std::string out = headline(view);
     // What tells most comes first, and takes its room first; the scoreboard gets what is left.
-    for (const auto& section : {benchMarkdown(view.run()), trustSection(view), offenderList(view),
-                                refusalSection(view), ordersMarkdown(view)})
+    for (const auto& section : {benchMarkdown(view.run()), withoutReferences(view), trustSection(view),
+                                offenderList(view), refusalSection(view), ordersMarkdown(view)})
         if (out.size() + section.size() + end.size() <= kMostBytes) out += section;
     return out + scoreboardSection(view, kMostBytes - std::min(kMostBytes, out.size() + end.size())) + end;
 }

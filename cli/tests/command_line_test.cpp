@@ -265,6 +265,31 @@ TEST(CommandLine, UnknownEnginesKeysAndValuesStopEverythingBeforeItBegins) {
         << precision.out;
 }
 
+/// No reference can be computed in a tenth of a millisecond, which a process needs to begin.
+TEST(CommandLine, AReferenceThatDoesNotFinishIsToldByItsName) {
+    const auto folder = freshFolder("slow_reference");
+    const auto run = (folder / "run").string(), limit = std::string(" --reference-limit 1e-4");
+    const std::string sentence = "the reference did not finish within 0.0001 s";
+    const Result check = rigor("check bouncing_ball" + limit);
+    EXPECT_EQ(check.code, 6) << check.out;
+    EXPECT_NE(check.out.find(sentence), std::string::npos) << check.out;
+    EXPECT_NE(check.out.find("reference.timeout"), std::string::npos) << check.out;
+    const Result once = rigor("run bouncing_ball" + limit);
+    EXPECT_EQ(once.code, 6) << once.out;
+    EXPECT_NE(once.out.find("no reference: reference_timeout: " + sentence), std::string::npos) << once.out;
+    const Result all =
+        rigor("validate bouncing_ball --no-audit -q --dt 1/60 --engines rigor --out " + run + limit);
+    EXPECT_EQ(all.code, 6) << all.out;
+    EXPECT_NE(all.out.find("no reference: bouncing_ball: reference_timeout"), std::string::npos) << all.out;
+    std::ifstream in(run + "/summary.md");
+    const std::string summary{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_NE(summary.find(sentence), std::string::npos);
+    EXPECT_EQ(rigor("check bouncing_ball").code, 0);
+    EXPECT_EQ(rigor("check bouncing_ball --reference-limit 0").code, 2);
+    EXPECT_EQ(rigor("check bouncing_ball no_such_file" + limit).code, 2)
+        << "what is wrong outranks what is slow";
+}
+
 TEST(CommandLine, TwoScenariosOfOneNameAreRefused) {
     const auto folder = freshFolder("same_name");
     const auto one = (folder / "one.json").string(), two = (folder / "two.json").string();

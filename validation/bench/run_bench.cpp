@@ -121,7 +121,9 @@ class BenchInProgress {
         RunOptions as;
         as.directory = directory_, as.binary = options_.binary, as.jobs = 1;
         as.suite = options_.suite, as.command = options_.command;
-        results::Run run = runHeader(scenariosOf(work_), as, describeEngines(engines, options_.binary, 1));
+        const auto plan = scenariosOf(work_);
+        results::Run run =
+            runHeader(plan, as, describeEngines(engines, options_.binary, 1), plannedReferences(plan, as));
         run.plannedCases = 0;
         return run;
     }

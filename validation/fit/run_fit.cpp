@@ -157,11 +157,23 @@ class Fitting {
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
+/// The yardsticks ask the references in this process: they have to be known to finish.
+void requireReferences(const FitTask& task, const FitOptions& options) {
+    std::vector<ReferenceQuestion> questions;
+    for (const auto* part : {&task.train, &task.test})
+        for (const auto& s : *part)
+            questions.push_back({s.text, s.scenario.name, s.scenario.reference.has_value()});
+    const auto checks = checkReferences(questions, ReferenceLimits{}, options.binary, options.jobs);
+    for (std::size_t i = 0; i < checks.size(); ++i)
+        if (checks[i].brokeDown()) throw adapter::BadInput(questions[i].name + ": " + checks[i].text());
+}
+
 }  // namespace
 
 FitOutcome runFit(const FitTask& task, const FitOptions& options,
                   const std::function<void(const FitProgress&)>& onProgress,
                   const std::atomic<bool>& interrupted) {
+    requireReferences(task, options);
     fs::create_directories(options.directory);
     FitOutcome outcome = Fitting(task, options, onProgress, interrupted).run();
     if (!outcome.complete) return outcome;

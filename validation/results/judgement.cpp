@@ -27,6 +27,7 @@ bool isRed(const CaseRow& row) {
     switch (row.verdict) {
         case Verdict::Pass:
         case Verdict::Unsupported:
+        case Verdict::NoReference:
             return false;
         case Verdict::KnownDeviation:
             return row.engine == kInHouseEngine;

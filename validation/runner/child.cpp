@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The program runs itself again for everything that touches an engine: `__case`, `__audit`, `__describe`,
-// and what other folders of validation/ add.
+// The program runs itself again for everything that touches an engine or computes a reference: `__case`,
+// `__audit`, `__describe`, `__reference`, and what other folders of validation/ add.
 #include "validation/runner/child.hpp"
 
 #include <unistd.h>
 
 #include <cstdio>
+#include <fstream>
 #include <new>
 #include <nlohmann/json.hpp>
 
@@ -16,7 +17,9 @@
 #include "validation/runner/audit.hpp"
 #include "validation/runner/describe.hpp"
 #include "validation/runner/judge.hpp"
+#include "validation/runner/line_file.hpp"
 #include "validation/runner/live.hpp"
+#include "validation/runner/process_pool.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -50,18 +53,38 @@ CaseRow refusedRow(const json& request, const adapter::EngineSpec& spec, const a
     return row;
 }
 
-CaseRow runRequested(const json& request, const scenario::Scenario& s, const adapter::EngineSpec& spec) {
+/// From the mark on, what ends this process is the reference, which has a time of its own.
+LiveOptions optionsOf(const json& request, const ReferenceMaker& make) {
+    LiveOptions options;
+    options.makeReference = make;
+    if (request.contains("without_reference")) {
+        const json& why = request.at("without_reference");
+        options.withoutReference =
+            ReferenceCheck{parseReferenceOutcome(why.at("outcome")), why.at("problem").get<std::string>()};
+        return options;
+    }
+    options.onSimulated = [mark = request.at("simulated").get<std::string>(),
+                           seconds = numberFromJson(request.at("reference_seconds"))] {
+        std::ofstream(mark) << "\n";
+        setAlarm(seconds * timeLimitFactor());
+    };
+    return options;
+}
+
+CaseRow runRequested(const json& request, const scenario::Scenario& s, const adapter::EngineSpec& spec,
+                     const ReferenceMaker& make) {
     const double dt = numberFromJson(request.at("dt"));
-    WholeCase whole = runWholeCase(s, spec, dt, {});
+    WholeCase whole = runWholeCase(s, spec, dt, optionsOf(request, make));
     CaseRow& row = whole.live.row;
     row.id = request.at("id");
     const auto file = request.at("trajectory").get<std::string>();
     results::writeTrajectory(
         file, trajectoryFile({s, whole.live.trajectory, whole.reference.get(), whole.scheme}, row));
+    setAlarm(0.0);
     return std::move(row);
 }
 
-int caseChild(const std::filesystem::path& requestFile) {
+int caseChild(const std::filesystem::path& requestFile, const ReferenceMaker& make) {
     const auto request = readJsonFile(requestFile);
     if (!request) throw std::runtime_error(requestFile.string() + ": no request");
     const scenario::Scenario s = scenario::loadScenarioText(request->at("text").get<std::string>(),
@@ -70,7 +93,7 @@ int caseChild(const std::filesystem::path& requestFile) {
     const adapter::EngineSpec spec = adapter::parseSpec(request->at("spec").get<std::string>());
     CaseRow row;
     try {
-        row = runRequested(*request, s, spec);
+        row = runRequested(*request, s, spec, make);
     } catch (const adapter::Unsupported& error) {
         row = refusedRow(*request, spec, error);
     } catch (const std::exception& error) {
@@ -81,11 +104,13 @@ int caseChild(const std::filesystem::path& requestFile) {
     return 0;
 }
 
-int dispatch(const std::vector<std::string>& arguments, const ChildEntries& more) {
+int dispatch(const std::vector<std::string>& arguments, const ChildEntries& more,
+             const ReferenceMaker& make) {
     const std::string what = arguments.empty() ? "" : arguments[0];
     if (const auto it = more.find(what); it != more.end() && arguments.size() == 2)
         return it->second(arguments[1]);
-    if (what == "__case" && arguments.size() == 2) return caseChild(arguments[1]);
+    if (what == "__case" && arguments.size() == 2) return caseChild(arguments[1], make);
+    if (what == "__reference" && arguments.size() == 2) return referenceChild(arguments[1], make);
     if (what == "__audit" && arguments.size() == 2) return auditChild(arguments[1]);
     if (what == "__describe" && arguments.size() == 3) return describeChild(arguments[1], arguments[2]);
     std::fprintf(stderr, "rigor: '%s' is not for people\n", what.c_str());
@@ -94,11 +119,12 @@ int dispatch(const std::vector<std::string>& arguments, const ChildEntries& more
 
 }  // namespace
 
-int childMain(const std::vector<std::string>& arguments, const ChildEntries& more) {
+int childMain(const std::vector<std::string>& arguments, const ChildEntries& more,
+              const ReferenceMaker& make) {
     std::set_new_handler(onOutOfMemory);
     int code = 1;
     try {
-        code = dispatch(arguments, more);
+        code = dispatch(arguments, more, make ? make : ReferenceMaker(makeReference));
     } catch (const std::exception& error) {
         std::fprintf(stderr, "%s\n", error.what());
     }

@@ -165,10 +165,10 @@ std::vector<results::ContactSample> contactSamples(const Trajectory& t, std::siz
 
 }  // namespace
 
-ReferenceOrProblem referenceOf(const Scenario& scenario) {
+ReferenceOrProblem referenceOf(const Scenario& scenario, const ReferenceMaker& make) {
     ReferenceOrProblem result;
     try {
-        result.reference = makeReference(scenario);
+        result.reference = make ? make(scenario) : makeReference(scenario);
     } catch (const AssumptionViolated& violated) {
         result.problem = violated.what();
     } catch (const std::invalid_argument& wrong) {

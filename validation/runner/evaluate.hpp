@@ -11,6 +11,7 @@
 #include "validation/references/reference.hpp"
 #include "validation/results/trajectory_file.hpp"
 #include "validation/results/types.hpp"
+#include "validation/runner/reference_guard.hpp"
 
 namespace rigor::validation {
 
@@ -19,7 +20,8 @@ struct ReferenceOrProblem {
     std::unique_ptr<Reference> reference;
     std::string problem;  ///< "" when the reference holds, or the scenario has none
 };
-ReferenceOrProblem referenceOf(const scenario::Scenario& scenario);
+/// In this process and without a limit: for a process that has one. An empty `make` is makeReference.
+ReferenceOrProblem referenceOf(const scenario::Scenario& scenario, const ReferenceMaker& make = {});
 
 /// Fills metrics (those that matter to the scenario first), accuracy and quantities of `row`, whose engine,
 /// preset and dt are set.

@@ -6,10 +6,10 @@
 #include <set>
 
 #include "scenarios/loader/loader.hpp"
+#include "validation/references/reference.hpp"
 #include "validation/results/values.hpp"
 #include "validation/runner/describe.hpp"
 #include "validation/runner/environment.hpp"
-#include "validation/runner/evaluate.hpp"
 #include "validation/runner/shell_word.hpp"
 
 namespace rigor::validation {
@@ -21,7 +21,7 @@ fs::path storedScenario(const std::string& name, const fs::path& run) {
     return run / "scenarios" / (name + ".json");
 }
 
-results::ScenarioRow scenarioRow(const CasePlan& plan) {
+results::ScenarioRow scenarioRow(const CasePlan& plan, const ReferenceCheck& reference) {
     const scenario::Scenario& s = plan.scenario;
     results::ScenarioRow row;
     row.name = s.name, row.title = s.title, row.description = s.description, row.source = s.source;
@@ -29,12 +29,13 @@ results::ScenarioRow scenarioRow(const CasePlan& plan) {
     for (const int body : s.observed) row.observed.push_back(s.bodies[static_cast<std::size_t>(body)].name);
     row.dimension = s.dimension, row.duration = s.duration, row.timeSteps = s.timeSteps;
     row.text = plan.scenarioText;
+    row.referenceOutcome = referenceOutcomeName(reference.outcome);
     if (!s.reference) return row;
     row.reference = s.reference->name;
     if (const ReferenceEntry* entry = findReference(s.reference->name); entry != nullptr)
         row.referenceTitle = entry->title, row.referenceFormula = entry->formula,
         row.referenceTex = entry->tex, row.referenceSource = entry->source;
-    row.referenceProblem = referenceOf(s).problem;
+    row.referenceProblem = reference.problem;
     return row;
 }
 
@@ -74,8 +75,21 @@ void writeScenarioFiles(const std::vector<CasePlan>& plan, const fs::path& run) 
     }
 }
 
+std::map<std::string, ReferenceCheck> plannedReferences(const std::vector<CasePlan>& plan,
+                                                        const RunOptions& options) {
+    auto references = options.references;
+    std::vector<ReferenceQuestion> questions;
+    for (const CasePlan& c : plan)
+        if (references.emplace(c.scenario.name, ReferenceCheck{}).second)
+            questions.push_back({c.scenarioText, c.scenario.name, c.scenario.reference.has_value()});
+    const auto checks = checkReferences(questions, options.referenceLimits, options.binary, options.jobs);
+    for (std::size_t i = 0; i < questions.size(); ++i) references[questions[i].name] = checks[i];
+    return references;
+}
+
 results::Run runHeader(const std::vector<CasePlan>& plan, const RunOptions& options,
-                       const std::vector<EngineDescription>& engines) {
+                       const std::vector<EngineDescription>& engines,
+                       const std::map<std::string, ReferenceCheck>& references) {
     results::Run run;
     run.suite = options.suite, run.command = options.command, run.started = isoTime();
     run.environment = describeEnvironment();
@@ -88,7 +102,8 @@ results::Run runHeader(const std::vector<CasePlan>& plan, const RunOptions& opti
     }
     std::set<std::string> seen;
     for (const CasePlan& c : plan)
-        if (seen.insert(c.scenario.name).second) run.scenarios.push_back(scenarioRow(c));
+        if (seen.insert(c.scenario.name).second)
+            run.scenarios.push_back(scenarioRow(c, references.at(c.scenario.name)));
     run.plannedCases = static_cast<std::int64_t>(plan.size());
     return run;
 }

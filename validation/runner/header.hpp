@@ -8,9 +8,15 @@
 
 namespace rigor::validation {
 
+/// What there is to know of the reference of every scenario of a plan, by its name: what the options have,
+/// and for the others what a child finds.
+std::map<std::string, ReferenceCheck> plannedReferences(const std::vector<CasePlan>& plan,
+                                                        const RunOptions& options);
+
 /// Engines of the plan and auditors, scenarios in plan order, environment.
 results::Run runHeader(const std::vector<CasePlan>& plan, const RunOptions& options,
-                       const std::vector<EngineDescription>& engines);
+                       const std::vector<EngineDescription>& engines,
+                       const std::map<std::string, ReferenceCheck>& references);
 
 /// The command that prints the numbers of a case again. `fromLibrary`: the scenario is the library's own of
 /// that name, otherwise the file stored with the run is named.

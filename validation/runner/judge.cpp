@@ -146,8 +146,28 @@ void judgeCase(CaseRow& row, const Scenario& scenario) {
         judgeEnding(row, scenario);
 }
 
+namespace {
+
+bool lacksReference(const CaseRow& c) {
+    return c.verdict == Verdict::NoReference;
+}
+
+}  // namespace
+
 bool runIsGreen(const results::Run& run) {
-    return std::none_of(run.cases.begin(), run.cases.end(), results::isRed);
+    return std::none_of(run.cases.begin(), run.cases.end(),
+                        [](const CaseRow& c) { return results::isRed(c) || lacksReference(c); });
+}
+
+bool lacksReferencesAlone(const results::Run& run) {
+    return std::none_of(run.cases.begin(), run.cases.end(), results::isRed) &&
+           std::any_of(run.cases.begin(), run.cases.end(), lacksReference);
+}
+
+void judgeWithoutReference(CaseRow& row, const ReferenceCheck& check) {
+    if (row.outcome != Outcome::Completed || row.verdict == Verdict::Fail || !check.brokeDown()) return;
+    row.verdict = Verdict::NoReference;
+    row.reason = check.text();
 }
 
 }  // namespace rigor::validation

@@ -8,6 +8,7 @@
 
 #include "scenarios/model/scenario.hpp"
 #include "validation/results/judgement.hpp"
+#include "validation/runner/reference_guard.hpp"
 
 namespace rigor::validation {
 
@@ -34,5 +35,8 @@ void judgeMetric(results::MetricRow& row, const scenario::Scenario& scenario, co
 /// deviation whose metric is the outcome's name ("crashed", "timeout", ...) makes that outcome an expected
 /// one.
 void judgeCase(results::CaseRow& row, const scenario::Scenario& scenario);
+
+/// After judgeCase: a case that misses nothing, but whose reference broke down, is neither a pass nor a fail.
+void judgeWithoutReference(results::CaseRow& row, const ReferenceCheck& check);
 
 }  // namespace rigor::validation

@@ -87,7 +87,9 @@ WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec
     for (auto& timing : row.timings) timing.bodies = movingBodies(scenario);
     whole.live.trajectory = std::move(run.trajectory);
     if (run.nonFinite.empty()) {
-        whole.reference = referenceOf(scenario).reference;
+        if (options.onSimulated) options.onSimulated();
+        if (!options.withoutReference)
+            whole.reference = referenceOf(scenario, options.makeReference).reference;
         evaluateCase({scenario, whole.live.trajectory, whole.reference.get(), whole.scheme}, row);
     } else {
         row.outcome = results::Outcome::NonFinite;
@@ -95,6 +97,7 @@ WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec
     }
     row.metrics.insert(row.metrics.end(), run.costs.begin(), run.costs.end());
     judgeCase(row, scenario);
+    if (options.withoutReference) judgeWithoutReference(row, *options.withoutReference);
     row.peakMemoryKiB = peakMemoryKiB();
     row.wallSeconds = since(started);
     return whole;

@@ -64,7 +64,10 @@ void ProcessPool::start(ProcessTask task) {
 void ProcessPool::waitForEvents() {
     std::vector<pollfd> files;
     int milliseconds = 50;
+    const auto now = Clock::now();
     for (const Running& child : running_) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(child.deadline - now).count();
+        milliseconds = static_cast<int>(std::clamp<std::int64_t>(left, 1, milliseconds));
         if (child.output >= 0)
             files.push_back({child.output, POLLIN, 0});
         else

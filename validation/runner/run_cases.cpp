@@ -108,7 +108,8 @@ class RunInProgress {
 
     void prepare() {
         const auto engines = describeInvolved();
-        auto header = runHeader(plan_, options_, engines);
+        references_ = plannedReferences(plan_, options_);
+        auto header = runHeader(plan_, options_, engines, references_);
         std::vector<std::string> ids;
         for (const CasePlan& c : plan_) ids.push_back(c.id);
         std::map<std::string, CaseRow> present;
@@ -130,7 +131,7 @@ class RunInProgress {
             if (const auto it = present.find(plan_[i].id); it != present.end())
                 keep(i, it->second);
             else
-                queue(i);
+                pool_.add(taskOf(i, references_.at(plan_[i].scenario.name)));
         started_ = std::chrono::steady_clock::now();
     }
 
@@ -163,27 +164,56 @@ class RunInProgress {
         closed(plan_[index], row);
     }
 
-    void queue(std::size_t index) {
+    /// The child of a case, its request written.
+    ProcessTask taskOf(std::size_t index, const ReferenceCheck& reference) {
         const CasePlan& c = plan_[index];
         const fs::path request = scratch_.path() / (c.id + ".json"),
                        answer = scratch_.path() / (c.id + ".answer.json");
-        pool_.add({{options_.binary.string(), "__case", request.string()},
-                   {c.scenario.timeLimit, options_.memoryLimitMiB},
-                   c.scenario.name + ", " + c.spec.text(),
-                   [this, index, answer](const ProcessResult& result) { ended(index, answer, result); }});
-        writeJsonFile(request, {{"id", c.id},
-                                {"scenario", c.scenario.name},
-                                {"text", c.scenarioText},
-                                {"spec", c.spec.text()},
-                                {"dt", numberToJson(c.dt)},
-                                {"trajectory", (directory_ / trajectoryName(c.id)).string()},
-                                {"answer", answer.string()}});
+        nlohmann::json asked{{"id", c.id},
+                             {"scenario", c.scenario.name},
+                             {"text", c.scenarioText},
+                             {"spec", c.spec.text()},
+                             {"dt", numberToJson(c.dt)},
+                             {"trajectory", (directory_ / trajectoryName(c.id)).string()},
+                             {"simulated", simulatedMark(c.id).string()},
+                             {"reference_seconds", numberToJson(referenceLimitsOf(c).seconds)},
+                             {"answer", answer.string()}};
+        if (!reference.problem.empty())
+            asked["without_reference"] = {{"outcome", referenceOutcomeName(reference.outcome)},
+                                          {"problem", reference.problem}};
+        writeJsonFile(request, asked);
+        return {{options_.binary.string(), "__case", request.string()},
+                {c.scenario.timeLimit, options_.memoryLimitMiB},
+                c.scenario.name + ", " + c.spec.text(),
+                [this, index, answer](const ProcessResult& result) { ended(index, answer, result); }};
+    }
+
+    /// Of a reference within a case: all metrics are computed in that time and memory as well.
+    ReferenceLimits referenceLimitsOf(const CasePlan& c) const {
+        return {options_.referenceLimits.seconds + 0.5 * c.scenario.timeLimit, options_.memoryLimitMiB};
+    }
+
+    /// A file that a case's child makes when the engine is done and the reference is about to be asked.
+    fs::path simulatedMark(const std::string& id) const { return scratch_.path() / (id + ".simulated"); }
+
+    /// A child that died over the reference is run once more without one: the engine is not to blame.
+    bool repeatedWithoutReference(std::size_t index, const ProcessResult& result) {
+        const fs::path mark = simulatedMark(plan_[index].id);
+        if (!fs::exists(mark)) return false;
+        std::error_code ignored;
+        fs::remove(mark, ignored);
+        if (result.exitedWith(0)) return false;
+        removePart(plan_[index].id);
+        const auto limits = referenceLimitsOf(plan_[index]);
+        pool_.addNext(taskOf(index, referenceFailure(result.timedOut, result.status, limits)));
+        return true;
     }
 
     static std::string trajectoryName(const std::string& id) { return "trajectories/" + id + ".h5"; }
 
     void ended(std::size_t index, const fs::path& answer, const ProcessResult& result) {
         const CasePlan& c = plan_[index];
+        if (repeatedWithoutReference(index, result)) return;
         const auto json = result.exitedWith(0) ? readJsonFile(answer) : std::nullopt;
         CaseRow row = json ? caseFromJson(*json) : failedRow(c, static_cast<std::int64_t>(index), result);
         row.id = c.id, row.position = static_cast<std::int64_t>(index);
@@ -260,7 +290,8 @@ class RunInProgress {
     std::map<std::string, bool> fromLibrary_;
     std::map<std::string, results::ScenarioRow> scenarios_;
     Record record_;
-    std::map<std::string, int> open_;  ///< cases of a scenario still to come
+    std::map<std::string, ReferenceCheck> references_;  ///< by scenario
+    std::map<std::string, int> open_;                   ///< cases of a scenario still to come
     std::map<std::string, std::map<std::string, CaseRow>> unaudited_;
 };
 

@@ -17,6 +17,7 @@
 #include "adapters/interface/registry.hpp"
 #include "scenarios/model/scenario.hpp"
 #include "validation/results/types.hpp"
+#include "validation/runner/reference_guard.hpp"
 #include "validation/trajectory.hpp"
 
 namespace rigor::validation {
@@ -39,6 +40,9 @@ struct RunOptions {
     std::size_t memoryLimitMiB = 4096;  ///< per child
     std::filesystem::path records;      ///< folder of what engine versions gave; "": nothing is on record
     std::string suite, command;
+    ReferenceLimits referenceLimits;
+    /// References that have been checked already, by scenario; the others are when the run begins.
+    std::map<std::string, ReferenceCheck> references;
 };
 
 /// What the progress line is made of.
@@ -65,8 +69,10 @@ results::Run runCases(const std::vector<CasePlan>& plan, const RunOptions& optio
 using ChildEntries = std::map<std::string, std::function<int(const std::filesystem::path&)>>;
 
 /// Entry point of the child: `rigor __case <request.json>`; writes its answer where the request says. `more`:
-/// entries beside the runner's own, by their first argument ("__collide").
-int childMain(const std::vector<std::string>& arguments, const ChildEntries& more = {});
+/// entries beside the runner's own, by their first argument ("__collide"). `make`: how references are made;
+/// empty, but in tests: makeReference.
+int childMain(const std::vector<std::string>& arguments, const ChildEntries& more = {},
+              const ReferenceMaker& make = {});
 
 /// Describes an engine by loading its module in a child process (`rigor __describe ENGINE`), as JSON with
 /// info, capabilities and options; `problem` in EngineDescription when that failed.
@@ -92,11 +98,18 @@ struct LiveOptions {
         onStep;  ///< may be empty
     /// Called before each onStep with the world, for what only the engine can tell; may be empty.
     std::function<void(const adapter::World&)> onWorld;
+    /// Called when the engine is done and the reference is about to be made and asked; may be empty.
+    std::function<void()> onSimulated;
+    /// Why the reference is not made: found before. Empty: it is.
+    std::optional<ReferenceCheck> withoutReference;
+    ReferenceMaker makeReference;  ///< empty: validation::makeReference
 };
 LiveCase runInProcess(const scenario::Scenario& scenario, const adapter::EngineSpec& spec, double dt,
                       const LiveOptions& options);
 
-/// No case is red (validation/results/judgement.hpp).
+/// No case is red (validation/results/judgement.hpp), and no reference broke down.
 bool runIsGreen(const results::Run& run);
+/// Not green, for no other reason than references that could not be computed.
+bool lacksReferencesAlone(const results::Run& run);
 
 }  // namespace rigor::validation

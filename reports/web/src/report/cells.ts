@@ -12,6 +12,7 @@ const order: Shown[] = [
   'unsupported',
   'pass',
   'no_bound',
+  'no_reference',
   'known_deviation',
   'fail',
   'non_finite',

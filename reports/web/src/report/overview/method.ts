@@ -114,6 +114,10 @@ export function method(): HTMLElement {
         'known_deviation',
         'wrong physics (grade E: another law, another outcome), with the reason on file and whether that was isolated by experiment or is inferred',
       ),
+      verdict(
+        'no_reference',
+        'it ran, but its reference did not finish, ran out of memory or crashed: neither a pass nor the engine’s fault',
+      ),
       verdict('fail', 'a bound of the scenario was missed, or what was built is not what was asked for'),
       verdict('non_finite', 'a state became NaN or infinite'),
       verdict('timeout', 'no end within the time limit'),

@@ -14,6 +14,7 @@ import { withPreview } from './preview.ts';
 const meaning: Record<Shown, string> = {
   pass: 'ran, within the bounds that hold everywhere (contacts) or that its scenario sets',
   no_bound: 'ran',
+  no_reference: 'ran, but its reference could not be computed',
   known_deviation: 'wrong physics, with a reason on file',
   fail: 'misses a bound that its scenario sets, or was not what was asked for',
   non_finite: 'NaN or infinity',

@@ -84,7 +84,7 @@ export function head(context: Context): HTMLElement {
       drawing(context),
     ),
     scenario.referenceProblem
-      ? el('p', { class: 'notice' }, `The reference does not hold for these values: ${scenario.referenceProblem}`)
+      ? el('p', { class: 'notice' }, `Run without a reference: ${scenario.referenceProblem}`)
       : null,
     stepChoice(context),
     el(
