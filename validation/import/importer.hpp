@@ -37,11 +37,19 @@ struct FitProposal {
     std::string name, key;
     double low, high, start;
 };
+/// A study of the scenarios with judged findings, ready for `rigor study`.
+struct ImportedStudy {
+    std::string name;  ///< also of the file
+    std::string text;  ///< JSON; names the scenarios by their files
+};
 struct Imported {
     std::string title;
-    std::vector<ImportedScenario> scenarios;  ///< at least one
-    std::vector<FitProposal> parameters;
-    std::string metric;             ///< what a fit minimises
+    std::vector<ImportedScenario> scenarios;                     ///< at least one
+    std::vector<FitProposal> parameters;                         ///< none: there is nothing to fit
+    std::string metric;                                          ///< what a fit minimises
+    std::vector<std::string> report;                             ///< what it scores besides
+    std::vector<std::string> engines{"rigor", "bullet", "ode"};  ///< that a fit is proposed for
+    std::vector<ImportedStudy> studies;
     std::filesystem::path licence;  ///< to keep with what is made of the data; may be empty
 };
 
