@@ -36,6 +36,8 @@ int runImport(const Arguments& a) {
     std::printf("%zu scenarios in %s: %td to fit on (train.json), %td to score on (test.json)\n",
                 imported.scenarios.size(), folder.c_str(), train,
                 static_cast<std::ptrdiff_t>(imported.scenarios.size()) - train);
+    for (const auto& study : imported.studies)
+        std::printf("Findings: ./rigor study %s\n", (folder / (study.name + ".json")).c_str());
     if (std::filesystem::exists(folder / "fit.json"))
         std::printf("Fit and score: ./rigor fit %s\n", (folder / "fit.json").c_str());
     return kOk;

@@ -33,7 +33,7 @@ SoftTerms<R> softTerms(const Softness<R>& s, R K, R h) {
     return {omega / a, K / (h * omega * a)};
 }
 
-/// From stiffness k > 0 [N/m] (or [N m/rad]) and damping c >= 0 [N s/m].
+/// From stiffness k >= 0 [N/m] (or [N m/rad]) and damping c >= 0 [N s/m], not both 0.
 template <class R>
 SoftTerms<R> springTerms(R k, R c, R h) {
     const R gamma = R(1) / (h * (c + h * k));

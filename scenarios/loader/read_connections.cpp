@@ -114,8 +114,10 @@ void readJointSpring(const Node& node, JointAxis& axis) {
         node.problem("joint.spring", "damping_ratio with frequency, damping with stiffness");
     if (const auto n = node.find("frequency")) axis.frequency = n->positive();
     if (const auto n = node.find("damping_ratio")) axis.dampingRatio = n->number(0.0, 1e6);
-    if (const auto n = node.find("stiffness")) axis.stiffness = n->positive();
+    if (const auto n = node.find("stiffness")) axis.stiffness = n->number(0.0, 1e12);
     if (const auto n = node.find("damping")) axis.damping = n->number(0.0, 1e12);
+    if (node.has("stiffness") && axis.stiffness == 0.0 && axis.damping == 0.0)
+        node.problem("joint.spring", "a stiffness or a damping above 0");
     if (const auto n = node.find("target")) axis.target = n->number(-1e6, 1e6);
 }
 

@@ -13,13 +13,13 @@
 // rounded by about 2 mm.
 // Source: Pfrommer, Halm, Posa, ContactNets, CoRL 2020; Acosta, Yang, Posa, IEEE RA-L 7 (2022) 6471.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "scenarios/loader/json_text.hpp"
 #include "validation/import/csv.hpp"
+#include "validation/import/dataset.hpp"
 #include "validation/import/importer.hpp"
 #include "validation/import/recording.hpp"
 
@@ -104,40 +104,19 @@ void scaleLengths(Recording& recording, double factor) {
         f.position = factor * f.position, f.velocity = factor * f.velocity;
 }
 
-ordered_json list(Vec3 v) {
-    return {v.x, v.y, v.z};
-}
-ordered_json list(const Quat& q) {
-    return {q.w, q.x, q.y, q.z};
-}
-
 ordered_json recordedMotion(const Recording& recording, std::size_t first) {
     ordered_json times = ordered_json::array(), positions = times, orientations = times;
     for (std::size_t k = first; k < recording.frames.size(); ++k) {
         const RecordedFrame& f = recording.frames[k];
         times.push_back(static_cast<double>(k - first) / recording.rate);
-        for (const auto& x : list(f.position)) positions.push_back(x);
-        for (const auto& x : list(f.orientation)) orientations.push_back(x);
+        for (const auto& x : toJson(f.position)) positions.push_back(x);
+        for (const auto& x : toJson(f.orientation)) orientations.push_back(x);
     }
     return {{"body", "cube"}, {"times", times}, {"positions", positions}, {"orientations", orientations}};
 }
 
 std::string tossName(int id) {
-    const std::string digits = std::to_string(id);
-    return "toss_" + std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits;
-}
-
-/// The lists of numbers on one line each, the rest indented.
-std::string scenarioText(ordered_json scenario) {
-    std::vector<std::pair<std::string, std::string>> lists;
-    for (auto& [key, value] : scenario["reference"]["measured_motion"].items())
-        if (value.is_array()) {
-            lists.emplace_back("\"<" + key + ">\"", value.dump());
-            value = "<" + key + ">";
-        }
-    std::string text = scenario.dump(1);
-    for (const auto& [mark, numbers] : lists) text.replace(text.find(mark), mark.size(), numbers);
-    return text + "\n";
+    return numberedName("toss", id, 3);
 }
 
 std::string scenarioOf(int id, bool train, const Recording& recording, const StartState& start,
@@ -170,39 +149,15 @@ std::string scenarioOf(int id, bool train, const Recording& recording, const Sta
            {{"name", "cube"},
             {"mass", kMass},
             {"inertia", {inertia, inertia, inertia}},
-            {"position", list(start.position)},
-            {"orientation", list(start.orientation)},
-            {"velocity", list(start.velocity)},
-            {"angular_velocity", list(start.spin)},
+            {"position", toJson(start.position)},
+            {"orientation", toJson(start.orientation)},
+            {"velocity", toJson(start.velocity)},
+            {"angular_velocity", toJson(start.spin)},
             {"shapes",
              {{{"box", {{"half_extents", {units.half, units.half, units.half}}}}, {"material", "cube"}}}}}}},
          {"observe", {"cube"}},
          {"reference", {{"measured_motion", recordedMotion(recording, start.frame)}}},
          {"metrics", {"measured_position_mean", "measured_orientation_mean", "measured_loss"}}});
-}
-
-/// toss_NNN.csv of the folder, by number.
-std::map<int, fs::path> findTosses(const fs::path& from) {
-    const auto refuse = [&](const std::string& found) {
-        throw LoadError({{"import.folder", from.string(), "", 0, found,
-                          "a folder with toss_NNN.csv, or with tosses/ in it"}});
-    };
-    if (!fs::is_directory(from)) refuse("no folder");
-    const fs::path folder = fs::is_directory(from / "tosses") ? from / "tosses" : from;
-    std::map<int, fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().stem().string();
-        if (entry.path().extension() != ".csv" || !name.starts_with("toss_")) continue;
-        int id = -1;
-        const auto [end, error] = std::from_chars(name.data() + 5, name.data() + name.size(), id);
-        if (error != std::errc{} || end != name.data() + name.size() || id < 0)
-            throw LoadError({{"import.name", entry.path().string(), "", 0, "the name " + name, "toss_NNN"}});
-        if (!files.emplace(id, entry.path()).second)
-            throw LoadError({{"import.duplicate", entry.path().string(), "", 0,
-                              "toss " + std::to_string(id) + " a second time", "each number once"}});
-    }
-    if (files.empty()) refuse("no toss_NNN.csv");
-    return files;
 }
 
 /// The heights of a recording tell it from all others; a copy of it turned about z has the same.
@@ -238,7 +193,7 @@ const std::vector<ImportChoice>& cubeTossChoices() {
 }
 
 Imported importCubeToss(const ImportRequest& request) {
-    const auto files = findTosses(request.from);
+    const auto files = numberedRecordings(request.from, "toss", "tosses");
     std::vector<int> ids;
     for (const auto& [id, file] : files) ids.push_back(id);
     const Units units = unitsOf(request.choices.at("units"));
@@ -270,6 +225,7 @@ Imported importCubeToss(const ImportRequest& request) {
     imported.parameters = {{"friction", "pairs.0.friction", 0.02, 0.6, kFriction},
                            {"restitution", "pairs.0.restitution", 0.0, 0.7, kRestitution}};
     imported.metric = "measured_loss";
+    imported.report = {"measured_position_mean", "measured_orientation_mean"};
     if (fs::exists(request.from / "LICENSE")) imported.licence = request.from / "LICENSE";
     return imported;
 }

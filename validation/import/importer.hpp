@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "validation/results/judgement.hpp"
+
 namespace rigor::validation {
 
 /// A choice that an importer leaves to the caller, the default first.
@@ -37,11 +39,20 @@ struct FitProposal {
     std::string name, key;
     double low, high, start;
 };
+/// A study of the scenarios with judged findings, ready for `rigor study`.
+struct ImportedStudy {
+    std::string name;  ///< also of the file
+    std::string text;  ///< JSON; names the scenarios by their files
+};
 struct Imported {
     std::string title;
     std::vector<ImportedScenario> scenarios;  ///< at least one
-    std::vector<FitProposal> parameters;
-    std::string metric;             ///< what a fit minimises
+    std::vector<FitProposal> parameters;      ///< none: there is nothing to fit
+    std::string metric;                       ///< what a fit minimises
+    std::vector<std::string> report;          ///< what it scores besides
+    std::vector<std::string> engines{results::kInHouseEngine, "bullet",
+                                     "ode"};  ///< that a fit is proposed for
+    std::vector<ImportedStudy> studies;
     std::filesystem::path licence;  ///< to keep with what is made of the data; may be empty
 };
 

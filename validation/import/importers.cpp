@@ -12,7 +12,6 @@
 
 #include "validation/import/csv.hpp"
 #include "validation/import/importer.hpp"
-#include "validation/runner/judge.hpp"
 
 namespace rigor::validation {
 
@@ -126,11 +125,11 @@ ordered_json fitJson(const Imported& imported, const std::string& name) {
             {"title", imported.title},
             {"train", {"train.json"}},
             {"test", {"test.json"}},
-            {"engines", {kInHouseEngine, "bullet", "ode"}},
+            {"engines", imported.engines},
             {"parameters", parameters},
             {"metric", imported.metric},
             {"summary", "mean"},
-            {"report", ordered_json::array({"measured_position_mean", "measured_orientation_mean"})},
+            {"report", imported.report},
             {"seed", 1}};
 }
 
@@ -176,7 +175,9 @@ void writeImported(const Imported& imported, const std::string& name, const fs::
         if (count(train) > 0)
             writeFile(folder / (train ? "train.json" : "test.json"),
                       suiteJson(imported, name, train).dump(2) + "\n");
-    if (count(true) > 0 && count(false) > 0)
+    for (const ImportedStudy& study : imported.studies)
+        writeFile(folder / (study.name + ".json"), study.text);
+    if (!imported.parameters.empty() && count(true) > 0 && count(false) > 0)
         writeFile(folder / "fit.json", fitJson(imported, name).dump(2) + "\n");
     if (!imported.licence.empty()) fs::copy_file(imported.licence, folder / "LICENSE", error);
 }

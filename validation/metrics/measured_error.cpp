@@ -20,7 +20,7 @@ using namespace scenario;
 
 struct Errors {
     std::vector<double> position, orientation;  ///< [m], [rad]; as many as known
-    std::vector<double> times;                  ///< of the positions
+    std::vector<double> times;                  ///< of the samples
 };
 
 Errors errorsOf(const MetricInput& input, int body) {
@@ -31,9 +31,9 @@ Errors errorsOf(const MetricInput& input, int body) {
         const auto recorded = input.reference->measured(body, t);
         if (!recorded) return {};
         const BodyState& state = input.trajectory.state(k, body);
+        errors.times.push_back(t);
         if (const auto e = positionError(state, *recorded)) errors.position.push_back(*e);
         if (const auto e = orientationError(state, *recorded)) errors.orientation.push_back(*e);
-        errors.times.push_back(t);
     }
     return errors;
 }
@@ -44,21 +44,35 @@ double meanOf(const std::vector<double>& values, int power) {
     return sum / static_cast<double>(values.size());
 }
 
-/// One row per compared body that a recording knows; `value` returns the number and when it was met.
+/// One row per compared body that a recording knows; `value` adds its number and when it was met.
 template <class Value>
-std::vector<MetricValue> measuredRows(const MetricInput& input, Value value) {
+std::vector<MetricValue> rowsOfRecorded(const MetricInput& input, Value value) {
     std::vector<MetricValue> rows;
     if (!input.reference || validFrames(input) < 2) return rows;
     for (const int body : comparedBodies(input)) {
-        const double width =
-            widthOf(input.scenario.bodies[static_cast<std::size_t>(body)], input.scenario.dimension);
-        const Errors errors = errorsOf(input, body);
-        if (errors.position.empty() || !(width > 0.0 && std::isfinite(width))) continue;
         Worst worst;
-        value(errors, width, worst);
+        value(body, errorsOf(input, body), worst);
         if (worst.any()) rows.push_back(worst.row(bodyName(input, body)));
     }
     return withWorst(std::move(rows));
+}
+
+/// Of bodies whose position was recorded and whose shapes have a width [m] to compare it with.
+template <class Value>
+std::vector<MetricValue> positionRows(const MetricInput& input, Value value) {
+    return rowsOfRecorded(input, [&](int body, const Errors& errors, Worst& worst) {
+        const double width =
+            widthOf(input.scenario.bodies[static_cast<std::size_t>(body)], input.scenario.dimension);
+        if (!errors.position.empty() && width > 0.0 && std::isfinite(width)) value(errors, width, worst);
+    });
+}
+
+/// Of bodies whose attitude was recorded.
+template <class Value>
+std::vector<MetricValue> orientationRows(const MetricInput& input, Value value) {
+    return rowsOfRecorded(input, [&](int, const Errors& errors, Worst& worst) {
+        if (!errors.orientation.empty()) value(errors, worst);
+    });
 }
 
 void addLargest(const std::vector<double>& values, const std::vector<double>& times, double scale,
@@ -69,36 +83,40 @@ void addLargest(const std::vector<double>& values, const std::vector<double>& ti
 }  // namespace
 
 std::vector<MetricValue> measuredPositionMean(const MetricInput& input) {
-    return measuredRows(input, [](const Errors& e, double width, Worst& worst) {
+    return positionRows(input, [](const Errors& e, double width, Worst& worst) {
         worst.add(meanOf(e.position, 1) / width, -1.0);
     });
 }
 
 std::vector<MetricValue> measuredPositionMax(const MetricInput& input) {
-    return measuredRows(input, [](const Errors& e, double width, Worst& worst) {
+    return positionRows(input, [](const Errors& e, double width, Worst& worst) {
         addLargest(e.position, e.times, width, worst);
     });
 }
 
 std::vector<MetricValue> measuredPositionFinal(const MetricInput& input) {
-    return measuredRows(input, [](const Errors& e, double width, Worst& worst) {
+    return positionRows(input, [](const Errors& e, double width, Worst& worst) {
         worst.add(e.position.back() / width, e.times.back());
     });
 }
 
 std::vector<MetricValue> measuredOrientationMean(const MetricInput& input) {
-    return measuredRows(input, [](const Errors& e, double, Worst& worst) {
-        if (!e.orientation.empty()) worst.add(meanOf(e.orientation, 1), -1.0);
-    });
+    return orientationRows(input,
+                           [](const Errors& e, Worst& worst) { worst.add(meanOf(e.orientation, 1), -1.0); });
+}
+
+std::vector<MetricValue> measuredOrientationRms(const MetricInput& input) {
+    return orientationRows(
+        input, [](const Errors& e, Worst& worst) { worst.add(std::sqrt(meanOf(e.orientation, 2)), -1.0); });
 }
 
 std::vector<MetricValue> measuredOrientationMax(const MetricInput& input) {
-    return measuredRows(
-        input, [](const Errors& e, double, Worst& worst) { addLargest(e.orientation, e.times, 1.0, worst); });
+    return orientationRows(
+        input, [](const Errors& e, Worst& worst) { addLargest(e.orientation, e.times, 1.0, worst); });
 }
 
 std::vector<MetricValue> measuredLoss(const MetricInput& input) {
-    return measuredRows(input, [](const Errors& e, double width, Worst& worst) {
+    return positionRows(input, [](const Errors& e, double width, Worst& worst) {
         if (!e.orientation.empty())
             worst.add(meanOf(e.position, 2) / (0.5 * width) + meanOf(e.orientation, 2), -1.0);
     });

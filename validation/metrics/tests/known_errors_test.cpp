@@ -247,6 +247,8 @@ const std::vector<Row>& rows() {
         {"measured_position_max", "plate", filmed, [](Case& c) { shiftUp(c.at(40, 0), 0.5); }, 2.5},
         {"measured_position_final", "plate", filmed, [](Case& c) { shiftUp(c.last(0), 0.1); }, 0.5},
         {"measured_orientation_mean", "plate", filmed, [](Case& c) { turnBy(c.at(40, 0), 2.0); }, 2.0 / 101},
+        {"measured_orientation_rms", "plate", filmed, [](Case& c) { turnBy(c.at(40, 0), 2.0); },
+         2.0 / std::sqrt(101.0)},
         {"measured_orientation_max", "plate", filmed, [](Case& c) { turnBy(c.at(40, 0), 2.0); }, 2.0},
         {"measured_loss", "plate", filmed,
          [](Case& c) { shiftUp(c.at(40, 0), 0.2), turnBy(c.at(60, 0), 2.0); }, (0.04 / 0.1 + 4.0) / 101},

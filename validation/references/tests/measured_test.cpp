@@ -101,6 +101,25 @@ TEST(MeasuredMotion, PlanarRecordingsHaveAngles) {
     EXPECT_NEAR(angleAboutZ(*state.orientation), 0.125, 1e-15);
 }
 
+TEST(MeasuredMotion, SeveralBodiesWithAnglesAloneShareTheSamples) {
+    Scenario s = emptyScene(2, {0, -10, 0}, 1);
+    addBox(s, "upper", {0.1, 0.2, 0.1}, 1, {1, 2, 0});
+    addBox(s, "lower", {0.1, 0.2, 0.1}, 1, {1, 1, 0});
+    setReference(s, "measured_motion",
+                 {{"bodies", std::vector<std::string>{"upper", "lower"}},
+                  {"times", Numbers{0, 1}},
+                  {"angles", Numbers{0, 0.01, 0.4, 0.81}}});
+    const auto reference = makeReference(s);
+    EXPECT_EQ(reference->bodies(), (std::vector<int>{0, 1}));
+    EXPECT_FALSE(reference->measured(0, 0.5)->position);
+    EXPECT_NEAR(angleAboutZ(*reference->measured(0, 0.5)->orientation), 0.2, 1e-15);
+    EXPECT_NEAR(angleAboutZ(*reference->measured(1, 0.5)->orientation), 0.41, 1e-15);
+    s.reference->parameters["angles"] = Numbers{0, 0.4};
+    EXPECT_THROW(makeReference(s), std::invalid_argument);
+    s.reference->parameters.erase("angles");
+    EXPECT_THROW(makeReference(s), std::invalid_argument) << "neither positions nor angles";
+}
+
 /// The message of the refusal; "" when the recording is taken.
 std::string refusal(const std::function<void(Recording&)>& spoil) {
     Recording r;
