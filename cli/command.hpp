@@ -39,6 +39,7 @@ enum ExitCode : int {
 using Action = std::function<int()>;
 
 void addValidate(CLI::App& app, Action& action);
+void addPieces(CLI::App& app, Action& action);
 void addRun(CLI::App& app, Action& action);
 void addBench(CLI::App& app, Action& action);
 void addList(CLI::App& app, Action& action);

@@ -39,6 +39,7 @@ int runCommand(int argc, char** argv) {
     addBench(app, action);
     addList(app, action);
     addStudy(app, action);
+    addPieces(app, action);
     addCollide(app, action);
     addFreeze(app, action);
     addSolve(app, action);

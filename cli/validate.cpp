@@ -29,6 +29,7 @@ struct Arguments {
     std::vector<std::string> what, overrides, timeSteps;
     std::string engines, out, baseline;
     int jobs = 0;
+    std::vector<int> pieces;
     validation::ReferenceLimits referenceLimits;
     bool resume = false, noAudit = false, json = false, quiet = false;
 };
@@ -190,6 +191,7 @@ int validate(const Arguments& given) {
     options.audit = !arguments.noAudit;
     options.records = recordedFolder();
     options.suite = selection.title;
+    options.pieces = arguments.pieces;
     options.referenceLimits = arguments.referenceLimits, options.references = selection.references;
     options.command = ownCommandLine();
 
@@ -241,6 +243,12 @@ void addValidate(CLI::App& app, Action& action) {
     command->add_flag("--resume", a->resume, "Go on with an interrupted run (--out, or the latest)");
     command->add_option("--baseline", a->baseline,
                         "Also compare with an earlier run, or with 'recorded'; worse is red");
+    command
+        ->add_option("--pieces", a->pieces,
+                     "Also put the bodies back on the truth every K1,K2,... steps and measure one piece (see "
+                     "`rigor pieces`)")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 1000000));
     addReferenceLimit(*command, a->referenceLimits);
     command->add_flag("--no-audit", a->noAudit, "Leave out the contact audit");
     command->add_flag("--json", a->json, "Print the results as JSON");

@@ -11,17 +11,20 @@
 #include "adapters/box2d/shapes.hpp"
 #include "adapters/interface/engine.hpp"
 #include "adapters/interface/pair_table.hpp"
+#include "adapters/interface/state_setting.hpp"
 
 namespace rigor::box2d {
 
 /// One scenario in one b2World, whose lengths are `scale` times the scenario's.
-class Box2dWorld final : public adapter::World {
+class Box2dWorld final : public adapter::World, public adapter::StateSetting {
   public:
     Box2dWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings);
 
     void applyForce(int body, const adapter::Vec3& force, const adapter::Vec3& torque) override;
     void step() override;
     void readStates(std::span<adapter::BodyState> states) const override;
+    void setStates(std::span<const adapter::BodyState> states) override;
+    const char* warmStart() const override { return "contacts discarded"; }
     void readContacts(std::vector<adapter::ContactPoint>& contacts) const override;
     adapter::ReadBack readBack() const override;
     std::vector<adapter::LedgerEntry> ledger() const override;

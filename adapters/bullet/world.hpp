@@ -12,6 +12,7 @@
 #include "adapters/bullet/contact_rules.hpp"
 #include "adapters/bullet/shapes.hpp"
 #include "adapters/interface/engine.hpp"
+#include "adapters/interface/state_setting.hpp"
 
 class btMLCPSolver;
 class btMLCPSolverInterface;
@@ -22,7 +23,7 @@ namespace rigor::bullet {
 /// planar.hpp) and kept in the plane by Bullet's linear and angular factors. With articulation=multibody
 /// bodies on joints are links of btMultiBody and their rigid bodies are not in the world; those give shapes
 /// and masses.
-class BulletWorld final : public adapter::World {
+class BulletWorld final : public adapter::World, public adapter::StateSetting {
   public:
     BulletWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings);
     ~BulletWorld() override;
@@ -30,6 +31,8 @@ class BulletWorld final : public adapter::World {
     void applyForce(int body, const adapter::Vec3& force, const adapter::Vec3& torque) override;
     void step() override;
     void readStates(std::span<adapter::BodyState> states) const override;
+    void setStates(std::span<const adapter::BodyState> states) override;
+    const char* warmStart() const override { return "discarded"; }
     void readContacts(std::vector<adapter::ContactPoint>& contacts) const override;
     adapter::ReadBack readBack() const override;
     std::vector<adapter::LedgerEntry> ledger() const override;

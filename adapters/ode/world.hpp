@@ -11,6 +11,7 @@
 
 #include "adapters/interface/engine.hpp"
 #include "adapters/interface/pair_table.hpp"
+#include "adapters/interface/state_setting.hpp"
 #include "adapters/ode/contacts.hpp"
 #include "adapters/ode/joints.hpp"
 #include "adapters/ode/shapes.hpp"
@@ -20,7 +21,7 @@ namespace rigor::ode {
 /// One scenario in one ODE world. ODE's body frame has its origin at the centre of mass and the axes of the
 /// scenario's body frame. Static bodies are geoms without a body. Two-dimensional scenarios are lifted
 /// (adapters/interface/planar.hpp) and held in the plane by Plane2D joints.
-class OdeWorld final : public adapter::World, public adapter::Snapshots {
+class OdeWorld final : public adapter::World, public adapter::Snapshots, public adapter::StateSetting {
   public:
     OdeWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings);
     ~OdeWorld() override;
@@ -28,6 +29,8 @@ class OdeWorld final : public adapter::World, public adapter::Snapshots {
     void applyForce(int body, const adapter::Vec3& force, const adapter::Vec3& torque) override;
     void step() override;
     void readStates(std::span<adapter::BodyState> states) const override;
+    void setStates(std::span<const adapter::BodyState> states) override;
+    const char* warmStart() const override { return "discarded"; }
     void readContacts(std::vector<adapter::ContactPoint>& contacts) const override;
     adapter::ReadBack readBack() const override;
     std::vector<adapter::LedgerEntry> ledger() const override;

@@ -7,6 +7,7 @@
 
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/pair_table.hpp"
+#include "adapters/interface/state_setting.hpp"
 #include "adapters/rigor/convert_joint.hpp"
 #include "adapters/rigor/parts.hpp"
 #include "adapters/rigor/settings.hpp"
@@ -84,7 +85,7 @@ engine::BodyType toEngineType(scenario::BodyType type) {
 }
 
 template <class S>
-class RigorWorld final : public World {
+class RigorWorld final : public World, public StateSetting {
   public:
     using R = typename S::Real;
 
@@ -94,11 +95,7 @@ class RigorWorld final : public World {
           pairs_(scenario),
           dt_(static_cast<R>(dt)),
           world_(toWorldDef<S>(scenario, settings)) {
-        addMaterials();
-        for (const scenario::Body& body : scenario.bodies) addBody(body);
-        for (const scenario::Joint& joint : scenario.joints) addJoint(joint);
-        for (const scenario::Force& force : scenario.forces)
-            std::visit([this](const auto& f) { addForce(f); }, force);
+        populate();
     }
 
     void applyForce(int body, const Vec3& force, const Vec3& torque) override {
@@ -118,6 +115,28 @@ class RigorWorld final : public World {
     void readStates(std::span<BodyState> states) const override {
         for (std::size_t i = 0; i < bodies_.size(); ++i) states[i] = state(static_cast<int>(i));
     }
+
+    /// The engine moves no body by hand: its world is built anew where it is to be, with empty caches.
+    void setStates(std::span<const BodyState> states) override {
+        std::vector<bool> holds;
+        for (std::size_t j = 0; j < scenario_.joints.size(); ++j)
+            holds.push_back(jointHolds(static_cast<int>(j)));
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            scenario::Body& body = scenario_.bodies[i];
+            if (body.type == scenario::BodyType::Static) continue;
+            const BodyState now = isDynamic(static_cast<int>(i)) ? states[i] : state(static_cast<int>(i));
+            body.pose = {now.position, now.orientation};
+            body.velocity = now.velocity, body.angularVelocity = now.angularVelocity;
+        }
+        elapsed_ += world_.time();
+        world_ = engine::World<S>(toWorldDef<S>(scenario_, settings_));
+        bodies_.clear();
+        indices_ = {};
+        populate();
+        for (std::size_t j = 0; j < holds.size(); ++j)
+            if (!holds[j]) world_.removeJoint(indices_.joint[j]);
+    }
+    const char* warmStart() const override { return "discarded"; }
 
     void readContacts(std::vector<ContactPoint>& contacts) const override {
         contacts.clear();
@@ -228,6 +247,15 @@ class RigorWorld final : public World {
                 fromEngineAng(world_.angularVelocity(id(body)))};
     }
 
+    /// Everything of the scenario into an empty world.
+    void populate() {
+        addMaterials();
+        for (const scenario::Body& body : scenario_.bodies) addBody(body);
+        for (const scenario::Joint& joint : scenario_.joints) addJoint(joint);
+        for (const scenario::Force& force : scenario_.forces)
+            std::visit([this](const auto& f) { addForce(f); }, force);
+    }
+
     /// The scenario's pair table, in which pairs that it does not name have sqrt(mu_a mu_b) and min(e_a,
     /// e_b). Where another combine rule is asked for, those pairs are left to the engine.
     void addMaterials() {
@@ -298,11 +326,11 @@ class RigorWorld final : public World {
 
     // Forces on bodies that no force moves are for pictures only.
     void addForce(const scenario::ConstantForce& f) {
-        if (!isDynamic(f.body)) return;
+        if (!isDynamic(f.body) || f.end <= elapsed_) return;
         engine::ConstantForce<S> def;
         def.body = id(f.body);
         def.force = toEngineVec<S>(f.force), def.torque = toEngineAng<S>(f.torque);
-        def.start = f.start, def.end = f.end;
+        def.start = std::max(0.0, f.start - elapsed_), def.end = f.end - elapsed_;
         world_.addForce(def);
     }
     void addForce(const scenario::SpringForce& f) {
@@ -325,6 +353,7 @@ class RigorWorld final : public World {
     Settings settings_;
     PairTable pairs_;
     R dt_;
+    double elapsed_ = 0.0;  ///< when world_ was built anew [s]
     engine::World<S> world_;
     std::vector<engine::BodyId> bodies_;
     ScenarioIndices indices_;

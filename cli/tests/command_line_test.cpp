@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -263,6 +264,32 @@ TEST(CommandLine, UnknownEnginesKeysAndValuesStopEverythingBeforeItBegins) {
     EXPECT_EQ(precision.code, 2);
     EXPECT_NE(precision.out.find("key 'precision': found 'f16', expected one of f64"), std::string::npos)
         << precision.out;
+}
+
+/// A free body by symplectic Euler misses the parabola by g h^2 k / 2 after a piece of k steps, wherever it
+/// begins.
+TEST(CommandLine, ShortPiecesAreMeasuredAndStored) {
+    const auto folder = freshFolder("pieces");
+    const auto run = (folder / "run").string(), file = writeProjectile().string();
+    const Result result = rigor("pieces " + file + " --every 1,10 --dt 0.01 -q --engines " +
+                                "rigor:preset=matched,ode:preset=matched,bullet:preset=matched --out " + run);
+    EXPECT_EQ(result.code, 0) << result.out;
+    const double g = std::sqrt(0.25 + 3.7 * 3.7 + 0.0625), step = 0.5 * g * 1e-4;
+    std::ifstream csv(run + "/results.csv");
+    std::map<std::string, int> found;
+    for (std::string line; std::getline(csv, line);) {
+        const auto at = line.find(",piece_error,");
+        if (at == std::string::npos) continue;
+        const int k = line.find(",every 10 steps,") != std::string::npos ? 10 : 1;
+        const auto value = line.find(",pieces,");
+        ASSERT_NE(value, std::string::npos) << line;
+        EXPECT_NEAR(std::stod(line.substr(value + 8)), k * step, 1e-6 * k * step) << line;
+        ++found[k == 10 ? "ten" : "one"];
+    }
+    EXPECT_EQ(found["one"], 3);
+    EXPECT_EQ(found["ten"], 3);
+    EXPECT_EQ(rigor("pieces " + file + " --every 0").code, 2);
+    EXPECT_EQ(rigor("pieces " + file + " --engines bulet").code, 2);
 }
 
 /// No reference can be computed in a tenth of a millisecond, which a process needs to begin.

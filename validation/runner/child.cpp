@@ -19,6 +19,7 @@
 #include "validation/runner/judge.hpp"
 #include "validation/runner/line_file.hpp"
 #include "validation/runner/live.hpp"
+#include "validation/runner/pieces.hpp"
 #include "validation/runner/process_pool.hpp"
 
 namespace rigor::validation {
@@ -71,6 +72,15 @@ LiveOptions optionsOf(const json& request, const ReferenceMaker& make) {
     return options;
 }
 
+std::vector<results::MetricRow> piecesOf(const scenario::Scenario& s, const adapter::EngineSpec& spec,
+                                         double dt, const std::vector<int>& every,
+                                         const Reference* reference) {
+    const adapter::LoadedEngine engine = adapter::loadEngine(spec);
+    const adapter::Settings settings = adapter::resolveSettings(spec, *engine);
+    return measurePieces(
+        s, dt, every, [&](double step) { return engine->dynamics()->build(s, step, settings); }, reference);
+}
+
 CaseRow runRequested(const json& request, const scenario::Scenario& s, const adapter::EngineSpec& spec,
                      const ReferenceMaker& make) {
     const double dt = numberFromJson(request.at("dt"));
@@ -81,6 +91,11 @@ CaseRow runRequested(const json& request, const scenario::Scenario& s, const ada
     results::writeTrajectory(
         file, trajectoryFile({s, whole.live.trajectory, whole.reference.get(), whole.scheme}, row));
     setAlarm(0.0);
+    std::error_code ignored;
+    if (request.contains("simulated"))
+        std::filesystem::remove(request.at("simulated").get<std::string>(), ignored);
+    if (const auto every = request.value("pieces", std::vector<int>{}); !every.empty())
+        for (auto& piece : piecesOf(s, spec, dt, every, whole.reference.get())) row.metrics.push_back(piece);
     return std::move(row);
 }
 

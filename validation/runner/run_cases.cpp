@@ -18,6 +18,7 @@
 #include "validation/runner/environment.hpp"
 #include "validation/runner/header.hpp"
 #include "validation/runner/judge.hpp"
+#include "validation/runner/pieces.hpp"
 #include "validation/runner/process_pool.hpp"
 #include "validation/runner/runner.hpp"
 
@@ -164,6 +165,12 @@ class RunInProgress {
         closed(plan_[index], row);
     }
 
+    /// How many runs of the scenario a case takes: short pieces are one of each length, and a finer one.
+    double runsOfCase() const {
+        if (options_.pieces.empty()) return 1.0;
+        return static_cast<double>(1 + kConvergedSteps + 2 * options_.pieces.size());
+    }
+
     /// The child of a case, its request written.
     ProcessTask taskOf(std::size_t index, const ReferenceCheck& reference) {
         const CasePlan& c = plan_[index];
@@ -177,13 +184,14 @@ class RunInProgress {
                              {"trajectory", (directory_ / trajectoryName(c.id)).string()},
                              {"simulated", simulatedMark(c.id).string()},
                              {"reference_seconds", numberToJson(referenceLimitsOf(c).seconds)},
+                             {"pieces", options_.pieces},
                              {"answer", answer.string()}};
         if (!reference.problem.empty())
             asked["without_reference"] = {{"outcome", referenceOutcomeName(reference.outcome)},
                                           {"problem", reference.problem}};
         writeJsonFile(request, asked);
         return {{options_.binary.string(), "__case", request.string()},
-                {c.scenario.timeLimit, options_.memoryLimitMiB},
+                {c.scenario.timeLimit * runsOfCase(), options_.memoryLimitMiB},
                 c.scenario.name + ", " + c.spec.text(),
                 [this, index, answer](const ProcessResult& result) { ended(index, answer, result); }};
     }

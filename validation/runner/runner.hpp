@@ -40,6 +40,7 @@ struct RunOptions {
     std::size_t memoryLimitMiB = 4096;  ///< per child
     std::filesystem::path records;      ///< folder of what engine versions gave; "": nothing is on record
     std::string suite, command;
+    std::vector<int> pieces;  ///< also measure short pieces of so many steps (pieces.hpp)
     ReferenceLimits referenceLimits;
     /// References that have been checked already, by scenario; the others are when the run begins.
     std::map<std::string, ReferenceCheck> references;

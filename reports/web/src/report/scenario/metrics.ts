@@ -22,6 +22,11 @@ const kinds: [kind: string, title: string, meaning: string][] = [
   ['contact', 'Contacts', 'penetration, normals, contact law'],
   ['joint', 'Joints', 'anchor drift and limits'],
   ['rest', 'Rest', 'what should stand still'],
+  [
+    'pieces',
+    'Short pieces',
+    'bodies put back on the truth every so many steps: the error of one piece, which chaos cannot drown',
+  ],
   ['outcome', 'What came of it', 'neither right nor wrong for one start: distributions over many are comparable'],
 ];
 
