@@ -268,6 +268,7 @@ const std::vector<Row>& rows() {
          0.003},
         {"penetration_max", "ball", resting, [](Case& c) { c.run.contacts[10][0].depth = 0.004; }, 0.004},
         {"overlap_max", "ball", resting, [](Case& c) { shiftUp(c.at(50, 1), -0.01); }, 0.01},
+        {"initial_overlap", "ball", resting, [](Case& c) { c.run.contacts[0][0].depth = 0.04; }, 0.04},
         {"normal_error", "ball", resting,
          [](Case& c) {
              c.run.contacts[10][0].normal = {std::sin(0.02), std::cos(0.02), 0};
