@@ -162,6 +162,10 @@ std::unique_ptr<btTypedConstraint> buildSixDof(const Joint& joint, const JointEn
         }
         if (axis->hasSpring()) {
             const SpringLaw law = springLaw(layout, k, joint, a, b);
+            // Measured on a swinging rod: its decay is that of about half the damping, at any time step.
+            if (law.stiffness == 0.0)
+                throw adapter::notInAdapter("bullet", "damper without a spring",
+                                            "joint '" + joint.name + "'");
             sixDof->enableSpring(index, true);
             sixDof->setStiffness(index, scalar(law.stiffness), settings.limitSprings);
             sixDof->setDamping(index, scalar(law.damping), settings.limitSprings);

@@ -133,11 +133,11 @@ TEST(CommandLine, BoundsUnderOverridesAreExplainedAndCanBeGiven) {
     const auto red = rigor(heavier);
     EXPECT_EQ(red.code, 1);
     EXPECT_NE(red.out.find("bounds were set at the file's own values"), std::string::npos) << red.out;
-    const auto green = rigor(heavier + " --set accept.rigor.position_final=0.186");
+    const auto green = rigor(heavier + " --set 'accept.*.position_final=0.186'");
     EXPECT_EQ(green.code, 0) << green.out;
     EXPECT_EQ(green.out.find("note:"), std::string::npos);
     // a bound alone: the values are the file's own, nothing to explain
-    const auto tight = rigor(run + " --set accept.rigor.position_final=1e-9");
+    const auto tight = rigor(run + " --set 'accept.*.position_final=1e-9'");
     EXPECT_EQ(tight.code, 1);
     EXPECT_EQ(tight.out.find("note:"), std::string::npos) << tight.out;
 }

@@ -43,10 +43,10 @@ Change changeOf(const CaseRow& row, const MetricRow& now, const RecordedMetric& 
     Change change;
     const bool was = std::isfinite(high), is = std::isfinite(value);
     if (!was && !is) return change;
-    const double scatter = roundingOf(row, now) + (was && is ? kSameShare * std::max(high, value) : 0.0);
-    if (!is || (was && value > high + scatter))
+    const double rounding = roundingOf(row, now);
+    if (!is || (was && value > high * (1.0 + kSameShare) + rounding))
         change.state = Regression::Worse;
-    else if (!was || value < low - scatter)
+    else if (!was || value < low * (1.0 - kSameShare) - rounding)
         change.state = Regression::Better;
     if (change.state == Regression::Unchanged) return change;
     change.size = is && was ? std::abs(value - (change.state == Regression::Worse ? high : low)) /
@@ -86,6 +86,10 @@ Change worstChange(const CaseRow& row, const RecordedCase& old, bool isChaotic) 
 void compareWithRecord(const Record& record, const results::ScenarioRow& scenario, CaseRow& row) {
     row.regression = Regression::NoRecord, row.regressionReason.clear();
     for (MetricRow& m : row.metrics) m.recorded.reset();
+    if (row.verdict == results::Verdict::NoReference) {
+        row.regressionReason = "its reference could not be computed";
+        return;
+    }
     const RecordedCase* old = record.find(row.scenario, row.spec, row.dt);
     if (old == nullptr) {
         row.regressionReason = "this scenario, spec and time step are not on record";

@@ -13,7 +13,7 @@ using nlohmann::ordered_json;
 using scenario::LoadError;
 
 std::map<int, fs::path> numberedRecordings(const fs::path& from, const std::string& prefix,
-                                           const std::string& inside) {
+                                           const std::string& inside, const std::string& other) {
     const std::string pattern = prefix + "_NNN.csv";
     const auto refuse = [&](const std::string& found) {
         throw LoadError({{"import.folder", from.string(), "", 0, found,
@@ -26,6 +26,7 @@ std::map<int, fs::path> numberedRecordings(const fs::path& from, const std::stri
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().stem().string();
         if (entry.path().extension() != ".csv" || !name.starts_with(prefix + "_")) continue;
+        if (!other.empty() && name == prefix + "_" + other) continue;
         int id = -1;
         const char* digits = name.data() + prefix.size() + 1;
         const auto [end, error] = std::from_chars(digits, name.data() + name.size(), id);

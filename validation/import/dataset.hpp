@@ -13,11 +13,13 @@
 
 namespace rigor::validation {
 
-/// The files PREFIX_NNN.csv of `from`, or of its sub-folder `inside` where there is one, by number. Throws
-/// LoadError: "import.folder" (none), "import.name" (no number), "import.duplicate" (a number twice).
+/// The files PREFIX_NNN.csv of `from`, or of its sub-folder `inside` where there is one, by number; the table
+/// PREFIX_OTHER.csv is passed over. Throws LoadError: "import.folder" (none), "import.name" (no number),
+/// "import.duplicate" (a number twice).
 std::map<int, std::filesystem::path> numberedRecordings(const std::filesystem::path& from,
                                                         const std::string& prefix,
-                                                        const std::string& inside = "");
+                                                        const std::string& inside = "",
+                                                        const std::string& other = "");
 /// "PREFIX_007": at least `digits` digits.
 std::string numberedName(const std::string& prefix, int number, std::size_t digits);
 

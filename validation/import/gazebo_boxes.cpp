@@ -117,11 +117,34 @@ std::vector<Published> rowsOf(const CsvTable& table, const std::string& engine, 
     return rows;
 }
 
-/// The variant of today's engine that does what Gazebo's did; see validation/import/README.md.
+/// How many times the published error today's engine has.
+struct Times {
+    double least, most;
+};
+constexpr Times kAsPublished{1.0 - kSame, 1.0 + kSame};
+
+/// An engine of the benchmark, and today's that is held to it. Gazebo brings its own branch of ODE: position
+/// and orientation errors are those of its steps, but the torque-free tumbling of ODE 0.16.2 is less accurate
+/// by a factor that hardly depends on the step, so both are of first order.
 struct Variant {
     const char *engine, *spec;
+    Times momentum, energy;
 };
-const Variant kVariants[] = {{"ode", "ode:preset=default"}, {"bullet", "bullet:preset=default"}};
+const Variant kVariants[] = {{"ode", "ode:preset=default", {1.6, 2.0}, {1.1, 1.2}},
+                             {"bullet", "bullet:preset=default", kAsPublished, kAsPublished}};
+
+Times timesOf(const Variant& variant, const std::string& metric) {
+    if (metric == "angular_momentum_drift") return variant.momentum;
+    return metric == "energy_drift" ? variant.energy : kAsPublished;
+}
+
+std::string statementOf(const Variant& variant, double dt, const std::string& metric, const Times& times) {
+    const bool same = times.least == kAsPublished.least;
+    return std::string(variant.engine) + " at " + ordered_json(dt).dump() + " s: " + metric +
+           (same ? " as published"
+                 : " " + ordered_json(times.least).dump() + " to " + ordered_json(times.most).dump() +
+                       " times the published");
+}
 
 ordered_json partOf(const CsvTable& table, const Variant& variant, const Motion& motion) {
     ordered_json steps = ordered_json::array(), findings = steps, metrics = steps;
@@ -130,15 +153,14 @@ ordered_json partOf(const CsvTable& table, const Variant& variant, const Motion&
         steps.push_back(one.dt);
         for (const Column& column : columnsOf(motion)) {
             const double value = column.factor * table.number(one.row, column.published);
-            findings.push_back(
-                {{"statement", std::string(variant.engine) + " at " + ordered_json(one.dt).dump() +
-                                   " s: " + column.metric + " as published"},
-                 {"source", "Peters, Hsu, 2014"},
-                 {"variant", variant.spec},
-                 {"metric", column.metric},
-                 {"where", {{"dt", one.dt}}},
-                 {"at_least", std::max(0.0, value * (1 - kSame) - kRoundOff)},
-                 {"at_most", value * (1 + kSame) + kRoundOff}});
+            const Times times = timesOf(variant, column.metric);
+            findings.push_back({{"statement", statementOf(variant, one.dt, column.metric, times)},
+                                {"source", "Peters, Hsu, 2014"},
+                                {"variant", variant.spec},
+                                {"metric", column.metric},
+                                {"where", {{"dt", one.dt}}},
+                                {"at_least", std::max(0.0, value * times.least - kRoundOff)},
+                                {"at_most", value * times.most + kRoundOff}});
         }
     }
     return {{"name", std::string(motion.name) + "_" + variant.engine},

@@ -30,11 +30,11 @@ namespace fs = std::filesystem;
 using namespace scenario;
 using nlohmann::ordered_json;
 
-constexpr std::array kEngines{results::kInHouseEngine, "bullet:preset=matched", "ode:preset=matched"};
-constexpr double kRate = 1000.0;          // samples per second
-constexpr double kTimeTolerance = 1e-6;   // [s]
-constexpr double kHalfThickness = 0.01;   // of the picture of an arm [m]
-constexpr double kFineStep = 1.0 / 4000;  // [s] of the judged study: well below the noise of the encoders
+constexpr std::array kEngines{results::kInHouseEngine, "ode:preset=matched"};
+constexpr double kRate = 1000.0;           // samples per second
+constexpr double kTimeTolerance = 1e-6;    // [s]
+constexpr double kHalfThickness = 0.01;    // of the picture of an arm [m]
+constexpr double kFineStep = 1.0 / 16000;  // [s] of the judged study: well below the noise of the encoders
 // Two codes that integrate one model differ by rounding of the record (1e-5 rad), of its first velocity and
 // by the first order of a time step: half a milliradian of an RMS of 2 to 220.
 constexpr double kSameModel = 5e-4, kSameModelShare = 0.02;
@@ -231,7 +231,7 @@ const std::vector<ImportChoice>& multiArmPendulumChoices() {
 
 Imported importMultiArmPendulum(const ImportRequest& request) {
     const std::string& kind = request.choices.at("arms");
-    const auto files = numberedRecordings(request.from, kind);
+    const auto files = numberedRecordings(request.from, kind, "", "segments");
     std::vector<int> ids;
     for (const auto& [id, file] : files) ids.push_back(id);
     const Model model = readModel(request.from, kind);

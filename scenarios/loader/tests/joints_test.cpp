@@ -94,7 +94,7 @@ TEST(JointControls, NonsenseIsRefusedWithItsPlace) {
     EXPECT_THAT(refusal(2, hinge + R"("spring": { "frequency": 1, "damping": 2 })"),
                 HasSubstr("joint.spring"));
     EXPECT_THAT(refusal(2, hinge + R"("spring": { "stiffness": 0 })"), HasSubstr("above 0"));
-    EXPECT_EQ(refusal(2, hinge + R"("spring": { "stiffness": 0, "damping": 2 })"), "") << "a dashpot";
+    EXPECT_EQ(refusal(2, hinge + R"("spring": { "stiffness": 0, "damping": 2 })"), "none") << "a damper";
     EXPECT_THAT(refusal(2, hinge + R"("axes": { "travel": { "limits": [0, 1] } })"),
                 HasSubstr("one of angle"));
     EXPECT_THAT(refusal(2, hinge + R"("break_force": 0)"), HasSubstr("/joints/0/break_force"));

@@ -104,6 +104,13 @@ TEST_F(AgainstRecord, AnotherEndingIsAChange) {
     EXPECT_EQ(state(), Regression::Better);
 }
 
+TEST_F(AgainstRecord, WithoutItsReferenceACaseIsNotCompared) {
+    record();
+    run_.cases[0].verdict = results::Verdict::NoReference;
+    run_.cases[0].metrics.clear();
+    EXPECT_EQ(state(), Regression::NoRecord);
+}
+
 TEST_F(AgainstRecord, ChaoticScenesAreComparedByTheirEndingUntilTheirScatterIsKnown) {
     run_.scenarios[0].reference.clear();
     record();

@@ -144,7 +144,7 @@ TEST(GazeboBoxes, PublishedErrorsBecomeBounds) {
     const Scenario complex = loaded(imported.scenarios[1]);
     EXPECT_EQ(complex.bodies[0].velocity, (Vec3{-2, 2, 8}));
     const auto study = nlohmann::json::parse(imported.studies.at(0).text);
-    const auto& energy = study["parts"][2]["findings"][2];
+    const auto& energy = study["parts"][3]["findings"][2];
     ASSERT_EQ(energy["metric"], "energy_drift");
     // Per kinetic energy at the end, 5 (4 + 4 + 90^2) + 8.55 J, instead of at the start, 5 * 72 + 8.55 J.
     EXPECT_NEAR(energy["at_most"].get<double>(), 1.02 * 0.0125 * 368.546 / 40548.546, 1e-7);
