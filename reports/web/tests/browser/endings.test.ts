@@ -14,13 +14,13 @@ describe('the report of a run that went badly', { skip }, () => {
     await it.open();
     assert.match(await it.text('#summary'), /This run is unfinished: \d+ of \d+ cases/);
     for (const verdict of ['crashed', 'timeout', 'non_finite']) {
-      await it.page.getByLabel('Verdict').selectOption(verdict);
+      await it.page.getByLabel('Ending', { exact: true }).selectOption(verdict);
       const rows = it.page.locator('#scoreboard tbody tr');
       const count = await rows.count();
       assert.ok(count > 0, verdict);
       assert.equal(await it.page.locator(`#scoreboard tbody tr:has(.v-${verdict})`).count(), count);
     }
-    await it.page.getByLabel('Verdict').selectOption('crashed');
+    await it.page.getByLabel('Ending', { exact: true }).selectOption('crashed');
     await it.page.locator('#scoreboard a.v-crashed').first().click();
     await it.page.waitForSelector('#outcomes');
     assert.match(await it.text('#outcomes'), /SIGSEGV|more than 4096 MiB/);

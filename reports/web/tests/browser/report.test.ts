@@ -69,14 +69,14 @@ describe('the report of a real run', { skip }, () => {
     const columns = query(it.run, "SELECT count(DISTINCT spec) FROM cases WHERE preset = 'matched'").flat()[0];
     assert.equal(await it.page.locator('#scoreboard tbody tr').first().locator('a.cell').count(), columns);
     await it.page.getByRole('button', { name: 'Reset' }).click();
-    await it.page.getByLabel('Ending').selectOption('known_deviation');
+    await it.page.getByLabel('Ending', { exact: true }).selectOption('known_deviation');
     const deviating = query(
       it.run,
       "SELECT count(DISTINCT scenario) FROM cases WHERE verdict = 'known deviation'",
     ).flat()[0];
     assert.equal(await rows(), deviating);
     await it.page.getByRole('button', { name: 'Reset' }).click();
-    await it.page.getByLabel('Grade').selectOption('C');
+    await it.page.getByLabel('Grade', { exact: true }).selectOption('C');
     assert.equal(await rows(), query(it.run, "SELECT count(DISTINCT scenario) FROM cases WHERE grade = 'C'").flat()[0]);
     await it.page.getByRole('button', { name: 'Reset' }).click();
     await it.page.locator('#scoreboard thead th').first().getByRole('button').click();
