@@ -69,18 +69,16 @@ nlohmann::ordered_json accuracyJson(const results::CaseRow& row) {
             {"ideal", number(row.accuracy.ideal)}};
 }
 
-const results::TimingRow* stepTiming(const results::CaseRow& row) {
-    for (const auto& t : row.timings)
-        if (t.phase == "step") return &t;
-    return nullptr;
-}
-
 nlohmann::ordered_json stepJson(const results::TimingRow& t) {
     nlohmann::ordered_json out{{"median", t.median}, {"p10", t.p10}, {"p90", t.p90}, {"samples", t.samples}};
     const auto add = [&](const char* name, const std::optional<double>& value) {
         if (value) out[name] = *value;
     };
-    add("first", t.first), add("mean", t.mean), add("p95", t.p95), add("p99", t.p99), add("worst", t.worst);
+    add("first", t.first);
+    add("mean", t.mean);
+    add("p95", t.p95);
+    add("p99", t.p99);
+    add("worst", t.worst);
     add("real_time_factor", t.realTimeFactor);
     return out;
 }
@@ -109,7 +107,7 @@ void printCase(const results::CaseRow& row, bool json) {
                                    {"accuracy", accuracyJson(row)},
                                    {"metrics", nlohmann::json::array()},
                                    {"quantities", nlohmann::json::array()}};
-        if (const auto* step = stepTiming(row)) out["step"] = stepJson(*step);
+        if (const auto* step = report::stepTiming(row)) out["step"] = stepJson(*step);
         for (const auto& m : row.metrics)
             out["metrics"].push_back({{"name", m.name},
                                       {"subject", m.subject},
@@ -144,7 +142,7 @@ void printCase(const results::CaseRow& row, bool json) {
             std::printf(", did not happen");
         std::printf("\n");
     }
-    if (const auto* step = stepTiming(row)) printStep(*step);
+    if (const auto* step = report::stepTiming(row)) printStep(*step);
 }
 
 /// What a library throws is its own failure, not ours: a red row, as in `validate`.

@@ -205,7 +205,7 @@ double PlanarMotion::pieceFrom(const State& s, const Mode& mode) const {
     for (int i = 0; i < static_cast<int>(setup_.corners.size()) && pull > 0; ++i) {
         const Real gap = std::max(gapOf(i, s), Real(0));
         const Real flight = (std::abs(closingOf(i, s)) + std::sqrt(2 * gap * pull)) / pull;
-        // Of a corner at rest on the floor nothing is told.
+        // A corner at rest on the floor does not bound the piece.
         if (i == mode.corner || gap > kNear * setup_.size || flight < 1e-9L * duration_) continue;
         piece = std::min(piece, 32 * flight);
     }

@@ -196,7 +196,7 @@ class RunInProgress {
                 [this, index, answer](const ProcessResult& result) { ended(index, answer, result); }};
     }
 
-    /// Of a reference within a case: all metrics are computed in that time and memory as well.
+    /// Limits of a reference within a case, which computes all metrics in that time and memory as well.
     ReferenceLimits referenceLimitsOf(const CasePlan& c) const {
         return {options_.referenceLimits.seconds + 0.5 * c.scenario.timeLimit, options_.memoryLimitMiB};
     }
