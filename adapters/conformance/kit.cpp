@@ -7,6 +7,8 @@
 #include <optional>
 #include <ostream>
 
+#include "adapters/interface/presets.hpp"
+
 namespace rigor::conformance {
 namespace {
 
@@ -46,7 +48,7 @@ std::vector<Arena> dynamicsArenas() {
     const auto capabilities = engine().capabilities();
     if (!capabilities.dynamics) return arenas;
     for (const auto& precision : precisions())
-        for (const char* preset : {"default", "matched"})
+        for (const std::string& preset : adapter::presetNames(adapter::ownPresets(engine())))
             for (const int dimension : queryDimensions()) arenas.push_back({preset, dimension, precision});
     return arenas;
 }

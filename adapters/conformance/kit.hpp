@@ -41,13 +41,13 @@ const adapter::EngineSpec& engineSpec();
 
 /// One way to run the engine.
 struct Arena {
-    std::string preset;     ///< "default", "matched"
+    std::string preset;     ///< one of presetNames()
     int dimension = 3;      ///< of the scenarios
     std::string precision;  ///< "f32", "f64"
     bool f64() const { return precision == "f64"; }
 };
 std::ostream& operator<<(std::ostream& out, const Arena& arena);
-/// Both presets in every dimension, native or planar, at every precision the loaded module can select; empty
+/// Every preset in every dimension, native or planar, at every precision the loaded module can select; empty
 /// for engines without dynamics.
 std::vector<Arena> dynamicsArenas();
 /// Dimensions of collision queries and broad phases.
@@ -61,7 +61,7 @@ std::string dimensionName(const testing::TestParamInfo<int>& info);
 struct Deviation {
     const char* engine;
     const char* precision;  ///< "" for any
-    const char* preset;     ///< "" for both and for queries
+    const char* preset;     ///< "" for all and for queries
     int dimension;          ///< 0 for both
     const char* check;
     double max;  ///< replaces the check's tolerance

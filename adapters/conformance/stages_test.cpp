@@ -3,6 +3,7 @@
 //
 // Worlds that can be stopped between the stages of a step, or taken back: the same motion, bit for bit, and
 // what is read in between fits together.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -108,11 +109,16 @@ TEST_P(Stages, WhatIsReadFitsTogether) {
     const auto rows = staged->rows();
     ASSERT_EQ(manifolds.size(), 1u);
     EXPECT_NEAR(manifolds[0].normal.y, 1.0, 1e-4) << "from A to B";
+    const auto hasRow = [](const auto& point) { return point.row != scenario::kNone; };
+    const auto& points = manifolds[0].points;
+    // A solver of patches has no rows of single points.
+    const bool rowsOfPoints = std::any_of(points.begin(), points.end(), hasRow);
     double pushed = 0.0;
-    for (const auto& point : manifolds[0].points) {
+    for (const auto& point : points) {
         EXPECT_NEAR(point.pointA.y, 0.0, 0.01);
         EXPECT_NEAR(point.depth, point.pointA.y - point.pointB.y, 1e-5);
-        ASSERT_GE(point.row, 0);
+        ASSERT_EQ(hasRow(point), rowsOfPoints);
+        if (!rowsOfPoints) continue;
         const auto& row = rows.at(static_cast<std::size_t>(point.row));
         EXPECT_EQ(row.kind, adapter::StagedRow::Kind::Normal);
         EXPECT_EQ(row.bodyA, 0);
@@ -121,7 +127,7 @@ TEST_P(Stages, WhatIsReadFitsTogether) {
         pushed += row.impulse;
     }
     // The rows of the last sub-step carry the block during it.
-    EXPECT_GT(pushed, 0.0);
+    EXPECT_EQ(pushed > 0.0, rowsOfPoints);
     EXPECT_LT(pushed, 1.5 * 2.0 * 9.81 / 120);
     const auto islands = staged->islands();
     ASSERT_EQ(islands.size(), 2u);

@@ -10,6 +10,7 @@
 
 #include "engine/ccd/traits.hpp"
 #include "engine/integrators/traits.hpp"
+#include "engine/narrowphase/traits.hpp"
 #include "engine/solvers/traits.hpp"
 
 namespace rigor::engine::test {
@@ -24,12 +25,20 @@ struct MeasuredSolver {
 };
 inline constexpr double kAskedContact = 10, kAskedJoint = 12;
 
+/// As a law of restitution says of itself (solvers/restitution.hpp).
+struct MeasuredRestitution {
+    bool bounces = false;
+    bool solvesImpacts = false;
+};
+
 MeasuredSolver measureSolver(const std::string& name);
 FrictionTraits measureFriction(const std::string& name);
 IntegratorTraits measureIntegrator(const std::string& name);
 RotationTraits measureRotation(const std::string& name);
 OrientationTraits measureOrientation(const std::string& name);
 ContinuousCollisionTraits measureContinuousCollision(const std::string& name);
+MeasuredRestitution measureRestitution(const std::string& name);
+ManifoldTraits measureManifold(const std::string& name);
 /// Whether the velocity that removes overlap stays in a body.
 bool correctionKeepsVelocity(const std::string& name);
 
@@ -40,5 +49,7 @@ std::vector<std::string> liesOfIntegrator(const std::string& name);
 std::vector<std::string> liesOfRotation(const std::string& name);
 std::vector<std::string> liesOfOrientation(const std::string& name);
 std::vector<std::string> liesOfContinuousCollision(const std::string& name);
+std::vector<std::string> liesOfRestitution(const std::string& name);
+std::vector<std::string> liesOfManifold(const std::string& name);
 
 }  // namespace rigor::engine::test

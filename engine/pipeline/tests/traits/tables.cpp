@@ -7,6 +7,9 @@
 #include "engine/ccd/traits.hpp"
 #include "engine/integrators/integrator.hpp"
 #include "engine/integrators/traits.hpp"
+#include "engine/narrowphase/manifolds.hpp"
+#include "engine/narrowphase/traits.hpp"
+#include "engine/solvers/restitution.hpp"
 #include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {
@@ -49,6 +52,14 @@ using Vec2 = Eigen::Matrix<R, 2, 1>;
     ContinuousCollisionTraits factory##Traits();
 #include "engine/ccd/continuous_collisions.def"
 #undef ALGORITHM
+#define ALGORITHM(name, factory, summary) \
+    template <class S>                    \
+    std::unique_ptr<Restitution<S>> factory();
+#include "engine/solvers/restitutions.def"
+#undef ALGORITHM
+#define ALGORITHM(name, function, summary) ManifoldTraits function##Traits();
+#include "engine/narrowphase/manifolds.def"
+#undef ALGORITHM
 
 namespace {
 
@@ -83,6 +94,34 @@ class Softer final : public Solver<S> {
 template <class S>
 std::unique_ptr<Solver<S>> makeSofter() {
     return std::make_unique<Softer<S>>(makePgsSoft<S>());
+}
+
+/// No contact bounces, though it says that they do.
+template <class S>
+class Dead final : public Restitution<S> {
+  public:
+    std::unique_ptr<Restitution<S>> clone() const override { return std::make_unique<Dead>(*this); }
+    bool bounces() const override { return true; }
+    bool solvesImpacts() const override { return true; }
+    void impact(ConstraintRows<S>& rows, std::span<Velocity<S>>, const std::function<void()>&) override {
+        for (const Block<S>& block : rows.blocks)
+            if (block.kind == BlockKind::Contact) rows.rows[block.first].bias = 0;
+    }
+};
+template <class S>
+std::unique_ptr<Restitution<S>> makeDead() {
+    return std::make_unique<Dead<S>>();
+}
+/// Newton's law, which says that it solves impacts by a law of its own.
+template <class S>
+class Idle final : public Restitution<S> {
+  public:
+    std::unique_ptr<Restitution<S>> clone() const override { return std::make_unique<Idle>(*this); }
+    bool solvesImpacts() const override { return true; }
+};
+template <class S>
+std::unique_ptr<Restitution<S>> makeIdle() {
+    return std::make_unique<Idle<S>>();
 }
 
 }  // namespace
@@ -122,6 +161,10 @@ std::unique_ptr<Solver<S>> makeSofter() {
 #define COLLISION_LIARS                                                             \
     LIAR(acts, makeNoContinuousCollision, makeNoContinuousCollision, t.acts = true) \
     LIAR(loses_rest, makeSpeculative, makeSpeculative, t.losesRest = false)
+#define RESTITUTION_LIARS           \
+    LIAR(bounces, makeDead, (), ()) \
+    LIAR(solves_impacts, makeIdle, (), ())
+#define MANIFOLD_LIARS LIAR(remembers, manifoldDeepest, manifoldDeepest, t.remembers = true)
 
 // --- algorithms
 #define ALGORITHM(name, factory, summary) {#name, &factory<S>, summary},
@@ -161,6 +204,20 @@ std::span<const AlgorithmEntry<ContinuousCollisionFactory<S>>> continuousCollisi
         COLLISION_LIARS};
     return table;
 }
+template <class S>
+std::span<const AlgorithmEntry<RestitutionFactory<S>>> restitutionTable() {
+    static constexpr AlgorithmEntry<RestitutionFactory<S>> table[] = {
+#include "engine/solvers/restitutions.def"
+        RESTITUTION_LIARS};
+    return table;
+}
+template <class S>
+std::span<const AlgorithmEntry<ManifoldFunction<S>>> manifoldTable() {
+    static constexpr AlgorithmEntry<ManifoldFunction<S>> table[] = {
+#include "engine/narrowphase/manifolds.def"
+        MANIFOLD_LIARS};
+    return table;
+}
 #undef ALGORITHM
 #undef LIAR
 #define ALGORITHM(name, function, summary) {#name, &function<typename S::Real>, summary},
@@ -181,6 +238,8 @@ std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable() {
     template std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable<S>();         \
     template std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable<S>();             \
     template std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable<S>(); \
+    template std::span<const AlgorithmEntry<RestitutionFactory<S>>> restitutionTable<S>();       \
+    template std::span<const AlgorithmEntry<ManifoldFunction<S>>> manifoldTable<S>();            \
     template std::span<const AlgorithmEntry<ContinuousCollisionFactory<S>>> continuousCollisionTable<S>();
 RIGOR_INSTANTIATE(Space2f)
 RIGOR_INSTANTIATE(Space2d)
@@ -225,6 +284,12 @@ std::span<const TraitsEntry<ContinuousCollisionTraits>> continuousCollisionTrait
     static const TraitsEntry<ContinuousCollisionTraits> table[] = {
 #include "engine/ccd/continuous_collisions.def"
         COLLISION_LIARS};
+    return table;
+}
+std::span<const TraitsEntry<ManifoldTraits>> manifoldTraitsTable() {
+    static const TraitsEntry<ManifoldTraits> table[] = {
+#include "engine/narrowphase/manifolds.def"
+        MANIFOLD_LIARS};
     return table;
 }
 #undef ALGORITHM

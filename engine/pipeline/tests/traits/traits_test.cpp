@@ -10,8 +10,10 @@
 
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/integrators/integrator.hpp"
+#include "engine/narrowphase/manifolds.hpp"
 #include "engine/pipeline/tests/traits/measure.hpp"
 #include "engine/solvers/position_correction.hpp"
+#include "engine/solvers/restitution.hpp"
 
 namespace rigor::engine::test {
 namespace {
@@ -56,6 +58,13 @@ TEST(Traits, OfOrientationUpdatesAreMeasured) {
 }
 TEST(Traits, OfContinuousCollisionAreMeasured) {
     expectTruth(continuousCollisionTable<S>(), &liesOfContinuousCollision);
+}
+
+TEST(Traits, OfRestitutionLawsAreMeasured) {
+    expectTruth(restitutionTable<S>(), &liesOfRestitution);
+}
+TEST(Traits, OfManifoldsAreMeasured) {
+    expectTruth(manifoldTable<S>(), &liesOfManifold);
 }
 
 /// What the parity ledger of the engine's adapter says of position corrections.
