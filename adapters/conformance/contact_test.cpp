@@ -197,6 +197,41 @@ TEST_P(Contact, ShapesStandTheWayTheScenarioSays) {
     }
 }
 
+/// Whichever way their vertices run. A body stands over an inner vertex and over the middle of a link.
+TEST_P(Contact, SegmentsAndChainsBearFromBothSides) {
+    if (!is2d()) GTEST_SKIP() << "lines are of the plane";
+    using namespace scenario;
+    const std::vector<Vec3> leftToRight{{-2, 0, 0}, {-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    for (const bool turned : {false, true})
+        for (const double side : {1.0, -1.0}) {
+            auto vertices = leftToRight;
+            if (turned) std::reverse(vertices.begin(), vertices.end());
+            for (const auto& [name, line] :
+                 {std::pair<std::string, Geometry>{"chain", Chain{vertices, false}},
+                  std::pair<std::string, Geometry>{"segment", Segment{vertices.front(), vertices.back()}}}) {
+                if (!hasShape(name)) continue;
+                SCOPED_TRACE(name + (turned ? ", turned" : "") + (side > 0 ? ", above" : ", below"));
+                Scenario s = scene(0.5);
+                s.gravity = {0, -9.81 * side, 0};
+                addStatic(s, line);
+                const int disc = addBody(s, ball(0.2), {-0.95, 0.22 * side, 0}, 1.0, {0.02, 0.02, 0.02});
+                const int box = addBody(s, block({0.3, 0.2, 0.3}), {0.55, 0.22 * side, 0}, 1.0,
+                                        boxMoments(1.0, {0.3, 0.2, 0.3}));
+                auto world = build(s, 1.0 / 240.0);
+                run(*world, 240);
+                for (const int body : {disc, box}) {
+                    const BodyState state = stateOf(*world, s, body);
+                    within("line_height_" + std::string(body == box ? "box" : "circle"),
+                           std::abs(state.position.y - 0.2 * side), 2e-3);
+                    within("line_creep", std::abs(state.position.x - (body == box ? 0.55 : -0.95)), 2e-3);
+                }
+                // From the line to the body.
+                for (const ContactPoint& c : contactsOf(*world))
+                    within("line_normal", norm(c.normal - Vec3{0, side, 0}), 1e-3);
+            }
+        }
+}
+
 TEST_P(Contact, WhatMayNotCollideDoesNot) {
     Scenario s = scene();
     s.gravity = {0, -9.81, 0};

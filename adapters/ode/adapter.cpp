@@ -35,8 +35,9 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
         c.dynamics = c.collision = c.broadPhase = true;
         c.dimensions = {3};
         c.planar = true;
-        c.shapes = {"sphere",        "box",          "capsule", "cylinder", "hull",      "half_space",
-                    "triangle_mesh", "height_field", "circle",  "polygon",  "half_plane"};
+        c.shapes = {"sphere",     "box",           "capsule",      "cylinder", "hull",
+                    "half_space", "triangle_mesh", "height_field", "circle",   "polygon",
+                    "half_plane", "segment",       "chain"};
         c.joints = {"ball", "hinge", "slider", "fixed", "distance", "cone_twist", "six_dof", "wheel"};
         for (const char* joint : {"ball", "hinge", "slider", "cone_twist", "six_dof", "wheel"})
             for (const char* what : {".limit", ".motor", ".spring"})

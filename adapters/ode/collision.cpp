@@ -18,10 +18,6 @@ namespace {
 
 adapter::Geometry solidOf(const adapter::Geometry& geometry, int dimension) {
     if (dimension == 3) return geometry;
-    if (std::holds_alternative<scenario::Segment>(geometry) ||
-        std::holds_alternative<scenario::Chain>(geometry))
-        throw adapter::notInAdapter("ode",
-                                    std::string("shape '") + scenario::geometryName(geometry, 2) + "'");
     return adapter::planarGeometry(geometry);
 }
 
@@ -93,7 +89,8 @@ adapter::CollisionAnswer OdeCollisionEngine::collide(const adapter::CollisionQue
     if (const bool backOfA = a.back() != nullptr; backOfA || b.back() != nullptr) {
         std::vector<FoundPoint> behind;
         if (Geom::meetsBacks(backOfA ? b.id() : a.id()))
-            collideGeoms(backOfA ? a.back() : a.id(), backOfA ? b.id() : b.back(), false, behind);
+            collideGeoms(backOfA ? a.back() : a.id(), backOfA ? b.id() : b.back(), query.dimension == 2,
+                         behind);
         points.insert(points.end(), behind.begin(), behind.end());
     }
     reducePoints(static_cast<std::size_t>(query.maxContacts), points);

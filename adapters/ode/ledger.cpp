@@ -117,7 +117,8 @@ void OdeWorld::appendGeometryLedger(std::vector<LedgerEntry>& all) const {
             merge > 0.0 ? "points of each triangle, of a ball the deepest of those within " +
                               setting("ball_merge_deg") + " degrees of normal"
                         : std::string("points of each triangle"),
-            "triangles ahead that a body dips into act as walls; hulls find triangles from the front alone");
+            "triangles ahead that a body dips into act as walls; a ball at an edge gets the face's normal; "
+            "hulls find triangles from the front alone");
     }
     if (planar_) {
         lines.add("planar", "two dimensions",

@@ -20,8 +20,8 @@ struct GeomTag {
 /// One shape as an ODE geom. Owns the geom and what ODE keeps pointers to.
 class Geom {
   public:
-    /// A geom without a body at `pose` (shape to world). Throws adapter::Unsupported for cones, segments and
-    /// chains.
+    /// A geom without a body at `pose` (shape to world). Throws adapter::Unsupported for cones, and for
+    /// segments and chains, which are meshes in adapter::planarGeometry.
     Geom(const adapter::Geometry& geometry, const adapter::Pose& pose);
     ~Geom();
     Geom(const Geom&) = delete;

@@ -82,6 +82,30 @@ TEST(OdeSurfaces, AHeightFieldStandsWhereItsFrameSays) {
     EXPECT_LT(heightUnder(11.0, 0.0), 0.5);
 }
 
+/// A closed chain of the plane holds a box within and on it.
+TEST(OdeSurfaces, AChainHoldsFromWithinAndWithout) {
+    const scenario::Chain loop{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, true};
+    for (const bool within : {true, false}) {
+        Scenario s = scene(0.5, 0.0, 2);
+        addStatic(s, loop);
+        const int b = addBody(s, Box{{0.1, 0.1, 0}}, {0.1, within ? -0.88 : 1.12, 0}, 1.0, even(0.01));
+        EXPECT_NEAR(Simulation(s, 1.0 / 240.0).seconds(1.0).state(b).position.y, within ? -0.9 : 1.1, 1e-4);
+    }
+}
+
+/// A ball whose centre is beyond the end of a triangle touches the edge at 45 degrees, and gets the normal of
+/// the face and the part of the depth along that: what the ledger says.
+TEST(OdeSurfaces, AnEdgeHasTheNormalOfItsFace) {
+    const Geometry open = scenario::Chain{{{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, false}, disc = Sphere{0.5};
+    adapter::CollisionQuery query;
+    query.dimension = 2;
+    query.a = {&open, {}}, query.b = {&disc, {{1.3, 0.3, 0}, {}}};
+    const auto answer = engine().collision()->collide(query);
+    ASSERT_EQ(answer.contacts.size(), 1u);
+    EXPECT_NEAR(norm(answer.contacts[0].normal - Vec3{0, 1, 0}), 0.0, 1e-6);
+    EXPECT_NEAR(answer.contacts[0].depth, (0.5 - 0.3 * std::sqrt(2.0)) * std::sqrt(0.5), 1e-6);
+}
+
 /// A ball rolling down into a polygonal trough and up again: points of the triangles ahead take its speed,
 /// unless those of nearly one normal are one.
 TEST(OdeSurfaces, ABallIsNotStoppedByTheFacetsAhead) {
