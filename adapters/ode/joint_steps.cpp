@@ -135,9 +135,30 @@ void OdeJoint::update(const TravelMotor& motor) {
     dJointSetLMotorParam(motor.id, dParamCFM, terms.cfm);
 }
 
+/// DBall has no stops. At its bound a distance is what a frictionless contact is, a row that pushes in one
+/// sense alone and acts along the line of the anchors, so it is a contact joint with that line as normal and
+/// the overrun as depth, made anew in each step that starts at the bound or beyond, as ODE's own stops act.
+void OdeJoint::updateLengthStop() {
+    if (lengthStop_->id != nullptr) dJointDestroy(lengthStop_->id);
+    *lengthStop_ = {};
+    const JointAxis& axis = joint_.axes[0];
+    const Coordinate length = motion_.length();
+    const bool taut = length.value >= axis.upper;
+    if (!taut && length.value > axis.lower) return;
+    dContact contact{};
+    toOde(motion_.anchorB(), contact.geom.pos);
+    toOde((taut ? -1.0 : 1.0) * length.rate.lin, contact.geom.normal);
+    contact.geom.depth = taut ? length.value - axis.upper : axis.lower - length.value;
+    lengthStop_->id = dJointCreateContact(world_, nullptr, &contact);
+    dJointAttach(lengthStop_->id, b_.body, a_.body);
+    if (breaks_) dJointSetFeedback(lengthStop_->id, &lengthStop_->feedback);
+}
+
 void OdeJoint::beforeStep() {
-    if (!holds_ || (angleMotors_.empty() && travelMotors_.empty() && springs_.empty() && !breaks_)) return;
+    const bool passive = angleMotors_.empty() && travelMotors_.empty() && springs_.empty();
+    if (!holds_ || (passive && lengthStop_ == nullptr && !breaks_)) return;
     motion_.update();
+    if (lengthStop_ != nullptr) updateLengthStop();
     for (AngleMotor& motor : angleMotors_) update(motor);
     for (const TravelMotor& motor : travelMotors_) update(motor);
     for (const PosedSpring& spring : springs_) {
@@ -162,7 +183,8 @@ bool OdeJoint::breakIfOverloaded() {
     }
     if (!(norm(force) > joint_.breakForce || norm(torque) > joint_.breakTorque)) return false;
     holds_ = false;
-    for (const Part& part : parts_) dJointAttach(part.id, nullptr, nullptr);
+    for (const Part& part : parts_)
+        if (part.id != nullptr) dJointAttach(part.id, nullptr, nullptr);
     return true;
 }
 

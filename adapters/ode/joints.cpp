@@ -63,7 +63,8 @@ OdeJoint::OdeJoint(dWorldID world, const scenario::Joint& joint, const JointEnd&
     if (a.body == nullptr && b.body == nullptr) return;
     build(planar);
     if (!breaks_) return;
-    for (Part& part : parts_) dJointSetFeedback(part.id, &part.feedback);
+    for (Part& part : parts_)
+        if (part.id != nullptr) dJointSetFeedback(part.id, &part.feedback);
 }
 
 void OdeJoint::refuse(const std::string& what) const {
@@ -164,9 +165,12 @@ void OdeJoint::buildSlider() {
 
 void OdeJoint::buildDistance() {
     const JointAxis& axis = joint_.axes[0];
-    if (axis.mode == AxisMode::Limited) refuse("ropes: DBall keeps a distance and has no stops");
+    if (axis.mode == AxisMode::Limited) {
+        add(nullptr);
+        lengthStop_ = &parts_.back();
+    }
     if (axis.hasMotor()) refuse("motors along a distance: DBall has none");
-    if (!asks(axis)) return;
+    if (axis.mode != AxisMode::Locked && !axis.hasSpring()) return;
     const dJointID id = dJointCreateDBall(world_, nullptr);
     dJointAttach(id, b_.body, a_.body);
     const Vec3 p = motion_.anchorA(), q = motion_.anchorB();

@@ -37,7 +37,7 @@ class OdeJoint {
 
   private:
     struct Part {
-        dJointID id = nullptr;
+        dJointID id = nullptr;   ///< null: at present none
         bool firstForce = true;  ///< whether f1 is the force on B (on A where B does not move), else f2
         dJointFeedback feedback{};
     };
@@ -69,6 +69,7 @@ class OdeJoint {
 
     void build(bool planar);
     void buildDistance();
+    void updateLengthStop();
     void buildHinge();
     void buildSlider();
     void buildWheel();
@@ -95,7 +96,8 @@ class OdeJoint {
     JointEnd a_, b_;
     double dt_ = 0.0;
     JointMotion motion_;
-    std::deque<Part> parts_;  ///< addresses are stable: ODE writes forces into them
+    std::deque<Part> parts_;      ///< addresses are stable: ODE writes forces into them
+    Part* lengthStop_ = nullptr;  ///< of a rope: there while it is taut
     std::vector<AngleMotor> angleMotors_;
     std::vector<TravelMotor> travelMotors_;
     std::vector<PosedSpring> springs_;

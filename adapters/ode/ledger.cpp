@@ -80,6 +80,14 @@ std::vector<LedgerEntry> OdeWorld::ledger() const {
             : "redundant contacts are singular beside it, and stacks depend on the order of their bodies");
     lines.add("joint_error_reduction", "rigid", "ERP " + setting("erp"),
               scenario_.joints.empty() ? "" : "drift is corrected through velocities");
+    const bool rope = std::any_of(scenario_.joints.begin(), scenario_.joints.end(), [](const auto& joint) {
+        return joint.type == scenario::JointType::Distance &&
+               joint.axes[0].mode == scenario::AxisMode::Limited;
+    });
+    if (rope)
+        lines.add("distance_limit", "bound of the distance of two anchors",
+                  "frictionless contact joint along their line in steps that start at the bound or beyond",
+                  "ODE's distance joint (DBall) has no stops; the overrun is corrected like a contact's");
     lines.add("contacts_per_pair", "all", "at most " + setting("max_contacts"),
               "the deepest and those farthest apart: the direct solver's cost grows with the cube");
     lines.add("sleeping", "off", "off");
