@@ -35,8 +35,6 @@ constexpr double kNominalHalf = 0.0524;                   // [m]
 constexpr double kNominalInertia = 0.00081;               // [kg m^2] at the nominal half width
 constexpr double kFriction = 0.18, kRestitution = 0.125;  // contact-nets' parameters
 constexpr int kStepsPerFrame = 10;                        // 1/1480 s, the step of the published fits
-constexpr double kUnitTolerance = 1e-3;                   // of |q|
-constexpr double kTimeTolerance = 0.01;                   // of a frame
 constexpr std::size_t kLeastFrames = 10;
 
 struct Units {
@@ -61,40 +59,15 @@ const std::vector<std::string>& columns() {
     return names;
 }
 
-Vec3 vectorOf(const CsvTable& table, std::size_t row, const char* name) {
-    const std::string letter = name;
-    return {table.number(row, letter + "x"), table.number(row, letter + "y"),
-            table.number(row, letter + "z")};
-}
-
-/// Frames at a steady rate, counted from the first time.
-double readRate(const CsvTable& table) {
-    const std::size_t last = table.size() - 1;
-    const double first = table.number(0, "t"),
-                 rate = static_cast<double>(last) / (table.number(last, "t") - first);
-    for (std::size_t row = 0; row <= last; ++row) {
-        const double place = (table.number(row, "t") - first) * rate;
-        if (!(std::abs(place - static_cast<double>(row)) <= kTimeTolerance))
-            throw LoadError({table.problem("import.time", table.line(row), "t = " + table.text(row, "t"),
-                                           "times that rise by the same step from line to line")});
-    }
-    return std::abs(rate - std::round(rate)) < 1e-3 * rate ? std::round(rate) : rate;
-}
-
 Recording readToss(const fs::path& file) {
     const CsvTable table(file, columns());
     if (table.size() < kLeastFrames)
         throw LoadError({table.problem("import.short", 0, std::to_string(table.size()) + " frames",
                                        "at least " + std::to_string(kLeastFrames))});
-    Recording recording{readRate(table), {}};
+    Recording recording{steadyRate(table), {}};
     for (std::size_t row = 0; row < table.size(); ++row) {
-        const Quat q{table.number(row, "qw"), table.number(row, "qx"), table.number(row, "qy"),
-                     table.number(row, "qz")};
-        if (!(std::abs(norm(q) - 1.0) <= kUnitTolerance))
-            throw LoadError({table.problem("import.quaternion", table.line(row),
-                                           "a quaternion of length " + std::to_string(norm(q)), "length 1")});
-        recording.frames.push_back(
-            {vectorOf(table, row, "p"), normalized(q), vectorOf(table, row, "v"), vectorOf(table, row, "w")});
+        recording.frames.push_back({vectorAt(table, row, "p"), unitQuaternionAt(table, row, "q"),
+                                    vectorAt(table, row, "v"), vectorAt(table, row, "w")});
     }
     return recording;
 }

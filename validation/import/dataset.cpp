@@ -3,6 +3,7 @@
 #include "validation/import/dataset.hpp"
 
 #include <charconv>
+#include <cmath>
 
 #include "scenarios/loader/loader.hpp"
 
@@ -11,6 +12,11 @@ namespace rigor::validation {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 using scenario::LoadError;
+
+namespace {
+constexpr double kUnitTolerance = 1e-3;  // of |q|
+constexpr double kTimeTolerance = 0.01;  // of a frame
+}  // namespace
 
 std::map<int, fs::path> numberedRecordings(const fs::path& from, const std::string& prefix,
                                            const std::string& inside, const std::string& other) {
@@ -44,6 +50,33 @@ std::map<int, fs::path> numberedRecordings(const fs::path& from, const std::stri
 std::string numberedName(const std::string& prefix, int number, std::size_t digits) {
     const std::string text = std::to_string(number);
     return prefix + "_" + std::string(text.size() < digits ? digits - text.size() : 0, '0') + text;
+}
+
+double steadyRate(const CsvTable& table) {
+    const std::size_t last = table.size() - 1;
+    const double first = table.number(0, "t"),
+                 rate = static_cast<double>(last) / (table.number(last, "t") - first);
+    for (std::size_t row = 0; row <= last; ++row) {
+        const double place = (table.number(row, "t") - first) * rate;
+        if (!(std::abs(place - static_cast<double>(row)) <= kTimeTolerance))
+            throw LoadError({table.problem("import.time", table.line(row), "t = " + table.text(row, "t"),
+                                           "times that rise by the same step from line to line")});
+    }
+    return std::abs(rate - std::round(rate)) < 1e-3 * rate ? std::round(rate) : rate;
+}
+
+scenario::Vec3 vectorAt(const CsvTable& table, std::size_t row, const std::string& prefix) {
+    return {table.number(row, prefix + "x"), table.number(row, prefix + "y"),
+            table.number(row, prefix + "z")};
+}
+
+scenario::Quat unitQuaternionAt(const CsvTable& table, std::size_t row, const std::string& prefix) {
+    const scenario::Quat q{table.number(row, prefix + "w"), table.number(row, prefix + "x"),
+                           table.number(row, prefix + "y"), table.number(row, prefix + "z")};
+    if (!(std::abs(norm(q) - 1.0) <= kUnitTolerance))
+        throw LoadError({table.problem("import.quaternion", table.line(row),
+                                       "a quaternion of length " + std::to_string(norm(q)), "length 1")});
+    return normalized(q);
 }
 
 ordered_json toJson(const scenario::Vec3& v) {

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenarios/loader/study.hpp"
-#include "validation/import/importer.hpp"
+#include "validation/import/tests/imported.hpp"
 #include "validation/import/tests/toss_folder.hpp"
 #include "validation/references/reference.hpp"
 
@@ -21,26 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace scenario;
 using ::testing::HasSubstr;
-
-Imported importFrom(const std::string& dataSet, const fs::path& folder,
-                    const std::map<std::string, std::string>& options = {}) {
-    const ImporterEntry& importer = findImporter(dataSet);
-    return importer.read({folder, "all", "", resolveChoices(importer, options)});
-}
-
-Scenario loaded(const ImportedScenario& s) {
-    return loadScenarioText(s.text, s.name).scenario;
-}
-
-std::string refusal(const std::string& dataSet, const fs::path& folder,
-                    const std::map<std::string, std::string>& options = {}) {
-    try {
-        importFrom(dataSet, folder, options);
-        return "";
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-}
 
 const char* const kParameters =
     R"({"double": {"m": [0.1, 0.2], "a": [0.11, 0.12], "L": [0.17, 0.0], "I": [4e-4, 1e-3],
@@ -175,6 +155,7 @@ TEST(RealData, IsImportedWhole) {
                "of the repo";
     for (const char* arms : {"single", "double", "triple"})
         expectWhole("multi-arm-pendulum", "multi-arm-pendulum", {{"arms", arms}}, 4);
+    expectWhole("cube-push", "cube-push", {}, 10);
     expectWhole("rolling-cart", "lab-catania/rolling-cart", {}, 2);
     expectWhole("gazebo-boxes", "published/gazebo-boxes", {}, 2);
 }
