@@ -5,8 +5,9 @@
 //     A = | M  -G |   acting on (v, l), H and f continued by 0 and -b.
 //         | G^T 0 |
 // A falls into independent groups of unknowns (bodies, linkages: the connected components of its pattern);
-// each is factored by LU with partial pivoting (Golub and Van Loan, Matrix Computations, 4th ed., section
-// 3.4), since M need not be symmetric. Cost: the sum of the cubes of the groups' sizes.
+// each is factored by LU with partial pivoting, since M need not be symmetric. Cost: the sum of the cubes of
+// the groups' sizes.
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -22,43 +23,7 @@ std::size_t place(int i) {
     return static_cast<std::size_t>(i);
 }
 
-/// Dense LU of one group.
-class Lu {
-  public:
-    Lu(std::size_t n, std::vector<double> A) : n_(n), A_(std::move(A)), pivot_(n) {
-        for (std::size_t k = 0; k < n_; ++k) {
-            std::size_t p = k;
-            for (std::size_t i = k + 1; i < n_; ++i)
-                if (std::abs(at(i, k)) > std::abs(at(p, k))) p = i;
-            if (!(std::abs(at(p, k)) > 0.0)) throw BadInput("is singular");
-            pivot_[k] = p;
-            for (std::size_t j = 0; p != k && j < n_; ++j) std::swap(at(p, j), at(k, j));
-            for (std::size_t i = k + 1; i < n_; ++i) {
-                const double factor = at(i, k) /= at(k, k);
-                if (factor == 0.0) continue;
-                for (std::size_t j = k + 1; j < n_; ++j) at(i, j) -= factor * at(k, j);
-            }
-        }
-    }
-    void solve(std::vector<double>& x) const {
-        for (std::size_t k = 0; k < n_; ++k) {
-            std::swap(x[k], x[pivot_[k]]);
-        }
-        for (std::size_t i = 0; i < n_; ++i)
-            for (std::size_t j = 0; j < i; ++j) x[i] -= at(i, j) * x[j];
-        for (std::size_t i = n_; i-- > 0;) {
-            for (std::size_t j = i + 1; j < n_; ++j) x[i] -= at(i, j) * x[j];
-            x[i] /= at(i, i);
-        }
-    }
-
-  private:
-    double& at(std::size_t i, std::size_t j) { return A_[i * n_ + j]; }
-    double at(std::size_t i, std::size_t j) const { return A_[i * n_ + j]; }
-    std::size_t n_;
-    std::vector<double> A_;
-    std::vector<std::size_t> pivot_;
-};
+using Lu = Eigen::PartialPivLU<Eigen::MatrixXd>;
 
 /// A of the equations above, factored group by group.
 class Dynamics {
@@ -80,14 +45,17 @@ class Dynamics {
     std::size_t groupOf(int unknown) const { return group_[place(unknown)]; }
     const std::vector<int>& members(std::size_t group) const { return members_[group]; }
     std::size_t within(int unknown) const { return within_[place(unknown)]; }
-    void solve(std::size_t group, std::vector<double>& x) const { lu_[group].solve(x); }
+    void solve(std::size_t group, std::vector<double>& x) const {
+        auto part = Eigen::VectorXd::Map(x.data(), static_cast<Eigen::Index>(x.size()));
+        part = lu_[group].solve(part).eval();
+    }
     /// x := A^-1 x for a vector over all unknowns.
     void solveAll(std::vector<double>& x) const {
         std::vector<double> part;
         for (std::size_t g = 0; g < groups(); ++g) {
             part.clear();
             for (const int i : members_[g]) part.push_back(x[place(i)]);
-            lu_[g].solve(part);
+            solve(g, part);
             for (std::size_t k = 0; k < part.size(); ++k) x[place(members_[g][k])] = part[k];
         }
     }
@@ -113,20 +81,20 @@ class Dynamics {
         }
     }
     void factor(const std::vector<Triplet>& A) {
-        std::vector<std::vector<double>> blocks;
-        for (const auto& group : members_) blocks.emplace_back(group.size() * group.size(), 0.0);
-        for (const Triplet& e : A) {
-            const std::size_t g = groupOf(e.row);
-            if (e.value != 0.0) blocks[g][within(e.row) * members_[g].size() + within(e.column)] += e.value;
+        std::vector<Eigen::MatrixXd> blocks;
+        for (const auto& group : members_) {
+            const auto size = static_cast<Eigen::Index>(group.size());
+            blocks.emplace_back(Eigen::MatrixXd::Zero(size, size));
         }
+        for (const Triplet& e : A)
+            blocks[groupOf(e.row)](static_cast<Eigen::Index>(within(e.row)),
+                                   static_cast<Eigen::Index>(within(e.column))) += e.value;
         for (std::size_t g = 0; g < blocks.size(); ++g) {
-            try {
-                lu_.emplace_back(members_[g].size(), std::move(blocks[g]));
-            } catch (const BadInput& error) {
-                const std::string name = place(members_[g].front()) < bodies_ ? "M (with G)" : "G";
-                throw BadInput(name + " " + error.what() + " in the group of unknown " +
-                               std::to_string(members_[g].front()));
-            }
+            lu_.emplace_back(std::move(blocks[g]));
+            if ((lu_.back().matrixLU().diagonal().array().abs() > 0.0).all()) continue;
+            const std::string name = place(members_[g].front()) < bodies_ ? "M (with G)" : "G";
+            throw BadInput(name + " is singular in the group of unknown " +
+                           std::to_string(members_[g].front()));
         }
     }
 

@@ -17,7 +17,7 @@
 #include <cmath>
 
 #include "validation/references/joint_parts.hpp"
-#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/numerics/real.hpp"
 
 namespace rigor::validation {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "validation/references/numerics/quadrature.hpp"
+#include "validation/references/numerics/roots.hpp"
 #include "validation/references/parts.hpp"
 
 namespace rigor::validation {

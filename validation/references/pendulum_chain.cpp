@@ -14,8 +14,8 @@
 #include <cmath>
 
 #include "validation/references/joint_parts.hpp"
+#include "validation/references/numerics/linear_system.hpp"
 #include "validation/references/numerics/ode.hpp"
-#include "validation/references/numerics/vector.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -50,23 +50,27 @@ void derivative(const std::vector<Link>& links, Point gravity, const OdeState& y
         next[j] = rotated(links[j].toNext, y[j]);
         center[j] = rotated(links[j].toCenter, y[j]);
     }
-    std::vector<std::vector<Real>> mass(n, std::vector<Real>(n, 0));
-    std::vector<Real> force(n, 0);
+    const auto size = static_cast<Eigen::Index>(n);
+    numerics::Matrix mass = numerics::Matrix::Zero(size, size);
+    numerics::Vector force = numerics::Vector::Zero(size);
     for (std::size_t i = 0; i < n; ++i) {
         const auto arm = [&](std::size_t j) { return j < i ? next[j] : center[j]; };
         Point push = gravity;
         for (std::size_t j = 0; j <= i; ++j)
             for (std::size_t c = 0; c < 2; ++c) push[c] += y[n + j] * y[n + j] * arm(j)[c];
         for (std::size_t k = 0; k <= i; ++k) {
-            force[k] += links[i].mass * turnOf(arm(k), push);
-            for (std::size_t j = 0; j <= i; ++j) mass[j][k] += links[i].mass * dotOf(arm(j), arm(k));
+            const auto row = static_cast<Eigen::Index>(k);
+            force[row] += links[i].mass * turnOf(arm(k), push);
+            for (std::size_t j = 0; j <= i; ++j)
+                mass(row, static_cast<Eigen::Index>(j)) += links[i].mass * dotOf(arm(j), arm(k));
         }
-        mass[i][i] += links[i].inertia;
+        mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += links[i].inertia;
     }
-    numerics::solveDense(std::move(mass), force);
+    const auto acceleration = numerics::solveDense(std::move(mass), std::move(force));
+    if (!acceleration) throw std::runtime_error("the masses of the chain are singular");
     for (std::size_t j = 0; j < n; ++j) {
         d[j] = y[n + j];
-        d[n + j] = force[j];
+        d[n + j] = (*acceleration)[static_cast<Eigen::Index>(j)];
     }
 }
 

@@ -77,11 +77,12 @@ class PlanarPart {
         return kindBefore(t) == Kind::Flight && kindAfter(t) == Kind::Flight &&
                kindAfter(startOf(k)) == Kind::Flight;
     }
-    /// In contact on both sides of the impact, turning the same way.
+    /// In contact on both sides of the impact, turning the same way or lying flat (a rate of nothing but
+    /// rounding).
     bool isRocking(std::size_t k) const {
         const double t = impacts_[k].time;
         return kindBefore(t) != Kind::Flight && kindAfter(t) != Kind::Flight &&
-               impacts_[k].before.rate * impacts_[k].after.rate > 0;
+               impacts_[k].after.rate / impacts_[k].before.rate > -1e-12L;
     }
 
     /// Where the parabolas of the free flights before and after meet, whatever the steps in between did.

@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
-#include "validation/references/numerics/quadrature.hpp"
-#include "validation/references/numerics/vector.hpp"
+#include "validation/references/numerics/linear_system.hpp"
+#include "validation/references/numerics/roots.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -392,51 +392,54 @@ PlanarMotion::Mode PlanarMotion::impact(double& t, State& s, const std::vector<i
     for (int pick = 0; pick < combinations; ++pick) {
         std::array<int, 2> choice{pick % 4, pick / 4};
         // Unknown: impulses (Pn, Pt) of each corner; equations: its law.
-        std::vector<std::vector<Real>> matrix(2 * n, std::vector<Real>(2 * n, 0));
-        std::vector<Real> right(2 * n, 0);
+        const auto unknowns = static_cast<Eigen::Index>(2 * n);
+        numerics::Matrix matrix = numerics::Matrix::Zero(unknowns, unknowns);
+        numerics::Vector right = numerics::Vector::Zero(unknowns);
         for (std::size_t i = 0; i < n; ++i) {
             const Arm a = armOf(corners[i], s.angle);
             const bool lands = i < landing.size();
+            const auto normal = static_cast<Eigen::Index>(2 * i), tangent = normal + 1;
             if (choice[i] == 0) {
-                matrix[2 * i][2 * i] = 1;
-                matrix[2 * i + 1][2 * i + 1] = 1;
+                matrix(normal, normal) = matrix(tangent, tangent) = 1;
                 continue;
             }
             for (std::size_t j = 0; j < n; ++j) {
                 const Arm b = armOf(corners[j], s.angle);
-                matrix[2 * i][2 * j] += 1 / setup_.mass + a.x * b.cx / setup_.inertia;
-                matrix[2 * i][2 * j + 1] += -a.x * b.cz / setup_.inertia;
+                const auto column = static_cast<Eigen::Index>(2 * j);
+                matrix(normal, column) += 1 / setup_.mass + a.x * b.cx / setup_.inertia;
+                matrix(normal, column + 1) += -a.x * b.cz / setup_.inertia;
+                if (choice[i] != 1) continue;
+                matrix(tangent, column) += -a.cz * b.cx / setup_.inertia;
+                matrix(tangent, column + 1) += 1 / setup_.mass + a.cz * b.cz / setup_.inertia;
             }
             const Real e = lands ? setup_.restitution : 0;
-            right[2 * i] = -(1 + e) * closingOf(corners[i], s);
+            right[normal] = -(1 + e) * closingOf(corners[i], s);
             if (choice[i] == 1) {
-                for (std::size_t j = 0; j < n; ++j) {
-                    const Arm b = armOf(corners[j], s.angle);
-                    matrix[2 * i + 1][2 * j] += -a.cz * b.cx / setup_.inertia;
-                    matrix[2 * i + 1][2 * j + 1] += 1 / setup_.mass + a.cz * b.cz / setup_.inertia;
-                }
-                right[2 * i + 1] = -slipOf(corners[i], s);
+                right[tangent] = -slipOf(corners[i], s);
             } else {
-                matrix[2 * i + 1][2 * i + 1] = 1;
-                matrix[2 * i + 1][2 * i] = choice[i] == 2 ? setup_.friction : -setup_.friction;
+                matrix(tangent, tangent) = 1;
+                matrix(tangent, normal) = choice[i] == 2 ? setup_.friction : -setup_.friction;
             }
         }
-        try {
-            numerics::solveDense(matrix, right);
-        } catch (const std::runtime_error&) {
-            continue;  // both corners stick: the three velocities are zero, one impulse is left open
+        const auto solution = numerics::solveDense(std::move(matrix), std::move(right));
+        // Both corners stick: the three velocities are zero, one impulse is left open.
+        if (!solution) continue;
+        std::array<Real, 2> push{}, drag{};
+        for (std::size_t i = 0; i < n; ++i) {
+            push[i] = (*solution)[static_cast<Eigen::Index>(2 * i)];
+            drag[i] = (*solution)[static_cast<Eigen::Index>(2 * i + 1)];
         }
         State after = s;
         for (std::size_t i = 0; i < n; ++i) {
             const Arm a = armOf(corners[i], s.angle);
-            after.vx += right[2 * i + 1] / setup_.mass;
-            after.vz += right[2 * i] / setup_.mass;
-            after.rate += (a.cx * right[2 * i] - a.cz * right[2 * i + 1]) / setup_.inertia;
+            after.vx += drag[i] / setup_.mass;
+            after.vz += push[i] / setup_.mass;
+            after.rate += (a.cx * push[i] - a.cz * drag[i]) / setup_.inertia;
         }
         bool fits = true;
         Real total = 0;
         for (std::size_t i = 0; i < n; ++i) {
-            const Real normal = right[2 * i], tangential = right[2 * i + 1], slip = slipOf(corners[i], after);
+            const Real normal = push[i], tangential = drag[i], slip = slipOf(corners[i], after);
             const Real least = i < landing.size() && choice[i] != 0 ? -tiny : 0;
             total += normal;
             fits = fits && normal >= least - 1e-12L * setup_.mass * speed;

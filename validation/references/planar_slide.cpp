@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "validation/references/numerics/quadrature.hpp"
+#include "validation/references/numerics/roots.hpp"
 
 namespace rigor::validation {
 namespace {

@@ -15,7 +15,7 @@
 #include <optional>
 #include <vector>
 
-#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/numerics/real.hpp"
 #include "validation/references/parts.hpp"
 
 namespace rigor::validation {

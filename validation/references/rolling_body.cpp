@@ -21,7 +21,7 @@
 #include <cmath>
 
 #include "validation/references/numerics/ode.hpp"
-#include "validation/references/numerics/quadrature.hpp"
+#include "validation/references/numerics/roots.hpp"
 #include "validation/references/numerics/vector.hpp"
 #include "validation/references/parts.hpp"
 

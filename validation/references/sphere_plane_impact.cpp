@@ -13,7 +13,7 @@
 #include <cmath>
 
 #include "validation/references/impact_law.hpp"
-#include "validation/references/numerics/quadrature.hpp"
+#include "validation/references/numerics/roots.hpp"
 
 namespace rigor::validation {
 namespace {

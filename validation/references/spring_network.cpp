@@ -11,10 +11,11 @@
 // no spring shrinks to a point.
 // Quantity: radial_period where one spring of rest length > 0 joins two free bodies without gravity or
 // damping: 2 int dr/sqrt(2 (E - V(r))/mu), V = l^2/(2 mu r^2) + k (r - L)^2/2.
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 
 #include "validation/references/numerics/ode.hpp"
-#include "validation/references/numerics/quadrature.hpp"
+#include "validation/references/numerics/roots.hpp"
 #include "validation/references/numerics/vector.hpp"
 #include "validation/references/parts.hpp"
 
@@ -187,12 +188,12 @@ class SpringNetwork : public Reference {
         low = findRoot(excess, low, slopeZero), high = findRoot(excess, slopeZero, high);
         // r = middle - half cos(s) takes the root singularities out of both ends.
         const Real middle = (low + high) / 2, half = (high - low) / 2;
-        const Real time = integrate(
+        const Real time = boost::math::quadrature::gauss_kronrod<Real, 31>::integrate(
             [&](Real s) {
                 const Real r = middle - half * std::cos(s);
                 return half * std::sin(s) / std::sqrt(2 * std::max(excess(r), Real{1e-30L}) / mu);
             },
-            0, kPi, 1e-12L);
+            Real(0), kPi, 12, 1e-13L);
         return static_cast<double>(2 * time);
     }
 

@@ -12,7 +12,7 @@
 // Quantities: period (mean between passages of the equilibrium in one direction), log_decrement.
 #include <cmath>
 
-#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/numerics/real.hpp"
 #include "validation/references/parts.hpp"
 
 namespace rigor::validation {

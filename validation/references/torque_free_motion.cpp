@@ -10,7 +10,8 @@
 #include <array>
 #include <cmath>
 
-#include "validation/references/numerics/eigen_symmetric.hpp"
+#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/numerics/principal_axes.hpp"
 #include "validation/references/rotation.hpp"
 
 namespace rigor::validation {

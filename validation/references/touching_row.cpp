@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "validation/references/numerics/vector.hpp"
+#include "validation/references/numerics/linear_system.hpp"
 #include "validation/references/parts.hpp"
 
 namespace rigor::validation {
@@ -121,15 +121,21 @@ class TouchingRow : public Reference {
             std::vector<std::size_t> on;
             for (std::size_t i = 0; i < n; ++i)
                 if (mask >> i & 1U) on.push_back(i);
-            std::vector<std::vector<Real>> m(on.size(), std::vector<Real>(on.size(), 0));
-            std::vector<Real> p;
-            for (std::size_t a = 0; a < on.size(); ++a) {
-                for (std::size_t b = 0; b < on.size(); ++b) m[a][b] = coupling(on[a], on[b]);
-                p.push_back(-(1 + bounce[on[a]]) * apart[on[a]]);
+            const auto size = static_cast<Eigen::Index>(on.size());
+            numerics::Matrix m(size, size);
+            numerics::Vector right(size);
+            for (Eigen::Index a = 0; a < size; ++a) {
+                const std::size_t i = on[static_cast<std::size_t>(a)];
+                for (Eigen::Index b = 0; b < size; ++b)
+                    m(a, b) = coupling(i, on[static_cast<std::size_t>(b)]);
+                right[a] = -(1 + bounce[i]) * apart[i];
             }
-            if (!on.empty()) numerics::solveDense(m, p);
             std::vector<Real> push(n, 0);
-            for (std::size_t a = 0; a < on.size(); ++a) push[on[a]] = p[a];
+            if (size > 0) {
+                const auto p = numerics::solveDense(m, right);
+                if (!p) continue;
+                for (std::size_t a = 0; a < on.size(); ++a) push[on[a]] = (*p)[static_cast<Eigen::Index>(a)];
+            }
             bool fits = true;
             for (std::size_t i = 0; i < n; ++i) {
                 Real after = apart[i];

@@ -15,6 +15,7 @@
 #include <cmath>
 
 #include "validation/references/flat_motion.hpp"
+#include "validation/references/numerics/linear_system.hpp"
 #include "validation/references/numerics/ode.hpp"
 #include "validation/references/numerics/vector.hpp"
 #include "validation/references/parts.hpp"
@@ -50,7 +51,7 @@ class TripodSlide : public Reference {
     Loads loadsIn(const OdeState& y) const {
         Loads loads;
         const Real c = std::cos(y[2]), s = std::sin(y[2]);
-        std::vector<std::vector<Real>> m(3, std::vector<Real>(3));
+        Matrix m(3, 3);
         for (std::size_t i = 0; i < 3; ++i) {
             const Foot p{c * feet_[i].x - s * feet_[i].y, s * feet_[i].x + c * feet_[i].y};
             const Foot u{y[3] - y[5] * p.y, y[4] + y[5] * p.x};
@@ -59,12 +60,12 @@ class TripodSlide : public Reference {
             loads.place.push_back(p);
             loads.slip.push_back({u.x / speed, u.y / speed});
             // (p - H n) x (N (n - mu u)): along the first axis and the second.
-            m[0][i] = 1;
-            m[1][i] = p.y - height_ * mu_ * loads.slip[i].y;
-            m[2][i] = -p.x + height_ * mu_ * loads.slip[i].x;
+            m.col(static_cast<Eigen::Index>(i)) << 1, p.y - height_ * mu_ * loads.slip[i].y,
+                -p.x + height_ * mu_ * loads.slip[i].x;
         }
-        loads.normal = {-motion_.mass * pull_[2], 0, 0};
-        solveDense(m, loads.normal);
+        const auto normal = solveDense(m, Vector::Unit(3, 0) * (-motion_.mass * pull_[2]));
+        if (!normal) throw std::runtime_error("the three feet stand on one line");
+        loads.normal.assign(normal->begin(), normal->end());
         return loads;
     }
 

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Elliptic integrals and Jacobi elliptic functions of real argument in extended precision.
+// Elliptic integrals and Jacobi elliptic functions of real argument in extended precision, by Boost.Math.
 //
-// Everywhere the second argument is the PARAMETER m = k^2, 0 <= m < 1 (std::ellint_1, Boost and GSL take the
-// modulus k). Arithmetic-geometric mean for K, E and the amplitude; descending Landen for F.
-// Source: Abramowitz and Stegun, Handbook of Mathematical Functions, 16.4, 17.6; NIST DLMF 19.8, 22.20.
+// Everywhere the second argument is the PARAMETER m = k^2, 0 <= m < 1, as the formulas of the references have
+// it; Boost takes the modulus k first. Notation: Abramowitz and Stegun, Handbook of Mathematical Functions,
+// chapters 16 and 17; NIST DLMF, chapters 19 and 22.
 #pragma once
 
+#include "validation/references/numerics/real.hpp"
+
 namespace rigor::validation::numerics {
-
-using Real = long double;
-
-inline constexpr Real kPi = 3.14159265358979323846264338327950288L;
 
 /// Complete integral of the first kind K(m). Throws std::domain_error unless 0 <= m < 1.
 Real ellipticK(Real m);

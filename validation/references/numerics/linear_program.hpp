@@ -17,7 +17,7 @@
 #include <random>
 #include <vector>
 
-#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/numerics/real.hpp"
 
 namespace rigor::validation::numerics {
 

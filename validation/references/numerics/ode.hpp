@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/numerics/real.hpp"
 
 namespace rigor::validation::numerics {
 

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Vectors, matrices and small linear systems in extended precision, for equations of motion in space.
+// Vectors, matrices and quaternions of space in extended precision, for equations of motion.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "scenarios/model/math.hpp"
-#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/numerics/real.hpp"
 
 namespace rigor::validation::numerics {
 
@@ -83,29 +82,6 @@ inline void quaternionRate(const std::vector<Real>& y, std::size_t at, Real3 w, 
     d[at + 1] = (q0 * w.x + q2 * w.z - q3 * w.y) / 2;
     d[at + 2] = (q0 * w.y + q3 * w.x - q1 * w.z) / 2;
     d[at + 3] = (q0 * w.z + q1 * w.y - q2 * w.x) / 2;
-}
-
-/// Solves the dense system m x = f by Gaussian elimination with row pivoting; f becomes x.
-/// Throws std::runtime_error for a singular matrix.
-inline void solveDense(std::vector<std::vector<Real>> m, std::vector<Real>& f) {
-    const std::size_t n = f.size();
-    for (std::size_t p = 0; p < n; ++p) {
-        std::size_t best = p;
-        for (std::size_t i = p + 1; i < n; ++i)
-            if (std::abs(m[i][p]) > std::abs(m[best][p])) best = i;
-        if (m[best][p] == 0) throw std::runtime_error("a linear system is singular");
-        std::swap(m[p], m[best]);
-        std::swap(f[p], f[best]);
-        for (std::size_t i = p + 1; i < n; ++i) {
-            const Real factor = m[i][p] / m[p][p];
-            for (std::size_t j = p; j < n; ++j) m[i][j] -= factor * m[p][j];
-            f[i] -= factor * f[p];
-        }
-    }
-    for (std::size_t p = n; p-- > 0;) {
-        for (std::size_t j = p + 1; j < n; ++j) f[p] -= m[p][j] * f[j];
-        f[p] /= m[p][p];
-    }
 }
 
 }  // namespace rigor::validation::numerics

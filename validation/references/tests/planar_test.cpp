@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/numerics/real.hpp"
 #include "validation/references/planar_motion.hpp"
 #include "validation/references/tests/newton_euler.hpp"
 

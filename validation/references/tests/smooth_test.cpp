@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "validation/references/numerics/quadrature.hpp"
+#include "validation/references/numerics/elliptic.hpp"
 #include "validation/references/parts.hpp"
 #include "validation/references/rotation.hpp"
 #include "validation/references/tests/scene.hpp"

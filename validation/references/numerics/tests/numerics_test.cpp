@@ -4,22 +4,37 @@
 // Elliptic functions against defining integrals and identities, the integrator against closed forms.
 #include <gtest/gtest.h>
 
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <stdexcept>
 
-#include "validation/references/numerics/eigen_symmetric.hpp"
+#include "validation/references/numerics/elliptic.hpp"
+#include "validation/references/numerics/linear_system.hpp"
 #include "validation/references/numerics/ode.hpp"
-#include "validation/references/numerics/quadrature.hpp"
+#include "validation/references/numerics/principal_axes.hpp"
+#include "validation/references/numerics/roots.hpp"
+#include "validation/references/numerics/vector.hpp"
 
 namespace rigor::validation::numerics {
 namespace {
 
+/// Of a smooth function, panel by panel.
+template <class Function>
+Real integral(const Function& f, Real a, Real b) {
+    constexpr int kPanels = 64;
+    Real sum = 0;
+    for (int i = 0; i < kPanels; ++i)
+        sum += boost::math::quadrature::gauss<Real, 30>::integrate(f, a + (b - a) * i / kPanels,
+                                                                   a + (b - a) * (i + 1) / kPanels);
+    return sum;
+}
+
 TEST(Elliptic, CompleteIntegralsAgreeWithTheirDefinition) {
     for (const Real m : {0.0L, 0.1L, 0.5L, 0.9L, 0.999L}) {
         const Real k =
-            integrate([&](Real a) { return 1 / std::sqrt(1 - m * std::sin(a) * std::sin(a)); }, 0, kPi / 2);
+            integral([&](Real a) { return 1 / std::sqrt(1 - m * std::sin(a) * std::sin(a)); }, 0, kPi / 2);
         const Real e =
-            integrate([&](Real a) { return std::sqrt(1 - m * std::sin(a) * std::sin(a)); }, 0, kPi / 2);
+            integral([&](Real a) { return std::sqrt(1 - m * std::sin(a) * std::sin(a)); }, 0, kPi / 2);
         EXPECT_NEAR(static_cast<double>(ellipticK(m) - k), 0.0, 1e-16 * static_cast<double>(k));
         EXPECT_NEAR(static_cast<double>(ellipticE(m) - e), 0.0, 1e-16);
     }
@@ -41,7 +56,7 @@ TEST(Elliptic, IncompleteIntegralAgreesWithItsDefinitionForAnyAngle) {
     for (const Real m : {0.0L, 0.2L, 0.95L})
         for (const Real phi : {-7.0L, -1.0L, 0.3L, 1.5L, 2.0L, 4.0L, 12.0L}) {
             const Real f =
-                integrate([&](Real a) { return 1 / std::sqrt(1 - m * std::sin(a) * std::sin(a)); }, 0, phi);
+                integral([&](Real a) { return 1 / std::sqrt(1 - m * std::sin(a) * std::sin(a)); }, 0, phi);
             EXPECT_NEAR(static_cast<double>(ellipticF(phi, m) - f), 0.0, 1e-15) << static_cast<double>(phi);
         }
 }
@@ -54,6 +69,11 @@ TEST(Elliptic, JacobiFunctionsInvertTheIntegralAndSolveTheirEquations) {
             EXPECT_NEAR(static_cast<double>(f.dn * f.dn + m * f.sn * f.sn), 1.0, 1e-17);
             if (m < 0.9999L) {
                 EXPECT_NEAR(static_cast<double>(ellipticF(f.am, m)), static_cast<double>(u), 1e-15);
+            }
+            if (m < 1) {  // at the quarter period, where other forms of dn are 0/0
+                const Jacobi quarter = jacobi(ellipticK(m), m);
+                EXPECT_NEAR(static_cast<double>(quarter.dn), static_cast<double>(std::sqrt(1 - m)), 1e-12);
+                EXPECT_NEAR(static_cast<double>(quarter.am - kPi / 2), 0.0, 1e-12);
             }
             // sn' = cn dn by a fourth-order difference.
             const Real h = 1e-4L;
@@ -105,6 +125,39 @@ TEST(Roots, FindRootAndFirstDescent) {
     EXPECT_NEAR(static_cast<double>(*firstDescent(1, -3, 2)), 1.0, 1e-17);  // first of 1 and 2
     EXPECT_NEAR(static_cast<double>(*firstDescent(-1, 2, 0)), 2.0, 1e-17);  // thrown up from the floor
     EXPECT_EQ(*firstDescent(0, -1, 0), 0);
+}
+
+/// Hilbert's matrix of order 6, condition 1.5e7, against its inverse of integers; equations in other units
+/// answer alike, and a matrix of rank 5 is told even where rounding leaves no exact zero.
+TEST(LinearSystem, SolvesInAnyUnitsAndTellsSingularMatrices) {
+    constexpr int kOrder = 6;
+    const double inverseOfLast[kOrder] = {-2772, 83160, -582120, 1552320, -1746360, 698544};
+    Matrix hilbert(kOrder, kOrder);
+    for (int i = 0; i < kOrder; ++i)
+        for (int j = 0; j < kOrder; ++j) hilbert(i, j) = 1 / static_cast<Real>(i + j + 1);
+    Vector last = Vector::Unit(kOrder, kOrder - 1);
+    const auto x = solveDense(hilbert, last);
+    ASSERT_TRUE(x.has_value());
+    for (int i = 0; i < kOrder; ++i)
+        EXPECT_NEAR(static_cast<double>((*x)[i] / inverseOfLast[i]), 1.0, 1e-11) << i;
+    Matrix scaled = hilbert;
+    Vector right = last;
+    scaled.row(2) *= 1e-30L, scaled.row(5) *= 1e30L, right[5] *= 1e30L;
+    const auto same = solveDense(scaled, right);
+    ASSERT_TRUE(same.has_value());
+    for (int i = 0; i < kOrder; ++i)
+        EXPECT_NEAR(static_cast<double>((*same)[i] / inverseOfLast[i]), 1.0, 1e-11) << i;
+    Matrix deficient = Matrix::Random(kOrder, kOrder);
+    deficient.row(4) = 0.3L * deficient.row(0) - 0.7L * deficient.row(2);
+    EXPECT_FALSE(solveDense(deficient, last).has_value());
+    EXPECT_FALSE(solveDense(Matrix::Zero(2, 2), Vector::Zero(2)).has_value());
+}
+
+TEST(LinearSystem, OfThreeUnknowns) {
+    const Real33 m{Real3{2, 1, -1}, Real3{0.5L, 3, 0.25L}, Real3{-1, 0.75L, 4}};
+    const Real3 x{1.5L, -2.25L, 0.125L}, found = solve(m, m * x);
+    EXPECT_NEAR(static_cast<double>(norm(found - x)), 0.0, 1e-17);
+    EXPECT_THROW(solve({Real3{1, 2, 3}, Real3{2, 4, 6}, Real3{0, 1, 0}}, x), std::runtime_error);
 }
 
 TEST(Eigen, PrincipalAxesRebuildTheTensor) {

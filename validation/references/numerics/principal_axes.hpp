@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Principal axes of a symmetric 3 x 3 matrix by Jacobi rotations.
-// Source: Golub and Van Loan, Matrix Computations, 4th ed., 2013, section 8.5.
+// Principal axes of a symmetric 3 x 3 matrix and quaternions of rotation matrices, by Eigen in the types of
+// the scenario model.
 #pragma once
 
 #include "scenarios/model/math.hpp"
