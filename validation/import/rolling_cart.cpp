@@ -15,12 +15,12 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "scenarios/loader/loader.hpp"
 #include "validation/import/csv.hpp"
 #include "validation/import/dataset.hpp"
 #include "validation/import/importer.hpp"
+#include "validation/import/lab_catania.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -126,9 +126,7 @@ std::string scenarioOf(const Cart& cart, const Times& times, bool turning) {
           "discs at rest needs its measured time; the ratio of the two times depends on neither. Discs at "
           "rest "
           "are wheels without friction: the small wheels themselves weigh next to nothing."},
-         {"source",
-          "D. Angemi, F. Ingrassia, G. Di Silvestre, G. De Luca, lab1-dfa, University of Catania, CC-BY 4.0 "
-          "(https://creativecommons.org/licenses/by/4.0/); means taken, units unchanged"},
+         {"source", lab::sourceText("means taken, units unchanged")},
          {"isolates", {"rolling", "joints"}},
          {"tags", {"measured"}},
          {"dimension", 2},
@@ -151,30 +149,12 @@ std::string scenarioOf(const Cart& cart, const Times& times, bool turning) {
 ordered_json studyOf(const Times& times) {
     const double width = 2.0 * kHalfHeight, ratio = times.turning / times.atRest;
     const double allowed = kWay * 2.0 * 2.0 * times.standardError / ratio / width;
-    const ordered_json variants = {results::kInHouseEngine, "bullet:preset=matched", "ode:preset=matched",
-                                   "box2d:preset=matched"};
-    ordered_json within = ordered_json::array(), without = within;
-    for (const auto& variant : variants) {
-        within.push_back({{"statement",
-                           "At the measured time the cart is at the photocell, within two standard "
-                           "errors of the measured ratio"},
-                          {"source", "Angemi and others, lab1-dfa, University of Catania"},
-                          {"variant", variant},
-                          {"metric", "measured_position_final"},
-                          {"at_most", allowed}});
-        without.push_back({{"statement", "Discs that do not turn would be half a metre too far"},
-                           {"variant", variant},
-                           {"metric", "measured_position_final"},
-                           {"at_least", 0.5 / width}});
-    }
-    const auto part = [&](const char* name, const char* file, const ordered_json& findings) {
-        return ordered_json{{"name", name},
-                            {"scenarios", {file}},
-                            {"variants", variants},
-                            {"metrics", {"measured_position_final"}},
-                            {"findings", findings}};
-    };
-    ordered_json still = part("discs_without_inertia", "cart_discs_turning.json", without);
+    const ordered_json within = lab::findings(
+        "At the measured time the cart is at the photocell, within two standard errors of the measured ratio",
+        "at_most", allowed);
+    const ordered_json without =
+        lab::findings("Discs that do not turn would be half a metre too far", "at_least", 0.5 / width);
+    ordered_json still = lab::part("discs_without_inertia", "cart_discs_turning.json", without);
     still["set"] = {"pairs.0.friction=0"};
     return {{"rigor_study", 1},
             {"name", "rolling_cart"},
@@ -182,8 +162,8 @@ ordered_json studyOf(const Times& times) {
             {"description", "Measured ratio of the times " + ordered_json(ratio).dump() +
                                 ", standard error " + ordered_json(times.standardError).dump() + "."},
             {"parts",
-             {part("discs_at_rest", "cart_discs_at_rest.json", within),
-              part("discs_turning", "cart_discs_turning.json", within), still}}};
+             {lab::part("discs_at_rest", "cart_discs_at_rest.json", within),
+              lab::part("discs_turning", "cart_discs_turning.json", within), still}}};
 }
 
 }  // namespace
@@ -194,9 +174,7 @@ const std::vector<ImportChoice>& rollingCartChoices() {
 }
 
 Imported importRollingCart(const ImportRequest& request) {
-    if (request.select != "all" || !request.train.empty())
-        throw std::invalid_argument(
-            "rolling-cart: the runs are taken as a mean; nothing to select or to fit on");
+    lab::requireWhole(request, "rolling-cart");
     const Cart cart = readCart(request.from / "experimental-data-2.csv");
     const Times times = readTimes(request.from / "experimental-data-1.csv");
     Imported imported;
@@ -204,8 +182,7 @@ Imported importRollingCart(const ImportRequest& request) {
     imported.scenarios.push_back({"cart_discs_at_rest", scenarioOf(cart, times, false), false});
     imported.scenarios.push_back({"cart_discs_turning", scenarioOf(cart, times, true), false});
     imported.studies.push_back({"rolling_cart", studyOf(times).dump(1) + "\n"});
-    for (const fs::path& file : {request.from / "LICENSE", request.from.parent_path() / "LICENSE"})
-        if (imported.licence.empty() && fs::exists(file)) imported.licence = file;
+    imported.licence = lab::licenceOf(request.from);
     return imported;
 }
 

@@ -156,6 +156,9 @@ TEST(RealData, IsImportedWhole) {
     for (const char* arms : {"single", "double", "triple"})
         expectWhole("multi-arm-pendulum", "multi-arm-pendulum", {{"arms", arms}}, 4);
     expectWhole("cube-push", "cube-push", {}, 10);
+    expectWhole("compound-pendulum", "lab-catania/compound-pendulum", {}, 10);
+    expectWhole("incline-sliding", "lab-catania/incline-sliding", {}, 5);
+    expectWhole("simple-pendulum", "lab-catania/simple-pendulum", {}, 6);
     expectWhole("rolling-cart", "lab-catania/rolling-cart", {}, 2);
     expectWhole("gazebo-boxes", "published/gazebo-boxes", {}, 2);
 }
