@@ -54,6 +54,7 @@ Json eventJson(const ReplayEvent& e) {
     if (!std::isnan(e.value)) json["value"] = number(e.value), json["unit"] = e.unit;
     if (e.threshold > 0.0) json["threshold"] = number(e.threshold);
     if (!e.text.empty()) json["text"] = e.text;
+    if (e.contact >= 0) json["contact"] = e.contact;
     return json;
 }
 

@@ -74,6 +74,14 @@ std::size_t frameOf(const TrajectoryFile& file, const std::string& worst, std::s
     return std::min(frame, file.times.size() - 1);
 }
 
+/// Which contact of the frame "... at t=0.25, step 15, contact 3 (normal)" speaks of; -1 where it tells of
+/// none.
+long contactOf(const std::string& worst) {
+    constexpr std::string_view kContact = ", contact ";
+    const auto at = worst.rfind(kContact);
+    return at == std::string::npos ? -1 : std::strtol(worst.c_str() + at + kContact.size(), nullptr, 10);
+}
+
 void addAudit(const TrajectoryFile& file, const results::CaseRow& row, std::vector<ReplayEvent>& out) {
     for (const auto& audit : row.audit) {
         const auto at = audit.worst.find(" at t=");
@@ -83,6 +91,7 @@ void addAudit(const TrajectoryFile& file, const results::CaseRow& row, std::vect
         ReplayEvent event = eventAt(file, frameOf(file, audit.worst, at + 6), "audit");
         event.what = audit.auditor, event.subject = audit.worst.substr(0, at);
         event.value = audit.normalErrorMax.value_or(kNone), event.unit = "rad", event.text = audit.worst;
+        event.contact = contactOf(audit.worst);
         out.push_back(std::move(event));
     }
 }

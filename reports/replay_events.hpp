@@ -25,6 +25,7 @@ struct ReplayEvent {
     std::string unit;        ///< of the value
     double threshold = 0.0;  ///< divergence and parting: the distance that was passed [m]
     std::string text;        ///< audit: its own words
+    long contact = -1;       ///< audit: which of the contacts of the frame, -1: not told
 };
 
 /// More contact events of one case are left out: a pile has thousands.

@@ -35,6 +35,8 @@ struct AuditQuery {
     std::vector<scenario::Vec3> normals;  ///< all minimising directions, A to B
     bool actedUpon = false;  ///< whether the contacts of the step that began at the frame are known
     std::vector<adapter::ContactPoint> own;  ///< the contacts of that step
+    std::vector<int>
+        ownPlaces;  ///< of each of them: its place among all stored contacts of the frame, from 0
 };
 
 /// The questions of one case, from its recorded trajectory.

@@ -52,7 +52,8 @@ class Comparison {
   public:
     Comparison(const Scenario& scenario, results::AuditRow& row) : scenario_(scenario), row_(row) {}
 
-    void add(const AuditQuery& q, const CollisionAnswer& answer) {
+    /// `places`: of each contact of the answer, among all of its frame; empty where no run acted upon them.
+    void add(const AuditQuery& q, const CollisionAnswer& answer, const std::vector<int>& places = {}) {
         row_.overlapping += answer.overlap ? 1 : 0;
         if (!q.decided) {
             ++row_.undecided;
@@ -67,7 +68,7 @@ class Comparison {
             ++row_.spurious;
             name(q, "spurious", 2);
         }
-        if (overlaps && answer.overlap && !answer.contacts.empty()) compareContacts(q, answer);
+        if (overlaps && answer.overlap && !answer.contacts.empty()) compareContacts(q, answer, places);
     }
 
     /// A contact that claims an overlap of shapes that nobody needed to ask about.
@@ -85,10 +86,12 @@ class Comparison {
     }
 
   private:
-    void compareContacts(const AuditQuery& q, const CollisionAnswer& answer) {
+    void compareContacts(const AuditQuery& q, const CollisionAnswer& answer, const std::vector<int>& places) {
         const ContactPoint& deepest = deepestOf(answer.contacts);
         depth_.add(std::abs(deepest.depth + q.signedDistance));
-        if (normal_.add(nearestAngle(deepest.normal, q.normals))) name(q, "normal", 1);
+        const auto index = static_cast<std::size_t>(&deepest - answer.contacts.data());
+        const int place = index < places.size() ? places[index] : -1;
+        if (normal_.add(nearestAngle(deepest.normal, q.normals))) name(q, "normal", 1, place);
         const int dimension = scenario_.dimension;
         point_.add(
             surfaceDistance(deepest.pointA, geometryOf(scenario_, q.bodyA, q.shapeA), q.poseA, dimension));
@@ -96,15 +99,17 @@ class Comparison {
             surfaceDistance(deepest.pointB, geometryOf(scenario_, q.bodyB, q.shapeB), q.poseB, dimension));
     }
 
-    /// The worst question so far: a missed overlap before a false one before a wrong normal.
-    void name(const AuditQuery& q, const char* what, int rank) {
+    /// The worst question so far: a missed overlap before a false one before a wrong normal. `contact`: its
+    /// place among the stored contacts of the frame, -1 where it is none of them.
+    void name(const AuditQuery& q, const char* what, int rank, int contact = -1) {
         if (rank < worstRank_ || (rank == worstRank_ && rank > 1)) return;
         worstRank_ = rank;
         char place[64];
-        std::snprintf(place, sizeof place, " at t=%.6g, step %lld (", q.time, static_cast<long long>(q.step));
+        std::snprintf(place, sizeof place, " at t=%.6g, step %lld", q.time, static_cast<long long>(q.step));
+        const std::string which = contact < 0 ? "" : ", contact " + std::to_string(contact);
         const auto& bodies = scenario_.bodies;
         row_.worst = bodies[static_cast<std::size_t>(q.bodyA)].name + "|" +
-                     bodies[static_cast<std::size_t>(q.bodyB)].name + place + what + ")";
+                     bodies[static_cast<std::size_t>(q.bodyB)].name + place + which + " (" + what + ")";
     }
 
     const Scenario& scenario_;
@@ -166,7 +171,7 @@ results::AuditRow inRunRow(const Scenario& scenario, const AuditCase& questions)
         answer.overlap = std::any_of(q.own.begin(), q.own.end(), [&](const ContactPoint& c) {
             return overlaps || c.depth > kTouchTolerance;
         });
-        comparison.add(q, answer);
+        comparison.add(q, answer, q.ownPlaces);
     }
     for (const ContactPoint& contact : questions.stray) comparison.addStray(contact);
     comparison.finish();

@@ -168,16 +168,18 @@ void addOwnContacts(const results::TrajectoryFile& file, std::size_t frame, std:
     for (AuditQuery& q : queries) q.actedUpon = true;
     const auto time = [](const results::ContactSample& c, double t) { return c.time < t; };
     auto it = std::lower_bound(file.contacts.begin(), file.contacts.end(), file.times[frame], time);
-    for (; it != file.contacts.end() && it->time == file.times[frame]; ++it) {
+    for (int place = 0; it != file.contacts.end() && it->time == file.times[frame]; ++it, ++place) {
         const adapter::ContactPoint contact = contactOf(*it);
         const auto about = std::find_if(queries.begin(), queries.end(), [&](const AuditQuery& q) {
             return q.bodyA == contact.bodyA && q.bodyB == contact.bodyB && q.shapeA == contact.shapeA &&
                    q.shapeB == contact.shapeB;
         });
-        if (about != queries.end())
+        if (about != queries.end()) {
             about->own.push_back(contact);
-        else if (contact.depth > kTouchTolerance)
+            about->ownPlaces.push_back(place);
+        } else if (contact.depth > kTouchTolerance) {
             stray.push_back(contact);
+        }
     }
 }
 

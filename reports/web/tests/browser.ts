@@ -25,17 +25,21 @@ export const launch = (): Promise<Browser> =>
 
 export const screenshots = join(binaries, 'screenshots');
 
-const program = (name: string, ...args: string[]): string =>
+/** Runs a built program and returns what it prints. */
+export const program = (name: string, ...args: string[]): string =>
   execFileSync(join(binaries, name), args, { encoding: 'utf8', maxBuffer: 1 << 28, stdio: ['ignore', 'pipe', 'pipe'] });
 
-/** A run of the smoke suite by the built program, in a folder of the test's own. */
-export function makeRun(name: string): string {
+/** A run of a suite or of scenarios by the built program, in a folder of the test's own. */
+export function makeRunOf(name: string, ...what: string[]): string {
   const folder = join(binaries, 'web_runs', name);
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(join(binaries, 'web_runs'), { recursive: true });
-  program('bin/rigor', 'validate', 'smoke', '--out', folder, '-j2');
+  program('bin/rigor', 'validate', ...what, '--out', folder, '-j2');
   return folder;
 }
+
+/** A run of the smoke suite. */
+export const makeRun = (name: string): string => makeRunOf(name, 'smoke');
 
 /** The report of a made-up run with every bad ending, broken off, and of a study. */
 export function makeSynthetic(name: string): string {

@@ -175,6 +175,30 @@ TEST_F(InRun, TheWorstPlaceNamesItsStep) {
     EXPECT_NEAR(std::stol(row.worst.substr(at + 7)) * (kStep / 2), time, 1e-4) << row.worst;
 }
 
+/// The contact that was measured is the deepest, wherever it stands among those of its frame.
+TEST_F(InRun, TheWorstPlaceNamesItsContact) {
+    std::vector<ContactSample> doubled;
+    for (const ContactSample& c : file_.contacts) {
+        doubled.push_back(c);
+        doubled.back().depth /= 2.0;
+        doubled.push_back(c);
+        for (double& x : doubled.back().normal) x = -x;
+    }
+    file_.contacts = std::move(doubled);
+    const auto row = audited();
+    EXPECT_NEAR(row.normalErrorMax.value(), std::numbers::pi, 1e-9);
+    const auto at = row.worst.find(", contact ");
+    ASSERT_NE(at, std::string::npos) << row.worst;
+    const double time = std::stol(row.worst.substr(row.worst.find(", step ") + 7)) * kStep;
+    const auto first =
+        std::find_if(file_.contacts.begin(), file_.contacts.end(),
+                     [&](const ContactSample& c) { return std::abs(c.time - time) < kStep / 2; });
+    const auto& named = *(first + std::stol(row.worst.substr(at + 10)));
+    EXPECT_NEAR(named.time, time, kStep / 2) << "of the same frame";
+    EXPECT_LT(named.depth, 2.0 * first->depth + 1e-12);
+    EXPECT_EQ(std::stol(row.worst.substr(at + 10)) % 2, 1) << "the deeper one of its pair: " << row.worst;
+}
+
 /// A file of an older format does not tell which poses its contacts belong to: they are not judged.
 TEST_F(InRun, ContactsOfAnUnknownInstantAreNotJudged) {
     EXPECT_GT(audited().queries, 0);

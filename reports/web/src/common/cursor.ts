@@ -35,6 +35,7 @@ export class Observable<T> {
 export interface Focus {
   spec: string;
   bodies: string[]; // names; empty: the whole scene
+  contact: number | null; // which of the contacts of the frame; null: the deepest of the two bodies
 }
 
 export interface Cursor {

@@ -139,6 +139,16 @@ export class BodyLayer {
     this.#batches.push({ faces, edges, matrices, colours, bodies, shapes: Int32Array.from(shapes) });
   }
 
+  /** Matrices of all shapes as they stand in the buffers that are drawn: the axes stretched to the shape's size. */
+  get drawn(): { body: number; shape: number; matrix: number[] }[] {
+    return this.#batches.flatMap(({ edges, shapes }) =>
+      [...shapes].map((s, i) => {
+        const { body, index } = this.shapes[s] as ShapeOfLayer;
+        return { body, shape: index, matrix: [...edges.instanceMatrix.array.slice(16 * i, 16 * i + 16)] };
+      }),
+    );
+  }
+
   /** Poses of a frame. */
   place(frame: Frame): void {
     for (let s = 0; s < this.shapes.length; ++s) {

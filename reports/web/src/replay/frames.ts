@@ -49,6 +49,7 @@ export interface ReplayEvent {
   unit?: string;
   threshold?: number; // divergence, parting: the distance that was passed [m]
   text?: string;
+  contact?: number; // audit: which of the contacts of the frame
 }
 
 /** A sequence of frames with a time axis: one engine's run, or the reference. */

@@ -21,6 +21,7 @@ import {
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
+import type { Vec3 } from './vectors.ts';
 
 type Numbers = Float32Array<ArrayBuffer>;
 
@@ -115,12 +116,18 @@ function setDynamic(geometry: BufferGeometry, name: string, array: Float32Array)
   attribute.needsUpdate = true;
 }
 
+export interface Arrow {
+  from: Vec3;
+  to: Vec3;
+}
+
 /** Lines and arrows a few pixels wide, seen through everything. */
 export class FatLines {
   readonly object: LineSegments2;
   readonly heads: InstancedMesh;
   readonly #segments = new Segments(32);
   #headCount = 0;
+  #stems: number[] = []; // of each head, its line
   #geometry = new LineSegmentsGeometry();
   readonly #lineMaterial: LineMaterial;
 
@@ -146,6 +153,7 @@ export class FatLines {
   begin(): void {
     this.#segments.count = 0;
     this.#headCount = 0;
+    this.#stems = [];
   }
 
   line(ax: number, ay: number, az: number, bx: number, by: number, bz: number, c: Color): void {
@@ -158,8 +166,19 @@ export class FatLines {
     if (!(length > 0) || !Number.isFinite(length + x + y + z)) return;
     const h = Math.min(head, length / 2);
     const s = (length - h) / length;
+    this.#stems.push(this.#segments.count);
     this.line(x, y, z, x + dx * s, y + dy * s, z + dz * s, c);
     this.#head(x + dx, y + dy, z + dz, dx / length, dy / length, dz / length, h, c);
+  }
+
+  /** Arrows as they stand in the buffers that are drawn: where each begins, and its tip [m]. */
+  get arrows(): Arrow[] {
+    const starts = this.object.geometry.getAttribute('instanceStart') as InterleavedBufferAttribute;
+    const tips = this.heads.instanceMatrix.array;
+    return this.#stems.map((stem, i) => ({
+      from: [starts.getX(stem), starts.getY(stem), starts.getZ(stem)],
+      to: [12, 13, 14].map((k) => tips[16 * i + k] as number) as Vec3,
+    }));
   }
 
   end(): void {

@@ -16,6 +16,8 @@ export interface LinkState {
   camera?: CameraState;
   speed?: number;
   body?: number; // pinned in the inspector
+  of?: string; // spec whose body that is
+  contact?: number; // of that frame, pinned in the inspector
 }
 
 /** Five digits are enough for a camera, nine for a time. */
@@ -37,6 +39,8 @@ export function encodeLink(state: LinkState): string {
   for (const spec of state.shown ?? []) out.append('e', spec);
   if (state.speed !== undefined) out.set('s', short(state.speed));
   if (state.body !== undefined && state.body >= 0) out.set('b', String(state.body));
+  if (state.of !== undefined) out.set('of', state.of);
+  if (state.contact !== undefined) out.set('c', String(state.contact));
   if (state.camera) {
     const { position, target, zoom } = state.camera;
     out.set('cam', [...position, ...target, zoom].map((v) => short(v)).join('_'));
@@ -64,6 +68,10 @@ export function decodeLink(text: string): LinkState {
   if (speed !== undefined) state.speed = speed;
   const body = number('b', 0, 1e6);
   if (body !== undefined) state.body = body;
+  const contact = number('c', 0, 1e9);
+  if (contact !== undefined && Number.isInteger(contact)) state.contact = contact;
+  const of = from.get('of');
+  if (of) state.of = of;
   if (from.has('e')) state.shown = from.getAll('e');
   if (from.has('on')) {
     const options = defaultOptions();
@@ -88,13 +96,14 @@ export function viewOfHash(hash: string): string {
   return at < 0 ? '' : (new URLSearchParams(hash.slice(at + 1)).get('view') ?? '');
 }
 
-/** The same address with another view, which says more than the moment (time, step, pair) of the link that led here. */
+/** The same address with another view, which says more than the moment (time, step, pair, contact) of the link that led here. */
 export function withView(hash: string, view: string): string {
   const at = hash.indexOf('?');
   const query = new URLSearchParams(at < 0 ? '' : hash.slice(at + 1));
   query.delete('t');
   query.delete('step');
   query.delete('pair');
+  query.delete('contact');
   query.set('view', view);
   return `${(at < 0 ? hash : hash.slice(0, at)) || '#'}?${query}`;
 }

@@ -4,10 +4,10 @@
 // The replay of one scenario at one time step, as the scenario's page and `rigor view` show it:
 //
 //   const replay = mountReplay(element, {scenario, index, step, cursor, colourOf});
-//   replay.focus('bullet:preset=default', 'block', 'floor');
+//   replay.focus({spec: 'bullet:preset=default', bodies: ['block', 'floor'], contact: null});
 //
 // The cursor is shared with the curves; the address is kept up to date, so that a link restores the view.
-import type { Cursor } from '../common/cursor.ts';
+import type { Cursor, Focus } from '../common/cursor.ts';
 import { loadData } from '../common/data_files.ts';
 import { el } from '../common/elements.ts';
 import { toldApart } from './colours.ts';
@@ -41,9 +41,14 @@ export interface ReplayHandle {
   /** Settled when everything is there, or a sentence says why not. */
   ready: Promise<void>;
   setTime(seconds: number): void;
-  /** Shows one engine, lights two bodies up and moves the camera to them; bodies by name. */
-  focus(spec: string, ...bodies: string[]): void;
+  /** Shows one engine, lights two bodies up and moves the camera to them. */
+  focus(on: Focus): void;
   dispose(): void;
+}
+
+/** The element of a replay gives its stage to tests and the browser's tools. */
+interface ReplayElement extends HTMLElement {
+  stage?: ReplayStage;
 }
 
 /** Bodies in the order of the stored frames; one that the file does not name is a point. */
@@ -69,7 +74,7 @@ function inOrder(scene: Scene, names: readonly string[]): Scene {
 export function mountReplay(element: HTMLElement, context: ReplayContext): ReplayHandle {
   let stage: ReplayStage | null = null;
   let disposed = false;
-  const root = el('div', { class: 'replay' }, el('p', { class: 'replay-note' }, 'Loading the frames …'));
+  const root: ReplayElement = el('div', { class: 'replay' }, el('p', { class: 'replay-note' }, 'Loading the frames …'));
   element.append(root);
   const say = (text: string) => root.replaceChildren(el('p', { class: 'replay-note' }, text));
 
@@ -100,7 +105,7 @@ export function mountReplay(element: HTMLElement, context: ReplayContext): Repla
         const { id, frames, stored } = replay.head.cases[i] as (typeof replay.head.cases)[number];
         if (get && frames < (stored ?? 0)) thinned.set(source, () => fullSource(source, get(id)));
       });
-      stage = new ReplayStage(root, scene, sources, { dt: replay.head.dt, ...context }, thinned);
+      root.stage = stage = new ReplayStage(root, scene, sources, { dt: replay.head.dt, ...context }, thinned);
     } catch (error) {
       if (!(error instanceof NoWebGL)) console.error(error);
       say(
@@ -114,8 +119,8 @@ export function mountReplay(element: HTMLElement, context: ReplayContext): Repla
   return {
     ready,
     setTime: (seconds) => context.cursor.time.set(seconds),
-    focus: (spec, ...bodies) => {
-      void ready.then(() => stage?.focus(spec, bodies));
+    focus: (on) => {
+      void ready.then(() => stage?.focus(on));
     },
     dispose: () => {
       disposed = true;

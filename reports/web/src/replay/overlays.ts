@@ -9,7 +9,7 @@ import type { Bounds } from './bounds.ts';
 import type { Theme } from './colours.ts';
 import { type Contacts, type Frame, type FrameSource, indexAt, middleOf } from './frames.ts';
 import type { ViewOptions } from './layers.ts';
-import { Dots, FatLines, ThinLines } from './line_batch.ts';
+import { type Arrow, Dots, FatLines, ThinLines } from './line_batch.ts';
 import type { Scene, SceneJoint } from './scene.ts';
 import { type Quat, rotate, type Vec3 } from './vectors.ts';
 
@@ -40,6 +40,10 @@ export class Overlays {
   constructor(scene: Scene) {
     this.#scene = scene;
     this.group.add(this.#boxes.object, this.#thin.object, this.#fat.object, this.#fat.heads, this.#dots.object);
+  }
+
+  get arrows(): Arrow[] {
+    return this.#fat.arrows;
   }
 
   set pixels(value: number) {

@@ -14,6 +14,11 @@ import { type ArrowScales, Overlays } from './overlays.ts';
 import type { Scene } from './scene.ts';
 import type { TemplateCache } from './shape_meshes.ts';
 
+export interface Drawn {
+  bodies: BodyLayer['drawn'];
+  arrows: Overlays['arrows'];
+}
+
 export class SourceLayer {
   readonly three = new ThreeScene();
   readonly source: FrameSource;
@@ -60,6 +65,11 @@ export class SourceLayer {
   }
   get index(): number {
     return this.#shown;
+  }
+
+  /** What is in the picture, as numbers: read from the buffers that are drawn. */
+  get drawn(): Drawn {
+    return { bodies: this.bodies.drawn, arrows: this.#overlays.arrows };
   }
 
   build(framing: Framing, theme: Theme, pixelRatio: number): void {

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Picture, controls and keys of a replay, bound together.
+
+import type { Focus } from '../common/cursor.ts';
 import { el } from '../common/elements.ts';
 import { stepAt } from '../common/steps.ts';
 import { Controls } from './controls.ts';
@@ -31,10 +33,21 @@ import { type Pick, ReplayView } from './view.ts';
 /** More pictures than this make each too small to begin with. */
 const mostShownAtFirst = 4;
 
-/** The deepest contact of two bodies, -1 where there is none. */
-function contactBetween({ contacts }: Frame, body: number, other: number | undefined): number {
+/** What the inspector goes on showing. */
+interface Pinned {
+  spec: string;
+  body: number;
+  other?: number; // body, of a contact looked at
+  contact?: { index: number; step: number }; // that one, as long as the frame of that step is shown
+}
+
+/** The contact that is looked at: the one that was named, else the deepest of the two bodies; -1 where there is none. */
+function contactOf(pinned: Pinned, { contacts, step }: Frame): number {
+  const { body, other, contact } = pinned;
   let found = -1;
-  if (!contacts || other === undefined) return found;
+  if (!contacts) return found;
+  if (contact && contact.step === step && contact.index < contacts.count) return contact.index;
+  if (other === undefined) return found;
   for (let i = 0; i < contacts.count; ++i) {
     const [a, b] = [contacts.bodyA[i], contacts.bodyB[i]];
     if (!((a === body && b === other) || (a === other && b === body))) continue;
@@ -55,10 +68,11 @@ export class ReplayStage {
   readonly #stage: HTMLElement;
   readonly #ends: (() => void)[] = [];
   #chosen: Set<string>; // specs that have a picture
-  #pinned: { spec: string; body: number; other?: number } | null = null; // other: of a contact looked at
+  #pinned: Pinned | null = null;
   #hover: Pick | null = null;
   readonly #thinned: Map<FrameSource, () => Promise<FrameSource>> | null;
   #linkTimer: ReturnType<typeof setTimeout> | undefined;
+  #left = false; // a link was followed: the address is already that of the next page
 
   /** `thinned`: how to get all frames of a source that has not all of them. */
   constructor(
@@ -85,6 +99,11 @@ export class ReplayStage {
     this.controls = new Controls(this);
     root.append(this.controls.element);
     this.#ends.push(bindKeys(root, this));
+    const leave = () => {
+      this.#left = true;
+    };
+    addEventListener('hashchange', leave);
+    this.#ends.push(() => removeEventListener('hashchange', leave));
     this.#follow();
     this.#restore();
     this.#choose();
@@ -172,13 +191,13 @@ export class ReplayStage {
     }
     this.setTime(found.event.time);
     this.controls.say(`${found.source.label}: ${describe(found.event)}`);
-    if (to === 'normal') this.#lookAtBodies(bodiesOf(found.event), found.source);
+    if (to === 'normal') this.#lookAtBodies(bodiesOf(found.event), found.source, found.event.contact ?? null);
   }
 
-  focus(spec: string, bodies: string[]): void {
+  focus({ spec, bodies, contact }: Focus): void {
     const source = this.engines.find((s) => s.spec === spec && s.times.length > 0);
     if (source && !this.isShown(source)) this.toggleEngine(source);
-    this.#lookAtBodies(bodies, source);
+    this.#lookAtBodies(bodies, source, contact);
   }
 
   setOptions(change: Parameters<ReplayView['setOptions']>[0]): void {
@@ -214,7 +233,7 @@ export class ReplayStage {
       }),
       cursor.hidden.follow(() => this.#choose()),
       cursor.focus.follow((focus) => {
-        if (focus) this.focus(focus.spec, focus.bodies);
+        if (focus) this.focus(focus);
       }),
     );
     this.view.onCamera = () => this.#remember();
@@ -255,7 +274,7 @@ export class ReplayStage {
     const pinned = this.#pinned;
     const source = pinned && this.sources.find((s) => s.spec === pinned.spec);
     const now = source ? this.view.frameOf(source) : null;
-    const contact = pinned && now ? contactBetween(now.frame, pinned.body, pinned.other) : -1;
+    const contact = pinned && now ? contactOf(pinned, now.frame) : -1;
     const what =
       pinned && source && now ? { source, frame: now.frame, body: pinned.body, shape: -1, contact, island: -1 } : null;
     this.#inspector.show(what, true);
@@ -267,12 +286,12 @@ export class ReplayStage {
     if (!this.player.playing) this.#remember();
   }
 
-  #lookAtBodies(names: string[], source: FrameSource | undefined): void {
+  #lookAtBodies(names: string[], source: FrameSource | undefined, contact: number | null): void {
     const bodies = names.map((name) => this.#scene.bodies.findIndex((b) => b.name === name)).filter((b) => b >= 0);
     const moving = bodies.filter((b) => this.#scene.bodies[b]?.type !== 'static');
     const b = moving[0];
     if (b === undefined || !source || source.times.length === 0) return;
-    const { position } = source.frame(indexAt(source.times, this.time)); // the picture may still show another one
+    const { position, step } = source.frame(indexAt(source.times, this.time)); // the picture may still show another one
     const places = moving.slice(0, 2).map((m) => [0, 1, 2].map((k) => position[3 * m + k] as number) as Vec3);
     const at = [0, 1, 2].map((k) => places.reduce((sum, p) => sum + (p[k] as number) / places.length, 0)) as Vec3;
     if (!at.every(Number.isFinite)) return;
@@ -282,6 +301,7 @@ export class ReplayStage {
     this.#pinned = { spec: source.spec, body: b };
     const other = bodies.find((body) => body !== b);
     if (other !== undefined) this.#pinned.other = other;
+    if (contact !== null) this.#pinned.contact = { index: contact, step };
     this.view.mark(b);
   }
 
@@ -299,15 +319,20 @@ export class ReplayStage {
     const time = state.step !== undefined && dt ? state.step * dt : state.time;
     if (time !== undefined) this.#context.cursor.time.set(Math.min(time, this.player.end));
     if (state.camera) this.view.camera = state.camera;
-    const spec = this.shown[0]?.spec;
-    if (state.body !== undefined && state.body < this.#scene.bodies.length && spec !== undefined)
-      this.#pinned = { spec, body: state.body };
+    const spec = this.shown.find((s) => s.spec === state.of)?.spec ?? this.shown[0]?.spec;
+    if (state.body === undefined || state.body >= this.#scene.bodies.length || spec === undefined) return;
+    this.#pinned = { spec, body: state.body };
+    const { contact, step } = state;
+    if (contact !== undefined && step !== undefined) this.#pinned.contact = { index: contact, step };
   }
 
-  /** Writes the address a little later: not while it plays or the camera turns. */
+  /** Writes the address a little later: not while it plays or the camera turns, and never over another page's. */
   #remember(): void {
     clearTimeout(this.#linkTimer);
+    if (this.#left) return;
+    const address = location.hash;
     this.#linkTimer = setTimeout(() => {
+      if (location.hash !== address) return;
       const text = this.link();
       if (this.#context.onState) this.#context.onState(text);
       else history.replaceState(null, '', withView(location.hash, text));
@@ -325,6 +350,8 @@ export class ReplayStage {
       camera: this.view.camera,
       speed: this.player.speed,
       body: this.#pinned?.body ?? -1,
+      ...(this.#pinned ? { of: this.#pinned.spec } : {}),
+      ...(this.#pinned?.contact && this.#pinned.contact.step === step ? { contact: this.#pinned.contact.index } : {}),
     });
   }
 

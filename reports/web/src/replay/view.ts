@@ -17,7 +17,7 @@ import type { ArrowScales } from './overlays.ts';
 import { nearestContact, type Rect, rectAt, tile, toDevice } from './picking.ts';
 import type { Scene } from './scene.ts';
 import { TemplateCache } from './shape_meshes.ts';
-import { SourceLayer } from './source_layer.ts';
+import { type Drawn, SourceLayer } from './source_layer.ts';
 import type { Vec3 } from './vectors.ts';
 import { veilingBodies } from './veil.ts';
 
@@ -169,6 +169,13 @@ export class ReplayView {
     for (const { layers } of this.#pictures)
       for (const layer of layers)
         if (layer.source === source && layer.frame) return { frame: layer.frame, index: layer.index };
+    return null;
+  }
+
+  /** What is drawn of a source; null while nothing is. For tests and the browser's tools. */
+  drawn(spec: string): Drawn | null {
+    for (const { layers } of this.#pictures)
+      for (const layer of layers) if (layer.source.spec === spec && layer.frame) return layer.drawn;
     return null;
   }
 

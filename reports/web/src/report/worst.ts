@@ -6,6 +6,7 @@ export interface Place {
   bodies: string[];
   time: number; // [s], six digits
   step: number | null; // steps up to the frame; null where an older store names none
+  contact: number | null; // among the stored contacts of the frame, from 0; null: none of them, or not told
   dt: number | null; // [s] of the run; null where none is named
   what: string; // "missed", "spurious" or "normal"; "" where it is not told
   spec: string; // "" where none is named
@@ -14,26 +15,27 @@ export interface Place {
 const kinds = new Set(['missed', 'spurious', 'spurious, far apart', 'normal']);
 
 /**
- * Where the worst of an audit was: "block|floor at t=0.25, step 15 (normal)"; gathered over runs, spec and time step of
+ * Where the worst of an audit was: "block|floor at t=0.25, step 15, contact 2 (normal)"; gathered over runs, spec and time step of
  * the run stand in brackets of their own: "(bullet:preset=default) (dt=0.01)".
  */
 export function worstPlace(text: string): Place | null {
-  const match = /^(.*?)\s*at t=([-+0-9.eE]+)(?:, step (\d+))?((?: \([^()]*\))*)$/.exec(text.trim());
+  const match = /^(.*?)\s*at t=([-+0-9.eE]+)(?:, step (\d+))?(?:, contact (\d+))?((?: \([^()]*\))*)$/.exec(text.trim());
   const time = Number(match?.[2]);
   if (match === null || !Number.isFinite(time)) return null;
   const pair = match[1] ?? '';
-  const notes = [...(match[4] ?? '').matchAll(/\(([^()]*)\)/g)].map((note) => note[1] as string);
+  const notes = [...(match[5] ?? '').matchAll(/\(([^()]*)\)/g)].map((note) => note[1] as string);
   const step = match[3] === undefined ? null : Number(match[3]);
+  const contact = match[4] === undefined ? null : Number(match[4]);
   const dtNote = notes.find((note) => note.startsWith('dt='));
   const dt = dtNote === undefined ? null : Number(dtNote.slice(3));
   const spec = notes.find((note) => !kinds.has(note) && note !== dtNote) ?? '';
   const what = notes.find((note) => kinds.has(note)) ?? '';
-  return { pair, bodies: pair ? pair.split('|') : [], time, step, dt, what, spec };
+  return { pair, bodies: pair ? pair.split('|') : [], time, step, contact, dt, what, spec };
 }
 
 /** What a link to the place says. The step finds the very frame, where the time has lost digits. */
 export function placeQuery(place: Place | null, dt: number | undefined) {
-  return { dt: dt ?? place?.dt, t: place?.time, step: place?.step, pair: place?.pair };
+  return { dt: dt ?? place?.dt, t: place?.time, step: place?.step, pair: place?.pair, contact: place?.contact };
 }
 
 /** The moment of the place in a run of this time step [s]. */

@@ -233,10 +233,13 @@ test('a link restores the view', () => {
   assert.deepEqual(decodeLink(encodeLink(mutable)), mutable);
   assert.deepEqual(decodeLink(encodeLink({ time: 100.016666666666, step: 6001 })).step, 6001);
   assert.equal(decodeLink('n=1.5').step, undefined);
+  const pinned = { body: 2, of: 'ode:preset=matched', contact: 0 };
+  assert.deepEqual(decodeLink(encodeLink(pinned)), pinned);
+  assert.equal(decodeLink('c=-1').contact, undefined);
   assert.deepEqual(decodeLink('t=abc&cam=1_2&on=&by=nobody&x=-4&s=nan').options?.exaggeration, 1);
   assert.equal(decodeLink('t=abc').time, undefined);
   assert.equal(decodeLink('cam=1_2').camera, undefined);
-  const hash = withView('#/scenario/pile?dt=0.01&t=7', 't=1&on=faces');
+  const hash = withView('#/scenario/pile?dt=0.01&t=7&contact=3', 't=1&on=faces');
   assert.equal(viewOfHash(hash), 't=1&on=faces');
   assert.ok(hash.startsWith('#/scenario/pile?dt=0.01&view='));
   assert.equal(viewOfHash('#/scenario/pile'), '');

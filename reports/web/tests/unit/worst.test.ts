@@ -10,6 +10,7 @@ test('the worst of one audit names pair, time and what was wrong', () => {
     bodies: ['right', 'stone_3'],
     time: 0.883333,
     step: null,
+    contact: null,
     dt: null,
     what: 'normal',
     spec: '',
@@ -23,7 +24,16 @@ test('the step tells the frame where the digits of the time end before it', () =
   assert.equal(place.what, 'spurious, far apart');
   assert.equal(place.spec, '');
   assert.equal(placeTime(place, 1 / 60), 53 / 60);
-  assert.deepEqual(placeQuery(place, 1 / 60), { dt: 1 / 60, t: 0.883333, step: 53, pair: 'a|b' });
+  assert.deepEqual(placeQuery(place, 1 / 60), { dt: 1 / 60, t: 0.883333, step: 53, pair: 'a|b', contact: null });
+});
+
+test('the contact is told among all of its frame', () => {
+  const place = worstPlace('a|b at t=0.25, step 15, contact 12 (normal) (ode:preset=matched) (dt=0.01)');
+  assert.ok(place);
+  assert.equal(place.contact, 12);
+  assert.equal(place.what, 'normal');
+  assert.equal(place.spec, 'ode:preset=matched');
+  assert.equal(placeQuery(place, undefined).contact, 12);
 });
 
 test('gathered over runs it also names the run', () => {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Contacts over the whole run: those that the runs acted upon, and those that collision engines answer when asked.
-import { el } from '../../common/elements.ts';
+import { type Child, el } from '../../common/elements.ts';
 import { angle, format, full, type Maybe, toNumber } from '../../common/format.ts';
 import type { Audit, Column, InRun, Scenario } from '../data.ts';
 import { chip, headRow, panel, scroll, specHead, stickyHead } from '../parts.ts';
@@ -41,14 +41,19 @@ function inRunCell(s: Scenario, column: Column): HTMLElement {
       .map((a) => a.worst)
       .filter(Boolean)
       .join('; ');
-  const at = cases.find((c) => c.inRun?.normal === worst('normal'));
-  const place = worstPlace(at?.inRun?.worst ?? '');
-  const href = scenarioLink(s.name, { spec: column.spec, ...placeQuery(place, at?.dt) });
+  const normal = worst('normal');
+  // The place of a run's worst is that of a missed or invented overlap where it has one, else that of the worst normal.
+  const linkTo = (of: (a: InRun, what: string) => boolean, text: Child): Child => {
+    const at = cases.find((c) => c.inRun && of(c.inRun, worstPlace(c.inRun.worst)?.what ?? ''));
+    if (!at) return text;
+    const href = scenarioLink(s.name, { spec: column.spec, ...placeQuery(worstPlace(at.inRun?.worst ?? ''), at.dt) });
+    return el('a', { href, title: 'Show this frame' }, text);
+  };
   return el(
     'td',
     { class: 'num', 'data-wrong': wrong, title },
-    wrong ? chip('fail', `${wrong} wrong`) : null,
-    el('a', { href, title: 'Show this frame' }, angle(worst('normal'))),
+    wrong ? linkTo((a, what) => a.missed + a.spurious > 0 && what !== 'normal', chip('fail', `${wrong} wrong`)) : null,
+    linkTo((a, what) => a.normal === normal && what === 'normal', angle(normal)),
     el('span', { class: 'bound' }, worst('depth') === null ? '' : `${format(worst('depth'))} m`),
     flicker > 0.01 ? el('span', { class: 'bound' }, `${(100 * flicker).toPrecision(2)} % blink`) : null,
   );
@@ -73,7 +78,7 @@ export function contactsActedUpon(): HTMLElement | null {
       'p',
       { class: 'muted' },
       'The contacts that each run itself acted upon, at sampled steps, against the exact oracle at the poses that they were found at. Shown: the worst ',
-      'angle to the nearest exact normal, which opens that frame, and the worst depth error; “wrong” counts overlaps that were missed or invented; “blink” is ',
+      'angle to the nearest exact normal, and the worst depth error; “wrong” counts overlaps that were missed or invented. A link opens the frame that its text is about. “Blink” is ',
       'the share of steps in which a touching pair had lost its contact for just that step.',
     ),
     worstNormals(),
@@ -91,12 +96,14 @@ function queryCell(scenario: string, rows: Audit[], auditor: string): HTMLElemen
     `worst normal ${full(r.normalErrorMax)} rad, depth ${full(r.depthErrorMax)} m; ${r.worst}`;
   const place = worstPlace(r.worst);
   const href = place ? scenarioLink(scenario, { spec: place.spec, ...placeQuery(place, undefined) }) : null;
-  const text = angle(r.normalErrorMax);
+  const link = (here: boolean, text: Child) =>
+    href && here ? el('a', { href, title: 'Show these poses' }, text) : text;
+  const ofNormal = place?.what === 'normal';
   return el(
     'td',
     { class: 'num', title },
-    wrong ? chip('fail', `${wrong} wrong`) : null,
-    href ? el('a', { href, title: 'Show this frame' }, text) : text,
+    wrong ? link(!ofNormal, chip('fail', `${wrong} wrong`)) : null,
+    link(ofNormal, angle(r.normalErrorMax)),
     el('span', { class: 'bound' }, r.depthErrorMax === null ? '' : `${format(r.depthErrorMax)} m`),
   );
 }
@@ -112,7 +119,7 @@ export function contactQueries(): HTMLElement | null {
       'p',
       { class: 'muted' },
       'At sampled frames of every run, each collision engine is asked about the same poses and compared with an exact oracle. Shown: the worst angle between ',
-      'its contact normal and the nearest exact one, which opens that frame, and the worst penetration error below; “wrong” counts overlaps that were missed or invented.',
+      'its contact normal and the nearest exact one, and the worst penetration error below; “wrong” counts overlaps that were missed or invented. A link shows the poses asked about, with the contacts of the run, not the answer.',
     ),
     scroll(
       el(

@@ -20,7 +20,7 @@ function worstCell(context: Context, c: Case, a: Audit): Child {
   return el(
     'td',
     { class: 'small' },
-    place ? moment(context, c.spec, placeTime(place, context.dt), place.bodies, a.worst) : a.worst,
+    place ? moment(context, c.spec, placeTime(place, context.dt), place.bodies, a.worst, place.contact) : a.worst,
   );
 }
 

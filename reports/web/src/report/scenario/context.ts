@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // What the sections of a scenario's page are given, and the links that show a moment of it.
-import type { Cursor } from '../../common/cursor.ts';
+import type { Cursor, Focus } from '../../common/cursor.ts';
 import { type Child, el } from '../../common/elements.ts';
 import { format } from '../../common/format.ts';
 import { stepAt } from '../../common/steps.ts';
@@ -25,13 +25,27 @@ export interface Context {
 export type Section = (context: Context) => HTMLElement | null;
 
 /** A link that sets the shared time, the engine and the bodies looked at, and brings them into view. */
-export function moment(context: Context, spec: string, time: number, bodies: string[], text: Child): HTMLElement {
+export function moment(
+  context: Context,
+  spec: string,
+  time: number,
+  bodies: string[],
+  text: Child,
+  contact: number | null = null,
+): HTMLElement {
   const { scenario, dt, cursor } = context;
-  const href = scenarioLink(scenario.name, { dt, spec, t: time, step: stepAt(time, dt), pair: bodies.join('|') });
+  const href = scenarioLink(scenario.name, {
+    dt,
+    spec,
+    t: time,
+    step: stepAt(time, dt),
+    pair: bodies.join('|'),
+    contact,
+  });
   const show = (e: Event) => {
     e.preventDefault();
     history.replaceState(null, '', href);
-    showMoment(cursor, spec, time, bodies);
+    showMoment(cursor, time, { spec, bodies, contact });
   };
   return el(
     'a',
@@ -40,11 +54,11 @@ export function moment(context: Context, spec: string, time: number, bodies: str
   );
 }
 
-export function showMoment(cursor: Cursor, spec: string, time: number, bodies: string[]): void {
+export function showMoment(cursor: Cursor, time: number, focus: Focus): void {
   const hidden = new Set(cursor.hidden.value);
-  if (hidden.delete(spec)) cursor.hidden.set(hidden);
-  cursor.focus.set({ spec, bodies });
+  if (hidden.delete(focus.spec)) cursor.hidden.set(hidden);
   cursor.time.set(time);
+  cursor.focus.set(focus);
   const stage = document.getElementById('replay') ?? document.getElementById('curves');
   stage?.scrollIntoView();
 }

@@ -81,7 +81,9 @@ export async function scenarioPage(name: string, query: URLSearchParams): Promis
   const { spec } = context;
   const shown = () => {
     if (spec === null || !query.has('t')) return;
-    showMoment(context.cursor, spec, context.cursor.time.value, (query.get('pair') ?? '').split('|').filter(Boolean));
+    const bodies = (query.get('pair') ?? '').split('|').filter(Boolean);
+    const contact = query.has('contact') ? Number(query.get('contact')) : null;
+    showMoment(context.cursor, context.cursor.time.value, { spec, bodies, contact });
   };
   const left = () => {
     for (const leave of context.leaving) leave();

@@ -24,7 +24,7 @@ export function replay(context: Context): HTMLElement | null {
       metrics: scenario.metrics,
     });
     const wanted = cursor.focus.value;
-    if (wanted) handle.focus(wanted.spec, ...wanted.bodies);
+    if (wanted) handle.focus(wanted);
   };
   const node = panel('replay', 'Replay', holder);
   const watcher = new IntersectionObserver(
