@@ -114,16 +114,16 @@ void refuseMissing(const Joint& joint) {
 
 }  // namespace
 
-std::unique_ptr<btTypedConstraint> buildJoint(const Joint& joint, const JointEnd& a, const JointEnd& b,
-                                              const JointSettings& settings) {
+BuiltJoint buildJoint(const Joint& joint, const JointEnd& a, const JointEnd& b,
+                      const JointSettings& settings) {
     refuseMissing(joint);
     const btVector3 anchorA = toBullet(inverse(a.comFrame) * joint.anchorA);
     const btVector3 anchorB = toBullet(inverse(b.comFrame) * joint.anchorB);
     const bool sprung = joint.axes[0].hasSpring();
     switch (joint.type) {
         case JointType::Ball:
-            if (joint.axes[0].mode == scenario::AxisMode::Limited) return buildConeTwist(joint, a, b);
-            return std::make_unique<btPoint2PointConstraint>(*a.body, *b.body, anchorA, anchorB);
+            if (joint.axes[0].mode == scenario::AxisMode::Limited) return {buildConeTwist(joint, a, b), {}};
+            return {std::make_unique<btPoint2PointConstraint>(*a.body, *b.body, anchorA, anchorB), {}};
         case JointType::Hinge: {
             if (sprung) return buildSixDof(joint, a, b, settings);
             const btVector3 axisA = toBullet(rotateInverse(a.comFrame.orientation, joint.axisA));
@@ -132,7 +132,7 @@ std::unique_ptr<btTypedConstraint> buildJoint(const Joint& joint, const JointEnd
                 std::make_unique<btHingeConstraint>(*a.body, *b.body, anchorA, anchorB, axisA, axisB, true);
             hinge->setUseFrameOffset(settings.frameOffset);
             setAxis(joint, static_cast<btScalar>(settings.dt), *hinge);
-            return hinge;
+            return {std::move(hinge), {}};
         }
         case JointType::Slider: {
             if (sprung) return buildSixDof(joint, a, b, settings);
@@ -140,14 +140,14 @@ std::unique_ptr<btTypedConstraint> buildJoint(const Joint& joint, const JointEnd
             auto slider =
                 std::make_unique<btSliderConstraint>(*a.body, *b.body, frames.inA, frames.inB, true);
             setAxis(joint, *slider);
-            return slider;
+            return {std::move(slider), {}};
         }
         case JointType::Fixed: {
             const Frames frames = framesOf(joint, fromXTo(joint.axisA), a, b);
-            return std::make_unique<btFixedConstraint>(*a.body, *b.body, frames.inA, frames.inB);
+            return {std::make_unique<btFixedConstraint>(*a.body, *b.body, frames.inA, frames.inB), {}};
         }
         case JointType::ConeTwist:
-            return buildConeTwist(joint, a, b);
+            return {buildConeTwist(joint, a, b), {}};
         case JointType::SixDof:
         case JointType::Wheel:
             return buildSixDof(joint, a, b, settings);

@@ -6,7 +6,9 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "adapters/bullet/damper.hpp"
 #include "adapters/interface/types.hpp"
 
 namespace rigor::bullet {
@@ -36,9 +38,15 @@ struct Frames {
 };
 Frames framesOf(const scenario::Joint& joint, const adapter::Quat& inA, const JointEnd& a, const JointEnd& b);
 
+/// A Bullet constraint and what of it has to be told before each step.
+struct BuiltJoint {
+    std::unique_ptr<btTypedConstraint> constraint;
+    std::vector<Damper> dampers;
+};
+
 /// The joint as a Bullet constraint; axes and signs follow the format (B relative to A). Throws Unsupported
 /// for what Bullet does not have.
-std::unique_ptr<btTypedConstraint> buildJoint(const scenario::Joint& joint, const JointEnd& a,
-                                              const JointEnd& b, const JointSettings& settings);
+BuiltJoint buildJoint(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
+                      const JointSettings& settings);
 
 }  // namespace rigor::bullet

@@ -78,10 +78,14 @@ void BulletWorld::appendJointLedger(std::vector<LedgerEntry>& lines) const {
         lines.push_back({topic, std::move(requested), std::move(resolved), realisation, std::move(reason)});
     };
     const auto setting = [&](const char* key) { return adapter::textSetting(settings_, key); };
-    bool sprung = false, breaking = false, angles = false, cones = false, hinges = false;
+    bool sprung = false, dampers = false, breaking = false, angles = false, cones = false, hinges = false;
     for (const scenario::Joint& joint : scenario_.joints) {
         const auto limited = [&](std::size_t k) { return joint.axes[k].mode == scenario::AxisMode::Limited; };
-        for (const auto& axis : joint.axes) sprung = sprung || axis.hasSpring();
+        for (const auto& axis : joint.axes) {
+            const bool damper = axis.frequency == 0.0 && axis.stiffness == 0.0 && axis.hasSpring();
+            sprung = sprung || (axis.hasSpring() && !damper);
+            dampers = dampers || damper;
+        }
         breaking = breaking || joint.breakForce < 1e299 || joint.breakTorque < 1e299;
         if (joint.type == scenario::JointType::SixDof) {
             int turns = 0;
@@ -123,8 +127,15 @@ void BulletWorld::appendJointLedger(std::vector<LedgerEntry>& lines) const {
                 : "force of the start of the step",
             Realisation::Approximate,
             is("spring_limits", "on")
-                ? "Bullet lowers a stiffness k above m / (16 dt^2) and a damping above m / dt"
-                : "explicit in position and velocity");
+                ? "Bullet lowers a stiffness k above m / (16 dt^2) and a damping above m / dt; what other "
+                  "forces of the step push the same way is taken off the spring's force"
+                : "explicit in position and velocity; what other forces of the step push the same way is "
+                  "taken off the spring's force");
+    if (dampers)
+        add("joint_dampers", "damping of the coordinate",
+            "motor towards rest, at most damping times the speed of the start of the step",
+            Realisation::Approximate,
+            "explicit; Bullet's own damper (setDamping) loses what other forces of the step slow");
     if (breaking)
         add("breaking", "force and torque of a step",
             is("breaking", "feedback") ? "norms of the joint feedback's vectors" : "each row's impulse",

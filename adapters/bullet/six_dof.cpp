@@ -139,12 +139,13 @@ Range rangeOf(const JointAxis* axis, bool turn, const Joint& joint) {
 
 }  // namespace
 
-std::unique_ptr<btTypedConstraint> buildSixDof(const Joint& joint, const JointEnd& a, const JointEnd& b,
-                                               const JointSettings& settings) {
+BuiltJoint buildSixDof(const Joint& joint, const JointEnd& a, const JointEnd& b,
+                       const JointSettings& settings) {
     const Layout layout = layoutOf(joint, a, b);
     const Frames frames = framesOf(joint, frameOf(layout), a, b);
     auto sixDof = std::make_unique<btGeneric6DofSpring2Constraint>(*a.body, *b.body, frames.inA, frames.inB,
                                                                    rotationOrder(layout));
+    std::vector<Damper> dampers;
     for (std::size_t k = 0; k < 6; ++k) {
         const bool turn = k >= 3;
         const int index = static_cast<int>(k);
@@ -162,17 +163,22 @@ std::unique_ptr<btTypedConstraint> buildSixDof(const Joint& joint, const JointEn
         }
         if (axis->hasSpring()) {
             const SpringLaw law = springLaw(layout, k, joint, a, b);
-            // Measured on a swinging rod: its decay is that of about half the damping, at any time step.
-            if (law.stiffness == 0.0)
-                throw adapter::notInAdapter("bullet", "damper without a spring",
-                                            "joint '" + joint.name + "'");
+            if (law.stiffness == 0.0) {
+                if (axis->hasMotor())
+                    throw adapter::notInAdapter("bullet", "damper without a spring beside a motor",
+                                                "joint '" + joint.name + "'");
+                sixDof->enableMotor(index, true);
+                sixDof->setTargetVelocity(index, btScalar(0.0));
+                dampers.push_back({sixDof.get(), index, law.damping});
+                continue;
+            }
             sixDof->enableSpring(index, true);
             sixDof->setStiffness(index, scalar(law.stiffness), settings.limitSprings);
             sixDof->setDamping(index, scalar(law.damping), settings.limitSprings);
             sixDof->setEquilibriumPoint(index, scalar(turn ? -axis->target : axis->target));
         }
     }
-    return sixDof;
+    return {std::move(sixDof), std::move(dampers)};
 }
 
 }  // namespace rigor::bullet

@@ -8,7 +8,7 @@ namespace rigor::bullet {
 
 /// six_dof, wheel, and hinges and sliders with a spring as btGeneric6DofSpring2Constraint. Throws
 /// Unsupported.
-std::unique_ptr<btTypedConstraint> buildSixDof(const scenario::Joint& joint, const JointEnd& a,
-                                               const JointEnd& b, const JointSettings& settings);
+BuiltJoint buildSixDof(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
+                       const JointSettings& settings);
 
 }  // namespace rigor::bullet

@@ -246,7 +246,9 @@ void BulletWorld::addJoint(const scenario::Joint& joint) {
         is("frame_offset", "by_body") ? !moved(joint.bodyA) && !moved(joint.bodyB) : is("frame_offset", "on");
     const JointSettings settings{dt_, weighted, is("spring_limits", "on")};
     auto record = std::make_unique<JointRecord>();
-    record->constraint = buildJoint(joint, endOf(joint.bodyA), endOf(joint.bodyB), settings);
+    BuiltJoint built = buildJoint(joint, endOf(joint.bodyA), endOf(joint.bodyB), settings);
+    record->constraint = std::move(built.constraint);
+    record->dampers = std::move(built.dampers);
     setBreaking(joint, *record);
     // Whether the two collide is the pair filter's business.
     world_->addConstraint(record->constraint.get(), false);
@@ -355,6 +357,8 @@ void BulletWorld::beforeStep(btDynamicsWorld* world, btScalar) {
         record->body->setLinearVelocity(record->velocity);
         record->body->setAngularVelocity(record->angularVelocity);
     }
+    for (const auto& joint : self.joints_)
+        for (const Damper& damper : joint->dampers) damper.update();
 }
 
 void BulletWorld::moveKinematicBodies() {

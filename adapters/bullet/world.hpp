@@ -10,6 +10,7 @@
 
 #include "adapters/bullet/articulation.hpp"
 #include "adapters/bullet/contact_rules.hpp"
+#include "adapters/bullet/damper.hpp"
 #include "adapters/bullet/shapes.hpp"
 #include "adapters/interface/engine.hpp"
 #include "adapters/interface/state_setting.hpp"
@@ -54,8 +55,9 @@ class BulletWorld final : public adapter::World, public adapter::StateSetting {
     };
     struct JointRecord {
         std::unique_ptr<btTypedConstraint> constraint;
-        btJointFeedback feedback;  ///< mean force and torque of the last step on both bodies
-        bool watched = false;      ///< broken by its feedback
+        std::vector<Damper> dampers;  ///< to be told the state before each step
+        btJointFeedback feedback;     ///< mean force and torque of the last step on both bodies
+        bool watched = false;         ///< broken by its feedback
     };
     class PairFilter;
 

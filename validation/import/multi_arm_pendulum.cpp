@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace scenario;
 using nlohmann::ordered_json;
 
-constexpr std::array kEngines{results::kInHouseEngine, "ode:preset=matched"};
+constexpr std::array kEngines{results::kInHouseEngine, "ode:preset=matched", "bullet:preset=matched"};
 constexpr double kRate = 1000.0;           // samples per second
 constexpr double kTimeTolerance = 1e-6;    // [s]
 constexpr double kHalfThickness = 0.01;    // of the picture of an arm [m]

@@ -285,6 +285,68 @@ TEST(BulletHinge, OnATurningShaftItStaysWithItsOwnAnchors) {
     EXPECT_LT(own, 0.2 * weighted);
 }
 
+/// What a slider's spring or damper gives in one step of 0.1 s, beside what another force does [N].
+double springForce(double stiffness, double damping, double travel, double speed, double other) {
+    Scenario s = scene();
+    s.gravity = {};
+    const int b = addBody(s, Sphere{0.1}, {}, 2.0);
+    s.bodies[0].velocity = {speed, 0, 0};
+    Joint j = joint(JointType::Slider, scenario::kNone, b, {}, {}, {1, 0, 0});
+    j.axes[0].mode = scenario::AxisMode::Free;
+    j.axes[0].stiffness = stiffness, j.axes[0].damping = damping, j.axes[0].target = -travel;
+    s.joints.push_back(j);
+    Simulation run(s, 0.1);
+    run.world->applyForce(b, {other, 0, 0}, {});
+    return 2.0 * (run.steps(1).state(b).velocity.x - speed) / 0.1 - other;
+}
+
+/// Trap: Bullet's springs are motors towards the speed that they alone would leave: what another force does
+/// the same way is taken off theirs.
+TEST(BulletSprings, AForceTheSameWayIsTakenOffTheSprings) {
+    EXPECT_NEAR(springForce(100, 0, 0.1, 0, 0), -10.0, tol(1e-9, 1e-4));
+    EXPECT_NEAR(springForce(100, 0, 0.1, 0, 4), -10.0, tol(1e-9, 1e-4));
+    EXPECT_NEAR(springForce(100, 0, 0.1, 0, -4), -6.0, tol(1e-9, 1e-4));
+    EXPECT_NEAR(springForce(100, 0, 0.1, 0, -20), 0.0, tol(1e-9, 1e-4));
+}
+
+/// Trap: the same makes about half of a damper over a swing under gravity.
+TEST(BulletDampers, AreNotWeakenedByOtherForces) {
+    for (const double other : {0.0, 8.0, -3.0, -20.0, -39.0})
+        EXPECT_NEAR(springForce(0, 1.5, 0, 4.0, other), -6.0, tol(1e-9, 1e-4)) << other;
+    // It stops and does not turn back: 30 N s/m and 4 m/s would reverse 2 kg within 0.1 s.
+    EXPECT_NEAR(springForce(0, 30.0, 0, 4.0, 0.0), -80.0, tol(1e-9, 1e-4));
+}
+
+/// Travel and turn, between two bodies, beside their centres of mass: exp(-c t / m) of the reduced mass, and
+/// the swings of a damped rod against those of the linear equation.
+TEST(BulletDampers, DampAHingeUnderGravity) {
+    for (const double dt : {1e-3, 1e-4}) {
+        Scenario s = scene();
+        s.gravity = {0, -9.81, 0};
+        const int b = addBody(s, Sphere{0.1}, {}, 1.0, even(0.02));
+        const Quat tilt = scenario::fromAxisAngle({0, 0, 1}, 0.02);
+        s.bodies[0].pose = {rotate(tilt, Vec3{0, -0.5, 0}), tilt};
+        s.bodies[0].collides = false;
+        Joint j = joint(JointType::Hinge, scenario::kNone, b, {}, {0, 0.5, 0}, {0, 0, 1});
+        j.axes[0].mode = scenario::AxisMode::Free;
+        const double moment = 0.02 + 0.25, w = std::sqrt(9.81 * 0.5 / moment), zeta = 0.05;
+        j.axes[0].damping = 2.0 * zeta * w * moment;
+        s.joints.push_back(j);
+        Simulation run(s, dt);
+        double worst = 0.0;
+        for (int i = 1; i <= static_cast<int>(3.0 / dt); ++i) {
+            const Quat q = run.steps(1).state(b).orientation;
+            const double t = i * dt, wd = w * std::sqrt(1.0 - zeta * zeta);
+            const double exact =
+                0.02 * std::exp(-zeta * w * t) * (std::cos(wd * t) + zeta * w / wd * std::sin(wd * t));
+            worst = std::max(worst, std::abs(2.0 * std::atan2(q.z, q.w) - exact));
+        }
+        // First order; half the damping would be 0.006 rad off.
+        EXPECT_LT(worst, tol(0.15 * dt + 2e-6, 1e-3)) << dt;
+        ASSERT_NE(run.ledgerLine("joint_dampers"), nullptr);
+    }
+}
+
 TEST(BulletJointKinds, WhatTheLibraryLacksIsRefused) {
     Scenario s = scene();
     const int b = addBody(s, Sphere{0.1}, {});
@@ -296,7 +358,9 @@ TEST(BulletJointKinds, WhatTheLibraryLacksIsRefused) {
     rod.length = 1.0;
     Joint oneSided = joint(JointType::Hinge, scenario::kNone, b, {}, {});
     oneSided.axes[0] = limits(-0.5, 1e300);
-    for (const Joint& j : {sprung, motored, rod, oneSided}) {
+    Joint both = joint(JointType::Slider, scenario::kNone, b, {}, {}, {1, 0, 0});
+    both.axes[0].damping = 1.0, both.axes[0].motorSpeed = 1.0, both.axes[0].motorMaxForce = 1.0;
+    for (const Joint& j : {sprung, motored, rod, oneSided, both}) {
         s.joints = {j};
         EXPECT_THROW(Simulation(s, 0.01), adapter::Unsupported) << jointName(j.type);
     }
