@@ -11,6 +11,8 @@
 #include <string_view>
 #include <utility>
 
+#include "validation/statistics/quantile.hpp"
+
 namespace rigor::report {
 namespace {
 
@@ -26,13 +28,6 @@ const double* positionAt(const BodyChannels& body, std::size_t frame) {
 
 double distance(const double* a, const double* b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// Furthest finite distance of a body from its first position.
@@ -183,7 +178,7 @@ double sceneLength(const TrajectoryFile& file) {
             if (std::isfinite(p[k])) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
     }
     const double spread = reaches.empty() || !(high[0] >= low[0]) ? 0.0 : distance(low, high);
-    return std::max(1e-6, spread + median(reaches));
+    return std::max(1e-6, spread + (reaches.empty() ? 0.0 : validation::median(reaches)));
 }
 
 std::vector<ReplayEvent> replayEvents(const TrajectoryFile& file, const results::CaseRow& row) {

@@ -8,6 +8,8 @@
 #include <limits>
 #include <map>
 
+#include "validation/statistics/quantile.hpp"
+
 namespace rigor::report {
 namespace {
 
@@ -30,9 +32,7 @@ using Indices = std::vector<std::size_t>;
 double typicalMagnitude(std::vector<double> magnitudes) {
     std::erase_if(magnitudes, [](double m) { return !std::isfinite(m) || m == 0.0; });
     if (magnitudes.empty()) return 0.0;
-    const auto at = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() * 9 / 10);
-    std::nth_element(magnitudes.begin(), at, magnitudes.end());
-    return std::abs(*at);
+    return validation::quantile(std::move(magnitudes), 0.9);
 }
 
 /// Samples of the kept frames; NaN where the channel has none.

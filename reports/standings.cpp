@@ -8,6 +8,7 @@
 
 #include "reports/view_model.hpp"
 #include "validation/results/judgement.hpp"
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::report {
 namespace {
@@ -16,13 +17,6 @@ using results::CaseRow;
 using results::Grade;
 using results::MetricRow;
 using results::Outcome;
-
-double median(std::vector<double> values) {
-    if (values.empty()) return kNoNumber;
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
-}
 
 /// Geometric mean of what is positive and finite; NaN of nothing.
 class GeometricMean {
@@ -173,7 +167,8 @@ Mechanism standingsOver(const ViewModel& view, const std::vector<std::size_t>& s
     }
     for (std::size_t c = 0; c < sums.size(); ++c) {
         m.standings[c].toBest = sums[c].toBest.value(), m.standings[c].toOurs = sums[c].toOurs.value();
-        m.standings[c].cost = median(sums[c].costs), m.standings[c].costRatio = sums[c].costRatio.value();
+        m.standings[c].cost = sums[c].costs.empty() ? kNoNumber : validation::median(sums[c].costs);
+        m.standings[c].costRatio = sums[c].costRatio.value();
     }
     rank(m);
     return m;

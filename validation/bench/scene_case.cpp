@@ -14,9 +14,9 @@
 #include "validation/bench/meter.hpp"
 #include "validation/bench/quality.hpp"
 #include "validation/bench/scenes.hpp"
-#include "validation/comparison/statistics.hpp"
 #include "validation/runner/answer.hpp"
 #include "validation/runner/stepper.hpp"
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
 namespace {

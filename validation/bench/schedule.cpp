@@ -9,7 +9,8 @@
 #include <random>
 #include <tuple>
 
-#include "validation/comparison/statistics.hpp"
+#include "validation/statistics/quantile.hpp"
+#include "validation/statistics/statistics.hpp"
 
 namespace rigor::validation {
 namespace {

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "validation/comparison/two_samples.hpp"
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
 namespace {

@@ -8,8 +8,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "validation/comparison/statistics.hpp"
 #include "validation/metrics/mechanics.hpp"
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
 namespace {

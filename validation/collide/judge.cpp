@@ -17,6 +17,7 @@
 #include "validation/metrics/metric_parts.hpp"
 #include "validation/oracle/oracle.hpp"
 #include "validation/runner/judge.hpp"
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -77,11 +78,8 @@ struct Spread {
     std::optional<double> max() const {
         return values.empty() ? std::nullopt : std::optional(*std::max_element(values.begin(), values.end()));
     }
-    std::optional<double> median() {
-        if (values.empty()) return std::nullopt;
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::nth_element(values.begin(), middle, values.end());
-        return *middle;
+    std::optional<double> median() const {
+        return values.empty() ? std::nullopt : std::optional(validation::median(values));
     }
 };
 

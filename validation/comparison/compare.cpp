@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "validation/statistics/quantile.hpp"
+
 namespace rigor::validation {
 namespace {
 

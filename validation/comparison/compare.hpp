@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "validation/comparison/pairs.hpp"
-#include "validation/comparison/statistics.hpp"
 #include "validation/results/types.hpp"
+#include "validation/statistics/statistics.hpp"
 
 namespace rigor::validation {
 

@@ -6,7 +6,10 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <numeric>
-#include <random>
+#include <utility>
+
+#include "validation/statistics/bootstrap.hpp"
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -51,13 +54,6 @@ double shareUpTo(std::size_t n, std::size_t m, std::size_t u) {
            std::accumulate(rows[n].begin(), rows[n].end(), 0.0);
 }
 
-double resampledMedian(const std::vector<double>& values, std::mt19937_64& random,
-                       std::vector<double>& scratch) {
-    scratch.resize(values.size());
-    for (double& x : scratch) x = values[random() % values.size()];
-    return median(scratch);
-}
-
 }  // namespace
 
 double mannWhitney(const std::vector<double>& one, const std::vector<double>& other) {
@@ -78,17 +74,15 @@ double mannWhitney(const std::vector<double>& one, const std::vector<double>& ot
 
 RatioOfMedians ratioOfMedians(const std::vector<double>& one, const std::vector<double>& other,
                               std::uint64_t seed, int resamples) {
-    std::mt19937_64 random(seed);
-    std::vector<double> ratios, scratch;
-    for (int i = 0; i < resamples; ++i) {
-        const double below = resampledMedian(one, random, scratch);
-        ratios.push_back(resampledMedian(other, random, scratch) / below);
-    }
-    std::sort(ratios.begin(), ratios.end());
-    const auto quantile = [&](double share) {
-        return ratios[static_cast<std::size_t>(share * static_cast<double>(ratios.size() - 1))];
+    const auto medianOf = [](const std::vector<double>& values, const std::vector<std::size_t>& picks) {
+        std::vector<double> drawn;
+        for (const std::size_t i : picks) drawn.push_back(values[i]);
+        return median(std::move(drawn));
     };
-    return {median(other) / median(one), {quantile(0.025), quantile(0.975)}};
+    const auto intervals = bootstrap({one.size(), other.size()}, seed, resamples, [&](const Picks& picks) {
+        return std::vector<double>{medianOf(other, picks[1]) / medianOf(one, picks[0])};
+    });
+    return {median(other) / median(one), intervals[0]};
 }
 
 PairedRatio pairedRatio(const std::vector<double>& one, const std::vector<double>& other) {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "validation/comparison/statistics.hpp"
+#include "validation/statistics/statistics.hpp"
 
 namespace rigor::validation {
 
@@ -23,10 +23,8 @@ struct RatioOfMedians {
     Interval interval;   ///< 95 %, percentile bootstrap
 };
 
-/// Both samples positive and not empty. Bootstrap: `resamples` draws with replacement of each sample, the 2.5
-/// % and 97.5 % quantiles of their ratios (Efron and Tibshirani, An Introduction to the Bootstrap, 1993,
-/// chapter 13). The same seed gives the same interval. Of few values it is too narrow: with six of each about
-/// 90 % of such intervals hold the truth (tests/two_samples_test.cpp).
+/// Both samples positive and not empty. The interval is that of bootstrap.hpp; the same seed gives the same
+/// one.
 RatioOfMedians ratioOfMedians(const std::vector<double>& one, const std::vector<double>& other,
                               std::uint64_t seed, int resamples = 4000);
 

@@ -14,6 +14,7 @@
 #include "validation/contact_problems/problem.hpp"
 #include "validation/contact_problems/solve.hpp"
 #include "validation/runner/answer.hpp"
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -37,12 +38,10 @@ json climb(adapter::ContactSolve& solve, int iterations, double tolerance) {
         found = solve.run(iterations, tolerance);
         seconds.push_back(since(start));
     } while (static_cast<int>(seconds.size()) < kMostRuns && since(begin) < kTimeOfARung);
-    std::nth_element(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2),
-                     seconds.end());
     json r = json::array();
     for (const double x : found.r) r.push_back(numberToJson(x));
     return {{"allowed", iterations},   {"done", found.iterations},
-            {"gave_up", found.gaveUp}, {"seconds", numberToJson(seconds[seconds.size() / 2])},
+            {"gave_up", found.gaveUp}, {"seconds", numberToJson(median(seconds))},
             {"runs", seconds.size()},  {"r", std::move(r)}};
 }
 

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "scenarios/loader/loader.hpp"
-#include "validation/comparison/statistics.hpp"
 #include "validation/runner/runner.hpp"
+#include "validation/statistics/statistics.hpp"
 
 namespace rigor::validation {
 

@@ -8,6 +8,9 @@
 #include <numeric>
 #include <random>
 
+#include "validation/statistics/bootstrap.hpp"
+#include "validation/statistics/quantile.hpp"
+
 namespace rigor::validation {
 namespace {
 
@@ -15,42 +18,13 @@ constexpr int kResamples = 2000;
 constexpr double kFinest = 1.0 / 400;  // of a range: far below what any recording resolves
 constexpr double kSearchShare = 2.0 / 3, kGridShare = 0.4;
 
-/// n indices with replacement; the same for the same seed everywhere (no std distribution is portable).
-class Resampler {
-  public:
-    Resampler(std::size_t n, std::uint64_t seed) : random_(seed), picks_(n) {}
-    const std::vector<std::size_t>& draw() {
-        for (std::size_t& pick : picks_) pick = static_cast<std::size_t>(random_() % picks_.size());
-        return picks_;
-    }
-
-  private:
-    std::mt19937_64 random_;
-    std::vector<std::size_t> picks_;
-};
-
-double quantile(const std::vector<double>& sorted, double q) {
-    const double place = q * static_cast<double>(sorted.size() - 1);
-    const auto low = static_cast<std::size_t>(place);
-    const std::size_t high = std::min(low + 1, sorted.size() - 1);
-    if (!std::isfinite(sorted[high])) return sorted[high];
-    return sorted[low] + (place - static_cast<double>(low)) * (sorted[high] - sorted[low]);
-}
-
-Interval percentiles(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return {quantile(values, 0.025), quantile(values, 0.975)};
-}
-
 Interval meanInterval(const Losses& losses, std::uint64_t seed) {
-    Resampler resampler(losses.size(), seed);
-    std::vector<double> means;
-    for (int k = 0; k < kResamples; ++k) {
+    const auto mean = [&](const Picks& picks) {
         double sum = 0.0;
-        for (const std::size_t i : resampler.draw()) sum += losses[i];
-        means.push_back(sum / static_cast<double>(losses.size()));
-    }
-    return percentiles(std::move(means));
+        for (const std::size_t i : picks[0]) sum += losses[i];
+        return std::vector<double>{sum / static_cast<double>(losses.size())};
+    };
+    return bootstrap({losses.size()}, seed, kResamples, mean)[0];
 }
 
 /// All points of base + {-1, 0, 1}^d steps (or an even grid) inside the box.
@@ -227,26 +201,22 @@ std::vector<Interval> minimiserIntervals(const SearchResult& search,
                                          const std::vector<FitParameter>& parameters, Summary summary,
                                          std::uint64_t seed) {
     const std::size_t recordings = search.all.front().losses.size();
-    Resampler resampler(recordings, seed);
-    std::vector<std::vector<double>> minimisers(parameters.size());
     Losses drawn(recordings);
-    for (int k = 0; k < kResamples; ++k) {
-        const auto& picks = resampler.draw();
+    const auto minimiser = [&](const Picks& picks) {
         double least = std::numeric_limits<double>::infinity();
         const FitPoint* best = &search.all[search.best].point;
         for (const Evaluated& e : search.all) {
-            for (std::size_t i = 0; i < recordings; ++i) drawn[i] = e.losses[picks[i]];
+            for (std::size_t i = 0; i < recordings; ++i) drawn[i] = e.losses[picks[0][i]];
             if (const double value = summarise(drawn, summary); value < least) least = value, best = &e.point;
         }
-        for (std::size_t i = 0; i < parameters.size(); ++i) minimisers[i].push_back((*best)[i]);
-    }
-    std::vector<Interval> intervals;
+        return *best;
+    };
+    std::vector<Interval> intervals = bootstrap({recordings}, seed, kResamples, minimiser);
     for (std::size_t i = 0; i < parameters.size(); ++i) {
-        Interval interval = percentiles(minimisers[i]);
+        Interval& interval = intervals[i];
         const double best = search.all[search.best].point[i], half = 0.5 * search.resolution[i];
         interval.low = std::max(parameters[i].low, std::min(interval.low, best) - half);
         interval.high = std::min(parameters[i].high, std::max(interval.high, best) + half);
-        intervals.push_back(interval);
     }
     return intervals;
 }

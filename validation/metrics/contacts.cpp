@@ -10,6 +10,7 @@
 
 #include "validation/metrics/closed_forms.hpp"
 #include "validation/metrics/metric_parts.hpp"
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -58,9 +59,7 @@ bool shapesAreKnown(const MetricInput& input, const ContactPoint& contact) {
 /// The median as the row of the whole scene; none of nothing.
 std::vector<MetricValue> medianRow(std::vector<double> values) {
     if (values.empty()) return {};
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return {{"", *middle, -1.0}};
+    return {{"", median(std::move(values)), -1.0}};
 }
 
 /// Calls `look(contact, angle to the closed form's normal, time)` for every contact that has one.

@@ -2,9 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <vector>
+
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
 
@@ -20,11 +21,8 @@ class Spread {
         return false;
     }
     std::optional<double> max() const { return values_.empty() ? std::nullopt : std::optional(largest_); }
-    std::optional<double> median() {
-        if (values_.empty()) return std::nullopt;
-        const auto middle = values_.begin() + static_cast<std::ptrdiff_t>(values_.size() / 2);
-        std::nth_element(values_.begin(), middle, values_.end());
-        return *middle;
+    std::optional<double> median() const {
+        return values_.empty() ? std::nullopt : std::optional(validation::median(values_));
     }
 
   private:

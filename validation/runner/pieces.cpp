@@ -8,9 +8,9 @@
 #include <string>
 
 #include "adapters/interface/state_setting.hpp"
-#include "validation/comparison/statistics.hpp"
 #include "validation/runner/simulate.hpp"
 #include "validation/runner/stepper.hpp"
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
 namespace {

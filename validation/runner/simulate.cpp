@@ -8,23 +8,16 @@
 #include <map>
 #include <numeric>
 
-#include "validation/comparison/statistics.hpp"
 #include "validation/runner/cost.hpp"
 #include "validation/runner/stepper.hpp"
+#include "validation/statistics/quantile.hpp"
+#include "validation/statistics/statistics.hpp"
 
 namespace rigor::validation {
 namespace {
 
 using scenario::Scenario;
 constexpr std::size_t kMostStates = 400000;  ///< recorded body states per case: 42 MB as doubles
-
-double quantile(const std::vector<double>& sorted, double q) {
-    const double place = q * static_cast<double>(sorted.size() - 1);
-    const auto low = static_cast<std::size_t>(place);
-    const std::size_t high = std::min(low + 1, sorted.size() - 1);
-    const double part = place - static_cast<double>(low);
-    return sorted[low] * (1.0 - part) + sorted[high] * part;
-}
 
 /// The first sample apart: a first step that builds everything up, or iterates 401 times, hides in a median
 /// and drags a mean.
@@ -34,8 +27,8 @@ void describeAfterFirst(const std::vector<double>& samples, results::TimingRow& 
     std::vector<double> others(samples.begin() + 1, samples.end());
     row.mean = std::accumulate(others.begin(), others.end(), 0.0) / static_cast<double>(others.size());
     std::sort(others.begin(), others.end());
-    row.p95 = quantile(others, 0.95);
-    row.p99 = quantile(others, 0.99);
+    row.p95 = quantileOfSorted(others, 0.95);
+    row.p99 = quantileOfSorted(others, 0.99);
     row.worst = others.back();
 }
 
@@ -50,7 +43,8 @@ results::TimingRow timingRow(const std::string& phase, std::vector<double> sampl
     if (const auto interval = medianInterval(samples)) row.low = interval->low, row.high = interval->high;
     describeAfterFirst(samples, row);
     std::sort(samples.begin(), samples.end());
-    row.median = quantile(samples, 0.5), row.p10 = quantile(samples, 0.1), row.p90 = quantile(samples, 0.9);
+    row.median = quantileOfSorted(samples, 0.5), row.p10 = quantileOfSorted(samples, 0.1),
+    row.p90 = quantileOfSorted(samples, 0.9);
     return row;
 }
 

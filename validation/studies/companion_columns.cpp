@@ -8,9 +8,10 @@
 #include <memory>
 
 #include "validation/chaos/divergence.hpp"
-#include "validation/comparison/statistics.hpp"
 #include "validation/results/trajectory_file.hpp"
 #include "validation/runner/stored_trajectory.hpp"
+#include "validation/statistics/quantile.hpp"
+#include "validation/statistics/statistics.hpp"
 #include "validation/studies/columns.hpp"
 #include "validation/symmetry/symmetry.hpp"
 

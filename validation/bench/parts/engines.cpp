@@ -11,6 +11,7 @@
 
 #include "adapters/interface/timed.hpp"
 #include "validation/runner/shell_word.hpp"
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -23,11 +24,8 @@ std::vector<std::string> precisionsOf(const EngineDescription& engine) {
     return engine.precisions.size() > 1 ? engine.precisions : std::vector<std::string>{};
 }
 
-double middle(std::vector<double> values) {
-    if (values.empty()) return 0.0;
-    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), half, values.end());
-    return *half;
+double middle(const std::vector<double>& values) {
+    return values.empty() ? 0.0 : median(values);
 }
 double mean(const std::vector<double>& values) {
     return values.empty()

@@ -9,8 +9,8 @@
 #include "scenarios/loader/loader.hpp"
 #include "validation/chaos/divergence.hpp"
 #include "validation/chaos/perturb.hpp"
-#include "validation/comparison/statistics.hpp"
 #include "validation/references/reference.hpp"
+#include "validation/statistics/quantile.hpp"
 
 namespace rigor::validation {
 namespace {

@@ -4,6 +4,7 @@
 // Against tables, and against samples of known distributions: how often a test cries wolf, how often an
 // interval holds the truth.
 #include "validation/comparison/two_samples.hpp"
+#include "validation/statistics/quantile.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -46,9 +46,10 @@ const std::vector<Rule>& rules() {
         {"validation/references",
          {"scenarios/model/", "validation/trajectory.hpp", "adapters/interface/types.hpp"}},
         {"validation/oracle", {"scenarios/model/"}},
+        {"validation/statistics", {}},
         {"validation/results", {}},
         {"validation", {"validation/", "adapters/interface/", "scenarios/"}},
-        {"reports", {"validation/results/", "reports/tests/browser_tool.cpp"}},
+        {"reports", {"validation/results/", "validation/statistics/", "reports/tests/browser_tool.cpp"}},
         {"cli", {"cli/", "engine/", "adapters/interface/", "scenarios/", "validation/", "reports/"}}};
     return table;
 }

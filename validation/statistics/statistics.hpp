@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Distribution-free statistics of paired values.
+// Distribution-free intervals and tests.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,6 @@ namespace rigor::validation {
 struct Interval {
     double low = 0.0, high = 0.0;
 };
-
-/// Median of a list that is not empty; of an even number the mean of the middle two.
-double median(std::vector<double> values);
 
 /// At least 95 % interval of the median from order statistics: x(k) .. x(n + 1 - k) with the largest k for
 /// which P(Bin(n, 1/2) < k) <= 0.025 (Conover, Practical Nonparametric Statistics, 1999, 3.2). Empty below

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "validation/comparison/statistics.hpp"
+#include "validation/statistics/statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,6 @@
 
 namespace rigor::validation {
 namespace {
-
-TEST(Statistics, Median) {
-    EXPECT_EQ(median({3.0}), 3.0);
-    EXPECT_EQ(median({5.0, 1.0, 3.0}), 3.0);
-    EXPECT_EQ(median({4.0, 1.0, 3.0, 2.0}), 2.5);
-}
 
 /// Ranks of the 95 % interval, Conover 1999, table A3 and direct sums of binomial coefficients: P(Bin(6) = 0)
 /// = 1/64 <= 0.025, P(Bin(10) <= 1) = 11/1024, P(Bin(20) <= 5) = 21700/1048576 = 0.0207.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "validation/comparison/statistics.hpp"
+#include "validation/statistics/statistics.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
@@ -8,13 +8,6 @@
 #include <cstdlib>
 
 namespace rigor::validation {
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    if (values.size() % 2 == 1) return *middle;
-    return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 std::optional<Interval> medianInterval(std::vector<double> values) {
     const auto n = values.size();
