@@ -55,6 +55,12 @@ typename S::Real innerRadius(const Shape<S>& shape) {
 }
 
 template <class S>
+typename S::Vec middleOf(const Shape<S>& shape) {
+    const auto* hull = std::get_if<Hull<S>>(&shape);
+    return hull == nullptr ? typename S::Vec(S::Vec::Zero()) : hull->data->center;
+}
+
+template <class S>
 typename S::Real coreReach(const Shape<S>& shape, const Pose<S>& local) {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
@@ -105,6 +111,7 @@ Aabb<S> sweptBox(const MovingShape<S>& shape, typename S::Real t) {
 
 #define RIGOR_INSTANTIATE(S)                                                               \
     template S::Real innerRadius<S>(const Shape<S>&);                                      \
+    template S::Vec middleOf<S>(const Shape<S>&);                                          \
     template S::Real coreReach<S>(const Shape<S>&, const Pose<S>&);                        \
     template bool mayPassUnseen<S>(const MovingShape<S>&, const MovingShape<S>&, S::Real); \
     template Aabb<S> sweptBox<S>(const MovingShape<S>&, S::Real);

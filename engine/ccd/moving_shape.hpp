@@ -17,6 +17,10 @@ namespace rigor::engine {
 template <class S>
 typename S::Real innerRadius(const Shape<S>& shape);
 
+/// The centre of such a ball, or near it, in the frame of the shape [m]; zero for half-spaces and surfaces.
+template <class S>
+typename S::Vec middleOf(const Shape<S>& shape);
+
 /// How far the shape's core reaches from a point at `local.p` beyond its frame's origin, i.e. from the
 /// body's centre of mass [m]. The core is the shape without its rounding radius: the turning of a ball about
 /// its own centre moves nothing.

@@ -72,6 +72,10 @@ struct Placed {
         const typename S::Vec p = support<S>(convex, rotateInverse<R>(X.q, n));
         return n.dot(X.p) + n.dot(rotate(X.q, p));
     }
+    /// The point there.
+    typename S::Vec furthest(const typename S::Vec& n) const {
+        return toWorld<S>(X, support<S>(convex, rotateInverse<typename S::Real>(X.q, n)));
+    }
 };
 
 /// Step 1: is the contact along m the shortest way out? `out` in the frame of the surface.
@@ -126,6 +130,27 @@ bool isSurfaceNormal(const Data& data, std::uint32_t piece, const typename S::Ve
     return all;
 }
 
+/// The shape is past the piece: the contact along m at any depth, at its lowest point if need be.
+template <class S, class Data>
+void collideThrough(const Data& data, std::uint32_t index, bool front, const Pose<S>& Xs,
+                    const Placed<S>& placed, Manifold<S>& out) {
+    using R = typename S::Real;
+    using V = typename S::Vec;
+    const auto piece = data.piece(index);
+    collideAlong<R>(piece, front, placed.convex, placed.X, R(0), out);
+    if (out.count == 0) {
+        const V n = pieceNormal<R>(piece), m = front ? n : V(-n);
+        const V lowest = placed.furthest(-m);
+        const R s = m.dot(lowest - data.point(data.corners(index)[0]));
+        if (s >= 0) return;
+        out.normal = m;
+        out.count = 1;
+        out.points[0] = {V(lowest - s * m), lowest, s, 0};
+    }
+    toWorldFrame<S>(out, Xs);
+    remember(out);
+}
+
 template <class S, class Collide, class Data>
 void collideWith(Collide collide, const Data& data, std::uint32_t index, const Pose<S>& Xs,
                  const Shape<S>& convex, const Pose<S>& Xc, typename S::Real speculative, Manifold<S>& out) {
@@ -161,14 +186,27 @@ void collideWith(Collide collide, const Data& data, std::uint32_t index, const P
 }  // namespace
 
 template <class S>
+typename S::Real inFrontOf(const Shape<S>& surface, std::uint32_t piece, const typename S::Vec& point) {
+    using R = typename S::Real;
+    R distance = 0;
+    withSurface<S>(surface, [&](const auto& data) {
+        distance = pieceNormal<R>(data.piece(piece)).dot(point - data.point(data.corners(piece)[0]));
+    });
+    return distance;
+}
+
+template <class S>
 void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t piece,
-                  const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
+                  PieceSide side, const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
                   typename S::Real speculative, Manifold<S>& out) {
     out.count = 0;
     const auto collide = [&](const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
                              typename S::Real distance,
                              Manifold<S>& m) { narrowPhase.collide(a, Xa, b, Xb, distance, m); };
     withSurface<S>(surface, [&](const auto& data) {
+        if (side != PieceSide::Middle)
+            return collideThrough<S>(data, piece, side == PieceSide::ThroughFront, Xsurface,
+                                     Placed<S>{convex, relativePose<S>(Xsurface, Xconvex)}, out);
         collideWith<S>(collide, data, piece, Xsurface, convex, Xconvex, speculative, out);
     });
 }
@@ -227,8 +265,9 @@ Aabb<S> boxOnSurface(const Pose<S>& Xsurface, const Shape<S>& convex, const Pose
 }
 
 #define INSTANTIATE(S)                                                                                     \
-    template void collidePiece<S>(const NarrowPhase<S>&, const Shape<S>&, std::uint32_t, const Pose<S>&,   \
-                                  const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);                 \
+    template S::Real inFrontOf<S>(const Shape<S>&, std::uint32_t, const S::Vec&);                          \
+    template void collidePiece<S>(const NarrowPhase<S>&, const Shape<S>&, std::uint32_t, PieceSide,        \
+                                  const Pose<S>&, const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&); \
     template void collideDeepestPiece<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&,              \
                                          const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);          \
     template bool collideSurfaces<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&, const Shape<S>&, \

@@ -10,11 +10,22 @@
 
 namespace rigor::engine {
 
+/// On which side of a piece a shape belongs.
+enum class PieceSide : std::uint8_t {
+    Middle,        ///< where its middle is
+    ThroughFront,  ///< in front, though its middle has gone through the piece: it is pushed back
+    ThroughBack,   ///< likewise behind
+};
+
+/// The side of a piece, of a point in the frame of the surface: its distance in front [m].
+template <class S>
+typename S::Real inFrontOf(const Shape<S>& surface, std::uint32_t piece, const typename S::Vec& point);
+
 /// Fills `out` (A = surface) for one piece of the surface and a posed convex shape. `narrowPhase` finds
 /// contacts of the piece as a Segment or Triangle. Inner edges do not catch: see surface_contact.cpp.
 template <class S>
 void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t piece,
-                  const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
+                  PieceSide side, const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
                   typename S::Real speculative, Manifold<S>& out);
 
 /// The manifold (A = surface) of the piece that the shape is deepest in; the first of equals.

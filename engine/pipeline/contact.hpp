@@ -22,8 +22,9 @@ struct ShapeRecord {
     std::uint32_t body = 0;  ///< dense index
     std::uint32_t material = 0;
     ShapeId id;
-    typename S::Real reach = 0, inner = 0;  ///< coreReach, innerRadius (ccd/moving_shape.hpp) [m]
-    typename S::Real radius = 0;            ///< no point is further from its own origin [m]
+    typename S::Real reach = 0, inner = 0;    ///< coreReach, innerRadius (ccd/moving_shape.hpp) [m]
+    typename S::Real radius = 0;              ///< no point is further from its own origin [m]
+    typename S::Vec middle = S::Vec::Zero();  ///< a point well inside, in the frame of the shape [m]
 };
 
 /// Two shapes that touch or nearly do. A is the body of lower index. Large worlds read all of them three

@@ -144,9 +144,10 @@ void ContactSet<S>::forgetOtherAnswers() {
 
 template <class S>
 bool ContactSet<S>::completeRestored() {
-    coefficientsHold_ = mayHolds_ = false;
+    coefficientsHold_ = mayHolds_ = candidatesHavePieces_ = false;
     std::size_t count = 0;
     keys_.clear();
+    if (!middles_.empty() && middles_.size() != shapes_.size()) return false;
     for (Contact<S>& contact : contacts_) {
         const auto n = static_cast<std::size_t>(contact.manifold.count);
         for (std::size_t i = 0; i < n; ++i) contact.impacts = contact.impacts || contact.points[i].impact;
@@ -159,6 +160,7 @@ bool ContactSet<S>::completeRestored() {
         const auto key = [](const Candidate& x) { return std::pair(pairKey(x.a, x.b), x.piece); };
         if (k > 0 && key(candidates_[k - 1]) >= key(c)) return false;
         keys_.push_back(pairKey(c.a, c.b));
+        candidatesHavePieces_ = candidatesHavePieces_ || c.piece != kNone;
         const Candidate made = makeCandidate(c.a, c.b, c.piece);
         c.byA = made.byA, c.radius = made.radius;
         if (c.contact == kNone) continue;

@@ -19,9 +19,11 @@
 #include "engine/core/clone_ptr.hpp"
 #include "engine/core/tasks.hpp"
 #include "engine/faults/fault.hpp"
+#include "engine/narrowphase/surface_contact.hpp"
 #include "engine/pipeline/contact.hpp"
 #include "engine/pipeline/events.hpp"
 #include "engine/pipeline/slot_list.hpp"
+#include "engine/pipeline/surface_sides.hpp"
 #include "engine/solvers/combine_rules.hpp"
 #include "engine/state/world_def.hpp"
 
@@ -133,6 +135,8 @@ class ContactSet {
     /// What belongs to a state beside contacts(): which answers of the narrow phase are kept (snapshot.cpp).
     template <class A, class C>
     static void visitAnswers(A& archive, C& set);
+    template <class A, class C>
+    static void visitSides(A& archive, C& set);
     /// After both were restored. False: they do not belong together, or to shapes that are there.
     bool completeRestored();
     /// True where contacts between the two bodies are possible.
@@ -145,6 +149,7 @@ class ContactSet {
     struct Candidate {
         std::uint32_t a = 0, b = 0, piece = kNone;  ///< as in Contact
         std::uint32_t contact = kNone;              ///< its slot in contacts_, or kNone
+        PieceSide side = PieceSide::Middle;         ///< of the piece
         std::uint32_t fresh = kNone;  ///< the place of a new one in fresh_, or kNone; while they are found
         bool found = false;           ///< they touch or nearly do in this step
         bool asked = false;           ///< the narrow phase was, in this step
@@ -175,10 +180,15 @@ class ContactSet {
         }
     };
     static constexpr std::size_t kTally = 32;
+    using SidePlace = typename SurfaceSides<S>::Place;
     // --- contact_candidates.cpp
     void findCandidates(const BodyArrays<S>& bodies, const Tasks& tasks);
     void rememberPairs();
     void findPieces(std::uint32_t surface, std::uint32_t other);
+    SidePlace placeOf(std::uint64_t key, std::uint32_t surface, std::uint32_t other);
+    void choosePieces(std::uint32_t surface, const SidePlace& place);
+    PieceSide sideOf(std::uint32_t surface, std::uint32_t piece, const SidePlace& place) const;
+    void followMiddle(std::size_t shape);
     const std::vector<ProxyPair>& pairsNear() const {
         return search_.boxMargin > 0 ? enlarged_.pairs() : proxyPairs_;
     }
@@ -257,6 +267,10 @@ class ContactSet {
     bool mayHolds_ = false;          ///< candidates that there are may collide
     std::vector<Contact<S>> fresh_;  ///< new in this step, in any order
     std::vector<std::uint32_t> pieces_;
+    SurfaceSides<S> sides_;
+    bool hasSurfaces_ = false;   ///< some shape is a chain, mesh or height field
+    std::vector<Vec> middles_;   ///< of the shapes, where there are surfaces: world frame [m]
+    std::vector<Vec> cameFrom_;  ///< the same in the last step
     /// Of a contact that touched in the last step and is no more.
     struct Gone {
         std::uint32_t bodyA, bodyB, shapeA, shapeB, piece;

@@ -245,6 +245,7 @@ ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
     record.reach = coreReach<S>(record.shape, record.local);
     record.inner = innerRadius<S>(record.shape);
     const Aabb<S> box = boundingBox<S>(record.shape, {});
+    record.middle = middleOf<S>(record.shape);
     record.radius = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).norm();
     record.id = shapeIds_.add(static_cast<std::uint32_t>(contacts_.shapes().size()));
     contacts_.shapes().push_back(record);

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Bodies stay on their side of a sheet: dropped so fast that they pass it within one step, in all shapes, on
+// flat and rough meshes, height fields and chains; and a snapshot taken while they are through goes on alike.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "engine/pipeline/tests/scene.hpp"
+#include "engine/shapes/surface.hpp"
+#include "engine/state/prefer_speed.hpp"
+
+namespace rigor::engine::test {
+namespace {
+
+constexpr double kRough = 0.05;  ///< heights of rough ground, at most [m]
+
+template <class S>
+std::vector<Shape<S>> grounds(double rough) {
+    using R = typename S::Real;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> height(-rough, rough);
+    constexpr int kSide = 41;
+    constexpr double kCell = 0.25, kHalf = 0.5 * kCell * (kSide - 1);
+    if constexpr (S::dim == 2) {
+        std::vector<typename S::Vec> v;
+        for (int i = 0; i < kSide; ++i) v.push_back(at<S>(i * kCell - kHalf, height(random)));
+        return {makeChain<S>(v, false)};
+    } else {
+        std::vector<typename S::Vec> v;
+        std::vector<std::array<std::uint32_t, 3>> t;
+        std::vector<R> heights;
+        for (int k = 0; k < kSide; ++k)
+            for (int i = 0; i < kSide; ++i) {
+                heights.push_back(static_cast<R>(height(random)));
+                v.push_back({R(i * kCell - kHalf), heights.back(), R(k * kCell - kHalf)});
+            }
+        for (std::uint32_t k = 0; k + 1 < kSide; ++k)
+            for (std::uint32_t i = 0; i + 1 < kSide; ++i) {
+                const std::uint32_t a = kSide * k + i;
+                t.push_back({a, a + kSide, a + 1});
+                t.push_back({a + 1, a + kSide, a + kSide + 1});
+            }
+        return {makeTriangleMesh<S>(v, t),
+                makeHeightField<S>(kSide, kSide, R(kCell), R(kCell), heights, R(1))};
+    }
+}
+
+template <class S>
+std::vector<Shape<S>> bodies() {
+    using R = typename S::Real;
+    typename S::Vec plate = S::Vec::Constant(R(0.1));
+    plate[1] = R(0.02);
+    if constexpr (S::dim == 2)
+        return {Sphere<S>{R(0.05)}, Capsule<S>{R(0.03), R(0.08)}, Box<S>{plate}};
+    else
+        return {Sphere<S>{R(0.05)}, Capsule<S>{R(0.03), R(0.08)}, Box<S>{plate},
+                Cylinder<S>{R(0.06), R(0.04)}};
+}
+
+template <class S>
+struct Rain {
+    World<S> world;
+    std::vector<BodyId> drops;
+
+    Rain(const WorldDef<S>& def, const Shape<S>& ground, int count, bool bouncing = false) : world(def) {
+        using R = typename S::Real;
+        const std::uint32_t stuff = world.addMaterial(R(0.5), R(bouncing ? 0.5 : 0));
+        BodyDef<S> still;
+        still.type = BodyType::Static;
+        attach<S>(world, world.addBody(still), ground, stuff);
+        std::mt19937 random(11);
+        std::uniform_real_distribution<double> u(-1, 1);
+        const std::vector<Shape<S>> shapes = bodies<S>();
+        for (int i = 0; i < count; ++i) {
+            const Shape<S>& shape = shapes[static_cast<std::size_t>(i) % shapes.size()];
+            const MassProperties<S> m = massProperties<S>(shape, R(1000));
+            BodyDef<S> body;
+            body.mass = m.mass;
+            body.inertia = m.inertia;
+            body.pose.p = at<S>(3 * u(random), 2 + 3 * u(random) * (S::dim == 2 ? 8 : 0.5));
+            if constexpr (S::dim == 3) {
+                body.pose.p.z() = static_cast<R>(3 * u(random));
+                body.pose.q = typename S::Rot(R(u(random)), R(u(random)), R(u(random)), R(u(random)));
+                body.pose.q.normalize();
+            } else {
+                body.pose.p.y() += R(25);
+                body.pose.q = S::Rot::fromAngle(R(3 * u(random)));
+            }
+            body.velocity = at<S>(u(random), -10 + 2 * u(random));
+            body.angularVelocity = spin<S>(3 * u(random));
+            drops.push_back(world.addBody(body));
+            attach<S>(world, drops.back(), shape, stuff);
+        }
+    }
+    void run(int steps) {
+        for (int i = 0; i < steps; ++i) world.step(typename S::Real(1.0 / 60));
+    }
+    int lost() const {
+        int count = 0;
+        for (const BodyId drop : drops) {
+            const auto p = world.pose(drop).p;
+            count += p.y() < -kRough - 0.3 && std::abs(p.x()) < 4.8 &&
+                     (S::dim == 2 || std::abs(p[S::dim - 1]) < 4.8);
+        }
+        return count;
+    }
+};
+
+template <class S>
+class SurfaceSidesOf : public testing::Test {};
+using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
+TYPED_TEST_SUITE(SurfaceSidesOf, Spaces);
+
+TYPED_TEST(SurfaceSidesOf, NoBodyIsLost) {
+    using S = TypeParam;
+    for (const double rough : {0.0, kRough})
+        for (const Shape<S>& ground : grounds<S>(rough))
+            for (const bool fast : {false, true})
+                for (const bool bouncing : {false, true}) {
+                    WorldDef<S> def = earth<S>();
+                    if (fast) preferSpeed(def);
+                    Rain<S> rain(def, ground, 60, bouncing);
+                    rain.run(S::dim == 2 ? 240 : 120);
+                    EXPECT_EQ(rain.lost(), 0) << "ground " << ground.index() << " rough " << rough << " fast "
+                                              << fast << " bouncing " << bouncing;
+                }
+}
+
+TYPED_TEST(SurfaceSidesOf, BelongToTheState) {
+    using S = TypeParam;
+    const Shape<S> ground = grounds<S>(kRough)[0];
+    Rain<S> whole(earth<S>(), ground, 30), halves(earth<S>(), ground, 30);
+    for (int i = 0; i < 40; ++i) {
+        whole.run(1);
+        halves.run(1);
+        std::vector<unsigned char> bytes;
+        halves.world.saveSnapshot(bytes);
+        Rain<S> fresh(earth<S>(), ground, 30);
+        fresh.world.restoreSnapshot(bytes);
+        fresh.run(1);
+        Rain<S> reference = whole;
+        reference.run(1);
+        ASSERT_EQ(fresh.world.stateHash(), reference.world.stateHash()) << "step " << i;
+    }
+}
+
+}  // namespace
+}  // namespace rigor::engine::test
