@@ -65,7 +65,8 @@ TEST(ImportCommand, BadInputIsSaid) {
         EXPECT_FALSE(fs::exists(out / "new")) << "nothing half-written";
         return result.out;
     };
-    EXPECT_THAT(refused("teapot " + data.string()), HasSubstr("known: cube-toss"));
+    EXPECT_THAT(refused("teapot " + data.string()),
+                HasSubstr("known: compound-pendulum, cube-push, cube-toss"));
     EXPECT_THAT(refused("cube-toss nowhere"), HasSubstr("found no folder"));
     EXPECT_THAT(refused("cube-toss " + data.string() + " --option units=inches"),
                 HasSubstr("expected one of data"));
