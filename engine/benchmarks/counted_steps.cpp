@@ -6,7 +6,7 @@
 #include "engine/benchmarks/counted_work.hpp"
 #include "engine/pipeline/benchmarks/scenes.hpp"
 #include "engine/solvers/benchmarks/joint_problem.hpp"
-#include "engine/solvers/joint_system.hpp"
+#include "engine/solvers/joints/joint_system.hpp"
 #include "engine/solvers/traits.hpp"
 
 namespace rigor::engine::counted {

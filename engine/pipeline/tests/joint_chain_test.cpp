@@ -166,8 +166,8 @@ TYPED_TEST(Chains, HoldTogetherAndGainNothingWithTheSolverOfLargeScenes) {
     }
 }
 
-/// A net so large that its factor is made by fronts (solvers/joint_fronts.hpp): threads do not change a bit,
-/// and a steady step does not allocate.
+/// A net so large that its factor is made by fronts (solvers/joints/joint_fronts.hpp): threads do not change
+/// a bit, and a steady step does not allocate.
 TYPED_TEST(Chains, LargeNetsHoldTogetherAndGainNothingWithTheSolverOfLargeScenes) {
     using S = TypeParam;
     WorldDef<S> def = earth<S>();

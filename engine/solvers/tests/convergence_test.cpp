@@ -9,8 +9,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "engine/solvers/contact_interior.hpp"
 #include "engine/solvers/impulses.hpp"
+#include "engine/solvers/methods/contact_interior.hpp"
 #include "engine/solvers/tests/row_problem.hpp"
 
 namespace rigor::engine::test {

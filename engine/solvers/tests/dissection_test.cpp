@@ -9,8 +9,8 @@
 #include <numeric>
 #include <random>
 
-#include "engine/solvers/dissection.hpp"
-#include "engine/solvers/elimination.hpp"
+#include "engine/solvers/joints/dissection.hpp"
+#include "engine/solvers/joints/elimination.hpp"
 
 namespace rigor::engine {
 namespace {

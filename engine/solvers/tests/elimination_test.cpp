@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "engine/solvers/elimination.hpp"
+#include "engine/solvers/joints/elimination.hpp"
 
 namespace rigor::engine {
 namespace {

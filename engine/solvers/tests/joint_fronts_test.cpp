@@ -11,8 +11,8 @@
 #include <set>
 
 #include "engine/math/decompositions.hpp"
-#include "engine/solvers/elimination.hpp"
-#include "engine/solvers/joint_fronts.hpp"
+#include "engine/solvers/joints/elimination.hpp"
+#include "engine/solvers/joints/joint_fronts.hpp"
 
 namespace rigor::engine {
 namespace {

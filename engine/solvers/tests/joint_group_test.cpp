@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/tests/counting_new.hpp"
-#include "engine/solvers/joint_group.hpp"
+#include "engine/solvers/joints/joint_group.hpp"
 #include "engine/solvers/tests/row_problem.hpp"
 
 namespace rigor::engine {

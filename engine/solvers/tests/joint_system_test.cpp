@@ -9,7 +9,7 @@
 
 #include "engine/core/tests/counting_new.hpp"
 #include "engine/math/decompositions.hpp"
-#include "engine/solvers/joint_system.hpp"
+#include "engine/solvers/joints/joint_system.hpp"
 
 namespace rigor::engine {
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "engine/math/space.hpp"
-#include "engine/solvers/box_lcp.hpp"
-#include "engine/solvers/lemke_lcp.hpp"
+#include "engine/solvers/lcp/box_lcp.hpp"
+#include "engine/solvers/lcp/lemke_lcp.hpp"
 
 namespace rigor::engine {
 namespace {

@@ -20,7 +20,7 @@
 //
 // substeps and velocity_iterations 0 mean 4 and 1. Cost per step: substeps * 2 visits of every patch.
 // Known limits: those of soft contacts, tgs_soft.cpp.
-#include "engine/solvers/joint_group.hpp"
+#include "engine/solvers/joints/joint_group.hpp"
 #include "engine/solvers/row_kernels.hpp"
 #include "engine/solvers/traits.hpp"
 #include "engine/solvers/wide/patches.hpp"

@@ -4,8 +4,10 @@
 // Who may include whom. The layers are a table; every #include "..." of the tree is held against it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <regex>
+#include <set>
 
 #include "validation/hygiene/tests/source_tree.hpp"
 
@@ -113,11 +115,44 @@ TEST(IncludeRule, EveryIncludeRespectsTheLayers) {
     EXPECT_GT(checked, 100u);
 }
 
+/// The folders of the solvers build on each other in one order: what is common, then laws and the joints'
+/// direct solver, then the methods. No method includes another one's folder.
+TEST(IncludeRule, FoldersOfSolversIncludeTheCommonPartAndWhatTheyBuildOn) {
+    const std::string root = "engine/solvers/";
+    const std::map<std::string, std::vector<std::string>> buildsOn{{"", {}},
+                                                                   {"laws", {}},
+                                                                   {"joints", {}},
+                                                                   {"corrections", {"joints"}},
+                                                                   {"lcp", {}},
+                                                                   {"methods", {"joints", "lcp"}},
+                                                                   {"wide", {"joints"}}};
+    const auto folderOf = [&](const std::string& path) {
+        const std::size_t slash = path.find('/', root.size());
+        return slash == std::string::npos ? "" : path.substr(root.size(), slash - root.size());
+    };
+    std::set<std::string> seen;
+    for (const auto& file : sourceFiles({".hpp", ".cpp"})) {
+        if (!file.starts_with(root) || isTest(file)) continue;
+        const std::string folder = folderOf(file);
+        seen.insert(folder);
+        ASSERT_TRUE(buildsOn.contains(folder)) << file << " is in a folder that this test does not know";
+        const std::vector<std::string>& allowed = buildsOn.at(folder);
+        for (const auto& included : includesOf(readFile(file))) {
+            if (!included.starts_with(root)) continue;
+            const std::string other = folderOf(included);
+            EXPECT_TRUE(other.empty() || other == folder ||
+                        std::find(allowed.begin(), allowed.end(), other) != allowed.end())
+                << file << " may not include \"" << included << "\"";
+        }
+    }
+    EXPECT_EQ(seen.size(), buildsOn.size());
+}
+
 TEST(IncludeRule, TheRuleItselfRefuses) {
     const auto refused = [](const std::string& file, const std::string& included) {
         return !isAllowed(*ruleFor(file), file, included);
     };
-    EXPECT_TRUE(refused("engine/solvers/pgs.cpp", "engine/shapes/shape.hpp"));
+    EXPECT_TRUE(refused("engine/solvers/methods/pgs.cpp", "engine/shapes/shape.hpp"));
     EXPECT_TRUE(refused("engine/pipeline/world.cpp", "scenarios/model/scenario.hpp"));
     EXPECT_TRUE(refused("adapters/bullet/world.cpp", "engine/math/space.hpp"));
     EXPECT_TRUE(refused("adapters/bullet/world.cpp", "adapters/ode/world.hpp"));

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// All blocks of equality rows at once, by a direct method: see joint_system.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/constraints/row.hpp"
+#include "engine/solvers/joints/elimination.hpp"
+#include "engine/solvers/joints/joint_fronts.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+class JointSystem {
+  public:
+    using Real = typename S::Real;
+    /// A block of equality rows (1..6) and its rows; products with the inverse inertia are filled.
+    struct Item {
+        const Block<S>* block = nullptr;
+        const Row<S>* rows = nullptr;
+    };
+
+    /// Factors K of the items. False: so many blocks meet at the same bodies that the factors would be nearly
+    /// dense (more than kMaxFill blocks per item); then there are no factors and solve() may not be called.
+    /// Allocates where the items' bodies or numbers of rows are not those of the call before.
+    bool factor(std::span<const Item> items);
+    /// Where the right side of an item stands and the solution is left, a number per row, in the order of
+    /// factor(). All have to be set before each solve().
+    Real* at(std::size_t item) { return x_.data() + place_[item]; }
+    /// K x = right side.
+    void solve();
+
+  private:
+    static constexpr std::size_t kMaxFill = 24;
+    /// Items, and products of blocks per item, from which dense fronts are faster than blocks.
+    static constexpr std::size_t kLeastNet = 60, kLongColumns = 24;
+
+    /// What decides the pattern of K.
+    struct Place {
+        std::uint32_t a, b;  ///< bodies; kFixed: moved by no impulse
+        std::uint32_t rows;
+        friend bool operator==(const Place&, const Place&) = default;
+    };
+    static constexpr std::uint32_t kFixed = 0xffffffff;
+    /// Two items at a body: there K has a block below its diagonal.
+    struct Meeting {
+        std::size_t at;                     ///< entry of row_; with fronts where the block stands in them
+        std::uint32_t rowItem, columnItem;  ///< the item of the block's rows, and that of its columns
+        bool isRowB, isColumnB;             ///< whether the body is B of these items
+    };
+    /// Items that are connected, as consecutive positions: blocks of one size, that of the largest.
+    struct Part {
+        std::uint32_t first, last;         ///< positions, the last one excluded
+        int size;                          ///< rows of a block
+        std::size_t meeting, lastMeeting;  ///< of its meetings, the last one excluded
+        std::size_t lower, diagonal, x;    ///< where its first numbers stand
+        std::size_t target;                ///< likewise
+        std::uint32_t fronts;              ///< kNoFronts, or where its fronts are
+    };
+    static constexpr std::uint32_t kNoFronts = 0xffffffff;
+
+    static Place placeOf(const Item& item);
+    bool analyse(std::span<const Item> items);
+    bool findOrder(std::vector<std::vector<std::uint32_t>> near, Elimination& order) const;
+    bool needsFronts(std::uint32_t first, std::uint32_t last) const;
+    void layOut(Elimination& order);
+    void findTargets(const Part& part);
+    void findMeetings(std::span<const std::pair<std::uint32_t, std::uint32_t>> visits);
+    std::size_t entry(std::size_t column, std::uint32_t row) const;
+    template <int N>
+    void assemble(std::span<const Item> items, const Part& part);
+    template <int N>
+    void factorFronts(std::span<const Item> items, const Part& part);
+    template <int N>
+    static void addDiagonal(const Item& item, Real* m, std::size_t stride);
+    static void addMeeting(const Meeting& meeting, std::span<const Item> items, Real* m, std::size_t stride);
+    static Real shiftPivot(Real& pivot);
+    template <int N>
+    void eliminate(const Part& part);
+    template <int N>
+    void substitute(const Part& part);
+
+    std::vector<Place> pattern_;
+    bool fits_ = false;
+    std::vector<Part> parts_;
+    std::vector<Meeting> meetings_;
+    std::vector<std::uint32_t> item_;      ///< position -> item
+    std::vector<std::uint32_t> position_;  ///< item -> position
+    std::vector<std::size_t> place_;       ///< item -> where its right side stands in x_
+    /// Blocks below the diagonal, column by column; entries of a column by growing row (positions).
+    std::vector<std::size_t> start_;
+    std::vector<std::uint32_t> row_;
+    /// For each column and each pair of its entries e < f: the entry of column row_[e] in row row_[f],
+    /// counted from its part's first.
+    std::vector<std::uint32_t> target_;
+    std::vector<Real> lower_;  ///< K, then L
+    /// Of K, then of L, with the reciprocals of its own diagonal.
+    std::vector<Real> diagonal_;
+    std::vector<Real> x_;
+    std::vector<JointFronts<Real>> fronts_;  ///< instead of lower_ and diagonal_ where columns are long
+};
+
+}  // namespace rigor::engine

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/solvers/methods/contact_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rigor::engine {
+
+bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<double>& next) {
+    const std::size_t n = p.n;
+    double* A = lu_.reset(n);
+    w_.resize(n), right_.resize(n), next.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double* W = p.W.data() + i * n;
+        double w = p.q[i];
+        for (std::size_t j = 0; j < n; ++j) w += W[j] * p.lambda[j];
+        w_[i] = w;
+        // As if w = 0 were its equation; changed below where it is not.
+        std::copy_n(W, n, A + i * n);
+        A[i * n + i] *= 1 + sigma;
+        right_[i] = -w;
+    }
+    const auto pin = [&](std::size_t i, double value) {
+        std::fill_n(A + i * n, n, 0.0);
+        A[i * n + i] = 1;
+        right_[i] = value - p.lambda[i];
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        if (p.kind[i] != RowKind::Bounded && p.kind[i] != RowKind::Normal) continue;
+        const double z = p.lambda[i] - w_[i] / p.at(i, i);
+        if (z <= p.lower[i]) pin(i, p.lower[i]);
+        if (z >= p.upper[i]) pin(i, p.upper[i]);
+    }
+    for (const AssembledContact& contact : p.contacts) {
+        const std::size_t normal = contact.normal;
+        const bool open = p.lambda[normal] - w_[normal] / p.at(normal, normal) <= 0;
+        if (open && !(contact.applied > 0)) {
+            for (std::size_t t = 1; t <= contact.tangents; ++t) pin(normal + t, 0.0);
+        } else if (contact.tangents > 0) {
+            tangentRows(p, contact, A);
+        }
+    }
+    if (!lu_.factor()) return false;
+    lu_.solve(right_.data());
+    for (std::size_t i = 0; i < n; ++i) {
+        next[i] = p.lambda[i] + right_[i];
+        if (!std::isfinite(next[i])) return false;
+    }
+    return true;
+}
+
+/// Sticking keeps w_t = 0. Sliding, with e = z_t / |z_t| and R = mu (lambda_n + applied):
+///     d_t - e mu d_n - (R / |z_t|) (I - e e^T) (d_t - rho W_t d) = -(lambda_t - R e)
+void ContactNewton::tangentRows(const AssembledProblem& p, const AssembledContact& contact, double* A) {
+    const std::size_t n = p.n, first = contact.normal + 1, m = contact.tangents;
+    const double pressed = std::max(0.0, p.lambda[contact.normal]) + contact.applied;
+    const double rho = 1 / p.at(first, first);
+    double z[2] = {0, 0}, length = 0;
+    for (std::size_t t = 0; t < m; ++t) z[t] = p.lambda[first + t] - rho * w_[first + t];
+    length = std::sqrt(z[0] * z[0] + z[1] * z[1]);
+    if (length <= contact.muStatic * pressed) return;
+    const double R = contact.mu * pressed, e[2] = {z[0] / length, z[1] / length};
+    const double share = R / length;
+    for (std::size_t t = 0; t < m; ++t) {
+        double* row = A + (first + t) * n;
+        std::fill_n(row, n, 0.0);
+        for (std::size_t s = 0; s < m; ++s) {
+            const double across = share * ((s == t ? 1.0 : 0.0) - e[s] * e[t]);
+            // In the plane there is nothing across.
+            if (m == 1) break;
+            const double* W = p.W.data() + (first + s) * n;
+            for (std::size_t j = 0; j < n; ++j) row[j] += across * rho * W[j];
+            row[first + s] -= across;
+        }
+        row[first + t] += 1;
+        row[contact.normal] -= contact.mu * e[t];
+        right_[first + t] = -(p.lambda[first + t] - R * e[t]);
+    }
+}
+
+}  // namespace rigor::engine

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/solvers/methods/newton_finish.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/solvers/impulses.hpp"
+#include "engine/solvers/matrix_space.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+typename S::Real renewedResidual(const SolverInput<S>& input) {
+    input.monitor.before(input.velocities);
+    return naturalMapResidual<S>(input.constraints, input.velocities);
+}
+
+template <class S>
+void NewtonFinish<S>::Saved::save(const SolverInput<S>& input) {
+    readImpulses(input.constraints, impulses);
+    velocities.assign(input.velocities.begin(), input.velocities.end());
+}
+template <class S>
+void NewtonFinish<S>::Saved::restore(const SolverInput<S>& input) const {
+    for (std::size_t i = 0; i < impulses.size(); ++i) input.constraints.rows[i].impulse = impulses[i];
+    std::copy(velocities.begin(), velocities.end(), input.velocities.begin());
+}
+
+template <class S>
+void NewtonFinish<S>::assemble(const SolverInput<S>& input) {
+    if (!assembled_) problem_.assemble<S>(input.constraints, input.velocities.size());
+    assembled_ = true;
+}
+
+template <class S>
+typename S::Real NewtonFinish<S>::attempt(const SolverInput<S>& input, Real residual, Real goal, int steps) {
+    assemble(input);
+    best_.save(input);
+    Real best = residual;
+    double damping = kLeastDamping;
+    int astray = 0;
+    for (int step = 0; step < steps && best > goal; ++step) {
+        problem_.readVelocities<S>(input.constraints, input.velocities);
+        Real reached = std::numeric_limits<Real>::infinity();
+        if (newton_.step(problem_, damping, target_) && !runsAway()) reached = take(input, target_);
+        if (reached < best) {
+            best = reached, astray = 0;
+            best_.save(input);
+            damping = std::max(kLeastDamping, 1e-2 * damping);
+        } else if (!(reached < kLost * best) || ++astray > 2) {
+            best_.restore(input);
+            input.monitor.before(input.velocities);
+            damping *= 100, astray = 0;
+            if (damping > kMostDamping) break;
+        }
+    }
+    best_.restore(input);
+    return renewedResidual(input);
+}
+
+template <class S>
+typename S::Real NewtonFinish<S>::attemptFromInside(const SolverInput<S>& input, Real residual, Real goal) {
+    assemble(input);
+    if (interiorStarts_ == kInteriorStarts || !ContactInterior::fits(problem_)) return residual;
+    const double shift = std::pow(10.0, -interiorStarts_++);
+    before_.save(input);
+    problem_.readVelocities<S>(input.constraints, input.velocities);
+    if (!interior_.solve(problem_, shift, target_)) return residual;
+    const Real reached = attempt(input, take(input, target_), goal);
+    if (reached < residual) return reached;
+    before_.restore(input);
+    return renewedResidual(input);
+}
+
+/// Sets impulses, brought back into cones and bounds; returns their residual.
+template <class S>
+typename S::Real NewtonFinish<S>::take(const SolverInput<S>& input, const std::vector<double>& impulses) {
+    next_.assign(impulses.begin(), impulses.end());
+    projectImpulses(input.constraints, next_);
+    setImpulses(input, next_);
+    return renewedResidual(input);
+}
+
+/// Impulses far beyond those there are: a singular system, whose rounding the velocities would keep.
+template <class S>
+bool NewtonFinish<S>::runsAway() const {
+    double now = 0, then = 0;
+    for (std::size_t i = 0; i < problem_.n; ++i) {
+        const double K = problem_.at(i, i);
+        now = std::max(now, K * std::abs(problem_.lambda[i]) + std::abs(problem_.q[i]));
+        then = std::max(then, K * std::abs(target_[i]));
+    }
+    return !(then < 1e3 * now);
+}
+
+#define RIGOR_INSTANTIATE(S)        \
+    template class NewtonFinish<S>; \
+    template typename S::Real renewedResidual<S>(const SolverInput<S>&);
+RIGOR_INSTANTIATE(Space2f)
+RIGOR_INSTANTIATE(Space2d)
+RIGOR_INSTANTIATE(Space3f)
+RIGOR_INSTANTIATE(Space3d)
+RIGOR_INSTANTIATE(MatrixSpace<2>)
+RIGOR_INSTANTIATE(MatrixSpace<3>)
+#undef RIGOR_INSTANTIATE
+
+}  // namespace rigor::engine
