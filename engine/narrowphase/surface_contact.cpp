@@ -15,6 +15,11 @@
 //      behind the plane of contact,  n . (w - v) <= 0  for the vertices w beside the piece's touching side,
 //      or around its touching corner: only there n is a normal of the surface.
 //   3. Else the contact along m, if any: what is left belongs to a neighbour.
+// Of a shape that is deep the supporting feature is one corner, which alone would turn the shape rather than
+// lift it: its other low points over the piece join the contact along m. Nothing of that is taken that is
+// beyond the piece's plane but not beyond the surface, as what reaches under the border of a table is; and
+// where pieces near face different ways, those count alone whose face towards the middle is on the middle's
+// side (surface_side.hpp): what stands behind a ridge does not push the shape into it.
 // The condition of 2 is that of the normal cones of a polyhedron [Ericson2005, ch. 12.4 for the pieces' own
 // Voronoi regions]; it holds on both sides of a two-sided surface. A field that is solid below has m up, and
 // a shape with its middle under the surface is pushed along m.
@@ -25,6 +30,7 @@
 
 #include "engine/narrowphase/detail.hpp"
 #include "engine/narrowphase/pairs.hpp"
+#include "engine/narrowphase/surface_side.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -75,6 +81,10 @@ struct Placed {
     /// The point there.
     typename S::Vec furthest(const typename S::Vec& n) const {
         return toWorld<S>(X, support<S>(convex, rotateInverse<typename S::Real>(X.q, n)));
+    }
+    typename S::Vec middle() const {
+        const auto* hull = std::get_if<Hull<S>>(&convex);
+        return hull == nullptr ? X.p : toWorld<S>(X, typename S::Vec(hull->data->center));
     }
 };
 
@@ -130,29 +140,37 @@ bool isSurfaceNormal(const Data& data, std::uint32_t piece, const typename S::Ve
     return all;
 }
 
-/// The shape is past the piece: the contact along m at any depth, at its lowest point if need be.
-template <class S, class Data>
-void collideThrough(const Data& data, std::uint32_t index, bool front, const Pose<S>& Xs,
-                    const Placed<S>& placed, Manifold<S>& out) {
+/// A shape that overlaps a piece by more than this share of what it has on either side of its middle is deep.
+template <class R>
+inline constexpr R kDeep = R(0.1);
+
+/// To the contact along m of a deep shape: what is low of it besides, as seen half-way between -m and each of
+/// its axes.
+template <class S, class Data, class Piece>
+void addLowPoints(const Data& data, const Piece& piece, const Placed<S>& placed, typename S::Real s,
+                  const typename S::Vec& n, Manifold<S>& along) {
     using R = typename S::Real;
     using V = typename S::Vec;
-    const auto piece = data.piece(index);
-    collideAlong<R>(piece, front, placed.convex, placed.X, R(0), out);
-    if (out.count == 0) {
-        const V n = pieceNormal<R>(piece), m = front ? n : V(-n);
-        const V lowest = placed.furthest(-m);
-        const R s = m.dot(lowest - data.point(data.corners(index)[0]));
-        if (s >= 0) return;
-        out.normal = m;
-        out.count = 1;
-        out.points[0] = {V(lowest - s * m), lowest, s, 0};
+    const V m = along.normal, corner = centerOf<R>(piece), middle = placed.middle();
+    const auto beyond = [&](const V& x) {
+        return Data::kSolidBelow || passed<S>(data, middle, V(x - middle)) > 0;
+    };
+    if (along.count > 0 && !beyond(along.points[0].pointB)) along.count = 0;
+    for (std::uint32_t k = 0; k < 2 * S::dim && along.count < S::maxManifoldPoints; ++k) {
+        const V axis = rotate(placed.X.q, V(V::Unit(k / 2)));
+        const V x = placed.furthest(V((k % 2 == 0 ? axis : V(-axis)) - m));
+        const R depth = -m.dot(x - corner);
+        if (depth <= 0 || insideBy<R>(piece, n, V(x + depth * m)) < 0) continue;
+        bool known = false;
+        for (int i = 0; i < along.count; ++i)
+            known =
+                known || (along.points[static_cast<std::size_t>(i)].pointB - x).norm() < R(0.1) * std::abs(s);
+        if (!known && beyond(x)) addPoint<S>(along, x + depth * m, x, -depth, crossingFeature(k, 0));
     }
-    toWorldFrame<S>(out, Xs);
-    remember(out);
 }
 
 template <class S, class Collide, class Data>
-void collideWith(Collide collide, const Data& data, std::uint32_t index, const Pose<S>& Xs,
+void collideWith(Collide collide, const Data& data, std::uint32_t index, bool ridge, const Pose<S>& Xs,
                  const Shape<S>& convex, const Pose<S>& Xc, typename S::Real speculative, Manifold<S>& out) {
     using R = typename S::Real;
     using V = typename S::Vec;
@@ -164,9 +182,14 @@ void collideWith(Collide collide, const Data& data, std::uint32_t index, const P
     const bool front = Data::kSolidBelow || !under;
     const R s = front ? bottom : -top;
     if (s > speculative) return;
+    if (ridge && !facesItsSide<S>(data, index, placed.middle())) return;
     Manifold<S> along;
     along.memory = out.memory;
     collideAlong<R>(piece, front, convex, placed.X, speculative, along);
+    if (s < -kDeep<R> * R(0.5) * (top - bottom)) {
+        along.normal = front ? n : V(-n);
+        addLowPoints<S>(data, piece, placed, s, n, along);
+    }
     if (faceIsShortest<S>(piece, n, s, along) || (Data::kSolidBelow && under)) {
         out = along;
         toWorldFrame<S>(out, Xs);
@@ -176,7 +199,7 @@ void collideWith(Collide collide, const Data& data, std::uint32_t index, const P
     collide(Shape<S>(piece), Xs, convex, Xc, speculative, out);
     if (out.count == 0) return;
     const V found = rotateInverse<R>(Xs.q, out.normal);
-    const bool upwards = !Data::kSolidBelow || found.dot(n) >= -kPerpendicular<R>;
+    const bool upwards = (front ? found.dot(n) : -found.dot(n)) >= -kPerpendicular<R>;
     if (upwards && isSurfaceNormal<S>(data, index, found)) return;
     out = along;
     toWorldFrame<S>(out, Xs);
@@ -186,28 +209,29 @@ void collideWith(Collide collide, const Data& data, std::uint32_t index, const P
 }  // namespace
 
 template <class S>
-typename S::Real inFrontOf(const Shape<S>& surface, std::uint32_t piece, const typename S::Vec& point) {
+bool facesDiffer(const Shape<S>& surface, std::span<const std::uint32_t> pieces, const typename S::Vec& x) {
     using R = typename S::Real;
-    R distance = 0;
+    int front = 0, back = 0;
     withSurface<S>(surface, [&](const auto& data) {
-        distance = pieceNormal<R>(data.piece(piece)).dot(point - data.point(data.corners(piece)[0]));
+        if (data.kSolidBelow) return;
+        for (const std::uint32_t piece : pieces) {
+            const R height = pieceNormal<R>(data.piece(piece)).dot(x - data.point(data.corners(piece)[0]));
+            front += height > 0, back += height < 0;
+        }
     });
-    return distance;
+    return front > 0 && back > 0;
 }
 
 template <class S>
-void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t piece,
-                  PieceSide side, const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
+void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t piece, bool ridge,
+                  const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
                   typename S::Real speculative, Manifold<S>& out) {
     out.count = 0;
     const auto collide = [&](const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
                              typename S::Real distance,
                              Manifold<S>& m) { narrowPhase.collide(a, Xa, b, Xb, distance, m); };
     withSurface<S>(surface, [&](const auto& data) {
-        if (side != PieceSide::Middle)
-            return collideThrough<S>(data, piece, side == PieceSide::ThroughFront, Xsurface,
-                                     Placed<S>{convex, relativePose<S>(Xsurface, Xconvex)}, out);
-        collideWith<S>(collide, data, piece, Xsurface, convex, Xconvex, speculative, out);
+        collideWith<S>(collide, data, piece, ridge, Xsurface, convex, Xconvex, speculative, out);
     });
 }
 
@@ -222,7 +246,7 @@ void collideDeepestPiece(CollideFunction<S> collide, const Shape<S>& surface, co
     withSurface<S>(surface, [&](const auto& data) {
         data.query(boxOnSurface<S>(Xsurface, convex, Xconvex, speculative), [&](std::uint32_t piece) {
             Manifold<S> m;
-            collideWith<S>(collide, data, piece, Xsurface, convex, Xconvex, speculative, m);
+            collideWith<S>(collide, data, piece, false, Xsurface, convex, Xconvex, speculative, m);
             R least = std::numeric_limits<R>::max();
             for (int i = 0; i < m.count; ++i)
                 least = std::min(least, m.points[static_cast<std::size_t>(i)].separation);
@@ -265,8 +289,8 @@ Aabb<S> boxOnSurface(const Pose<S>& Xsurface, const Shape<S>& convex, const Pose
 }
 
 #define INSTANTIATE(S)                                                                                     \
-    template S::Real inFrontOf<S>(const Shape<S>&, std::uint32_t, const S::Vec&);                          \
-    template void collidePiece<S>(const NarrowPhase<S>&, const Shape<S>&, std::uint32_t, PieceSide,        \
+    template bool facesDiffer<S>(const Shape<S>&, std::span<const std::uint32_t>, const S::Vec&);          \
+    template void collidePiece<S>(const NarrowPhase<S>&, const Shape<S>&, std::uint32_t, bool,             \
                                   const Pose<S>&, const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&); \
     template void collideDeepestPiece<S>(CollideFunction<S>, const Shape<S>&, const Pose<S>&,              \
                                          const Shape<S>&, const Pose<S>&, S::Real, Manifold<S>&);          \

@@ -5,27 +5,23 @@
 // phase of the table.
 #pragma once
 
+#include <span>
+
 #include "engine/narrowphase/manifold.hpp"
 #include "engine/shapes/surface.hpp"
 
 namespace rigor::engine {
 
-/// On which side of a piece a shape belongs.
-enum class PieceSide : std::uint8_t {
-    Middle,        ///< where its middle is
-    ThroughFront,  ///< in front, though its middle has gone through the piece: it is pushed back
-    ThroughBack,   ///< likewise behind
-};
-
-/// The side of a piece, of a point in the frame of the surface: its distance in front [m].
+/// True where x, in the frame of the surface, is in front of some of the pieces and behind others.
 template <class S>
-typename S::Real inFrontOf(const Shape<S>& surface, std::uint32_t piece, const typename S::Vec& point);
+bool facesDiffer(const Shape<S>& surface, std::span<const std::uint32_t> pieces, const typename S::Vec& x);
 
 /// Fills `out` (A = surface) for one piece of the surface and a posed convex shape. `narrowPhase` finds
-/// contacts of the piece as a Segment or Triangle. Inner edges do not catch: see surface_contact.cpp.
+/// contacts of the piece as a Segment or Triangle; `ridge`: facesDiffer() of the pieces near the shape and
+/// its middle. Inner edges do not catch: see surface_contact.cpp.
 template <class S>
-void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t piece,
-                  PieceSide side, const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
+void collidePiece(const NarrowPhase<S>& narrowPhase, const Shape<S>& surface, std::uint32_t piece, bool ridge,
+                  const Pose<S>& Xsurface, const Shape<S>& convex, const Pose<S>& Xconvex,
                   typename S::Real speculative, Manifold<S>& out);
 
 /// The manifold (A = surface) of the piece that the shape is deepest in; the first of equals.

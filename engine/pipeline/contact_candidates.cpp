@@ -18,7 +18,6 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
     std::swap(order, oldOrder_), std::swap(keys_, oldKeys_);
     const std::vector<ProxyPair>& pairs = pairsNear();
     order.clear(), keys_.clear();
-    sides_.begin();
     const bool hadPieces = std::exchange(candidatesHavePieces_, false);
     std::size_t old = 0;
     const auto oldPiece = [&] { return hadPieces ? candidates_.at(oldOrder_[old]).piece : kNone; };
@@ -74,14 +73,13 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
         candidatesHavePieces_ = true;
         if (!boxes_[a].overlaps(boxes_[b])) continue;
         const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
-        const SidePlace place = placeOf(key, surface, other);
         findPieces(surface, other);
-        if (place.through != kNone) choosePieces(surface, place);
+        const Vec middle = toWorld<S>(shapePoses_[other], shapes_[other].middle);
+        const bool ridge =
+            facesDiffer<S>(shapes_[surface].shape, pieces_, toLocal<S>(shapePoses_[surface], middle));
         for (const std::uint32_t piece : pieces_) {
             add(a, b, piece);
-            Candidate& candidate = candidates_.at(order.back());
-            const PieceSide side = sideOf(surface, piece, place);
-            if (std::exchange(candidate.side, side) != side) candidate.kept = false;
+            candidates_.at(order.back()).ridge = ridge;
         }
     }
     while (old < oldKeys_.size()) drop();
@@ -100,40 +98,6 @@ void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other) {
         data.query(box, [&](std::uint32_t piece) { pieces_.push_back(piece); });
     });
     std::sort(pieces_.begin(), pieces_.end());
-}
-
-template <class S>
-typename ContactSet<S>::SidePlace ContactSet<S>::placeOf(std::uint64_t key, std::uint32_t surface,
-                                                         std::uint32_t other) {
-    constexpr Real kGap = Real(0.05);  ///< of the inner radius
-    const SidePlace place = sides_.place(key, shapes_[surface].shape, shapePoses_[surface], cameFrom_[other],
-                                         middles_[other], kGap * shapes_[other].inner);
-    // The box of the next step reaches back to there.
-    if (place.through != kNone) middles_[other] = toWorld<S>(shapePoses_[surface], place.proper);
-    return place;
-}
-
-/// Of a shape that has gone through a piece, pieces that it is behind do not count: they would push it on.
-/// What is solid below has no such side.
-template <class S>
-void ContactSet<S>::choosePieces(std::uint32_t surface, const SidePlace& place) {
-    const Shape<S>& shape = shapes_[surface].shape;
-    withSurface<S>(shape, [&](const auto& data) {
-        if (data.kSolidBelow) return;
-        std::erase_if(pieces_, [&](std::uint32_t piece) {
-            return (inFrontOf<S>(shape, piece, place.proper) < 0) !=
-                   (inFrontOf<S>(shape, piece, place.middle) < 0);
-        });
-    });
-    const auto at = std::lower_bound(pieces_.begin(), pieces_.end(), place.through);
-    if (at == pieces_.end() || *at != place.through) pieces_.insert(at, place.through);
-}
-
-template <class S>
-PieceSide ContactSet<S>::sideOf(std::uint32_t surface, std::uint32_t piece, const SidePlace& place) const {
-    if (piece != place.through) return PieceSide::Middle;
-    return inFrontOf<S>(shapes_[surface].shape, piece, place.proper) < 0 ? PieceSide::ThroughBack
-                                                                         : PieceSide::ThroughFront;
 }
 
 /// Pairs that were found exactly are compared with the next ones; those of enlarged boxes are known to be the

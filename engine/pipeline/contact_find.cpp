@@ -161,7 +161,7 @@ void ContactSet<S>::ask(const Search& search, Candidate& candidate, Manifold<S>&
         const bool surfaceA = isComposite<S>(shapes_[a].shape);
         const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
         if (!surfaceA) flipManifold(manifold);  // its memory
-        collidePiece<S>(search.narrowPhase, shapes_[surface].shape, candidate.piece, candidate.side,
+        collidePiece<S>(search.narrowPhase, shapes_[surface].shape, candidate.piece, candidate.ridge,
                         shapePoses_[surface], shapes_[other].shape, shapePoses_[other], distance, manifold);
         if (!surfaceA) flipManifold(manifold);
         candidate.apart = 0;  // of one of its sides, perhaps

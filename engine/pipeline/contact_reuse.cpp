@@ -147,7 +147,6 @@ bool ContactSet<S>::completeRestored() {
     coefficientsHold_ = mayHolds_ = candidatesHavePieces_ = false;
     std::size_t count = 0;
     keys_.clear();
-    if (!middles_.empty() && middles_.size() != shapes_.size()) return false;
     for (Contact<S>& contact : contacts_) {
         const auto n = static_cast<std::size_t>(contact.manifold.count);
         for (std::size_t i = 0; i < n; ++i) contact.impacts = contact.impacts || contact.points[i].impact;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 
 namespace rigor::engine {
 namespace {
@@ -60,9 +59,9 @@ template <class S>
 void ContactSet<S>::structureChanged(bool indicesChanged) {
     boxesValid_ = candidatesValid_ = coefficientsHold_ = mayHolds_ = false;
     enlarged_.reset();
-    hasSurfaces_ = std::any_of(shapes_.begin(), shapes_.end(),
-                               [](const ShapeRecord<S>& record) { return isComposite<S>(record.shape); });
-    if (indicesChanged) middles_.clear(), sides_.clear();
+    surfaces_.clear();
+    for (std::uint32_t i = 0; i < shapes_.size(); ++i)
+        if (isComposite<S>(shapes_[i].shape)) surfaces_.push_back(i);
     if (indicesChanged) contacts_.clear(), candidates_.clear(), keys_.clear(), dropped_.clear();
 }
 
@@ -84,11 +83,6 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
     shapePoses_.resize(n);
     boxes_.resize(n);
     movable_.resize(n);
-    if (hasSurfaces_) {
-        const auto unknown = Vec::Constant(std::numeric_limits<Real>::quiet_NaN());
-        middles_.resize(n, unknown);
-        cameFrom_.resize(n, unknown);
-    }
     const Vec margin = Vec::Constant(search.speculativeDistance + search.reuseDistance);
     tasks.forEach(n, kShapeGrain, [&](std::size_t i) {
         const ShapeRecord<S>& record = shapes_[i];
@@ -98,7 +92,6 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
         boxes_[i] = boundingBox<S>(record.shape, shapePoses_[i]);
         movable_[i] = bodies.constants[record.body].type == BodyType::Dynamic;
         if (movable_[i]) boxes_[i].min -= margin, boxes_[i].max += margin;
-        if (hasSurfaces_) followMiddle(i);
         if (!isStatic && ccd.looksAhead()) ccd.growBox(static_cast<std::uint32_t>(i), boxes_[i]);
     });
     boxesValid_ = true;
@@ -120,19 +113,6 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
     proxyPairsHold_ = false;
 }
 
-/// Where the middle of a shape is and was. The box of one that has moved by more than it is thick reaches
-/// back.
-template <class S>
-void ContactSet<S>::followMiddle(std::size_t shape) {
-    const ShapeRecord<S>& record = shapes_[shape];
-    const Vec now = toWorld<S>(shapePoses_[shape], record.middle);
-    cameFrom_[shape] = middles_[shape].allFinite() ? middles_[shape] : now;
-    middles_[shape] = now;
-    if (!movable_[shape] || (now - cameFrom_[shape]).squaredNorm() <= record.inner * record.inner) return;
-    boxes_[shape].min = boxes_[shape].min.cwiseMin(cameFrom_[shape]);
-    boxes_[shape].max = boxes_[shape].max.cwiseMax(cameFrom_[shape]);
-}
-
 template <class S>
 const std::vector<ProxyPair>& ContactSet<S>::proxyPairs() const {
     if (!proxyPairsHold_) {
@@ -149,8 +129,7 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
                                   ManifoldFunction<S> makeManifold, const ContinuousCollision<S>& ccd,
                                   const Tasks& tasks) {
     const bool exact = search_.boxMargin == 0;
-    if (!candidatesValid_ || candidatesHavePieces_ || !sides_.empty() ||
-        (exact && candidatePairs_ != proxyPairs_))
+    if (!candidatesValid_ || candidatesHavePieces_ || (exact && candidatePairs_ != proxyPairs_))
         findCandidates(bodies, tasks);
     forgetOtherAnswers();
     if (makeManifold == &manifoldClipped<S>) makeManifold = nullptr;

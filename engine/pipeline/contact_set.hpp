@@ -19,11 +19,9 @@
 #include "engine/core/clone_ptr.hpp"
 #include "engine/core/tasks.hpp"
 #include "engine/faults/fault.hpp"
-#include "engine/narrowphase/surface_contact.hpp"
 #include "engine/pipeline/contact.hpp"
 #include "engine/pipeline/events.hpp"
 #include "engine/pipeline/slot_list.hpp"
-#include "engine/pipeline/surface_sides.hpp"
 #include "engine/solvers/combine_rules.hpp"
 #include "engine/state/world_def.hpp"
 
@@ -112,7 +110,10 @@ class ContactSet {
     /// Reads the impulses of the solved rows.
     void storeImpulses(const ConstraintRows<S>& rows);
 
-    /// Ends a step: appends what began and what ended.
+    /// Ends a step: bodies that have passed a chain, mesh or height field since it began go back to the side
+    /// that they came from (surface_sides.hpp).
+    void keepSides(BodyArrays<S>& bodies, const Tasks& tasks);
+    /// Appends what began and what ended.
     void noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events, const Tasks& tasks);
 
     /// Lets a fault at what findManifolds and addRows have made.
@@ -135,8 +136,6 @@ class ContactSet {
     /// What belongs to a state beside contacts(): which answers of the narrow phase are kept (snapshot.cpp).
     template <class A, class C>
     static void visitAnswers(A& archive, C& set);
-    template <class A, class C>
-    static void visitSides(A& archive, C& set);
     /// After both were restored. False: they do not belong together, or to shapes that are there.
     bool completeRestored();
     /// True where contacts between the two bodies are possible.
@@ -149,7 +148,7 @@ class ContactSet {
     struct Candidate {
         std::uint32_t a = 0, b = 0, piece = kNone;  ///< as in Contact
         std::uint32_t contact = kNone;              ///< its slot in contacts_, or kNone
-        PieceSide side = PieceSide::Middle;         ///< of the piece
+        bool ridge = false;                         ///< facesDiffer() of the pieces near
         std::uint32_t fresh = kNone;  ///< the place of a new one in fresh_, or kNone; while they are found
         bool found = false;           ///< they touch or nearly do in this step
         bool asked = false;           ///< the narrow phase was, in this step
@@ -180,15 +179,13 @@ class ContactSet {
         }
     };
     static constexpr std::size_t kTally = 32;
-    using SidePlace = typename SurfaceSides<S>::Place;
+    // --- surface_sides.cpp
+    Vec middleNow(const BodyArrays<S>& bodies, std::uint32_t shape) const;
+    bool stayOnSide(const BodyArrays<S>& bodies, std::uint32_t shape, Vec& now) const;
     // --- contact_candidates.cpp
     void findCandidates(const BodyArrays<S>& bodies, const Tasks& tasks);
     void rememberPairs();
     void findPieces(std::uint32_t surface, std::uint32_t other);
-    SidePlace placeOf(std::uint64_t key, std::uint32_t surface, std::uint32_t other);
-    void choosePieces(std::uint32_t surface, const SidePlace& place);
-    PieceSide sideOf(std::uint32_t surface, std::uint32_t piece, const SidePlace& place) const;
-    void followMiddle(std::size_t shape);
     const std::vector<ProxyPair>& pairsNear() const {
         return search_.boxMargin > 0 ? enlarged_.pairs() : proxyPairs_;
     }
@@ -267,10 +264,8 @@ class ContactSet {
     bool mayHolds_ = false;          ///< candidates that there are may collide
     std::vector<Contact<S>> fresh_;  ///< new in this step, in any order
     std::vector<std::uint32_t> pieces_;
-    SurfaceSides<S> sides_;
-    bool hasSurfaces_ = false;   ///< some shape is a chain, mesh or height field
-    std::vector<Vec> middles_;   ///< of the shapes, where there are surfaces: world frame [m]
-    std::vector<Vec> cameFrom_;  ///< the same in the last step
+    std::vector<std::uint32_t> surfaces_;  ///< shapes that are chains, meshes or height fields
+    std::vector<std::uint8_t> crossed_;    ///< of the shapes: 1 where a surface was in the way
     /// Of a contact that touched in the last step and is no more.
     struct Gone {
         std::uint32_t bodyA, bodyB, shapeA, shapeB, piece;

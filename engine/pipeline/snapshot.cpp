@@ -19,7 +19,7 @@ namespace rigor::engine {
 namespace {
 
 constexpr char kMagic[8] = {'R', 'I', 'G', 'O', 'R', 'S', 'N', 'P'};
-constexpr std::uint32_t kVersion = 5;  ///< raised with every change of state_fields.def
+constexpr std::uint32_t kVersion = 6;  ///< raised with every change of state_fields.def
 constexpr std::uint32_t kByteOrder = 0x01020304;
 
 struct Header {
@@ -83,17 +83,6 @@ void ContactSet<S>::visitAnswers(A& archive, C& set) {
     }
 }
 
-/// Where shapes came from, which decides on which side of a surface they are.
-template <class S>
-template <class A, class C>
-void ContactSet<S>::visitSides(A& archive, C& set) {
-    if (!set.hasSurfaces_) return;
-    const std::size_t count = archive.size(set.middles_.size());
-    if constexpr (!std::is_const_v<C>) set.middles_.resize(count);
-    for (auto& middle : set.middles_) visitValue(archive, middle);
-    SurfaceSides<S>::visit(archive, set.sides_, [&](auto& value) { visitValue(archive, value); });
-}
-
 template <class S>
 template <class A, class W>
 void World<S>::visitState(A& archive, W& world) {
@@ -117,7 +106,6 @@ void World<S>::visitState(A& archive, W& world) {
     // Without answers that are kept, the candidates follow from the rest.
     if (!std::is_same_v<A, HashArchive> || world.def_.reuseDistance > 0)
         ContactSet<S>::visitAnswers(archive, world.contacts_);
-    ContactSet<S>::visitSides(archive, world.contacts_);
 }
 
 /// What the world was told when it was built.

@@ -214,6 +214,7 @@ template <class S>
 void World<S>::endStep() {
     cursor_.active = false;
     tasks_.forEach(bodies_.size(), kBodyGrain, [this](std::size_t i) { bodies_.wrench[i] = {}; });
+    contacts_.keepSides(bodies_, tasks_);
     if (sleeping_.rest) sleeping_.rest(sleepStep());
     checkFinite();
     time_ += static_cast<double>(cursor_.size);

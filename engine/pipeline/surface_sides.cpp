@@ -2,66 +2,106 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/pipeline/surface_sides.hpp"
 
-#include <utility>
-
+#include "engine/pipeline/contact_set.hpp"
 #include "engine/queries/ray_cast.hpp"
 
 namespace rigor::engine {
-
 namespace {
 
-/// Goes from p towards `to` until the surface is `gap` away. True: it was in the way.
+constexpr std::size_t kShapeGrain = 256;  ///< worth sharing: some microseconds of work
+
 template <class S>
-bool approach(const Shape<S>& surface, typename S::Vec& p, typename S::Vec to, typename S::Real gap,
-              RayHit<S>& hit) {
-    const typename S::Vec way = to - p;
-    if (way.squaredNorm() > 0 && castRay<S>(surface, {}, p, way, hit)) {
-        const typename S::Vec back = p - hit.point;
-        const typename S::Real distance = back.norm();
-        if (distance > gap) p = hit.point + (gap / distance) * back;
-        return true;
-    }
-    p = to;
-    return false;
+bool blocked(const Shape<S>& surface, const typename S::Vec& from, const typename S::Vec& to,
+             RayHit<S>& hit) {
+    const typename S::Vec way = to - from;
+    return way.squaredNorm() > 0 && castRay<S>(surface, {}, from, way, hit);
 }
 
 }  // namespace
 
 template <class S>
-void SurfaceSides<S>::begin() {
-    std::swap(known_, old_);
-    known_.clear();
-    next_ = 0;
+bool stayOnSideOf(const Shape<S>& surface, const typename S::Vec& before, typename S::Vec& now,
+                  typename S::Real gap) {
+    using R = typename S::Real;
+    using V = typename S::Vec;
+    constexpr int kMostTurns = 8;
+    RayHit<S> hit;
+    if (!blocked<S>(surface, before, now, hit)) return false;
+    V p = before, x = now;
+    for (int turn = 0; turn < kMostTurns; ++turn) {
+        const V back = p - hit.point;
+        const R height = hit.normal.dot(back);
+        if (height > gap) p = hit.point + (gap / height) * back;
+        x += std::max(R(0), gap - hit.normal.dot(x - hit.point)) * hit.normal;
+        if (!blocked<S>(surface, p, x, hit)) {
+            now = x;
+            return true;
+        }
+    }
+    now = p;
+    return true;
 }
 
 template <class S>
-typename SurfaceSides<S>::Place SurfaceSides<S>::place(std::uint64_t key, const Shape<S>& surface,
-                                                       const Pose<S>& Xsurface, const Vec& before,
-                                                       const Vec& now, Real gap) {
-    while (next_ < old_.size() && old_[next_].key < key) ++next_;
-    Place place;
-    place.middle = toLocal<S>(Xsurface, now);
-    const bool met = next_ < old_.size() && old_[next_].key == key;
-    place.proper = met ? old_[next_].proper : toLocal<S>(Xsurface, before);
-    // Straight ahead, and along what is in the way, over hill and dale, to where the middle is nearest.
-    constexpr int kMostTurns = 8;
-    RayHit<S> hit;
-    for (int i = 0; i < kMostTurns; ++i) {
-        place.through = kNone;
-        if (!approach<S>(surface, place.proper, place.middle, gap, hit)) break;
-        place.through = hit.piece;
-        const Vec way = place.middle - place.proper;
-        const Vec along = way - hit.normal.dot(way) * hit.normal;
-        if (along.squaredNorm() <= gap * gap) break;
-        approach<S>(surface, place.proper, place.proper + along, gap, hit);
-    }
-    known_.push_back({key, place.proper});
-    return place;
+typename S::Vec ContactSet<S>::middleNow(const BodyArrays<S>& bodies, std::uint32_t shape) const {
+    const ShapeRecord<S>& record = shapes_[shape];
+    return toWorld<S>(compose<S>(bodies.pose[record.body], record.local), record.middle);
 }
 
-template class SurfaceSides<Space2f>;
-template class SurfaceSides<Space2d>;
-template class SurfaceSides<Space3f>;
-template class SurfaceSides<Space3d>;
+/// Takes the middle of a shape, `now`, to its side of all surfaces. False: it is there.
+template <class S>
+bool ContactSet<S>::stayOnSide(const BodyArrays<S>& bodies, std::uint32_t shape, Vec& now) const {
+    constexpr Real kGap = Real(0.05);  ///< of the inner radius
+    constexpr int kMostRounds = 3;     ///< what one surface sends back may pass another
+    const ShapeRecord<S>& record = shapes_[shape];
+    const Vec before = toWorld<S>(shapePoses_[shape], record.middle);
+    bool any = false;
+    for (int round = 0; round < kMostRounds; ++round) {
+        bool moved = false;
+        for (const std::uint32_t surface : surfaces_) {
+            if (!Aabb<S>{before.cwiseMin(now), before.cwiseMax(now)}.overlaps(boxes_[surface])) continue;
+            if (!mayCollide(bodies, record.body, shapes_[surface].body)) continue;
+            const Pose<S>& X = shapePoses_[surface];
+            Vec x = toLocal<S>(X, now);
+            if (!stayOnSideOf<S>(shapes_[surface].shape, toLocal<S>(X, before), x, kGap * record.inner))
+                continue;
+            now = toWorld<S>(X, x);
+            moved = any = true;
+        }
+        if (!moved || surfaces_.size() == 1) return any;
+    }
+    now = before;
+    return true;
+}
+
+template <class S>
+void ContactSet<S>::keepSides(BodyArrays<S>& bodies, const Tasks& tasks) {
+    if (surfaces_.empty()) return;
+    crossed_.resize(shapes_.size());
+    tasks.forEach(shapes_.size(), kShapeGrain, [&](std::size_t i) {
+        const auto shape = static_cast<std::uint32_t>(i);
+        crossed_[i] = 0;
+        if (!movable_[i] || bodies.asleep[shapes_[i].body]) return;
+        Vec now = middleNow(bodies, shape);
+        crossed_[i] = stayOnSide(bodies, shape, now);
+    });
+    for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
+        if (!crossed_[i]) continue;
+        const Vec there = middleNow(bodies, i);
+        Vec now = there;
+        if (stayOnSide(bodies, i, now)) bodies.pose[shapes_[i].body].p += now - there;
+    }
+}
+
+#define RIGOR_INSTANTIATE(S)                                                                     \
+    template bool stayOnSideOf<S>(const Shape<S>&, const S::Vec&, S::Vec&, S::Real);             \
+    template S::Vec ContactSet<S>::middleNow(const BodyArrays<S>&, std::uint32_t) const;         \
+    template bool ContactSet<S>::stayOnSide(const BodyArrays<S>&, std::uint32_t, S::Vec&) const; \
+    template void ContactSet<S>::keepSides(BodyArrays<S>&, const Tasks&);
+RIGOR_INSTANTIATE(Space2f)
+RIGOR_INSTANTIATE(Space2d)
+RIGOR_INSTANTIATE(Space3f)
+RIGOR_INSTANTIATE(Space3d)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

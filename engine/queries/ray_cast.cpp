@@ -7,12 +7,14 @@
 //     side; the last way in before the first way out is the hit [CyrusBeck1978]
 //   ball, side of capsule, cylinder, cone: |P x|^2 <= r(y)^2, a quadratic in t with roots
 //     q = -(b + sign(b) sqrt(b^2 - a c)),  t = q / a, c / q, which loses no digits to cancellation
-//   triangle: o + t d = v0 + u e1 + w e2, by Cramer's rule [MollerTrumbore1997]
+//   triangle: o + t d = v0 + u e1 + w e2, by Cramer's rule [MollerTrumbore1997]; the ray is between its
+//     sides where d . (a x b) has one sign for all of them, a -> b from o
 //   segment: the same with one edge
 //   composites: their pieces along the ray (surface.hpp), the nearest hit
 // A capsule is met where the first of its side and its two balls is. Sides shared by two triangles belong to
-// both, widened by rounding, so that nothing passes between them.
-// Cost: O(1); O(faces) of hulls; O(log n + pieces met) of composites.
+// both, widened by rounding; and d . (a x b) is exactly -d . (b x a), so that both of them agree on which
+// side of theirs a ray passes, as in [Woop2013]: nothing passes between them, slivers or not. Cost: O(1);
+// O(faces) of hulls; O(log n + pieces met) of composites.
 #include "engine/queries/ray_cast.hpp"
 
 #include <cmath>
@@ -207,6 +209,15 @@ void meet(const Ray<S>& ray, const Cone<S>& s, Found<S>& found) {
     }
 }
 
+/// True where the ray's line passes a triangle, by signs that its neighbours agree with.
+template <class S>
+bool passesBetween(const Ray<S>& ray, const Triangle<S>& s) {
+    using V = typename S::Vec;
+    const V a = s.v[0] - ray.o, b = s.v[1] - ray.o, c = s.v[2] - ray.o;
+    const auto u = ray.d.dot(a.cross(b)), v = ray.d.dot(b.cross(c)), w = ray.d.dot(c.cross(a));
+    return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+}
+
 /// Rounding allowed beside the ends of a segment and the sides of a triangle.
 template <class R>
 inline constexpr R kSlack = R(8) * std::numeric_limits<R>::epsilon();
@@ -234,7 +245,8 @@ void meet(const Ray<S>& ray, const Triangle<S>& s, Found<S>& found) {
     if (det == 0) return;
     const V moment = m.cross(ray.d);
     const R u = e2.dot(moment) / det, w = -e1.dot(moment) / det;
-    if (u < -kSlack<R> || w < -kSlack<R> || u + w > 1 + kSlack<R>) return;
+    const bool near = u >= -kSlack<R> && w >= -kSlack<R> && u + w <= 1 + kSlack<R>;
+    if (!near && !passesBetween(ray, s)) return;
     found.consider(n.dot(m) / det, V(n.normalized() * (det > 0 ? R(1) : R(-1))));
 }
 template <class S, class Composite>

@@ -163,29 +163,33 @@ struct HeightFieldData {
         for (int k = k0; k <= k1; ++k)
             for (int i = i0; i <= i1; ++i) visitCell(i, k, box.min.y(), visit);
     }
-    /// Column after column: within one the ray spans a stretch of z.
+    /// Column after column: within one the ray spans a stretch of z. A ray near the border of a cell visits
+    /// the cells on both sides: rounding decides on neither.
     template <class Visit>
     void ray(const Vec& o, const Vec& d, const Real& limit, Visit visit) const {
         const Real far = limit;
+        constexpr Real kRounding = Real(64) * std::numeric_limits<Real>::epsilon();
+        const Real near = kRounding * (halfX() + halfZ()), low = kRounding * std::max(-lowest, highest);
         const auto clampX = [&](Real x) { return std::clamp(x, -halfX(), halfX()); };
         const Vec end = o + far * d;
-        const int i0 = cellOf(clampX(o.x()) + halfX(), dx, columns);
-        const int i1 = cellOf(clampX(end.x()) + halfX(), dx, columns);
+        const Real ahead = d.x() < 0 ? -near : near;
+        const int i0 = cellOf(clampX(o.x() - ahead) + halfX(), dx, columns);
+        const int i1 = cellOf(clampX(end.x() + ahead) + halfX(), dx, columns);
         for (int i = i0;; i += i1 > i0 ? 1 : -1) {
             Real t0 = 0, t1 = far;
             if (d.x() != 0) {
-                // A cell's width of slack on either side: rounding must not lose a column's border.
                 const Real a = (static_cast<Real>(i) * dx - halfX() - o.x()) / d.x();
                 const Real b = (static_cast<Real>(i + 1) * dx - halfX() - o.x()) / d.x();
-                const Real slack = Real(64) * std::numeric_limits<Real>::epsilon() * far;
+                const Real slack = kRounding * far + near / std::abs(d.x());
                 t0 = std::max(t0, std::min(a, b) - slack);
                 t1 = std::min(t1, std::max(a, b) + slack);
             }
             if (t0 <= t1 && t0 <= limit) {
                 const Real za = o.z() + t0 * d.z() + halfZ(), zb = o.z() + t1 * d.z() + halfZ();
-                const int k0 = cellOf(std::min(za, zb), dz, rows), k1 = cellOf(std::max(za, zb), dz, rows);
+                const int k0 = cellOf(std::min(za, zb) - near, dz, rows);
+                const int k1 = cellOf(std::max(za, zb) + near, dz, rows);
                 for (int k = k0; k <= k1; ++k)
-                    visitCell(i, k, std::min(o.y() + t0 * d.y(), o.y() + t1 * d.y()), visit);
+                    visitCell(i, k, std::min(o.y() + t0 * d.y(), o.y() + t1 * d.y()) - low, visit);
             }
             if (i == i1) break;
         }

@@ -51,7 +51,7 @@ std::vector<Manifold<S>> allPieces(const Shape<S>& surface, const Shape<S>& conv
     withSurface<S>(surface, [&](const auto& data) {
         for (std::uint32_t i = 0; i < data.pieceCount(); ++i) {
             Manifold<S> m;
-            collidePiece<S>(*narrowPhase, surface, i, PieceSide::Middle, here, convex, X,
+            collidePiece<S>(*narrowPhase, surface, i, false, here, convex, X,
                             static_cast<typename S::Real>(speculative), m);
             if (m.count > 0) found.push_back(m);
         }

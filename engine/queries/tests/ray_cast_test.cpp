@@ -151,5 +151,48 @@ TEST(RaysThrough, NoCracksBetweenTriangles) {
     check(Space3f{});
 }
 
+/// Short rays in any direction through a grid of slivers of 1 : 1000, at their edges and corners.
+TEST(RaysThrough, NoCracksBetweenSlivers) {
+    const auto check = [](auto space) {
+        using S = decltype(space);
+        using R = typename S::Real;
+        constexpr int kColumns = 4, kRows = 400;
+        constexpr R kDx = R(0.7), kDz = R(0.0007);
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> any(-1, 1);
+        std::vector<R> heights;
+        std::vector<typename S::Vec> vertices;
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        for (int k = 0; k < kRows; ++k)
+            for (int i = 0; i < kColumns; ++i) {
+                heights.push_back(static_cast<R>(1e-4 * any(random)));
+                vertices.push_back({static_cast<R>(i) * kDx - R(1.5) * kDx, heights.back(),
+                                    static_cast<R>(k) * kDz - R(0.5 * (kRows - 1)) * kDz});
+            }
+        for (std::uint32_t a = 0; a + kColumns + 1 < vertices.size(); ++a) {
+            if (a % kColumns == kColumns - 1) continue;
+            triangles.push_back({a, a + kColumns, a + 1});
+            triangles.push_back({a + 1, a + kColumns, a + kColumns + 1});
+        }
+        const std::vector<Shape<S>> shapes{makeTriangleMesh<S>(vertices, triangles),
+                                           makeHeightField<S>(kColumns, kRows, kDx, kDz, heights, R(1))};
+        for (const Shape<S>& shape : shapes)
+            for (int n = 0; n < 20000; ++n) {
+                const auto& t = triangles[random() % triangles.size()];
+                const R share = n % 2 == 0 ? static_cast<R>(0.5 + 0.5 * any(random)) : R(0);
+                const typename S::Vec a = vertices[t[0]], b = vertices[t[1 + random() % 2]];
+                const typename S::Vec on = a + share * (b - a);
+                if (std::abs(on.x()) > kDx || std::abs(on.z()) > R(0.1)) continue;
+                const auto length = static_cast<R>(0.01 + 0.009 * any(random));
+                const typename S::Vec d =
+                    length * typename S::Vec(static_cast<R>(any(random)), R(-1), static_cast<R>(any(random)));
+                RayHit<S> hit;
+                ASSERT_TRUE(castRay<S>(shape, Pose<S>{}, on - R(0.5) * d, d, hit)) << n;
+            }
+    };
+    check(Space3d{});
+    check(Space3f{});
+}
+
 }  // namespace
 }  // namespace rigor::engine::test

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Counts the bodies that get through meshes, height fields and chains, over many cases (rain.hpp):
+//     engine_count_lost_bodies [KEY=VALUE ...]
+//         ground=mesh|field|chain  motion=drop|pile|roll|slide  preset=default|fast  precision=f64|f32
+//         ccd=off|on  form=flat|rough|slope|ridges|slivers  squares=RATIO
+//                             each a list with commas; by default all, ccd=off, and of form and squares those
+//                             that belong to the seed
+//         seeds=FIRST-LAST (0-19)  bodies=NUMBER (1000)  duration=SECONDS (3)
+//         follow=BODY         of a single case: writes what becomes of the body, step by step
+// A line for each case, with what is lost as BODY@STEP:SHAPE. A line can be given again as arguments. The
+// exit code is 1 where something was lost, 2 for arguments that are not understood.
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+#include "engine/benchmarks/lost/rain.hpp"
+
+namespace rigor::engine::lost {
+namespace {
+
+using Arguments = std::map<std::string, std::string>;
+
+std::vector<std::string> split(const std::string& list) {
+    std::vector<std::string> words;
+    std::istringstream stream(list);
+    for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+    return words;
+}
+
+Arguments parse(int argc, char** argv) {
+    Arguments all{{"ground", "mesh,field,chain"},
+                  {"motion", "drop,pile,roll,slide"},
+                  {"preset", "default,fast"},
+                  {"precision", "f64,f32"},
+                  {"ccd", "off"},
+                  {"form", ""},
+                  {"squares", ""},
+                  {"seeds", "0-19"},
+                  {"seed", ""},
+                  {"bodies", "1000"},
+                  {"duration", "3"},
+                  {"follow", "-1"}};
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const std::size_t sign = word.find('=');
+        if (sign == std::string::npos || !all.contains(word.substr(0, sign)))
+            throw std::invalid_argument("not a known KEY=VALUE: " + word);
+        all[word.substr(0, sign)] = word.substr(sign + 1);
+    }
+    return all;
+}
+
+template <class Choice>
+Choice choose(const std::string& word, std::initializer_list<const char*> names) {
+    int place = 0;
+    for (const char* name : names) {
+        if (word == name) return static_cast<Choice>(place);
+        ++place;
+    }
+    throw std::invalid_argument("not known: " + word);
+}
+
+void forSeeds(const Arguments& arguments, const std::function<void(std::uint64_t)>& use) {
+    if (!arguments.at("seed").empty()) return use(std::stoull(arguments.at("seed")));
+    const std::string& range = arguments.at("seeds");
+    const std::size_t dash = range.find('-');
+    const std::uint64_t first = std::stoull(range);
+    const std::uint64_t last = dash == std::string::npos ? first : std::stoull(range.substr(dash + 1));
+    for (std::uint64_t seed = first; seed <= last; ++seed) use(seed);
+}
+
+/// The cases of one seed, ground and motion.
+void forSettings(const Arguments& arguments, Case what, const std::function<void(const Case&)>& use) {
+    const auto given = [&](const char* key, const std::string& own) {
+        return arguments.at(key).empty() ? std::vector{own} : split(arguments.at(key));
+    };
+    setGroundOfSeed(what);
+    const Case own = what;
+    for (const std::string& form : given("form", "own"))
+        for (const std::string& squares : given("squares", "own"))
+            for (const std::string& preset : split(arguments.at("preset")))
+                for (const std::string& precision : split(arguments.at("precision")))
+                    for (const std::string& ccd : split(arguments.at("ccd"))) {
+                        what.form = form == "own"
+                                        ? own.form
+                                        : choose<Form>(form, {"flat", "rough", "slope", "ridges", "slivers"});
+                        what.squares = squares == "own" ? own.squares : std::stod(squares);
+                        what.fast = choose<bool>(preset, {"default", "fast"});
+                        what.single = choose<bool>(precision, {"f64", "f32"});
+                        what.continuous = choose<bool>(ccd, {"off", "on"});
+                        use(what);
+                    }
+}
+
+int count(const Arguments& arguments) {
+    std::size_t lost = 0, cases = 0;
+    forSeeds(arguments, [&](std::uint64_t seed) {
+        for (const std::string& ground : split(arguments.at("ground")))
+            for (const std::string& motion : split(arguments.at("motion"))) {
+                Case what;
+                what.seed = seed;
+                what.ground = choose<Ground>(ground, {"mesh", "field", "chain"});
+                what.motion = choose<Motion>(motion, {"drop", "pile", "roll", "slide"});
+                what.bodies = std::stoi(arguments.at("bodies"));
+                what.duration = std::stod(arguments.at("duration"));
+                forSettings(arguments, what, [&](const Case& one) {
+                    const Outcome outcome = run(one, std::stoi(arguments.at("follow")));
+                    std::printf("%s lost %zu sunk %d away %d ms %.2f", describe(one).c_str(),
+                                outcome.lost.size(), outcome.sunk, outcome.away,
+                                1e3 * outcome.secondsPerStep);
+                    for (const Loss& loss : outcome.lost)
+                        std::printf(" %d@%d:%s", loss.body, loss.step, loss.shape.c_str());
+                    std::printf("\n");
+                    std::fflush(stdout);
+                    lost += outcome.lost.size(), ++cases;
+                });
+            }
+    });
+    std::printf("%zu bodies lost in %zu cases\n", lost, cases);
+    return lost == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+}  // namespace
+}  // namespace rigor::engine::lost
+
+int main(int argc, char** argv) {
+    try {
+        return rigor::engine::lost::count(rigor::engine::lost::parse(argc, argv));
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 2;
+    }
+}
