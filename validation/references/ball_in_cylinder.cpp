@@ -51,7 +51,7 @@ class BallInCylinder : public Reference {
         nu_ = std::abs(rate_) * std::sqrt(ball_.k / (1 + ball_.k));
         middle_ = -ball_.radius * spin_ / rate_ - gravity_ / (ball_.k * rate_ * rate_);
         const double swing = std::hypot(middle_, rise_ / nu_);
-        const double mu = pairCoefficients(scenario, ball_.material, hollow_.material).friction;
+        const double mu = holdingFriction(pairCoefficients(scenario, ball_.material, hollow_.material));
         require(gravity_ + nu_ * nu_ * swing <= mu * reach_ * rate_ * rate_,
                 who + " slips: friction is too small for its speed");
         requireWall(wall, swing, who);
@@ -60,7 +60,7 @@ class BallInCylinder : public Reference {
             quaternionRate(y, 0, transposed(m, real3(spinAt(static_cast<double>(t)))), d);
         };
         const Quat q = scenario::normalized(body_.pose.orientation);
-        attitude_ = DenseSolution(turn, 0, {q.w, q.x, q.y, q.z}, horizon(scenario));
+        attitude_ = DenseSolution(turn, 0, {q.w, q.x, q.y, q.z}, runEnd(scenario));
     }
     std::vector<int> bodies() const override { return {ball_.body}; }
 

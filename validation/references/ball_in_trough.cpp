@@ -41,7 +41,7 @@ class BallInTrough : public Reference {
         const double speed = dot(ball_.velocity, along), rate = speed / reach_;
         require(norm(ball_.velocity - speed * along) <= 1e-6 * norm(ball_.velocity),
                 who + " does not move along the trough's wall");
-        const double mu = pairCoefficients(scenario, ball_.material, hollow_.material).friction;
+        const double mu = holdingFriction(pairCoefficients(scenario, ball_.material, hollow_.material));
         rolls_ = mu > 0.0;
         const double k = rolls_ ? ball_.k : 0.0;
         const Vec3 spin = rolls_ ? (-reach_ / ball_.radius * rate) * hollow_.axis : Vec3{};
@@ -50,7 +50,7 @@ class BallInTrough : public Reference {
         swing_ = Swing(std::sqrt(norm(g) / ((1 + k) * reach_)), angle, rate);
         require(swing_.parameter() < 0.5, who + " rises above the trough's axis");
         for (int i = 0; rolls_ && i <= 2000; ++i) {
-            const auto s = swing_.at(horizon(scenario) * i / 2000);
+            const auto s = swing_.at(runEnd(scenario) * i / 2000);
             const auto th = static_cast<double>(s.angle), w = static_cast<double>(s.rate);
             const double load = norm(g) * std::cos(th) + reach_ * w * w;
             require(k / (1 + k) * norm(g) * std::abs(std::sin(th)) <= mu * load,

@@ -3,7 +3,7 @@
 //
 // A ball (disc in 2D) on a fixed ball slides or rolls down from near the top and leaves it. With theta from
 // the top, d = R + r, k = I/(m r^2), s = d theta' - r w the slip:
-//   rolls:  theta'' = g sin(theta)/((1 + k) d), friction k/(1 + k) m g sin(theta) against mu N;
+//   rolls:  theta'' = g sin(theta)/((1 + k) d), friction k/(1 + k) m g sin(theta) up to mu N (static mu);
 //   slips:  theta'' = (g sin(theta) - mu N/m sign(s))/d, k r w' = mu N/m sign(s);
 //   N = m (g cos(theta) - d theta'^2); leaves where N = 0: cos(theta) = 2 cos(theta0)/(3 + k') from rest, k'
 //   = 0
@@ -47,7 +47,9 @@ class BallOffBall : public Reference {
         require(std::abs(distance_ - std::get<scenario::Sphere>(fixed.shapes[0].geometry).radius -
                          ball_.radius) <= 1e-6 * ball_.radius,
                 who + " does not touch the fixed ball");
-        mu_ = pairCoefficients(scenario, ball_.material, fixed.shapes[0].material).friction;
+        const auto pair = pairCoefficients(scenario, ball_.material, fixed.shapes[0].material);
+        mu_ = pair.friction;
+        holds_ = holdingFriction(pair);
         side_ = unit(from - dot(from, up_) * up_);
         require(side_ != Vec3{}, who + " stands on the top: nothing says which way it goes");
         axis_ = cross(up_, side_);  // positive spin rolls down along side_
@@ -74,7 +76,7 @@ class BallOffBall : public Reference {
 
     std::vector<Quantity> quantities(double, adapter::Scheme) const override {
         std::vector<Quantity> result;
-        if (!(leaves_ + 0.02 < scenario_.duration)) return result;
+        if (!(leaves_ < scenario_.duration)) return result;
         // The gap grows from nothing with the square of time: taken where it can be seen in any run.
         const double apart = distance_ + 0.05 * ball_.radius;
         double low = leaves_, high = scenario_.duration;
@@ -118,28 +120,36 @@ class BallOffBall : public Reference {
     Real loadOf(const OdeState& y) const { return pull_ * std::cos(y[0]) - distance_ * y[1] * y[1]; }
     Real slipOf(const OdeState& y) const { return distance_ * y[1] - ball_.radius * y[3]; }
 
+    /// What friction has to do per mass where it rolls, signed like `sign` in follow().
+    Real needOf(const OdeState& y) const { return ball_.k / (1 + ball_.k) * pull_ * std::sin(y[0]); }
+    /// By how much the friction of a contact that rolls is enough.
+    Real spareOf(const OdeState& y) const { return holds_ * loadOf(y) - std::abs(needOf(y)); }
+
     /// y = theta, theta', angle turned, spin. From the start to the separation, rolling or slipping.
     void follow(OdeState y) {
         double t = 0.0;
-        const double end = horizon(scenario_);
+        const double end = runEnd(scenario_);
         require(loadOf(y) > 0, "the ball is already too fast to stay on");
-        bool rolls = mu_ > 0.0 && std::abs(slipOf(y)) <=
-                                      1e-9L * (distance_ * std::abs(y[1]) + std::sqrt(pull_ * distance_));
-        double sign = slipOf(y) >= 0 ? 1.0 : -1.0;
+        const Real natural = std::sqrt(pull_ / distance_) + std::abs(y[1]),
+                   spin = distance_ / ball_.radius * natural + std::abs(y[3]);
+        const bool slips = std::abs(slipOf(y)) > 1e-9L * ball_.radius * spin;
+        bool rolls = !slips && spareOf(y) >= 0;
+        // Where nothing slips yet and nothing holds, gravity says which way it goes.
+        Real sign = slips ? (slipOf(y) > 0 ? 1 : -1) : (y[0] >= 0 ? 1 : -1);
+        int stops = 0;
         while (t < end) {
-            const Real k = ball_.k, rubbing = rolls ? 0.0 : mu_ * sign;
-            const bool rolling = rolls;
+            const Real rubbing = mu_ * sign;
             const auto rhs = [=, this](Real, const OdeState& s, OdeState& d) {
-                const Real rub = rolling ? k / (1 + k) * pull_ * std::sin(s[0]) : rubbing * loadOf(s);
-                d = {s[1], (pull_ * std::sin(s[0]) - rub) / distance_, s[3], rub / (k * ball_.radius)};
+                const Real rub = rolls ? needOf(s) : rubbing * loadOf(s);
+                d = {s[1], (pull_ * std::sin(s[0]) - rub) / distance_, s[3], rub / (ball_.k * ball_.radius)};
             };
             // In pieces: beyond the separation the equations of the contact soon mean nothing.
-            const double until = std::min(end, t + end / 48);
-            Phase phase{t, until, DenseSolution(rhs, t, y, until)};
+            const double until = std::min({end, t + end / 48, t + static_cast<double>(1 / natural)});
+            Phase phase{t, until, DenseSolution(rhs, t, y, until, 1e-14L, {}, {1, natural, 1, spin})};
             // Rolls while friction holds; slips until the slip is gone; either until the load is.
             const auto keeps = [&](Real at) {
                 const OdeState s = phase.solution.at(at);
-                if (rolling) return mu_ * loadOf(s) - k / (1 + k) * pull_ * std::abs(std::sin(s[0]));
+                if (rolls) return spareOf(s);
                 return mu_ > 0.0 ? sign * slipOf(s) : Real{1};
             };
             const auto loaded = [&](Real at) { return loadOf(phase.solution.at(at)); };
@@ -147,6 +157,8 @@ class BallOffBall : public Reference {
             phase.end = std::min(lost.value_or(until), changed.value_or(until));
             phases_.push_back(phase);
             y = phase.solution.at(phase.end);
+            stops = phase.end > t ? 0 : stops + 1;
+            require(stops < 4, "rolling and slipping alternate at one instant: the laws leave it open");
             t = phase.end;
             if (lost && *lost <= phase.end) {
                 leaves_ = t;
@@ -154,8 +166,8 @@ class BallOffBall : public Reference {
                 return;
             }
             if (!changed) continue;
-            if (!rolling) sign = -sign;  // where it does not come to roll, it slips the other way
-            rolls = !rolling && mu_ * loadOf(y) >= k / (1 + k) * pull_ * std::abs(std::sin(y[0]));
+            rolls = !rolls && spareOf(y) >= 0;
+            sign = std::sin(y[0]) >= 0 ? 1 : -1;
         }
     }
 
@@ -164,7 +176,7 @@ class BallOffBall : public Reference {
         for (int i = 1; i <= looks; ++i) {
             const double a = from + (to - from) * (i - 1) / looks, b = from + (to - from) * i / looks;
             if (f(b) >= 0) continue;
-            if (!(f(a) > 0)) return i == 1 ? std::optional<double>() : a;
+            if (!(f(a) > 0)) return a;
             return static_cast<double>(numerics::findRoot(f, a, b));
         }
         return std::nullopt;
@@ -198,7 +210,8 @@ class BallOffBall : public Reference {
     Ball ball_;
     const Body& body_;
     Vec3 middle_, up_, side_, axis_;
-    double distance_ = 0.0, pull_ = 0.0, mu_ = 0.0, leaves_ = 1e300;
+    double distance_ = 0.0, pull_ = 0.0, leaves_ = 1e300;
+    double mu_ = 0.0, holds_ = 0.0;  ///< coefficients of slipping and of rolling
     std::vector<Phase> phases_;
     Moment left_;
 };

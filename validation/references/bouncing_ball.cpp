@@ -43,7 +43,7 @@ class BouncingBall : public Reference {
         const bool straight = pull_ == Vec3{} && negligible(norm(drift_), norm(ball_.velocity)) &&
                               negligible(norm(sideSpin), norm(ball_.spin));
         require(
-            straight || pair.friction == 0.0,
+            straight || holdingFriction(pair) == 0.0,
             "the bounce of " + who + " is oblique or gravity is not along the normal, and there is friction");
         if (straight) drift_ = {};
         gap_ = plane_.height(ball_.center) - ball_.radius;

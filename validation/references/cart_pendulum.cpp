@@ -104,12 +104,16 @@ class CartPendulum : public Reference {
             d[3] = (a * q - b * f) / det;
         };
         const OdeState start{0, 0, speed, rate};
-        solution_ = DenseSolution(rhs, 0, start, horizon(scenario_), 1e-14L);
-        const DenseSolution coarse(rhs, 0, start, horizon(scenario_), 1e-12L);
+        const double end = runEnd(scenario_), size = norm(arm_) + sizeOf(pendulum());
+        const double turns =
+            1 / end + std::abs(rate) + std::sqrt(norm(gravityOn(scenario_, pendulum_)) / size);
+        const OdeState beside{size, 1, std::abs(speed) + size * turns, turns};
+        solution_ = DenseSolution(rhs, 0, start, end, 1e-14L, {}, beside);
+        const DenseSolution coarse(rhs, 0, start, end, 1e-12L, {}, beside);
         for (int k = 0; k <= 300 && validUntil_ > 1e299; ++k) {
-            const double t = horizon(scenario_) * k / 300;
+            const double t = end * k / 300;
             if (std::abs(solution_.at(t)[1] - coarse.at(t)[1]) > 1e-9L)
-                validUntil_ = horizon(scenario_) * std::max(0, k - 1) / 300;
+                validUntil_ = end * std::max(0, k - 1) / 300;
         }
     }
 

@@ -21,7 +21,7 @@ class Dominoes : public Reference {
         : scenario_(scenario),
           bodies_(std::move(bodies)),
           frame_(scenario, bodies_.at(0), floor),
-          motion_(frame_.setup(), frame_.start(), horizon(scenario)) {
+          motion_(frame_.setup(), frame_.start(), scenario.duration, runEnd(scenario)) {
         for (std::size_t i = 1; i < bodies_.size(); ++i) requireStill(scenario, bodies_[i]);
         findFace(floor);
         const auto crossed = [&](double t) {
@@ -32,7 +32,7 @@ class Dominoes : public Reference {
             return most - face_;
         };
         require(crossed(0.0) < 0.0, "the first domino touches the second at the start");
-        const double end = std::min(horizon(scenario), motion_.validUntil());
+        const double end = std::min(runEnd(scenario), motion_.validUntil());
         const int samples = 4000;
         for (int k = 1; k <= samples && time_ > 1e299; ++k) {
             if (crossed(end * k / samples) < 0.0) continue;

@@ -23,7 +23,11 @@ FixedPointMotion::FixedPointMotion(const Mat3& inertia, double mass, Vec3 arm, V
     };
     const Quat q = scenario::normalized(orientation);
     const Vec3 w = rotateInverse(q, angularVelocity);
-    solution_ = numerics::DenseSolution(rhs, 0, {q.w, q.x, q.y, q.z, w.x, w.y, w.z}, duration);
+    const Real heaviest = std::max({moments[0].x, moments[1].y, moments[2].z}),
+               turns = 1 / static_cast<Real>(duration) + norm(w) +
+                       std::sqrt(norm(lever) * norm(field) / heaviest);
+    solution_ = numerics::DenseSolution(rhs, 0, {q.w, q.x, q.y, q.z, w.x, w.y, w.z}, duration, 1e-14L, {},
+                                        {1, 1, 1, 1, turns, turns, turns});
 }
 
 Attitude FixedPointMotion::at(double t) const {

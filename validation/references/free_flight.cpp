@@ -87,7 +87,7 @@ class FreeFlight : public Reference {
         if (scheme == adapter::Scheme::Unknown || !flight.kicks.empty()) return std::nullopt;
         Vec3 a = flight.gravity;
         for (const auto& push : flight.pushes) {
-            if (push.start > 0.0 || push.end < horizon(scenario_)) return std::nullopt;
+            if (push.start > 0.0 || push.end < runEnd(scenario_)) return std::nullopt;
             a += push.acceleration;
         }
         const double t = static_cast<double>(step) * dt;
@@ -114,7 +114,7 @@ class FreeFlight : public Reference {
                       gravityOn(scenario_, index),
                       {},
                       {},
-                      TorqueFreeMotion(body, scenario_.dimension, horizon(scenario_))};
+                      TorqueFreeMotion(body, scenario_.dimension, runEnd(scenario_))};
         for (const auto& force : scenario_.forces) {
             const auto* push = std::get_if<scenario::ConstantForce>(&force);
             if (!push || push->body != index) continue;

@@ -227,7 +227,7 @@ Footing footingOf(const Scenario& scenario, int index, const Plane& plane) {
         if (low.height > footing.gap + tolerance) continue;
         const auto mine = pairCoefficients(scenario, low.material, plane.material);
         const auto first = pairCoefficients(scenario, footing.material, plane.material);
-        require(mine.friction == first.friction,
+        require(mine.friction == first.friction && holdingFriction(mine) == holdingFriction(first),
                 bodyTitle(scenario, index) + " stands on shapes of different friction");
         footing.points.push_back(low.point);
     }

@@ -90,7 +90,7 @@ class Touch {
     /// The impulse at which the work from `from` on, where n = 0, has become `goal`.
     Real workUp(Real from, Real goal) const {
         Real low = from, high = from;
-        while (work(high) - work(from) < goal) high = 2 * high + 1e-12L;
+        while (work(high) - work(from) < goal) high *= 2;
         for (int k = 0; k < 200; ++k) {
             const Real middle = (low + high) / 2;
             (work(middle) - work(from) < goal ? low : high) = middle;
@@ -107,7 +107,7 @@ class IncrementalImpact : public Reference {
         : scenario_(scenario),
           index_(body),
           frame_(scenario, body, floor),
-          motion_(frame_.setup(), frame_.start(), horizon(scenario)) {
+          motion_(frame_.setup(), frame_.start(), scenario.duration, runEnd(scenario)) {
         const std::string who = bodyTitle(scenario, body);
         require(!motion_.events().empty(), who + " does not hit the floor");
         const auto& hit = motion_.events().front();
@@ -171,17 +171,32 @@ class IncrementalImpact : public Reference {
         at.angle += at.rate * d;
         return at;
     }
+    /// How deep the deepest corner is in the floor at time t, beyond rounding [m].
+    double depthAt(double t) const {
+        const auto at = flown(t);
+        Real lowest = 1e300L;
+        for (std::size_t c = 0; c < frame_.setup().corners.size(); ++c)
+            lowest = std::min(lowest, at.z + contactOf(static_cast<int>(c), at).second);
+        return static_cast<double>(-lowest - 1e-9L * frame_.setup().size);
+    }
     void findNextTouch() {
-        const int samples = 2000;
-        for (int k = 1; k <= samples; ++k) {
-            const double t = time_ + (horizon(scenario_) - time_) * k / samples;
-            const auto at = flown(t);
-            for (std::size_t c = 0; c < frame_.setup().corners.size(); ++c)
-                if (at.z + contactOf(static_cast<int>(c), at).second < -1e-9L * frame_.setup().size) {
-                    validUntil_ = time_ + (horizon(scenario_) - time_) * (k - 1) / samples;
-                    return;
-                }
+        const double end = runEnd(scenario_), span = end - time_;
+        // At least fifty looks a turn; of a body too fast for that, only as far as the looks go.
+        constexpr int kMostLooks = 100000;
+        const double looks =
+            std::max(2000.0, std::ceil(8.0 * std::abs(static_cast<double>(after_.rate)) * span));
+        const double step = span / looks;
+        for (int k = 1; k <= std::min(looks, double{kMostLooks}); ++k) {
+            if (depthAt(time_ + step * k) <= 0.0) continue;
+            double low = time_ + step * (k - 1), high = time_ + step * k;
+            for (int halving = 0; halving < 60; ++halving) {
+                const double middle = low + 0.5 * (high - low);
+                (depthAt(middle) <= 0.0 ? low : high) = middle;
+            }
+            validUntil_ = low;
+            return;
         }
+        if (looks > kMostLooks) validUntil_ = time_ + step * kMostLooks;
     }
 
     const Scenario& scenario_;

@@ -36,8 +36,8 @@ class IsolatedSystem : public Reference {
             for (const auto& shape : body.shapes)
                 for (int j = 0; j < i; ++j)
                     for (const auto& other : at(j).shapes)
-                        smooth_ = smooth_ &&
-                                  pairCoefficients(scenario, shape.material, other.material).friction == 0.0;
+                        smooth_ = smooth_ && holdingFriction(pairCoefficients(scenario, shape.material,
+                                                                              other.material)) == 0.0;
         }
         for (const auto& joint : scenario.joints)
             require(joint.bodyA != scenario::kNone && joint.bodyB != scenario::kNone,

@@ -108,7 +108,8 @@ void solve(Coordinate& x, double end) {
         if (q >= x.upper) q = x.upper, v = std::min(v, 0.0);
         const double ahead = x.motorForce == 0.0 ? 0.0 : x.motorSpeed - v;
         const double pull = x.load - x.k * (q - x.target);
-        bool atSpeed = x.motorForce > 0.0 && std::abs(ahead) <= 1e-14 * (1.0 + std::abs(v));
+        bool atSpeed =
+            x.motorForce > 0.0 && std::abs(ahead) <= 1e-14 * std::max(std::abs(x.motorSpeed), std::abs(v));
         double force = 0.0;
         if (x.motorForce > 0.0) {
             force = ahead > 0.0 ? x.motorForce : -x.motorForce;
@@ -133,11 +134,13 @@ void solve(Coordinate& x, double end) {
                                 : end;
         const double next = firstNegative(inside, t, last);
         if (next >= end) return;
+        const double fast = std::max(std::abs(phase.v), std::abs(x.motorSpeed));
         std::tie(q, v) = inPhase(x, phase, next);
-        if (x.motorForce > 0.0 && !atSpeed && std::abs(v - x.motorSpeed) <= 1e-9 * (1.0 + std::abs(v)))
-            v = x.motorSpeed;
-        if (std::abs(q - x.lower) <= 1e-9 * (1.0 + std::abs(q))) q = x.lower;
-        if (std::abs(q - x.upper) <= 1e-9 * (1.0 + std::abs(q))) q = x.upper;
+        if (x.motorForce > 0.0 && !atSpeed && std::abs(v - x.motorSpeed) <= 1e-9 * fast) v = x.motorSpeed;
+        // Beside where it comes from and how far it may have gone.
+        const double far = std::abs(phase.q) + std::abs(q) + std::max(fast, std::abs(v)) * (next - t);
+        if (std::abs(q - x.lower) <= 1e-9 * far) q = x.lower;
+        if (std::abs(q - x.upper) <= 1e-9 * far) q = x.upper;
         if (next <= t && count > 2) break;
         t = next;
     }
@@ -165,7 +168,7 @@ class JointCoordinate : public Reference {
         sign_ = joint_.bodyB == index ? 1.0 : -1.0;
         collect();
         requireMotionAlong();
-        for (Coordinate& x : coordinates_) solve(x, horizon(scenario));
+        for (Coordinate& x : coordinates_) solve(x, runEnd(scenario));
     }
     std::vector<int> bodies() const override { return {index_}; }
 

@@ -89,7 +89,7 @@ LineCollisions::LineCollisions(const Scenario& scenario, std::vector<int> bodies
         if (a.mass > 0.0 || b.mass > 0.0) requireContact(scenario, bodies_[k], bodies_[k + 1]);
     }
     phases_.push_back(std::move(start));
-    run(horizon(scenario));
+    run(runEnd(scenario));
 }
 
 LineCollisions::Member LineCollisions::memberOf(int index) const {
@@ -145,13 +145,17 @@ bool LineCollisions::nextImpact(const Phase& phase, double& time, std::size_t& l
     return time < 1e300;
 }
 
-void LineCollisions::run(double duration) {
+void LineCollisions::run(double end) {
     for (;;) {
         const Phase& now = phases_.back();
         double time = 0.0;
         std::size_t left = 0;
         bool clash = false;
-        if (!nextImpact(now, time, left, clash) || time > duration) return;
+        if (!nextImpact(now, time, left, clash) || time > end) return;
+        if (clash && time > scenario_.duration) {
+            validUntil_ = time;
+            return;
+        }
         require(!clash, "two impacts on one body at the same instant: the outcome is not defined");
         if (impacts_.size() >= kMaxImpacts) {
             validUntil_ = now.start;  // impacts accumulate
@@ -185,6 +189,15 @@ PartialState LineCollisions::exact(int index, double t) const {
     const Vec3 com =
         origin_ + (m.position + (t - phase.start) * m.velocity) * direction_ + (0.5 * t * t) * gravity_;
     return stateOf(body, com, body.pose.orientation, m.velocity * direction_ + t * gravity_, {});
+}
+
+bool LineCollisions::isOver() const {
+    const std::vector<Member>& last = phases_.back().members;
+    double fastest = 0.0;
+    for (const Member& m : phases_.front().members) fastest = std::max(fastest, std::abs(m.velocity));
+    for (std::size_t k = 0; k + 1 < last.size(); ++k)
+        if (last[k].velocity - last[k + 1].velocity > 1e-12 * fastest) return false;
+    return validUntil_ > 1e299 && (impacts_.empty() || impacts_.back().time <= scenario_.duration);
 }
 
 double LineCollisions::velocityAfter(int body) const {

@@ -27,8 +27,10 @@ class LineCollisions {
     const std::vector<Impact>& impacts() const { return impacts_; }
     double validUntil() const { return validUntil_; }
     PartialState exact(int body, double t) const;
-    double velocityAfter(
-        int body) const;  ///< along the line after the last impact within the duration, relative to fall
+    /// Whether the last impact of all is within the duration: no neighbours run into each other later either.
+    bool isOver() const;
+    /// Along the line after the last impact of those that a run comes to, relative to the fall [m/s].
+    double velocityAfter(int body) const;
     double velocityBefore(int body) const;  ///< initial, along the line
     double energyLoss() const;              ///< kinetic energy lost in the impacts [J]
 
@@ -44,7 +46,7 @@ class LineCollisions {
     };
     Member memberOf(int body) const;
     std::size_t slot(int body) const;
-    void run(double duration);
+    void run(double end);
     bool nextImpact(const Phase& phase, double& time, std::size_t& left, bool& clash) const;
 
     const Scenario& scenario_;

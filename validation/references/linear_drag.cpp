@@ -103,7 +103,7 @@ class LinearDrag : public Reference {
                  0.0,
                  0.0,
                  0.0,
-                 TorqueFreeMotion(body, scenario.dimension, horizon(scenario))};
+                 TorqueFreeMotion(body, scenario.dimension, runEnd(scenario))};
         for (const auto& force : scenario.forces)
             if (const auto* drag = std::get_if<scenario::DragForce>(&force); drag && drag->body == index)
                 d.dragRate += drag->coefficient / body.massProperties.mass;

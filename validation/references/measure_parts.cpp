@@ -44,7 +44,7 @@ std::optional<double> extrapolatedStop(const Trajectory& trajectory, double star
 }
 
 std::optional<std::size_t> lastFrameBefore(const Trajectory& trajectory, double t) {
-    const double limit = t + 1e-9 * std::max(1.0, std::abs(t));
+    const double limit = t + 1e-9 * std::max(trajectory.dt, std::abs(t));
     const auto after = std::upper_bound(trajectory.times.begin(), trajectory.times.end(), limit);
     const auto count = static_cast<std::size_t>(after - trajectory.times.begin());
     if (count < 2) return std::nullopt;

@@ -160,24 +160,17 @@ class Mechanism : public Reference {
         breaks_.erase(std::unique(breaks_.begin(), breaks_.end()), breaks_.end());
     }
 
-    double end() const {
-        double step = 0.0;
-        for (const double dt : scenario_.timeSteps) step = std::max(step, dt);
-        return scenario_.duration + 2.0 * step;
-    }
+    double end() const { return runEnd(scenario_); }
 
     void check() {
         for (const int b : bodies_) size_ = std::max(size_, static_cast<Real>(sizeOf(body(b))));
         for (const auto& e : motion_.equations) size_ = std::max({size_, norm(e.a.local), norm(e.b.local)});
         motion_.prepare(start_, 20 / static_cast<Real>(end()));
-        require(motion_.gap(start_) <= 1e-9L * std::max(Real(1), size_),
-                "the joints do not close at the start");
-        Real fastest = 0;
+        require(motion_.gap(start_) <= 1e-9L * size_, "the joints do not close at the start");
         for (std::size_t i = 0; i < start_.size(); i += MechanismMotion::kStride)
-            fastest = std::max({fastest, norm(Real3{start_[i + 7], start_[i + 8], start_[i + 9]}),
-                                norm(Real3{start_[i + 10], start_[i + 11], start_[i + 12]})});
-        require(motion_.gapRate(start_) <= 1e-6L * fastest * std::max(Real(1), size_),
-                "the initial velocities do not fit the joints");
+            fastest_ = std::max({fastest_, norm(Real3{start_[i + 7], start_[i + 8], start_[i + 9]}),
+                                 size_ * norm(Real3{start_[i + 10], start_[i + 11], start_[i + 12]})});
+        require(motion_.gapRate(start_) <= 1e-6L * fastest_, "the initial velocities do not fit the joints");
         const bool driven = std::any_of(motion_.members.begin(), motion_.members.end(),
                                         [](const MechanismMotion::Member& m) { return m.driven; });
         require(driven || motion_.freedom() > 0, "the joints leave nothing that could move");
@@ -185,16 +178,23 @@ class Mechanism : public Reference {
 
     void solve() {
         const auto rhs = [this](Real t, const OdeState& y, OdeState& d) { motion_.derivative(t, y, d); };
-        solution_ = DenseSolution(rhs, 0, start_, end(), 1e-13L, breaks_);
-        const DenseSolution coarse(rhs, 0, start_, end(), 1e-10L, breaks_);
+        const Real fast =
+            fastest_ + std::sqrt(norm(real3(scenario_.gravity)) * size_) + size_ / static_cast<Real>(end());
+        OdeState beside(start_.size(), 1);
+        for (std::size_t i = 0; i < beside.size(); i += MechanismMotion::kStride)
+            for (std::size_t k = 0; k < 3; ++k)
+                beside[i + k] = size_, beside[i + 7 + k] = fast, beside[i + 10 + k] = fast / size_;
+        solution_ = DenseSolution(rhs, 0, start_, end(), 1e-13L, breaks_, beside);
+        const DenseSolution coarse(rhs, 0, start_, end(), 1e-10L, breaks_, beside);
         const int samples = 200;
         for (int k = 0; k <= samples; ++k) {
             const Real t = static_cast<Real>(end()) * k / samples;
             const OdeState a = solution_.at(t), b = coarse.at(t);
-            Real apart = motion_.gap(a);
+            Real apart = motion_.gap(a) / size_;
             for (std::size_t i = 0; i < a.size(); ++i)
-                if (i % MechanismMotion::kStride < 7) apart = std::max(apart, std::abs(a[i] - b[i]));
-            if (apart < 1e-8L * std::max(Real(1), size_)) continue;
+                if (i % MechanismMotion::kStride < 7)
+                    apart = std::max(apart, std::abs(a[i] - b[i]) / beside[i]);
+            if (apart < 1e-8L) continue;
             require(k > 1, "the mechanism is singular at the start");
             validUntil_ = end() * (k - 1) / samples;
             return;
@@ -206,7 +206,7 @@ class Mechanism : public Reference {
     MechanismMotion motion_;
     OdeState start_;
     std::vector<Real> breaks_;
-    Real size_ = 0;
+    Real size_ = 0, fastest_ = 0;  ///< [m], [m/s]
     DenseSolution solution_;
     double validUntil_ = 1e300;
 };

@@ -6,7 +6,7 @@
 // (All at once, with zero gaps, another answer is possible; that is why gaps must be positive.)
 // Source: Newton 1687; Acary and Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, 2008.
 // Assumes: see line_collisions.hpp; no gravity but a common fall.
-// Quantities: velocity_<ball> along the line, after the last impact.
+// Quantities: velocity_<ball> along the line, once the last impact is over.
 #include <cmath>
 
 #include "validation/references/line_collisions.hpp"
@@ -33,8 +33,7 @@ class NewtonsCradle : public Reference {
 
     std::vector<Quantity> quantities(double, adapter::Scheme) const override {
         std::vector<Quantity> result;
-        if (line_.impacts().back().time > scenario_.duration || line_.validUntil() < scenario_.duration)
-            return result;
+        if (!line_.isOver()) return result;
         double fastest = 0.0;
         for (const int i : bodies()) fastest = std::max(fastest, std::abs(line_.velocityBefore(i)));
         for (const int i : bodies()) {

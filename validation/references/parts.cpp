@@ -202,10 +202,15 @@ bool negligible(double a, double scale) {
     return std::abs(a) <= 1e-9 * std::abs(scale);
 }
 
-double horizon(const Scenario& scenario) {
-    double step = 0.1;
+double runEnd(const Scenario& scenario) {
+    // A run ends at the multiple of its step next to the duration: half a step beyond it at most.
+    double step = scenario.duration / 8.0;
     for (const double dt : scenario.timeSteps) step = std::max(step, dt);
-    return scenario.duration + 2.0 * step;
+    return scenario.duration + 0.5 * step;
+}
+
+double holdingFriction(const scenario::PairCoefficients& pair) {
+    return std::max(pair.staticFriction, pair.friction);
 }
 
 // ------------------------------------------------------------------------------------------ assumptions

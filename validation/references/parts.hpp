@@ -78,8 +78,14 @@ Quat turned(Quat q, Vec3 w, double t);
 /// |a| is negligible beside `scale` (1e-9 relative; the scenario's own numbers have 16 digits).
 bool negligible(double a, double scale);
 
-/// How long references that integrate prepare for [s]: the duration and room for the last step.
-double horizon(const Scenario& scenario);
+/// Until when references that integrate prepare answers [s]: the duration and room for the last step of a
+/// run, for steps of the scenario's list and any up to an eighth of the duration. Nothing is decided by what
+/// lies between the duration and this time: what may still happen after the end is a question of its own.
+double runEnd(const Scenario& scenario);
+
+/// The coefficient up to which a contact that does not slide holds: the static one, never below that of
+/// sliding.
+double holdingFriction(const scenario::PairCoefficients& pair);
 
 // -------------------------------------------------------------------------------------------- assumptions
 struct Allowed {

@@ -89,8 +89,18 @@ class PendulumChain : public Reference {
         const auto rhs = [links = links_, pull](Real, const OdeState& y, OdeState& d) {
             derivative(links, pull, y, d);
         };
-        solution_ = numerics::DenseSolution(rhs, 0, start, horizon(scenario), 1e-14L);
-        const numerics::DenseSolution coarse(rhs, 0, start, horizon(scenario), 1e-12L);
+        const double end = runEnd(scenario);
+        const std::size_t n = links_.size();
+        Real turns = 1 / end, reach = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            turns = std::max(turns, std::abs(start[n + i]));
+            reach = std::max(reach, std::hypot(links_[i].toCenter[0], links_[i].toCenter[1]));
+        }
+        if (reach > 0) turns += std::sqrt(norm(g) / reach);
+        OdeState beside(2 * n, 1);
+        std::fill(beside.begin() + static_cast<std::ptrdiff_t>(n), beside.end(), turns);
+        solution_ = numerics::DenseSolution(rhs, 0, start, end, 1e-14L, {}, beside);
+        const numerics::DenseSolution coarse(rhs, 0, start, end, 1e-12L, {}, beside);
         validUntil_ = firstParting(coarse);
     }
     std::vector<int> bodies() const override {
@@ -223,11 +233,10 @@ class PendulumChain : public Reference {
     double firstParting(const numerics::DenseSolution& coarse) const {
         const int samples = 500;
         for (int k = 0; k <= samples; ++k) {
-            const double t = horizon(scenario_) * k / samples;
+            const double t = runEnd(scenario_) * k / samples;
             const OdeState a = solution_.at(t), b = coarse.at(t);
             for (std::size_t i = 0; i < links_.size(); ++i)
-                if (!(std::abs(a[i] - b[i]) < 1e-9L))
-                    return horizon(scenario_) * std::max(0, k - 1) / samples;
+                if (!(std::abs(a[i] - b[i]) < 1e-9L)) return runEnd(scenario_) * std::max(0, k - 1) / samples;
         }
         return 1e300;
     }

@@ -50,7 +50,7 @@ class PhysicalPendulum : public Reference {
         down_ = unit(pull);
         angle0_ = angleOf(across_);
         swing_ = Swing(std::sqrt(m * norm(pull) * d / moment), angle0_, rate0_);
-        findStop(swings, horizon(scenario));
+        findStop(swings, runEnd(scenario));
     }
     std::vector<int> bodies() const override { return {index_}; }
     double validUntil() const override { return stays_ ? 1e300 : stop_; }

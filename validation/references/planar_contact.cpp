@@ -33,7 +33,7 @@ class PlanarPart {
         : body_(body),
           duration_(scenario.duration),
           frame_(scenario, body, floor),
-          motion_(frame_.setup(), frame_.start(), scenario.duration + 1e-9) {
+          motion_(frame_.setup(), frame_.start(), scenario.duration, runEnd(scenario)) {
         for (const Event& event : motion_.events())
             if (event.kind == EventKind::Impact && event.time < duration_) impacts_.push_back(event);
     }
@@ -70,8 +70,9 @@ class PlanarPart {
         return std::min(next, motion_.validUntil());
     }
     double startOf(std::size_t k) const { return k > 0 ? impacts_[k - 1].time : 0.0; }
-    Kind kindAfter(double t) const { return motion_.modeAt(t + 1e-9).kind; }
-    Kind kindBefore(double t) const { return motion_.modeAt(t - 1e-9).kind; }
+    /// Beside an event by next to nothing of the duration.
+    Kind kindAfter(double t) const { return motion_.modeAt(t + 1e-9 * duration_).kind; }
+    Kind kindBefore(double t) const { return motion_.modeAt(t - 1e-9 * duration_).kind; }
     bool isFree(std::size_t k) const {
         const double t = impacts_[k].time;
         return kindBefore(t) == Kind::Flight && kindAfter(t) == Kind::Flight &&

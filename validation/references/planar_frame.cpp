@@ -75,11 +75,13 @@ PlanarFrame::PlanarFrame(const Scenario& scenario, int index, int floor)
     setup_.pullAbove = dot(g, above_);
     setup_.size = sizeOf(body_);
     const auto pair = pairCoefficients(scenario, body_.shapes[0].material, plane_.material);
-    for (const auto& shape : body_.shapes)
-        require(pairCoefficients(scenario, shape.material, plane_.material).friction == pair.friction,
-                who + " has shapes of different friction");
-    require(pair.staticFriction == 0.0 || pair.staticFriction == pair.friction,
-            "static friction of its own is not known here");
+    for (const auto& shape : body_.shapes) {
+        const auto one = pairCoefficients(scenario, shape.material, plane_.material);
+        require(one.friction == pair.friction, who + " has shapes of different friction");
+        require(holdingFriction(one) == one.friction,
+                "the static friction of " + who +
+                    " is above that of sliding, which this motion from event to " + "event does not know");
+    }
     setup_.friction = pair.friction;
     setup_.restitution = pair.restitution;
     addForces(scenario, index);

@@ -242,12 +242,14 @@ class PlanarLinkage : public Reference {
 
     void drive() {
         const scenario::JointAxis& axis = joints_[0]->axes[0];
-        const double end = horizon(scenario_);
+        const double end = runEnd(scenario_);
         const Real w = sense_ * axis.motorSpeed, most = axis.motorMaxForce;
         steadyFrom_ = 1e300;
         if (axis.hasMotor())
-            steadyFrom_ =
-                std::abs(static_cast<double>(w) - rate0_) <= 1e-12 * (1.0 + std::abs(rate0_)) ? 0.0 : 1e300;
+            steadyFrom_ = std::abs(static_cast<double>(w) - rate0_) <=
+                                  1e-12 * std::max(std::abs(static_cast<double>(w)), std::abs(rate0_))
+                              ? 0.0
+                              : 1e300;
         if (steadyFrom_ > 0.0) {
             const Real torque = !axis.hasMotor() ? 0 : (w > rate0_ ? most : -most);
             const auto f = [this, torque](Real, const OdeState& y, OdeState& dydt) {
@@ -279,9 +281,10 @@ class PlanarLinkage : public Reference {
             part = std::min(end, 2.0 * guess);
         }
         for (;; part = std::min(end, 4.0 * part)) {
-            OdeState y{0, static_cast<Real>(rate0_)};
+            const OdeState y{0, static_cast<Real>(rate0_)};
+            const Real turns = 1 / static_cast<Real>(part) + std::max(std::abs(y[1]), std::abs(w));
             try {
-                solution_ = numerics::DenseSolution(f, 0, y, part);
+                solution_ = numerics::DenseSolution(f, 0, y, part, 1e-14L, {}, {1, turns});
             } catch (const std::runtime_error&) {
                 violated("the linkage runs into a dead point");
             }

@@ -103,13 +103,27 @@ std::optional<PlanarMotion::Forces> PlanarMotion::forcesIn(const Mode& mode, con
     return f;
 }
 
-PlanarMotion::PlanarMotion(Setup setup, State start, double duration)
+PlanarMotion::PlanarMotion(Setup setup, State start, double duration, double end)
     : setup_(std::move(setup)), duration_(duration) {
+    const Real speed = std::abs(start.vx) + std::abs(start.vz) + setup_.size * std::abs(start.rate) +
+                       std::sqrt(std::hypot(setup_.pullAlong, setup_.pullAbove) * setup_.size);
+    scale_ = {setup_.size, setup_.size, 1, speed, speed, speed / setup_.size};
     double t = 0.0;
     State s = start;
     Mode mode = startMode(s);
+    followTo(duration_, t, s, mode);
+    require(validUntil_ > 0.0, "the contact changes its mode again and again at the start");
+    try {
+        followTo(end, t, s, mode);
+    } catch (const AssumptionViolated&) {
+        validUntil_ = t;  // what the laws leave open after the duration takes nothing from what is before
+    }
+}
+
+void PlanarMotion::followTo(double end, double& t, State& s, Mode& mode) {
+    end_ = end;
     int stops = 0;
-    while (t < duration_ && validUntil_ > 1e299) {
+    while (t < end_ && validUntil_ > 1e299) {
         const double before = t;
         mode = follow(t, s, mode);
         stops = t > before ? 0 : stops + 1;
@@ -117,7 +131,6 @@ PlanarMotion::PlanarMotion(Setup setup, State start, double duration)
         if (events_.size() >= kMostEvents || stops > kMostStops || phases_.size() >= kMostPhases)
             validUntil_ = std::min(validUntil_, t);
     }
-    require(validUntil_ > 0.0, "the contact changes its mode again and again at the start");
 }
 
 /// The mode that the contact forces of a single touching corner choose.
@@ -216,7 +229,7 @@ double PlanarMotion::pieceFrom(const State& s, const Mode& mode) const {
 PlanarMotion::Mode PlanarMotion::follow(double& t, State& s, Mode mode) {
     if (mode.kind == Kind::Rest) {
         phases_.push_back({t, 1e300, mode, s, 0, t, {}});
-        t = duration_;
+        t = end_;
         return mode;
     }
     if (isSlide(mode.kind)) return slide(t, s, mode);
@@ -229,13 +242,13 @@ PlanarMotion::Mode PlanarMotion::follow(double& t, State& s, Mode mode) {
         s = next;
         return after;
     }
-    const double end = std::min(duration_, t + pieceFrom(s, mode));
+    const double end = std::min(end_, t + pieceFrom(s, mode));
     const auto rhs = [this, mode](Real, const OdeState& y, OdeState& d) {
         const auto f = forcesIn(mode, unpack(y));
         if (!f) throw std::runtime_error("a slipping contact approaches the state that Painleve found");
         d = {y[3], y[4], y[5], f->ax, f->az, f->spin};
     };
-    Phase phase{t, end, mode, s, 0, t, numerics::DenseSolution(rhs, t, pack(s), end, 1e-14L)};
+    Phase phase{t, end, mode, s, 0, t, numerics::DenseSolution(rhs, t, pack(s), end, 1e-14L, {}, scale_)};
     const auto stateAt = [&](Real at) { return unpack(phase.solution.at(at)); };
     // Functions that are positive while the mode holds, and what of them is zero.
     struct Watched {
@@ -294,10 +307,13 @@ PlanarMotion::Mode PlanarMotion::slide(double& t, State& s, Mode mode) {
     const Real rate = setup_.pullAlong + sign * setup_.friction * setup_.pullAbove;
     Phase phase{t, 1e300, mode, s, rate, t, {}};
     const Real stop = s.vx * rate < 0 ? static_cast<Real>(t) - s.vx / rate : 1e300L;
-    if (stop < static_cast<Real>(duration_)) phase.end = static_cast<double>(stop);
+    if (stop < static_cast<Real>(end_)) phase.end = static_cast<double>(stop);
     phases_.push_back(phase);
-    if (phase.end > duration_) {
-        t = duration_;
+    if (phase.end > end_) {
+        const Real past = static_cast<Real>(end_) - static_cast<Real>(t);
+        s.x += past * (s.vx + past * rate / 2);
+        s.vx += past * rate;
+        phases_.back().end = t = end_;
         return mode;
     }
     const Real past = phase.end - static_cast<Real>(t);

@@ -21,6 +21,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "validation/references/numerics/ode.hpp"
@@ -64,16 +65,19 @@ class PlanarMotion {
         Real normal = 0, tangential = 0;  ///< [N]
     };
 
-    /// Follows the motion for `duration`. Throws AssumptionViolated for a start inside the floor, contacts
-    /// that do not fit the velocities, and impacts without one answer.
-    PlanarMotion(Setup setup, State start, double duration);
+    /// Follows the motion for `duration`, and on to `end` as far as the laws tell. Throws AssumptionViolated
+    /// for a start inside the floor, contacts that do not fit the velocities, and impacts within `duration`
+    /// without one answer.
+    PlanarMotion(Setup setup, State start, double duration, double end);
+    PlanarMotion(Setup setup, State start, double duration)
+        : PlanarMotion(std::move(setup), start, duration, duration) {}
 
     State at(double t) const;
     /// Contact force at time t; zero in flight, empty on two corners.
     std::optional<Load> loadAt(double t) const;
     Mode modeAt(double t) const;
     const std::vector<Event>& events() const { return events_; }
-    /// Until when the motion is known [s]; 1e300 where it is to the end.
+    /// Until when the motion is known [s]; 1e300 where it is to `end`.
     double validUntil() const { return validUntil_; }
 
   private:
@@ -114,9 +118,12 @@ class PlanarMotion {
     Mode impact(double& t, State& s, const std::vector<int>& touching, const std::vector<int>& landing,
                 EventKind kind);
     const Phase& phaseAt(double t) const;
+    void followTo(double end, double& t, State& s, Mode& mode);
 
     Setup setup_;
     double duration_ = 0.0, validUntil_ = 1e300;
+    double end_ = 0.0;          ///< to which it is being followed [s]
+    numerics::OdeState scale_;  ///< of x, z, angle and their rates
     std::vector<Phase> phases_;
     std::vector<Event> events_;
 };

@@ -22,7 +22,7 @@ Real powerIntegral(Real p, Real s) {
 
 }  // namespace
 
-PlanarSlide::PlanarSlide(Vec3 pull, double friction, Vec3 velocity)
+PlanarSlide::PlanarSlide(Vec3 pull, double friction, Vec3 velocity, double holding)
     : pull_(pull), velocity_(velocity), friction_(friction) {
     const double g = norm(pull), v = norm(velocity);
     // A pull of rounding size is none: the scenario's numbers have 16 digits.
@@ -42,14 +42,13 @@ PlanarSlide::PlanarSlide(Vec3 pull, double friction, Vec3 velocity)
         if (kappa_ > 1) stop_ = static_cast<double>(timeAt(0));
         return;
     }
+    turn_ = 1e300;
+    if (!level && norm(sideways) > 1e-12 * v) return;  // no friction: a parabola, never at rest
     along_ = v > 0.0 ? velocity / v : down_;
     speed_ = v;
     slope_ = dot(pull, along_) - (v > 0.0 ? friction : 0.0);
-    if (v == 0.0 || slope_ < 0.0)
-        turn_ = v == 0.0 ? 0.0 : -v / slope_;
-    else
-        turn_ = 1e300;
-    if (turn_ < 1e300 && g <= friction) stop_ = turn_;
+    if (v == 0.0 || slope_ < 0.0) turn_ = v == 0.0 ? 0.0 : -v / slope_;
+    if (turn_ < 1e300 && g <= holding) stop_ = turn_;
 }
 
 PlanarSlide::State PlanarSlide::at(double t) const {
@@ -57,7 +56,7 @@ PlanarSlide::State PlanarSlide::at(double t) const {
 }
 
 PlanarSlide::State PlanarSlide::straight(double t) const {
-    if (friction_ == 0.0) return {t * velocity_ + (0.5 * t * t) * pull_, velocity_ + t * pull_};
+    if (friction_ == 0.0 && !stop_) return {t * velocity_ + (0.5 * t * t) * pull_, velocity_ + t * pull_};
     if (t < turn_) return {(speed_ * t + 0.5 * slope_ * t * t) * along_, (speed_ + slope_ * t) * along_};
     const Vec3 turned = (0.5 * speed_ * turn_) * along_;
     if (stop_) return {turned, {}};

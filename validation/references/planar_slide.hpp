@@ -26,8 +26,9 @@ class PlanarSlide {
         Vec3 displacement, velocity;
     };
     /// `pull`: acceleration along the plane [m/s^2]; `friction`: deceleration mu N/m [m/s^2]; `velocity`
-    /// along the plane.
-    PlanarSlide(Vec3 pull, double friction, Vec3 velocity);
+    /// along the plane; `holding`: the pull up to which the point stays once it does not slide, of the static
+    /// coefficient, at least `friction` [m/s^2].
+    PlanarSlide(Vec3 pull, double friction, Vec3 velocity, double holding);
 
     State at(double t) const;
     /// When it comes to rest for good [s]; empty if it never does. 0 when it sticks from the start.

@@ -33,8 +33,9 @@ class QuadraticDragFlight : public Reference {
         gravity_ = real3(gravityOn(scenario, index));
         const Real3 x = real3(centerOfMass(body_)), v = real3(body_.velocity);
         start_ = {x.x, x.y, x.z, v.x, v.y, v.z};
+        const Real end = runEnd(scenario), fast = norm(v) + norm(gravity_) * end, far = fast * end;
         solution_ = DenseSolution([this](Real, const OdeState& y, OdeState& d) { derivative(y, d); }, 0,
-                                  start_, horizon(scenario));
+                                  start_, end, 1e-14L, {}, {far, far, far, fast, fast, fast});
     }
     std::vector<int> bodies() const override { return {index_}; }
     PartialState exact(int, double t) const override { return stateIn(solution_.at(t)); }

@@ -4,8 +4,26 @@
 // Reference solutions. A reference takes every physical value from the scenario and names only the bodies
 // that play its parts. Three kinds of answer, never mixed: exact (the physics), scheme-exact (what an ideal
 // implementation of the engine's own time-stepping scheme gives at this dt), and measured (what a real body
-// did, with the errors of the instrument). Standard library and the scenario model only: code shared with an
-// engine would prove nothing.
+// did, with the errors of the instrument). The folder's README lists what a reference may include: nothing
+// that an engine is made of, because shared code would prove nothing.
+//
+// What is guaranteed:
+// - Right or refused. A reference answers only for scenes in which the assumptions listed at the top of its
+// file
+//   hold; otherwise making it throws AssumptionViolated with the reason. It also refuses where the laws leave
+//   the outcome open, where its own numerics do not reach their accuracy ("no reference to the accuracy asked
+//   for: ..."), and where neither of two opposite answers can be proved ("undecided: ...",
+//   static_equilibrium).
+// - Accuracy. Closed forms are evaluated to rounding. Integrated motions keep a local error of 1e-14 (1e-13
+// and
+//   1e-12 where the file says so) beside the scales of the scene: its lengths, speeds and times, not metres
+//   and seconds. Where neighbouring motions part so fast that this is lost, validUntil() ends the answer.
+// - Units. No threshold is an absolute number of a physical unit, so that a scene and the same scene in other
+//   units get the same answer.
+// - Time. Every search and every integration has a bound on its steps and ends with an answer or a refusal.
+//   No reference measures its own time: `validate`, `run` and `check` compute it in a child under the limits
+//   of validation/runner/reference_guard.hpp (20 s, 2048 MiB by default), and running over is an outcome of
+//   its own, not a refusal. Whoever calls makeReference() directly has no such limit.
 #pragma once
 
 #include <cstddef>
@@ -56,11 +74,13 @@ class Reference {
     /// Scenario indices of the bodies whose states this reference knows; may be empty.
     virtual std::vector<int> bodies() const { return {}; }
 
-    /// Until when exact() answers [s]; the duration unless the reference ends earlier (first unresolved
-    /// event).
+    /// Until when exact() answers [s]. At least 1e300: to the end of any run of the scenario, which is half a
+    /// step after the duration at most, for steps of the scenario's list and any up to an eighth of the
+    /// duration. Less: up to the first event that the reference does not resolve.
     virtual double validUntil() const { return 1e300; }
 
-    /// The exact state of a body of bodies() at time t.
+    /// The exact state of a body of bodies() at time t in [0, validUntil()] and of a run; outside of these
+    /// the answer means nothing.
     virtual PartialState exact(int body, double t) const;
 
     /// The state after `step` steps of `dt` of an ideal run of `scheme`; empty where no closed form is known.
@@ -86,9 +106,10 @@ struct ReferenceEntry {
 const std::vector<ReferenceEntry>& referenceTable();
 const ReferenceEntry* findReference(const std::string& name);
 
-/// The scenario's reference, or null when it has none. Throws AssumptionViolated; std::invalid_argument for
-/// an unknown reference, unknown or missing parameters, or bodies that do not exist. The reference refers to
-/// the scenario, which must outlive it; asking it is not safe from two threads at once.
+/// The scenario's reference, or null when it has none. Throws AssumptionViolated where it refuses (above);
+/// std::invalid_argument for an unknown reference, unknown or missing parameters, or bodies that do not
+/// exist. The scenario must be one that the loader or adapter::checkScenarioInput accepts. The reference
+/// refers to the scenario, which must outlive it; asking it is not safe from two threads at once.
 std::unique_ptr<Reference> makeReference(const scenario::Scenario& scenario);
 
 }  // namespace rigor::validation

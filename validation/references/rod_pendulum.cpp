@@ -48,10 +48,11 @@ class RodPendulum : public Reference {
         require(std::abs(dot(v, arm)) <= (1e-9 * norm(v) + 1e-12 * falling) * length_,
                 bodyTitle(scenario, index) + " moves along its rod at the start");
         require(body_.angularVelocity == Vec3{}, bodyTitle(scenario, index) + " spins");
-        const double end = horizon(scenario);
+        const double end = runEnd(scenario), fast = norm(v) + falling + length_ / end;
         solution_ =
             numerics::DenseSolution([this](Real, const OdeState& y, OdeState& dydt) { derivative(y, dydt); },
-                                    0, {arm.x, arm.y, arm.z, v.x, v.y, v.z}, end);
+                                    0, {arm.x, arm.y, arm.z, v.x, v.y, v.z}, end, 1e-14L, {},
+                                    {length_, length_, length_, fast, fast, fast});
         if (rope) findSlack(end);
     }
     std::vector<int> bodies() const override { return {index_}; }

@@ -50,7 +50,7 @@ class RodStrikesBall : public Reference {
                     std::abs(dot(axis, to)) <= 1e-9 * norm(to),
                 "the ball is not in the plane in which " + who + " turns");
         const auto pair = pairCoefficients(scenario, swung.shapes[0].material, ball_.material);
-        require(pair.friction == 0.0, "there is friction between rod and ball");
+        require(holdingFriction(pair) == 0.0, "there is friction between rod and ball");
         const double D = norm(to), R = capsule->radius + ball_.radius, L = norm(arm_);
         require(D > R && D < L + R, "the rod does not reach the ball");
         const double side = std::sqrt(D * D - R * R);
@@ -101,7 +101,7 @@ class RodStrikesBall : public Reference {
     void findEnd(double reach) {
         const Vec3 axis = unit(turn_);
         const int samples = 20000;
-        const double end = horizon(scenario_);
+        const double end = runEnd(scenario_);
         for (int k = 1; k <= samples; ++k) {
             const double t = time_ + (end - time_) * k / samples;
             const Vec3 tip = rotate(scenario::fromAxisAngle(axis, norm(turn_) * t), arm_);

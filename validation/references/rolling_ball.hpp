@@ -42,6 +42,7 @@ class RollingBall {
     Plane plane_;
     Vec3 pull_, slip0_;
     double friction_ = 0.0;  ///< (1 + 1/k) mu g_n [m/s^2]
+    double holding_ = 0.0;   ///< the same of the static coefficient
     PlanarSlide slip_;
     SlideSteps steps_;
     bool fixedAxis_ = true;  ///< the spin keeps its direction: the orientation follows from its angle

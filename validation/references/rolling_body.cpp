@@ -13,10 +13,10 @@
 // Borisov and Mamaev, Regul. Chaotic Dyn. 7 (2002) 177; Moffatt and Shimomura, Nature 416 (2002) 385;
 // McDonald and McDonald 2001, Kessler and O'Reilly, Regul. Chaotic Dyn. 7 (2002) 49 (Euler's disc).
 // Assumes: contact from the start; gravity along the normal or not; Coulomb friction, no resistance to
-// rolling or drilling. Valid while it rolls with |F_t| <= mu N, or until the slip has all but ended.
-// Quantities: jellett, -L.r at the end, which no force at the contact changes (a ball whose inertia and
-// offset share an axis, gravity along the normal); contact_momentum_n, _s, _t: I w + m a^2 (w - (w.n) n) of a
-// ball that rolls about its centre of mass, a constant vector.
+// rolling or drilling. Valid while it rolls with |F_t| <= mu N (the static coefficient), or until the slip
+// has all but ended. Quantities: jellett, -L.r at the end, which no force at the contact changes (a ball
+// whose inertia and offset share an axis, gravity along the normal); contact_momentum_n, _s, _t: I w + m a^2
+// (w - (w.n) n) of a ball that rolls about its centre of mass, a constant vector.
 #include <algorithm>
 #include <cmath>
 
@@ -45,6 +45,7 @@ class RollingBody : public Reference {
         readShape(who);
         const auto pair = pairCoefficients(scenario, body_.shapes[0].material, plane_.material);
         mu_ = pair.friction;
+        holds_ = holdingFriction(pair);
         mass_ = body_.massProperties.mass;
         inertia_ = real33(body_.massProperties.inertia);
         normal_ = real3(plane_.normal);
@@ -209,10 +210,14 @@ class RollingBody : public Reference {
             d[10] = rate.x, d[11] = rate.y, d[12] = rate.z;
         };
         // In pieces, so that it may end where the slip ends.
-        const double whole = horizon(scenario_);
+        const double whole = runEnd(scenario_);
         double end = whole;
-        if (!rolls_) end = slipEnd(rhs, y, whole);
-        solution_ = DenseSolution(rhs, 0, y, end);
+        const Real turns = (fast + std::sqrt(norm(gravity_) * radius_)) / radius_ + 1 / whole,
+                   speed = turns * radius_;
+        const OdeState beside{1,       1,       1,       1,     turns, turns, turns,
+                              radius_, radius_, radius_, speed, speed, speed};
+        if (!rolls_) end = slipEnd(rhs, y, whole, beside);
+        solution_ = DenseSolution(rhs, 0, y, end, 1e-14L, {}, beside);
         validUntil_ = end < whole ? end : 1e300;
         for (int k = 0; k <= 400; ++k) {
             const double t = std::min(end, scenario_.duration) * k / 400;
@@ -224,16 +229,22 @@ class RollingBody : public Reference {
         }
     }
 
-    /// Time at which the slip has fallen to a hundredth, at most `whole`.
-    double slipEnd(const OdeRhs& rhs, OdeState y, double whole) const {
-        const int pieces = 400;
-        for (int k = 0; k < pieces; ++k) {
-            y = integrateOde(rhs, whole * k / pieces, y, whole * (k + 1) / pieces, 1e-10L);
+    /// Time at which the slip has fallen to a twentieth, at most `whole`.
+    double slipEnd(const OdeRhs& rhs, const OdeState& start, double whole, const OdeState& beside) const {
+        const auto slipOf = [this](const OdeState& y) {
             const Frame f = frameOf(y);
-            if (norm(Real3{y[10], y[11], y[12]} + cross(f.w, f.r)) < 0.05L * slip0_)
-                return whole * k / pieces;
-        }
-        return whole;
+            return norm(Real3{y[10], y[11], y[12]} + cross(f.w, f.r));
+        };
+        return static_cast<double>(lastTimeOf(
+            [&](const OdeState& y) { return slipOf(y) > 0.05L * slip0_; }, rhs, 0, start, whole, 400,
+            [&](const OdeState& y) {
+                // Half of what the slip lasts at the friction of now.
+                const Frame f = frameOf(y);
+                const Push push = pushIn(f, {y[10], y[11], y[12]});
+                const Real loss = norm(push.force) + norm(gravity_) + radius_ * norm(push.spin);
+                return loss > 0 ? slipOf(y) / (2 * loss) : Real(whole);
+            },
+            beside));
     }
 
     bool holds(const OdeState& y) const {
@@ -242,7 +253,7 @@ class RollingBody : public Reference {
         const Push push = pushIn(f, speed);
         const Real load = dot(f.gamma, push.force);
         const Real friction = norm(push.force - load * f.gamma);
-        return load > 0 && (!rolls_ || friction <= mu_ * load * (1 + 1e-9L));
+        return load > 0 && (!rolls_ || friction <= holds_ * load * (1 + 1e-9L));
     }
 
     /// Inertia and offset share an axis.
@@ -270,7 +281,8 @@ class RollingBody : public Reference {
     const Body& body_;
     Plane plane_;
     bool ball_ = false, rolls_ = true;
-    Real radius_ = 0, half_ = 0, mu_ = 0, mass_ = 0, slip0_ = 0;
+    Real radius_ = 0, half_ = 0, mass_ = 0, slip0_ = 0;
+    Real mu_ = 0, holds_ = 0;  ///< coefficients of sliding and of a contact that rolls
     Real3 center_, axis_, normal_, gravity_;
     Real33 inertia_{};
     Vec3 w0_;

@@ -38,7 +38,8 @@ class SlidingBody {
     int index_;
     Plane plane_;
     Vec3 com_, pull_;
-    double load_ = 0.0, mu_ = 0.0;  ///< normal acceleration [m/s^2], coefficient
+    double load_ = 0.0, mu_ = 0.0;  ///< normal acceleration [m/s^2], coefficient of sliding
+    bool isOneCoefficient_ = true;  ///< static friction is that of sliding
     PlanarSlide slide_;
     SlideSteps steps_;
 };

@@ -43,8 +43,8 @@ class SpherePlaneImpact : public Reference {
         before_ = ball_.velocity + time_ * gravity_;
         const auto pair = pairCoefficients(scenario, ball_.material, plane_.material);
         const Vec3 slip = before_ - ball_.radius * cross(ball_.spin, n);
-        const auto impact = frictionalImpact(slip, n, pair.restitution, pair.friction, ball_.mass,
-                                             ball_.mass * ball_.k / (1.0 + ball_.k));
+        const auto impact =
+            frictionalImpact(slip, n, pair, ball_.mass, ball_.mass * ball_.k / (1.0 + ball_.k));
         after_ = before_ + impact.impulse / ball_.mass;
         if (pair.restitution == 0.0) after_ = after_ - dot(after_, n) * n;
         spin_ = ball_.spin - (1.0 / (ball_.k * ball_.mass * ball_.radius)) * cross(n, impact.impulse);

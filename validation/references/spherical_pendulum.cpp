@@ -98,7 +98,7 @@ class SphericalPendulum : public Reference {
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) inertia(i, j) += m * ((i == j ? dot(arm_, arm_) : 0.0) - c[i] * c[j]);
         return FixedPointMotion(inertia, m, arm_, gravityOn(scenario, index_), q, body_.angularVelocity,
-                                horizon(scenario));
+                                runEnd(scenario));
     }
     int index_;
     const Body& body_;

@@ -135,23 +135,24 @@ class SpinningDisc : public Reference {
 
     void follow(const OdeState& start) {
         const auto rhs = [this](Real, const OdeState& y, OdeState& d) { derivative(y, d); };
-        const double whole = horizon(scenario_);
-        const Real least = 0.02L * (std::hypot(start[3], start[4]) + std::abs(start[5]) * radius_);
+        const double whole = runEnd(scenario_);
+        const Real speed = std::hypot(start[3], start[4]) + std::abs(start[5]) * radius_,
+                   least = 0.02L * speed;
         require(slowest(start) > least,
                 "a foot of " + bodyTitle(scenario_, index_) + " does not slide at the start");
-        const int pieces = 400;
-        double end = whole;
-        OdeState y = start;
-        for (int k = 0; k < pieces; ++k) {
-            const OdeState next = integrateOde(rhs, whole * k / pieces, y, whole * (k + 1) / pieces, 1e-10L);
-            if (slowest(next) < least) {
-                end = whole * k / pieces;
-                break;
-            }
-            y = next;
-        }
+        const OdeState scale{radius_, radius_, 1, speed, speed, speed / radius_};
+        const auto slides = [&](const OdeState& y) { return slowest(y) > least; };
+        const Real spinUp = motion_.mass * radius_ * radius_ / motion_.inertia;
+        const auto end = static_cast<double>(lastTimeOf(
+            slides, rhs, 0, start, whole, 400,
+            [&](const OdeState& y) {
+                // Half of what the slowest foot needs at least to come to rest.
+                const Real loss = push_ * (1 + spinUp) + std::abs(y[5]) * std::hypot(y[3], y[4]);
+                return loss > 0 ? slowest(y) / (2 * loss) : Real(whole);
+            },
+            scale));
         require(end > 0.0, bodyTitle(scenario_, index_) + " stops at once");
-        solution_ = DenseSolution(rhs, 0, start, end, 1e-13L);
+        solution_ = DenseSolution(rhs, 0, start, end, 1e-13L, {}, scale);
         if (end < whole) validUntil_ = end;
     }
 

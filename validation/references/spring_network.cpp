@@ -49,8 +49,22 @@ class SpringNetwork : public Reference {
             if (const auto* spring = std::get_if<SpringForce>(&force)) addTie(*spring);
         require(!ties_.empty(), "no spring holds the bodies");
         start_ = start;
+        const Real end = runEnd(scenario);
+        Real size = 0, fast = 0, stiff = 1 / end;
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            size = std::max(size, Real{sizeOf(at(i))});
+            fast = std::max(fast, Real{norm(at(i).velocity)});
+        }
+        for (const Tie& tie : ties_)
+            stiff = std::max(stiff, std::sqrt(tie.stiffness / masses_[static_cast<std::size_t>(tie.b)]));
+        fast += size * stiff;
+        OdeState beside;
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            beside.insert(beside.end(), 3, size);
+            beside.insert(beside.end(), 3, fast);
+        }
         solution_ = DenseSolution([this](Real, const OdeState& y, OdeState& d) { derivative(y, d); }, 0,
-                                  start, horizon(scenario));
+                                  start, end, 1e-14L, {}, beside);
     }
     std::vector<int> bodies() const override { return bodies_; }
 

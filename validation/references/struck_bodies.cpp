@@ -186,7 +186,7 @@ class StruckBodies : public Reference {
             q.measure = [index = one.index, direction,
                          time = one.time](const Trajectory& run) -> std::optional<double> {
                 for (std::size_t k = 1; k < run.frames(); ++k)
-                    if (run.times[k] > time + 1e-9)
+                    if (run.times[k] > time + 1e-9 * run.dt)
                         return dot(direction, run.state(k, index).angularVelocity);
                 return std::nullopt;
             };
@@ -250,7 +250,7 @@ class StruckBodies : public Reference {
         }
         body.velocity = one.velocity;
         body.angularVelocity = one.spin;
-        one.rotation = std::make_shared<TorqueFreeMotion>(body, scenario_.dimension, horizon(scenario_));
+        one.rotation = std::make_shared<TorqueFreeMotion>(body, scenario_.dimension, runEnd(scenario_));
         struck_.push_back(std::move(one));
     }
 

@@ -22,7 +22,7 @@ class TorqueFreeTop : public Reference {
           index_(index),
           body_(scenario.bodies[static_cast<std::size_t>(index)]),
           gravity_(gravityOn(scenario, index)),
-          rotation_(body_, scenario.dimension, horizon(scenario)) {
+          rotation_(body_, scenario.dimension, runEnd(scenario)) {
         requireUndisturbed(scenario, index);
     }
     std::vector<int> bodies() const override { return {index_}; }

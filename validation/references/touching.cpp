@@ -81,7 +81,7 @@ class Collector {
             for (const auto& sb : other.shapes) {
                 const Core ca = coreOf(one, sa, scenario_.dimension),
                            cb = coreOf(other, sb, scenario_.dimension);
-                friction_ = scenario::pairCoefficients(scenario_, sa.material, sb.material).friction;
+                friction_ = holdingFriction(scenario::pairCoefficients(scenario_, sa.material, sb.material));
                 scenario_.dimension == 2 ? flat(ca, cb) : space(ca, cb);
             }
     }

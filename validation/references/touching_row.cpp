@@ -41,7 +41,10 @@ class TouchingRow : public Reference {
                         norm(ball.velocity - dot(ball.velocity, line_) * line_) <= 1e-9 * norm(ball.velocity),
                     bodyTitle(scenario, ball.body) + " is not on the line, or leaves it");
             before_.push_back(dot(line_, ball.velocity));
+            fastest_ = std::max(fastest_, std::abs(before_.back()));
         }
+        for (std::size_t i = 0; i + 1 < row_.size(); ++i)
+            requireContact(scenario, row_[i].body, row_[i + 1].body);
         findImpact();
         after_ = solved();
     }
@@ -63,15 +66,13 @@ class TouchingRow : public Reference {
     std::vector<Quantity> quantities(double, adapter::Scheme) const override {
         std::vector<Quantity> result;
         if (time_ >= scenario_.duration) return result;
-        double fastest = 0.0;
-        for (const double v : before_) fastest = std::max(fastest, std::abs(v));
         for (std::size_t i = 0; i < row_.size(); ++i) {
             const int body = row_[i].body;
             Quantity q{"velocity_" + scenario_.bodies[static_cast<std::size_t>(body)].name,
                        "m/s",
                        after_[i],
                        after_[i],
-                       fastest,
+                       fastest_,
                        {}};
             q.measure = [d = line_, body](const Trajectory& run) -> std::optional<double> {
                 return dot(d, run.state(run.frames() - 1, body).velocity);
@@ -93,25 +94,28 @@ class TouchingRow : public Reference {
 
     /// The only gap closes at time_; the others are closed already and stay so until then.
     void findImpact() {
+        bool isHit = false;
         for (std::size_t i = 0; i + 1 < row_.size(); ++i) {
             const double small = 1e-4 * std::min(row_[i].radius, row_[i + 1].radius);
             const double closing = before_[i] - before_[i + 1];
             require(gap(i) >= -small, "neighbours in the row overlap");
             if (gap(i) <= small) {
-                require(std::abs(closing) <= 1e-9, "touching neighbours move against each other");
+                require(std::abs(closing) <= 1e-9 * fastest_, "touching neighbours move against each other");
                 continue;
             }
             require(closing > 0.0, "a gap in the row does not close");
-            require(time_ == 0.0, "more than one gap of the row closes");
+            require(!isHit, "more than one gap of the row closes");
+            isHit = true;
             time_ = gap(i) / closing;
         }
-        require(time_ > 0.0, "nothing runs into the row");
+        require(isHit, "nothing runs into the row");
     }
 
     /// The linear complementarity problem by trying which contacts push: few and positive definite.
     std::vector<double> solved() const {
         const std::size_t n = row_.size() - 1;
         require(n <= 12, "a row of more than 13 balls");
+        const Real tiny = 1e-12L * fastest_;
         std::vector<Real> apart(n), bounce(n);
         for (std::size_t i = 0; i < n; ++i) {
             apart[i] = before_[i + 1] - before_[i];
@@ -140,7 +144,8 @@ class TouchingRow : public Reference {
             for (std::size_t i = 0; i < n; ++i) {
                 Real after = apart[i];
                 for (std::size_t j = 0; j < n; ++j) after += coupling(i, j) * push[j];
-                fits = fits && push[i] >= -1e-15L && after + bounce[i] * apart[i] >= -1e-12L;
+                // An impulse by the speed that it gives its own contact: zero up to rounding of the speeds.
+                fits = fits && coupling(i, i) * push[i] >= -tiny && after + bounce[i] * apart[i] >= -tiny;
             }
             if (!fits) continue;
             std::vector<double> after = before_;
@@ -164,7 +169,7 @@ class TouchingRow : public Reference {
     std::vector<Ball> row_;
     Vec3 line_;
     std::vector<double> before_, after_;
-    double time_ = 0.0;
+    double time_ = 0.0, fastest_ = 0.0;
 };
 
 }  // namespace

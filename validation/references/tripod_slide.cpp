@@ -88,26 +88,30 @@ class TripodSlide : public Reference {
 
     void findEnd(const OdeState& start) {
         const auto rhs = [this](Real, const OdeState& y, OdeState& d) { derivative(y, d); };
-        const Loads first = loadsIn(start);
-        const double whole = horizon(scenario_);
-        const int pieces = 400;
-        double end = whole;
-        OdeState y = start;
-        const Real least = 0.02L * (std::hypot(start[3], start[4]) +
-                                    std::abs(start[5]) * std::hypot(feet_[0].x, feet_[0].y));
-        require(first.slowest > least,
+        const double whole = runEnd(scenario_);
+        Real reach = 0;
+        for (const Foot& foot : feet_) reach = std::max(reach, std::hypot(foot.x, foot.y));
+        const Real speed = std::hypot(start[3], start[4]) + std::abs(start[5]) * reach, least = 0.02L * speed;
+        const auto holds = [&](const OdeState& y) {
+            const Loads loads = loadsIn(y);
+            return loads.slowest > least && *std::min_element(loads.normal.begin(), loads.normal.end()) > 0;
+        };
+        require(loadsIn(start).slowest > least,
                 "a foot of " + bodyTitle(scenario_, index_) + " does not slide at the start");
-        for (int k = 0; k < pieces; ++k) {
-            const OdeState next = integrateOde(rhs, whole * k / pieces, y, whole * (k + 1) / pieces, 1e-10L);
-            const Loads loads = loadsIn(next);
-            if (loads.slowest < least || *std::min_element(loads.normal.begin(), loads.normal.end()) <= 0) {
-                end = whole * k / pieces;
-                break;
-            }
-            y = next;
-        }
+        require(holds(start), bodyTitle(scenario_, index_) + " tips at the start");
+        const OdeState scale{reach, reach, 1, speed, speed, speed / reach};
+        const Real spinUp = motion_.mass * reach * reach / motion_.inertia;
+        const auto end = static_cast<double>(lastTimeOf(
+            holds, rhs, 0, start, whole, 400,
+            [&](const OdeState& y) {
+                // Half of what the slowest foot needs at least to come to rest.
+                const Real loss = mu_ * std::abs(pull_[2]) * (1 + spinUp) + std::hypot(pull_[0], pull_[1]) +
+                                  std::abs(y[5]) * std::hypot(y[3], y[4]);
+                return loss > 0 ? loadsIn(y).slowest / (2 * loss) : Real(whole);
+            },
+            scale));
         require(end > 0.0, bodyTitle(scenario_, index_) + " tips or stops at once");
-        solution_ = DenseSolution(rhs, 0, start, end);
+        solution_ = DenseSolution(rhs, 0, start, end, 1e-14L, {}, scale);
         if (end < whole) validUntil_ = end;
     }
 

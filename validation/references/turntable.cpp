@@ -48,10 +48,10 @@ class Turntable : public Reference {
         require(norm(slip) <= 1e-6 * fast, who + " slips at the start; it rolls at angular_velocity " +
                                                shown(ball_.spin - cross(slip, n) / ball_.radius, 3));
         rate_ = ball_.k / (1.0 + ball_.k) * tableRate_;
-        const double mu = pairCoefficients(scenario, ball_.material, plane_.material).friction;
+        const double mu = holdingFriction(pairCoefficients(scenario, ball_.material, plane_.material));
         require(std::abs(rate_) * norm(ball_.velocity) <= mu * load,
                 who + " needs more friction than there is to roll");
-        const double end = horizon(scenario);
+        const double end = runEnd(scenario);
         for (int k = 0; k <= 64; ++k)
             require(plane_.holds(centerAt(scenario.duration * k / 64.0)), who + " rolls off the table");
         const auto rhs = [this](Real t, const OdeState& y, OdeState& d) {

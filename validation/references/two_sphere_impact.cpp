@@ -109,8 +109,7 @@ class TwoSphereImpact : public Reference {
         const double normalMass = 1.0 / (1.0 / a.ball.mass + 1.0 / b.ball.mass);
         const double tangentMass =
             1.0 / ((1.0 + 1.0 / a.ball.k) / a.ball.mass + (1.0 + 1.0 / b.ball.k) / b.ball.mass);
-        const auto impact =
-            frictionalImpact(vb - va, n, pair.restitution, pair.friction, normalMass, tangentMass);
+        const auto impact = frictionalImpact(vb - va, n, pair, normalMass, tangentMass);
         const Vec3 fall = time_ * gravity_;
         a.velocity = a.ball.velocity + fall - impact.impulse / a.ball.mass;
         b.velocity = b.ball.velocity + fall + impact.impulse / b.ball.mass;

@@ -54,15 +54,16 @@ class WedgeBlock : public Reference {
         require(g != Vec3{} && norm(g + norm(g) * up) <= 1e-9 * norm(g) && gravityOn(scenario, wedge) == g,
                 "gravity is not along the normal of the floor");
         const auto underneath = pairCoefficients(scenario, at(wedge).shapes[0].material, plane_.material);
-        require(underneath.friction == 0.0, "the floor under the wedge is not smooth");
+        require(holdingFriction(underneath) == 0.0, "the floor under the wedge is not smooth");
         wedgeCorners_ = cornersOf(scenario, wedge);
         findFace();
-        const double mu =
-            pairCoefficients(scenario, at(block).shapes[0].material, at(wedge).shapes[0].material).friction;
+        const auto pair =
+            pairCoefficients(scenario, at(block).shapes[0].material, at(wedge).shapes[0].material);
+        const double mu = pair.friction;
         const double c = dot(normal_, up), s = std::sqrt(std::max(0.0, 1 - c * c)),
                      m = at(block).massProperties.mass, M = at(wedge).massProperties.mass, pull = norm(g);
         require(c > 0.0 && s > 1e-9, "the face of the wedge is not a slope");
-        if (s <= mu * c) {
+        if (s <= holdingFriction(pair) * c) {
             pushBlock_ = -m * g;
         } else {
             const double A = m * pull * c * (s - mu * c) / (M + m * s * (s - mu * c)),

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace rigor::validation::numerics {
@@ -16,6 +18,9 @@ namespace {
 
 constexpr int kColumns = 8;  // order 16
 constexpr int kMaxSteps = 20000;
+constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
+// An oscillation takes a panel or two: some thousand of them, and a few seconds of computing.
+constexpr std::size_t kMostPanels = 4000;
 constexpr int kPanelDegree = 15;  // 16 nodes
 
 void midpointRule(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dydt, Real step, int n,
@@ -38,14 +43,18 @@ void midpointRule(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dy
     for (std::size_t i = 0; i < size; ++i) result[i] = (result[i] + previous[i] + h * slope[i]) / 2;
 }
 
+Real scaleOf(const OdeState& scale, std::size_t i) {
+    return scale.empty() ? Real(1) : scale[i];
+}
+
 struct Step {
     OdeState y;
     Real error = 0;  ///< relative to the tolerance
     int column = 0;  ///< where it converged
 };
 
-Step extrapolate(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dydt, Real step,
-                 Real tolerance) {
+Step extrapolate(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dydt, Real step, Real tolerance,
+                 const OdeState& scale) {
     std::array<std::vector<OdeState>, kColumns> table;
     OdeState previous, slope;
     Step result;
@@ -66,8 +75,10 @@ Step extrapolate(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dyd
         const auto d = static_cast<std::size_t>(j);
         result.error = 0;
         for (std::size_t i = 0; i < y.size(); ++i) {
-            const Real scale = std::max({Real(1), std::abs(y[i]), std::abs(row[d][i])});
-            result.error = std::max(result.error, std::abs(row[d][i] - row[d - 1][i]) / (tolerance * scale));
+            const Real beside = std::max({scaleOf(scale, i), std::abs(y[i]), std::abs(row[d][i])});
+            const Real off = std::abs(row[d][i] - row[d - 1][i]);
+            const Real ratio = off == 0 ? 0 : off / (tolerance * beside);
+            result.error = std::max(result.error, std::isfinite(ratio) ? ratio : kInfinite);
         }
         result.y = row[d];
         result.column = j;
@@ -89,7 +100,8 @@ Real chebyshevPoint(int j) {
 
 }  // namespace
 
-OdeState integrateOde(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Real tolerance, Real firstStep) {
+OdeState integrateOde(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Real tolerance, Real firstStep,
+                      const OdeState& scale) {
     OdeState y = y0, dydt(y0.size());
     Real t = t0;
     const Real span = t1 - t0;
@@ -99,12 +111,12 @@ OdeState integrateOde(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Rea
         if (count > kMaxSteps) throw std::runtime_error("integrateOde: too many steps");
         if (std::abs(step) > std::abs(t1 - t)) step = t1 - t;
         f(t, y, dydt);
-        Step trial = extrapolate(f, t, y, dydt, step, tolerance);
+        Step trial = extrapolate(f, t, y, dydt, step, tolerance, scale);
         if (!(trial.error <= 1)) {
             step *= std::isfinite(trial.error)
                         ? std::clamp(std::pow(trial.error, Real(-1) / (2 * kColumns - 1)) * 0.8L, 0.1L, 0.7L)
                         : 0.1L;
-            if (std::abs(step) < 1e-14L * std::max(Real(1), std::abs(t)))
+            if (std::abs(step) < 1e-14L * std::max(std::abs(span), std::abs(t)))
                 throw std::runtime_error("integrateOde: the step became too small");
             continue;
         }
@@ -117,7 +129,32 @@ OdeState integrateOde(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Rea
     return y;
 }
 
-bool DenseSolution::build(const OdeRhs& f, const OdeState& y0, Real tolerance, Panel& panel) {
+Real lastTimeOf(const std::function<bool(const OdeState&)>& holds, const OdeRhs& f, Real t0, OdeState y,
+                Real t1, int looks, const std::function<Real(const OdeState&)>& pace, const OdeState& scale) {
+    constexpr int kMostLooks = 100000;
+    const Real longest = (t1 - t0) / looks, shortest = (t1 - t0) * 1e-15L;
+    Real t = t0, bound = longest;
+    for (int look = 0; t < t1; ++look) {
+        if (look > kMostLooks) throw std::runtime_error("lastTimeOf: too many steps");
+        const Real step = std::min({bound, pace(y), t1 - t});
+        if (!(step > shortest)) return t1 - t > 2 * shortest ? t : t1;
+        std::optional<OdeState> next;
+        try {
+            next = integrateOde(f, t, y, t + step, 1e-12L, 0, scale);
+        } catch (const std::runtime_error&) {
+        }
+        if (!next || !holds(*next)) {
+            bound = step / 2;
+            continue;
+        }
+        t = step == t1 - t ? t1 : t + step;
+        y = *next;
+    }
+    return t1;
+}
+
+bool DenseSolution::build(const OdeRhs& f, const OdeState& y0, Real tolerance, const OdeState& scale,
+                          Panel& panel) {
     const Real middle = (panel.begin + panel.end) / 2, half = (panel.end - panel.begin) / 2;
     panel.nodes.assign(1, y0);
     std::vector<std::pair<Real, OdeState>> checks;
@@ -128,11 +165,11 @@ bool DenseSolution::build(const OdeRhs& f, const OdeState& y0, Real tolerance, P
         const Real between = (t + next) / 2;
         OdeState y = panel.nodes.back();
         if (check) {
-            y = integrateOde(f, t, y, between, tolerance / 100, between - t);
+            y = integrateOde(f, t, y, between, tolerance / 100, between - t, scale);
             checks.emplace_back(between, y);
-            y = integrateOde(f, between, y, next, tolerance / 100, next - between);
+            y = integrateOde(f, between, y, next, tolerance / 100, next - between, scale);
         } else {
-            y = integrateOde(f, t, y, next, tolerance / 100, next - t);
+            y = integrateOde(f, t, y, next, tolerance / 100, next - t, scale);
         }
         panel.nodes.push_back(std::move(y));
         t = next;
@@ -140,34 +177,36 @@ bool DenseSolution::build(const OdeRhs& f, const OdeState& y0, Real tolerance, P
     for (const auto& [time, exact] : checks) {
         const OdeState value = evaluate(panel, time);
         for (std::size_t i = 0; i < exact.size(); ++i)
-            if (!(std::abs(value[i] - exact[i]) <= tolerance * std::max(Real(1), std::abs(exact[i]))))
+            if (!(std::abs(value[i] - exact[i]) <=
+                  tolerance * std::max(scaleOf(scale, i), std::abs(exact[i]))))
                 return false;
     }
     return true;
 }
 
 DenseSolution::DenseSolution(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Real tolerance,
-                             std::vector<Real> breaks) {
+                             std::vector<Real> breaks, const OdeState& scale) {
     OdeState y = y0;
     std::sort(breaks.begin(), breaks.end());
     Real begin = t0;
     for (const Real time : breaks) {
         if (!(time > begin && time < t1)) continue;
-        append(f, begin, y, time, tolerance);
+        append(f, begin, y, time, tolerance, scale);
         begin = time;
     }
-    if (t1 > begin) append(f, begin, y, t1, tolerance);
+    if (t1 > begin) append(f, begin, y, t1, tolerance, scale);
     if (panels_.empty()) panels_.push_back({t0, t0, {y0}});
 }
 
-void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, Real t1, Real tolerance) {
+void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, Real t1, Real tolerance,
+                           const OdeState& scale) {
     Real length = t1 - t0;
     const Real shortest = (t1 - t0) * 1e-6L;
     for (Real t = t0; t < t1;) {
         Panel panel;
         panel.begin = t;
         panel.end = t1 - t <= length * 1.0001L ? t1 : t + length;
-        if (!build(f, y, tolerance, panel)) {
+        if (!build(f, y, tolerance, scale, panel)) {
             length = (panel.end - panel.begin) / 2;
             if (length < shortest) throw std::runtime_error("DenseSolution: panels became too short");
             continue;
@@ -175,6 +214,8 @@ void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, Real t1, Real 
         t = panel.end;
         y = panel.nodes.back();
         panels_.push_back(std::move(panel));
+        if (panels_.size() > kMostPanels)
+            throw std::runtime_error("DenseSolution: the motion is too long for its oscillations");
     }
 }
 

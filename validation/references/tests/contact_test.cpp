@@ -40,7 +40,7 @@ TEST(PlanarSlide, AgreesWithIntegrationForEveryRatioOfFrictionToSlope) {
     for (const double f : {0.5, 2.0, 4.0, 5.9})
         for (const Vec3 v : {Vec3{2, 0, 0}, Vec3{1, 0, -3}, Vec3{-0.5, 0, 4}}) {
             const Vec3 pull{0, 0, 4};
-            const PlanarSlide slide(pull, f, v);
+            const PlanarSlide slide(pull, f, v, f);
             // Integration does not resolve the stop itself: end shortly before it.
             const double duration = std::min(0.5, 0.95 * slide.stopTime().value_or(1));
             const auto numeric = integrateSlide(pull, f, v, duration);
@@ -51,11 +51,13 @@ TEST(PlanarSlide, AgreesWithIntegrationForEveryRatioOfFrictionToSlope) {
     // kappa = 1 and cross-slope: half the speed straight downhill in the end; X(0.5), S(0.5) of the
     // catalogue.
     const double g = 9.81 * std::sin(std::atan(0.5));
-    const PlanarSlide critical({0, 0, g}, g, {2, 0, 0});
+    const PlanarSlide critical({0, 0, g}, g, {2, 0, 0}, g);
     expectVec(critical.at(0.5).displacement, {0.5244772904, 0, 0.3328364227}, 1e-9);
     expectVec(critical.at(40).velocity, {0, 0, 1}, 1e-6);
     const double a = 0.5235987755982988;
-    EXPECT_NEAR(*PlanarSlide({0, 0, 9.81 * std::sin(a)}, 0.7 * 9.81 * std::cos(a), {2, 0, 0}).stopTime(),
+    EXPECT_NEAR(*PlanarSlide({0, 0, 9.81 * std::sin(a)}, 0.7 * 9.81 * std::cos(a), {2, 0, 0},
+                             0.7 * 9.81 * std::cos(a))
+                     .stopTime(),
                 1.051845113, 1e-9);
 }
 

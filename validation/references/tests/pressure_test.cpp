@@ -217,6 +217,36 @@ TEST(TouchingRow, TheLawHoldsAtEveryContact) {
         }
 }
 
+TEST(TouchingRow, DoesNotDependOnItsUnits) {
+    const std::vector<double> masses{2, 0.5, 3, 1};
+    const auto in = [&](double speed, double mass) {
+        Scenario s = row(masses, 0.4);
+        s.bodies[0].velocity.x = speed;
+        s.duration = 1 / speed;
+        for (Body& b : s.bodies) {
+            b.massProperties.mass *= mass;
+            for (int i = 0; i < 3; ++i) b.massProperties.inertia(i, i) *= mass;
+        }
+        return s;
+    };
+    const auto one = makeReference(in(1, 1));
+    for (const double speed : {1e-12, 1e-6, 1e9})
+        for (const double mass : {1e-15, 1e12}) {
+            const Scenario s = in(speed, mass);
+            const auto other = makeReference(s);
+            for (const int body : one->bodies())
+                EXPECT_NEAR(other->exact(body, 0.9 / speed).velocity->x / speed,
+                            one->exact(body, 0.9).velocity->x, 1e-13);
+        }
+    // Neighbours that close on each other a hundredth as fast as the runner comes are no row at rest.
+    Scenario s = in(1e-9, 1);
+    s.bodies[2].velocity.x = -1e-11;
+    EXPECT_THROW(makeReference(s), AssumptionViolated);
+    s = in(1, 1);
+    for (const std::size_t i : {1U, 2U}) s.bodies[i].collides = false;
+    EXPECT_THROW(makeReference(s), AssumptionViolated);
+}
+
 TEST(TouchingRow, MovesUniformlyToAndFromTheImpact) {
     const Scenario s = row({1, 1, 1}, 1);
     const auto r = makeReference(s);
