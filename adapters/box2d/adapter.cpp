@@ -7,6 +7,7 @@
 #include "adapters/box2d/world.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/options.hpp"
+#include "adapters/interface/replay.hpp"
 
 namespace rigor::box2d {
 namespace {
@@ -72,7 +73,8 @@ class Box2dEngine final : public adapter::Engine, public adapter::DynamicsEngine
                                           const adapter::Settings& settings) const override {
         adapter::checkScenarioInput(scenario, dt);
         adapter::checkSupported(scenario, capabilities(), "box2d");
-        return std::make_unique<Box2dWorld>(scenario, dt, settings);
+        return std::make_unique<adapter::ReplayWorld>(
+            [=] { return std::make_unique<Box2dWorld>(scenario, dt, settings); });
     }
 
   private:

@@ -10,6 +10,7 @@
 #include "adapters/bullet/world.hpp"
 #include "adapters/interface/input_check.hpp"
 #include "adapters/interface/options.hpp"
+#include "adapters/interface/replay.hpp"
 
 namespace rigor::bullet {
 namespace {
@@ -139,7 +140,8 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
         // Bullet takes a step no longer than its scalar's epsilon for no step at all.
         if (static_cast<btScalar>(dt) <= 2 * SIMD_EPSILON)
             throw adapter::Unsupported("bullet's precision has no time step this small");
-        return std::make_unique<BulletWorld>(scenario, dt, settings);
+        return std::make_unique<adapter::ReplayWorld>(
+            [=] { return std::make_unique<BulletWorld>(scenario, dt, settings); });
     }
 
   private:

@@ -3,8 +3,9 @@
 //
 // Conventions of btMultiBody (Bullet 3.24), found by experiment: rotations of links go from the parent's
 // frame to the link's; offsets are in the parent's frame up to the joint and in the link's from it; a
-// spherical joint's velocity is in the link's frame; the cached poses lag by a step until forwardKinematics;
-// tree velocities are in the links' frames.
+// spherical joint's velocity is in the link's frame, and so is that of a planar one (setupPlanar), whose body
+// gains speed where it turns; the cached poses lag by a step until forwardKinematics; tree velocities are in
+// the links' frames.
 #include "adapters/bullet/articulation.hpp"
 
 #include <BulletDynamics/Featherstone/btMultiBodyFixedConstraint.h>
@@ -17,6 +18,7 @@
 #include <deque>
 
 #include "adapters/bullet/convert.hpp"
+#include "adapters/bullet/six_dof.hpp"
 
 namespace rigor::bullet {
 
@@ -32,6 +34,9 @@ struct Articulations::Edge {
     int parent = scenario::kNone, child = scenario::kNone;
     bool turned = false;
 };
+/// The links by which a body floats in the plane.
+constexpr int kRootLinks = 3;
+
 struct Articulations::Tree {
     int base = scenario::kNone;  ///< a body; kNone: fixed
     std::vector<Edge> edges;     ///< parents before children
@@ -47,18 +52,17 @@ bool moves(const Scenario& scenario, int body) {
 
 void refuseMissing(const Joint& joint, const Scenario& scenario) {
     const auto refuse = [&](const std::string& what) {
-        throw adapter::notInLibrary("bullet", what + " of a btMultiBody", "btMultiBody.h, setup functions",
-                                    "joint '" + joint.name + "'");
+        throw adapter::notInAdapter("bullet", what + " of a btMultiBody", "joint '" + joint.name + "'");
     };
     const bool known = joint.type == JointType::Ball || joint.type == JointType::Hinge ||
                        joint.type == JointType::Slider || joint.type == JointType::Fixed;
-    if (!known) refuse(std::string("joint '") + jointName(joint.type) + "'");
+    if (!known)
+        throw adapter::notInLibrary(
+            "bullet", std::string("joint '") + jointName(joint.type) + "' of a btMultiBody",
+            "btMultiBodyLink.h, enum eFeatherstoneJointType", "joint '" + joint.name + "'");
     for (const auto& axis : joint.axes) {
-        if (axis.hasSpring()) refuse("spring");
-        const bool driven = axis.hasMotor() || axis.mode == scenario::AxisMode::Limited;
-        if (joint.type == JointType::Ball && driven)
-            throw adapter::notInAdapter("bullet", "limit or motor of a btMultiBody's spherical joint",
-                                        "joint '" + joint.name + "'");
+        const bool driven = axis.hasMotor() || axis.hasSpring() || axis.mode == scenario::AxisMode::Limited;
+        if (joint.type == JointType::Ball && driven) refuse("limit, motor or spring of a spherical joint");
     }
     if (joint.breakForce < 1e299 || joint.breakTorque < 1e299) refuse("breaking joint");
     for (const int body : {joint.bodyA, joint.bodyB})
@@ -74,7 +78,7 @@ btScalar scalar(double x) {
 
 }  // namespace
 
-std::vector<bool> Articulations::linkedBodies(const Scenario& scenario, bool planar) {
+std::vector<bool> Articulations::linkedBodies(const Scenario& scenario) {
     std::vector<bool> linked(scenario.bodies.size());
     for (const Joint& joint : scenario.joints) {
         refuseMissing(joint, scenario);
@@ -88,8 +92,6 @@ std::vector<bool> Articulations::linkedBodies(const Scenario& scenario, bool pla
                                         "btMultiBody.h, setLinearDamping: one value for all links",
                                         "body '" + body.name + "'");
     }
-    if (planar && std::any_of(linked.begin(), linked.end(), [](bool is) { return is; }))
-        throw adapter::notInAdapter("bullet", "btMultiBody in two dimensions");
     return linked;
 }
 
@@ -100,7 +102,7 @@ Articulations::Articulations(const Scenario& scenario, std::vector<LinkSource> s
       world_(world),
       settings_(settings),
       links_(scenario.bodies.size()) {
-    const std::vector<bool> linked = linkedBodies(scenario, false);
+    const std::vector<bool> linked = linkedBodies(scenario);
     std::vector<bool> placed(linked.size());
     std::vector<bool> used(scenario.joints.size());
     // Breadth first over joints in the scenario's order, from the world, then from each body still left.
@@ -153,18 +155,22 @@ btTransform Articulations::startPose(int body) const {
 }
 
 void Articulations::build(const Tree& tree) {
-    const bool fixed = tree.base == scenario::kNone;
+    const bool held = tree.base == scenario::kNone, rooted = !held && settings_.planar;
+    const bool fixed = held || rooted;
     const auto base = static_cast<std::size_t>(std::max(tree.base, 0));
+    const int first = rooted ? kRootLinks : 0;
     const btScalar mass = fixed ? btScalar(0) : scalar(scenario_.bodies[base].massProperties.mass);
-    multiBodies_.push_back(std::make_unique<btMultiBody>(static_cast<int>(tree.edges.size()), mass,
+    multiBodies_.push_back(std::make_unique<btMultiBody>(first + static_cast<int>(tree.edges.size()), mass,
                                                          fixed ? btVector3(0, 0, 0) : sources_[base].moments,
                                                          fixed, settings_.maySleep));
     btMultiBody& multiBody = *multiBodies_.back();
-    multiBody.setBaseWorldTransform(startPose(tree.base));
-    if (!fixed) links_[base] = {&multiBody, -1};
+    multiBody.setBaseWorldTransform(fixed ? btTransform::getIdentity() : startPose(tree.base));
+    if (!held) links_[base] = {&multiBody, first - 1};
+    if (rooted) addFloatingRoot(multiBody, tree.base);
+    const auto linkOf = [first](std::size_t edge) { return first + static_cast<int>(edge); };
     for (std::size_t i = 0; i < tree.edges.size(); ++i) {
-        links_[static_cast<std::size_t>(tree.edges[i].child)] = {&multiBody, static_cast<int>(i)};
-        addLink(multiBody, static_cast<int>(i), tree.edges[i]);
+        links_[static_cast<std::size_t>(tree.edges[i].child)] = {&multiBody, linkOf(i)};
+        addLink(multiBody, linkOf(i), tree.edges[i]);
     }
     multiBody.finalizeMultiDof();
     multiBody.setHasSelfCollision(true);  // the pair filter decides
@@ -177,14 +183,32 @@ void Articulations::build(const Tree& tree) {
         multiBody.setBaseVel(toBullet(scenario_.bodies[base].velocity));
         multiBody.setBaseOmega(toBullet(scenario_.bodies[base].angularVelocity));
     }
-    for (std::size_t i = 0; i < tree.edges.size(); ++i)
-        setCoordinates(multiBody, static_cast<int>(i), tree.edges[i]);
+    if (rooted) {
+        const scenario::Body& body = scenario_.bodies[base];
+        multiBody.setJointVel(0, scalar(body.velocity.x));
+        multiBody.setJointVel(1, scalar(body.velocity.y));
+        multiBody.setJointVel(2, scalar(body.angularVelocity.z));
+    }
+    for (std::size_t i = 0; i < tree.edges.size(); ++i) setCoordinates(multiBody, linkOf(i), tree.edges[i]);
     world_.addMultiBody(&multiBody);
-    if (!fixed) addCollider(tree.base);
+    if (!held) addCollider(tree.base);
     for (const Edge& edge : tree.edges) addCollider(edge.child);
-    for (std::size_t i = 0; i < tree.edges.size(); ++i)
-        addDrives(multiBody, static_cast<int>(i), tree.edges[i]);
+    for (std::size_t i = 0; i < tree.edges.size(); ++i) addDrives(multiBody, linkOf(i), tree.edges[i]);
     for (const Joint* joint : tree.loops) closeLoop(multiBody, *joint);
+}
+
+/// Two links without mass that travel, then the body on a hinge: in frames that do not turn, where the
+/// velocity of free flight stays as it is.
+void Articulations::addFloatingRoot(btMultiBody& multiBody, int body) {
+    const auto i = static_cast<std::size_t>(body);
+    const btTransform pose = startPose(body);
+    const btQuaternion straight = btQuaternion::getIdentity();
+    const btVector3 none(0, 0, 0);
+    multiBody.setupPrismatic(0, 0, none, -1, straight, btVector3(1, 0, 0), pose.getOrigin(), none, false);
+    multiBody.setupPrismatic(1, 0, none, 0, straight, btVector3(0, 1, 0), none, none, false);
+    multiBody.setupRevolute(2, scalar(scenario_.bodies[i].massProperties.mass), sources_[i].moments, 1,
+                            pose.getRotation().inverse(), pose.getBasis().transpose() * btVector3(0, 0, 1),
+                            none, none);
 }
 
 void Articulations::addLink(btMultiBody& multiBody, int index, const Edge& edge) {
@@ -202,7 +226,7 @@ void Articulations::addLink(btMultiBody& multiBody, int index, const Edge& edge)
     const btVector3& moments = sources_[child].moments;
     const int parent =
         edge.parent == scenario::kNone ? -1 : links_[static_cast<std::size_t>(edge.parent)].index;
-    if (joint.type == JointType::Hinge)
+    if (joint.type == JointType::Hinge || (joint.type == JointType::Ball && settings_.planar))
         multiBody.setupRevolute(index, mass, moments, parent, turn, axisHere, toJoint, fromJoint);
     else if (joint.type == JointType::Slider)
         multiBody.setupPrismatic(index, mass, moments, parent, turn, axisHere, toJoint, fromJoint, false);
@@ -228,17 +252,18 @@ void Articulations::setCoordinates(btMultiBody& multiBody, int index, const Edge
     };
     const Vec3 axis = rotate(body.pose.orientation, edge.turned ? joint.axisA : joint.axisB);
     const Vec3 turn = turnOf(edge.child) - turnOf(edge.parent);
-    if (joint.type == JointType::Hinge) multiBody.setJointVel(index, scalar(dot(turn, axis)));
+    const bool planarBall = joint.type == JointType::Ball && settings_.planar;
+    if (joint.type == JointType::Hinge || planarBall) multiBody.setJointVel(index, scalar(dot(turn, axis)));
     if (joint.type == JointType::Slider)
         multiBody.setJointVel(index, scalar(dot(at(edge.child) - at(edge.parent), axis)));
-    if (joint.type == JointType::Ball) {
+    if (joint.type == JointType::Ball && !planarBall) {
         const btVector3 here = startPose(edge.child).getBasis().transpose() * toBullet(turn);
         const btScalar rates[] = {here.x(), here.y(), here.z()};
         multiBody.setJointVelMultiDof(index, rates);
     }
 }
 
-/// Limits and motors; the coordinate of a turned joint runs backwards.
+/// Limits, motors and springs; the coordinate of a turned joint runs backwards.
 void Articulations::addDrives(btMultiBody& multiBody, int index, const Edge& edge) {
     const scenario::JointAxis& axis = edge.joint->axes[0];
     const double sign = edge.turned ? -1.0 : 1.0;
@@ -252,9 +277,28 @@ void Articulations::addDrives(btMultiBody& multiBody, int index, const Edge& edg
     if (axis.hasMotor())
         addConstraint(std::make_unique<btMultiBodyJointMotor>(
             &multiBody, index, scalar(sign * axis.motorSpeed), scalar(axis.motorMaxForce * settings_.dt)));
+    if (!axis.hasSpring()) return;
+    const auto endOf = [&](int body) {
+        if (body == scenario::kNone) return JointEnd{};
+        const auto i = static_cast<std::size_t>(body);
+        return JointEnd{nullptr, sources_[i].comFrame, scenario_.bodies[i].pose, &scenario_.bodies[i]};
+    };
+    const SpringLaw law = springLawOf(*edge.joint, endOf(edge.joint->bodyA), endOf(edge.joint->bodyB));
+    springs_.push_back({&multiBody, index, law.stiffness, law.damping, sign * axis.target});
 }
 
-/// A ball joint is one coincident point, a hinge two of its axis (one row of six is then redundant).
+void Articulations::pullSprings() {
+    for (const Spring& spring : springs_) {
+        btMultiBody& multiBody = *spring.multiBody;
+        const btScalar stretch = multiBody.getJointPos(spring.index) - scalar(spring.target);
+        const btScalar pull =
+            scalar(spring.stiffness) * stretch + scalar(spring.damping) * multiBody.getJointVel(spring.index);
+        multiBody.addJointTorque(spring.index, -pull);
+    }
+}
+
+/// A ball joint is one coincident point, a hinge two of its axis (one row of six is then redundant), in the
+/// plane one.
 void Articulations::closeLoop(btMultiBody& multiBody, const Joint& joint) {
     // The first end is one that moves.
     const bool fromB = moves(scenario_, joint.bodyB);
@@ -271,10 +315,12 @@ void Articulations::closeLoop(btMultiBody& multiBody, const Joint& joint) {
             &multiBody, linkOf(first), &multiBody, linkOf(second), poseA.inverse() * toBullet(point),
             poseB.inverse() * toBullet(point)));
     };
-    if (joint.axes[0].hasMotor() || joint.axes[0].mode == scenario::AxisMode::Limited)
-        throw adapter::notInAdapter("bullet", "limit or motor of a joint that closes a loop of a btMultiBody",
+    const scenario::JointAxis& drive = joint.axes[0];
+    if (drive.hasMotor() || drive.hasSpring() || drive.mode == scenario::AxisMode::Limited)
+        throw adapter::notInAdapter("bullet",
+                                    "limit, motor or spring of a joint that closes a loop of a btMultiBody",
                                     "joint '" + joint.name + "'");
-    if (joint.type == JointType::Ball) {
+    if (joint.type == JointType::Ball || (joint.type == JointType::Hinge && settings_.planar)) {
         pin(anchor);
     } else if (joint.type == JointType::Hinge) {
         pin(anchor + 0.5 * axis);

@@ -3,7 +3,8 @@
 //
 // Bodies on joints in reduced coordinates: btMultiBody, Featherstone's articulated-body algorithm. Every set
 // of dynamic bodies that joints connect becomes one multibody: a spanning tree of its joints from the world,
-// or from its first body where nothing holds it, and constraints for the joints that close loops.
+// or from its first body where nothing holds it, and constraints for the joints that close loops. In the
+// plane a first body that nothing holds is a link too, which travels along x and y and turns about z.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
@@ -25,6 +26,7 @@ struct ArticulationSettings {
     bool rungeKutta = false;       ///< RK4 instead of semi-implicit Euler
     bool gyroscopic = true;
     bool maySleep = false;
+    bool planar = false;  ///< everything stays in the plane z = 0
 };
 
 class Articulations {
@@ -40,7 +42,7 @@ class Articulations {
 
     /// Which bodies become links: the dynamic ones that a joint names. Throws Unsupported where btMultiBody
     /// lacks what their joints ask for.
-    static std::vector<bool> linkedBodies(const adapter::Scenario& scenario, bool planar);
+    static std::vector<bool> linkedBodies(const adapter::Scenario& scenario);
 
     /// Adds the multibodies to the world; `sources` is indexed by body.
     Articulations(const adapter::Scenario& scenario, std::vector<LinkSource> sources,
@@ -56,6 +58,8 @@ class Articulations {
     double mass(int body) const;
     btVector3 moments(int body) const;
     void addForce(int body, const btVector3& force, const btVector3& torque);  ///< of the next step
+    /// Torques and forces of the joints' springs and dampers at the present state, for the next step.
+    void pullSprings();
     bool asleep(int body) const;
     int loops() const { return loops_; }
 
@@ -66,10 +70,17 @@ class Articulations {
         btTransform pose = btTransform::getIdentity();
         btVector3 velocity{0, 0, 0}, angularVelocity{0, 0, 0};
     };
+    /// Of a hinge or slider of the tree; q is Bullet's coordinate of the link.
+    struct Spring {
+        btMultiBody* multiBody = nullptr;
+        int index = 0;
+        double stiffness = 0.0, damping = 0.0, target = 0.0;
+    };
     struct Edge;
     struct Tree;
 
     void build(const Tree& tree);
+    void addFloatingRoot(btMultiBody& multiBody, int body);
     void addLink(btMultiBody& multiBody, int index, const Edge& edge);
     void setCoordinates(btMultiBody& multiBody, int index, const Edge& edge);
     void addDrives(btMultiBody& multiBody, int index, const Edge& edge);
@@ -86,6 +97,7 @@ class Articulations {
     std::vector<std::unique_ptr<btMultiBody>> multiBodies_;
     std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
     std::vector<std::unique_ptr<btMultiBodyConstraint>> constraints_;
+    std::vector<Spring> springs_;
     int loops_ = 0;
 };
 

@@ -107,6 +107,10 @@ void BulletWorld::appendJointLedger(std::vector<LedgerEntry>& lines) const {
             Realisation::Approximate,
             "forces of the velocities at the start of the step (explicit): fast spherical joints gain "
             "energy");
+        if (sprung || dampers)
+            add("joint_springs", "stiffness and damping of the coordinate",
+                "torque of the start of the step (btMultiBody::addJointTorque)", Realisation::Approximate,
+                "explicit in position and velocity: what swings or decays faster than 2/dt grows");
         return;
     }
     if (hinges)

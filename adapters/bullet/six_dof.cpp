@@ -84,10 +84,6 @@ RotateOrder rotationOrder(const Layout& layout) {
     return RO_XYZ;
 }
 
-struct SpringLaw {
-    double stiffness = 0.0, damping = 0.0;
-};
-/// A frequency is that of the coordinate's effective mass at the initial poses, the locked coordinates held.
 SpringLaw springLaw(const Layout& layout, std::size_t k, const Joint& joint, const JointEnd& a,
                     const JointEnd& b) {
     const JointAxis& axis = *layout.axis[k];
@@ -138,6 +134,10 @@ Range rangeOf(const JointAxis* axis, bool turn, const Joint& joint) {
 }
 
 }  // namespace
+
+SpringLaw springLawOf(const Joint& joint, const JointEnd& a, const JointEnd& b) {
+    return springLaw(layoutOf(joint, a, b), joint.type == JointType::Slider ? 0 : 3, joint, a, b);
+}
 
 BuiltJoint buildSixDof(const Joint& joint, const JointEnd& a, const JointEnd& b,
                        const JointSettings& settings) {

@@ -6,6 +6,13 @@
 
 namespace rigor::bullet {
 
+/// Of the coordinate of a hinge or slider.
+struct SpringLaw {
+    double stiffness = 0.0, damping = 0.0;  ///< [N/m, N s/m] or [N m/rad, N m s/rad]
+};
+/// A frequency is that of the coordinate's effective mass at the initial poses, the locked coordinates held.
+SpringLaw springLawOf(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b);
+
 /// six_dof, wheel, and hinges and sliders with a spring as btGeneric6DofSpring2Constraint. Throws
 /// Unsupported.
 BuiltJoint buildSixDof(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,

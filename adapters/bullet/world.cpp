@@ -65,7 +65,7 @@ BulletWorld::BulletWorld(const Scenario& scenario, double dt, const Settings& se
     createPipeline();
     configureSolver();
     linked_.resize(scenario_.bodies.size());
-    if (is("articulation", "multibody")) linked_ = Articulations::linkedBodies(scenario_, planar_);
+    if (is("articulation", "multibody")) linked_ = Articulations::linkedBodies(scenario_);
     for (int i = 0; i < static_cast<int>(scenario_.bodies.size()); ++i) addBody(i);
     groundShape_ = std::make_unique<btEmptyShape>();
     ground_ = std::make_unique<btRigidBody>(btScalar(0.0), nullptr, groundShape_.get());
@@ -303,11 +303,13 @@ void BulletWorld::articulate() {
                            &record->tag, record->body->getContactProcessingThreshold()});
     ArticulationSettings settings;
     settings.dt = dt_;
-    settings.damping = numberSetting(settings_, "multibody_damping");
+    // Rounded as the library's own default is, a float literal in either precision.
+    settings.damping = static_cast<double>(static_cast<float>(numberSetting(settings_, "multibody_damping")));
     settings.maximalVelocity = numberSetting(settings_, "multibody_velocity_limit");
     settings.rungeKutta = is("multibody_integrator", "rk4");
     settings.gyroscopic = !is("gyroscopic", "none");
     settings.maySleep = is("sleeping", "on");
+    settings.planar = planar_;
     articulations_ = std::make_unique<Articulations>(
         scenario_, std::move(sources), static_cast<btMultiBodyDynamicsWorld&>(*world_), settings);
 }
@@ -338,7 +340,10 @@ void BulletWorld::step() {
     std::vector<btMatrix3x3> bases;
     if (externalGyro_)
         for (const auto& record : records_) bases.push_back(record->body->getWorldTransform().getBasis());
-    if (articulations_) pullScaledGravity();
+    if (articulations_) {
+        pullScaledGravity();
+        articulations_->pullSprings();
+    }
     // Zero sub-steps allowed means: exactly one step of this length.
     world_->stepSimulation(static_cast<btScalar>(dt_), 0);
     if (articulations_) articulations_->update();

@@ -4,6 +4,7 @@
 // articulation=multibody: btMultiBody against closed forms and integrated equations, and what its defaults
 // do.
 #include <cmath>
+#include <numbers>
 
 #include "adapters/interface/tests/scenes.hpp"
 
@@ -199,19 +200,131 @@ TEST(BulletArticulation, LinksTouchTheFloor) {
     EXPECT_NEAR(impulse, 2 * 9.81 / 240, 2e-3);
 }
 
+/// Symplectic Euler of I q'' = -k (q - target) - c q' with the spring's torque of the start of the step.
+double swung(double inertia, double k, double c, double target, double dt, int steps) {
+    double q = 0.0, rate = 0.0;
+    for (int i = 0; i < steps; ++i) rate -= dt / inertia * (k * (q - target) + c * rate), q += dt * rate;
+    return q;
+}
+
+TEST(BulletArticulation, SpringsPullWithTheForceOfTheStartOfTheStep) {
+    for (const bool turned : {false, true}) {
+        Scenario s = rodOnAHinge(turned);
+        s.gravity = {};
+        auto& axis = s.joints[0].axes[0];
+        axis.stiffness = 20.0, axis.damping = 0.3, axis.target = turned ? -0.4 : 0.4;
+        Simulation given(s, 1.0 / 120, kMatched);
+        given.steps(100);
+        EXPECT_NEAR(foundAngle(given.state(0)), swung(1.0 / 3, 20, 0.3, 0.4, 1.0 / 120, 100),
+                    tol(1e-10, 1e-4));
+        EXPECT_EQ(given.ledgerLine("joint_springs")->realisation, adapter::Realisation::Approximate);
+
+        // 1 Hz on the rod's moment about its hinge.
+        const double omega = 2.0 * std::numbers::pi;
+        axis.stiffness = axis.damping = 0.0, axis.frequency = 1.0, axis.dampingRatio = 0.1;
+        Simulation tuned(s, 1.0 / 120, kMatched);
+        tuned.steps(100);
+        EXPECT_NEAR(foundAngle(tuned.state(0)), swung(1, omega * omega, 0.2 * omega, 0.4, 1.0 / 120, 100),
+                    tol(1e-10, 1e-4));
+    }
+}
+
+TEST(BulletArticulation, ADamperOnASliderIsASpringWithoutStiffness) {
+    Scenario s = scene();
+    s.gravity = {0, -10, 0};
+    const int b = addBody(s, Box{{0.1, 0.1, 0.1}}, {0, 0, 0}, 2.0);
+    s.joints.push_back(joint(JointType::Slider, scenario::kNone, b, {}, {}, {0, 1, 0}));
+    s.joints[0].axes[0].damping = 4.0;
+    Simulation run(s, 1.0 / 240, kMatched);
+    run.seconds(10);
+    EXPECT_NEAR(run.state(b).velocity.y, -5.0, tol(1e-6, 1e-3)) << "m g / c";
+}
+
 TEST(BulletArticulation, WhatItLacksIsRefused) {
     Scenario s = rodOnAHinge();
-    s.joints[0].axes[0].stiffness = 10;
-    EXPECT_THROW(Simulation(s, 0.01, kMatched), adapter::Unsupported);
-    s.joints[0].axes[0].stiffness = 0;
+    const auto refusal = [](const Scenario& scenario) {
+        try {
+            Simulation(scenario, 0.01, kMatched);
+        } catch (const adapter::Unsupported& refused) {
+            return std::string(adapter::refusalName(refused.refusal()));
+        }
+        return std::string("none");
+    };
     s.joints[0].breakForce = 10;
-    EXPECT_THROW(Simulation(s, 0.01, kMatched), adapter::Unsupported);
+    EXPECT_EQ(refusal(s), "adapter");
+    s.joints[0].breakForce = 1e300;
+    s.joints[0].type = JointType::Wheel;
+    EXPECT_EQ(refusal(s), "library");
+    s.joints[0].type = JointType::Hinge;
     s.joints[0].breakForce = 1e300;
     s.bodies[1].type = BodyType::Kinematic;
     EXPECT_THROW(Simulation(s, 0.01, kMatched), adapter::Unsupported);
     s.bodies[1].type = BodyType::Static;
     EXPECT_THROW(Simulation(s, 0.01, kMatched + ",solver=nncg"), adapter::Unsupported);
     EXPECT_NO_THROW(Simulation(s, 0.01, kMatched));
+}
+
+/// The scene of `space` in the plane.
+Scenario inThePlane(Scenario space) {
+    space.dimension = 2;
+    return space;
+}
+
+TEST(BulletArticulation, APendulumOfThePlaneIsTheOneInSpace) {
+    for (const JointType type : {JointType::Hinge, JointType::Ball}) {
+        Scenario flat = inThePlane(rodOnAHinge());
+        flat.joints[0].type = type;
+        Simulation run(flat, 1.0 / 240, kMatched), space(rodOnAHinge(), 1.0 / 240, kMatched);
+        run.seconds(1), space.seconds(1);
+        EXPECT_NEAR(norm(run.state(0).position - space.state(0).position), 0.0, tol(1e-13, 1e-5));
+    }
+}
+
+/// Nothing holds the two bodies to the world: their first body floats, in frames that do not turn.
+TEST(BulletArticulation, ATreeOfThePlaneFloats) {
+    Scenario s = scene(0.0, 0.0, 2);
+    s.gravity = {0, -9.81, 0};
+    const int a = addBody(s, Box{{0.2, 0.1, 0.0}}, {0, 0, 0}, 2.0);
+    s.bodies[0].angularVelocity = {0, 0, 5};
+    s.bodies[0].velocity = {1, 2, 0};
+    const int b = addBody(s, Box{{0.2, 0.1, 0.0}}, {0, 0, 0}, 1.0);
+    s.bodies[1].angularVelocity = {0, 0, -5};
+    s.bodies[1].velocity = {1, 2, 0};
+    s.bodies[1].pose.orientation = scenario::fromAxisAngle({0, 0, 1}, 0.7);
+    for (auto& body : s.bodies) body.collides = false;
+    s.joints.push_back(joint(JointType::Hinge, a, b, {}, {}));
+    Simulation run(s, 1.0 / 120, kMatched);
+    run.seconds(1);
+    for (const int i : {a, b}) {
+        EXPECT_NEAR(run.state(i).position.x, 1.0, tol(1e-12, 1e-4));
+        // Symplectic Euler: g h^2 n (n + 1) / 2.
+        EXPECT_NEAR(run.state(i).position.y, 2.0 - 9.81 * 121 / 240, tol(1e-11, 1e-4));
+        EXPECT_NEAR(run.state(i).angularVelocity.z, i == a ? 5.0 : -5.0, tol(1e-12, 1e-4));
+        EXPECT_EQ(run.state(i).position.z, 0.0);
+    }
+    EXPECT_NEAR(2.0 * std::acos(std::abs(run.state(b).orientation.w)),
+                std::abs(std::remainder(0.7 - 5.0, 2 * std::numbers::pi)), tol(1e-7, 1e-3));
+}
+
+TEST(BulletArticulation, LinksOfThePlaneTouchTheFloorAndStayInIt) {
+    Scenario s = scene(0.5, 0.0, 2);
+    s.gravity = {0, -9.81, 0};
+    addStatic(s, HalfSpace{{0, 1, 0}, 0.0});
+    const int a = addBody(s, Box{{0.2, 0.2, 0.0}}, {0, 1, 0});
+    const Quat tilted = scenario::fromAxisAngle({0, 0, 1}, 0.3);
+    const int b = addBody(s, Box{{0.2, 0.2, 0.0}}, Vec3{0.3, 1, 0} + rotate(tilted, Vec3{0.3, 0, 0}));
+    s.bodies[2].pose.orientation = tilted;
+    s.joints.push_back(joint(JointType::Hinge, a, b, {0.3, 0, 0}, {-0.3, 0, 0}));
+    Simulation run(s, 1.0 / 240, kMatched);
+    run.seconds(2);
+    for (const int i : {a, b}) {
+        EXPECT_NEAR(run.state(i).position.y, 0.2, 5e-3);
+        EXPECT_EQ(run.state(i).orientation.x, 0.0);
+        EXPECT_EQ(run.state(i).velocity.z, 0.0);
+    }
+    double impulse = 0.0;
+    for (const ContactPoint& contact : run.contacts()) impulse += contact.normalImpulse;
+    EXPECT_NEAR(impulse, 2 * 9.81 / 240, 2e-3);
 }
 
 }  // namespace

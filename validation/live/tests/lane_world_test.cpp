@@ -40,8 +40,8 @@ class Lanes : public testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(Engines, Lanes, testing::Values("rigor", "bullet", "ode"),
                          [](const auto& one) { return std::string(one.param); });
 
-/// With snapshots (rigor) and by running again (the others): every earlier state comes back, bit for bit, and
-/// the future after it, a drag in between included.
+/// By snapshots of the state (rigor, ode) and of the log (bullet): every earlier state comes back, bit for
+/// bit, and the future after it, a drag in between included.
 TEST_P(Lanes, GoBackToTheSameBits) {
     const auto world = lane(GetParam());
     std::vector<std::vector<double>> states{bits(*world)};
