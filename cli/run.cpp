@@ -22,6 +22,7 @@
 #include "validation/runner/process_pool.hpp"
 #include "validation/runner/runner.hpp"
 #include "validation/runner/scenario_settings.hpp"
+#include "validation/symmetry/listing.hpp"
 
 namespace rigor::cli {
 namespace {
@@ -30,6 +31,7 @@ struct Arguments {
     std::string scenario, engine = validation::kInHouseEngine, timeStep, csv, log;
     std::vector<std::string> overrides;
     validation::ReferenceLimits referenceLimits;
+    int order = 1;
     bool json = false;
 };
 
@@ -164,6 +166,17 @@ validation::LiveCase runEngine(const scenario::Scenario& s, const adapter::Engin
     }
 }
 
+/// The scenario in one of the orders that `rigor validate --orders` runs; 1 is the one as written.
+validation::Transformed otherOrder(const scenario::Scenario& s, int order) {
+    const auto others = static_cast<std::size_t>(order - 1);
+    const auto listings = validation::otherListings(s, others);
+    if (listings.size() < others)
+        throw std::invalid_argument("--order: found " + std::to_string(order) + ", expected at most " +
+                                    std::to_string(listings.size() + 1) + ": so many orders '" + s.name +
+                                    "' has");
+    return validation::listed(s, listings.back());
+}
+
 int runHere(const Arguments& a) {
     validation::ReferenceCheck reference;
     const auto loaded = loadWithReference(a.scenario, a.overrides, a.referenceLimits, false, &reference);
@@ -185,7 +198,9 @@ int runHere(const Arguments& a) {
     options.onSimulated = [&] {
         validation::setAlarm((a.referenceLimits.seconds + 0.5 * s.timeLimit) * validation::timeLimitFactor());
     };
-    validation::EventLog log(s, dt, logWhat(a.log));
+    if (a.order > 1) options.given = otherOrder(s, a.order);
+    const scenario::Scenario& given = options.given ? options.given->scenario : s;
+    validation::EventLog log(given, dt, logWhat(a.log));
     validation::EventLog::Told told;
     if (!a.log.empty())
         options.onWorld = [&](const adapter::World& world) {
@@ -194,7 +209,7 @@ int runHere(const Arguments& a) {
         };
     options.onStep = [&](double time, std::span<const validation::BodyState> states,
                          const std::vector<validation::ContactPoint>& contacts) {
-        if (csv != nullptr) writeCsvRows(*csv, time, states, s);
+        if (csv != nullptr) writeCsvRows(*csv, time, states, given);
         if (!a.log.empty()) writeLog(log.step(time, states, contacts, told));
     };
     const auto live = runEngine(
@@ -296,6 +311,10 @@ void addRun(CLI::App& app, Action& action) {
             "Follow the run on standard error, a line for each event: contacts (begin, persist, end), "
             "events (begin, end, impact, break, sleep, wake), all")
         ->check(CLI::IsMember({"contacts", "events", "all"}));
+    command
+        ->add_option("--order", a->order,
+                     "In the K-th order of insertion, as of `rigor validate --orders`; 1: as written")
+        ->check(CLI::Range(1, 1000));
     addReferenceLimit(*command, a->referenceLimits);
     command->add_flag("--json", a->json, "Print the result as JSON");
     command->callback([a, &action] { action = [a] { return runGuarded(*a, [a] { return runHere(*a); }); }; });

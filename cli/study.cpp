@@ -20,7 +20,7 @@ struct Arguments {
     std::string study, out;
     std::vector<std::string> parts;
     validation::ReferenceLimits referenceLimits;
-    int jobs = 1;
+    int jobs = 1, orders = 1;
     bool resume = false, audit = false, json = false, quiet = false;
 };
 
@@ -64,7 +64,7 @@ int runStudy(const Arguments& a) {
     prepareRunFolder(options.directory, a.resume);
     options.binary = ownBinary(), options.jobs = a.jobs, options.resume = a.resume;
     options.audit = a.audit || validation::asksForAudit(study), options.suite = study.name;
-    options.command = ownCommandLine();
+    options.command = ownCommandLine(), options.orders = a.orders;
     if (options.resume) {
         validation::extendFromFolder(plan, options.directory);
         checkResumed(options.directory, plan.cases);
@@ -104,6 +104,11 @@ void addStudy(CLI::App& app, Action& action) {
     command->add_option("--out", a->out, "Run folder (default: runs/<study>-<time>)");
     command->add_option("-j,--jobs", a->jobs, "Cases at a time (default 1: timings are taken alone)")
         ->check(CLI::Range(1, 1024));
+    command
+        ->add_option(
+            "--orders", a->orders,
+            "Run every case in so many orders of insertion; ranges stand in the store and the report")
+        ->check(CLI::Range(1, 1000));
     addReferenceLimit(*command, a->referenceLimits);
     command->add_flag("--resume", a->resume, "Go on with an interrupted run (--out, or the latest)");
     command->add_flag("--audit", a->audit,

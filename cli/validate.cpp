@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::vector<std::string> what, overrides, timeSteps;
     std::string engines, out, baseline;
-    int jobs = 0;
+    int jobs = 0, orders = 0;
     std::vector<int> pieces;
     validation::ReferenceLimits referenceLimits;
     bool resume = false, noAudit = false, json = false, quiet = false;
@@ -49,6 +49,7 @@ struct Selection {
     std::vector<double> timeSteps;
     std::map<std::string, validation::ReferenceCheck> references;
     std::string title;
+    int orders = 1;
 };
 
 void addScenario(Selection& selection, const std::string& name, const Arguments& arguments,
@@ -84,6 +85,7 @@ Selection select(const Arguments& arguments) {
         const auto suite = scenario::loadSuite(scenario::findSuite(name));
         for (const auto& scenarioName : suite.scenarios)
             addScenario(selection, scenarioName, arguments, suite.maxTimeSteps);
+        selection.orders = std::max(selection.orders, suite.orders);
         selection.engines.insert(selection.engines.end(), suite.engines.begin(), suite.engines.end());
         selection.timeSteps.insert(selection.timeSteps.end(), suite.timeSteps.begin(), suite.timeSteps.end());
     }
@@ -130,7 +132,16 @@ nlohmann::ordered_json caseJson(const results::CaseRow& c) {
         if (m.relative) metrics.back()["relative"] = *m.relative;
         if (m.ideal) metrics.back()["ideal"] = *m.ideal;
         if (m.recorded) metrics.back()["recorded"] = *m.recorded;
+        if (m.orderCount)
+            metrics.back()["orders"] = {{"min", *m.orderMin}, {"max", *m.orderMax}, {"count", *m.orderCount}};
     }
+    nlohmann::ordered_json orders = nullptr;
+    if (c.orders.run)
+        orders = {{"run", *c.orders.run},
+                  {"completed", *c.orders.completed},
+                  {"grade_best", results::gradeName(c.orders.best)},
+                  {"grade_worst", results::gradeName(c.orders.worst)},
+                  {"note", c.orders.note}};
     return {{"name", c.scenario},
             {"id", c.id},
             {"spec", c.spec},
@@ -143,6 +154,7 @@ nlohmann::ordered_json caseJson(const results::CaseRow& c) {
             {"regression", results::regressionName(c.regression)},
             {"regression_reason", c.regressionReason},
             {"red", results::isRed(c)},
+            {"orders", orders},
             {"command", c.command},
             {"metrics", metrics}};
 }
@@ -192,6 +204,7 @@ int validate(const Arguments& given) {
     options.records = recordedFolder();
     options.suite = selection.title;
     options.pieces = arguments.pieces;
+    options.orders = arguments.orders > 0 ? arguments.orders : selection.orders;
     options.referenceLimits = arguments.referenceLimits, options.references = selection.references;
     options.command = ownCommandLine();
 
@@ -249,6 +262,11 @@ void addValidate(CLI::App& app, Action& action) {
                      "`rigor pieces`)")
         ->delimiter(',')
         ->check(CLI::Range(1, 1000000));
+    command
+        ->add_option("--orders", a->orders,
+                     "Run every case in so many orders of insertion (bodies, shapes, joints, forces): as "
+                     "written, reversed, shuffled; ranges stand beside the values (default: the suite's, 1)")
+        ->check(CLI::Range(1, 1000));
     addReferenceLimit(*command, a->referenceLimits);
     command->add_flag("--no-audit", a->noAudit, "Leave out the contact audit");
     command->add_flag("--json", a->json, "Print the results as JSON");

@@ -6,11 +6,11 @@
 namespace rigor::report {
 namespace {
 
-constexpr std::size_t kColumns = 27;
+constexpr std::size_t kColumns = 30;
 constexpr const char* kHeader =
     "scenario,engine,spec,preset,precision,dt,outcome,verdict,metric,subject,kind,value,unit,at,bound,"
     "metric_verdict,note,expectation,exact,scheme_exact,grade,regression,scale,relative,ideal,recorded,"
-    "command,non_finite\n";
+    "order_min,order_max,order_count,command,non_finite\n";
 
 /// The numbers of a line; those that are not finite leave their cell empty and are named at its end.
 class Numbers {
@@ -62,10 +62,30 @@ std::string csvReport(const results::Run& run) {
                               bound = number("bound", m.bound),
                               expectation = number("expectation", m.expectation),
                               scale = number("scale", m.scale), relative = number("relative", m.relative),
-                              ideal = number("ideal", m.ideal), recorded = number("recorded", m.recorded);
-            line({m.name, m.subject, m.kind, value, m.unit, at, bound, results::verdictName(m.verdict),
-                  m.note, expectation, "", "", results::gradeName(row.accuracy.grade),
-                  results::regressionName(row.regression), scale, relative, ideal, recorded},
+                              ideal = number("ideal", m.ideal), recorded = number("recorded", m.recorded),
+                              orderMin = number("order_min", m.orderMin),
+                              orderMax = number("order_max", m.orderMax);
+            line({m.name,
+                  m.subject,
+                  m.kind,
+                  value,
+                  m.unit,
+                  at,
+                  bound,
+                  results::verdictName(m.verdict),
+                  m.note,
+                  expectation,
+                  "",
+                  "",
+                  results::gradeName(row.accuracy.grade),
+                  results::regressionName(row.regression),
+                  scale,
+                  relative,
+                  ideal,
+                  recorded,
+                  orderMin,
+                  orderMax,
+                  m.orderCount ? std::to_string(*m.orderCount) : ""},
                  number.reason());
         }
         for (const auto& q : row.quantities) {

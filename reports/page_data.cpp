@@ -45,6 +45,10 @@ Json metricsJson(const CaseRow& row) {
                         {"relative", number(m.relative)},
                         {"ideal", number(m.ideal)},
                         {"recorded", number(m.recorded)},
+                        {"orderMin", number(m.orderMin)},
+                        {"orderMax", number(m.orderMax)},
+                        {"orderCount", m.orderCount ? Json(*m.orderCount) : Json(nullptr)},
+                        {"dependsOnOrder", dependsOnOrder(m)},
                         {"grade", m.relative ? results::gradeName(results::gradeOf(*m.relative)) : ""}});
     return list;
 }
@@ -122,6 +126,7 @@ Json stepJson(const CaseRow& row, const results::TimingRow& step) {
             {"samples", step.samples},
             {"first", number(step.first)},
             {"mean", number(step.mean)},
+            {"p95", number(step.p95)},
             {"p99", number(step.p99)},
             {"worst", number(step.worst)},
             {"realTimeFactor", number(step.realTimeFactor)},
@@ -142,6 +147,17 @@ Json worstMiss(const CaseRow& row) {
             {"value", number(worst->value)}, {"bound", number(worst->bound)}, {"at", number(worst->at)}};
 }
 
+/// What the order of insertion makes of it; null where it was run in one.
+Json ordersOfCaseJson(const CaseRow& row) {
+    if (!row.orders.run) return nullptr;
+    return {{"run", *row.orders.run},
+            {"completed", row.orders.completed.value_or(0)},
+            {"best", results::gradeName(row.orders.best)},
+            {"worst", results::gradeName(row.orders.worst)},
+            {"depends", dependsOnOrder(row)},
+            {"says", orderSentence(row)}};
+}
+
 /// How near it is to the physics, and whether it changed.
 Json judgementJson(const ViewModel& view, const CaseRow& row) {
     const auto& a = row.accuracy;
@@ -156,7 +172,8 @@ Json judgementJson(const ViewModel& view, const CaseRow& row) {
             {"regression", results::regressionName(row.regression)},
             {"red", results::isRed(row)},
             {"says", accuracySentence(row)},
-            {"change", regressionSentence(row)}};
+            {"change", regressionSentence(row)},
+            {"orders", ordersOfCaseJson(row)}};
 }
 
 /// One line of the scoreboard and of the timing table.
@@ -172,6 +189,7 @@ Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) 
     const auto* main = findMetric(row, view.mainMetric(scenario).name);
     brief["value"] = main ? number(main->value) : Json(nullptr);
     brief["bound"] = main ? number(main->bound) : Json(nullptr);
+    brief["range"] = main && dependsOnOrder(*main) ? Json(orderRangeText(*main)) : Json(nullptr);
     const auto* timing = stepTiming(row);
     brief["step"] = timing ? stepJson(row, *timing) : Json(nullptr);
     brief["inRun"] = inRunJson(row);
@@ -219,6 +237,23 @@ Json standingJson(const Standing& s) {
             {"within", s.within()},       {"ungraded", s.ungraded}, {"known", s.known},
             {"farther", s.farther},       {"red", s.red},           {"toBest", number(s.toBest)},
             {"toOurs", number(s.toOurs)}, {"cost", number(s.cost)}, {"costRatio", number(s.costRatio)}};
+}
+
+/// By column, as the page's columns.
+Json costsJson(const ViewModel& view) {
+    Json list = Json::array();
+    for (const StepCost& c : stepCosts(view))
+        list.push_back({{"scenarios", c.scenarios},
+                        {"median", number(c.median)},
+                        {"mean", number(c.mean)},
+                        {"first", number(c.first)},
+                        {"p95", number(c.p95)},
+                        {"p99", number(c.p99)},
+                        {"worst", number(c.worst)},
+                        {"realTimeFactor", number(c.realTimeFactor)},
+                        {"medianRatio", number(c.medianRatio)},
+                        {"meanRatio", number(c.meanRatio)}});
+    return list;
 }
 
 Json mechanismJson(const Mechanism& m) {
@@ -412,6 +447,7 @@ std::string overviewJson(const ViewModel& view) {
                  {"mechanisms", mechanismsJson(view.mechanisms())},
                  {"tasks", mechanismsJson(view.tasks())},
                  {"overall", mechanismJson(view.overall())},
+                 {"costs", costsJson(view)},
                  {"audit", gatheredAudit(run)},
                  {"ledger", gatheredLedger(view)}});
 }

@@ -119,6 +119,7 @@ std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t co
             text += c->regression == Regression::Worse ? "▼" : "▲";
             break;
         }
+    if (dependsOnOrder(row)) text += "↕";
     const MetricRow* m = findMetric(row, view.mainMetric(scenario).name);
     if (withNumber && m != nullptr && !isLost) text += " " + shortNumber(m->value);
     return text;

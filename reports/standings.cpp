@@ -3,7 +3,10 @@
 //
 // How engines did over sets of scenarios: counted here once, for terminal, summary, tables and page.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <tuple>
 
 #include "reports/view_model.hpp"
@@ -172,6 +175,80 @@ Mechanism standingsOver(const ViewModel& view, const std::vector<std::size_t>& s
     }
     rank(m);
     return m;
+}
+
+namespace {
+
+/// What of the timing of a step is gathered over scenarios.
+struct CostField {
+    double StepCost::*to;
+    std::optional<double> (*of)(const results::TimingRow&);
+};
+constexpr CostField kCostFields[] = {
+    {&StepCost::median, [](const results::TimingRow& t) { return std::optional(t.median); }},
+    {&StepCost::mean, [](const results::TimingRow& t) { return t.mean; }},
+    {&StepCost::p95, [](const results::TimingRow& t) { return t.p95; }},
+    {&StepCost::p99, [](const results::TimingRow& t) { return t.p99; }},
+    {&StepCost::worst, [](const results::TimingRow& t) { return t.worst; }},
+    {&StepCost::first, [](const results::TimingRow& t) { return t.first; }},
+    {&StepCost::realTimeFactor, [](const results::TimingRow& t) { return t.realTimeFactor; }}};
+
+/// The step of every column in one scenario; null where it was not timed or did not complete.
+std::vector<const results::TimingRow*> stepsOf(const ViewModel& view, std::size_t scenario) {
+    std::vector<const results::TimingRow*> steps;
+    const double finest = finestOf(view, scenario);
+    for (std::size_t c = 0; c < view.columns().size(); ++c) {
+        const CaseRow* row = caseAt(view.cell(scenario, c), finest);
+        const bool completed = row != nullptr && row->outcome == Outcome::Completed;
+        steps.push_back(completed ? stepTiming(*row) : nullptr);
+    }
+    return steps;
+}
+
+double leastOf(const std::vector<const results::TimingRow*>& steps, const CostField& field) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto* step : steps)
+        if (const auto value = step ? field.of(*step) : std::nullopt; value && *value > 0.0)
+            least = std::min(least, *value);
+    return least;
+}
+
+}  // namespace
+
+std::vector<StepCost> stepCosts(const ViewModel& view) {
+    std::vector<StepCost> costs(view.columns().size());
+    std::vector<std::array<std::vector<double>, std::size(kCostFields)>> values(costs.size());
+    std::vector<GeometricMean> medianRatios(costs.size()), meanRatios(costs.size());
+    for (std::size_t s = 0; s < view.run().scenarios.size(); ++s) {
+        const auto steps = stepsOf(view, s);
+        const double leastMedian = leastOf(steps, kCostFields[0]), leastMean = leastOf(steps, kCostFields[1]);
+        for (std::size_t c = 0; c < steps.size(); ++c) {
+            if (steps[c] == nullptr) continue;
+            ++costs[c].scenarios;
+            for (std::size_t f = 0; f < std::size(kCostFields); ++f)
+                if (const auto value = kCostFields[f].of(*steps[c]); value && std::isfinite(*value))
+                    values[c][f].push_back(*value);
+            medianRatios[c].add(steps[c]->median / leastMedian);
+            if (steps[c]->mean) meanRatios[c].add(*steps[c]->mean / leastMean);
+        }
+    }
+    for (std::size_t c = 0; c < costs.size(); ++c) {
+        for (std::size_t f = 0; f < std::size(kCostFields); ++f)
+            if (!values[c][f].empty()) costs[c].*kCostFields[f].to = validation::median(values[c][f]);
+        costs[c].medianRatio = medianRatios[c].value(), costs[c].meanRatio = meanRatios[c].value();
+    }
+    return costs;
+}
+
+std::vector<std::size_t> byCost(const std::vector<StepCost>& costs) {
+    std::vector<std::size_t> order;
+    for (std::size_t c = 0; c < costs.size(); ++c)
+        if (costs[c].scenarios > 0) order.push_back(c);
+    const auto key = [&](std::size_t c) {
+        return std::isnan(costs[c].meanRatio) ? costs[c].medianRatio : costs[c].meanRatio;
+    };
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
+    return order;
 }
 
 std::vector<Mechanism> ViewModel::mechanisms() const {

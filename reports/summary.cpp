@@ -47,7 +47,8 @@ std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
     const std::string end =
         "\nA cell: grade of accuracy (A to 1e-6, B to 1e-4, C to 1e-2, D to 1e-1 of the scenario's own "
         "scale, E "
-        "beyond), △ wrong physics with a reason on file, ▼ ▲ worse or better than on record, and the metric "
+        "beyond), △ wrong physics with a reason on file, ▼ ▲ worse or better than on record, ↕ depends on "
+        "the order of insertion, and the metric "
         "at the "
         "finest time step.\n\n</details>\n";
     std::size_t used = out.size() + end.size() + 100, shown = 0;
@@ -184,8 +185,9 @@ std::string markdownSummary(const ViewModel& view) {
                             "\n\nThe authors of this comparison wrote one of the engines in it (rigor).\n";
     std::string out = headline(view);
     // What tells most comes first, and takes its room first; the scoreboard gets what is left.
-    for (const auto& section : {benchMarkdown(view.run()), withoutReferences(view), trustSection(view),
-                                offenderList(view), refusalSection(view), ordersMarkdown(view)})
+    for (const auto& section :
+         {benchMarkdown(view.run()), withoutReferences(view), trustSection(view), offenderList(view),
+          insertionOrdersMarkdown(view), costMarkdown(view), refusalSection(view), ordersMarkdown(view)})
         if (out.size() + section.size() + end.size() <= kMostBytes) out += section;
     return out + scoreboardSection(view, kMostBytes - std::min(kMostBytes, out.size() + end.size())) + end;
 }

@@ -184,6 +184,39 @@ std::vector<Table> metricsOfScenarios(const ViewModel& view) {
     return tables;
 }
 
+/// One row for each metric of the whole scene in each case that was run in several orders.
+std::vector<Table> insertionOrders(const ViewModel& view) {
+    Table table{"insertion_orders",
+                "Least and greatest value over the orders in which bodies, shapes, joints and forces were "
+                "handed over; value and grade are of the order as written",
+                caseColumns(),
+                {}};
+    for (const char* title : {"metric", "unit"}) table.columns.push_back({title});
+    for (const char* title : {"value", "least", "greatest", "orders with a value", "orders", "completed"})
+        table.columns.push_back({title, ColumnKind::Number});
+    for (const char* title : {"depends on the order", "grade", "best grade", "worst grade", "note"})
+        table.columns.push_back({title});
+    forEachCase(view, [&](std::size_t, const SpecColumn& column, const CaseRow& row) {
+        if (!row.orders.run) return;
+        for (const auto& m : row.metrics) {
+            if (!m.subject.empty() || !m.orderCount) continue;
+            auto cells = caseCells(column, row);
+            for (const auto& text : {m.name, m.unit}) cells.emplace_back(text);
+            cells.emplace_back(m.value);
+            cells.emplace_back(m.orderMin);
+            cells.emplace_back(m.orderMax);
+            for (const std::int64_t n : {*m.orderCount, *row.orders.run, row.orders.completed.value_or(0)})
+                cells.emplace_back(n);
+            cells.emplace_back(dependsOnOrder(m) ? "yes" : "no");
+            for (const auto grade : {row.accuracy.grade, row.orders.best, row.orders.worst})
+                cells.emplace_back(results::gradeName(grade));
+            cells.emplace_back(row.orders.note);
+            table.rows.push_back(cells);
+        }
+    });
+    return {table};
+}
+
 // ---- what it cost ----
 
 std::vector<TableColumn> timingColumns() {
@@ -328,9 +361,11 @@ std::vector<Table> ledger(const ViewModel& view) {
 
 const std::vector<TableEntry>& tableEntries() {
     static const std::vector<TableEntry> entries{
-        {"scoreboard", scoreboard},   {"trust", trust},   {"accuracy", accuracy},
-        {"timing", timing},           {"phases", phases}, {"audit", audit},
-        {"contacts", contactsOfRuns}, {"ledger", ledger}, {"scenarios", metricsOfScenarios},
+        {"scoreboard", scoreboard}, {"trust", trust},
+        {"accuracy", accuracy},     {"insertion_orders", insertionOrders},
+        {"timing", timing},         {"phases", phases},
+        {"audit", audit},           {"contacts", contactsOfRuns},
+        {"ledger", ledger},         {"scenarios", metricsOfScenarios},
         {"bench", benchTables}};
     return entries;
 }

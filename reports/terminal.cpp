@@ -306,6 +306,64 @@ std::vector<std::string> offenderLines(const ViewModel& view, const Names& names
     return lines;
 }
 
+/// What a step costs, the cheapest first: by median and by mean, the first step apart, with the accuracy of
+/// the same runs.
+std::vector<std::string> costLines(const ViewModel& view, const Names& names, std::size_t most,
+                                   std::size_t width, const Painter& paint) {
+    std::vector<std::string> lines;
+    const auto costs = stepCosts(view);
+    const auto order = byCost(costs);
+    if (order.empty() || most < 2) return lines;
+    std::string title = "Cost of a step";
+    if (order.size() + 1 > most)
+        title += ", the cheapest " + std::to_string(most - 1) + " of " + std::to_string(order.size());
+    title += " (cases within 1e-2; medians over scenarios; the first step apart)";
+    lines.push_back(paint(cut(title, width), "1"));
+    const Mechanism overall = view.overall();
+    std::size_t nameWidth = 0;
+    for (const std::size_t c : order)
+        nameWidth = std::max(nameWidth, displayWidth(plain(names.columns[c].label)));
+    nameWidth = std::min(nameWidth, width / 3);
+    for (const std::size_t c : order) {
+        if (lines.size() == most) break;
+        const StepCost& cost = costs[c];
+        const Standing& standing = overall.standings[c];
+        std::string line =
+            "  " + pad(plain(names.columns[c].label), nameWidth) + "  " +
+            pad(std::to_string(standing.within()) + "/" + std::to_string(standing.graded()), 7);
+        const std::pair<const char*, double> parts[] = {{"median", cost.median}, {"mean", cost.mean},
+                                                        {"first", cost.first},   {"p95", cost.p95},
+                                                        {"p99", cost.p99},       {"worst", cost.worst}};
+        for (const auto& [name, seconds] : parts) {
+            const std::string entry =
+                " " + std::string(name) + " " + pad(std::isnan(seconds) ? "-" : durationLabel(seconds), 7);
+            if (displayWidth(line) + displayWidth(entry) > width) break;
+            line += entry;
+        }
+        const std::string factor = " " + timesText(cost.realTimeFactor) + " real time";
+        if (!std::isnan(cost.realTimeFactor) && displayWidth(line) + displayWidth(factor) <= width)
+            line += factor;
+        lines.push_back(cut(line, width));
+    }
+    return lines;
+}
+
+/// Results that are the order's, the widest range first.
+std::vector<std::string> orderLines(const ViewModel& view, const Names& names, std::size_t most,
+                                    std::size_t width, const Painter& paint) {
+    std::vector<std::string> lines;
+    const auto dependents = orderDependents(view.run());
+    const std::string heading = ordersHeading(view.run(), dependents.size());
+    if (heading.empty() || most < 2) return lines;
+    lines.push_back(paint(cut(heading, width), "1"));
+    for (const auto& d : dependents)
+        if (lines.size() < most)
+            lines.push_back(cut("  " + plain(d.row->scenario + "  " + names.labelOf(d.row->spec)) + "  " +
+                                    timeStepLabel(d.row->dt) + "  " + plain(orderText(d)),
+                                width));
+    return lines;
+}
+
 /// One sentence, then what became of the cases.
 std::vector<std::string> verdictLines(const ViewModel& view, std::size_t width, const Painter& paint) {
     const bool bad = !view.offenders().empty();
@@ -361,12 +419,14 @@ std::string terminalSummary(const results::Run& run, int lines, int columns, boo
     const auto key = reserve(keyLines(names, width));
     if (key.empty()) names = {view.columns(), {}};  // nobody would know what a number stands for
     const auto worst = reserve(offenderLines(view, names, std::min<std::size_t>(8, most / 5), width, paint));
+    const auto orders = reserve(orderLines(view, names, std::min<std::size_t>(8, most / 5), width, paint));
     const auto trust = reserve(trustLines(view, names, std::min<std::size_t>(12, most / 4), width, paint));
+    const auto cost = reserve(costLines(view, names, std::min<std::size_t>(8, most / 8), width, paint));
     const auto board = reserve(boardLines(view, names, room > 1 ? room - 2 : 0, width, paint));
 
     std::string text;
     for (const std::vector<std::string>* section :
-         {&std::as_const(head), &trust, &worst, &board, &key, &std::as_const(where)}) {
+         {&std::as_const(head), &trust, &worst, &orders, &cost, &board, &key, &std::as_const(where)}) {
         if (section->empty()) continue;
         if (!text.empty() && (section != &where || room > 0)) text += "\n";
         for (const auto& line : *section) text += (text.empty() ? "" : "\n") + line;

@@ -89,6 +89,19 @@ struct Standing {
     int graded() const { return within() + grades[3] + grades[4]; }
 };
 
+/// What a step took on one spec, each scenario at the finest time step that anybody completed there: medians
+/// over the scenarios [s].
+struct StepCost {
+    int scenarios = 0;  ///< timed
+    double median = kNoNumber;
+    /// Of all steps but the first, which stands apart: a first step that builds everything up hides in a
+    /// median.
+    double mean = kNoNumber, p95 = kNoNumber, p99 = kNoNumber, worst = kNoNumber;
+    double first = kNoNumber;
+    double realTimeFactor = kNoNumber;                      ///< dt over the mean
+    double medianRatio = kNoNumber, meanRatio = kNoNumber;  ///< geometric means over the cheapest one's
+};
+
 /// Scenarios that speak to one mechanism, or to one thing that people simulate.
 struct Mechanism {
     std::string name;          ///< as scenarios say what they isolate; of a task its key
@@ -173,8 +186,31 @@ std::string accuracySentence(const results::CaseRow& row);
 std::string regressionSentence(const results::CaseRow& row);
 /// The same over several scenarios: standings, who comes first, from the indices of scenarios.
 Mechanism standingsOver(const ViewModel& view, const std::vector<std::size_t>& scenarios);
+/// By column.
+std::vector<StepCost> stepCosts(const ViewModel& view);
+/// Columns with a cost, the cheapest by the mean ratio first.
+std::vector<std::size_t> byCost(const std::vector<StepCost>& costs);
 /// The ratios of every case of the run.
 std::map<const results::CaseRow*, Ratios> ratiosOf(const ViewModel& view);
+/// Least and greatest value over the orders of insertion differ by more than rounding: by more than 1e-6 of
+/// the metric's scale, the limit of grade A, or of one unit where it has none.
+bool dependsOnOrder(const results::MetricRow& metric);
+/// A metric of the whole scene does, or orders differ in grade, or one did not complete.
+bool dependsOnOrder(const results::CaseRow& row);
+/// "0.0027 … 0.053 m over 5 orders"; "" where the metric has no range.
+std::string orderRangeText(const results::MetricRow& metric);
+struct OrderDependent {
+    const results::CaseRow* row = nullptr;
+    const results::MetricRow* metric = nullptr;  ///< that varies most; null where endings alone do
+};
+/// Cases that depend on the order of insertion, the widest range over its scale first.
+std::vector<OrderDependent> orderDependents(const results::Run& run);
+/// "Depends on the order of insertion ↕ (3 of 12 cases in several orders)"; "" where none was run so.
+std::string ordersHeading(const results::Run& run, std::size_t dependent);
+/// "rest_creep 0.0031, 0.0027 … 0.053 m over 5 orders, grade C, C … D; order 3: crashed (SIGABRT)".
+std::string orderText(const OrderDependent& dependent);
+/// One sentence on what the order of insertion makes of a case; "" where it was run in one order.
+std::string orderSentence(const results::CaseRow& row);
 Shown shownOf(const results::CaseRow& row);
 Shown shownOf(const results::MetricRow& metric);
 /// Scenarios, those in which the most engines fail first.

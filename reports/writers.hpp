@@ -31,6 +31,10 @@ std::string ordersCsv(const results::Run& run);
 std::string fairnessCsv(const results::Run& run);
 /// The orders of each scenario's main metric as a section of the summary; empty without any.
 std::string ordersMarkdown(const ViewModel& view);
+/// Cases whose result depends on the order of insertion; empty where none was run in several.
+std::string insertionOrdersMarkdown(const ViewModel& view);
+/// What a step costs each engine, by median and by mean, first step apart; empty where nothing was timed.
+std::string costMarkdown(const ViewModel& view);
 /// The page with the overview's data in it. `study`: studyPageJson() of a study's run, else empty.
 std::string htmlReport(const ViewModel& view, const std::string& study = "");
 /// The data behind the page's overview, which is in the page, and behind the page of one scenario, which

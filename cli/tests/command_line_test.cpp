@@ -292,6 +292,78 @@ TEST(CommandLine, ShortPiecesAreMeasuredAndStored) {
     EXPECT_EQ(rigor("pieces " + file + " --engines bulet").code, 2);
 }
 
+/// The first of three balls that do not meet is followed.
+std::filesystem::path writeThreeBalls() {
+    const auto file = std::filesystem::path(testing::TempDir()) / "three_balls.json";
+    std::ofstream out(file);
+    out << R"({"rigor": 1, "name": "three_balls", "title": "Three balls", "dimension": 3, "isolates": ["integrator"],
+        "source": "Galilei 1638", "gravity": [0, -3.7, 0], "duration": 0.5, "dt": [0.01],
+        "materials": {"steel": {"friction": 0.1, "restitution": 0.5}}, "bodies": [)";
+    for (const int k : {1, 2, 3})
+        out << (k > 1 ? "," : "") << R"({"name": "ball_)" << k << R"(", "mass": 1, "position": [)" << 5 * k
+            << R"(, 0, 0], "shapes": [{"sphere": {"radius": 0.1}, "material": "steel"}]})";
+    out << R"(], "observe": ["ball_1"], "reference": {"free_flight": {"body": "ball_1"}}, "metrics": ["position_final"]})";
+    return file;
+}
+
+/// The engine moves the body of index i by i mm.
+TEST(CommandLine, OrdersOfInsertionAreRunAndTold) {
+    const auto folder = freshFolder("orders");
+    const auto run = (folder / "run").string(), file = writeProjectile().string();
+    const std::string doubles = "RIGOR_ADAPTER_PATH=" + std::string(RIGOR_BINARY_DIR) + "/tests/doubles";
+    const std::string balls = writeThreeBalls().string();
+    const Result result = rigor("validate " + balls + " " + file +
+                                    " --orders 3 --no-audit -q --json --dt 1/100 --engines "
+                                    "double_order_dependent:preset=default --out " +
+                                    run,
+                                false, doubles);
+    const auto cases = nlohmann::json::parse(result.out).at("cases");
+    ASSERT_EQ(cases.size(), 2u);
+    EXPECT_EQ(cases[0].at("orders").at("run"), 3);
+    EXPECT_EQ(cases[0].at("orders").at("completed"), 3);
+    const auto& metric = cases[0].at("metrics").at(0);
+    const double value = metric.at("value"), min = metric.at("orders").at("min"),
+                 max = metric.at("orders").at("max");
+    EXPECT_LT(min, max);
+    EXPECT_LE(min, value);
+    EXPECT_GE(max, value);
+    EXPECT_TRUE(cases[1].at("orders").is_null()) << "one body";
+    EXPECT_FALSE(cases[1].at("metrics").at(0).contains("orders"));
+
+    const auto valueOf = [&](const std::string& order) {
+        const Result one = rigor("run " + balls +
+                                     " --json --dt 1/100 --engine "
+                                     "double_order_dependent:preset=default --order " +
+                                     order,
+                                 false, doubles);
+        return nlohmann::json::parse(one.out).at("metrics").at(0).at("value").get<double>();
+    };
+    EXPECT_EQ(valueOf("1"), value);
+    const double second = valueOf("2"), third = valueOf("3");
+    EXPECT_EQ(std::min({value, second, third}), min) << "what a range is made of can be run alone";
+    EXPECT_EQ(std::max({value, second, third}), max);
+
+    EXPECT_EQ(rigor("validate " + file + " --orders 0 --engines rigor").code, 2);
+    EXPECT_EQ(rigor("validate " + file + " --orders -3 --engines rigor").code, 2);
+    const Result beyond = rigor("run " + file + " --order 2");
+    EXPECT_EQ(beyond.code, 2);
+    EXPECT_NE(beyond.out.find("--order: found 2, expected at most 1"), std::string::npos) << beyond.out;
+}
+
+TEST(CommandLine, SuitesSayInHowManyOrdersTheyAreRun) {
+    const auto folder = freshFolder("orders-suite");
+    std::ofstream(folder / "suite.json")
+        << R"({"rigor_suite": 1, "name": "ordered", "scenarios": ["elastic_collision"],
+        "engines": ["rigor:preset=matched"], "max_time_steps": 1, "orders": 2})";
+    const std::string suite = (folder / "suite.json").string() + " --no-audit -q --json --out ";
+    const auto ordersOf = [&](const std::string& arguments) {
+        const Result result = rigor("validate " + arguments, false);
+        return nlohmann::json::parse(result.out).at("cases").at(0).at("orders");
+    };
+    EXPECT_EQ(ordersOf(suite + (folder / "a").string()).at("run"), 2);
+    EXPECT_TRUE(ordersOf(suite + (folder / "b").string() + " --orders 1").is_null());
+}
+
 /// No reference can be computed in a tenth of a millisecond, which a process needs to begin.
 TEST(CommandLine, AReferenceThatDoesNotFinishIsToldByItsName) {
     const auto folder = freshFolder("slow_reference");

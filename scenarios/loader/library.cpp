@@ -118,7 +118,7 @@ Suite loadSuite(const fs::path& file) {
     ReadContext context{file.string(), &document, {}, 3};
     const Node root(document.value, "", context);
     Suite suite;
-    root.isObject({"rigor_suite", "name", "title", "scenarios", "engines", "dt", "max_time_steps"});
+    root.isObject({"rigor_suite", "name", "title", "scenarios", "engines", "dt", "max_time_steps", "orders"});
     if (document.value.is_object()) {
         if (const auto n = root.require("rigor_suite")) n->integer(1, 1);
         if (const auto n = root.require("name")) suite.name = n->name();
@@ -128,6 +128,7 @@ Suite loadSuite(const fs::path& file) {
         if (const auto n = root.find("dt"))
             for (const Node& item : n->items()) suite.timeSteps.push_back(item.number(1e-7, 1.0));
         if (const auto n = root.find("max_time_steps")) suite.maxTimeSteps = n->integer(1, 1000);
+        if (const auto n = root.find("orders")) suite.orders = n->integer(1, 1000);
     }
     if (!context.problems.empty()) throw LoadError(std::move(context.problems));
     checkSuiteSchema(document, file.string());

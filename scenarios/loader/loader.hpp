@@ -56,6 +56,7 @@ struct Suite {
     std::vector<std::string> engines;    ///< specs; empty: all installed
     std::vector<double> timeSteps;       ///< empty: each scenario's own
     int maxTimeSteps = 0;                ///< take only the first n of each scenario; 0: all
+    int orders = 1;                      ///< of insertion, that each case is run in
 };
 Suite loadSuite(const std::filesystem::path& file);
 /// Whether there is such a file and it says that it is a suite.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// One C++ value to one SQLite column and back, without loss.
+// One C++ value to one SQLite column and back, without loss; records by the lists of fields.hpp.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -12,8 +12,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "validation/results/fields.hpp"
 #include "validation/results/values.hpp"
 
 namespace rigor::results {
@@ -46,6 +48,23 @@ inline std::string insertInto(const std::string& table, std::size_t columns) {
     for (std::size_t i = 1; i < columns; ++i) text += ",?";
     return text + ")";
 }
+
+/// ", name, subject, ..." with what stands for the columns that a store of this schema does not have.
+class ColumnList {
+  public:
+    explicit ColumnList(int schema) : schema_(schema) {}
+
+    template <class T>
+    void operator()(const char* column, const T&, int since = 1, const char* before = nullptr) {
+        constexpr bool isText = std::is_same_v<T, std::string> || std::is_enum_v<T>;
+        if (before == nullptr) before = isText ? "''" : "NULL";
+        text += std::string(", ") + (schema_ >= since ? column : before);
+    }
+    std::string text;
+
+  private:
+    int schema_;
+};
 
 /// Binds values to the parameters of a statement from left to right, then runs it.
 class Binder {
@@ -84,6 +103,15 @@ class Binder {
         if (value) return *this << *value;
         statement_.bind(place());
         return *this;
+    }
+    Binder& operator<<(const std::optional<std::int64_t>& value) {
+        if (value) return *this << *value;
+        statement_.bind(place());
+        return *this;
+    }
+    template <class Enumeration>
+    requires std::is_enum_v<Enumeration> Binder& operator<<(Enumeration value) {
+        return *this << textOf(value);
     }
     template <class T>
     Binder& operator<<(const std::vector<T>& list) {
@@ -150,6 +178,19 @@ class Taker {
             return *this;
         }
         return *this >> value.emplace();
+    }
+    Taker& operator>>(std::optional<std::int64_t>& value) {
+        if (!statement_.getColumn(next_).isNull()) return *this >> value.emplace();
+        value.reset();
+        ++next_;
+        return *this;
+    }
+    template <class Enumeration>
+    requires std::is_enum_v<Enumeration> Taker& operator>>(Enumeration& value) {
+        std::string text;
+        *this >> text;
+        fromText(text, value);
+        return *this;
     }
     template <class T>
     Taker& operator>>(std::vector<T>& list) {

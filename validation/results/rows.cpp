@@ -13,6 +13,23 @@
 namespace rigor::results {
 namespace {
 
+/// Binds every field of a record.
+struct BindFields {
+    Binder& binder;
+    template <class T>
+    void operator()(const char*, const T& value, int = 1, const char* = nullptr) {
+        binder << value;
+    }
+};
+/// Takes every field of a record.
+struct TakeFields {
+    Taker& taker;
+    template <class T>
+    void operator()(const char*, T& value, int = 1, const char* = nullptr) {
+        taker >> value;
+    }
+};
+
 /// Writes each element of `rows` with the case's id and its ordinal in front.
 template <class Rows, class Bind>
 void writeList(SQLite::Database& database, const char* table, const std::string& caseId, const Rows& rows,
@@ -29,72 +46,36 @@ void writeList(SQLite::Database& database, const char* table, const std::string&
     }
 }
 
-void writeMeasured(SQLite::Database& database, const CaseRow& c) {
-    writeList(database, "metrics", c.id, c.metrics, [](Binder& b, const MetricRow& m) {
-        b << m.name << m.subject << m.unit << m.kind << m.value << m.at << m.bound << m.expectation
-          << verdictName(m.verdict) << m.note << m.scale << m.relative << m.ideal << m.recorded;
+void writeLists(SQLite::Database& database, const CaseRow& c) {
+    eachList(c, [&](const char* table, const auto& rows) {
+        writeList(database, table, c.id, rows,
+                  [](Binder& binder, const auto& row) { eachField(row, BindFields{binder}); });
     });
-    writeList(database, "quantities", c.id, c.quantities, [](Binder& b, const QuantityRow& q) {
-        b << q.name << q.unit << q.exact << q.schemeExact << q.measured;
-    });
-    writeList(database, "audit", c.id, c.audit, [](Binder& b, const AuditRow& a) {
-        b << a.auditor << a.outcome << a.frames << a.queries << a.overlapping << a.missed << a.spurious
-          << a.undecided << a.normalErrorMax << a.normalErrorMedian << a.depthErrorMax << a.depthErrorMedian
-          << a.pointErrorMax << a.worst << a.note;
-    });
-    writeList(database, "timings", c.id, c.timings, [](Binder& b, const TimingRow& t) {
-        b << t.phase << t.median << t.p10 << t.p90 << t.total << t.samples << t.meanContacts << t.low
-          << t.high << t.bodies << t.first << t.mean << t.p95 << t.p99 << t.worst << t.realTimeFactor;
-    });
-}
-
-void writeParity(SQLite::Database& database, const CaseRow& c) {
     writeList(database, "settings", c.id, c.settings,
               [](Binder& b, const auto& setting) { b << setting.first << setting.second; });
-    writeList(database, "ledger", c.id, c.ledger, [](Binder& b, const LedgerRow& l) {
-        b << l.topic << l.requested << l.resolved << l.realisation << l.reason;
-    });
-    writeList(database, "read_back", c.id, c.readBack, [](Binder& b, const ReadBackRow& r) {
-        b << r.quantity << r.subject << r.expected << r.found << r.error << r.ok;
-    });
 }
 
 std::vector<CaseRow> readCases(SQLite::Database& database) {
     std::vector<CaseRow> cases;
-    const bool isGraded = schemaVersionOf(database) >= kSchemaOfGrades;
-    SQLite::Statement select(
-        database,
-        std::string("SELECT id, position, scenario, spec, engine, preset, dt, outcome, verdict, reason, "
-                    "wall_seconds, cpu_seconds, steps, peak_memory_kib, state_hash, trajectory_file, "
-                    "command, ") +
-            (schemaVersionOf(database) >= 6 ? "refusal, " : "'', ") +
-            (isGraded
-                 ? "grade, graded_by, relative_error, ideal_error, grade_note, regression, regression_reason"
-                 : "'', '', NULL, NULL, '', 'no record', ''") +
-            " FROM cases ORDER BY position, id");
+    ColumnList columns(schemaVersionOf(database));
+    const CaseRow like;
+    eachField(like, columns);
+    SQLite::Statement select(database,
+                             "SELECT " + columns.text.substr(2) + " FROM cases ORDER BY position, id");
     while (select.executeStep()) {
-        CaseRow& c = cases.emplace_back();
-        std::string outcome, verdict, grade, regression;
-        Taker(select) >> c.id >> c.position >> c.scenario >> c.spec >> c.engine >> c.preset >> c.dt >>
-            outcome >> verdict >> c.reason >> c.wallSeconds >> c.cpuSeconds >> c.steps >> c.peakMemoryKiB >>
-            c.stateHash >> c.trajectoryFile >> c.command >> c.refusal >> grade >> c.accuracy.metric >>
-            c.accuracy.relative >> c.accuracy.ideal >> c.accuracy.note >> regression >> c.regressionReason;
-        c.accuracy.grade = parseGrade(grade);
-        c.regression = parseRegression(regression);
-        c.outcome = parseOutcome(outcome);
-        c.verdict = parseVerdict(verdict);
+        Taker taker(select);
+        eachField(cases.emplace_back(), TakeFields{taker});
     }
     return cases;
 }
 
 using CaseIndex = std::unordered_map<std::string, CaseRow*>;
 
-/// Hands every row of `table` to its case, in order.
-void readList(SQLite::Database& database, const CaseIndex& cases, const char* table, const char* columns,
-              const std::function<void(CaseRow&, Taker&)>& take) {
-    SQLite::Statement select(database, std::string("SELECT case_id, ") + columns +
-                                           nonFiniteOf(database, table) + " FROM " + table +
-                                           " ORDER BY case_id, ordinal");
+/// Hands every row of `table` to its case, in order. `columns` begins with a comma.
+void readList(SQLite::Database& database, const CaseIndex& cases, const char* table,
+              const std::string& columns, const std::function<void(CaseRow&, Taker&)>& take) {
+    SQLite::Statement select(database, "SELECT case_id" + columns + nonFiniteOf(database, table) + " FROM " +
+                                           table + " ORDER BY case_id, ordinal");
     while (select.executeStep()) {
         Taker taker(select);
         std::string id;
@@ -106,63 +87,29 @@ void readList(SQLite::Database& database, const CaseIndex& cases, const char* ta
     }
 }
 
-void readMeasured(SQLite::Database& database, const CaseIndex& cases) {
-    const bool isGraded = schemaVersionOf(database) >= kSchemaOfGrades;
-    readList(database, cases, "metrics",
-             isGraded
-                 ? "name, subject, unit, kind, value, at, bound, expectation, verdict, note, scale, "
-                   "relative_error, ideal_error, recorded"
-                 : "name, subject, unit, kind, value, at, bound, expectation, verdict, note, NULL, NULL, "
-                   "NULL, NULL",
-             [](CaseRow& c, Taker& t) {
-                 MetricRow& m = c.metrics.emplace_back();
-                 std::string verdict;
-                 t >> m.name >> m.subject >> m.unit >> m.kind >> m.value >> m.at >> m.bound >>
-                     m.expectation >> verdict >> m.note >> m.scale >> m.relative >> m.ideal >> m.recorded;
-                 m.verdict = parseVerdict(verdict);
-             });
-    readList(database, cases, "quantities", "name, unit, exact, scheme_exact, measured",
-             [](CaseRow& c, Taker& t) {
-                 QuantityRow& q = c.quantities.emplace_back();
-                 t >> q.name >> q.unit >> q.exact >> q.schemeExact >> q.measured;
-             });
-    readList(database, cases, "audit",
-             "auditor, outcome, frames, queries, overlapping, missed, spurious, undecided, normal_error_max, "
-             "normal_error_median, depth_error_max, depth_error_median, point_error_max, worst, note",
-             [](CaseRow& c, Taker& t) {
-                 AuditRow& a = c.audit.emplace_back();
-                 t >> a.auditor >> a.outcome >> a.frames >> a.queries >> a.overlapping >> a.missed >>
-                     a.spurious >> a.undecided >> a.normalErrorMax >> a.normalErrorMedian >>
-                     a.depthErrorMax >> a.depthErrorMedian >> a.pointErrorMax >> a.worst >> a.note;
-             });
-    const int schema = schemaVersionOf(database);
-    const std::string timings = std::string("phase, median, p10, p90, total, samples, mean_contacts, ") +
-                                (schema >= 3 ? "low, high, bodies, " : "NULL, NULL, 0, ") +
-                                (schema >= 8 ? "first, mean, p95, p99, worst, real_time_factor"
-                                             : "NULL, NULL, NULL, NULL, NULL, NULL");
-    readList(database, cases, "timings", timings.c_str(), [](CaseRow& c, Taker& t) {
-        TimingRow& r = c.timings.emplace_back();
-        t >> r.phase >> r.median >> r.p10 >> r.p90 >> r.total >> r.samples >> r.meanContacts >> r.low >>
-            r.high >> r.bodies >> r.first >> r.mean >> r.p95 >> r.p99 >> r.worst >> r.realTimeFactor;
-    });
+/// A list of records whose table is `table`; `list`: which of a case it is.
+template <class Row>
+void readRecords(SQLite::Database& database, const CaseIndex& cases, const char* table,
+                 std::vector<Row> CaseRow::*list) {
+    ColumnList columns(schemaVersionOf(database));
+    const Row like{};
+    eachField(like, columns);
+    readList(database, cases, table, columns.text,
+             [&](CaseRow& c, Taker& taker) { eachField((c.*list).emplace_back(), TakeFields{taker}); });
 }
 
-void readParity(SQLite::Database& database, const CaseIndex& cases) {
-    readList(database, cases, "settings", "key, value", [](CaseRow& c, Taker& t) {
+void readLists(SQLite::Database& database, const CaseIndex& cases) {
+    readRecords(database, cases, "metrics", &CaseRow::metrics);
+    readRecords(database, cases, "quantities", &CaseRow::quantities);
+    readRecords(database, cases, "ledger", &CaseRow::ledger);
+    readRecords(database, cases, "read_back", &CaseRow::readBack);
+    readRecords(database, cases, "audit", &CaseRow::audit);
+    readRecords(database, cases, "timings", &CaseRow::timings);
+    readList(database, cases, "settings", ", key, value", [](CaseRow& c, Taker& t) {
         std::string key, value;
         t >> key >> value;
         c.settings[key] = value;
     });
-    readList(database, cases, "ledger", "topic, requested, resolved, realisation, reason",
-             [](CaseRow& c, Taker& t) {
-                 LedgerRow& l = c.ledger.emplace_back();
-                 t >> l.topic >> l.requested >> l.resolved >> l.realisation >> l.reason;
-             });
-    readList(database, cases, "read_back", "quantity, subject, expected, found, error, ok",
-             [](CaseRow& c, Taker& t) {
-                 ReadBackRow& r = c.readBack.emplace_back();
-                 t >> r.quantity >> r.subject >> r.expected >> r.found >> r.error >> r.ok;
-             });
 }
 
 void readHeader(SQLite::Database& database, Run& run) {
@@ -249,16 +196,11 @@ void writeHeaderRows(SQLite::Database& database, const Run& run) {
 void writeCaseRows(SQLite::Database& database, const CaseRow& c) {
     SQLite::Statement forget(database, "DELETE FROM cases WHERE id = ?");
     (Binder(forget) << c.id).run();
-    SQLite::Statement insert(database, insertInto("cases", 25));
-    (Binder(insert) << c.id << c.position << c.scenario << c.spec << c.engine << c.preset << c.dt
-                    << outcomeName(c.outcome) << verdictName(c.verdict) << c.reason << c.wallSeconds
-                    << c.cpuSeconds << c.steps << c.peakMemoryKiB << c.stateHash << c.trajectoryFile
-                    << c.command << c.refusal << gradeName(c.accuracy.grade) << c.accuracy.metric
-                    << c.accuracy.relative << c.accuracy.ideal << c.accuracy.note
-                    << regressionName(c.regression) << c.regressionReason)
-        .run();
-    writeMeasured(database, c);
-    writeParity(database, c);
+    SQLite::Statement insert(database, insertInto("cases", tableColumns(database, "cases").size()));
+    Binder binder(insert);
+    eachField(c, BindFields{binder});
+    binder.run();
+    writeLists(database, c);
 }
 
 void writeAnalysisRows(SQLite::Database& database, const Run& run) {
@@ -286,8 +228,7 @@ Run readRows(SQLite::Database& database) {
     run.cases = readCases(database);
     CaseIndex index;
     for (CaseRow& c : run.cases) index[c.id] = &c;
-    readMeasured(database, index);
-    readParity(database, index);
+    readLists(database, index);
     if (schemaVersionOf(database) >= 2) readAnalysis(database, run);
     if (schemaVersionOf(database) >= 5) run.bench = readBench(database);
     return run;

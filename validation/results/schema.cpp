@@ -35,14 +35,15 @@ CREATE TABLE cases (
     id TEXT PRIMARY KEY, position INTEGER, scenario TEXT, spec TEXT, engine TEXT, preset TEXT, dt, outcome TEXT,
     verdict TEXT, reason TEXT, wall_seconds, cpu_seconds, steps INTEGER, peak_memory_kib INTEGER, state_hash TEXT,
     trajectory_file TEXT, command TEXT, refusal TEXT, grade TEXT, graded_by TEXT, relative_error, ideal_error, grade_note TEXT,
-    regression TEXT, regression_reason TEXT) WITHOUT ROWID;
+    regression TEXT, regression_reason TEXT, insertion_orders INTEGER, insertion_orders_completed INTEGER,
+    grade_best TEXT, grade_worst TEXT, insertion_note TEXT) WITHOUT ROWID;
 CREATE TABLE settings (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, key TEXT, value TEXT,
     PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE metrics (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, subject TEXT, unit TEXT, kind TEXT,
     value, at, bound, expectation, verdict TEXT, note TEXT, scale, relative_error, ideal_error, recorded,
-    non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
+    non_finite TEXT, order_min, order_max, order_count INTEGER, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
 CREATE TABLE quantities (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, name TEXT, unit TEXT, exact, scheme_exact,
     measured, non_finite TEXT, PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
@@ -90,7 +91,7 @@ ALTER TABLE cases ADD COLUMN refusal TEXT DEFAULT '';
 ALTER TABLE engines ADD COLUMN package TEXT DEFAULT '';
 )sql";
 
-constexpr const char* kColumnsOfGrades = R"sql(
+constexpr const char* kColumnsOfSchema7 = R"sql(
 ALTER TABLE cases ADD COLUMN grade TEXT DEFAULT '';
 ALTER TABLE cases ADD COLUMN graded_by TEXT DEFAULT '';
 ALTER TABLE cases ADD COLUMN relative_error;
@@ -112,6 +113,17 @@ ALTER TABLE timings ADD COLUMN p95;
 ALTER TABLE timings ADD COLUMN p99;
 ALTER TABLE timings ADD COLUMN worst;
 ALTER TABLE timings ADD COLUMN real_time_factor;
+)sql";
+
+constexpr const char* kColumnsOfSchema9 = R"sql(
+ALTER TABLE cases ADD COLUMN insertion_orders INTEGER;
+ALTER TABLE cases ADD COLUMN insertion_orders_completed INTEGER;
+ALTER TABLE cases ADD COLUMN grade_best TEXT DEFAULT '';
+ALTER TABLE cases ADD COLUMN grade_worst TEXT DEFAULT '';
+ALTER TABLE cases ADD COLUMN insertion_note TEXT DEFAULT '';
+ALTER TABLE metrics ADD COLUMN order_min;
+ALTER TABLE metrics ADD COLUMN order_max;
+ALTER TABLE metrics ADD COLUMN order_count INTEGER;
 )sql";
 
 /// Tables with measured numbers: since schema 8 each says which of a row are not finite. A table that an
@@ -156,11 +168,12 @@ void upgrade(SQLite::Database& database) {
     if (version < 4) database.exec(kColumnsOfSchema4);
     if (version < 5) database.exec(kBenchTables);
     if (version < 6) database.exec(kColumnsOfSchema6);
-    if (version < kSchemaOfGrades) database.exec(kColumnsOfGrades);
+    if (version < 7) database.exec(kColumnsOfSchema7);
     if (version < 8) {
         database.exec(kColumnsOfSchema8);
         addNonFinite(database);
     }
+    if (version < 9) database.exec(kColumnsOfSchema9);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
 }

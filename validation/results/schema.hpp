@@ -18,9 +18,6 @@ SQLite::Database createDatabase(const std::filesystem::path& file);
 /// newer schema. Opened for writing, an older one is brought up to date.
 SQLite::Database openDatabase(const std::filesystem::path& file, bool forWriting);
 
-/// The first that has grades, records and what they rest on.
-inline constexpr int kSchemaOfGrades = 7;
-
 /// What the open file says of itself: kSchemaVersion, or that of an older rigor.
 int schemaVersionOf(SQLite::Database& database);
 

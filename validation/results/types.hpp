@@ -49,6 +49,10 @@ struct MetricRow {
     std::optional<double> relative = std::nullopt;  ///< error over scale, >= 0, infinite for no number
     std::optional<double> ideal = std::nullopt;     ///< the same of an ideal run of the engine's scheme
     std::optional<double> recorded = std::nullopt;  ///< value on record for this version of the engine
+    /// Least and greatest value over the orders of insertion in which the case was run, the one as written
+    /// included, and how many of them have a value; none where no other order has one (`--orders`).
+    std::optional<double> orderMin = std::nullopt, orderMax = std::nullopt;
+    std::optional<std::int64_t> orderCount = std::nullopt;
 };
 
 /// The worst relative error over the metrics that the scenario names: what its grade rests on.
@@ -58,6 +62,15 @@ struct AccuracyRow {
     std::optional<double> relative;  ///< of that metric
     std::optional<double> ideal;     ///< likewise, of an ideal run of the scheme; none: unknown
     std::string note;                ///< why there is no grade
+};
+
+/// A case run once more for other orders in which bodies, shapes, joints and forces are handed to the engine.
+struct InsertionOrders {
+    std::optional<std::int64_t> run;        ///< orders, the one as written included; none: that one alone
+    std::optional<std::int64_t> completed;  ///< of them, those that ended as a completed case
+    /// Of the orders; one that does not complete counts as E. None: the case is not graded, or run.
+    Grade best = Grade::None, worst = Grade::None;
+    std::string note;  ///< why there is no other order, or how others ended; "" also where none was asked for
 };
 
 /// A number of the exact solution beside the engine's.
@@ -147,6 +160,7 @@ struct CaseRow {
     AccuracyRow accuracy = {};
     Regression regression = Regression::NoRecord;
     std::string regressionReason = {};  ///< what changed most, or why there is no record
+    InsertionOrders orders = {};
 };
 
 /// Observed order of convergence of a metric over a ladder of time steps: slope of ln error on ln dt.

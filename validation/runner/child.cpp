@@ -21,6 +21,7 @@
 #include "validation/runner/live.hpp"
 #include "validation/runner/pieces.hpp"
 #include "validation/runner/process_pool.hpp"
+#include "validation/symmetry/listing.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -81,19 +82,31 @@ std::vector<results::MetricRow> piecesOf(const scenario::Scenario& s, const adap
         s, dt, every, [&](double step) { return engine->dynamics()->build(s, step, settings); }, reference);
 }
 
-CaseRow runRequested(const json& request, const scenario::Scenario& s, const adapter::EngineSpec& spec,
-                     const ReferenceMaker& make) {
-    const double dt = numberFromJson(request.at("dt"));
-    WholeCase whole = runWholeCase(s, spec, dt, optionsOf(request, make));
-    CaseRow& row = whole.live.row;
-    row.id = request.at("id");
-    const auto file = request.at("trajectory").get<std::string>();
-    results::writeTrajectory(
-        file, trajectoryFile({s, whole.live.trajectory, whole.reference.get(), whole.scheme}, row));
+/// The reference has given all that it is asked for: its time and its mark end.
+void endReference(const json& request) {
     setAlarm(0.0);
     std::error_code ignored;
     if (request.contains("simulated"))
         std::filesystem::remove(request.at("simulated").get<std::string>(), ignored);
+}
+
+CaseRow runRequested(const json& request, const scenario::Scenario& s, const adapter::EngineSpec& spec,
+                     const ReferenceMaker& make) {
+    const double dt = numberFromJson(request.at("dt"));
+    LiveOptions options = optionsOf(request, make);
+    if (const int order = request.value("order", 0); order > 0)
+        options.given = listed(s, otherListings(s, static_cast<std::size_t>(order)).back());
+    WholeCase whole = runWholeCase(s, spec, dt, options);
+    CaseRow& row = whole.live.row;
+    row.id = request.at("id");
+    if (options.given) {
+        endReference(request);
+        return std::move(row);
+    }
+    const auto file = request.at("trajectory").get<std::string>();
+    results::writeTrajectory(
+        file, trajectoryFile({s, whole.live.trajectory, whole.reference.get(), whole.scheme}, row));
+    endReference(request);
     if (const auto every = request.value("pieces", std::vector<int>{}); !every.empty())
         for (auto& piece : piecesOf(s, spec, dt, every, whole.reference.get())) row.metrics.push_back(piece);
     return std::move(row);

@@ -67,25 +67,26 @@ WholeCase runWholeCase(const Scenario& scenario, const adapter::EngineSpec& spec
     if (engine->dynamics() == nullptr)
         throw adapter::Unsupported("engine '" + spec.engine + "' has no dynamics");
     const adapter::Settings settings = adapter::resolveSettings(spec, *engine);
-    adapter::checkScenarioInput(scenario, dt);
-    adapter::checkSupported(scenario, engine->capabilities(), spec.engine);
+    const Scenario& given = options.given ? options.given->scenario : scenario;
+    adapter::checkScenarioInput(given, dt);
+    adapter::checkSupported(given, engine->capabilities(), spec.engine);
     row.settings = settings;
 
     const auto buildStart = Clock::now();
-    const auto world = engine->dynamics()->build(scenario, dt, settings);
+    const auto world = engine->dynamics()->build(given, dt, settings);
     const double buildSeconds = since(buildStart);
     row.ledger = ledgerRows(world->ledger());
-    row.readBack = compareReadBack(scenario, world->readBack(), readBackTolerance(settings.at("precision")));
+    row.readBack = compareReadBack(given, world->readBack(), readBackTolerance(settings.at("precision")));
     whole.scheme = world->scheme();
 
-    Simulation run = simulate(scenario, dt, *world, options);
+    Simulation run = simulate(given, dt, *world, options);
     row.steps = static_cast<std::int64_t>(run.steps);
     row.stateHash = run.stateHash;
     row.timings = std::move(run.timings);
     row.timings.insert(row.timings.begin() + 1,
                        {"build", buildSeconds, buildSeconds, buildSeconds, buildSeconds, 1, 0.0});
     for (auto& timing : row.timings) timing.bodies = movingBodies(scenario);
-    whole.live.trajectory = std::move(run.trajectory);
+    whole.live.trajectory = options.given ? options.given->back(run.trajectory) : std::move(run.trajectory);
     if (run.nonFinite.empty()) {
         if (options.onSimulated) options.onSimulated();
         if (!options.withoutReference)

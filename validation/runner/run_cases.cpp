@@ -18,6 +18,7 @@
 #include "validation/runner/environment.hpp"
 #include "validation/runner/header.hpp"
 #include "validation/runner/judge.hpp"
+#include "validation/runner/orders.hpp"
 #include "validation/runner/pieces.hpp"
 #include "validation/runner/process_pool.hpp"
 #include "validation/runner/runner.hpp"
@@ -129,7 +130,7 @@ class RunInProgress {
         progress_.total = static_cast<std::int64_t>(plan_.size());
         for (const CasePlan& c : plan_) ++open_[c.scenario.name];
         for (std::size_t i = 0; i < plan_.size(); ++i)
-            if (const auto it = present.find(plan_[i].id); it != present.end())
+            if (const auto it = present.find(plan_[i].id); it != present.end() && hasOrders(i, it->second))
                 keep(i, it->second);
             else
                 pool_.add(taskOf(i, references_.at(plan_[i].scenario.name)));
@@ -165,35 +166,70 @@ class RunInProgress {
         closed(plan_[index], row);
     }
 
+    /// A stored case was run in as many orders as are asked for; without `--orders` any number does.
+    bool hasOrders(std::size_t index, const CaseRow& stored) const {
+        if (options_.orders < 2 || stored.outcome != Outcome::Completed) return true;
+        const int others = otherOrders(plan_[index].scenario, options_.orders);
+        return others == 0 ? !stored.orders.note.empty() : stored.orders.run == others + 1;
+    }
+
     /// How many runs of the scenario a case takes: short pieces are one of each length, and a finer one.
     double runsOfCase() const {
         if (options_.pieces.empty()) return 1.0;
         return static_cast<double>(1 + kConvergedSteps + 2 * options_.pieces.size());
     }
 
-    /// The child of a case, its request written.
-    ProcessTask taskOf(std::size_t index, const ReferenceCheck& reference) {
-        const CasePlan& c = plan_[index];
-        const fs::path request = scratch_.path() / (c.id + ".json"),
-                       answer = scratch_.path() / (c.id + ".answer.json");
+    /// What every child of a case is told. `name`: of its files in the scratch folder.
+    nlohmann::json requestOf(const CasePlan& c, const ReferenceCheck& reference,
+                             const std::string& name) const {
         nlohmann::json asked{{"id", c.id},
                              {"scenario", c.scenario.name},
                              {"text", c.scenarioText},
                              {"spec", c.spec.text()},
                              {"dt", numberToJson(c.dt)},
-                             {"trajectory", (directory_ / trajectoryName(c.id)).string()},
-                             {"simulated", simulatedMark(c.id).string()},
+                             {"simulated", simulatedMark(name).string()},
                              {"reference_seconds", numberToJson(referenceLimitsOf(c).seconds)},
-                             {"pieces", options_.pieces},
-                             {"answer", answer.string()}};
+                             {"answer", answerOf(name).string()}};
         if (!reference.problem.empty())
             asked["without_reference"] = {{"outcome", referenceOutcomeName(reference.outcome)},
                                           {"problem", reference.problem}};
+        return asked;
+    }
+    fs::path answerOf(const std::string& name) const { return scratch_.path() / (name + ".answer.json"); }
+
+    /// The child of a case, its request written.
+    ProcessTask taskOf(std::size_t index, const ReferenceCheck& reference) {
+        const CasePlan& c = plan_[index];
+        const fs::path request = scratch_.path() / (c.id + ".json");
+        nlohmann::json asked = requestOf(c, reference, c.id);
+        asked["trajectory"] = (directory_ / trajectoryName(c.id)).string();
+        asked["pieces"] = options_.pieces;
         writeJsonFile(request, asked);
         return {{options_.binary.string(), "__case", request.string()},
                 {c.scenario.timeLimit * runsOfCase(), options_.memoryLimitMiB},
                 c.scenario.name + ", " + c.spec.text(),
-                [this, index, answer](const ProcessResult& result) { ended(index, answer, result); }};
+                [this, index](const ProcessResult& result) { ended(index, result); }};
+    }
+
+    static std::string orderName(const CasePlan& c, int number) {
+        return c.id + ".order" + std::to_string(number);
+    }
+
+    /// The child that runs a case in its `number`-th other order of insertion.
+    ProcessTask orderTaskOf(std::size_t index, int number, int others) {
+        const CasePlan& c = plan_[index];
+        const auto known = brokenReferences_.find(index);
+        const fs::path request = scratch_.path() / (orderName(c, number) + ".json");
+        nlohmann::json asked =
+            requestOf(c, known == brokenReferences_.end() ? references_.at(c.scenario.name) : known->second,
+                      orderName(c, number));
+        asked["order"] = number;
+        writeJsonFile(request, asked);
+        return {{options_.binary.string(), "__case", request.string()},
+                {c.scenario.timeLimit, options_.memoryLimitMiB},
+                c.scenario.name + ", " + c.spec.text() + ", order " + std::to_string(number + 1) + " of " +
+                    std::to_string(others + 1),
+                [this, index, number](const ProcessResult& result) { orderEnded(index, number, result); }};
     }
 
     /// Limits of a reference within a case, which computes all metrics in that time and memory as well.
@@ -202,41 +238,77 @@ class RunInProgress {
     }
 
     /// A file that a case's child makes when the engine is done and the reference is about to be asked.
-    fs::path simulatedMark(const std::string& id) const { return scratch_.path() / (id + ".simulated"); }
+    fs::path simulatedMark(const std::string& name) const { return scratch_.path() / (name + ".simulated"); }
 
-    /// A child that died over the reference is run once more without one: the engine is not to blame.
-    bool repeatedWithoutReference(std::size_t index, const ProcessResult& result) {
-        const fs::path mark = simulatedMark(plan_[index].id);
+    /// The engine was done, and the process ended over the reference.
+    bool endedOverReference(const std::string& name, const ProcessResult& result) const {
+        const fs::path mark = simulatedMark(name);
         if (!fs::exists(mark)) return false;
         std::error_code ignored;
         fs::remove(mark, ignored);
-        if (result.exitedWith(0)) return false;
+        return !result.exitedWith(0);
+    }
+
+    /// A child that died over the reference is run once more without one: the engine is not to blame.
+    bool repeatedWithoutReference(std::size_t index, const ProcessResult& result) {
+        if (!endedOverReference(plan_[index].id, result)) return false;
         removePart(plan_[index].id);
         const auto limits = referenceLimitsOf(plan_[index]);
-        pool_.addNext(taskOf(index, referenceFailure(result.timedOut, result.status, limits)));
+        brokenReferences_[index] = referenceFailure(result.timedOut, result.status, limits);
+        pool_.addNext(taskOf(index, brokenReferences_[index]));
         return true;
     }
 
     static std::string trajectoryName(const std::string& id) { return "trajectories/" + id + ".h5"; }
 
-    void ended(std::size_t index, const fs::path& answer, const ProcessResult& result) {
+    /// What a child gave, or why it gave nothing; its answer is forgotten.
+    CaseRow rowOf(std::size_t index, const std::string& name, const ProcessResult& result) {
         const CasePlan& c = plan_[index];
-        if (repeatedWithoutReference(index, result)) return;
-        const auto json = result.exitedWith(0) ? readJsonFile(answer) : std::nullopt;
+        const auto json = result.exitedWith(0) ? readJsonFile(answerOf(name)) : std::nullopt;
         CaseRow row = json ? caseFromJson(*json) : failedRow(c, static_cast<std::int64_t>(index), result);
         row.id = c.id, row.position = static_cast<std::int64_t>(index);
         row.wallSeconds = result.wallSeconds, row.cpuSeconds = result.cpuSeconds;
         if (!json) row.peakMemoryKiB = result.peakMemoryKiB;
+        std::error_code ignored;
+        if (json && fs::exists(directory_ / trajectoryName(c.id), ignored))
+            row.trajectoryFile = trajectoryName(c.id);
+        fs::remove(answerOf(name), ignored);
+        return row;
+    }
+
+    void ended(std::size_t index, const ProcessResult& result) {
+        const CasePlan& c = plan_[index];
+        if (repeatedWithoutReference(index, result)) return;
+        CaseRow row = rowOf(index, c.id, result);
         row.command = reproduceCommand(c, options_.directory, fromLibrary_[c.scenario.name]);
         removePart(c.id);
-        if (json && fs::exists(directory_ / trajectoryName(c.id))) row.trajectoryFile = trajectoryName(c.id);
+        if (options_.orders < 2 || row.outcome != Outcome::Completed) return store(index, row);
+        const int others = otherOrders(c.scenario, options_.orders);
+        if (others == 0) {
+            addNoOrders(row);
+            return store(index, row);
+        }
+        openOrders_.open(index, std::move(row), others);
+        for (int number = others; number >= 1; --number) pool_.addNext(orderTaskOf(index, number, others));
+    }
+
+    void orderEnded(std::size_t index, int number, const ProcessResult& result) {
+        const CasePlan& c = plan_[index];
+        const std::string name = orderName(c, number);
+        OrderEnd end{number, {}, ""};
+        if (endedOverReference(name, result))
+            end.reference = referenceFailure(result.timedOut, result.status, referenceLimitsOf(c)).text();
+        else
+            end.row = rowOf(index, name, result);
+        if (auto row = openOrders_.ended(index, std::move(end))) store(index, *row);
+    }
+
+    void store(std::size_t index, CaseRow& row) {
         compareWithRecord(record_, scenarios_.at(row.scenario), row);
         writer_.writeCase(row);
-        std::error_code ignored;
-        fs::remove(answer, ignored);
         count(row);
         report(&row);
-        closed(c, row);
+        closed(plan_[index], row);
     }
 
     /// What a killed child may have left half-written.
@@ -299,7 +371,10 @@ class RunInProgress {
     std::map<std::string, results::ScenarioRow> scenarios_;
     Record record_;
     std::map<std::string, ReferenceCheck> references_;  ///< by scenario
-    std::map<std::string, int> open_;                   ///< cases of a scenario still to come
+    /// Of cases whose child died over a reference that had held, by place in the plan.
+    std::map<std::size_t, ReferenceCheck> brokenReferences_;
+    OpenOrders openOrders_;
+    std::map<std::string, int> open_;  ///< cases of a scenario still to come
     std::map<std::string, std::map<std::string, CaseRow>> unaudited_;
 };
 

@@ -18,6 +18,7 @@
 #include "scenarios/model/scenario.hpp"
 #include "validation/results/types.hpp"
 #include "validation/runner/reference_guard.hpp"
+#include "validation/symmetry/symmetry.hpp"
 #include "validation/trajectory.hpp"
 
 namespace rigor::validation {
@@ -41,6 +42,7 @@ struct RunOptions {
     std::filesystem::path records;      ///< folder of what engine versions gave; "": nothing is on record
     std::string suite, command;
     std::vector<int> pieces;  ///< also measure short pieces of so many steps (pieces.hpp)
+    int orders = 1;           ///< orders of insertion, the one as written included (orders.hpp)
     ReferenceLimits referenceLimits;
     /// References that have been checked already, by scenario; the others are when the run begins.
     std::map<std::string, ReferenceCheck> references;
@@ -104,6 +106,9 @@ struct LiveOptions {
     /// Why the reference is not made: found before. Empty: it is.
     std::optional<ReferenceCheck> withoutReference;
     ReferenceMaker makeReference;  ///< empty: validation::makeReference
+    /// What the engine gets in place of the scenario. Its run is seen back and measured as one of the
+    /// scenario; `onStep` sees it as it is.
+    std::optional<Transformed> given;
 };
 LiveCase runInProcess(const scenario::Scenario& scenario, const adapter::EngineSpec& spec, double dt,
                       const LiveOptions& options);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "validation/symmetry/listing.hpp"
 #include "validation/symmetry/transforms.hpp"
 
 namespace rigor::validation {
@@ -20,25 +21,6 @@ std::vector<int> placesOf(const Scenario& s, bool dynamic) {
     for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i)
         if ((s.bodies[static_cast<std::size_t>(i)].type == BodyType::Dynamic) == dynamic) places.push_back(i);
     return places;
-}
-
-/// `place[i]`: where body i goes.
-void moveBodies(Scenario& s, const std::vector<int>& place) {
-    const auto to = [&](int& body) {
-        if (body != kNone) body = place[static_cast<std::size_t>(body)];
-    };
-    std::vector<Body> bodies(s.bodies.size());
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        bodies[static_cast<std::size_t>(place[i])] = std::move(s.bodies[i]);
-    s.bodies = std::move(bodies);
-    for (Joint& j : s.joints) to(j.bodyA), to(j.bodyB);
-    for (Force& force : s.forces) {
-        if (auto* f = std::get_if<ConstantForce>(&force)) to(f->body);
-        if (auto* f = std::get_if<DragForce>(&force)) to(f->body);
-        if (auto* f = std::get_if<SpringForce>(&force)) to(f->bodyA), to(f->bodyB);
-    }
-    for (Event& e : s.events) to(e.body);
-    for (int& body : s.observed) to(body);
 }
 
 std::vector<int> reversedPlaces(const Scenario& s) {
@@ -58,18 +40,16 @@ std::string permutationObstacle(const Scenario& s) {
 
 Transformed permutation(const Scenario& scenario, const Trajectory*) {
     require(permutationObstacle(scenario));
-    Scenario s = bare(scenario);
-    const std::vector<int> before = placesOf(s, true);
+    const std::vector<int> before = placesOf(scenario, true);
     std::vector<int> after = before;
     // Fisher and Yates with the engine alone: the distributions of the library differ between machines.
     std::mt19937 random(kSeed);
     for (std::size_t i = after.size() - 1; i > 0; --i) std::swap(after[i], after[random() % (i + 1)]);
     if (after == before) std::rotate(after.begin(), after.begin() + 1, after.end());
-    std::vector<int> place(s.bodies.size());
-    for (std::size_t i = 0; i < place.size(); ++i) place[i] = static_cast<int>(i);
-    for (std::size_t i = 0; i < before.size(); ++i) place[static_cast<std::size_t>(before[i])] = after[i];
-    moveBodies(s, place);
-    return {s, 1.0, [place](const Trajectory& t) { return reordered(t, place); }};
+    Listing listing = asWritten(scenario);
+    for (std::size_t i = 0; i < before.size(); ++i)
+        listing.bodies[static_cast<std::size_t>(before[i])] = after[i];
+    return listed(scenario, listing);
 }
 
 std::string insertionOrderObstacle(const Scenario& s) {
@@ -82,26 +62,9 @@ std::string insertionOrderObstacle(const Scenario& s) {
 
 Transformed insertionOrder(const Scenario& scenario, const Trajectory*) {
     require(insertionOrderObstacle(scenario));
-    Scenario s = bare(scenario);
-    const std::vector<int> place = reversedPlaces(s);
-    moveBodies(s, place);
-    std::reverse(s.joints.begin(), s.joints.end());
-    std::reverse(s.forces.begin(), s.forces.end());
-    std::vector<int> shapes;
-    for (Body& b : s.bodies) {
-        std::reverse(b.shapes.begin(), b.shapes.end());
-        shapes.push_back(static_cast<int>(b.shapes.size()));
-    }
-    return {s, 1.0, [place, shapes](const Trajectory& t) {
-                return reordered(mapped(
-                                     t, [](const BodyState& b, double) { return b; },
-                                     [&](ContactPoint c, double) {
-                                         c.shapeA = shapes[static_cast<std::size_t>(c.bodyA)] - 1 - c.shapeA;
-                                         c.shapeB = shapes[static_cast<std::size_t>(c.bodyB)] - 1 - c.shapeB;
-                                         return c;
-                                     }),
-                                 place);
-            }};
+    Listing listing = reversed(scenario);
+    listing.bodies = reversedPlaces(scenario);
+    return listed(scenario, listing);
 }
 
 }  // namespace rigor::validation

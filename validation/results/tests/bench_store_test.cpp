@@ -145,10 +145,13 @@ TEST(BenchStore, ARunOfTheSchemaBeforeHasNone) {
         for (const char* column : {"first", "mean", "p95", "p99", "worst", "real_time_factor", "non_finite"})
             database.exec(std::string("ALTER TABLE timings DROP COLUMN ") + column);
         database.exec("ALTER TABLE cases DROP COLUMN refusal");
-        for (const char* column : {"grade", "graded_by", "relative_error", "ideal_error", "grade_note",
-                                   "regression", "regression_reason"})
+        for (const char* column :
+             {"grade", "graded_by", "relative_error", "ideal_error", "grade_note", "regression",
+              "regression_reason", "insertion_orders", "insertion_orders_completed", "grade_best",
+              "grade_worst", "insertion_note"})
             database.exec(std::string("ALTER TABLE cases DROP COLUMN ") + column);
-        for (const char* column : {"scale", "relative_error", "ideal_error", "recorded"})
+        for (const char* column :
+             {"scale", "relative_error", "ideal_error", "recorded", "order_min", "order_max", "order_count"})
             database.exec(std::string("ALTER TABLE metrics DROP COLUMN ") + column);
         database.exec("PRAGMA user_version = 4");
     }

@@ -49,6 +49,9 @@ void expectSameMeasured(const CaseRow& a, const CaseRow& b) {
         expectSame("relative", m.relative, n.relative);
         expectSame("ideal", m.ideal, n.ideal);
         expectSame("recorded", m.recorded, n.recorded);
+        expectSame("order_min", m.orderMin, n.orderMin);
+        expectSame("order_max", m.orderMax, n.orderMax);
+        EXPECT_EQ(m.orderCount, n.orderCount);
     }
     ASSERT_EQ(a.quantities.size(), b.quantities.size());
     for (std::size_t i = 0; i < a.quantities.size(); ++i) {
@@ -108,6 +111,8 @@ void expectSame(const CaseRow& a, const CaseRow& b) {
     EXPECT_EQ(std::tie(x.grade, x.metric, x.relative, x.ideal, x.note),
               std::tie(y.grade, y.metric, y.relative, y.ideal, y.note));
     EXPECT_EQ(std::tie(a.regression, a.regressionReason), std::tie(b.regression, b.regressionReason));
+    EXPECT_EQ(std::tie(a.orders.run, a.orders.completed, a.orders.best, a.orders.worst, a.orders.note),
+              std::tie(b.orders.run, b.orders.completed, b.orders.best, b.orders.worst, b.orders.note));
     expectSameMeasured(a, b);
     expectSameParity(a, b);
 }
@@ -253,7 +258,17 @@ TEST(Store, AnalysisIsReplacedAsAWhole) {
     expectAnalysed(readRun(folder.path()));
 }
 
+void takeBackInsertionOrders(SQLite::Database& database) {
+    for (const char* column :
+         {"insertion_orders", "insertion_orders_completed", "grade_best", "grade_worst", "insertion_note"})
+        database.exec(std::string("ALTER TABLE cases DROP COLUMN ") + column);
+    for (const char* column : {"order_min", "order_max", "order_count"})
+        database.exec(std::string("ALTER TABLE metrics DROP COLUMN ") + column);
+    database.exec("UPDATE metrics SET non_finite = replace(non_finite, '; order_max is infinite', '')");
+}
+
 void takeBackGrades(SQLite::Database& database) {
+    takeBackInsertionOrders(database);
     database.exec("ALTER TABLE scenarios DROP COLUMN reference_outcome");
     for (const char* column : {"first", "mean", "p95", "p99", "worst", "real_time_factor"})
         database.exec(std::string("ALTER TABLE timings DROP COLUMN ") + column);
@@ -290,7 +305,7 @@ TEST(Store, WhatIsNotFiniteIsNullAndNamed) {
             .execAndGet("SELECT non_finite FROM " + table + " WHERE ordinal = " + std::to_string(ordinal))
             .getString();
     };
-    EXPECT_EQ(reasonOf("metrics", 0), "relative_error is infinite");
+    EXPECT_EQ(reasonOf("metrics", 0), "relative_error is infinite; order_max is infinite");
     EXPECT_EQ(reasonOf("metrics", 1), "value is not a number");
     EXPECT_EQ(reasonOf("metrics", 2), "value is infinite; bound is minus infinite");
     EXPECT_EQ(reasonOf("quantities", 1), "measured is not a number");
@@ -370,6 +385,9 @@ TEST(Store, WhatOlderSchemasLackedIsEmpty) {
         EXPECT_EQ(timing.bodies, 0);
         EXPECT_EQ(run.cases[0].accuracy.grade, Grade::None);
         EXPECT_EQ(run.cases[0].regression, Regression::NoRecord);
+        EXPECT_EQ(run.cases[0].orders.run, std::nullopt);
+        EXPECT_EQ(run.cases[0].orders.worst, Grade::None);
+        EXPECT_EQ(run.cases[0].metrics.at(0).orderCount, std::nullopt);
         EXPECT_EQ(run.cases[0].metrics.at(0).relative, std::nullopt);
         EXPECT_EQ(timing.mean, std::nullopt);
         EXPECT_EQ(timing.worst, std::nullopt);
@@ -395,6 +413,30 @@ TEST(Store, TheColumnsOfTheSchemaBeforeAreKept) {
     const auto run = readRun(folder.path());
     EXPECT_EQ(run.schemaVersion, kSchemaVersion);
     EXPECT_EQ(run.scenarios.at(0).referenceTex, header().scenarios[0].referenceTex);
+}
+
+/// A store of schema 8 has all but the orders of insertion.
+TEST(Store, OfSchema8HasEverythingButOrdersOfInsertion) {
+    const TemporaryFolder folder;
+    {
+        RunWriter writer(folder.path(), false);
+        writer.writeHeader(header());
+        writer.writeCase(caseRow("a", 0));
+    }
+    {
+        SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+        takeBackInsertionOrders(database);
+        database.exec("PRAGMA user_version = 8");
+    }
+    CaseRow expected = caseRow("a", 0);
+    expected.orders = {};
+    for (MetricRow& m : expected.metrics) m.orderMin = m.orderMax = {}, m.orderCount = {};
+    expectSame(expected, readRun(folder.path()).cases.at(0));
+    { RunWriter(folder.path(), true).writeCase(caseRow("b", 1)); }
+    const auto run = readRun(folder.path());
+    EXPECT_EQ(run.schemaVersion, kSchemaVersion);
+    expectSame(expected, run.cases.at(0));
+    expectSame(caseRow("b", 1), run.cases.at(1));
 }
 
 TEST(Store, OneWriterAtATime) {

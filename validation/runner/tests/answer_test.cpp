@@ -35,6 +35,10 @@ TEST(Answer, CasesSurviveTheJourney) {
     EXPECT_TRUE(std::signbit(*received.audit[0].depthErrorMedian));
     EXPECT_FALSE(received.audit[0].normalErrorMedian.has_value());
     EXPECT_EQ(received.audit[0].worst, "block|floor");
+    EXPECT_EQ(received.metrics[0].orderMax, results::sample::kInf);
+    EXPECT_EQ(received.metrics[0].orderCount, 5);
+    EXPECT_FALSE(received.metrics[1].orderCount.has_value());
+    EXPECT_EQ(received.orders.worst, results::Grade::E);
     EXPECT_EQ(received.readBack[0].found, std::nextafter(2.0, 3.0));
     EXPECT_EQ(received.timings[0].samples, 360);
     EXPECT_EQ(received.timings[0].low, 0.1 + 0.2);

@@ -67,9 +67,24 @@ export interface Step {
   phases?: Record<string, Stored>; // medians
   first?: Maybe; // the first step; the following are of all others
   mean?: Maybe;
+  p95?: Maybe;
   p99?: Maybe;
   worst?: Maybe;
   realTimeFactor?: Maybe; // dt over the mean
+}
+
+/** Of a column: medians over the scenarios at their finest time steps; mean and what follows without the first step. */
+export interface StepCost {
+  scenarios: number;
+  median: Stored;
+  mean: Stored;
+  first: Stored;
+  p95: Stored;
+  p99: Stored;
+  worst: Stored;
+  realTimeFactor: Stored;
+  medianRatio: Stored; // geometric means over the cheapest
+  meanRatio: Stored;
 }
 
 /** Contacts that a run acted upon, against the exact oracle. */
@@ -110,6 +125,17 @@ export interface Judged {
   red: boolean;
   says: string; // on accuracy, a sentence
   change: string; // on the record, a sentence; may be ""
+  orders?: Orders | null; // of insertion; null: run in one order
+}
+
+/** A case that was run in several orders of insertion. */
+export interface Orders {
+  run: number;
+  completed: number;
+  best: string; // grades; "" where the case is not graded
+  worst: string;
+  depends: boolean;
+  says: string; // a sentence
 }
 
 /** A case as the overview knows it. */
@@ -124,6 +150,7 @@ export interface BriefCase {
   refusal?: string; // of an unsupported case: adapter or library
   value: Maybe; // of the scenario's main metric
   bound: Maybe;
+  range?: string | null; // of that metric over orders of insertion, where it is wider than rounding
   step: Step | null;
   inRun: InRun | null;
   miss?: Miss | null; // the metric furthest outside its bound
@@ -238,6 +265,7 @@ export interface Run {
   mechanisms: Mechanism[];
   tasks: Mechanism[];
   overall: Mechanism;
+  costs?: StepCost[]; // by column
   audit: { scenario: string; rows: Audit[] }[];
   ledger: GatheredLedger[];
 }
@@ -307,6 +335,10 @@ export interface Metric {
   relative: Maybe;
   ideal: Maybe;
   recorded: Maybe;
+  orderMin?: Maybe; // over orders of insertion
+  orderMax?: Maybe;
+  orderCount?: number | null;
+  dependsOnOrder?: boolean; // the range is wider than rounding
   grade: string;
 }
 

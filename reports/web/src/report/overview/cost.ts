@@ -20,7 +20,7 @@ function cell(s: Scenario, column: Column, first: boolean): HTMLElement {
       : `10 % ${duration(t.p10)}, 90 % ${duration(t.p90)}`;
   const mean =
     t.mean !== undefined && t.mean !== null
-      ? `mean ${duration(t.mean)}, 99 % ${duration(t.p99 ?? null)}, worst ${duration(t.worst ?? null)}, first step apart ${duration(t.first ?? null)}, ${format(t.realTimeFactor ?? null, 3)} × real time, `
+      ? `mean ${duration(t.mean)}, 95 % ${duration(t.p95 ?? null)}, 99 % ${duration(t.p99 ?? null)}, worst ${duration(t.worst ?? null)}, first step apart ${duration(t.first ?? null)}, ${format(t.realTimeFactor ?? null, 3)} × real time, `
       : '';
   const title =
     `median ${full(t.median)} s per step, ${interval}, ${mean}${t.samples} steps, ${format(t.contacts)} contacts on average; ` +
@@ -32,7 +32,8 @@ function cell(s: Scenario, column: Column, first: boolean): HTMLElement {
     ' ',
     format(found.value, 3),
   );
-  return el('td', { class: `num${side}`, title }, duration(t.median), accuracy);
+  const beside = mean ? el('span', { class: 'bound' }, `mean ${duration(t.mean)}`) : null;
+  return el('td', { class: `num${side}`, title }, duration(t.median), beside, accuracy);
 }
 
 export function costTable(): HTMLElement {

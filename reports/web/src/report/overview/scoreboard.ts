@@ -27,6 +27,7 @@ const meaning: Record<Shown, string> = {
 function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): string[] {
   const { at, worst, cases } = cell;
   const lines = [`${column.label}, ${s.name}: ${verdictText(worst.shown).word}`, at.judged.says];
+  if (at.judged.orders) lines.push(at.judged.orders.says);
   if (at.judged.change) lines.push(at.judged.change);
   if (at.value !== null && !isLost(worst.shown)) {
     const times = [
@@ -36,6 +37,7 @@ function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): str
     const beside = times.length ? ` (${times.join(', ')})` : '';
     const unit = s.main.unit === '1' ? '' : ` ${s.main.unit}`;
     lines.push(`${words(s.main.name)} ${full(at.value)}${unit} at ${timeStep(at.dt)}${beside}`);
+    if (at.range) lines.push(`${words(s.main.name)} ${at.range}`);
   }
   const cost = costOf(cell);
   if (cost > 0) lines.push(`${duration(cost)} a step, ${ratio(cost / scale.leastCost)} the fastest here`);
@@ -76,6 +78,7 @@ function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters, digi
     grade || verdictText(shown).symbol,
     grade && shown !== 'pass' && shown !== 'no_bound' ? verdictText(shown).symbol : '',
     cell.cases.map((c) => changeMark(c.judged.regression)).find(Boolean) ?? '',
+    cell.at.judged.orders?.depends ? '↕' : '',
   ].join('');
   return el(
     'a',
@@ -219,6 +222,9 @@ function legend(): HTMLElement {
       { class: 'small muted' },
       'The letter is the grade of accuracy at the finest time step: the worst error over the metrics that the scenario names, each over the scenario’s own scale. ',
       'The number is the error of its main metric; the best of a row is underlined. ▼ ▲: worse or better than on record. ',
+      run.scenarios.some((s) => s.cases.some((c) => c.judged.orders))
+        ? '↕: depends on the order in which bodies, shapes, joints and forces are handed over; number and grade are of the order as written. '
+        : '',
       el('b', null, 'Upper bar: that relative error'),
       ', empty at 1e-6, full at 1. ',
       el('b', null, 'Lower bar: cost'),

@@ -3,7 +3,7 @@
 //
 // Timing: how the cost of a step grows with the scene, cost against accuracy, phases; the machine beside it.
 import { el } from '../../common/elements.ts';
-import { duration, format, median, ratio, toNumber } from '../../common/format.ts';
+import { duration, format, type Maybe, median, ratio, toNumber } from '../../common/format.ts';
 import { cellOf, costOf, relativeOf } from '../cells.ts';
 import { barList } from '../charts/bars.ts';
 import { type Line, plotCard } from '../charts/plot.ts';
@@ -142,6 +142,9 @@ const accuracy = (columns: Column[]): HTMLElement[] => {
   ];
 };
 
+const costs = (column: Column) => run.costs?.[run.columns.indexOf(column)];
+const finite = (value: Maybe | undefined): string => (Number.isFinite(toNumber(value)) ? format(value, 3) : '—');
+
 /** Medians over the scenarios; what an engine tells of its phases as shares of its step. */
 function summaryTable(): HTMLElement {
   const list = placed(run.overall, run.columns).filter((s) => toNumber(s.cost) > 0);
@@ -162,15 +165,22 @@ function summaryTable(): HTMLElement {
       headRow(
         [
           'Engine',
-          'Median of a step, over scenarios',
-          'Typically × the fastest',
+          'Median of a step',
+          'Mean',
+          'First step',
+          '95 %',
+          '99 %',
+          'Worst',
+          '× real time',
+          'Median × the fastest',
+          'Mean × the fastest',
           'Error × the best',
           'Error × ours',
           'C or better',
           'Grades',
           'Phases, share of a step',
         ],
-        (i) => i < 6,
+        (i) => i < 13,
       ),
       el(
         'tbody',
@@ -181,7 +191,12 @@ function summaryTable(): HTMLElement {
             null,
             el('th', { class: 'sticky', scope: 'row' }, s.column.label),
             el('td', { class: 'num' }, duration(s.cost)),
+            (['mean', 'first', 'p95', 'p99', 'worst'] as const).map((key) =>
+              el('td', { class: 'num' }, duration(costs(s.column)?.[key])),
+            ),
+            el('td', { class: 'num' }, finite(costs(s.column)?.realTimeFactor)),
             el('td', { class: 'num' }, format(s.costRatio, 3)),
+            el('td', { class: 'num' }, finite(costs(s.column)?.meanRatio)),
             el('td', { class: 'num' }, ratio(s.toBest) || '—'),
             el('td', { class: 'num' }, ratio(s.toOurs) || '—'),
             el('td', { class: 'num' }, `${s.within} of ${s.scenarios}`),
@@ -225,8 +240,8 @@ export function timing(): HTMLElement | null {
     el(
       'p',
       { class: 'muted' },
-      'Wall time of one step by the monotonic clock: the median, with its 95 % interval where there are enough samples (else from the 10th to the ',
-      '90th percentile), always beside the errors of the same runs. Times hold for the machine below, and for cases that may have run beside others: ',
+      'Wall time of one step by the monotonic clock, medians over the scenarios. The first step stands apart: mean, 95 %, 99 %, worst and × real time (time step ',
+      'over the mean) are of all others. Plots show the median, with its 95 % interval where there are enough samples (else from the 10th to the 90th percentile), always beside the errors of the same runs. Times hold for the machine below, and for cases that may have run beside others: ',
       el('code', null, 'rigor bench'),
       ' measures alone and interleaved.',
     ),

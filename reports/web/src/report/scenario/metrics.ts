@@ -38,7 +38,7 @@ function cell(context: Context, column: Column, name: string, subject: string): 
   const at = toNumber(m.at);
   const text: Child =
     at >= 0 ? moment(context, column.spec, at, bodiesOf(m.subject), format(m.value)) : format(m.value);
-  const title = `${full(m.value)} ${m.unit}${at >= 0 ? ` at t = ${format(at)} s` : ''}${m.scale !== null ? `\nover its scale ${format(m.scale)} ${m.unit}: ${full(m.relative)}` : ''}${m.recorded !== null ? `\non record: ${full(m.recorded)}` : ''}${m.note ? `\n${m.note}` : ''}`;
+  const title = `${full(m.value)} ${m.unit}${at >= 0 ? ` at t = ${format(at)} s` : ''}${m.scale !== null ? `\nover its scale ${format(m.scale)} ${m.unit}: ${full(m.relative)}` : ''}${m.recorded !== null ? `\non record: ${full(m.recorded)}` : ''}${m.orderCount ? `\nover ${m.orderCount} orders of insertion: ${full(m.orderMin)} … ${full(m.orderMax)}` : ''}${m.note ? `\n${m.note}` : ''}`;
   const small = (line: string) => el('span', { class: 'bound' }, line);
   return el(
     'td',
@@ -47,6 +47,7 @@ function cell(context: Context, column: Column, name: string, subject: string): 
     m.bound !== null ? small(`≤ ${format(m.bound)}`) : null,
     m.grade && !m.subject ? small(`${m.grade} ${format(m.relative, 2)}`) : null,
     m.ideal !== null ? small(`scheme ${format(m.ideal, 2)}`) : null,
+    m.dependsOnOrder ? small(`${format(m.orderMin, 2)} … ${format(m.orderMax, 2)} over ${m.orderCount} orders`) : null,
   );
 }
 

@@ -19,7 +19,7 @@ export function verdicts(context: Context): HTMLElement | null {
       { class: c.spec === context.spec ? 'focus' : null, 'data-spec': c.spec },
       el('th', { class: 'sticky', scope: 'row' }, labelOf(c.spec)),
       el('td', null, c.judged.grade ? gradeChip(c.judged.grade) : chip(c.shown)),
-      el('td', { class: 'small claim' }, c.judged.says),
+      el('td', { class: 'small claim' }, c.judged.says, c.judged.orders ? el('div', null, c.judged.orders.says) : null),
       el('td', { class: 'num' }, ratio(c.judged.toBest) || '—'),
       el('td', { class: 'num' }, ratio(c.judged.toOurs) || '—'),
       el('td', { class: 'small claim' }, changeMark(c.judged.regression), ' ', c.judged.change || '—'),

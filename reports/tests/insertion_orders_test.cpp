@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What every format says of cases whose result depends on the order of insertion, and of what steps cost.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reports/report.hpp"
+#include "reports/table.hpp"
+#include "reports/tests/csv_reader.hpp"
+#include "reports/tests/synthetic_run.hpp"
+#include "reports/text.hpp"
+
+namespace rigor::report {
+namespace {
+
+using results::CaseRow;
+using results::Grade;
+using results::MetricRow;
+
+using testing::HasSubstr;
+using testing::Not;
+
+MetricRow ranged(double least, double greatest, std::optional<double> scale) {
+    MetricRow m;
+    m.name = "rest_creep", m.unit = "m", m.value = least;
+    m.orderMin = least, m.orderMax = greatest, m.orderCount = 5, m.scale = scale;
+    return m;
+}
+
+/// One scenario in one order, but for what the test gives it.
+results::Run plainRun() {
+    results::Run run = synthetic::makeRun(1);
+    run.bench = {};
+    std::erase_if(run.cases, [&](const CaseRow& c) { return c.outcome != results::Outcome::Completed; });
+    return run;
+}
+
+/// The first case of the engine "ode" was run in five orders.
+CaseRow& orderedCase(results::Run& run, double least, double greatest) {
+    for (CaseRow& c : run.cases) {
+        if (c.engine != "ode") continue;
+        MetricRow m = ranged(least, greatest, 1.0);
+        m.value = 0.0031;
+        c.metrics.push_back(m);
+        c.accuracy.grade = Grade::C;
+        c.orders = {5, 5, Grade::C, greatest > 0.01 ? Grade::D : Grade::C, ""};
+        return c;
+    }
+    throw std::runtime_error("no case of ode");
+}
+
+TEST(DependsOnOrder, WhereTheRangeIsWiderThanRounding) {
+    EXPECT_FALSE(dependsOnOrder(ranged(1.0, 1.0 + 1.9e-6, 2.0)));
+    EXPECT_TRUE(dependsOnOrder(ranged(1.0, 1.0 + 2.1e-6, 2.0)));
+    EXPECT_FALSE(dependsOnOrder(ranged(1e-12, 9e-7, {}))) << "of one unit";
+    EXPECT_TRUE(dependsOnOrder(ranged(1e-12, 2e-6, {})));
+    const double infinite = std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(dependsOnOrder(ranged(1.0, infinite, 1.0)));
+    EXPECT_FALSE(dependsOnOrder(ranged(infinite, infinite, 1.0)));
+    EXPECT_FALSE(dependsOnOrder(MetricRow{}));
+}
+
+TEST(InsertionOrders, ARangeIsShownByEveryFormat) {
+    results::Run run = plainRun();
+    const CaseRow& c = orderedCase(run, 0.0027, 0.053);
+    const ViewModel view(run);
+    const std::string range = "0.0027 … 0.053 m over 5 orders";
+    EXPECT_EQ(orderRangeText(c.metrics.back()), range);
+
+    const std::string terminal = terminalSummary(run, 60, 200, false);
+    EXPECT_THAT(terminal, HasSubstr("Depends on the order of insertion ↕ (1 of 1 case in several orders)"));
+    EXPECT_THAT(terminal, HasSubstr("rest_creep 0.0031, " + range + ", grade C, C … D"));
+
+    const std::string summary = markdownSummary(view);
+    EXPECT_THAT(summary,
+                HasSubstr("| " + markdownCell("rest_creep") + " | 0.0031 | " + range + " | C, C … D |"));
+    EXPECT_THAT(orderSentence(c), HasSubstr("rest_creep is 0.0027 … 0.053 m, its grade C … D"));
+
+    const auto csv = parseCsv(csvReport(run));
+    const auto column = [&](const std::string& name) {
+        return static_cast<std::size_t>(std::find(csv[0].begin(), csv[0].end(), name) - csv[0].begin());
+    };
+    int found = 0;
+    for (const auto& line : csv) {
+        ASSERT_EQ(line.size(), csv[0].size());
+        if (line[column("metric")] != "rest_creep" || line[column("order_count")] != "5") continue;
+        EXPECT_EQ(std::stod(line[column("order_min")]), 0.0027);
+        EXPECT_EQ(std::stod(line[column("order_max")]), 0.053);
+        EXPECT_EQ(line[column("command")], c.command);
+        ++found;
+    }
+    EXPECT_EQ(found, 1);
+
+    const auto page =
+        nlohmann::json::parse(scenarioJson(view, 0, [](const CaseRow&) { return std::nullopt; }));
+    bool shown = false;
+    for (const auto& entry : page.at("cases")) {
+        if (entry.at("id") != c.id) {
+            EXPECT_TRUE(entry.at("judged").at("orders").is_null());
+            continue;
+        }
+        EXPECT_EQ(entry.at("judged").at("orders").at("worst"), "D");
+        const auto& metric = entry.at("metrics").back();
+        EXPECT_EQ(metric.at("orderMax"), 0.053);
+        EXPECT_EQ(metric.at("orderCount"), 5);
+        shown = metric.at("dependsOnOrder").get<bool>();
+    }
+    EXPECT_TRUE(shown);
+
+    for (const Table& table : allTables(view))
+        if (table.name == "insertion_orders") {
+            EXPECT_EQ(table.rows.size(), 1u);
+        }
+}
+
+TEST(InsertionOrders, WhatIsTheSameInAllOfThemIsSaidToBe) {
+    results::Run run = plainRun();
+    const CaseRow& c = orderedCase(run, 0.0031, 0.0031);
+    EXPECT_THAT(terminalSummary(run, 60, 200, false),
+                HasSubstr("No result depends on the order of insertion (1 case in several orders)"));
+    EXPECT_THAT(markdownSummary(ViewModel(run)), HasSubstr("No result depends on the order of insertion"));
+    EXPECT_EQ(orderSentence(c), "Over 5 orders of insertion it is the same.");
+    EXPECT_TRUE(orderDependents(run).empty());
+}
+
+TEST(InsertionOrders, AnOrderThatCrashesIsTold) {
+    results::Run run = plainRun();
+    CaseRow& c = orderedCase(run, 0.0031, 0.0031);
+    c.orders.completed = 4, c.orders.worst = Grade::E, c.orders.note = "order 3: crashed (SIGABRT)";
+    EXPECT_THAT(terminalSummary(run, 60, 200, false),
+                HasSubstr("grade C, C … E; order 3: crashed (SIGABRT)"));
+    EXPECT_THAT(orderSentence(c), HasSubstr("order 3: crashed (SIGABRT)"));
+}
+
+TEST(InsertionOrders, NothingIsSaidWhereOneOrderWasRun) {
+    const results::Run run = plainRun();
+    for (const std::string& text : {terminalSummary(run, 60, 200, false), markdownSummary(ViewModel(run))}) {
+        EXPECT_THAT(text, Not(HasSubstr("order of insertion (")));
+        EXPECT_THAT(text, Not(HasSubstr("Depends on the order")));
+    }
+    EXPECT_EQ(orderSentence(run.cases.front()), "");
+}
+
+TEST(StepCosts, MedianAndMeanStandSideBySide) {
+    results::Run run = plainRun();
+    for (CaseRow& c : run.cases)
+        for (auto& t : c.timings) {
+            if (t.phase != "step") continue;
+            const double factor = c.engine == "ode" ? 2.0 : 1.0;
+            t.median = 1e-5 * factor, t.mean = 3e-5 * factor * factor;
+            t.first = 4e-3, t.p95 = 5e-5, t.p99 = 6e-5, t.worst = 7e-5, t.realTimeFactor = 500.0;
+        }
+    const ViewModel view(run);
+    const auto costs = stepCosts(view);
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+        if (costs[i].scenarios == 0) continue;
+        const double factor = view.columns()[i].engine == "ode" ? 2.0 : 1.0;
+        EXPECT_NEAR(costs[i].median, 1e-5 * factor, 1e-18);
+        EXPECT_NEAR(costs[i].mean, 3e-5 * factor * factor, 1e-18);
+        EXPECT_NEAR(costs[i].medianRatio, factor, 1e-12);
+        EXPECT_NEAR(costs[i].meanRatio, factor * factor, 1e-12) << "a mean hides what a median does not";
+        EXPECT_EQ(costs[i].first, 4e-3);
+        EXPECT_EQ(costs[i].worst, 7e-5);
+    }
+    const auto order = byCost(costs);
+    ASSERT_FALSE(order.empty());
+    EXPECT_EQ(view.columns()[order.back()].engine, "ode");
+    EXPECT_THAT(costMarkdown(view),
+                HasSubstr("| 20 µs | 120 µs | 4 ms | 50 µs | 60 µs | 70 µs | 500 | 2x | 4x |"));
+    EXPECT_THAT(terminalSummary(run, 60, 200, false),
+                HasSubstr("median 10 µs   mean 30 µs   first 4 ms    p95 50 µs   p99 60 µs   worst 70 µs   "
+                          "500x real time"));
+}
+
+}  // namespace
+}  // namespace rigor::report
