@@ -17,8 +17,10 @@ TEST(Tree, EverySourceFileStartsWithTheLicenceLines) {
     for (const auto& file :
          sourceFiles({".hpp", ".cpp", ".def", ".cmake", "CMakeLists.txt", ".js", ".css"})) {
         const std::string head = readFile(file).substr(0, 300);
+        // REUSE-IgnoreStart
         EXPECT_NE(head.find("SPDX-License-Identifier: MIT"), std::string::npos) << file;
         EXPECT_NE(head.find("SPDX-FileCopyrightText: 2026 The Rigor authors"), std::string::npos) << file;
+        // REUSE-IgnoreEnd
     }
 }
 
@@ -79,6 +81,15 @@ TEST(Tree, NoUnfinishedWordsAndNoMachinePaths) {
         const std::string text = readFile(file);
         EXPECT_FALSE(std::regex_search(text, match, forbidden)) << file << ": " << match.str();
     }
+}
+
+/// The version of CMakeLists.txt is the one that people cite, and the changelog knows it.
+TEST(Tree, OneVersion) {
+    std::smatch version;
+    const std::string cmake = readFile("CMakeLists.txt");
+    ASSERT_TRUE(std::regex_search(cmake, version, std::regex(R"(project\(rigor VERSION ([0-9.]+))")));
+    EXPECT_NE(readFile("CITATION.cff").find("\nversion: " + version[1].str() + "\n"), std::string::npos);
+    EXPECT_NE(readFile("CHANGELOG.md").find("\n## " + version[1].str() + " ("), std::string::npos);
 }
 
 /// Standard-library random engines are portable, its distributions are not: scenario generators must not use
