@@ -80,9 +80,13 @@ struct ConstraintRows {
     void relax();
 };
 
+// The two functions of every sweep are always inlined. Elsewhere the linker picks one of many copies, and the
+// speed of a solver would depend on the order of the object files: 4 % of `pgs` in 2D.
+
 /// J v of a row.
 template <class S>
-typename S::Real rowVelocity(const Row<S>& row, const Velocity<S>& a, const Velocity<S>& b) {
+[[gnu::always_inline]] inline typename S::Real rowVelocity(const Row<S>& row, const Velocity<S>& a,
+                                                           const Velocity<S>& b) {
     return row.lin.dot(b.v - a.v) + dotAng(row.angA, a.w) + dotAng(row.angB, b.w);
 }
 /// Sum of the sizes of the terms that J v is made of: what its rounding is relative to.
@@ -93,8 +97,8 @@ typename S::Real rowMotion(const Row<S>& row, const Velocity<S>& a, const Veloci
 }
 /// v += M^-1 J^T lambda. Bodies that impulses do not move are not written to: threads share them.
 template <class S>
-void applyRowImpulse(const Row<S>& row, const Block<S>& block, typename S::Real lambda, Velocity<S>& a,
-                     Velocity<S>& b) {
+[[gnu::always_inline]] inline void applyRowImpulse(const Row<S>& row, const Block<S>& block,
+                                                   typename S::Real lambda, Velocity<S>& a, Velocity<S>& b) {
     if (block.invMassA > 0) {
         a.v -= (block.invMassA * lambda) * row.lin;
         a.w += lambda * row.invIAngA;
