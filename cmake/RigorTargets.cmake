@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The Rigor authors
 #
-# rigor_library(<target> [LIBS ...] SOURCES ...), rigor_adapter(<name> [PRECISION f32] SOURCES ... LIBS ...),
+# rigor_library(<target> [COLD] [LIBS ...] SOURCES ...), rigor_adapter(<name> [PRECISION f32] SOURCES ... LIBS ...),
 # rigor_test(<name> SOURCES ... LIBS ... [LABELS ...]), rigor_benchmark(<name> SOURCES ... LIBS ...): our own targets,
-# with our warnings and flags.
+# with our warnings and flags. COLD: nothing in it is timed (RigorPrecompiled.cmake).
 
 add_library(rigor_flags INTERFACE)
 target_include_directories(rigor_flags INTERFACE ${PROJECT_SOURCE_DIR})
@@ -23,14 +23,20 @@ elseif(RIGOR_SANITIZE)
 endif()
 
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+include(RigorPrecompiled)
 
 function(rigor_library target)
-    cmake_parse_arguments(ARG "" "" "SOURCES;LIBS" ${ARGN})
+    cmake_parse_arguments(ARG "COLD" "" "SOURCES;LIBS" ${ARGN})
     add_library(${target} STATIC ${ARG_SOURCES})
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_compile_features(${target} PUBLIC cxx_std_20)
     target_link_libraries(${target} PUBLIC ${ARG_LIBS} PRIVATE $<BUILD_INTERFACE:rigor_flags>)
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+    if(ARG_COLD)
+        rigor_precompile(${target} cold)
+    else()
+        rigor_precompile(${target} hot)
+    endif()
 endfunction()
 
 # A module bin/adapters/rigor_adapter_<name>[.<precision>].so
@@ -46,6 +52,7 @@ function(rigor_adapter name)
     set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME ${file} CXX_VISIBILITY_PRESET hidden
                                                LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin/adapters)
     target_link_libraries(${target} PRIVATE rigor_flags rigor_adapter_interface ${ARG_LIBS})
+    rigor_precompile(${target} hot)
     set_property(GLOBAL APPEND PROPERTY RIGOR_ADAPTER_TARGETS ${target})
 endfunction()
 
@@ -56,6 +63,7 @@ function(rigor_test name)
     cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
     add_executable(${name} ${ARG_SOURCES})
     target_link_libraries(${name} PRIVATE rigor_flags ${ARG_LIBS} GTest::gtest_main GTest::gmock)
+    rigor_precompile(${name} test)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     target_compile_definitions(${name} PRIVATE RIGOR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                                                RIGOR_BINARY_DIR="${PROJECT_BINARY_DIR}")
