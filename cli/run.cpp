@@ -43,7 +43,7 @@ void writeCsvRows(std::ostream& out, double time, std::span<const validation::Bo
         for (double v : {b.position.x, b.position.y, b.position.z, b.orientation.w, b.orientation.x,
                          b.orientation.y, b.orientation.z, b.velocity.x, b.velocity.y, b.velocity.z,
                          b.angularVelocity.x, b.angularVelocity.y, b.angularVelocity.z})
-            out << ',' << results::exactText(v);
+            out << ',' << results::finiteText(v);
         out << '\n';
     }
 }

@@ -113,12 +113,14 @@ std::string svgBars(const StudyChart& chart) {
 
 /// A row for each point or bar.
 std::string chartCsv(const StudyChart& chart) {
-    const auto field = [](const std::optional<double>& v) { return v ? results::exactText(*v) : ""; };
+    const auto field = [](const std::optional<double>& v) { return results::finiteText(v); };
     std::string out = "label," + (chart.axis.empty() ? "" : csvField(chart.axis) + ",") +
-                      csvField(withUnit(chart)) + ",low,high,outcome,note\n";
+                      csvField(withUnit(chart)) + ",low,high,outcome,note,non_finite\n";
     for (const auto& p : chart.points)
         out += csvField(p.label) + "," + (chart.axis.empty() ? "" : field(p.x) + ",") + field(p.value) + "," +
-               field(p.low) + "," + field(p.high) + "," + csvField(p.outcome) + "," + csvField(p.note) + "\n";
+               field(p.low) + "," + field(p.high) + "," + csvField(p.outcome) + "," + csvField(p.note) + "," +
+               results::nonFiniteNote({{"x", p.x}, {"value", p.value}, {"low", p.low}, {"high", p.high}}) +
+               "\n";
     return out;
 }
 

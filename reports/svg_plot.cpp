@@ -217,11 +217,12 @@ std::string svgPlot(const Plot& plot) {
 }
 
 std::string plotCsv(const Plot& plot) {
-    std::string out = "line," + csvField(plot.xLabel) + "," + csvField(plot.yLabel) + "\n";
+    std::string out = "line," + csvField(plot.xLabel) + "," + csvField(plot.yLabel) + ",non_finite\n";
     for (const auto& line : plot.lines)
         for (std::size_t i = 0; i < line.x.size(); ++i)
-            out += csvField(line.label) + "," + results::exactText(line.x[i]) + "," +
-                   results::exactText(line.y[i]) + "\n";
+            out += csvField(line.label) + "," + results::finiteText(line.x[i]) + "," +
+                   results::finiteText(line.y[i]) + "," +
+                   results::nonFiniteNote({{"x", line.x[i]}, {"y", line.y[i]}}) + "\n";
     return out;
 }
 

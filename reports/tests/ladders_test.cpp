@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "reports/svg_plot.hpp"
 #include "reports/tests/synthetic_run.hpp"
 #include "reports/writers.hpp"
@@ -9,24 +12,34 @@
 namespace rigor::report {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 results::Run withOrders() {
     results::Run run = synthetic::makeRun();
     const auto& name = run.scenarios[0].name;
     run.orders = {{name, "ode", "position_max", "m", 1.0 / 3.0, 0.25, {}, 5, 1e-3, 1e-2, "a, b"},
-                  {name, "rigor", "position_max", "m", {}, {}, {}, 0, 0.0, 0.0, ""}};
-    run.fairness = {{"equal_time", name, "position_max", "m", "ode", "id", "ode:n=3", 0.01, 0.25, 1e-3, {}}};
+                  {name, "rigor", "position_max", "m", {}, {}, {}, 0, 0.0, 0.0, ""},
+                  {name, "bullet", "position_max", "m", 1.0, -kInfinity, kInfinity, 2, 0.5, 1.0, ""}};
+    run.fairness = {
+        {"equal_time", name, "position_max", "m", "ode", "id", "ode:n=3", 0.01, 0.25, 1e-3, {}},
+        {"equal_time", name, "position_max", "m", "rigor", "id", "rigor", 0.01, std::nan(""), 1e-3, {}}};
     return run;
 }
 
 TEST(Ladders, TablesHoldEveryDigit) {
     const auto run = withOrders();
-    EXPECT_EQ(ordersCsv(run), "scenario,spec,metric,unit,order,low,high,points,finest,coarsest,note\n" +
-                                  run.scenarios[0].name +
-                                  ",ode,position_max,m,0.33333333333333331,0.25,,5,0.001,0.01,\"a, b\"\n" +
-                                  run.scenarios[0].name + ",rigor,position_max,m,,,,0,0,0,\n");
+    EXPECT_EQ(ordersCsv(run),
+              "scenario,spec,metric,unit,order,low,high,points,finest,coarsest,note,non_finite\n" +
+                  run.scenarios[0].name +
+                  ",ode,position_max,m,0.33333333333333331,0.25,,5,0.001,0.01,\"a, b\",\n" +
+                  run.scenarios[0].name + ",rigor,position_max,m,,,,0,0,0,,\n" + run.scenarios[0].name +
+                  ",bullet,position_max,m,1,,,2,0.5,1,,low is minus infinite; high is infinite\n");
     EXPECT_EQ(fairnessCsv(run),
-              "mode,scenario,metric,unit,competitor,spec,dt,error,cost,budget_or_target,case\nequal_time," +
-                  run.scenarios[0].name + ",position_max,m,ode,ode:n=3,0.01,0.25,0.001,,id\n");
+              "mode,scenario,metric,unit,competitor,spec,dt,error,cost,budget_or_target,case,non_"
+              "finite\nequal_time," +
+                  run.scenarios[0].name + ",position_max,m,ode,ode:n=3,0.01,0.25,0.001,,id,\nequal_time," +
+                  run.scenarios[0].name +
+                  ",position_max,m,rigor,rigor,0.01,,0.001,,id,error is not a number\n");
 }
 
 TEST(Ladders, TheSummaryHasThemWhereThereAreAny) {

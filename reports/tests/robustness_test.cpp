@@ -66,7 +66,12 @@ void expectSound(const std::vector<fs::path>& written, const fs::path& folder) {
         EXPECT_FALSE(text.empty()) << file;
         if (file.extension() == ".csv") {
             const auto rows = parseCsv(text);
-            for (const auto& row : rows) ASSERT_EQ(row.size(), rows[0].size()) << file;
+            for (const auto& row : rows) {
+                ASSERT_EQ(row.size(), rows[0].size()) << file;
+                for (const auto& field : row)
+                    for (const char* bad : {"nan", "-nan", "inf", "-inf"})
+                        ASSERT_NE(field, bad) << file << ": makes a column of numbers text";
+            }
         }
         if (file.extension() == ".svg") {
             EXPECT_EQ(text.find("nan"), std::string::npos) << file;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "reports/tests/csv_reader.hpp"
 #include "reports/tests/synthetic_study.hpp"
 
 namespace rigor::report {
@@ -113,6 +114,23 @@ TEST(StudyCharts, BarsByLogarithms) {
     ASSERT_EQ(widths.size(), 3u);
     EXPECT_GT(widths[0], 1.0);
     EXPECT_NEAR(widths[1] - widths[0], widths[2] - widths[1], 0.02);
+}
+
+/// Endless intervals leave their fields empty, and the row says so.
+TEST(StudyCharts, ATableHasNoTextInAColumnOfNumbers) {
+    Json rows = Json::array();
+    for (const char* variant : {"good", "bad"})
+        rows.push_back(studyRow("stack", variant, 0.01, {}, {{"rest_sink", 0.5}}));
+    rows[1]["metrics"]["rest_sink"]["low"] = 0.25, rows[1]["metrics"]["rest_sink"]["high"] = "inf";
+    const auto plots = studyPlots({{"parts", {studyPart("wide", rows)}}});
+    ASSERT_EQ(plots.size(), 1u);
+    const auto lines = parseCsv(plots[0].csv);
+    ASSERT_EQ(lines.size(), 3u);
+    EXPECT_EQ(lines[0].back(), "non_finite");
+    EXPECT_EQ(lines[1].back(), "");
+    EXPECT_EQ(lines[2][2], "0.25");
+    EXPECT_EQ(lines[2][3], "") << plots[0].csv;
+    EXPECT_EQ(lines[2].back(), "high is infinite");
 }
 
 TEST(StudyCharts, ThePageHasEveryDigit) {

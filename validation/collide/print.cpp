@@ -20,13 +20,13 @@ using scenario::Vec3;
 constexpr std::size_t kPage = 60;  ///< lines of answers that are shown without being asked for
 
 Json number(const std::optional<double>& value) {
-    return value ? Json(numberToJson(*value)) : Json(nullptr);
+    return value ? Json(finiteToJson(*value)) : Json(nullptr);
 }
 Json vector(const std::optional<Vec3>& v, int dimension) {
     if (!v) return nullptr;
     Json list = Json::array();
     for (const double x : {v->x, v->y, v->z})
-        if (list.size() < static_cast<std::size_t>(dimension)) list.push_back(Json(numberToJson(x)));
+        if (list.size() < static_cast<std::size_t>(dimension)) list.push_back(Json(finiteToJson(x)));
     return list;
 }
 Json vectors(const std::vector<Vec3>& list, int dimension) {
@@ -38,7 +38,7 @@ Json vectors(const std::vector<Vec3>& list, int dimension) {
 Json truthJson(const CollideTruth& truth, int dimension) {
     Json out{{"source", truth.source}};
     if (truth.source == "none") return out;
-    out["signed_distance"] = numberToJson(truth.signedDistance);
+    out["signed_distance"] = finiteToJson(truth.signedDistance);
     out["overlap"] = truth.signedDistance < 0.0;
     out["normals"] = vectors(truth.normals, dimension);
     out["continuum"] = truth.continuum;
@@ -54,7 +54,7 @@ Json answerJson(const std::string& spec, const CollideAnswer& a, int dimension) 
     if (!a.answered) return out;
     out["overlap"] = a.overlap;
     out["signed_distance"] = number(a.signedDistance);
-    out["depth"] = a.signedDistance ? Json(numberToJson(-*a.signedDistance)) : Json(nullptr);
+    out["depth"] = a.signedDistance ? Json(finiteToJson(-*a.signedDistance)) : Json(nullptr);
     out["normal"] = vector(a.normal, dimension);
     out["witness_a"] = vector(a.witnessA, dimension);
     out["witness_b"] = vector(a.witnessB, dimension);
@@ -63,7 +63,7 @@ Json answerJson(const std::string& spec, const CollideAnswer& a, int dimension) 
     out["normal_angle"] = number(a.normalAngle);
     out["normal_excess"] = number(a.normalExcess);
     out["point_error"] = number(a.pointError);
-    out["seconds"] = numberToJson(a.seconds);
+    out["seconds"] = finiteToJson(a.seconds);
     return out;
 }
 
@@ -86,7 +86,7 @@ Json summaryJson(const CollideSummary& s) {
             {"normal_excess_max", number(s.normalExcessMax)},
             {"point_error_max", number(s.pointErrorMax)},
             {"point_error_median", number(s.pointErrorMedian)},
-            {"microseconds_median", numberToJson(s.microsecondsMedian)}};
+            {"microseconds_median", finiteToJson(s.microsecondsMedian)}};
 }
 
 std::string shown(const std::optional<double>& value, const char* format = "%.3g") {
@@ -187,7 +187,7 @@ void writeText(const std::filesystem::path& file, const std::string& text) {
 }
 
 std::string exact(const std::optional<double>& value) {
-    return value ? results::exactText(*value) : "";
+    return results::finiteText(value);
 }
 std::string exact(const std::optional<Vec3>& v) {
     return v ? exact(v->x) + "," + exact(v->y) + "," + exact(v->z) : ",,";

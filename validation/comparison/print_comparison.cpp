@@ -62,8 +62,7 @@ void addSome(std::string& text, const std::string& title, const List& list, std:
 }
 
 Json finite(double value) {
-    if (std::isfinite(value)) return value;
-    return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 }  // namespace

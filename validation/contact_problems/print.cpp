@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "validation/contact_problems/solve.hpp"
+#include "validation/results/values.hpp"
 #include "validation/runner/answer.hpp"
 
 namespace rigor::validation {
@@ -86,14 +87,14 @@ json solveJson(const std::vector<SolvedProblem>& problems) {
                     {{"allowed", s.allowed},
                      {"done", s.done},
                      {"gave_up", s.gaveUp},
-                     {"seconds", numberToJson(s.seconds)},
+                     {"seconds", finiteToJson(s.seconds)},
                      {"runs", s.runs},
-                     {"residual", numberToJson(s.residual.relative)},
-                     {"residual_own_model", numberToJson(s.residual.own)},
-                     {"residual_absolute", numberToJson(s.residual.absolute)},
-                     {"penetration_velocity", numberToJson(s.residual.penetration)},
-                     {"cone_violation", numberToJson(s.residual.cone)},
-                     {"velocity_error", s.velocityError < 0 ? json() : numberToJson(s.velocityError)}});
+                     {"residual", finiteToJson(s.residual.relative)},
+                     {"residual_own_model", finiteToJson(s.residual.own)},
+                     {"residual_absolute", finiteToJson(s.residual.absolute)},
+                     {"penetration_velocity", finiteToJson(s.residual.penetration)},
+                     {"cone_violation", finiteToJson(s.residual.cone)},
+                     {"velocity_error", s.velocityError < 0 ? json() : finiteToJson(s.velocityError)}});
             answers.push_back({{"solver", answer.solver},
                                {"friction", frictionModelName(answer.model)},
                                {"outcome", answer.outcome},
@@ -126,9 +127,9 @@ void writeSolveCsv(const std::vector<SolvedProblem>& problems, const std::filesy
                 out << head << ";" << s.allowed << ";" << s.done << ";" << (s.gaveUp ? 1 : 0);
                 for (const double value : {s.residual.relative, s.residual.own, s.residual.absolute,
                                            s.residual.penetration, s.residual.cone})
-                    out << ";" << formatted("%.17g", value);
-                out << ";" << (s.velocityError < 0 ? "" : formatted("%.17g", s.velocityError)) << ";"
-                    << formatted("%.9g", s.seconds) << ";" << s.runs << "\n";
+                    out << ";" << results::finiteText(value);
+                out << ";" << (s.velocityError < 0 ? "" : results::finiteText(s.velocityError)) << ";"
+                    << results::finiteText(s.seconds) << ";" << s.runs << "\n";
             }
         }
     out.flush();

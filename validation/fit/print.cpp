@@ -2,12 +2,13 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The result of a fit as tables, CSV and JSON.
-#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "validation/fit/fit.hpp"
+#include "validation/results/values.hpp"
 #include "validation/runner/answer.hpp"
 
 namespace rigor::validation {
@@ -24,13 +25,6 @@ std::string brief(double value) {
 std::string brief(const Interval& i) {
     return brief(i.low) + " .. " + brief(i.high);
 }
-/// All digits.
-std::string full(double value) {
-    char text[32];
-    const auto [end, error] = std::to_chars(text, text + sizeof text, value);
-    return error == std::errc{} ? std::string(text, end) : "nan";
-}
-
 const ScoreSummary* find(const std::vector<FitScore>& scores, const char* part, const char* point,
                          const std::string& metric) {
     for (const FitScore& s : scores)
@@ -129,7 +123,7 @@ std::string tables(const FitResult& r, std::string (*table)(const std::vector<Ro
 }
 
 ordered_json intervalJson(const Interval& i) {
-    return {numberToJson(i.low), numberToJson(i.high)};
+    return {finiteToJson(i.low), finiteToJson(i.high)};
 }
 
 ordered_json scoresJson(const std::vector<FitScore>& scores) {
@@ -140,9 +134,9 @@ ordered_json scoresJson(const std::vector<FitScore>& scores) {
                         {"metric", s.metric},
                         {"runs", s.score.runs},
                         {"broken", s.score.broken},
-                        {"mean", numberToJson(s.score.mean)},
+                        {"mean", finiteToJson(s.score.mean)},
                         {"mean_95", intervalJson(s.score.meanInterval)},
-                        {"median", numberToJson(s.score.median)},
+                        {"median", finiteToJson(s.score.median)},
                         {"median_95", intervalJson(s.score.medianInterval)}});
     return list;
 }
@@ -152,10 +146,15 @@ std::string csvLines(const std::string& who, const std::vector<FitScore>& scores
     for (const FitScore& s : scores) {
         text += "\"" + who + "\"," + s.part + "," + s.point + "," + s.metric + "," +
                 std::to_string(s.score.runs) + "," + std::to_string(s.score.broken);
-        for (const double v : {s.score.mean, s.score.meanInterval.low, s.score.meanInterval.high,
-                               s.score.median, s.score.medianInterval.low, s.score.medianInterval.high})
-            text += "," + full(v);
-        text += "\n";
+        const std::initializer_list<results::NamedNumber> numbers{
+            {"mean", s.score.mean},
+            {"mean_low", s.score.meanInterval.low},
+            {"mean_high", s.score.meanInterval.high},
+            {"median", s.score.median},
+            {"median_low", s.score.medianInterval.low},
+            {"median_high", s.score.medianInterval.high}};
+        for (const auto& [name, value] : numbers) text += "," + results::finiteText(value);
+        text += "," + results::nonFiniteNote(numbers) + "\n";
     }
     return text;
 }
@@ -185,12 +184,14 @@ std::string fitMarkdown(const FitResult& r) {
 
 std::string fitCsv(const FitResult& r) {
     std::string text =
-        "who,part,point,metric,runs,broken,mean,mean_low,mean_high,median,median_low,median_high\n";
+        "who,part,point,metric,runs,broken,mean,mean_low,mean_high,median,median_low,median_high,non_"
+        "finite\n";
     for (const EngineFit& e : r.engines) {
         for (std::size_t i = 0; i < e.parameters.size(); ++i)
             text += "\"" + e.spec + "\",train,parameter," + r.parameters[i].name + "," +
-                    std::to_string(r.train) + ",0," + full(e.parameters[i].value) + "," +
-                    full(e.parameters[i].interval.low) + "," + full(e.parameters[i].interval.high) + ",,,\n";
+                    std::to_string(r.train) + ",0," + results::finiteText(e.parameters[i].value) + "," +
+                    results::finiteText(e.parameters[i].interval.low) + "," +
+                    results::finiteText(e.parameters[i].interval.high) + ",,,,\n";
         text += csvLines(e.spec, e.scores);
     }
     for (const Yardstick& y : r.yardsticks) text += csvLines(y.name, y.scores);
@@ -204,14 +205,14 @@ ordered_json fitToJson(const FitResult& r) {
         for (std::size_t i = 0; i < e.parameters.size(); ++i)
             parameters.push_back({{"name", r.parameters[i].name},
                                   {"key", r.parameters[i].key},
-                                  {"value", numberToJson(e.parameters[i].value)},
+                                  {"value", finiteToJson(e.parameters[i].value)},
                                   {"interval_95", intervalJson(e.parameters[i].interval)},
                                   {"start", r.parameters[i].start}});
         engines.push_back({{"spec", e.spec},
                            {"parameters", parameters},
                            {"evaluations", e.evaluations},
                            {"scores", scoresJson(e.scores)},
-                           {"change", numberToJson(e.change)},
+                           {"change", finiteToJson(e.change)},
                            {"change_95", intervalJson(e.changeInterval)},
                            {"run", e.run}});
     }

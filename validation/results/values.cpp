@@ -35,4 +35,20 @@ std::string exactText(double value) {
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+std::string finiteText(double value) {
+    return std::isfinite(value) ? exactText(value) : "";
+}
+
+std::string finiteText(const std::optional<double>& value) {
+    return value ? finiteText(*value) : "";
+}
+
+std::string nonFiniteNote(std::initializer_list<NamedNumber> numbers) {
+    std::string note;
+    for (const auto& [name, value] : numbers)
+        if (value && !std::isfinite(*value))
+            note += (note.empty() ? "" : "; ") + std::string(name) + " is " + nonFiniteWords(*value);
+    return note;
+}
+
 }  // namespace rigor::results

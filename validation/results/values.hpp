@@ -4,8 +4,10 @@
 // What is often asked of a case, and numbers as text.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "validation/results/types.hpp"
 
@@ -25,5 +27,14 @@ const char* nonFiniteWords(double value);
 
 /// The shortest text that reads back as the same double; "nan", "inf", "-inf".
 std::string exactText(double value);
+
+/// The same for tables that other programs read: empty for what is not finite, of which a text makes a whole column
+/// text.
+std::string finiteText(double value);
+std::string finiteText(const std::optional<double>& value);
+
+/// What finiteText left out of a row, "value is not a number; high is infinite"; "" for nothing.
+using NamedNumber = std::pair<const char*, std::optional<double>>;
+std::string nonFiniteNote(std::initializer_list<NamedNumber> numbers);
 
 }  // namespace rigor::results

@@ -87,6 +87,10 @@ json numberToJson(double value) {
     return value;
 }
 
+nlohmann::json finiteToJson(double value) {
+    return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(nullptr);
+}
+
 double numberFromJson(const json& j) {
     if (!j.is_string()) return j.get<double>();
     const auto text = j.get<std::string>();

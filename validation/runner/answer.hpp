@@ -21,6 +21,8 @@ results::AuditRow auditFromJson(const nlohmann::json& json);
 /// A double as JSON: a number, or "nan", "inf", "-inf".
 nlohmann::json numberToJson(double value);
 double numberFromJson(const nlohmann::json& json);
+/// A double in a file for other programs: a number, or null where it is not finite.
+nlohmann::json finiteToJson(double value);
 
 /// Writes beside the target and renames. Throws std::runtime_error.
 void writeJsonFile(const std::filesystem::path& file, const nlohmann::json& json);

@@ -161,8 +161,11 @@ std::string parameterText(const StudyRow& row) {
     return text;
 }
 
-std::string optionalText(const std::optional<double>& value) {
-    return value ? results::exactText(*value) : "";
+/// What the metric has to say, and which of its numbers are none.
+std::string noteOf(const StudyValue& value) {
+    const std::string nonFinite =
+        results::nonFiniteNote({{"value", value.value}, {"low", value.low}, {"high", value.high}});
+    return value.note + (value.note.empty() || nonFinite.empty() ? "" : "; ") + nonFinite;
 }
 
 std::string csv(const StudyResult& result) {
@@ -175,9 +178,9 @@ std::string csv(const StudyResult& result) {
                     results::exactText(row.row.dt) + "," + csvField(row.row.variant) + "," +
                     csvField(row.row.spec) + "," + row.row.caseId + "," +
                     (row.ran ? results::outcomeName(row.outcome) : "not run") + "," +
-                    csvField(part.metrics[i]) + "," + optionalText(row.values[i].value) + "," +
-                    row.values[i].unit + "," + optionalText(row.values[i].low) + "," +
-                    optionalText(row.values[i].high) + "," + csvField(row.values[i].note) + "\n";
+                    csvField(part.metrics[i]) + "," + results::finiteText(row.values[i].value) + "," +
+                    row.values[i].unit + "," + results::finiteText(row.values[i].low) + "," +
+                    results::finiteText(row.values[i].high) + "," + csvField(noteOf(row.values[i])) + "\n";
     }
     return text;
 }
@@ -204,7 +207,7 @@ void writeText(const std::filesystem::path& file, const std::string& text) {
 }
 
 Json optionalJson(const std::optional<double>& value) {
-    return value ? Json(numberToJson(*value)) : Json(nullptr);
+    return value ? Json(finiteToJson(*value)) : Json(nullptr);
 }
 
 Json rowJson(const StudyResult& result, const StudyResultRow& row) {
@@ -216,7 +219,7 @@ Json rowJson(const StudyResult& result, const StudyResultRow& row) {
                               {"unit", row.values[i].unit},
                               {"low", optionalJson(row.values[i].low)},
                               {"high", optionalJson(row.values[i].high)},
-                              {"note", row.values[i].note}};
+                              {"note", noteOf(row.values[i])}};
     return {{"scenario", row.row.scenario},
             {"base", row.row.base},
             {"parameters", parameters},
@@ -277,10 +280,10 @@ Json studyJson(const StudyResult& result) {
                                    {"metric", part.symptom->metric},
                                    {"growth", part.symptom->growth},
                                    {"fault", part.symptom->fault},
-                                   {"fault_value", Json(numberToJson(s.fault))},
+                                   {"fault_value", Json(finiteToJson(s.fault))},
                                    {"fault_at_least", part.symptom->faultAtLeast},
                                    {"cure", part.symptom->cure},
-                                   {"cure_value", Json(numberToJson(s.cure))},
+                                   {"cure_value", Json(finiteToJson(s.cure))},
                                    {"cure_at_most", part.symptom->cureAtMost},
                                    {"switched", s.switched},
                                    {"shown", s.shown},

@@ -222,7 +222,7 @@ TEST(Fit, ACrashOfAnEngineCostsItsCaseAlone) {
         EXPECT_EQ(test.broken, test.runs) << engine;
         EXPECT_TRUE(std::isinf(test.mean));
         EXPECT_THAT(readTextFile(folder / "evaluations.jsonl"), HasSubstr(says)) << engine;
-        EXPECT_THAT(fitCsv(outcome.result), HasSubstr(",inf,"));
+        EXPECT_THAT(fitCsv(outcome.result), HasSubstr(",mean is infinite;"));
     }
 }
 
@@ -323,6 +323,24 @@ TEST(RealTosses, EveryEngineIsBetterThanACubeThatStaysWhereItIs) {
     // Over 134 tosses 0.137 widths with the cone, 0.297 with a pyramid, 0.265 with ODE's.
     EXPECT_LT(apart[0], 0.8 * apart[1]);
     EXPECT_LT(apart[0], 0.8 * apart[3]);
+}
+
+/// A run that broke counts as infinite: no number of the tables, but told.
+TEST(FitFiles, HaveNoTextAmongNumbers) {
+    const double inf = std::numeric_limits<double>::infinity();
+    FitResult result;
+    result.metric = "loss", result.metrics = {"loss"}, result.units = {"1"};
+    EngineFit fit;
+    fit.spec = "ode:preset=matched";
+    fit.scores = {{"test", "fitted", "loss", {}}};
+    fit.scores[0].score.mean = inf, fit.scores[0].score.median = 0.25;
+    result.engines.push_back(fit);
+    const std::string csv = fitCsv(result);
+    EXPECT_NE(csv.find(",loss,0,0,,0,0,0.25,0,0,mean is infinite\n"), std::string::npos) << csv;
+    const auto stored = fitToJson(result);
+    EXPECT_EQ(stored.dump().find("\"inf\""), std::string::npos);
+    EXPECT_TRUE(stored.at("engines").at(0).at("scores").at(0).at("mean").is_null());
+    EXPECT_EQ(stored.at("engines").at(0).at("scores").at(0).at("median"), 0.25);
 }
 
 }  // namespace

@@ -202,5 +202,20 @@ TEST(StudyFiles, CsvHasEveryValueWithAllDigits) {
     EXPECT_EQ(stored.at("symptoms").size(), 1u);
 }
 
+/// What is not finite is told, and leaves field and value empty.
+TEST(StudyFiles, HaveNoTextAmongNumbers) {
+    const double inf = std::numeric_limits<double>::infinity();
+    const StudyPlan plan = planOf(symptomOnly());
+    const auto result = evaluateStudy(plan, runOf(plan, {{kBad, inf}, {kGood, 0.05}}));
+    const auto folder = std::filesystem::path(testing::TempDir());
+    writeStudyFiles(result, folder, "command");
+    std::ifstream in(folder / "study.csv");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_NE(text.find("rest_jitter,,m/s,,,value is infinite"), std::string::npos) << text;
+    const auto stored = nlohmann::json::parse(std::ifstream(folder / "study.json"));
+    EXPECT_TRUE(stored.at("symptoms").at(0).at("fault_value").is_null()) << stored.at("symptoms");
+    EXPECT_EQ(stored.dump().find("\"inf\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace rigor::validation
