@@ -50,7 +50,7 @@ Plot ladderPlot(const ViewModel& view, const Ladder& ladder, bool overCost) {
     plot.yLabel = ladder.metric + (ladder.unit == "1" ? "" : " [" + ladder.unit + "]");
     plot.logarithmic = plot.logarithmicX = plot.marked = true;
     for (const auto& column : view.columns()) {
-        PlotLine line{column.label, colourOf(view, column), column.preset == "default", {}, {}};
+        PlotLine line{column.label, colourOf(view, column), column.dash, {}, {}};
         std::vector<const results::CaseRow*> cases;
         for (const auto& c : view.run().cases)
             if (c.scenario == ladder.scenario && c.spec == column.spec) cases.push_back(&c);

@@ -13,6 +13,7 @@
 #include "reports/text.hpp"
 #include "reports/writers.hpp"
 #include "validation/results/judgement.hpp"
+#include "validation/results/spec_labels.hpp"
 #include "validation/results/values.hpp"
 
 namespace rigor::report {
@@ -395,10 +396,23 @@ Json curvesJson(const results::ScenarioRow& scenario, const results::TrajectoryF
     return out;
 }
 
+/// Older runs have an option's values in two presets alone, under the presets' names.
+void readOlderPresets(Json& described) {
+    static const char* const kNames[] = {results::kDefaultPreset, results::kMatchedPreset};
+    described["presets"] = kNames;
+    for (Json& option : described["options"])
+        for (const char* name : kNames) option["presets"][name] = option.value(name, "");
+}
+
 /// What an engine says that it can do; null where that was not stored, or not as JSON.
 Json described(const results::EngineRow& engine) {
-    const Json found = Json::parse(engine.capabilities, nullptr, false);
-    return found.is_object() ? found : Json(nullptr);
+    Json found = Json::parse(engine.capabilities, nullptr, false);
+    if (!found.is_object()) return nullptr;
+    if (!found["options"].is_array()) found["options"] = Json::array();
+    const bool isOlder = std::any_of(found["options"].begin(), found["options"].end(),
+                                     [](const Json& option) { return !option.contains("presets"); });
+    if (isOlder || !found["presets"].is_array()) readOlderPresets(found);
+    return found;
 }
 
 }  // namespace
@@ -411,7 +425,8 @@ std::string overviewJson(const ViewModel& view) {
                            {"engine", c.engine},
                            {"preset", c.preset},
                            {"options", c.options},
-                           {"label", c.label}});
+                           {"label", c.label},
+                           {"dash", c.dash}});
     for (const auto& e : run.engines)
         engines.push_back({{"name", e.name},
                            {"title", e.title},
@@ -444,6 +459,7 @@ std::string overviewJson(const ViewModel& view) {
                  {"regressions", regressionsJson(view)},
                  {"red", view.totals().red},
                  {"inHouse", results::kInHouseEngine},
+                 {"likeForLike", results::kMatchedPreset},
                  {"mechanisms", mechanismsJson(view.mechanisms())},
                  {"tasks", mechanismsJson(view.tasks())},
                  {"overall", mechanismJson(view.overall())},

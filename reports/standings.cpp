@@ -11,6 +11,7 @@
 
 #include "reports/view_model.hpp"
 #include "validation/results/judgement.hpp"
+#include "validation/results/spec_labels.hpp"
 #include "validation/statistics/quantile.hpp"
 
 namespace rigor::report {
@@ -50,7 +51,7 @@ const CaseRow* oursBeside(const ViewModel& view, std::size_t scenario, const Cas
         const SpecColumn& column = view.columns()[c];
         if (column.engine != results::kInHouseEngine || !column.options.empty()) continue;
         const bool samePreset = column.preset == row.preset;
-        if (!samePreset && column.preset != "default") continue;
+        if (!samePreset && column.preset != results::kDefaultPreset) continue;
         for (const CaseRow* other : view.cell(scenario, c).cases)
             if (other->dt == row.dt && (samePreset || found == nullptr)) found = other;
     }

@@ -29,7 +29,8 @@ Plot linesOf(const StudyChart& chart) {
     for (const auto& p : chart.points) {
         if (plot.lines.empty() || plot.lines.back().label != p.label) {
             const std::size_t n = plot.lines.size();
-            plot.lines.push_back({p.label, paletteColour(n), n >= kPaletteSize, {}, {}});
+            const auto dash = n < kPaletteSize ? std::vector<double>{} : std::vector<double>{6, 4};
+            plot.lines.push_back({p.label, paletteColour(n), dash, {}, {}});
         }
         plot.lines.back().x.push_back(*p.x);
         plot.lines.back().y.push_back(p.value.value_or(std::numeric_limits<double>::quiet_NaN()));

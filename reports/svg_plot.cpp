@@ -132,6 +132,12 @@ std::string axes(const Plot& plot, const Frame& frame) {
     return out + label(kLeft, 24, plot.title, "start", " font-size=\"15\" font-weight=\"600\"");
 }
 
+std::string dashAttribute(const PlotLine& line) {
+    std::string lengths;
+    for (const double length : line.dash) lengths += (lengths.empty() ? "" : " ") + coordinate(length);
+    return lengths.empty() ? "" : " stroke-dasharray=\"" + lengths + "\"";
+}
+
 std::string curve(const PlotLine& line, const Frame& frame, bool marked) {
     std::string path, dots;
     bool pen = false;
@@ -150,8 +156,7 @@ std::string curve(const PlotLine& line, const Frame& frame, bool marked) {
     }
     if (path.empty()) return "";
     return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + escapeMarkup(line.colour) +
-           "\" stroke-width=\"1.6\" stroke-linejoin=\"round\"" +
-           (line.dashed ? " stroke-dasharray=\"5 4\"" : "") + "/>\n" + dots;
+           "\" stroke-width=\"1.6\" stroke-linejoin=\"round\"" + dashAttribute(line) + "/>\n" + dots;
 }
 
 std::string legend(const Plot& plot) {
@@ -160,8 +165,7 @@ std::string legend(const Plot& plot) {
     for (const auto& line : plot.lines) {
         out += "<line x1=\"" + coordinate(kWidth - kRight + 14) + "\" y1=\"" + coordinate(y) + "\" x2=\"" +
                coordinate(kWidth - kRight + 38) + "\" y2=\"" + coordinate(y) + "\" stroke=\"" +
-               escapeMarkup(line.colour) + "\" stroke-width=\"2\"" +
-               (line.dashed ? " stroke-dasharray=\"5 4\"" : "") + "/>\n";
+               escapeMarkup(line.colour) + "\" stroke-width=\"2\"" + dashAttribute(line) + "/>\n";
         out += label(kWidth - kRight + 44, y + 4, line.label, "start");
         y += 18;
     }
@@ -245,7 +249,7 @@ std::vector<NamedPlot> scenarioPlots(const ViewModel& view, const TrajectoryLoad
             if (!series && plot.lines.empty() && (series = findSeries(*file, ""))) name = series->name;
             if (!series) continue;
             const auto& column = view.columns()[c];
-            PlotLine line{column.label, colourOf(view, column), column.preset == "default", {}, {}};
+            PlotLine line{column.label, colourOf(view, column), column.dash, {}, {}};
             for (const std::size_t i : outlineIndices(series->channel.values, 4 * kCurvePoints))
                 line.x.push_back(file->times[i]), line.y.push_back(series->channel.values[i]);
             plot.lines.push_back(line);

@@ -13,7 +13,7 @@ namespace rigor::report {
 
 struct PlotLine {
     std::string label, colour;
-    bool dashed = false;
+    std::vector<double> dash;  ///< empty: solid
     std::vector<double> x, y;  ///< same length; a non-finite y is a gap
 };
 

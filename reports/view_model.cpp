@@ -10,6 +10,7 @@
 
 #include "reports/text.hpp"
 #include "validation/results/judgement.hpp"
+#include "validation/results/spec_labels.hpp"
 
 namespace rigor::report {
 namespace {
@@ -20,7 +21,7 @@ using results::Run;
 using results::Verdict;
 
 SpecColumn describe(const CaseRow& row) {
-    SpecColumn column{row.spec, row.engine, row.preset, "", ""};
+    SpecColumn column{row.spec, row.engine, row.preset, "", "", {}};
     const auto colon = row.spec.find(':');
     std::string rest = colon == std::string::npos ? "" : row.spec.substr(colon + 1);
     while (!rest.empty()) {
@@ -33,6 +34,23 @@ SpecColumn describe(const CaseRow& row) {
     column.label = row.engine + (row.preset.empty() ? "" : " " + row.preset) +
                    (column.options.empty() ? "" : " " + column.options);
     return column;
+}
+
+/// What all engines are brought near to each other by is solid, and so is what stands alone; as shipped is dashed;
+/// an engine's own presets and options take the next patterns.
+void chooseDashes(std::vector<SpecColumn>& columns) {
+    static const std::vector<std::vector<double>> patterns{{2, 3}, {8, 3, 2, 3}, {12, 3}, {1, 5}};
+    const bool alone = std::all_of(columns.begin(), columns.end(),
+                                   [&](const SpecColumn& c) { return c.preset == columns.front().preset; });
+    std::map<std::string, std::size_t> further;  // by engine
+    for (SpecColumn& c : columns) {
+        const bool usual = c.preset.empty() || c.preset == results::kMatchedPreset || alone;
+        if (c.options.empty() && usual) continue;
+        if (c.options.empty() && c.preset == results::kDefaultPreset)
+            c.dash = {6, 4};
+        else
+            c.dash = patterns[further[c.engine]++ % patterns.size()];
+    }
 }
 
 /// Columns in the order of the engine list, presets and options in order of appearance within an engine.
@@ -49,6 +67,7 @@ std::vector<SpecColumn> columnsOf(const Run& run) {
     };
     std::stable_sort(columns.begin(), columns.end(),
                      [&](const SpecColumn& a, const SpecColumn& b) { return rank(a) < rank(b); });
+    chooseDashes(columns);
     return columns;
 }
 

@@ -20,8 +20,9 @@ namespace rigor::report {
 /// One engine as it took part: a column of the scoreboard.
 struct SpecColumn {
     std::string spec, engine, preset;
-    std::string options;  ///< the spec without engine and preset, "stepper=quickstep"; often empty
-    std::string label;    ///< "ode matched stepper=quickstep"
+    std::string options;       ///< the spec without engine and preset, "stepper=quickstep"; often empty
+    std::string label;         ///< "ode matched stepper=quickstep"
+    std::vector<double> dash;  ///< of its lines, no two of an engine's first six alike; empty: solid
 };
 
 /// The number shown in the scoreboard: the first metric that the scenario says matters and somebody has.

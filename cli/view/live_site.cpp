@@ -26,17 +26,6 @@ constexpr const char* kPage =
     "<noscript>The live view needs JavaScript.</noscript>\n"
     "<script src=\"/live.js\"></script>\n</body>\n</html>\n";
 
-Json optionJson(const adapter::Option& o) {
-    return {{"key", o.key},
-            {"values", o.values},
-            {"min", o.min},
-            {"max", o.max},
-            {"integer", o.integer},
-            {"default", o.defaultValue},
-            {"matched", o.matchedValue},
-            {"help", o.help}};
-}
-
 Reply scenarios() {
     Json list = Json::array();
     for (const scenario::LibraryEntry& entry : scenario::listScenarios())
@@ -121,13 +110,13 @@ Reply LiveSite::engines() {
     for (const validation::EngineDescription& d :
          validation::describeEngines(adapter::availableEngines(), binary_, 2)) {
         if (!d.capabilities.dynamics || !d.problem.empty()) continue;
-        Json options = Json::array();
-        for (const adapter::Option& option : d.options) options.push_back(optionJson(option));
+        const Json described = Json::parse(validation::capabilitiesText(d));
         list.push_back({{"name", d.info.name},
                         {"title", d.info.title},
                         {"version", d.info.version},
                         {"precisions", d.precisions},
-                        {"options", std::move(options)}});
+                        {"presets", described.at("presets")},
+                        {"options", described.at("options")}});
     }
     engines_ = list.dump();
     return json(engines_);

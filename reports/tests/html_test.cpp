@@ -216,6 +216,27 @@ TEST(Curves, OfSomeFramesHaveThoseAlone) {
     EXPECT_GT(seen, 0u);
 }
 
+/// Every preset that an engine has is there with its values; runs from before an engine had its own have the two
+/// that all have.
+TEST(Engines, HaveTheValuesOfEveryPreset) {
+    auto run = synthetic::makeRun(1);
+    run.engines[0].capabilities =
+        R"({"capabilities": {"dynamics": true}, "presets": ["default", "matched", "fast"], "options":
+            [{"key": "k", "values": [], "min": 0, "max": null,
+              "presets": {"default": "1", "matched": "2", "fast": "3"}}]})";
+    run.engines[1].capabilities =
+        R"({"capabilities": {}, "options": [{"key": "k", "default": "a", "matched": "b"}]})";
+    run.engines[2].capabilities = "no JSON";
+    const json page = json::parse(overviewJson(ViewModel(run)));
+    const json& ours = page["engines"][0]["described"];
+    EXPECT_EQ(ours["presets"], (json{"default", "matched", "fast"}));
+    EXPECT_EQ(ours["options"][0]["presets"]["fast"], "3");
+    const json& older = page["engines"][1]["described"];
+    EXPECT_EQ(older["presets"], (json{"default", "matched"}));
+    EXPECT_EQ(older["options"][0]["presets"], (json{{"default", "a"}, {"matched", "b"}}));
+    EXPECT_TRUE(page["engines"][2]["described"].is_null());
+}
+
 TEST(PageOfNothing, IsAPage) {
     const results::Run run;
     const ViewModel view(run);

@@ -53,7 +53,7 @@ TEST(Ladders, TheSummaryHasThemWhereThereAreAny) {
 TEST(Ladders, LogarithmicAxes) {
     Plot plot;
     plot.logarithmic = plot.logarithmicX = plot.marked = true;
-    plot.lines = {{"a", "#000000", false, {1e-3, 1e-2, 1e-1, 0.0}, {1e-2, 1e-1, 1.0, 5.0}}};
+    plot.lines = {{"a", "#000000", {}, {1e-3, 1e-2, 1e-1, 0.0}, {1e-2, 1e-1, 1.0, 5.0}}};
     const auto svg = svgPlot(plot);
     std::vector<double> x;
     for (auto at = svg.find("<circle cx=\""); at != std::string::npos; at = svg.find("<circle cx=\"", at + 1))

@@ -235,16 +235,20 @@ TEST(Svg, IsWellFormedWithCurvesInsideTheFrame) {
 TEST(Svg, ComesWithItsData) {
     Plot plot;
     plot.title = "x", plot.xLabel = "t [s]", plot.yLabel = "a, b";
-    plot.lines = {{"one", "#000", false, {0.0, 0.1}, {1.0 / 3.0, std::nan("")}},
-                  {"two", "#000", true, {2.0}, {1e-300}}};
+    const double inf = std::numeric_limits<double>::infinity();
+    plot.lines = {{"one", "#000", {}, {0.0, 0.1}, {1.0 / 3.0, std::nan("")}},
+                  {"two", "#000", {6, 4}, {2.0, inf}, {1e-300, -inf}}};
     const auto rows = parseCsv(namedPlot("p", plot).csv);
-    ASSERT_EQ(rows.size(), 4u);
-    EXPECT_EQ(rows[0], (std::vector<std::string>{"line", "t [s]", "a, b"}));
+    ASSERT_EQ(rows.size(), 5u);
+    EXPECT_EQ(rows[0], (std::vector<std::string>{"line", "t [s]", "a, b", "non_finite"}));
     EXPECT_EQ(rows[1][0], "one");
     expectBits(rows[2][1], 0.1);
     expectBits(rows[1][2], 1.0 / 3.0);
-    expectBits(rows[2][2], std::nan(""));
+    EXPECT_EQ(rows[1][3], "");
+    EXPECT_EQ(rows[2][2], "");
+    EXPECT_EQ(rows[2][3], "y is not a number");
     expectBits(rows[3][2], 1e-300);
+    EXPECT_EQ(rows[4], (std::vector<std::string>{"two", "", "", "x is infinite; y is minus infinite"}));
     const auto run = synthetic::makeRun(4);
     for (const auto& drawn : scenarioPlots(ViewModel(run), synthetic::makeLoader(run))) {
         EXPECT_GT(parseCsv(drawn.csv).size(), 1000u) << "up to 800 points of each line";

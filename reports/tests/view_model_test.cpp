@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "reports/writers.hpp"
 #include "validation/results/judgement.hpp"
@@ -66,6 +67,25 @@ TEST(ViewModel, StandsBesideTheInHouseEngineInTheSamePresetElseItsDefault) {
     EXPECT_DOUBLE_EQ(view.ratios(run.cases[2]).toBest, 8.0);
     run.cases[3].preset = "other";
     EXPECT_DOUBLE_EQ(ViewModel(run).ratios(run.cases[3]).toOurs, 0.5) << "else the default";
+}
+
+/// Lines of one engine have one colour: dashes alone tell its columns apart.
+TEST(ViewModel, NoTwoColumnsOfAnEngineHaveTheSameDashes) {
+    results::Run run = twoScenarios();
+    for (const char* spec : {"one:preset=default", "one:preset=matched", "one:preset=fast",
+                             "one:preset=matched,x=1", "one:preset=default,x=1", "two:preset=default"}) {
+        CaseRow c = makeCase("a", std::string(spec).substr(0, 3), 0.01, 1.0);
+        c.spec = spec, c.preset = std::string(spec).substr(11, std::string(spec).find(',') - 11);
+        run.cases.push_back(c);
+    }
+    const ViewModel view(run);
+    std::set<std::vector<double>> seen;
+    for (std::size_t i = 0; i < 5; ++i)
+        EXPECT_TRUE(seen.insert(view.columns()[i].dash).second) << view.columns()[i].spec;
+    EXPECT_EQ(view.columns()[1].dash, std::vector<double>{}) << "what is compared like for like is solid";
+    EXPECT_EQ(view.columns()[5].dash, view.columns()[0].dash) << "as shipped looks the same for all";
+    run.cases.erase(run.cases.begin() + 1, run.cases.begin() + 5);
+    EXPECT_TRUE(ViewModel(run).columns()[0].dash.empty()) << "nothing to be told apart from";
 }
 
 TEST(ViewModel, FewestWrongOutcomesThenMostWithinAHundredthThenTheSmallestErrorComeFirst) {

@@ -10,6 +10,11 @@
 
 namespace rigor::results {
 
+/// Presets that every engine has (adapters/interface/presets.hpp): as it ships, and as near as it comes to what
+/// is asked of all alike. Any other preset is an engine's own.
+inline constexpr const char* kDefaultPreset = "default";
+inline constexpr const char* kMatchedPreset = "matched";
+
 /// A label for each of the specs, no two the same: the engine and the options in which specs of this list
 /// differ. Left out are a preset that all who name one share (unless that would make two specs one), and
 /// options that all of an engine's specs have (if it has several). Of an option whose value is a word the

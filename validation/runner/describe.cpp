@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -104,11 +105,23 @@ int describeChild(const std::string& engine, const std::filesystem::path& answer
 
 std::string capabilitiesText(const EngineDescription& description) {
     if (!description.problem.empty()) return "";
+    const auto names = adapter::presetNames(description.presets);
+    const auto limit = [](double value) { return std::isfinite(value) ? json(value) : json(nullptr); };
     json options = json::array();
-    for (const auto& o : description.options) options.push_back(optionToJson(o));
+    for (const auto& o : description.options) {
+        json values = json::object();
+        for (const auto& name : names) values[name] = adapter::presetValue(o, name, description.presets);
+        options.push_back({{"key", o.key},
+                           {"values", o.values},
+                           {"min", limit(o.min)},
+                           {"max", limit(o.max)},
+                           {"integer", o.integer},
+                           {"presets", std::move(values)},
+                           {"help", o.help}});
+    }
     return json{{"capabilities", adapter::capabilitiesToJson<json>(description.capabilities)},
-                {"options", options},
-                {"presets", presetsToJson(description.presets)}}
+                {"options", std::move(options)},
+                {"presets", names}}
         .dump();
 }
 

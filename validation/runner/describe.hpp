@@ -13,8 +13,10 @@ namespace rigor::validation {
 /// The child's side of describeEngine: `__describe SPEC ANSWER_FILE`.
 int describeChild(const std::string& engine, const std::filesystem::path& answer);
 
-/// Capabilities and options as the store has them (results::EngineRow::capabilities); "" for an engine that
-/// could not be loaded.
+/// Capabilities, options and presets as the store and the live view have them
+/// (results::EngineRow::capabilities): {"capabilities": {...}, "presets": [names], "options": [{"key", "values",
+/// "min", "max", "integer", "help", "presets": {name: value}}]}. A limit that is not there is null. "" for an
+/// engine that could not be loaded.
 std::string capabilitiesText(const EngineDescription& description);
 
 /// Describes several engines, `jobs` at a time.

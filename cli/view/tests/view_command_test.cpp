@@ -109,6 +109,11 @@ TEST_F(View, LiveFromTheLinkToCtrlC) {
     ASSERT_FALSE(engines.empty());
     EXPECT_TRUE(
         std::any_of(engines.begin(), engines.end(), [](const json& e) { return e["name"] == "rigor"; }));
+    for (const json& engine : engines) {
+        ASSERT_GE(engine["presets"].size(), 2u) << engine["name"];
+        for (const json& option : engine["options"])
+            EXPECT_EQ(option["presets"].size(), engine["presets"].size()) << engine["name"] << option["key"];
+    }
     EXPECT_GT(json::parse(browser.get("/api/scenarios")->body).size(), 10u);
     const json scene = json::parse(browser.get("/api/scene?lane=0")->body);
     EXPECT_EQ(scene["scenario"]["name"], "slide_and_stop");

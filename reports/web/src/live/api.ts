@@ -81,11 +81,10 @@ export interface News {
 export interface Option {
   key: string;
   values: string[]; // empty: a number
-  min: number;
-  max: number;
+  min: number | null; // null: no limit
+  max: number | null;
   integer: boolean;
-  default: string;
-  matched: string;
+  presets: Record<string, string>; // value in each preset
   help: string;
 }
 export interface Engine {
@@ -93,6 +92,7 @@ export interface Engine {
   title: string;
   version: string;
   precisions: string[];
+  presets: string[]; // of which the first is the one of a spec that names none
   options: Option[];
 }
 

@@ -22,6 +22,10 @@ export const overrides = (text: string): string[] =>
     .map((line) => line.trim())
     .filter((line) => line !== '');
 
+/** Value of an option in a spec that names no preset. */
+const presetValue = (engine: Engine | undefined, option: Option): string =>
+  option.presets[engine?.presets[0] ?? ''] ?? '';
+
 function field(option: Option, now: string): HTMLElement {
   const title = option.help;
   if (option.values.length > 0) {
@@ -29,7 +33,7 @@ function field(option: Option, now: string): HTMLElement {
     for (const value of option.values) select.append(el('option', { value, selected: value === now }, value));
     return select;
   }
-  const range = `${option.min} to ${option.max}${option.integer ? ', whole' : ''}`;
+  const range = `${option.min ?? 'any'} to ${option.max ?? 'any'}${option.integer ? ', whole' : ''}`;
   return el('input', { name: option.key, value: now, inputmode: 'decimal', title: `${title} (${range})` });
 }
 
@@ -53,12 +57,12 @@ export class BranchForm {
     const choice = el('select', { name: '', 'aria-label': 'Engine' });
     choice.append(el('option', { value: '' }, `${lane.engine}, with what is chosen below`));
     for (const other of others)
-      for (const preset of ['default', 'matched'])
+      for (const preset of other.presets)
         choice.append(el('option', { value: `${other.name}:preset=${preset}` }, `${other.title}, ${preset}`));
     const choices = (engine?.options ?? []).filter((o) => o.values.length > 0);
     const numbers = (engine?.options ?? []).filter((o) => o.values.length === 0);
     const labelled = (o: Option) =>
-      el('label', {}, el('span', {}, o.key.replaceAll('_', ' ')), field(o, settings[o.key] ?? o.default));
+      el('label', {}, el('span', {}, o.key.replaceAll('_', ' ')), field(o, settings[o.key] ?? presetValue(engine, o)));
     const own = el(
       'div',
       { class: 'own' },

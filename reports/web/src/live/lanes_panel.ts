@@ -36,7 +36,7 @@ export class LanesPanel {
     this.#add = el('input', {
       type: 'text',
       list: 'known-engines',
-      placeholder: 'engine, or a spec: bullet:preset=matched',
+      placeholder: 'engine, or a spec',
       'aria-label': 'Spec of another lane',
     });
     const submit = (event: Event) => {
@@ -57,9 +57,9 @@ export class LanesPanel {
 
   setEngines(engines: Engine[]): void {
     this.#known.replaceChildren(
-      ...engines.flatMap(({ name }) => [
+      ...engines.flatMap(({ name, presets }) => [
         el('option', { value: name }),
-        el('option', { value: `${name}:preset=matched` }),
+        ...presets.map((preset) => el('option', { value: `${name}:preset=${preset}` })),
       ]),
     );
   }

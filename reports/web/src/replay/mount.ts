@@ -27,6 +27,8 @@ export interface ReplayContext {
   /** Colour of a spec, as the curves have it; "" is the reference. */
   colourOf: (spec: string, index: number) => string;
   dt?: number; // [s] of the runs; else that of the replay file
+  /** Of more engines than are shown at first: those to begin with. */
+  isPreferred?: (spec: string) => boolean;
   metrics?: readonly string[]; // in order of importance: whose largest error counts
   /** Where the replay file comes from; else from beside the page. */
   load?: () => Promise<ArrayBuffer>;

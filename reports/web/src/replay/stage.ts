@@ -208,12 +208,12 @@ export class ReplayStage {
 
   // ---- inside ----
 
-  /** The engines that are focused or matched; at most a few at first. */
+  /** The engine in focus and those preferred; at most a few at first. */
   #firstChoice(): Set<string> {
     const able = this.engines.filter((s) => s.times.length > 0);
     if (able.length <= mostShownAtFirst) return new Set(able.map((s) => s.spec));
     const wanted = this.#context.cursor.focus.value?.spec;
-    const rank = (s: FrameSource) => (s.spec === wanted ? 0 : s.spec.includes('preset=matched') ? 1 : 2);
+    const rank = (s: FrameSource) => (s.spec === wanted ? 0 : this.#context.isPreferred?.(s.spec) ? 1 : 2);
     const first = [...able].sort((a, b) => rank(a) - rank(b)).slice(0, mostShownAtFirst);
     return new Set(first.map((s) => s.spec));
   }

@@ -24,6 +24,7 @@ export interface Column {
   preset: string;
   options: string; // of the spec, without the preset
   label: string;
+  dash: number[]; // of its lines; empty: solid
 }
 
 /** A list of names, or one fact, that an engine tells of itself. */
@@ -35,13 +36,13 @@ export interface EngineOption {
   values: string[]; // empty: a number
   min: Maybe;
   max: Maybe;
-  default: string;
-  matched: string; // value in the preset "matched"
+  presets: Record<string, string>; // value in each preset
   help: string;
 }
 
 export interface Described {
   capabilities: { [key: string]: Capability };
+  presets: string[]; // that it has
   options: EngineOption[];
 }
 
@@ -280,6 +281,7 @@ export interface BenchCase {
   size: Stored;
   sizeUnit: string; // '' where there is no size
   threads: number;
+  likeForLike: string; // preset in which engines are as near to each other as they come
   operation: string;
   command: string;
   repetitions: number;

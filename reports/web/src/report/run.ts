@@ -38,18 +38,6 @@ export function engineColour(engine: string): string {
   const index = names.indexOf(engine);
   return palette[(index < 0 ? names.length : index) % palette.length] as string;
 }
-/** Dashes tell presets and options of one engine apart. */
-export function dashOf(column: Column): number[] {
-  const optioned = run.columns.filter((c) => c.engine === column.engine && c.options);
-  const dashes = [
-    [2, 3],
-    [8, 3, 2, 3],
-    [10, 4],
-  ];
-  if (column.options) return dashes[optioned.indexOf(column) % dashes.length] as number[];
-  return column.preset === 'default' ? [6, 4] : [];
-}
-
 type Query = Record<string, string | number | null | undefined>;
 const withQuery = (path: string, query: Query): string => {
   const parts = Object.entries(query).filter(([, v]) => v !== undefined && v !== null && v !== '');

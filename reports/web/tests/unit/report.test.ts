@@ -38,7 +38,7 @@ test('an observable tells of changes alone, with who made them', () => {
   assert.deepEqual(told, [[2, 'chart']]);
 });
 
-const column = (spec: string): Column => ({ spec, engine: spec, preset: '', options: '', label: spec });
+const column = (spec: string): Column => ({ spec, engine: spec, preset: '', options: '', label: spec, dash: [] });
 const judged = (more: Partial<Judged> = {}): Judged => ({
   grade: 'C',
   by: 'position_final',

@@ -63,7 +63,7 @@ function meaning(bench: Bench): Child {
     el(
       'p',
       { class: 'notice small' },
-      'The authors of this bench wrote one of the engines in it, rigor. Every time comes with the command that takes it again, and is struck out where the run it was taken from was not good enough.',
+      `The authors of this bench wrote one of the engines in it, ${run.inHouse}. Every time comes with the command that takes it again, and is struck out where the run it was taken from was not good enough.`,
     ),
     el(
       'p',

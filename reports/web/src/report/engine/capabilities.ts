@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the engine says that it can do, and its settings in both presets, as the run stored them.
+// What the engine says that it can do, and its settings in each of its presets, as the run stored them.
 import { type Child, el } from '../../common/elements.ts';
 import { format, words } from '../../common/format.ts';
 import type { Capability, Engine, EngineOption } from '../data.ts';
@@ -21,14 +21,23 @@ function said(value: Capability): Child {
   );
 }
 
-function optionRow(o: EngineOption): HTMLElement {
+/** The value in each preset; one that differs from the first preset's stands out. */
+function optionRow(o: EngineOption, presets: string[]): HTMLElement {
   const range = o.values.length ? o.values.join(', ') : `${format(o.min)} … ${format(o.max)}`;
+  const values = presets.map((preset) => o.presets[preset] ?? '—');
   return el(
     'tr',
     null,
     el('th', { class: 'sticky', scope: 'row' }, el('code', null, o.key)),
-    el('td', null, o.default),
-    el('td', null, o.matched === o.default ? el('span', { class: 'muted' }, o.matched) : el('b', null, o.matched)),
+    values.map((value, i) =>
+      el(
+        'td',
+        null,
+        i === 0
+          ? value
+          : el(value === values[0] ? 'span' : 'b', { class: value === values[0] ? 'muted' : null }, value),
+      ),
+    ),
     el('td', { class: 'small' }, range),
     el('td', { class: 'small' }, o.help),
   );
@@ -36,12 +45,16 @@ function optionRow(o: EngineOption): HTMLElement {
 
 export function capabilities({ described }: Engine): HTMLElement | null {
   if (!described) return null;
-  const { capabilities, options } = described;
+  const { capabilities, options, presets } = described;
   const settings = el(
     'table',
     { class: 'full' },
-    headRow(['Setting', 'Default', 'Matched', 'Values', 'Meaning']),
-    el('tbody', null, options.map(optionRow)),
+    headRow(['Setting', ...presets.map((preset) => el('code', null, preset)), 'Values', 'Meaning']),
+    el(
+      'tbody',
+      null,
+      options.map((o) => optionRow(o, presets)),
+    ),
   );
   return panel(
     'capabilities',
@@ -52,6 +65,15 @@ export function capabilities({ described }: Engine): HTMLElement | null {
       'As the engine’s adapter says, and as the run stored it. What a scenario needs beyond this is “unsupported”: not in the library where its documentation is named here, else not in our adapter yet.',
     ),
     facts(Object.entries(capabilities).map(([key, value]) => [words(key), said(value)])),
-    options.length ? [el('h3', null, 'Settings, in both presets'), scroll(settings)] : null,
+    options.length
+      ? [
+          el(
+            'h3',
+            null,
+            `Settings, in ${presets.length === 1 ? 'its one preset' : `each of ${presets.length} presets`}`,
+          ),
+          scroll(settings),
+        ]
+      : null,
   );
 }

@@ -69,7 +69,7 @@ export function headline(): HTMLElement {
     el(
       'p',
       { class: 'notice small' },
-      'The authors of this comparison wrote one of the engines in it (rigor). Every number comes with the command that ',
+      `The authors of this comparison wrote one of the engines in it (${run.inHouse}). Every number comes with the command that `,
       'reproduces it; what could not be matched between engines is in the ',
       el('a', { href: '#ledger' }, 'parity ledger'),
       '; how everything is measured stands under ',

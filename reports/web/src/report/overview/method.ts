@@ -137,7 +137,7 @@ export function method(): HTMLElement {
     el(
       'p',
       null,
-      'The hosts of this comparison are the authors of one of the engines in it, rigor. Scenarios, references, adapters and presets were chosen by them. ',
+      `The hosts of this comparison are the authors of one of the engines in it, ${run.inHouse}. Scenarios, references, adapters and presets were chosen by them. `,
       'Grades have the same limits for every engine, and none of them was taken from a result. Everything is in ',
       'the repository, and every column can be rerun and challenged with the commands given.',
     ),

@@ -9,7 +9,7 @@ import { barList } from '../charts/bars.ts';
 import { type Line, plotCard } from '../charts/plot.ts';
 import type { Column, Step } from '../data.ts';
 import { facts, folded, gradeBar, headRow, panel, scroll, select } from '../parts.ts';
-import { dashOf, engineColour, run } from '../run.ts';
+import { engineColour, run } from '../run.ts';
 import { placed } from '../standing.ts';
 import { costTable } from './cost.ts';
 
@@ -28,7 +28,7 @@ const lineOf = (column: Column, samples: Sample[], bare: boolean): Line => {
     key: column.spec,
     label: column.label,
     colour: engineColour(column.engine),
-    dash: dashOf(column),
+    dash: column.dash,
     width: 1.5,
     points: true,
     bare,
@@ -81,7 +81,7 @@ function toggled(plots: (columns: Column[]) => HTMLElement[]): HTMLElement {
   const grid = el('div', { class: 'charts' });
   const draw = (preset: string) =>
     grid.replaceChildren(...plots(run.columns.filter((c) => !preset || c.preset === preset)));
-  const start = presets.includes('matched') ? 'matched' : '';
+  const start = presets.includes(run.likeForLike) ? run.likeForLike : '';
   draw(start);
   const choice = select('Preset', [['', 'all'], ...presets.map((p): [string, string] => [p, p])], start, draw);
   return el('div', null, el('div', { class: 'filters' }, choice), keyOf(), grid);

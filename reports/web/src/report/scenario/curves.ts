@@ -11,13 +11,13 @@ import { plotCard } from '../charts/plot.ts';
 import { bodyNames, type CurvePlot, collectCurves, referenceLabel, wantsLog } from '../curves.ts';
 import type { Column } from '../data.ts';
 import { panel, select } from '../parts.ts';
-import { columnOf, columnsAmong, dashOf, engineColour } from '../run.ts';
+import { columnOf, columnsAmong, engineColour } from '../run.ts';
 import type { Context } from './context.ts';
 
 const lineStyle = (spec: string) => {
   const column = columnOf(spec);
   if (!column) return { label: spec, colour: '--reference', dash: [], width: 5 };
-  return { label: column.label, colour: engineColour(column.engine), dash: dashOf(column), width: 1.5 };
+  return { label: column.label, colour: engineColour(column.engine), dash: column.dash, width: 1.5 };
 };
 
 const fewSamples = 50; // have a mark each
@@ -79,7 +79,7 @@ function switches(context: Context, columns: Column[]): HTMLElement {
     presets.map((p) => button(p, (c) => c.preset === p)),
     button('none', () => false),
     hasReference ? el('label', null, lineSample('var(--reference)', [], 5), referenceLabel(cases)) : null,
-    columns.map((c, i) => el('label', null, boxes[i], lineSample(engineColour(c.engine), dashOf(c), 2), c.label)),
+    columns.map((c, i) => el('label', null, boxes[i], lineSample(engineColour(c.engine), c.dash, 2), c.label)),
   );
 }
 

@@ -9,7 +9,7 @@ import { dropPlots } from '../charts/live_plots.ts';
 import { type Line, plotCard } from '../charts/plot.ts';
 import type { Case, Fairness, Order, ScenarioData } from '../data.ts';
 import { durationCell, headRow, numberCell, panel, scroll, select, stepCell } from '../parts.ts';
-import { dashOf, engineColour, labelOf, run } from '../run.ts';
+import { engineColour, labelOf, run } from '../run.ts';
 import type { Context } from './context.ts';
 
 const modes: [mode: string, title: string, meaning: string][] = [
@@ -34,7 +34,7 @@ function ladderLines(data: ScenarioData, metric: string, overCost: boolean): Lin
       .filter((p) => p.x > 0 && p.y > 0 && Number.isFinite(p.x + p.y))
       .sort((a, b) => a.x - b.x);
     if (points.length < 2) return [];
-    const style = { colour: engineColour(column.engine), dash: dashOf(column), width: 1.5, points: true };
+    const style = { colour: engineColour(column.engine), dash: column.dash, width: 1.5, points: true };
     const samples = { x: points.map((p) => p.x), y: points.map((p) => p.y), notes: points.map((p) => p.note) };
     return [{ key: column.spec, label: column.label, ...style, ...samples }];
   });

@@ -3,7 +3,7 @@
 import { el } from '../../common/elements.ts';
 import { mountReplay, type ReplayHandle } from '../../replay/mount.ts';
 import { panel } from '../parts.ts';
-import { columnOf, engineColour } from '../run.ts';
+import { columnOf, engineColour, run } from '../run.ts';
 import type { Context } from './context.ts';
 
 /** The replay of this time step; made when it comes into view or when a link asks for a moment. */
@@ -21,6 +21,7 @@ export function replay(context: Context): HTMLElement | null {
       step: times.indexOf(context.dt),
       cursor,
       colourOf: (spec) => (spec === '' ? '#808890' : engineColour(columnOf(spec)?.engine ?? spec)),
+      isPreferred: (spec) => columnOf(spec)?.preset === run.likeForLike,
       metrics: scenario.metrics,
     });
     const wanted = cursor.focus.value;
