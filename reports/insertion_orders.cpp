@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/page_json.hpp"
 #include "reports/text.hpp"
 #include "reports/view_model.hpp"
 #include "reports/writers.hpp"
@@ -83,21 +84,20 @@ std::vector<OrderDependent> orderDependents(const results::Run& run) {
 std::string ordersHeading(const results::Run& run, std::size_t dependent) {
     const std::size_t all = casesInOrders(run);
     if (all == 0) return "";
-    const std::string of = std::to_string(all) + (all == 1 ? " case" : " cases");
-    if (dependent == 0) return "No result depends on the order of insertion (" + of + " in several orders)";
-    return "Depends on the order of insertion ↕ (" + std::to_string(dependent) + " of " + of +
-           " in several orders)";
+    const std::string of = std::to_string(all) + (all == 1 ? " case" : " cases") + " run in several orders";
+    if (dependent == 0) return "No result depends on the order of insertion (" + of + ")";
+    return "Depends on the order of insertion ↕ (" + std::to_string(dependent) + " of " + of + ")";
 }
 
 std::string orderText(const OrderDependent& dependent) {
     const CaseRow& row = *dependent.row;
     std::string text;
     if (dependent.metric != nullptr)
-        text = dependent.metric->name + " " + shortNumber(dependent.metric->value) + ", " +
+        text = dependent.metric->name + " " + shortNumber(dependent.metric->value) + " as written, " +
                orderRangeText(*dependent.metric);
     if (row.accuracy.grade != Grade::None && row.orders.best != row.orders.worst)
-        text += (text.empty() ? "" : ", ") + std::string("grade ") + results::gradeName(row.accuracy.grade) +
-                ", " + gradesText(row);
+        text += (text.empty() ? "" : "; ") + std::string("grade ") + results::gradeName(row.accuracy.grade) +
+                " as written, " + gradesText(row);
     if (!row.orders.note.empty()) text += (text.empty() ? "" : "; ") + row.orders.note;
     return text;
 }
@@ -105,19 +105,46 @@ std::string orderText(const OrderDependent& dependent) {
 std::string orderSentence(const CaseRow& row) {
     if (!row.orders.run)
         return row.orders.note.empty() ? "" : "One order of insertion: " + row.orders.note + ".";
-    const std::string over = "Over " + std::to_string(*row.orders.run) + " orders of insertion ";
-    if (!dependsOnOrder(row)) return over + "it is the same.";
+    const std::string over = std::to_string(*row.orders.run) + " orders";
+    if (!dependsOnOrder(row)) return "Does not depend on the order of insertion (" + over + ").";
     const MetricRow* widest = widestOf(row);
-    std::string text = over;
+    std::string text = "Depends on the order of insertion: over " + over + " ";
     if (widest != nullptr)
-        text += "(this is as written) " + widest->name + " is " + shortNumber(*widest->orderMin) + " … " +
+        text += widest->name + " is " + shortNumber(*widest->orderMin) + " … " +
                 shortNumber(*widest->orderMax) +
-                (widest->unit.empty() || widest->unit == "1" ? "" : " " + widest->unit);
+                (widest->unit.empty() || widest->unit == "1" ? "" : " " + widest->unit) + " (" +
+                shortNumber(widest->value) + " as written)";
     else
         text += std::to_string(row.orders.completed.value_or(0)) + " completed";
     if (row.orders.best != row.orders.worst) text += ", its grade " + gradesText(row);
     if (!row.orders.note.empty()) text += "; " + row.orders.note;
     return text + ".";
+}
+
+Json insertionOrdersJson(const ViewModel& view) {
+    const auto dependents = orderDependents(view.run());
+    const std::string heading = ordersHeading(view.run(), dependents.size());
+    if (heading.empty()) return nullptr;
+    Json rows = Json::array();
+    for (const OrderDependent& d : dependents) {
+        const CaseRow& row = *d.row;
+        const MetricRow* m = d.metric;
+        rows.push_back({{"scenario", row.scenario},
+                        {"spec", row.spec},
+                        {"dt", number(row.dt)},
+                        {"metric", m ? m->name : ""},
+                        {"unit", m ? m->unit : ""},
+                        {"value", m ? number(m->value) : Json(nullptr)},
+                        {"least", m ? number(m->orderMin) : Json(nullptr)},
+                        {"greatest", m ? number(m->orderMax) : Json(nullptr)},
+                        {"run", row.orders.run.value_or(0)},
+                        {"completed", row.orders.completed.value_or(0)},
+                        {"grade", results::gradeName(row.accuracy.grade)},
+                        {"best", results::gradeName(row.orders.best)},
+                        {"worst", results::gradeName(row.orders.worst)},
+                        {"note", row.orders.note}});
+    }
+    return {{"heading", heading}, {"rows", rows}};
 }
 
 std::string insertionOrdersMarkdown(const ViewModel& view) {

@@ -464,6 +464,7 @@ std::string overviewJson(const ViewModel& view) {
                  {"tasks", mechanismsJson(view.tasks())},
                  {"overall", mechanismJson(view.overall())},
                  {"costs", costsJson(view)},
+                 {"insertionOrders", insertionOrdersJson(view)},
                  {"audit", gatheredAudit(run)},
                  {"ledger", gatheredLedger(view)}});
 }

@@ -14,6 +14,7 @@
 
 namespace rigor::report {
 
+class ViewModel;
 using Json = nlohmann::ordered_json;
 
 /// All digits; what JSON lacks is "nan", "inf" or "-inf".
@@ -28,6 +29,9 @@ inline Json number(const std::optional<double>& value) {
 /// Observed orders of a scenario, and its place in the four ways to compare.
 Json ordersJson(const results::Run& run, const std::string& scenario);
 Json fairnessJson(const results::Run& run, const std::string& scenario);
+
+/// Cases that depend on the order of insertion; null where every case was run in one.
+Json insertionOrdersJson(const ViewModel& view);
 
 /// The audit of a case; of what its run acted upon (null where that was not asked); per scenario and auditor
 /// over all cases of a run.

@@ -162,10 +162,14 @@ Layout layoutOf(const ViewModel& view, const Names& names, std::size_t columns) 
     std::size_t widest = 4;
     for (const auto& c : names.columns)
         widest = std::max({widest, displayWidth(c.engine), displayWidth(c.preset)});
+    std::size_t number = 10;  // of a cell with its number
+    for (std::size_t s = 0; s < view.run().scenarios.size(); ++s)
+        for (std::size_t c = 0; c < view.columns().size(); ++c)
+            number = std::max(number, displayWidth(cellText(view, s, c, true)));
     const std::size_t room = columns > layout.nameWidth ? columns - layout.nameWidth : 0;
     const std::size_t each = room / std::max<std::size_t>(1, view.columns().size());
-    if (each >= std::max<std::size_t>(widest, 10) + 1)
-        layout.cellWidth = std::max<std::size_t>(widest, 10) + 1, layout.values = true;
+    if (each >= std::max(widest, number) + 1)
+        layout.cellWidth = std::max(widest, number) + 1, layout.values = true;
     else if (each >= widest + 1)
         layout.cellWidth = widest + 1;
     else

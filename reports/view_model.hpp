@@ -206,9 +206,9 @@ struct OrderDependent {
 };
 /// Cases that depend on the order of insertion, the widest range over its scale first.
 std::vector<OrderDependent> orderDependents(const results::Run& run);
-/// "Depends on the order of insertion ↕ (3 of 12 cases in several orders)"; "" where none was run so.
+/// "Depends on the order of insertion ↕ (3 of 12 cases run in several orders)"; "" where none was run so.
 std::string ordersHeading(const results::Run& run, std::size_t dependent);
-/// "rest_creep 0.0031, 0.0027 … 0.053 m over 5 orders, grade C, C … D; order 3: crashed (SIGABRT)".
+/// "rest_creep 0.0031 as written, 0.0027 … 0.053 m over 5 orders; grade C as written, C … D; order 3: crashed".
 std::string orderText(const OrderDependent& dependent);
 /// One sentence on what the order of insertion makes of a case; "" where it was run in one order.
 std::string orderSentence(const results::CaseRow& row);

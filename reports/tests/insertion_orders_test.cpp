@@ -71,13 +71,17 @@ TEST(InsertionOrders, ARangeIsShownByEveryFormat) {
     EXPECT_EQ(orderRangeText(c.metrics.back()), range);
 
     const std::string terminal = terminalSummary(run, 60, 200, false);
-    EXPECT_THAT(terminal, HasSubstr("Depends on the order of insertion ↕ (1 of 1 case in several orders)"));
-    EXPECT_THAT(terminal, HasSubstr("rest_creep 0.0031, " + range + ", grade C, C … D"));
+    EXPECT_THAT(terminal,
+                HasSubstr("Depends on the order of insertion ↕ (1 of 1 case run in several orders)"));
+    EXPECT_THAT(terminal,
+                HasSubstr("rest_creep 0.0031 as written, " + range + "; grade C as written, C … D"));
 
     const std::string summary = markdownSummary(view);
     EXPECT_THAT(summary,
                 HasSubstr("| " + markdownCell("rest_creep") + " | 0.0031 | " + range + " | C, C … D |"));
-    EXPECT_THAT(orderSentence(c), HasSubstr("rest_creep is 0.0027 … 0.053 m, its grade C … D"));
+    EXPECT_THAT(
+        orderSentence(c),
+        HasSubstr("over 5 orders rest_creep is 0.0027 … 0.053 m (0.0031 as written), its grade C … D"));
 
     const auto csv = parseCsv(csvReport(run));
     const auto column = [&](const std::string& name) {
@@ -110,6 +114,18 @@ TEST(InsertionOrders, ARangeIsShownByEveryFormat) {
     }
     EXPECT_TRUE(shown);
 
+    const auto overview = nlohmann::json::parse(overviewJson(view)).at("insertionOrders");
+    EXPECT_EQ(overview.at("heading"), ordersHeading(run, 1));
+    ASSERT_EQ(overview.at("rows").size(), 1u);
+    const auto& shownRow = overview.at("rows").at(0);
+    EXPECT_EQ(shownRow.at("spec"), c.spec);
+    EXPECT_EQ(shownRow.at("value"), 0.0031);
+    EXPECT_EQ(shownRow.at("least"), 0.0027);
+    EXPECT_EQ(shownRow.at("greatest"), 0.053);
+    EXPECT_EQ(shownRow.at("worst"), "D");
+    EXPECT_TRUE(nlohmann::json::parse(overviewJson(ViewModel(plainRun()))).at("insertionOrders").is_null())
+        << "every case in one order: the page has no such section";
+
     for (const Table& table : allTables(view))
         if (table.name == "insertion_orders") {
             EXPECT_EQ(table.rows.size(), 1u);
@@ -120,9 +136,9 @@ TEST(InsertionOrders, WhatIsTheSameInAllOfThemIsSaidToBe) {
     results::Run run = plainRun();
     const CaseRow& c = orderedCase(run, 0.0031, 0.0031);
     EXPECT_THAT(terminalSummary(run, 60, 200, false),
-                HasSubstr("No result depends on the order of insertion (1 case in several orders)"));
+                HasSubstr("No result depends on the order of insertion (1 case run in several orders)"));
     EXPECT_THAT(markdownSummary(ViewModel(run)), HasSubstr("No result depends on the order of insertion"));
-    EXPECT_EQ(orderSentence(c), "Over 5 orders of insertion it is the same.");
+    EXPECT_EQ(orderSentence(c), "Does not depend on the order of insertion (5 orders).");
     EXPECT_TRUE(orderDependents(run).empty());
 }
 
@@ -131,7 +147,7 @@ TEST(InsertionOrders, AnOrderThatCrashesIsTold) {
     CaseRow& c = orderedCase(run, 0.0031, 0.0031);
     c.orders.completed = 4, c.orders.worst = Grade::E, c.orders.note = "order 3: crashed (SIGABRT)";
     EXPECT_THAT(terminalSummary(run, 60, 200, false),
-                HasSubstr("grade C, C … E; order 3: crashed (SIGABRT)"));
+                HasSubstr("grade C as written, C … E; order 3: crashed (SIGABRT)"));
     EXPECT_THAT(orderSentence(c), HasSubstr("order 3: crashed (SIGABRT)"));
 }
 

@@ -139,6 +139,24 @@ export interface Orders {
   says: string; // a sentence
 }
 
+/** A case that depends on the order of insertion. */
+export interface OrderDependent {
+  scenario: string;
+  spec: string;
+  dt: number;
+  metric: string; // that varies most, with its unit and values; "" where endings alone differ
+  unit: string;
+  value: Maybe; // in the order as written
+  least: Maybe;
+  greatest: Maybe;
+  run: number; // orders
+  completed: number;
+  grade: string; // in the order as written
+  best: string; // grades over the orders
+  worst: string;
+  note: string;
+}
+
 /** A case as the overview knows it. */
 export interface BriefCase {
   id: string;
@@ -263,10 +281,12 @@ export interface Run {
   regressions: Record<Regression, number>;
   red: number;
   inHouse: string; // engine of the authors
+  likeForLike: string; // preset in which engines are as near to each other as they come
   mechanisms: Mechanism[];
   tasks: Mechanism[];
   overall: Mechanism;
   costs?: StepCost[]; // by column
+  insertionOrders?: { heading: string; rows: OrderDependent[] } | null; // null: every case in one order
   audit: { scenario: string; rows: Audit[] }[];
   ledger: GatheredLedger[];
 }
@@ -281,7 +301,6 @@ export interface BenchCase {
   size: Stored;
   sizeUnit: string; // '' where there is no size
   threads: number;
-  likeForLike: string; // preset in which engines are as near to each other as they come
   operation: string;
   command: string;
   repetitions: number;

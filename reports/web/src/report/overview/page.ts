@@ -9,6 +9,7 @@ import { studySection } from '../study/page.ts';
 import { contactQueries, contactsActedUpon } from './contacts.ts';
 import { engines } from './engines.ts';
 import { headline } from './headline.ts';
+import { insertionOrders } from './insertion_orders.ts';
 import { ledgerSummary } from './ledger.ts';
 import { method } from './method.ts';
 import { scoreboard } from './scoreboard.ts';
@@ -30,6 +31,7 @@ const sections: OverviewSection[] = [
   { id: 'bench', title: 'Bench', make: benchSection },
   { id: 'trust', title: 'Which engine', make: judged(trust) },
   { id: 'scoreboard', title: 'Scoreboard', make: judged(scoreboard) },
+  { id: 'insertion-orders', title: 'Insertion order', make: insertionOrders },
   { id: 'timing', title: 'Cost', make: timing },
   { id: 'in-run', title: 'Contacts', make: contactsActedUpon },
   { id: 'audit', title: 'Contact queries', make: contactQueries },
@@ -49,6 +51,7 @@ export function navigation(): { id: string; title: string }[] {
     method: run.columns.length > 0,
     study: document.getElementById('study-data') !== null,
     trust: run.columns.length > 0 && run.mechanisms.length > 0,
+    'insertion-orders': Boolean(run.insertionOrders),
     timing: run.scenarios.some((s) => s.cases.some((c) => c.step)),
     'in-run': run.scenarios.some((s) => s.cases.some((c) => c.inRun?.overlapping)),
     audit: run.audit.length > 0,
