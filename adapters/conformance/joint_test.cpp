@@ -24,6 +24,8 @@ class Joints : public DynamicsTest {
     static Vec3 at(const BodyState& state, const Vec3& local) {
         return Pose{state.position, state.orientation} * local;
     }
+    /// The angle about z of a six_dof whose axis is x and whose normal is y.
+    scenario::JointAxis& turnOf(Joint& joint) const { return joint.axes[is2d() ? 2 : 5]; }
     /// Angle of a physical pendulum, theta'' = -k sin(theta), released at rest at `theta`, after `time`.
     static double pendulumAngle(double theta, double k, double time) {
         const int steps = 20000;
@@ -45,6 +47,11 @@ class Joints : public DynamicsTest {
         const int b =
             addBody(s, block({0.2, 0.1, 0.1}), pivot + Vec3{arm, 0, 0}, mass, {inertia, inertia, inertia});
         s.joints.push_back(jointOf(type, scenario::kNone, b, pivot, {-arm, 0, 0}));
+        if (type == JointType::SixDof) {
+            Joint& joint = s.joints.back();
+            joint.axisA = joint.axisB = {1, 0, 0}, joint.normalA = {0, 1, 0};
+            turnOf(joint).mode = scenario::AxisMode::Free;
+        }
         auto world = build(s, kStep);
         double drift = 0.0;
         for (int i = 0; i < 192; ++i) {
@@ -70,6 +77,44 @@ TEST_P(Joints, ABodyOnABallJointIsAPendulum) {
 TEST_P(Joints, ABodyOnAHingeIsAPendulum) {
     if (!hasJoint("hinge")) GTEST_SKIP() << "no hinge";
     swing(JointType::Hinge);
+}
+
+TEST_P(Joints, ABodyOnASixDofWithAFreeAngleIsAPendulum) {
+    if (!hasJoint("six_dof")) GTEST_SKIP() << "no six_dof";
+    swing(JointType::SixDof);
+}
+
+/// A travel away from the centre of mass of a body that turns: the anchor runs along the axis at the motor's
+/// speed, off it the anchor is held, and at the limit it stops.
+TEST_P(Joints, ASixDofTravelActsAtItsAnchor) {
+    if (!hasJoint("six_dof.limit") || !hasJoint("six_dof.motor")) GTEST_SKIP() << "no six_dof limits";
+    Scenario s = scene();
+    const Vec3 anchor{-0.3, 0.1, 0};
+    const int b = addBody(s, block({0.2, 0.1, 0.1}), -anchor, 2.0, {0.1, 0.1, 0.1});
+    s.bodies[0].angularVelocity = {0, 0, 3.0};
+    s.bodies[0].velocity = Vec3{1.0, 0, 0} + cross(Vec3{0, 0, 3.0}, -anchor);
+    Joint joint = jointOf(JointType::SixDof, scenario::kNone, b, {}, anchor);
+    joint.axisA = joint.axisB = {1, 0, 0}, joint.normalA = {0, 1, 0};
+    joint.axes[0].mode = scenario::AxisMode::Limited;
+    joint.axes[0].lower = -0.2, joint.axes[0].upper = 0.4;
+    joint.axes[0].motorSpeed = 1.0, joint.axes[0].motorMaxForce = 1000.0;
+    turnOf(joint).mode = scenario::AxisMode::Free;
+    s.joints.push_back(joint);
+    auto world = build(s, kStep);
+    double travel = 0.0, aside = 0.0, limit = 0.0, turned = 0.0;
+    for (int i = 1; i <= 384; ++i) {
+        world->step();
+        const BodyState state = stateOf(*world, s, b);
+        const Vec3 p = at(state, anchor);
+        if (i * kStep < 0.38) travel = std::max(travel, std::abs(p.x - i * kStep));
+        if (i * kStep > 0.45) limit = std::max(limit, std::abs(p.x - 0.4));
+        aside = std::max(aside, norm(Vec3{0, p.y, p.z}));
+        turned = std::max(turned, angleBetween(state.orientation, Quat{}));
+    }
+    within("six_dof_motor", travel, 1e-2);
+    within("six_dof_limit", limit, 1e-2);
+    within("six_dof_held", aside, 5e-3);
+    EXPECT_GT(turned, 1.0);
 }
 
 TEST_P(Joints, AHingeTurnsAboutItsAxisAndNoOther) {

@@ -39,10 +39,9 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
                     "half_space", "triangle_mesh", "height_field", "circle",   "polygon",
                     "half_plane", "segment",       "chain"};
         c.joints = {"ball", "hinge", "slider", "fixed", "distance", "cone_twist", "six_dof", "wheel"};
-        for (const char* joint : {"ball", "hinge", "slider", "cone_twist", "six_dof", "wheel"})
+        for (const char* joint : {"ball", "hinge", "slider", "cone_twist", "distance", "six_dof", "wheel"})
             for (const char* what : {".limit", ".motor", ".spring"})
                 c.joints.push_back(joint + std::string(what));
-        for (const char* what : {".limit", ".spring"}) c.joints.push_back("distance" + std::string(what));
         for (const char* joint :
              {"ball", "hinge", "slider", "fixed", "distance", "cone_twist", "six_dof", "wheel"})
             c.joints.push_back(joint + std::string(".break"));
@@ -50,7 +49,6 @@ class OdeEngine final : public adapter::Engine, public adapter::DynamicsEngine {
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.libraryLacks = {
             {"cone", "ode/collision.h, geom class numbers: none is a cone"},
-            {"distance.motor", "ode/objects.h, dJointSetDBallParam: ERP and CFM alone"},
             {"static_friction", "ode/contact.h, dSurfaceParameters: mu, one coefficient in each direction"}};
         return c;
     }

@@ -62,6 +62,7 @@ JointMotion::JointMotion(const scenario::Joint& joint, const JointEnd& a, const 
     localTurning_ = joint.axisA;
     if (joint.type == JointType::Wheel)
         localTurning_ = rotateInverse(a.pose.orientation, rotate(b.pose.orientation, joint.spinAxisB));
+    if (joint.type == JointType::SixDof) localTurning_ = localAxes_[2];  // in the plane its one angle
     localTurningNormal_ = anyNormal(localTurning_);
     axisInB_ = intoB(localAxes_[0]), normalInB_ = intoB(localAxes_[1]);
     turningNormalInB_ = intoB(localTurningNormal_);

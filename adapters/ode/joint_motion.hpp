@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Coordinates of a scenario's joint at the present poses of its bodies: what the adapter has to tell those of
-// ODE's joints that do not measure for themselves (AMotor in user mode, LMotor), and what a spring swings.
+// ODE's joints that do not measure for themselves (AMotor in user mode, contact joints), and what a spring swings.
 #pragma once
 
 #include <ode/ode.h>

@@ -5,9 +5,14 @@
 //
 // An AMotor in user mode acts about one axis g in the world and takes its angle from us. A coordinate u whose
 // rate is s (g . w), g a unit vector, is the angle u / s to it, its motor's speed and torque are v / s and s
-// T, and a spring's CFM is that of u over s^2. An LMotor has no stops: a row that holds or springs is a motor
-// of unlimited force whose speed is ERP / h of the error and whose CFM is the spring's, which is the same
-// row.
+// T, and a spring's CFM is that of u over s^2.
+//
+// Along a line ODE has rows of its own at centres of mass (LMotor) and on rails (Slider, Piston), at any other
+// point those of a contact joint: its normal's pushes one way alone, its friction's both ways, towards a
+// surface speed (motion1), within a force (mu), with a softness (slip1). So a stop is a contact without
+// friction whose depth is the overrun, and what holds, drives or springs is the friction of a contact whose
+// normal is made powerless by its CFM; a row that holds or springs has unlimited force, the speed ERP / h of
+// the error and the spring's CFM, which is the row of ODE's own soft stops.
 #include <algorithm>
 #include <cmath>
 
@@ -80,13 +85,9 @@ void OdeJoint::addAngleMotor(const JointAxis& axis, Angle kind, bool spring) {
     update(angleMotors_.back());
 }
 
-void OdeJoint::addTravelMotor(const JointAxis& axis, int along) {
-    const dJointID id = dJointCreateLMotor(world_, nullptr);
-    dJointAttach(id, b_.body, a_.body);
-    dJointSetLMotorNumAxes(id, 1);
-    add(id);
-    travelMotors_.push_back({id, along, axis});
-    update(travelMotors_.back());
+void OdeJoint::addPointRow(const JointAxis& axis, int along, PointRow does) {
+    add(nullptr);
+    pointRows_.push_back({&parts_.back(), along, axis, does});
 }
 
 void OdeJoint::update(AngleMotor& motor) {
@@ -116,51 +117,56 @@ void OdeJoint::update(AngleMotor& motor) {
     setStops(axis, motor.id, dJointSetAMotorParam);
 }
 
-void OdeJoint::update(const TravelMotor& motor) {
-    const Coordinate now = motion_.travel(motor.along);
-    const Vec3 g = motion_.axis(motor.along);
-    dJointSetLMotorAxis(motor.id, 0, 0, g.x, g.y, g.z);
-    if (motor.axis.hasMotor()) {
-        setMotor(motor.axis, motor.id, dJointSetLMotorParam);
-        return;
-    }
-    SpringTerms terms{dWorldGetERP(world_), dWorldGetCFM(world_)};
-    double target = 0.0;
-    if (motor.axis.hasSpring()) {
-        terms = springTerms(motor.axis, motion_.movedMass(now.rate), dt_);
-        target = motor.axis.target;
-    }
-    dJointSetLMotorParam(motor.id, dParamVel, terms.erp / dt_ * (target - now.value));
-    dJointSetLMotorParam(motor.id, dParamFMax, dInfinity);
-    dJointSetLMotorParam(motor.id, dParamCFM, terms.cfm);
+/// A stop acts in each step that starts at its bound or beyond, as ODE's own do; false where it does not.
+bool OdeJoint::stopAt(const Coordinate& now, const JointAxis& axis, dContact& contact) const {
+    const bool above = now.value >= axis.upper;
+    if (!above && now.value > axis.lower) return false;
+    toOde((above ? -1.0 : 1.0) * now.rate.lin, contact.geom.normal);
+    contact.geom.depth = above ? now.value - axis.upper : axis.lower - now.value;
+    return true;
 }
 
-/// DBall has no stops. At its bound a distance is what a frictionless contact is, a row that pushes in one
-/// sense alone and acts along the line of the anchors, so it is a contact joint with that line as normal and
-/// the overrun as depth, made anew in each step that starts at the bound or beyond, as ODE's own stops act.
-void OdeJoint::updateLengthStop() {
-    if (lengthStop_->id != nullptr) dJointDestroy(lengthStop_->id);
-    *lengthStop_ = {};
-    const JointAxis& axis = joint_.axes[0];
-    const Coordinate length = motion_.length();
-    const bool taut = length.value >= axis.upper;
-    if (!taut && length.value > axis.lower) return;
+void OdeJoint::driveAt(const Coordinate& now, const PointJoint& row, dContact& contact) const {
+    const Vec3& along = now.rate.lin;
+    const Vec3 other = std::abs(along.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, normal = cross(along, other);
+    toOde(normal / norm(normal), contact.geom.normal);
+    toOde(along, contact.fdir1);
+    SpringTerms terms{dWorldGetERP(world_), dWorldGetCFM(world_)};
+    double target = 0.0;
+    if (row.does == PointRow::Springs)
+        terms = springTerms(row.axis, motion_.movedMass(now.rate), dt_), target = row.axis.target;
+    const bool drives = row.does == PointRow::Drives;
+    const double speed = drives ? row.axis.motorSpeed : terms.erp / dt_ * (target - now.value);
+    dSurfaceParameters& surface = contact.surface;
+    surface.mode = dContactSoftCFM | dContactFDir1 | dContactMu2 | dContactMotion1 | dContactSlip1;
+    surface.soft_cfm = 1e30;
+    surface.mu = drives ? odeBound(row.axis.motorMaxForce) : dInfinity;
+    surface.motion1 = b_.body != nullptr ? speed : -speed;  // of the joint's first body that is one
+    surface.slip1 = drives ? dWorldGetCFM(world_) : terms.cfm;
+}
+
+void OdeJoint::update(const PointJoint& row) {
+    if (row.part->id != nullptr) dJointDestroy(row.part->id);
+    *row.part = {};
+    const Coordinate now = row.along == kAlongLine ? motion_.length() : motion_.travel(row.along);
     dContact contact{};
     toOde(motion_.anchorB(), contact.geom.pos);
-    toOde((taut ? -1.0 : 1.0) * length.rate.lin, contact.geom.normal);
-    contact.geom.depth = taut ? length.value - axis.upper : axis.lower - length.value;
-    lengthStop_->id = dJointCreateContact(world_, nullptr, &contact);
-    dJointAttach(lengthStop_->id, b_.body, a_.body);
-    if (breaks_) dJointSetFeedback(lengthStop_->id, &lengthStop_->feedback);
+    if (row.does == PointRow::Stops) {
+        if (!stopAt(now, row.axis, contact)) return;
+    } else {
+        driveAt(now, row, contact);
+    }
+    row.part->id = dJointCreateContact(world_, nullptr, &contact);
+    dJointAttach(row.part->id, b_.body, a_.body);
+    if (breaks_) dJointSetFeedback(row.part->id, &row.part->feedback);
 }
 
 void OdeJoint::beforeStep() {
-    const bool passive = angleMotors_.empty() && travelMotors_.empty() && springs_.empty();
-    if (!holds_ || (passive && lengthStop_ == nullptr && !breaks_)) return;
+    const bool passive = angleMotors_.empty() && pointRows_.empty() && springs_.empty();
+    if (!holds_ || (passive && !breaks_)) return;
     motion_.update();
-    if (lengthStop_ != nullptr) updateLengthStop();
     for (AngleMotor& motor : angleMotors_) update(motor);
-    for (const TravelMotor& motor : travelMotors_) update(motor);
+    for (const PointJoint& row : pointRows_) update(row);
     for (const PosedSpring& spring : springs_) {
         const SpringTerms terms =
             springTerms(spring.axis, motion_.movedMass(spring.coordinate(motion_).rate), dt_);

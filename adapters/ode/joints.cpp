@@ -19,9 +19,6 @@ using scenario::JointType;
 
 namespace {
 
-bool asks(const JointAxis& axis) {
-    return axis.mode != AxisMode::Free || axis.hasMotor() || axis.hasSpring();
-}
 bool onlyHeld(const JointAxis& axis) {
     return axis.mode == AxisMode::Locked;
 }
@@ -30,21 +27,13 @@ bool beyondHalfTurn(double x) {
     return std::abs(x) < 1e299 && std::abs(x) > 3.141592;
 }
 
-/// The joint with definite modes, and in the plane the coordinates of six_dof in the places they have in
-/// space.
-scenario::Joint resolved(scenario::Joint joint, bool planar) {
+/// The joint with definite modes.
+scenario::Joint resolved(scenario::Joint joint) {
     for (JointAxis& axis : joint.axes) {
         if (axis.mode != AxisMode::Usual) continue;
         const bool locked = joint.type == JointType::SixDof ||
                             (joint.type == JointType::Distance && !axis.hasSpring() && !axis.hasMotor());
         axis.mode = locked ? AxisMode::Locked : AxisMode::Free;
-    }
-    if (planar && joint.type == JointType::SixDof) {
-        // z, twist and swing_y are held by the plane too.
-        const JointAxis angle = joint.axes[2];
-        for (const std::size_t k : {2, 3, 4}) joint.axes[k] = JointAxis{.mode = AxisMode::Locked};
-        joint.axes[5] = angle;
-        joint.normalA = cross(Vec3{0, 0, 1}, joint.axisA);
     }
     return joint;
 }
@@ -54,24 +43,21 @@ scenario::Joint resolved(scenario::Joint joint, bool planar) {
 OdeJoint::OdeJoint(dWorldID world, const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
                    double dt, bool planar)
     : world_(world),
-      joint_(resolved(joint, planar)),
+      joint_(resolved(joint)),
       a_(a),
       b_(b),
       dt_(dt),
+      planar_(planar),
       motion_(joint_, a, b),
       breaks_(joint.breakForce < 1e299 || joint.breakTorque < 1e299) {
     if (a.body == nullptr && b.body == nullptr) return;
-    build(planar);
+    build();
     if (!breaks_) return;
     for (Part& part : parts_)
         if (part.id != nullptr) dJointSetFeedback(part.id, &part.feedback);
 }
 
-void OdeJoint::refuse(const std::string& what) const {
-    throw adapter::notInAdapter("ode", what, "joint '" + joint_.name + "'");
-}
-
-void OdeJoint::build(bool planar) {
+void OdeJoint::build() {
     switch (joint_.type) {
         case JointType::Ball:
             addBall();
@@ -95,7 +81,7 @@ void OdeJoint::build(bool planar) {
             addTurn(joint_.axes[1], Angle::Cone);
             break;
         case JointType::SixDof:
-            buildSixDof(planar);
+            buildSixDof();
             break;
         case JointType::Wheel:
             buildWheel();
@@ -154,10 +140,8 @@ void OdeJoint::buildSlider() {
     if (axis.hasMotor()) setMotor(axis, id, dJointSetSliderParam);
     if (!axis.hasSpring()) return;
     if (axis.mode == AxisMode::Limited || axis.hasMotor()) {
-        // A slider's one set of stops is taken, or its motor would be idle between them: an LMotor springs.
-        JointAxis spring = axis;
-        spring.mode = AxisMode::Free, spring.motorMaxForce = 0.0;
-        addTravelMotor(spring, 0);
+        // A slider's one set of stops is taken, or its motor would be idle between them.
+        addPointRow(axis, 0, PointRow::Springs);
     } else {
         setSpring(axis, id, dJointSetSliderParam, [](const JointMotion& m) { return m.travel(0); });
     }
@@ -165,11 +149,8 @@ void OdeJoint::buildSlider() {
 
 void OdeJoint::buildDistance() {
     const JointAxis& axis = joint_.axes[0];
-    if (axis.mode == AxisMode::Limited) {
-        add(nullptr);
-        lengthStop_ = &parts_.back();
-    }
-    if (axis.hasMotor()) refuse("motors along a distance: DBall has none");
+    if (axis.mode == AxisMode::Limited) addPointRow(axis, kAlongLine, PointRow::Stops);
+    if (axis.hasMotor()) addPointRow(axis, kAlongLine, PointRow::Drives);
     if (axis.mode != AxisMode::Locked && !axis.hasSpring()) return;
     const dJointID id = dJointCreateDBall(world_, nullptr);
     dJointAttach(id, b_.body, a_.body);
@@ -185,12 +166,13 @@ void OdeJoint::buildDistance() {
 
 /// Hinge2 with its steering locked. Its suspension pulls to where the anchors met when they were set, so they
 /// are set with B moved by the spring's target. It needs two bodies: the world is a kinematic one at the
-/// anchor.
+/// anchor. Its locked steering holds turns about the strut: of a pin that leans it would hold a part.
 void OdeJoint::buildWheel() {
     const JointAxis &travel = joint_.axes[0], &angle = joint_.axes[1];
-    if (travel.mode == AxisMode::Limited || travel.hasMotor())
-        refuse("stops and motors along a suspension: Hinge2 has none");
     const Vec3 along = motion_.axis(0), pin = motion_.turningAxis();
+    if (std::abs(dot(along, pin)) > 1e-6)
+        throw adapter::notInAdapter("ode", "wheel whose spin axis is not normal to its strut",
+                                    "joint '" + joint_.name + "'");
     const dBodyID a = standIn(a_, motion_.anchorA()), b = standIn(b_, motion_.anchorB());
     const dJointID id = dJointCreateHinge2(world_, nullptr);
     dJointAttach(id, a, b);
@@ -214,6 +196,8 @@ void OdeJoint::buildWheel() {
         dJointSetHinge2Param(id, dParamSuspensionERP, 0.0);
         dJointSetHinge2Param(id, dParamSuspensionCFM, 1e30);
     }
+    if (travel.mode == AxisMode::Limited) addPointRow(travel, 0, PointRow::Stops);
+    if (travel.hasMotor()) addPointRow(travel, 0, PointRow::Drives);
     if (angle.hasMotor() && angle.mode == AxisMode::Free) {
         dJointSetHinge2Param(id, dParamVel2, angle.motorSpeed);
         dJointSetHinge2Param(id, dParamFMax2, angle.motorMaxForce);
@@ -260,32 +244,24 @@ bool OdeJoint::buildSixDofTravels() {
             addTurn(joint_.axes[3 + k], k == 0 ? Angle::Twist : k == 1 ? Angle::SwingY : Angle::SwingZ);
         return true;
     }
-    // An LMotor acts at the centre of mass, and holds and springs only by its speed.
-    const bool atCenter = a_.body == nullptr && b_.body != nullptr && norm(b_.com - joint_.anchorB) < 1e-9;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const JointAxis& motor = joint_.axes[i];
-        if (!asks(motor)) continue;
-        if (motor.mode == AxisMode::Limited) refuse("stops of these travels of a six_dof: LMotor has none");
-        if (!atCenter) refuse("these travels of a six_dof away from the centre of mass, where LMotor acts");
-        if (motor.hasMotor()) {
-            JointAxis drive = motor;
-            drive.frequency = drive.stiffness = drive.damping = 0.0;
-            addTravelMotor(drive, static_cast<int>(i));
-        }
-        if (!motor.hasMotor() || motor.hasSpring()) {
-            JointAxis spring = motor;
-            spring.motorMaxForce = 0.0;
-            addTravelMotor(spring, static_cast<int>(i));
-        }
+    for (int i = 0; i < (planar_ ? 2 : 3); ++i) {
+        const JointAxis& travel = joint_.axes[static_cast<std::size_t>(i)];
+        if (onlyHeld(travel)) addPointRow(travel, i, PointRow::Holds);
+        if (travel.mode == AxisMode::Limited) addPointRow(travel, i, PointRow::Stops);
+        if (travel.hasMotor()) addPointRow(travel, i, PointRow::Drives);
+        if (travel.hasSpring()) addPointRow(travel, i, PointRow::Springs);
     }
     return false;
 }
 
-void OdeJoint::buildSixDof(bool planar) {
+void OdeJoint::buildSixDof() {
     if (buildSixDofTravels()) return;
+    if (planar_) {
+        addTurn(joint_.axes[5], Angle::Turn);
+        return;
+    }
     constexpr Angle kinds[] = {Angle::Twist, Angle::SwingY, Angle::SwingZ};
-    for (std::size_t k = 3; k < 6; ++k)
-        if (!planar || k == 5) addTurn(joint_.axes[k], kinds[k - 3]);
+    for (std::size_t k = 3; k < 6; ++k) addTurn(joint_.axes[k], kinds[k - 3]);
 }
 
 }  // namespace rigor::ode

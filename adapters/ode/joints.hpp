@@ -50,12 +50,16 @@ class OdeJoint {
         bool spring = false;
         double seen = 0.0;  ///< last angle, counted over turns
     };
-    /// One LMotor along one axis of A that holds a coordinate, springs it or drives it.
-    struct TravelMotor {
-        dJointID id = nullptr;
-        int along = 0;
+    /// What a row along the line of B's anchor does.
+    enum class PointRow { Holds, Stops, Drives, Springs };
+    /// One row that acts at B's anchor: a contact joint, made anew before each step.
+    struct PointJoint {
+        Part* part = nullptr;
+        int along = 0;  ///< axis of A, or kAlongLine
         scenario::JointAxis axis;
+        PointRow does = PointRow::Holds;
     };
+    static constexpr int kAlongLine = -1;  ///< from A's anchor to B's
     using SetParam = void (*)(dJointID, int, dReal);
     using Current = std::function<Coordinate(const JointMotion&)>;
     /// A spring whose stiffness and damping follow from its frequency and what it moves at the moment.
@@ -67,39 +71,39 @@ class OdeJoint {
         Current coordinate;
     };
 
-    void build(bool planar);
+    void build();
     void buildDistance();
-    void updateLengthStop();
     void buildHinge();
     void buildSlider();
     void buildWheel();
-    void buildSixDof(bool planar);
+    void buildSixDof();
     bool buildSixDofTravels();
     void add(dJointID id, bool firstForce = true);
     void addBall();
     void addFixed();
     void addTurn(const scenario::JointAxis& axis, Angle kind);
     void addAngleMotor(const scenario::JointAxis& axis, Angle kind, bool spring);
-    void addTravelMotor(const scenario::JointAxis& axis, int along);
+    void addPointRow(const scenario::JointAxis& axis, int along, PointRow does);
     void setStops(const scenario::JointAxis& axis, dJointID id, SetParam set);
     void setMotor(const scenario::JointAxis& axis, dJointID id, SetParam set);
     void setSpring(const scenario::JointAxis& axis, dJointID id, SetParam set, Current coordinate);
     void softenSpring(const scenario::JointAxis& axis, dJointID id, SetParam set, int erp, int cfm,
                       Current coordinate);
     void update(AngleMotor& motor);
-    void update(const TravelMotor& motor);
+    void update(const PointJoint& row);
+    bool stopAt(const Coordinate& now, const scenario::JointAxis& axis, dContact& contact) const;
+    void driveAt(const Coordinate& now, const PointJoint& row, dContact& contact) const;
     dBodyID standIn(const JointEnd& end, const adapter::Vec3& at);
-    [[noreturn]] void refuse(const std::string& what) const;
 
     dWorldID world_ = nullptr;
     scenario::Joint joint_;
     JointEnd a_, b_;
     double dt_ = 0.0;
+    bool planar_ = false;
     JointMotion motion_;
-    std::deque<Part> parts_;      ///< addresses are stable: ODE writes forces into them
-    Part* lengthStop_ = nullptr;  ///< of a rope: there while it is taut
+    std::deque<Part> parts_;  ///< addresses are stable: ODE writes forces into them
     std::vector<AngleMotor> angleMotors_;
-    std::vector<TravelMotor> travelMotors_;
+    std::vector<PointJoint> pointRows_;
     std::vector<PosedSpring> springs_;
     bool breaks_ = false, holds_ = true;
 };

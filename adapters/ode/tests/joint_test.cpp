@@ -192,7 +192,7 @@ TEST(OdeJoints, SixDofTurnsStopAtTheirLimits) {
 
 /// Trap: LMotor has no stops and acts at the centres of mass. Held and sprung travels by its speed are the
 /// same rows; what it can not do is refused.
-TEST(OdeJoints, AnLMotorHoldsSpringsAndDrives) {
+TEST(OdeJoints, ContactRowsHoldSpringAndDrive) {
     Scenario s = scene();
     const int b = addFree(s, {}, 2.0, {0.2, 0.2, 0.2});
     Joint joint = jointOf(JointType::SixDof, scenario::kNone, b, {}, {});
@@ -210,10 +210,83 @@ TEST(OdeJoints, AnLMotorHoldsSpringsAndDrives) {
         ASSERT_NEAR(state.position.y, 0.0, 1e-6);
         ASSERT_NEAR(state.velocity.x, std::min(1.0, 2.0 * i * kStep), 1e-6);
     }
-    s.joints[0].axes[0].mode = AxisMode::Limited;
-    EXPECT_THROW(Simulation(s, kStep), adapter::Unsupported);
-    s.joints[0].axes[0].mode = AxisMode::Free;
-    s.joints[0].anchorA = s.joints[0].anchorB = {0.2, 0, 0};
+}
+
+/// The same rows between two free bodies, away from their centres of mass: momentum and angular momentum stay.
+TEST(OdeJoints, ContactRowsPushBothBodiesAtOnePoint) {
+    for (const bool turned : {false, true}) {
+        Scenario s = scene();
+        s.gravity = {};
+        const int a = addFree(s, {}, 1.0, even(0.1)), b = addFree(s, {1.0, 0.2, 0}, 3.0, even(0.4));
+        s.bodies[0].angularVelocity = {0, 0, 1.0};
+        Joint joint = turned ? jointOf(JointType::SixDof, b, a, {-0.4, 0.3, 0}, {0.6, 0.5, 0})
+                             : jointOf(JointType::SixDof, a, b, {0.6, 0.5, 0}, {-0.4, 0.3, 0});
+        joint.axisA = joint.axisB = {1, 0, 0}, joint.normalA = {0, 1, 0};
+        joint.axes[0].mode = AxisMode::Limited;
+        joint.axes[0].lower = -0.05, joint.axes[0].upper = 0.1;
+        joint.axes[0].motorSpeed = -0.5, joint.axes[0].motorMaxForce = 2.0;
+        joint.axes[1].mode = joint.axes[5].mode = AxisMode::Free;
+        joint.axes[1].stiffness = 50.0, joint.axes[1].damping = 1.0, joint.axes[1].target = 0.1;
+        s.joints.push_back(joint);
+        Simulation simulation(s, kStep);
+        double last = 0.0, highest = 0.0;
+        for (int i = 1; i <= 480; ++i) {
+            simulation.steps(1);
+            const BodyState A = simulation.state(a), B = simulation.state(b);
+            ASSERT_NEAR(norm(A.velocity + 3.0 * B.velocity), 0.0, 1e-10) << i;
+            const Vec3 spin = 0.1 * A.angularVelocity + 0.4 * B.angularVelocity;
+            ASSERT_NEAR((spin + cross(A.position, A.velocity) + 3.0 * cross(B.position, B.velocity)).z, 0.1,
+                        2e-3);
+            const BodyState &first = turned ? B : A, &second = turned ? A : B;
+            const Vec3 offset =
+                rotateInverse(first.orientation, at(second, joint.anchorB) - at(first, joint.anchorA));
+            last = offset.x, highest = std::max(highest, offset.y);
+            ASSERT_NEAR(offset.z, 0.0, 1e-6);
+            ASSERT_GT(offset.x, -0.06);
+        }
+        EXPECT_NEAR(last, -0.05, 2e-3) << "driven to its lower stop";
+        EXPECT_GT(highest, 0.05) << "pulled by its spring";
+    }
+}
+
+/// A rope is wound in by a motor of a force that lifts its load, and stops at its shortest.
+TEST(OdeJoints, AMotorAlongADistanceWindsItIn) {
+    Scenario s = scene();
+    const int b = addFree(s, {0, -1, 0}, 2.0, even(0.1));
+    Joint joint = jointOf(JointType::Distance, scenario::kNone, b, {}, {});
+    joint.length = 1.0;
+    joint.axes[0].mode = AxisMode::Limited;
+    joint.axes[0].lower = 0.6, joint.axes[0].upper = 1.0;
+    joint.axes[0].motorSpeed = -0.5, joint.axes[0].motorMaxForce = 2.0 * 9.81 + 1.0;
+    s.joints.push_back(joint);
+    Simulation simulation(s, kStep);
+    for (int i = 1; i <= 960; ++i) {
+        simulation.steps(1);
+        const BodyState state = simulation.state(b);
+        if (i <= 360) {
+            ASSERT_NEAR(state.velocity.y, std::min(0.5, 0.5 * i * kStep), 1e-5);
+        }
+        ASSERT_LT(state.position.y, -0.599);
+    }
+    EXPECT_NEAR(simulation.state(b).position.y, -0.6, 1e-3);
+}
+
+/// A suspension has stops and a motor; Hinge2 steers about the strut, so a pin that leans is refused.
+TEST(OdeJoints, ASuspensionIsDrivenToItsStop) {
+    Scenario s = scene();
+    const int b = addFree(s, {0, 1, 0}, 2.0, even(0.1));
+    Joint joint = jointOf(JointType::Wheel, scenario::kNone, b, {0, 1, 0}, {});
+    joint.axisA = joint.axisB = {0, 1, 0}, joint.spinAxisB = {0, 0, 1};
+    joint.axes[0].mode = AxisMode::Limited, joint.axes[1].mode = AxisMode::Free;
+    joint.axes[0].lower = -0.1, joint.axes[0].upper = 0.3;
+    joint.axes[0].motorSpeed = 0.5, joint.axes[0].motorMaxForce = 2.0 * 9.81 + 4.0;
+    s.joints.push_back(joint);
+    Simulation simulation(s, kStep);
+    simulation.steps(60);
+    EXPECT_NEAR(simulation.state(b).velocity.y, 2.0 * 60 * kStep, 1e-6);
+    simulation.steps(660);
+    EXPECT_NEAR(simulation.state(b).position.y, 1.3, 1e-3);
+    s.joints[0].spinAxisB = {0, 0.6, 0.8};
     EXPECT_THROW(Simulation(s, kStep), adapter::Unsupported);
 }
 
