@@ -40,21 +40,34 @@ btScalar toBound(double x) {
     return static_cast<btScalar>(std::clamp(x, -1e9, 1e9));
 }
 
-/// Bullet's angle is that of B against A by its reference frame A. The stop's "relaxation factor" is the
-/// restitution of what hits it, 1 by default. A motor's bound is an impulse per step.
-void setAxis(const Joint& joint, btScalar dt, btHingeConstraint& hinge) {
+bool beyondHalfTurn(const scenario::JointAxis& axis) {
+    return axis.mode == scenario::AxisMode::Limited &&
+           (std::abs(axis.upper) > 3.141592 || std::abs(axis.lower) > 3.141592);
+}
+
+/// Bullet's angle is that of B against A by its reference frame A. A motor's bound is an impulse per step.
+BuiltJoint buildHinge(const Joint& joint, const JointEnd& a, const JointEnd& b,
+                      const JointSettings& settings) {
+    const btVector3 axisA = toBullet(rotateInverse(a.comFrame.orientation, joint.axisA));
+    const btVector3 axisB = toBullet(rotateInverse(b.comFrame.orientation, joint.axisB));
+    auto hinge = std::make_unique<btHingeConstraint>(
+        *a.body, *b.body, toBullet(inverse(a.comFrame) * joint.anchorA),
+        toBullet(inverse(b.comFrame) * joint.anchorB), axisA, axisB, true);
+    hinge->setUseFrameOffset(settings.frameOffset);
     const scenario::JointAxis& axis = joint.axes[0];
-    if (axis.mode == scenario::AxisMode::Limited) {
-        if (axis.upper - axis.lower > 6.283 || std::abs(axis.upper) > 3.141592 ||
-            std::abs(axis.lower) > 3.141592)
-            notInLibrary(joint, "hinge limits beyond half a turn, or on one side alone",
-                         "btTypedConstraint.h, btAngularLimit: normalised");
-        hinge.setLimit(static_cast<btScalar>(axis.lower), static_cast<btScalar>(axis.upper), btScalar(0.9),
-                       btScalar(0.3), btScalar(0.0));
+    const bool windowed = beyondHalfTurn(axis);
+    if (axis.hasMotor() && !windowed)
+        hinge->enableAngularMotor(true, static_cast<btScalar>(axis.motorSpeed),
+                                  static_cast<btScalar>(axis.motorMaxForce * settings.dt));
+    if (axis.mode == scenario::AxisMode::Limited && !windowed) setHingeLimit(*hinge, axis.lower, axis.upper);
+    btHingeConstraint& limited = *hinge;
+    BuiltJoint built(std::move(hinge));
+    if (windowed) {
+        built.turnLimits.push_back({&limited, axis.lower, axis.upper, 0.0});
+        // A hinge's own motor does not slow down before stops whose window holds half a turn, and pushes on.
+        if (axis.hasMotor()) addTurnMotor(joint, a, b, built);
     }
-    if (axis.hasMotor())
-        hinge.enableAngularMotor(true, static_cast<btScalar>(axis.motorSpeed),
-                                 static_cast<btScalar>(axis.motorMaxForce) * dt);
+    return built;
 }
 
 /// Lower above upper: free.
@@ -103,13 +116,12 @@ std::unique_ptr<btTypedConstraint> buildConeTwist(const Joint& joint, const Join
     return coneTwist;
 }
 
+/// Twist has its motor and spring from another constraint.
 void refuseMissing(const Joint& joint) {
-    const bool swinging = joint.type == JointType::Ball || joint.type == JointType::ConeTwist;
-    for (const scenario::JointAxis& axis : joint.axes)
-        if (swinging && (axis.hasMotor() || axis.hasSpring()))
-            throw adapter::notInAdapter("bullet",
-                                        std::string("motor or spring of a '") + jointName(joint.type) + "'",
-                                        "joint '" + joint.name + "'");
+    const bool ball = joint.type == JointType::Ball, coneTwist = joint.type == JointType::ConeTwist;
+    if (!ball && !coneTwist) return;
+    if (joint.axes[ball ? 0 : 1].hasSpring())
+        throw adapter::notInAdapter("bullet", "spring of a swing", "joint '" + joint.name + "'");
 }
 
 }  // namespace
@@ -122,17 +134,14 @@ BuiltJoint buildJoint(const Joint& joint, const JointEnd& a, const JointEnd& b,
     const bool sprung = joint.axes[0].hasSpring();
     switch (joint.type) {
         case JointType::Ball:
-            if (joint.axes[0].mode == scenario::AxisMode::Limited) return {buildConeTwist(joint, a, b), {}};
-            return {std::make_unique<btPoint2PointConstraint>(*a.body, *b.body, anchorA, anchorB), {}};
+            if (joint.axes[0].mode == scenario::AxisMode::Limited)
+                return BuiltJoint(buildConeTwist(joint, a, b));
+            return BuiltJoint(std::make_unique<btPoint2PointConstraint>(*a.body, *b.body, anchorA, anchorB));
         case JointType::Hinge: {
-            if (sprung) return buildSixDof(joint, a, b, settings);
-            const btVector3 axisA = toBullet(rotateInverse(a.comFrame.orientation, joint.axisA));
-            const btVector3 axisB = toBullet(rotateInverse(b.comFrame.orientation, joint.axisB));
-            auto hinge =
-                std::make_unique<btHingeConstraint>(*a.body, *b.body, anchorA, anchorB, axisA, axisB, true);
-            hinge->setUseFrameOffset(settings.frameOffset);
-            setAxis(joint, static_cast<btScalar>(settings.dt), *hinge);
-            return {std::move(hinge), {}};
+            if (sprung && !beyondHalfTurn(joint.axes[0])) return buildSixDof(joint, a, b, settings);
+            BuiltJoint built = buildHinge(joint, a, b, settings);
+            if (sprung) addTurnSpring(joint, a, b, settings, built);
+            return built;
         }
         case JointType::Slider: {
             if (sprung) return buildSixDof(joint, a, b, settings);
@@ -140,14 +149,18 @@ BuiltJoint buildJoint(const Joint& joint, const JointEnd& a, const JointEnd& b,
             auto slider =
                 std::make_unique<btSliderConstraint>(*a.body, *b.body, frames.inA, frames.inB, true);
             setAxis(joint, *slider);
-            return {std::move(slider), {}};
+            return BuiltJoint(std::move(slider));
         }
         case JointType::Fixed: {
             const Frames frames = framesOf(joint, fromXTo(joint.axisA), a, b);
-            return {std::make_unique<btFixedConstraint>(*a.body, *b.body, frames.inA, frames.inB), {}};
+            return BuiltJoint(std::make_unique<btFixedConstraint>(*a.body, *b.body, frames.inA, frames.inB));
         }
-        case JointType::ConeTwist:
-            return {buildConeTwist(joint, a, b), {}};
+        case JointType::ConeTwist: {
+            BuiltJoint built(buildConeTwist(joint, a, b));
+            if (joint.axes[0].hasMotor()) addTurnMotor(joint, a, b, built);
+            if (sprung) addTurnSpring(joint, a, b, settings, built);
+            return built;
+        }
         case JointType::SixDof:
         case JointType::Wheel:
             return buildSixDof(joint, a, b, settings);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adapters/bullet/damper.hpp"
+#include "adapters/bullet/turn_limit.hpp"
 #include "adapters/interface/types.hpp"
 
 namespace rigor::bullet {
@@ -38,13 +39,17 @@ struct Frames {
 };
 Frames framesOf(const scenario::Joint& joint, const adapter::Quat& inA, const JointEnd& a, const JointEnd& b);
 
-/// A Bullet constraint and what of it has to be told before each step.
+/// Bullet constraints that are one joint, and what has to be told them before each step.
 struct BuiltJoint {
-    std::unique_ptr<btTypedConstraint> constraint;
+    BuiltJoint() = default;
+    explicit BuiltJoint(std::unique_ptr<btTypedConstraint> only) { parts.push_back(std::move(only)); }
+
+    std::vector<std::unique_ptr<btTypedConstraint>> parts;
     std::vector<Damper> dampers;
+    std::vector<TurnLimit> turnLimits;
 };
 
-/// The joint as a Bullet constraint; axes and signs follow the format (B relative to A). Throws Unsupported
+/// The joint as Bullet constraints; axes and signs follow the format (B relative to A). Throws Unsupported
 /// for what Bullet does not have.
 BuiltJoint buildJoint(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
                       const JointSettings& settings);

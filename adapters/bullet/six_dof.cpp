@@ -45,6 +45,7 @@ Layout layoutOf(const Joint& joint, const JointEnd& a, const JointEnd& b) {
     layout.x = joint.axisA;
     switch (joint.type) {
         case JointType::Hinge:
+        case JointType::ConeTwist:
             layout.axis[3] = &joint.axes[0];
             break;
         case JointType::Slider:
@@ -57,9 +58,6 @@ Layout layoutOf(const Joint& joint, const JointEnd& a, const JointEnd& b) {
             layout.y = joint.axisA;
             layout.axis[1] = &joint.axes[0];
             layout.axis[3] = &joint.axes[1];
-            if (std::abs(dot(layout.x, layout.y)) > 1e-9)
-                throw adapter::notInAdapter("bullet", "wheel whose spin axis is not normal to its strut",
-                                            "joint '" + joint.name + "'");
             return layout;
         }
         default:
@@ -139,46 +137,115 @@ SpringLaw springLawOf(const Joint& joint, const JointEnd& a, const JointEnd& b) 
     return springLaw(layoutOf(joint, a, b), joint.type == JointType::Slider ? 0 : 3, joint, a, b);
 }
 
+namespace {
+
+using SixDof = btGeneric6DofSpring2Constraint;
+
+/// A constraint in the layout's frame that leaves everything free.
+std::unique_ptr<SixDof> freeJoint(const Layout& layout, const Joint& joint, const JointEnd& a,
+                                  const JointEnd& b) {
+    const Frames frames = framesOf(joint, frameOf(layout), a, b);
+    auto free = std::make_unique<SixDof>(*a.body, *b.body, frames.inA, frames.inB, rotationOrder(layout));
+    for (int k = 0; k < 6; ++k) free->setLimit(k, btScalar(1.0), btScalar(-1.0));
+    return free;
+}
+
+void setRange(SixDof& part, std::size_t k, const Range& range) {
+    const bool negated = k >= 3 && range.lower <= range.upper;
+    part.setLimit(static_cast<int>(k), scalar(negated ? -range.upper : range.lower),
+                  scalar(negated ? -range.lower : range.upper));
+}
+
+void setMotor(SixDof& part, std::size_t k, const JointAxis& axis) {
+    const int index = static_cast<int>(k);
+    part.enableMotor(index, true);
+    part.setTargetVelocity(index, scalar(-axis.motorSpeed));
+    part.setMaxMotorForce(index, scalar(axis.motorMaxForce));
+}
+
+/// A damper takes the coordinate's motor.
+void setSpring(SixDof& part, std::size_t k, const JointAxis& axis, const SpringLaw& law,
+               const JointSettings& settings, std::vector<Damper>& dampers) {
+    const int index = static_cast<int>(k);
+    if (law.stiffness == 0.0) {
+        part.enableMotor(index, true);
+        part.setTargetVelocity(index, btScalar(0.0));
+        dampers.push_back({&part, index, law.damping});
+        return;
+    }
+    part.enableSpring(index, true);
+    part.setStiffness(index, scalar(law.stiffness), settings.limitSprings);
+    part.setDamping(index, scalar(law.damping), settings.limitSprings);
+    part.setEquilibriumPoint(index, scalar(k >= 3 ? -axis.target : axis.target));
+}
+
+/// The turns about a spin axis that leans: a constraint of its own, whose frame has that axis for x.
+void addLeaningSpin(const Joint& joint, const JointEnd& a, const JointEnd& b, const JointSettings& settings,
+                    BuiltJoint& built) {
+    const JointAxis& angle = joint.axes[1];
+    Layout layout;
+    layout.x = rotateInverse(a.bodyPose.orientation, rotate(b.bodyPose.orientation, joint.spinAxisB));
+    layout.y = anyNormalOf(layout.x);
+    layout.axis[3] = &angle;
+    auto part = freeJoint(layout, joint, a, b);
+    for (const std::size_t k : {4, 5}) setRange(*part, k, {0.0, 0.0});
+    setRange(*part, 3, rangeOf(&angle, true, joint));
+    if (angle.hasMotor()) setMotor(*part, 3, angle);
+    if (angle.hasSpring()) {
+        const SpringLaw law = springLaw(layout, 3, joint, a, b);
+        if (law.stiffness == 0.0 && angle.hasMotor())
+            throw adapter::notInAdapter("bullet", "damper and motor of a wheel whose spin axis leans",
+                                        "joint '" + joint.name + "'");
+        setSpring(*part, 3, angle, law, settings, built.dampers);
+    }
+    built.parts.push_back(std::move(part));
+}
+
+}  // namespace
+
+void addTurnMotor(const Joint& joint, const JointEnd& a, const JointEnd& b, BuiltJoint& built) {
+    auto part = freeJoint(layoutOf(joint, a, b), joint, a, b);
+    setMotor(*part, 3, joint.axes[0]);
+    built.parts.push_back(std::move(part));
+}
+
+void addTurnSpring(const Joint& joint, const JointEnd& a, const JointEnd& b, const JointSettings& settings,
+                   BuiltJoint& built) {
+    const Layout layout = layoutOf(joint, a, b);
+    auto part = freeJoint(layout, joint, a, b);
+    setSpring(*part, 3, joint.axes[0], springLaw(layout, 3, joint, a, b), settings, built.dampers);
+    built.parts.push_back(std::move(part));
+}
+
 BuiltJoint buildSixDof(const Joint& joint, const JointEnd& a, const JointEnd& b,
                        const JointSettings& settings) {
-    const Layout layout = layoutOf(joint, a, b);
-    const Frames frames = framesOf(joint, frameOf(layout), a, b);
-    auto sixDof = std::make_unique<btGeneric6DofSpring2Constraint>(*a.body, *b.body, frames.inA, frames.inB,
-                                                                   rotationOrder(layout));
-    std::vector<Damper> dampers;
-    for (std::size_t k = 0; k < 6; ++k) {
-        const bool turn = k >= 3;
-        const int index = static_cast<int>(k);
+    Layout layout = layoutOf(joint, a, b);
+    const bool leans = joint.type == JointType::Wheel && std::abs(dot(layout.x, layout.y)) > 1e-9;
+    if (leans) {
+        layout.x = layout.y;  // the strut alone
+        layout.y = anyNormalOf(layout.x);
+        layout.axis = {&joint.axes[0]};
+    }
+    BuiltJoint built;
+    auto sixDof = freeJoint(layout, joint, a, b);
+    for (std::size_t k = 0; k < (leans ? 3 : 6); ++k) {
         const JointAxis* axis = layout.axis[k];
-        const Range range = rangeOf(axis, turn, joint);
-        if (turn && range.lower <= range.upper)
-            sixDof->setLimit(index, scalar(-range.upper), scalar(-range.lower));
-        else
-            sixDof->setLimit(index, scalar(range.lower), scalar(range.upper));
+        setRange(*sixDof, k, rangeOf(axis, k >= 3, joint));
         if (axis == nullptr) continue;
-        if (axis->hasMotor()) {
-            sixDof->enableMotor(index, true);
-            sixDof->setTargetVelocity(index, scalar(-axis->motorSpeed));
-            sixDof->setMaxMotorForce(index, scalar(axis->motorMaxForce));
-        }
-        if (axis->hasSpring()) {
-            const SpringLaw law = springLaw(layout, k, joint, a, b);
-            if (law.stiffness == 0.0) {
-                if (axis->hasMotor())
-                    throw adapter::notInAdapter("bullet", "damper without a spring beside a motor",
-                                                "joint '" + joint.name + "'");
-                sixDof->enableMotor(index, true);
-                sixDof->setTargetVelocity(index, btScalar(0.0));
-                dampers.push_back({sixDof.get(), index, law.damping});
-                continue;
-            }
-            sixDof->enableSpring(index, true);
-            sixDof->setStiffness(index, scalar(law.stiffness), settings.limitSprings);
-            sixDof->setDamping(index, scalar(law.damping), settings.limitSprings);
-            sixDof->setEquilibriumPoint(index, scalar(turn ? -axis->target : axis->target));
+        if (axis->hasMotor()) setMotor(*sixDof, k, *axis);
+        if (!axis->hasSpring()) continue;
+        const SpringLaw law = springLaw(layout, k, joint, a, b);
+        if (law.stiffness == 0.0 && axis->hasMotor()) {
+            auto damper = freeJoint(layout, joint, a, b);
+            setSpring(*damper, k, *axis, law, settings, built.dampers);
+            built.parts.push_back(std::move(damper));
+        } else {
+            setSpring(*sixDof, k, *axis, law, settings, built.dampers);
         }
     }
-    return {std::move(sixDof), std::move(dampers)};
+    built.parts.insert(built.parts.begin(), std::move(sixDof));
+    if (leans) addLeaningSpin(joint, a, b, settings, built);
+    return built;
 }
 
 }  // namespace rigor::bullet

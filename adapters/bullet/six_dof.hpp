@@ -13,8 +13,13 @@ struct SpringLaw {
 /// A frequency is that of the coordinate's effective mass at the initial poses, the locked coordinates held.
 SpringLaw springLawOf(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b);
 
-/// six_dof, wheel, and hinges and sliders with a spring as btGeneric6DofSpring2Constraint. Throws
-/// Unsupported.
+/// Adds to a hinge or cone_twist a constraint that leaves all free and drives its turn, or springs it.
+void addTurnMotor(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b, BuiltJoint& built);
+void addTurnSpring(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
+                   const JointSettings& settings, BuiltJoint& built);
+
+/// six_dof, wheel, and hinges and sliders with a spring as btGeneric6DofSpring2Constraint, several where one
+/// does not do. Throws Unsupported.
 BuiltJoint buildSixDof(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
                        const JointSettings& settings);
 

@@ -12,6 +12,8 @@
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 #include <BulletDynamics/MLCPSolvers/btSolveProjectedGaussSeidel.h>
 
+#include <algorithm>
+
 #include "adapters/bullet/convert.hpp"
 #include "adapters/bullet/joints.hpp"
 #include "adapters/bullet/principal_axes.hpp"
@@ -76,7 +78,8 @@ BulletWorld::BulletWorld(const Scenario& scenario, double dt, const Settings& se
 }
 
 BulletWorld::~BulletWorld() {
-    for (auto& joint : joints_) world_->removeConstraint(joint->constraint.get());
+    for (auto& joint : joints_)
+        for (auto& part : joint->built.parts) world_->removeConstraint(part.get());
     articulations_.reset();
     for (auto& record : records_)
         if (!record->linked) world_->removeRigidBody(record->body.get());
@@ -246,12 +249,10 @@ void BulletWorld::addJoint(const scenario::Joint& joint) {
         is("frame_offset", "by_body") ? !moved(joint.bodyA) && !moved(joint.bodyB) : is("frame_offset", "on");
     const JointSettings settings{dt_, weighted, is("spring_limits", "on")};
     auto record = std::make_unique<JointRecord>();
-    BuiltJoint built = buildJoint(joint, endOf(joint.bodyA), endOf(joint.bodyB), settings);
-    record->constraint = std::move(built.constraint);
-    record->dampers = std::move(built.dampers);
+    record->built = buildJoint(joint, endOf(joint.bodyA), endOf(joint.bodyB), settings);
     setBreaking(joint, *record);
     // Whether the two collide is the pair filter's business.
-    world_->addConstraint(record->constraint.get(), false);
+    for (const auto& part : record->built.parts) world_->addConstraint(part.get(), false);
     joints_.push_back(std::move(record));
 }
 
@@ -261,29 +262,46 @@ void BulletWorld::setBreaking(const scenario::Joint& joint, JointRecord& record)
     const bool byForce = joint.breakForce < 1e299, byTorque = joint.breakTorque < 1e299;
     if (!byForce && !byTorque) return;
     if (is("breaking", "impulse_threshold") && !byTorque) {
-        record.constraint->setBreakingImpulseThreshold(static_cast<btScalar>(joint.breakForce * dt_));
+        for (const auto& part : record.built.parts)
+            part->setBreakingImpulseThreshold(static_cast<btScalar>(joint.breakForce * dt_));
         return;
     }
     record.watched = true;
-    record.constraint->setJointFeedback(&record.feedback);
+    record.feedback.resize(record.built.parts.size());
+    for (std::size_t i = 0; i < record.feedback.size(); ++i)
+        record.built.parts[i]->setJointFeedback(&record.feedback[i]);
 }
 
-/// As Bullet's threshold: what broke in this step acts no more from the next one on.
+bool BulletWorld::JointRecord::holds() const {
+    return std::all_of(built.parts.begin(), built.parts.end(),
+                       [](const auto& part) { return part->isEnabled(); });
+}
+
+/// As Bullet's threshold: what broke in this step acts no more from the next one on; with one part all.
 void BulletWorld::breakJoints() {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
         JointRecord& record = *joints_[i];
-        if (!record.watched || !record.constraint->isEnabled()) continue;
+        const auto release = [&] {
+            for (const auto& part : record.built.parts) part->setEnabled(false);
+        };
+        if (!record.holds()) {
+            release();
+            continue;
+        }
+        if (!record.watched) continue;
         const scenario::Joint& joint = scenario_.joints[i];
-        Vec3 force = fromBullet(record.feedback.m_appliedForceBodyB);
-        Vec3 torque = fromBullet(record.feedback.m_appliedTorqueBodyB);
+        Vec3 force, torque;
+        for (const btJointFeedback& feedback : record.feedback) {
+            force += fromBullet(feedback.m_appliedForceBodyB);
+            torque += fromBullet(feedback.m_appliedTorqueBodyB);
+        }
         const auto b = static_cast<std::size_t>(joint.bodyB);
         const BodyRecord& body = *records_[b];
         const Pose pose = fromBullet(body.body->getWorldTransform()) * inverse(body.comFrame);
         const Vec3 arm = pose * joint.anchorB - fromBullet(body.body->getWorldTransform().getOrigin());
         torque = torque - cross(arm, force);
         if (planar_) force.z = 0.0, torque.x = torque.y = 0.0;
-        if (norm(force) > joint.breakForce || norm(torque) > joint.breakTorque)
-            record.constraint->setEnabled(false);
+        if (norm(force) > joint.breakForce || norm(torque) > joint.breakTorque) release();
     }
 }
 
@@ -293,7 +311,7 @@ adapter::Scheme BulletWorld::scheme() const {
 }
 
 bool BulletWorld::jointHolds(int joint) const {
-    return articulations_ || joints_[static_cast<std::size_t>(joint)]->constraint->isEnabled();
+    return articulations_ || joints_[static_cast<std::size_t>(joint)]->holds();
 }
 
 void BulletWorld::articulate() {
@@ -362,8 +380,10 @@ void BulletWorld::beforeStep(btDynamicsWorld* world, btScalar) {
         record->body->setLinearVelocity(record->velocity);
         record->body->setAngularVelocity(record->angularVelocity);
     }
-    for (const auto& joint : self.joints_)
-        for (const Damper& damper : joint->dampers) damper.update();
+    for (const auto& joint : self.joints_) {
+        for (const Damper& damper : joint->built.dampers) damper.update();
+        for (TurnLimit& limit : joint->built.turnLimits) limit.update();
+    }
 }
 
 void BulletWorld::moveKinematicBodies() {

@@ -10,7 +10,7 @@
 
 #include "adapters/bullet/articulation.hpp"
 #include "adapters/bullet/contact_rules.hpp"
-#include "adapters/bullet/damper.hpp"
+#include "adapters/bullet/joints.hpp"
 #include "adapters/bullet/shapes.hpp"
 #include "adapters/interface/engine.hpp"
 #include "adapters/interface/state_setting.hpp"
@@ -54,10 +54,11 @@ class BulletWorld final : public adapter::World, public adapter::StateSetting {
         bool linked = false;                                    ///< a link of articulations_
     };
     struct JointRecord {
-        std::unique_ptr<btTypedConstraint> constraint;
-        std::vector<Damper> dampers;  ///< to be told the state before each step
-        btJointFeedback feedback;     ///< mean force and torque of the last step on both bodies
-        bool watched = false;         ///< broken by its feedback
+        BuiltJoint built;
+        std::vector<btJointFeedback> feedback;  ///< of each part: mean force and torque of the last step
+        bool watched = false;                   ///< broken by its feedback
+
+        bool holds() const;  ///< none of its parts is broken
     };
     class PairFilter;
 

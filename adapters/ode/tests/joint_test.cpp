@@ -97,7 +97,7 @@ TEST(OdeJoints, AHingeStopsBeyondAWholeTurn) {
     for (int i = 0; i < 1920; ++i) {
         simulation.steps(1);
         const Quat q = simulation.state(b).orientation, d = conjugate(before) * q;
-        turned += 2.0 * std::atan2(d.z, d.w) * (d.w < 0 ? -1 : 1);
+        turned += 2.0 * std::atan2(d.w < 0 ? -d.z : d.z, std::abs(d.w));
         before = q;
         // 4 rad/s^2 for 1 s, just fast enough.
         if (i == 479) {
