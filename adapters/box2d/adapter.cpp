@@ -37,13 +37,13 @@ class Box2dEngine final : public adapter::Engine, public adapter::DynamicsEngine
                     "hinge.spring",   "hinge.break",    "slider",          "slider.limit", "slider.motor",
                     "slider.spring",  "slider.break",   "fixed",           "fixed.break",  "distance",
                     "distance.limit", "distance.break", "distance.spring", "wheel",        "wheel.limit",
-                    "wheel.motor",    "wheel.spring",   "wheel.break"};
+                    "wheel.motor",    "wheel.spring",   "wheel.break",     "six_dof",      "six_dof.limit",
+                    "six_dof.motor",  "six_dof.spring", "six_dof.break"};
         c.contactImpulses = c.signedDistance = true;
         c.kinematicBodies = c.damping = c.gravityScale = c.centerOfMassOffset = true;
         c.libraryLacks = {
             {"3D", kTwoDimensions},
             {"distance.motor", "b2_distance_joint.h, b2DistanceJointDef: length, bounds and spring"},
-            {"six_dof", "b2_joint.h, enum b2JointType: none has three axes to choose for"},
             {"static_friction", "b2_fixture.h, b2FixtureDef::friction: the one coefficient of friction"}};
         return c;
     }

@@ -116,11 +116,13 @@ b2Joint* addDistance(b2World& world, const Joint& joint, const Ends& ends, doubl
         def.minLength = limited ? std::max(0.0f, toBound(axis.lower, scale)) : 0.0f;
         def.maxLength = limited ? toBound(axis.upper, scale) : 1e6f;
         if (axis.hasSpring()) {
+            const bool sprung = axis.stiffness > 0.0 || axis.frequency > 0.0;
             b2Vec2 n = ends.b.body->GetWorldPoint(ends.anchorB) - ends.a.body->GetWorldPoint(ends.anchorA);
             if (n.Normalize() <= b2_linearSlop)
                 unsupported(joint, "spring between anchors that coincide",
                             "b2_distance_joint.h, m_minLength: at least b2_linearSlop");
-            def.length = static_cast<float>(scale * axis.target);
+            // Of a damper alone the target says nothing.
+            if (sprung) def.length = static_cast<float>(scale * axis.target);
             setSpring(axis, mobilityOf(ends, along(ends, n)), 1.0, def.stiffness, def.damping);
         } else {
             def.length = std::max(def.length, 2.0f * b2_linearSlop);
@@ -206,6 +208,55 @@ Parts addSlider(b2World& world, const Joint& joint, const Ends& ends, double sca
     return parts;
 }
 
+bool held(const scenario::JointAxis& axis) {
+    using scenario::AxisMode;
+    const bool locked = axis.mode == AxisMode::Locked || axis.mode == AxisMode::Usual;
+    return locked && !axis.hasMotor() && !axis.hasSpring();
+}
+bool freeAltogether(const scenario::JointAxis& axis) {
+    return axis.mode == scenario::AxisMode::Free && !axis.hasMotor() && !axis.hasSpring();
+}
+
+/// The joint of the format that leaves one travel, the angle, or both to choose for, as a six_dof that does.
+/// Where its travel is along the normal, that is the axis.
+Joint reducedSixDof(const Joint& joint) {
+    const auto chosen = [](scenario::JointAxis axis) {
+        if (axis.mode == scenario::AxisMode::Usual) axis.mode = scenario::AxisMode::Free;
+        return axis;
+    };
+    const scenario::JointAxis &x = joint.axes[0], &y = joint.axes[1], &angle = joint.axes[2];
+    Joint reduced = joint;
+    reduced.axes = {};
+    if (held(x) && held(y)) {
+        reduced.type = held(angle) ? JointType::Fixed : JointType::Hinge;
+        if (!held(angle)) reduced.axes[0] = chosen(angle);
+        return reduced;
+    }
+    if (held(x)) {
+        const adapter::Vec3 up{0.0, 0.0, 1.0};
+        reduced.axisA = cross(up, joint.axisA), reduced.axisB = cross(up, joint.axisB);
+    }
+    reduced.axes[0] = chosen(held(x) ? y : x);
+    reduced.type = held(angle) ? JointType::Slider : JointType::Wheel;
+    if (!held(angle)) reduced.axes[1] = chosen(angle);
+    return reduced;
+}
+
+/// Two travels left altogether free: nothing, or a motor joint that has a torque alone and holds the angle.
+Parts addFreeTravels(b2World& world, const Joint& joint, const Ends& ends) {
+    const scenario::JointAxis &x = joint.axes[0], &y = joint.axes[1], &angle = joint.axes[2];
+    if (!freeAltogether(x) || !freeAltogether(y) || !(freeAltogether(angle) || held(angle)))
+        unsupported(joint, "six_dof with two travels, one of which or whose angle is more than free",
+                    "b2_joint.h, enum b2JointType; b2_motor_joint.h, b2MotorJointDef: one pose to hold");
+    if (!held(angle)) return {};
+    b2MotorJointDef def;
+    def.bodyA = ends.a.body, def.bodyB = ends.b.body;
+    def.collideConnected = ends.collideConnected;
+    def.angularOffset = ends.referenceAngle;
+    def.maxForce = 0.0f, def.maxTorque = 1e9f;
+    return {world.CreateJoint(&def)};
+}
+
 }  // namespace
 
 Parts addJoint(b2World& world, const Joint& joint, const JointEnd& a, const JointEnd& b, double scale) {
@@ -231,8 +282,10 @@ Parts addJoint(b2World& world, const Joint& joint, const JointEnd& a, const Join
             return {addDistance(world, joint, ends, scale)};
         case JointType::Wheel:
             return {addWheel(world, joint, ends, scale)};
-        case JointType::ConeTwist:
         case JointType::SixDof:
+            if (!held(joint.axes[0]) && !held(joint.axes[1])) return addFreeTravels(world, joint, ends);
+            return addJoint(world, reducedSixDof(joint), a, b, scale);
+        case JointType::ConeTwist:
             break;
     }
     throw adapter::notInAdapter("box2d", std::string("joint '") + jointName(joint.type) + "'",

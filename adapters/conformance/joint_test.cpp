@@ -100,7 +100,13 @@ TEST_P(Joints, ASixDofTravelActsAtItsAnchor) {
     joint.axes[0].motorSpeed = 1.0, joint.axes[0].motorMaxForce = 1000.0;
     turnOf(joint).mode = scenario::AxisMode::Free;
     s.joints.push_back(joint);
-    auto world = build(s, kStep);
+    std::unique_ptr<adapter::World> world;
+    try {
+        world = build(s, kStep);
+    } catch (const adapter::Unsupported& refused) {
+        ASSERT_EQ(refused.refusal(), adapter::Refusal::NotInLibrary) << refused.what();
+        GTEST_SKIP() << refused.what();
+    }
     double travel = 0.0, aside = 0.0, limit = 0.0, turned = 0.0;
     for (int i = 1; i <= 384; ++i) {
         world->step();

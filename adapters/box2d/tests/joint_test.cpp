@@ -149,5 +149,61 @@ TEST(Box2dBreaks, BodiesThatAJointKeptApartTouchAfterwards) {
     }
 }
 
+/// Of a damper alone the target says nothing: a length of zero, which Box2D does not take, is none.
+TEST(Box2dSprings, ADamperAlongADistanceNeedsNoLength) {
+    Scenario s = plane();
+    s.gravity = {};
+    const int b = addBody(s, Sphere{0.1}, {2, 0, 0}, 2.0, even(0.5));
+    s.bodies[0].velocity = {0.3, 0, 0};
+    Joint joint = onWorld(JointType::Distance, b, {1, 0, 0});
+    joint.length = 1.0;
+    joint.axes[0].mode = scenario::AxisMode::Free, joint.axes[0].damping = 2.0;
+    s.joints.push_back(joint);
+    Simulation run(s, kStep);
+    run.steps(480);
+    EXPECT_NEAR(run.state(b).velocity.x, 0.3 * std::exp(-1.0), 2e-4);
+}
+
+/// A six_dof is the joint that leaves the same: a push and a turn move what is free alone.
+TEST(Box2dSixDof, MovesWhatIsFreeAlone) {
+    for (int free = 0; free < 8; ++free) {
+        Scenario s = plane();
+        s.gravity = {};
+        const int b = addBody(s, Sphere{0.1}, {2, 1, 0}, 2.0, even(0.5));
+        s.bodies[0].collides = false;
+        Joint joint = onWorld(JointType::SixDof, b, {2, 1, 0});
+        joint.axisA = joint.axisB = {0.6, 0.8, 0};
+        for (int k = 0; k < 3; ++k)
+            joint.axes[static_cast<std::size_t>(k)].mode =
+                (free >> k & 1) != 0 ? scenario::AxisMode::Free : scenario::AxisMode::Locked;
+        s.joints.push_back(joint);
+        Simulation run(s, kStep);
+        const Vec3 x{0.6, 0.8, 0}, y{-0.8, 0.6, 0};
+        for (int i = 0; i < 240; ++i) {
+            run.world->applyForce(b, 2.0 * x + 1.0 * y, {0, 0, 0.5});
+            run.steps(1);
+        }
+        const BodyState state = run.state(b);
+        const Vec3 moved = state.position - Vec3{2, 1, 0};
+        // v = F t / m for half a second; half of it times t is the way.
+        EXPECT_NEAR(dot(moved, x), free & 1 ? 0.125 : 0.0, 2e-3) << free;
+        EXPECT_NEAR(dot(moved, y), free & 2 ? 0.0625 : 0.0, 2e-3) << free;
+        EXPECT_NEAR(angleOf(state), free & 4 ? 0.125 : 0.0, 2e-3) << free;
+    }
+}
+
+/// What no joint of the library leaves is refused: a spring along one of two travels.
+TEST(Box2dSixDof, TwoTravelsAreFreeOrRefused) {
+    Scenario s = plane();
+    const int b = addBody(s, Sphere{0.1}, {}, 2.0, even(0.5));
+    Joint joint = onWorld(JointType::SixDof, b, {});
+    for (auto& axis : joint.axes) axis.mode = scenario::AxisMode::Free;
+    joint.axes[1].stiffness = 10.0;
+    s.joints.push_back(joint);
+    EXPECT_THROW(Simulation(s, kStep), adapter::Unsupported);
+    s.joints[0].axes[1].stiffness = 0.0;
+    EXPECT_NO_THROW(Simulation(s, kStep));
+}
+
 }  // namespace
 }  // namespace rigor::test
