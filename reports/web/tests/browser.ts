@@ -4,7 +4,7 @@
 // Chromium with the network cut, and reports to open in it. Tests that need it are skipped where it is not installed.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdirSync, rmSync } from 'node:fs';
+import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before } from 'node:test';
 import { type Browser, type BrowserContextOptions, chromium, type Page } from 'playwright-core';
@@ -38,8 +38,43 @@ export function makeRunOf(name: string, ...what: string[]): string {
   return folder;
 }
 
-/** A run of the smoke suite. */
-export const makeRun = (name: string): string => makeRunOf(name, 'smoke');
+/** This call of the test runner, which starts a process for each file of tests. */
+const session = (): string => {
+  const stat = readFileSync(`/proc/${process.ppid}/stat`, 'utf8');
+  return `${process.ppid}-${stat.slice(stat.lastIndexOf(')') + 2).split(' ')[19]}`; // since when it runs: ids come again
+};
+
+/**
+ * A run of the smoke suite, made once for all files of tests: by the one that comes first, while the others wait. Tests
+ * read it only.
+ */
+export async function smokeRun(): Promise<string> {
+  const folder = join(binaries, 'web_runs', 'smoke');
+  const made = join(binaries, 'web_runs', 'smoke.made');
+  const [mine, failed] = [session(), `failed ${session()}`];
+  mkdirSync(join(binaries, 'web_runs'), { recursive: true });
+  try {
+    mkdirSync(join(binaries, 'web_runs', `smoke-${mine}.lock`));
+  } catch {
+    for (;;) {
+      const now = existsSync(made) ? readFileSync(made, 'utf8') : '';
+      if (now === mine) return folder;
+      assert.notEqual(now, failed, 'the smoke suite could not be run: another file of tests says why');
+      await new Promise((go) => setTimeout(go, 200));
+    }
+  }
+  for (const name of readdirSync(join(binaries, 'web_runs')))
+    if (/^smoke-.*\.lock$/.test(name) && name !== `smoke-${mine}.lock`)
+      rmSync(join(binaries, 'web_runs', name), { recursive: true });
+  try {
+    makeRunOf('smoke', 'smoke');
+    writeFileSync(made, mine);
+  } catch (error) {
+    writeFileSync(made, failed);
+    throw error;
+  }
+  return folder;
+}
 
 /** The report of a made-up run with every bad ending, broken off, and of a study. */
 export function makeSynthetic(name: string): string {
@@ -106,14 +141,14 @@ export interface Opened extends Watched {
 }
 
 /** Makes a report before the suite's tests and closes its page after them. */
-export function reportOf(make: () => string): Opened {
+export function reportOf(make: () => string | Promise<string>): Opened {
   const it = {
     open: (hash = '') => open(it.page, it.run, hash),
     text: async (selector: string) => (await it.page.locator(selector).first().textContent()) ?? '',
     clean: () => assert.deepEqual(it.faults, []),
   } as Opened;
   before(async () => {
-    it.run = make();
+    it.run = await make();
     mkdirSync(screenshots, { recursive: true });
     it.browser = await launch();
     Object.assign(it, await watched(it.browser));

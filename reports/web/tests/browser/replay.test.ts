@@ -9,7 +9,7 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { before, describe, test } from 'node:test';
-import { makeRun, open, reportOf, screenshots, skip, watched } from '../browser.ts';
+import { open, reportOf, screenshots, skip, smokeRun, watched } from '../browser.ts';
 
 const scenarios = ['box_stack', 'asymmetric_top', 'pendulum_chain', 'slip_to_roll_2d', 'bouncing_disc_2d'];
 
@@ -29,7 +29,7 @@ function stateOf(scenario: string, spec: string, body: string, step: number): nu
 }
 
 describe('the replay of a real run', { skip }, () => {
-  const it = reportOf(() => makeRun('replay'));
+  const it = reportOf(smokeRun);
   before(() => it.page.setDefaultTimeout(60_000));
   const show = async (scenario: string, more = '') => {
     await it.open(`#/scenario/${scenario}${more}`);

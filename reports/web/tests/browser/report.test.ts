@@ -6,10 +6,10 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { describe, test } from 'node:test';
-import { makeRun, open, query, reportOf, screenshots, skip, watched } from '../browser.ts';
+import { open, query, reportOf, screenshots, skip, smokeRun, watched } from '../browser.ts';
 
 describe('the report of a real run', { skip }, () => {
-  const it = reportOf(() => makeRun('report'));
+  const it = reportOf(smokeRun);
   const rows = () => it.page.locator('#scoreboard tbody tr').count();
   const shown = () => it.page.waitForSelector('#page[data-shown]');
 
@@ -50,7 +50,7 @@ describe('the report of a real run', { skip }, () => {
     ).flat()[0];
     assert.equal(await rows.count(), ran);
     for (const claim of await rows.locator('td.claim:nth-of-type(2)').allTextContents())
-      assert.match(claim, /^Grade [A-E] at 1\/\d+ s: .*(scheme|known)/);
+      assert.match(claim, /^Grade [A-E] at 1\/\d+ s, by its worst error: .*(scheme|known)/);
     it.clean();
   });
 
@@ -223,15 +223,24 @@ describe('the report of a real run', { skip }, () => {
       new RegExp(deviating ? `Wrong physics with a reason on file: ${deviating}` : ''),
     );
     await it.page.screenshot({ path: join(screenshots, 'engine.png') });
+    for (const [name, stored] of query(it.run, "SELECT name, capabilities FROM engines WHERE capabilities != ''")) {
+      const { presets, options } = JSON.parse(stored as string) as { presets: string[]; options: unknown[] };
+      if (options.length === 0) continue;
+      await it.open(`#/engine/${name}`);
+      const heads = await it.page.locator('#capabilities thead th').allTextContents();
+      assert.deepEqual(heads.slice(1, -2), presets, `a column for every preset of ${name}`);
+    }
     it.clean();
   });
 
   test('a narrow and a dark page have nothing to scroll sideways but their tables', async () => {
-    for (const options of [{ viewport: { width: 420, height: 900 } }, { colorScheme: 'dark' as const }]) {
+    for (const options of [{ viewport: { width: 400, height: 900 } }, { colorScheme: 'dark' as const }]) {
       const other = await watched(it.browser, options);
-      await open(other.page, it.run);
-      const wider = await other.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-      assert.ok(wider <= 0, `${wider} px too wide`);
+      for (const hash of ['#/scenario/pendulum_chain', '#/engine/bullet', '']) {
+        await open(other.page, it.run, hash);
+        const wider = await other.page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+        assert.ok(wider <= 0, `${hash}: ${wider} px too wide`);
+      }
       if (options.colorScheme) await other.page.screenshot({ path: join(screenshots, 'overview-dark.png') });
       assert.deepEqual(other.faults, []);
       await other.close();
