@@ -46,7 +46,7 @@ export function ledgerTable(rows: LabelledLine[], who: string): HTMLElement {
           el('td', null, l.requested),
           el('td', null, l.resolved),
           el('td', null, chip(mark[l.realisation] ?? 'no_bound', l.realisation)),
-          el('td', { class: 'small' }, l.reason),
+          el('td', { class: 'small claim' }, l.reason),
           gathered ? where(l.scenarios ?? []) : null,
         ),
       ),

@@ -201,7 +201,7 @@ function summaryTable(): HTMLElement {
             el('td', { class: 'num' }, ratio(s.toOurs) || '—'),
             el('td', { class: 'num' }, `${s.within} of ${s.scenarios}`),
             el('td', null, gradeBar(s.grades)),
-            el('td', { class: 'small' }, told[i] || '—'),
+            el('td', { class: 'small claim' }, told[i] || '—'),
           ),
         ),
       ),

@@ -122,7 +122,7 @@ export function trust(): HTMLElement | null {
   const table = () =>
     el(
       'table',
-      { class: 'full trust' },
+      { class: 'full stacked' },
       headRow(['Mechanism', 'Scenarios', 'Nearest first', 'Grade E or lost'], (i) => i === 1),
       el('tbody', null, run.mechanisms.map(mechanismRow)),
     );

@@ -4,10 +4,10 @@ import { type Child, el } from '../../common/elements.ts';
 import { format, ratio, toNumber, unitText, words } from '../../common/format.ts';
 import type { Case, Metric } from '../data.ts';
 import { changeMark, chip, gradeChip, headRow, panel, scroll } from '../parts.ts';
-import { labelOf } from '../run.ts';
+import { labelOf, run } from '../run.ts';
 import { type Context, moment } from './context.ts';
 
-const most = 4; // lines of one case
+const most = 6; // metrics of one case
 
 /** What is claimed of every run, on accuracy and on the record, and how its error stands beside others'. */
 export function verdicts(context: Context): HTMLElement | null {
@@ -18,17 +18,33 @@ export function verdicts(context: Context): HTMLElement | null {
       'tr',
       { class: c.spec === context.spec ? 'focus' : null, 'data-spec': c.spec },
       el('th', { class: 'sticky', scope: 'row' }, labelOf(c.spec)),
-      el('td', null, c.judged.grade ? gradeChip(c.judged.grade) : chip(c.shown)),
+      el('td', { 'data-label': 'Accuracy' }, gradeChip(c.judged.grade)),
       el('td', { class: 'small claim' }, c.judged.says, c.judged.orders ? el('div', null, c.judged.orders.says) : null),
-      el('td', { class: 'num' }, ratio(c.judged.toBest) || '—'),
-      el('td', { class: 'num' }, ratio(c.judged.toOurs) || '—'),
-      el('td', { class: 'small claim' }, changeMark(c.judged.regression), ' ', c.judged.change || '—'),
+      el('td', { class: 'num', 'data-label': '× best' }, ratio(c.judged.toBest) || '—'),
+      el('td', { class: 'num', 'data-label': '× ours' }, ratio(c.judged.toOurs) || '—'),
+      el(
+        'td',
+        { class: 'small claim', 'data-label': 'Against the record' },
+        changeMark(c.judged.regression),
+        ' ',
+        c.judged.change || '—',
+      ),
+      el('td', { 'data-label': 'Ending' }, chip(c.shown)),
     );
   const heads = headRow(
-    ['Engine', 'Accuracy', 'What is claimed', '× best', '× ours', 'Against the record'],
+    ['Engine', 'Accuracy', 'What is claimed', '× best', '× ours', 'Against the record', 'Ending'],
     (i) => i === 3 || i === 4,
   );
-  return panel('verdicts', 'Verdicts', scroll(el('table', { class: 'full' }, heads, el('tbody', null, ran.map(row)))));
+  const about = [
+    'Three questions that are never mixed. Accuracy: how near is it to the physics? The error over the scenario’s own scale, also over the best engine’s and over ',
+    `${run.inHouse}’s in the same preset. Record: did it change against this version’s? Ending: did it run, and keep the bounds that hold everywhere or that its scenario sets? A run that keeps its bounds may be far from the physics, and its grade says so.`,
+  ];
+  return panel(
+    'verdicts',
+    'Verdicts',
+    el('p', { class: 'muted small' }, about),
+    scroll(el('table', { class: 'full stacked' }, heads, el('tbody', null, ran.map(row)))),
+  );
 }
 
 /** What ended otherwise than by running through, or has wrong physics, and why: with the moment where it was worst. */
@@ -36,24 +52,30 @@ export function outcomes(context: Context): HTMLElement | null {
   const odd = context.cases.filter((c) => !['pass', 'no_bound', 'unsupported'].includes(c.shown));
   const unable = context.cases.filter((c) => c.shown === 'unsupported');
   if (odd.length + unable.length === 0) return null;
-  const line = (c: Case, m: Metric): Child => {
+  const said = (c: Case, m: Metric): Child => {
     const at = toNumber(m.at);
-    return el(
-      'div',
-      null,
+    return [
       `${words(m.name)}${m.subject ? ` of ${m.subject}` : ''} ${format(m.value)}${unitText(m.unit)}`,
       m.bound === null ? '' : ` against a bound of ${format(m.bound)}`,
-      at >= 0 ? [', worst ', moment(context, c.spec, at, bodiesOf(m.subject), `at t = ${format(at)} s`)] : null,
-      m.note ? `: ${m.note}` : '',
-    );
+      at >= 0 ? [' (worst ', moment(context, c.spec, at, bodiesOf(m.subject), `at t = ${format(at)} s`), ')'] : null,
+    ];
   };
+  /** Metrics with one reason are one line: the reason, then what it explains. */
+  const lines = (c: Case, list: Metric[]): Child[] =>
+    [...new Set(list.map((m) => m.note))].map((note) =>
+      el(
+        'div',
+        null,
+        note ? `${note}: ` : '',
+        list.filter((m) => m.note === note).map((m, i) => [i ? ', ' : '', said(c, m)]),
+      ),
+    );
   const why = (c: Case): Child => {
     const missed = c.metrics.filter((m) => m.verdict !== 'pass');
     const whole = missed.filter((m) => !m.subject);
-    return [
-      c.reason ? el('div', null, c.reason) : null,
-      (whole.length ? whole : missed).slice(0, most).map((m) => line(c, m)),
-    ];
+    const told = (whole.length ? whole : missed).slice(0, most);
+    const isTold = told.some((m) => m.note && c.reason.endsWith(m.note));
+    return [c.reason && !isTold ? el('div', null, c.reason) : null, lines(c, told)];
   };
   const rows = odd.map((c) =>
     el(
