@@ -444,6 +444,7 @@ std::string overviewJson(const ViewModel& view) {
                                          {"count", found == view.totals().cases.end() ? 0 : found->second}};
     }
     return text({{"suite", run.suite},
+                 {"title", run.suite.empty() ? "" : runTitle(run)},
                  {"command", run.command},
                  {"started", run.started},
                  {"finished", run.finished},

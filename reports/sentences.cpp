@@ -3,6 +3,7 @@
 //
 // What verdicts say in words: each names what was compared with what, and claims nothing else.
 #include <cmath>
+#include <sstream>
 
 #include "reports/text.hpp"
 #include "reports/view_model.hpp"
@@ -26,19 +27,29 @@ std::string withUnit(double value, const std::string& unit) {
     return shortNumber(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
-/// "; an ideal run of its scheme is off by 0.031 (C), so 3.1 times as far as it".
+/// " An ideal run of its scheme has 0.031 (C): this is farther off than its scheme."
 std::string schemeText(const results::AccuracyRow& accuracy) {
-    if (!accuracy.ideal) return "; what its scheme allows here is not known";
-    std::string text = "; an ideal run of its scheme has " + shortNumber(*accuracy.ideal) + " (" +
-                       results::gradeName(results::gradeOf(*accuracy.ideal)) + "), ";
+    if (!accuracy.ideal) return " What its scheme allows here is not known.";
+    std::string text = " An ideal run of its scheme has " + shortNumber(*accuracy.ideal) + " (" +
+                       results::gradeName(results::gradeOf(*accuracy.ideal)) + "): this is ";
     switch (results::againstScheme(accuracy.relative, accuracy.ideal)) {
         case AgainstScheme::Farther:
-            return text + "so it is farther off than its scheme";
+            return text + "farther off than its scheme.";
         case AgainstScheme::Nearer:
-            return text + "so it is nearer than its scheme";
+            return text + "nearer than its scheme.";
         default:
-            return text + "so it is as good as its scheme allows";
+            return text + "as good as its scheme allows.";
     }
+}
+
+/// "joint_drift 0.0095 m, which is 0.047 of its scale 0.2 m"; a metric without a unit is its own relative error.
+std::string decidingText(const results::AccuracyRow& accuracy, const MetricRow* m) {
+    const double relative = accuracy.relative.value_or(kNoNumber);
+    if (m == nullptr) return accuracy.metric + ", relative error " + shortNumber(relative);
+    std::string text = accuracy.metric + " " + withUnit(m->value, m->unit);
+    if (m->unit == "1" && (!m->scale || *m->scale == 1.0)) return text;
+    return text + ", which is " + shortNumber(relative) + " of its scale" +
+           (m->scale ? " " + withUnit(*m->scale, m->unit) : "");
 }
 
 }  // namespace
@@ -50,17 +61,13 @@ std::string accuracySentence(const CaseRow& row) {
     if (accuracy.grade == Grade::None)
         return "Not graded: " + (accuracy.note.empty() ? std::string("nothing was graded") : accuracy.note) +
                ".";
-    std::string text =
-        "Grade " + std::string(results::gradeName(accuracy.grade)) + " at " + timeStepLabel(row.dt) + ": ";
     const MetricRow* m = findMetric(row, accuracy.metric);
-    if (m != nullptr) text += accuracy.metric + " " + withUnit(m->value, m->unit);
-    if (m != nullptr && m->scale && m->unit != "1") text += " of " + withUnit(*m->scale, m->unit);
-    text += m != nullptr && m->unit == "1"
-                ? ""
-                : ", relative error " + shortNumber(accuracy.relative.value_or(kNoNumber));
-    text += schemeText(accuracy);
-    if (m != nullptr && m->verdict == results::Verdict::KnownDeviation) text += ". Wrong physics: " + m->note;
-    return text + ".";
+    std::string text = "Grade " + std::string(results::gradeName(accuracy.grade)) + " at " +
+                       timeStepLabel(row.dt) + ", by its worst error: " + decidingText(accuracy, m) + "." +
+                       schemeText(accuracy);
+    if (m != nullptr && m->verdict == results::Verdict::KnownDeviation)
+        text += " Wrong physics: " + m->note + ".";
+    return text;
 }
 
 std::string regressionSentence(const CaseRow& row) {
@@ -78,8 +85,22 @@ std::string regressionSentence(const CaseRow& row) {
     return "";
 }
 
+std::string runTitle(const results::Run& run) {
+    constexpr int kMost = 3;
+    if (run.suite.empty()) return "run";
+    std::istringstream words(run.suite);
+    std::string title, word;
+    int count = 0, left = 0;
+    while (words >> word)
+        if (count < kMost)
+            title += (count++ > 0 ? " " : "") + word;
+        else
+            ++left;
+    return left == 0 ? title : title + " and " + std::to_string(left) + " more";
+}
+
 std::string verdictSentence(const ViewModel& view) {
-    const std::string name = view.run().suite.empty() ? "run" : view.run().suite;
+    const std::string name = runTitle(view.run());
     const int red = view.totals().red;
     if (red == 0) return name + ": no case is red";
     return name + ": " + std::to_string(red) + " of " + std::to_string(view.totals().total) +
@@ -120,8 +141,12 @@ std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t co
             break;
         }
     if (dependsOnOrder(row)) text += "↕";
+    if (!withNumber || isLost) return text;
     const MetricRow* m = findMetric(row, view.mainMetric(scenario).name);
-    if (withNumber && m != nullptr && !isLost) text += " " + shortNumber(m->value);
+    if (row.accuracy.relative)
+        text += " " + shortNumber(*row.accuracy.relative);
+    else if (m != nullptr && row.outcome == Outcome::Completed)
+        text += " " + shortNumber(m->value);
     return text;
 }
 

@@ -35,10 +35,19 @@ class GeometricMean {
     int count_ = 0;
 };
 
-/// The main error, at least what counts as rounding (of one unit where the metric has no scale); NaN where
+bool isGraded(const ViewModel& view, std::size_t scenario) {
+    for (std::size_t c = 0; c < view.columns().size(); ++c)
+        for (const CaseRow* row : view.cell(scenario, c).cases)
+            if (row->accuracy.relative) return true;
+    return false;
+}
+
+/// What Ratios compare, at least what counts as rounding (of one unit where a metric has no scale); NaN where
 /// there is none.
 double errorOf(const ViewModel& view, std::size_t scenario, const CaseRow& row) {
     if (row.outcome != Outcome::Completed) return kNoNumber;
+    if (row.accuracy.relative) return std::max(*row.accuracy.relative, results::gradeLimit(Grade::A));
+    if (isGraded(view, scenario)) return kNoNumber;
     const MetricRow* m = findMetric(row, view.mainMetric(scenario).name);
     if (m == nullptr || !std::isfinite(m->value)) return kNoNumber;
     return std::max(std::abs(m->value), results::gradeLimit(Grade::A) * m->scale.value_or(1.0));

@@ -27,10 +27,16 @@ std::string totalsLines(const ViewModel& view) {
 }
 
 std::string scoreboardRow(const ViewModel& view, std::size_t s) {
+    bool isGraded = false;
+    for (std::size_t c = 0; c < view.columns().size(); ++c)
+        for (const auto* row : view.cell(s, c).cases) isGraded = isGraded || row->accuracy.relative;
     const auto& metric = view.mainMetric(s);
-    std::string out =
-        "| " + markdownCell(view.run().scenarios[s].name) + " | " + markdownCell(metric.name) +
-        (metric.unit.empty() || metric.unit == "1" ? "" : " [" + markdownCell(metric.unit) + "]") + " |";
+    const std::string number =
+        isGraded
+            ? "relative error"
+            : markdownCell(metric.name) +
+                  (metric.unit.empty() || metric.unit == "1" ? "" : " [" + markdownCell(metric.unit) + "]");
+    std::string out = "| " + markdownCell(view.run().scenarios[s].name) + " | " + number + " |";
     for (std::size_t c = 0; c < view.columns().size(); ++c) out += " " + cellText(view, s, c, true) + " |";
     return out + "\n";
 }
@@ -41,16 +47,16 @@ std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
     std::string out = "\n<details><summary>Scoreboard: " + std::to_string(scenarios) + " scenarios, " +
                       std::to_string(view.columns().size()) + " engine settings</summary>\n\n";
     std::string rule = "|---|---|";
-    out += "| scenario | metric |";
+    out += "| scenario | number |";
     for (const auto& column : view.columns()) out += " " + markdownCell(column.label) + " |", rule += "---|";
     out += "\n" + rule + "\n";
     const std::string end =
         "\nA cell: grade of accuracy (A to 1e-6, B to 1e-4, C to 1e-2, D to 1e-1 of the scenario's own "
         "scale, E "
         "beyond), △ wrong physics with a reason on file, ▼ ▲ worse or better than on record, ↕ depends on "
-        "the order of insertion, and the metric "
-        "at the "
-        "finest time step.\n\n</details>\n";
+        "the order of insertion, and the relative error that the grade rests on, at the finest time step; of "
+        "a scene "
+        "without an exact answer how it ended (✓ bounds kept, ○ ran) and its main metric.\n\n</details>\n";
     std::size_t used = out.size() + end.size() + 100, shown = 0;
     std::vector<std::string> rows(scenarios);
     for (const std::size_t s : byTrouble(view)) {

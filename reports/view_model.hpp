@@ -64,8 +64,9 @@ struct Cell {
 
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// The error of the scenario's main metric over other engines' at the same time step. Errors within grade A
-/// count as its limit: what is exact to rounding does not make the next one look 1e9 times worse.
+/// The relative error that the grade rests on over other engines' at the same time step; of scenarios that nobody
+/// has a grade for the main metric. Errors within grade A count as its limit: what is exact to rounding does not
+/// make the next one look 1e9 times worse.
 struct Ratios {
     double toBest = kNoNumber;  ///< over the smallest
     double toOurs = kNoNumber;  ///< over the in-house engine's in the same preset, else in its default one
@@ -176,11 +177,14 @@ class ViewModel {
     Totals totals_;
 };
 
+/// The suite, or the first of the scenarios that were named: "slide_and_stop pile arch and 12 more".
+std::string runTitle(const results::Run& run);
 /// "standard: 12 of 1430 cases are red" (results::isRed). Text of the run, unescaped.
 std::string verdictSentence(const ViewModel& view);
 /// What was counted, in one line each: accuracy, regression, endings. Every report says the same.
 std::vector<std::pair<std::string, std::string>> totalsText(const ViewModel& view);
-/// "C 0.0323", "E△ 1.2", "C▼ 0.04", "! crashed": grade, known deviation, change against the record, number.
+/// "C 0.0023", "E△ 1.2", "C▼ 0.004", "!": grade, known deviation, change against the record, and the relative error
+/// that the grade rests on; "✓ 0.3" where there is no grade: how it ended, and the scenario's main metric.
 std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t column, bool withNumber);
 /// One sentence on the accuracy of a case and one on its record: what is claimed, and nothing more.
 std::string accuracySentence(const results::CaseRow& row);

@@ -101,15 +101,40 @@ TEST(ViewModel, FewestWrongOutcomesThenMostWithinAHundredthThenTheSmallestErrorC
     EXPECT_EQ(m.best, 2);
 }
 
+/// The letter, the number beside it and the ratios are of one quantity, whichever metric decides it.
+TEST(ViewModel, LetterNumberAndRatiosSpeakOfTheSameError) {
+    results::Run run = twoScenarios();
+    run.cases = {makeCase("a", "one", 0.01, 1e-12), makeCase("a", "two", 0.01, 1.0)};
+    run.cases[0].accuracy = {results::Grade::D, "another", 0.05, {}, ""};
+    const ViewModel view(run);
+    EXPECT_EQ(cellText(view, 0, 0, true), "D 0.05");
+    EXPECT_EQ(cellText(view, 0, 1, true), "D 0.1");
+    EXPECT_DOUBLE_EQ(view.ratios(run.cases[1]).toBest, 2.0);
+    run.cases[0].accuracy = run.cases[1].accuracy = {results::Grade::None, "", {}, {}, "no exact answer"};
+    const ViewModel ungraded(run);
+    EXPECT_EQ(cellText(ungraded, 0, 1, true), "○ 1") << "how it ended, and the main metric";
+}
+
+TEST(ViewModel, ARunOfManyScenariosHasAShortTitle) {
+    results::Run run;
+    run.suite = "standard";
+    EXPECT_EQ(runTitle(run), "standard");
+    run.suite = "a b c d e";
+    EXPECT_EQ(runTitle(run), "a b c and 2 more");
+    EXPECT_EQ(verdictSentence(ViewModel(run)), "a b c and 2 more: no case is red");
+}
+
 TEST(ViewModel, SentencesSayWhatWasComparedWithWhat) {
     CaseRow c = makeCase("a", "one", 1.0 / 60.0, 0.2);
     EXPECT_EQ(accuracySentence(c),
-              "Grade D at 1/60 s: error 0.2 m of 10 m, relative error 0.02; what its scheme allows here is "
-              "not known.");
+              "Grade D at 1/60 s, by its worst error: error 0.2 m, which is 0.02 of its scale 10 m. What its "
+              "scheme "
+              "allows here is not known.");
     c.accuracy.ideal = 0.005;
     EXPECT_EQ(accuracySentence(c),
-              "Grade D at 1/60 s: error 0.2 m of 10 m, relative error 0.02; an ideal run of its "
-              "scheme has 0.005 (C), so it is farther off than its scheme.");
+              "Grade D at 1/60 s, by its worst error: error 0.2 m, which is 0.02 of its scale 10 m. An ideal "
+              "run of "
+              "its scheme has 0.005 (C): this is farther off than its scheme.");
     c.accuracy.ideal = 0.02;
     EXPECT_NE(accuracySentence(c).find("as good as its scheme allows"), std::string::npos);
     c.accuracy = {results::Grade::None, "", {}, {}, "no exact answer"};

@@ -59,7 +59,8 @@ void readDeviations(const Node& list, Scenario& scenario) {
             const std::string evidence = n->text();
             if (evidence != "experiment" && evidence != "inferred")
                 n->problem("deviation.evidence", "experiment or inferred");
-            deviation.reason += " (" + evidence + ")";
+            deviation.reason +=
+                evidence == "experiment" ? " (isolated by experiment)" : " (inferred, not isolated)";
         }
         scenario.knownDeviations.push_back(deviation);
     }

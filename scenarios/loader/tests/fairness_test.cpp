@@ -25,7 +25,8 @@ TEST(Fairness, DeviationsAreWrongPhysicsWithTheirEvidence) {
     for (const auto& entry : listScenarios())
         for (const KnownDeviation& d : loadScenario(entry.file).scenario.knownDeviations) {
             ++found;
-            EXPECT_TRUE(d.reason.ends_with("(experiment)") || d.reason.ends_with("(inferred)"))
+            EXPECT_TRUE(d.reason.ends_with("(isolated by experiment)") ||
+                        d.reason.ends_with("(inferred, not isolated)"))
                 << entry.name << " " << d.engine << " " << d.metric << ": " << d.reason;
             EXPECT_FALSE(std::isfinite(d.max)) << entry.name << ": amounts are on record";
             EXPECT_NE(d.engine, "rigor") << entry.name;

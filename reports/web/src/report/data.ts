@@ -120,7 +120,7 @@ export interface Judged {
   relative: Maybe; // its error over the scenario's own scale
   ideal: Maybe; // the same of an ideal run of the engine's scheme; null: not known
   beside: 'unknown' | 'nearer' | 'same' | 'farther'; // that ideal run
-  toBest: Maybe; // main error over the smallest at this time step
+  toBest: Maybe; // relative error over the smallest at this time step
   toOurs: Maybe; // over the in-house engine's
   regression: Regression;
   red: boolean;
@@ -266,6 +266,7 @@ export interface GatheredLedger extends LedgerLine {
 /** Of run-data: the overview. */
 export interface Run {
   suite: string;
+  title: string; // the suite, or the first of the scenarios named
   command: string;
   started: string;
   finished: string;

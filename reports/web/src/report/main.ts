@@ -55,7 +55,7 @@ async function route(): Promise<void> {
   leave = found.left ?? (() => {});
   dropPlots(page);
   page.replaceChildren(...found.nodes);
-  document.title = `${found.title ? `${found.title} – ` : ''}Rigor report${run.suite ? `: ${run.suite}` : ''}`;
+  document.title = `${found.title ? `${found.title} – ` : ''}Rigor report${run.title ? `: ${run.title}` : ''}`;
   shown = path;
   for (const make of found.more ?? []) {
     await new Promise((done) => setTimeout(done));

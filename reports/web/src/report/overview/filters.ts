@@ -32,7 +32,7 @@ export const allScenarios: Filters = {
   change: '',
   verdict: '',
   step: 'all',
-  number: 'error',
+  number: 'relative',
   sort: '',
   descending: false,
 };
@@ -91,12 +91,12 @@ export function ordered(list: Scenario[], columns: Column[], f: Filters): Scenar
 
 /** Of a row: what its bars are measured against. */
 export interface RowScale {
-  bestError: number; // the smallest of the row; NaN when fewer than two have one
+  bestError: number; // of what cells say, the smallest of the row; NaN when fewer than two have one
   leastCost: number; // the fastest of the row
 }
-export function rowScale(s: Scenario, columns: Column[], step: StepChoice): RowScale {
+export function rowScale(s: Scenario, columns: Column[], step: StepChoice, number: Filters['number']): RowScale {
   const cells = columns.map((c) => cellOf(s, c, step));
-  const errors = cells.map(errorOf).filter(Number.isFinite);
+  const errors = cells.map(number === 'error' ? errorOf : relativeOf).filter(Number.isFinite);
   const costs = cells.map(costOf).filter((c) => c > 0);
   return {
     bestError: errors.length > 1 ? Math.min(...errors) : NaN,

@@ -15,7 +15,7 @@ export function headline(): HTMLElement {
   return panel(
     'summary',
     null,
-    el('h1', null, 'Rigor report', run.suite ? `: ${run.suite}` : ''),
+    el('h1', null, 'Rigor report', run.title ? `: ${run.title}` : ''),
     el(
       'p',
       { class: 'muted' },

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Scenario x engine: grade, change against the record, main error and cost of a step in one cell; filters and order.
+// Scenario x engine: grade, change against the record, relative error and cost of a step in one cell; filters and order.
 import { type Child, el } from '../../common/elements.ts';
 import { duration, format, full, ratio, timeStep, toNumber, words } from '../../common/format.ts';
 import { type Cell, cellOf, costOf, errorOf, gradeOf, isLost, logPlace, relativeOf } from '../cells.ts';
@@ -20,7 +20,7 @@ const meaning: Record<Shown, string> = {
   non_finite: 'NaN or infinity',
   timeout: 'over the time limit',
   crashed: 'the process died',
-  unsupported: 'refused: not in the adapter yet, or not in the library',
+  unsupported: '“not yet”: not in the adapter yet, “n/a”: the library has none',
 };
 
 /** What the cell says in words, for its tooltip and for those who do not see it. */
@@ -57,7 +57,7 @@ function said(cell: Cell, number: Filters['number'], digits: number): string {
   if (shown === 'unsupported') return cell.worst.refusal === 'adapter' ? 'not yet' : 'n/a';
   if (isLost(shown)) return verdictText(shown).word;
   if (number === 'cost') return duration(costOf(cell));
-  if (number === 'relative') return Number.isNaN(relativeOf(cell)) ? '—' : format(relativeOf(cell), 2);
+  if (number === 'relative' && !Number.isNaN(relativeOf(cell))) return format(relativeOf(cell), digits);
   if (number === 'ours') return ratio(cell.at.judged.toOurs) || '—';
   return cell.at.value === null ? verdictText(shown).word : format(cell.at.value, digits);
 }
@@ -73,7 +73,7 @@ function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters, digi
   const lines = sentence(s, column, cell, scale);
   const { shown } = cell.worst;
   const grade = gradeOf(cell);
-  const best = f.number !== 'cost' && errorOf(cell) === scale.bestError;
+  const best = f.number !== 'cost' && (f.number === 'error' ? errorOf : relativeOf)(cell) === scale.bestError;
   const sign = [
     grade || verdictText(shown).symbol,
     grade && shown !== 'pass' && shown !== 'no_bound' ? verdictText(shown).symbol : '',
@@ -83,7 +83,7 @@ function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters, digi
   return el(
     'a',
     {
-      class: `cell v ${grade ? `g-${grade}` : `v-${shown}`}${cell.cases.some((c) => c.judged.red) ? ' red' : ''}`,
+      class: `cell v ${grade ? `g-${grade}` : `v-${shown === 'pass' ? 'no_bound' : shown}`}${cell.cases.some((c) => c.judged.red) ? ' red' : ''}`,
       title: lines.join('\n'),
       'aria-label': lines.slice(0, 3).join('; '),
       tabindex: -1,
@@ -97,10 +97,18 @@ function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters, digi
 }
 
 function row(s: Scenario, columns: Column[], f: Filters): HTMLElement {
-  const scale = rowScale(s, columns, f.step);
-  const metric = s.main.name
-    ? `${words(s.main.name)}${s.main.unit && s.main.unit !== '1' ? ` [${s.main.unit}]` : ''}`
-    : 'no metric';
+  const scale = rowScale(s, columns, f.step, f.number);
+  const isGraded = s.cases.some((c) => c.judged.relative !== null);
+  const metric =
+    f.number === 'relative' && isGraded
+      ? 'relative error'
+      : f.number === 'ours'
+        ? 'relative error ÷ ours'
+        : f.number === 'cost'
+          ? 'time of a step'
+          : s.main.name
+            ? `${isGraded ? '' : 'not graded: '}${words(s.main.name)}${s.main.unit && s.main.unit !== '1' ? ` [${s.main.unit}]` : ''}`
+            : 'no metric';
   return el(
     'tr',
     { 'data-scenario': s.name },
@@ -192,9 +200,9 @@ function controls(f: Filters): HTMLElement[] {
     select(
       'Number',
       [
-        ['error', 'error'],
         ['relative', 'relative error'],
-        ['ours', 'error ÷ ours'],
+        ['error', 'main metric'],
+        ['ours', 'relative error ÷ ours'],
         ['cost', 'time of a step'],
       ],
       f.number,
@@ -221,7 +229,7 @@ function legend(): HTMLElement {
       'span',
       { class: 'small muted' },
       'The letter is the grade of accuracy at the finest time step: the worst error over the metrics that the scenario names, each over the scenario’s own scale. ',
-      'The number is the error of its main metric; the best of a row is underlined. ▼ ▲: worse or better than on record. ',
+      'The number is that relative error; the best of a row is underlined. A scene without an exact answer has no letter: its cells are grey, with how the run ended and its main metric. ▼ ▲: worse or better than on record. ',
       run.scenarios.some((s) => s.cases.some((c) => c.judged.orders))
         ? '↕: depends on the order in which bodies, shapes, joints and forces are handed over; number and grade are of the order as written. '
         : '',

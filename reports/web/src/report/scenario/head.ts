@@ -94,7 +94,7 @@ export function head(context: Context): HTMLElement {
         el(
           'span',
           {
-            class: `stat v ${c.judged.grade ? `g-${c.judged.grade}` : `v-${c.shown}`}${c.spec === spec ? ' focus' : ''}`,
+            class: `stat v ${c.judged.grade ? `g-${c.judged.grade}` : `v-${c.shown === 'pass' ? 'no_bound' : c.shown}`}${c.spec === spec ? ' focus' : ''}`,
             title: c.judged.says,
           },
           c.judged.grade || verdictText(c.shown).symbol,
