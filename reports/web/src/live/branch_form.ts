@@ -53,10 +53,9 @@ export class BranchForm {
   /** `settings`: what the lane really runs with. */
   open(lane: LaneState, settings: Settings): void {
     const engine = this.#engines.find((e) => e.name === lane.engine);
-    const others = this.#engines.filter((e) => e.name !== lane.engine);
     const choice = el('select', { name: '', 'aria-label': 'Engine' });
     choice.append(el('option', { value: '' }, `${lane.engine}, with what is chosen below`));
-    for (const other of others)
+    for (const other of this.#engines)
       for (const preset of other.presets)
         choice.append(el('option', { value: `${other.name}:preset=${preset}` }, `${other.title}, ${preset}`));
     const choices = (engine?.options ?? []).filter((o) => o.values.length > 0);

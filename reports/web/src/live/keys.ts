@@ -24,6 +24,8 @@ const explained: [string, string][] = [
   ['+ −', 'faster, slower'],
   ['o', 'side by side, overlaid'],
   ['a', 'camera: whole scene'],
+  [', . ↑ ↓', 'camera: turn, tilt (with the picture in focus)'],
+  ['PgUp PgDn', 'camera: nearer, farther'],
   ['f l', 'faces, outlines'],
   ['c m p i', 'contacts, normals, penetration, impulses'],
   ['v w', 'velocities, angular velocities'],

@@ -18,6 +18,18 @@ export interface CameraState {
 
 const halfAngle = (15 * Math.PI) / 180; // of what the camera sees, upwards
 
+/** Of the camera, while its picture has the focus: how far to the right, up and nearer. */
+const cameraKeys: Record<string, [right: number, up: number, nearer: number]> = {
+  ',': [-1, 0, 0],
+  '.': [1, 0, 0],
+  ArrowUp: [0, 1, 0],
+  ArrowDown: [0, -1, 0],
+  PageUp: [0, 0, 1],
+  PageDown: [0, 0, -1],
+};
+const turnStep = Math.PI / 24;
+const nearStep = 1.15;
+
 /** Part of a picture's height that the scene may take: labels stand above it. */
 const clearOf = (rect: Rect) => Math.min(0.88, Math.max(0.6, 1 - 100 / rect.height));
 
@@ -31,11 +43,13 @@ export class CameraRig {
 
   readonly #camera: PerspectiveCamera | OrthographicCamera;
   readonly #controls: OrbitControls;
+  readonly #canvas: HTMLCanvasElement;
   readonly #flat: boolean;
   readonly #up = new Vector3(0, 1, 0);
   #byHand = false; // it stands where somebody put it
 
   constructor(scene: Scene, canvas: HTMLCanvasElement) {
+    this.#canvas = canvas;
     this.#flat = scene.dimension === 2;
     this.#camera = this.#flat
       ? new OrthographicCamera()
@@ -53,6 +67,35 @@ export class CameraRig {
       this.#byHand = true;
     });
     this.#controls.addEventListener('end', () => this.onHand?.());
+    canvas.addEventListener('keydown', this.#press);
+  }
+
+  readonly #press = (event: KeyboardEvent): void => {
+    const step = cameraKeys[event.key];
+    if (!step || event.ctrlKey || event.metaKey || event.altKey) return;
+    this.steer(...step);
+    this.onHand?.();
+    event.preventDefault();
+    event.stopPropagation();
+  };
+
+  /** Steps of the keyboard: turns about what it looks at, or moves along a flat scene, and comes nearer. */
+  steer(right: number, up: number, nearer: number): void {
+    this.#byHand = true;
+    const away = this.#camera.position.clone().sub(this.#controls.target);
+    if (this.#flat) {
+      const by = (0.1 * this.framing.radius) / this.#camera.zoom;
+      this.#controls.target.add(new Vector3(right * by, up * by, 0));
+      this.#camera.zoom *= nearStep ** nearer;
+    } else {
+      away.applyAxisAngle(this.#up, turnStep * right);
+      const tilt = Math.min(Math.PI - 0.05, Math.max(0.05, away.angleTo(this.#up) - turnStep * up));
+      const level = new Vector3().crossVectors(this.#up, away).normalize();
+      away.applyAxisAngle(level, tilt - away.angleTo(this.#up));
+      away.multiplyScalar(nearStep ** -nearer);
+    }
+    this.#camera.position.copy(this.#controls.target).add(away);
+    this.#controls.update();
   }
 
   get camera(): Camera & (PerspectiveCamera | OrthographicCamera) {
@@ -156,6 +199,7 @@ export class CameraRig {
   }
 
   dispose(): void {
+    this.#canvas.removeEventListener('keydown', this.#press);
     this.#controls.dispose();
   }
 

@@ -106,6 +106,11 @@ export class ReplayView {
     this.#renderer = takeRenderer();
     this.canvas = this.#renderer.domElement;
     this.canvas.tabIndex = 0;
+    this.canvas.setAttribute('role', 'application');
+    this.canvas.setAttribute(
+      'aria-label',
+      'Picture of the scene. Comma and full stop turn it, arrow up and down tilt it, page up and down zoom; the question mark lists all keys.',
+    );
     element.append(this.canvas);
     this.#rig = new CameraRig(scene, this.canvas);
     this.#rig.onChange = () => this.invalidate();

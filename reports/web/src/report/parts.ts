@@ -10,7 +10,8 @@ import { engineLink, subtitleOf, verdictText } from './run.ts';
 export const panel = (id: string, title: string | null, ...children: Child[]): HTMLElement =>
   el('section', { class: 'panel', id }, title ? el('h2', null, title) : null, children);
 
-export const scroll = (table: HTMLElement): HTMLElement => el('div', { class: 'scroll', tabindex: 0 }, table);
+export const scroll = (table: HTMLElement): HTMLElement =>
+  el('div', { class: 'scroll', tabindex: 0, role: 'group', 'aria-label': 'Table, scrolls sideways' }, table);
 
 /** A verdict: its symbol, and a text that is its word unless something else is said. */
 export function chip(shown: Shown, text?: Child, title?: string): HTMLElement {
@@ -110,7 +111,7 @@ export function copyButton(text: string): HTMLElement {
       () => {},
     );
   };
-  return el('button', { class: 'button noprint', onclick: copied }, 'copy');
+  return el('button', { class: 'button noprint', 'aria-label': 'Copy the command', onclick: copied }, 'copy');
 }
 
 export const facts = (entries: [string, Child][]): HTMLElement =>

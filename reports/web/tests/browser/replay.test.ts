@@ -128,6 +128,24 @@ describe('the replay of a real run', { skip }, () => {
     it.clean();
   });
 
+  test('the camera is moved by keys alone', async () => {
+    await show('box_stack');
+    const camera = () => it.page.evaluate(() => new URLSearchParams(location.hash.split('?')[1]).get('view') ?? '');
+    const seen = new Set([await camera()]);
+    for (const key of ['.', ',', 'ArrowUp', 'PageUp']) {
+      const before = await camera();
+      await press(key);
+      if (key === ',') await press(key); // back to where it was, and on
+      await it.page.waitForFunction(
+        (was) => (new URLSearchParams(location.hash.split('?')[1]).get('view') ?? '') !== was,
+        before,
+      );
+      seen.add(await camera());
+    }
+    assert.equal(seen.size, 5, [...seen].join('\n'));
+    it.clean();
+  });
+
   test('a link restores the view', async () => {
     await show('box_stack');
     await it.page.click('.replay [data-switch="trails"]');

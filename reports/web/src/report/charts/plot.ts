@@ -57,6 +57,8 @@ export function plotCard(plot: Plot): HTMLElement {
   const make = () => {
     if (drawn) return;
     drawn = draw(plot, log, box);
+    drawn.ctx.canvas.setAttribute('role', 'img');
+    drawn.ctx.canvas.setAttribute('aria-label', `${plot.title}: ${plot.lines.map((line) => line.label).join(', ')}`);
     const size = new ResizeObserver(() => drawn?.setSize(sizeOf(box)));
     size.observe(box);
     ends = [() => size.disconnect(), ...connect(plot, drawn)];
@@ -67,7 +69,16 @@ export function plotCard(plot: Plot): HTMLElement {
     drop();
     make();
   };
-  const button = el('button', { class: 'button noprint', 'aria-pressed': String(log), onclick: toggle }, 'log');
+  const button = el(
+    'button',
+    {
+      class: 'button noprint',
+      'aria-label': `log scale of ${plot.title}`,
+      'aria-pressed': String(log),
+      onclick: toggle,
+    },
+    'log',
+  );
   const unit = plot.unit && plot.unit !== '1' ? el('span', { class: 'muted' }, ` [${plot.unit}]`) : null;
   const mayBeLog = plot.lines.every((line) => line.y.every((y) => y === null || y >= 0));
   const head = el('h4', null, el('span', null, plot.title, unit), mayBeLog ? button : null);

@@ -133,7 +133,12 @@ function sortButton(f: Filters, key: string, text: string): HTMLElement {
   const active = f.sort === key;
   const next = active && f.descending ? { sort: '', descending: false } : { sort: key, descending: active };
   const mark = active ? (f.descending ? ' ▼' : ' ▲') : '';
-  return el('button', { title: 'Sort', onclick: () => filters.set({ ...f, ...next }) }, text, mark);
+  return el(
+    'button',
+    { 'aria-label': `Sort by ${text}`, title: 'Sort', onclick: () => filters.set({ ...f, ...next }) },
+    text,
+    mark,
+  );
 }
 const ariaSort = (f: Filters, key: string) => (f.sort === key ? (f.descending ? 'descending' : 'ascending') : null);
 
