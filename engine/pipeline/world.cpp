@@ -11,6 +11,7 @@
 #include "engine/narrowphase/traits.hpp"
 #include "engine/shapes/surface.hpp"
 #include "engine/solvers/traits.hpp"
+#include "engine/state/settings.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -104,39 +105,11 @@ bool validShape(const Shape<S>& shape) {
 
 template <class S>
 World<S>::World(const WorldDef<S>& def) : def_(def) {
-    require(def.threads >= 1 && def.threads <= 1024, "threads", "threads must be in 1..1024");
+    checkSettings<S>(def);
     tasks_ = Tasks(def.threads);
     require(def.gravity.allFinite(), "gravity", "gravity must be finite");
-    require(def.velocityIterations >= 0, "velocity_iterations", "velocity iterations must not be negative");
-    require(def.positionIterations >= 0, "position_iterations", "position iterations must not be negative");
-    require(def.velocityTolerance >= 0 && std::isfinite(def.velocityTolerance), "velocity_tolerance",
-            "velocity tolerance must not be negative");
-    require(def.substeps >= 0, "substeps", "sub-steps must not be negative");
-    const auto spring = [](Real frequency, Real dampingRatio) {
-        return frequency > 0 && std::isfinite(frequency) && dampingRatio >= 0 && std::isfinite(dampingRatio);
-    };
-    require(spring(def.contactFrequency, def.contactDampingRatio), "contact_softness",
-            "contact frequency must be positive, its damping ratio not negative");
-    require(spring(def.jointFrequency, def.jointDampingRatio), "joint_softness",
-            "joint frequency must be positive, its damping ratio not negative");
-    require(def.firstStepIterations >= 1, "first_step_iterations",
-            "at least one iteration in the first step");
-    require(def.restitutionThreshold >= 0 && std::isfinite(def.restitutionThreshold), "restitution_threshold",
-            "restitution threshold must not be negative");
-    require(def.slop >= 0 && std::isfinite(def.slop), "slop", "slop must not be negative");
-    require(def.gapSlop >= 0 && std::isfinite(def.gapSlop), "gap_slop", "gap slop must not be negative");
-    require(def.speculativeDistance >= 0 && std::isfinite(def.speculativeDistance), "speculative_distance",
-            "speculative distance must not be negative");
-    require(def.reuseDistance >= 0 && std::isfinite(def.reuseDistance), "reuse_distance",
-            "reuse distance must not be negative");
     require(def.reuseDistance == 0 || !manifoldTraits(def.manifold).remembers, "reuse_manifold",
             "a manifold that remembers needs the narrow phase in every step: reuse distance must be 0");
-    require(def.boxMargin >= 0 && std::isfinite(def.boxMargin), "box_margin",
-            "box margin must not be negative");
-    require(def.residualTolerance >= 0 && std::isfinite(def.residualTolerance), "residual_tolerance",
-            "residual tolerance must not be negative");
-    require(def.pyramidDirections >= 2 && def.pyramidDirections <= 64 && def.pyramidDirections % 2 == 0,
-            "pyramid_directions", "pyramid directions must be even and in 2..64");
     const RotationScheme<S> rotation = findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make();
     motion_ = {
         findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make(), rotation,
@@ -148,10 +121,6 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     ccd_ =
         findAlgorithm(continuousCollisionTable<S>(), "continuous_collision", def.continuousCollision).make();
     sleeping_ = findAlgorithm(sleepingTable<S>(), "sleeping", def.sleeping).make();
-    const auto threshold = [](Real x) { return x >= 0 && std::isfinite(x); };
-    require(threshold(def.sleepLinearVelocity) && threshold(def.sleepAngularVelocity), "sleep_velocity",
-            "sleep velocities must not be negative");
-    require(threshold(def.timeToSleep), "time_to_sleep", "the time to sleep must not be negative");
     restitution_ = findAlgorithm(restitutionTable<S>(), "restitution", def.restitution).make();
     contacts_.setCombineRules(
         findAlgorithm(combineTable<Real>(), "friction_combine", def.frictionCombine).make,
@@ -398,9 +367,6 @@ void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
         }
 }
 
-template class World<Space2f>;
-template class World<Space2d>;
-template class World<Space3f>;
-template class World<Space3d>;
+RIGOR_INSTANTIATE_CLASS(World)
 
 }  // namespace rigor::engine

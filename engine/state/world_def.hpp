@@ -22,74 +22,19 @@ namespace rigor::engine {
 template <class S>
 class NarrowPhase;  // narrowphase/manifold.hpp
 
-/// Settings of a world, constant after construction. Algorithms are named as in the tables of their folders.
+/// Settings of a world, constant after construction: settings.def describes each. Algorithms are named as in the
+/// tables of their folders.
 template <class S>
 struct WorldDef {
     using Real = typename S::Real;
     typename S::Vec gravity = S::Vec::Zero();  ///< [m/s^2]
-
-    std::string integrator = "symplectic_euler";
-    std::string rotation = "lie_midpoint";
-    std::string orientationUpdate = "exponential_map";
-    std::string broadPhase = "dynamic_aabb_tree";
-    std::string narrowPhase = "sat";
+#define ALGORITHM(member, key, byDefault, help) std::string member = byDefault;
+#define INTEGER(member, key, byDefault, min, max, help) int member = byDefault;
+#define REAL(member, key, byDefault, min, max, help) Real member = static_cast<Real>(byDefault);
+#define SWITCH(member, key, byDefault, help) bool member = byDefault;
+#include "engine/state/settings.def"
     /// In place of `narrowPhase` where set; shared by copies of the world.
     std::shared_ptr<const NarrowPhase<S>> customNarrowPhase;
-    std::string manifold = "clipped";
-    std::string solver = "block";
-    std::string positionCorrection = "ngs";
-    std::string friction = "cone";
-    std::string fault = "none";  ///< a deliberate mistake, for study (engine/faults)
-    std::string continuousCollision = "none";
-    std::string sleeping = "off";
-    std::string restitution = "newton";
-    /// Of two materials whose pair has no coefficients of its own (World::setPair).
-    std::string frictionCombine = "geometric_mean", restitutionCombine = "min";
-
-    /// Equal parts a step is solved in, contacts found once, >= 0. 0: the solver's own number, which is 1
-    /// except for solvers that are made of sub-steps (tgs_soft, xpbd).
-    int substeps = 0;
-    /// Of each sub-step, at most, >= 0. 0: the solver's own number, which is 50 except for solvers that are
-    /// made of sub-steps, or of a single pass.
-    int velocityIterations = 0;
-    int positionIterations = 10;  ///< of each sub-step, >= 0
-    /// Iterations end early when one changes less than this share of the speed that gravity adds in a
-    /// (sub-)step, or than the precision resolves; 0: never. >= 0
-    Real velocityTolerance = Real(1e-6);
-    int firstStepIterations = 400;  ///< of the first step, which has no impulses to start from, >= 1
-    /// Solvers that promise a residual (nsgs, dantzig, lemke): the natural map (solvers/natural_map.hpp) at
-    /// which they are done [m/s], >= 0; single precision stops at what it resolves.
-    Real residualTolerance = Real(1e-10);
-    /// Residuals of the step are the natural map instead of the change an iteration made; costs a pass each.
-    bool measureResiduals = false;
-    /// Threads that share the work of a step, 1..1024; the bits of the results do not depend on it.
-    int threads = 1;
-    int pyramidDirections = 4;  ///< lemke: generators of its friction cone, even, 2..64
-    bool warmStarting = true;   ///< start from the impulses of the last step
-    /// Joint rows aim at the constraint at the end of the step instead of its linearisation at the start:
-    /// pendulums keep their energy.
-    bool curvedJoints = true;
-    /// Soft contacts and joints as damped springs, where the solver or the position correction wants them:
-    /// frequency [Hz], > 0, at most a quarter of the sub-step rate is used; damping ratio >= 0.
-    Real contactFrequency = 30, contactDampingRatio = 10;
-    Real jointFrequency = 60, jointDampingRatio = 2;
-    /// Where bodies may sleep: an island whose bodies have all been slower than this [m/s], [rad/s] for
-    /// timeToSleep [s] does. >= 0
-    Real sleepLinearVelocity = Real(0.01), sleepAngularVelocity = Real(0.02), timeToSleep = Real(0.5);
-    Real restitutionThreshold = Real(0.01);  ///< slower approaches do not bounce [m/s], >= 0
-    Real slop = Real(1e-5);                  ///< overlap that position correction leaves alone [m], >= 0
-    /// A gap up to this counts as closed [m], >= 0: where position correction has lifted a corner, closing
-    /// the gap by velocity would start stacks rocking. Impacts close it all the same.
-    Real gapSlop = Real(5e-4);
-    /// Contacts are found up to this separation [m], >= 0, so that resting bodies land without overlap.
-    Real speculativeDistance = Real(1e-3);
-    /// What the narrow phase has found of two shapes is kept, and moved with them, until they have moved by
-    /// this against each other [m], >= 0; 0: it is asked in every step (pipeline/contact_reuse.cpp). Not with
-    /// manifold = "persistent", which lives from asking.
-    Real reuseDistance = 0;
-    /// The broad phase is asked anew only when a box has left its own of last time grown by this share of its
-    /// longest edge, >= 0; 0: in every step. Results do not depend on it.
-    Real boxMargin = 0;
 };
 
 template <class S>
