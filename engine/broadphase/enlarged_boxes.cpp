@@ -52,9 +52,6 @@ void EnlargedBoxes<S>::reset() {
     made_ = 0;
 }
 
-template class EnlargedBoxes<Space2f>;
-template class EnlargedBoxes<Space2d>;
-template class EnlargedBoxes<Space3f>;
-template class EnlargedBoxes<Space3d>;
+RIGOR_INSTANTIATE_CLASS(EnlargedBoxes)
 
 }  // namespace rigor::engine

@@ -161,9 +161,6 @@ void SpatialOrder<S>::sort(std::span<const Aabb<S>> boxes, std::vector<std::uint
     });
 }
 
-template class SpatialOrder<Space2f>;
-template class SpatialOrder<Space2d>;
-template class SpatialOrder<Space3f>;
-template class SpatialOrder<Space3d>;
+RIGOR_INSTANTIATE_CLASS(SpatialOrder)
 
 }  // namespace rigor::engine

@@ -19,9 +19,9 @@ std::span<const AlgorithmEntry<BroadPhaseFactory<S>>> broadPhaseTable() {
     };
     return table;
 }
-template std::span<const AlgorithmEntry<BroadPhaseFactory<Space2f>>> broadPhaseTable<Space2f>();
-template std::span<const AlgorithmEntry<BroadPhaseFactory<Space2d>>> broadPhaseTable<Space2d>();
-template std::span<const AlgorithmEntry<BroadPhaseFactory<Space3f>>> broadPhaseTable<Space3f>();
-template std::span<const AlgorithmEntry<BroadPhaseFactory<Space3d>>> broadPhaseTable<Space3d>();
+#define RIGOR_INSTANTIATE(S) \
+    template std::span<const AlgorithmEntry<BroadPhaseFactory<S>>> broadPhaseTable<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -96,9 +96,6 @@ typename S::Real ImpactSolver<S>::solve(BodyArrays<S>& bodies, FrictionLaw<S> fr
     return sum;
 }
 
-template class ImpactSolver<Space2f>;
-template class ImpactSolver<Space2d>;
-template class ImpactSolver<Space3f>;
-template class ImpactSolver<Space3d>;
+RIGOR_INSTANTIATE_CLASS(ImpactSolver)
 
 }  // namespace rigor::engine

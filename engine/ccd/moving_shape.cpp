@@ -115,10 +115,7 @@ Aabb<S> sweptBox(const MovingShape<S>& shape, typename S::Real t) {
     template S::Real coreReach<S>(const Shape<S>&, const Pose<S>&);                        \
     template bool mayPassUnseen<S>(const MovingShape<S>&, const MovingShape<S>&, S::Real); \
     template Aabb<S> sweptBox<S>(const MovingShape<S>&, S::Real);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -20,10 +20,10 @@ std::span<const AlgorithmEntry<ContinuousCollisionFactory<S>>> continuousCollisi
     };
     return table;
 }
-template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space2f>>> continuousCollisionTable();
-template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space2d>>> continuousCollisionTable();
-template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space3f>>> continuousCollisionTable();
-template std::span<const AlgorithmEntry<ContinuousCollisionFactory<Space3d>>> continuousCollisionTable();
+#define RIGOR_INSTANTIATE(S) \
+    template std::span<const AlgorithmEntry<ContinuousCollisionFactory<S>>> continuousCollisionTable();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 #define ALGORITHM(name, factory, summary) ContinuousCollisionTraits factory##Traits();
 #include "engine/ccd/continuous_collisions.def"

@@ -153,10 +153,7 @@ void collideAt(const MovingShape<S>& a, const MovingShape<S>& b, const TimeOfImp
     template TimeOfImpact<S> timeOfImpact<S>(const MovingShape<S>&, const MovingShape<S>&, S::Real, bool); \
     template void collideAt<S>(const MovingShape<S>&, const MovingShape<S>&, const TimeOfImpact<S>&,       \
                                const NarrowPhase<S>&, Manifold<S>&);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

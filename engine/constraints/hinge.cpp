@@ -20,13 +20,9 @@ void evaluateHinge(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, Jo
     addTurnCoordinate<S>(joint, A, B, out);
     addAxisRows<S>(joint, out);
 }
-template void evaluateHinge<Space2f>(const Joint<Space2f>&, const Pose<Space2f>&, const Pose<Space2f>&,
-                                     JointRows<Space2f>&);
-template void evaluateHinge<Space2d>(const Joint<Space2d>&, const Pose<Space2d>&, const Pose<Space2d>&,
-                                     JointRows<Space2d>&);
-template void evaluateHinge<Space3f>(const Joint<Space3f>&, const Pose<Space3f>&, const Pose<Space3f>&,
-                                     JointRows<Space3f>&);
-template void evaluateHinge<Space3d>(const Joint<Space3d>&, const Pose<Space3d>&, const Pose<Space3d>&,
-                                     JointRows<Space3d>&);
+#define RIGOR_INSTANTIATE(S) \
+    template void evaluateHinge<S>(const Joint<S>&, const Pose<S>&, const Pose<S>&, JointRows<S>&);
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -184,10 +184,7 @@ void addAxisRows(const Joint<S>& joint, JointRows<S>& out) {
                                          JointRows<S>&);                                                 \
     template void addTurnCoordinate<S>(const Joint<S>&, const Pose<S>&, const Pose<S>&, JointRows<S>&);  \
     template void addAxisRows<S>(const Joint<S>&, JointRows<S>&);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -168,10 +168,7 @@ Joint<S> makeJoint(const JointDef<S>& def, const Pose<S>& A, const typename S::V
     template void resolveJointAxes<S>(Joint<S>&);                                                     \
     template Joint<S> makeJoint<S>(const JointDef<S>&, const Pose<S>&, const S::Vec&, const Pose<S>&, \
                                    const S::Vec&);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

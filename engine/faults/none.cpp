@@ -10,9 +10,8 @@ template <class S>
 const Fault<S>* faultNone() {
     return nullptr;
 }
-template const Fault<Space2f>* faultNone<Space2f>();
-template const Fault<Space2d>* faultNone<Space2d>();
-template const Fault<Space3f>* faultNone<Space3f>();
-template const Fault<Space3d>* faultNone<Space3d>();
+#define RIGOR_INSTANTIATE(S) template const Fault<S>* faultNone<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

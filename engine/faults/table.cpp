@@ -19,9 +19,8 @@ std::span<const AlgorithmEntry<FaultOf<S>>> faultTable() {
     };
     return table;
 }
-template std::span<const AlgorithmEntry<FaultOf<Space2f>>> faultTable<Space2f>();
-template std::span<const AlgorithmEntry<FaultOf<Space2d>>> faultTable<Space2d>();
-template std::span<const AlgorithmEntry<FaultOf<Space3f>>> faultTable<Space3f>();
-template std::span<const AlgorithmEntry<FaultOf<Space3d>>> faultTable<Space3d>();
+#define RIGOR_INSTANTIATE(S) template std::span<const AlgorithmEntry<FaultOf<S>>> faultTable<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

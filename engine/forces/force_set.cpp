@@ -98,9 +98,6 @@ void ForceSet<S>::edges(double begin, double end, std::vector<double>& times) co
                 if (time > begin && time < end) times.push_back(time);
 }
 
-template class ForceSet<Space2f>;
-template class ForceSet<Space2d>;
-template class ForceSet<Space3f>;
-template class ForceSet<Space3d>;
+RIGOR_INSTANTIATE_CLASS(ForceSet)
 
 }  // namespace rigor::engine

@@ -146,9 +146,6 @@ void BlockMotion<S>::finish(BodyArrays<S>& bodies, const Tasks& tasks) const {
     }
 }
 
-template class BlockMotion<Space2f>;
-template class BlockMotion<Space2d>;
-template class BlockMotion<Space3f>;
-template class BlockMotion<Space3d>;
+RIGOR_INSTANTIATE_CLASS(BlockMotion)
 
 }  // namespace rigor::engine

@@ -29,9 +29,8 @@ template <class S>
 Integrator<S> integratorExplicitEuler() {
     return {&move<S>, false};
 }
-template Integrator<Space2f> integratorExplicitEuler<Space2f>();
-template Integrator<Space2d> integratorExplicitEuler<Space2d>();
-template Integrator<Space3f> integratorExplicitEuler<Space3f>();
-template Integrator<Space3d> integratorExplicitEuler<Space3d>();
+#define RIGOR_INSTANTIATE(S) template Integrator<S> integratorExplicitEuler<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

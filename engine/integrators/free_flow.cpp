@@ -66,9 +66,6 @@ typename S::Ang FreeFlow<S>::inertiaTimes(std::size_t i, const typename S::Rot& 
     }
 }
 
-template class FreeFlow<Space2f>;
-template class FreeFlow<Space2d>;
-template class FreeFlow<Space3f>;
-template class FreeFlow<Space3d>;
+RIGOR_INSTANTIATE_CLASS(FreeFlow)
 
 }  // namespace rigor::engine

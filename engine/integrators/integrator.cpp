@@ -32,10 +32,7 @@ void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, ty
 #define RIGOR_INSTANTIATE(S)                                                                          \
     template void moveWith<S>(BodyArrays<S>&, std::span<const Velocity<S>>, S::Real, TurnRotation<S>, \
                               const Tasks&);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -134,9 +134,6 @@ void Motion<S>::resume(BodyArrays<S>& bodies, std::size_t i, Real rest) {
     w = predicted_[i] = rotation_.predict(bodies.constants[i], bodies.pose[i].q, w, rest);
 }
 
-template class Motion<Space2f>;
-template class Motion<Space2d>;
-template class Motion<Space3f>;
-template class Motion<Space3d>;
+RIGOR_INSTANTIATE_CLASS(Motion)
 
 }  // namespace rigor::engine

@@ -28,10 +28,7 @@ namespace rigor::engine::HWY_NAMESPACE {
                    Velocity<S>* velocities) {                                               \
         finishAll(blocks, count, poses, velocities);                                        \
     }
-RIGOR_MOVE(Space2f)
-RIGOR_MOVE(Space2d)
-RIGOR_MOVE(Space3f)
-RIGOR_MOVE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_MOVE)
 RIGOR_TUMBLE(Space3f)
 RIGOR_TUMBLE(Space3d)
 #undef RIGOR_MOVE
@@ -63,10 +60,7 @@ namespace rigor::engine {
                            Velocity<S>* velocities) {                                               \
         HWY_DYNAMIC_DISPATCH(finish##S)(blocks, count, poses, velocities);                          \
     }
-RIGOR_MOVE(Space2f)
-RIGOR_MOVE(Space2d)
-RIGOR_MOVE(Space3f)
-RIGOR_MOVE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_MOVE)
 RIGOR_TUMBLE(Space3f)
 RIGOR_TUMBLE(Space3d)
 #undef RIGOR_MOVE

@@ -25,9 +25,8 @@ template <class S>
 TurnRotation<S> orientationExponentialMap() {
     return &turn<S>;
 }
-template TurnRotation<Space2f> orientationExponentialMap<Space2f>();
-template TurnRotation<Space2d> orientationExponentialMap<Space2d>();
-template TurnRotation<Space3f> orientationExponentialMap<Space3f>();
-template TurnRotation<Space3d> orientationExponentialMap<Space3d>();
+#define RIGOR_INSTANTIATE(S) template TurnRotation<S> orientationExponentialMap<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

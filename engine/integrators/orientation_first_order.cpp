@@ -39,9 +39,8 @@ template <class S>
 TurnRotation<S> orientationFirstOrder() {
     return &turn<S>;
 }
-template TurnRotation<Space2f> orientationFirstOrder<Space2f>();
-template TurnRotation<Space2d> orientationFirstOrder<Space2d>();
-template TurnRotation<Space3f> orientationFirstOrder<Space3f>();
-template TurnRotation<Space3d> orientationFirstOrder<Space3d>();
+#define RIGOR_INSTANTIATE(S) template TurnRotation<S> orientationFirstOrder<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

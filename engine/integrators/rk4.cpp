@@ -136,9 +136,8 @@ template <class S>
 Integrator<S> integratorRk4() {
     return {nullptr, false, &advance<S>};
 }
-template Integrator<Space2f> integratorRk4<Space2f>();
-template Integrator<Space2d> integratorRk4<Space2d>();
-template Integrator<Space3f> integratorRk4<Space3f>();
-template Integrator<Space3d> integratorRk4<Space3d>();
+#define RIGOR_INSTANTIATE(S) template Integrator<S> integratorRk4<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

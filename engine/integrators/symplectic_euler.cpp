@@ -30,9 +30,8 @@ template <class S>
 Integrator<S> integratorSymplecticEuler() {
     return {&move<S>, true};
 }
-template Integrator<Space2f> integratorSymplecticEuler<Space2f>();
-template Integrator<Space2d> integratorSymplecticEuler<Space2d>();
-template Integrator<Space3f> integratorSymplecticEuler<Space3f>();
-template Integrator<Space3d> integratorSymplecticEuler<Space3d>();
+#define RIGOR_INSTANTIATE(S) template Integrator<S> integratorSymplecticEuler<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

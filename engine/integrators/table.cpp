@@ -54,10 +54,7 @@ std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable() 
     template std::span<const AlgorithmEntry<IntegratorFactory<S>>> integratorTable<S>(); \
     template std::span<const AlgorithmEntry<RotationFactory<S>>> rotationTable<S>();     \
     template std::span<const AlgorithmEntry<OrientationFactory<S>>> orientationUpdateTable<S>();
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 #define ALGORITHM(name, factory, summary) IntegratorTraits factory##Traits();

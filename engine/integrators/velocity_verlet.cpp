@@ -76,9 +76,8 @@ template <class S>
 Integrator<S> integratorVelocityVerlet() {
     return {nullptr, false, &advance<S>};
 }
-template Integrator<Space2f> integratorVelocityVerlet<Space2f>();
-template Integrator<Space2d> integratorVelocityVerlet<Space2d>();
-template Integrator<Space3f> integratorVelocityVerlet<Space3f>();
-template Integrator<Space3d> integratorVelocityVerlet<Space3d>();
+#define RIGOR_INSTANTIATE(S) template Integrator<S> integratorVelocityVerlet<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

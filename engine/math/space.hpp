@@ -168,3 +168,11 @@ struct Aabb {
 };
 
 }  // namespace rigor::engine
+
+/// Explicit instantiation for every space: of what the macro M makes of it; of a class template.
+#define RIGOR_FOR_ALL_SPACES(M) M(Space2f) M(Space2d) M(Space3f) M(Space3d)
+#define RIGOR_INSTANTIATE_CLASS(C) \
+    template class C<Space2f>;     \
+    template class C<Space2d>;     \
+    template class C<Space3f>;     \
+    template class C<Space3d>;

@@ -144,10 +144,7 @@ ClosestPoints<S> closestPoints(const Shape<S>& a, const Pose<S>& Xa, const Shape
 #define INSTANTIATE(S)                                         \
     template CoreContact<S> closestCores(const Minkowski<S>&); \
     template ClosestPoints<S> closestPoints(const Shape<S>&, const Pose<S>&, const Shape<S>&, const Pose<S>&);
-INSTANTIATE(Space2f)
-INSTANTIATE(Space2d)
-INSTANTIATE(Space3f)
-INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(INSTANTIATE)
 #undef INSTANTIATE
 
 }  // namespace rigor::engine

@@ -67,9 +67,8 @@ GjkResult<S> gjk(const Minkowski<S>& D, const typename S::Vec& start) {
     return best;
 }
 
-template GjkResult<Space2f> gjk(const Minkowski<Space2f>&, const Space2f::Vec&);
-template GjkResult<Space2d> gjk(const Minkowski<Space2d>&, const Space2d::Vec&);
-template GjkResult<Space3f> gjk(const Minkowski<Space3f>&, const Space3f::Vec&);
-template GjkResult<Space3d> gjk(const Minkowski<Space3d>&, const Space3d::Vec&);
+#define RIGOR_INSTANTIATE(S) template GjkResult<S> gjk(const Minkowski<S>&, const S::Vec&);
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -36,10 +36,7 @@ void collideGjkEpa(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, cons
 #define INSTANTIATE(S)                                                                               \
     template void collideGjkEpa<S>(const Shape<S>&, const Pose<S>&, const Shape<S>&, const Pose<S>&, \
                                    S::Real, Manifold<S>&);
-INSTANTIATE(Space2f)
-INSTANTIATE(Space2d)
-INSTANTIATE(Space3f)
-INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(INSTANTIATE)
 #undef INSTANTIATE
 
 }  // namespace rigor::engine

@@ -88,10 +88,7 @@ void collidePair(const Hull<S>& a, const Pose<S>& Xa, const HalfSpace<S>& b, con
     PAIR(Box, S)       \
     PAIR(Capsule, S)   \
     PAIR(Hull, S)
-INSTANTIATE(Space2f)
-INSTANTIATE(Space2d)
-INSTANTIATE(Space3f)
-INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(INSTANTIATE)
 #undef INSTANTIATE
 #undef PAIR
 

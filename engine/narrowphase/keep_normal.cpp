@@ -111,10 +111,7 @@ void keepNormal(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, con
     template S::Vec innerPoint<S>(const Shape<S>&);                                                   \
     template void keepNormal<S>(const Shape<S>&, const Shape<S>&, const Minkowski<S>&, const S::Vec&, \
                                 CoreContact<S>&);
-INSTANTIATE(Space2f)
-INSTANTIATE(Space2d)
-INSTANTIATE(Space3f)
-INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(INSTANTIATE)
 #undef INSTANTIATE
 
 }  // namespace rigor::engine

@@ -15,10 +15,9 @@ std::span<const AlgorithmEntry<ManifoldFunction<S>>> manifoldTable() {
     return kTable;
 }
 
-template std::span<const AlgorithmEntry<ManifoldFunction<Space2f>>> manifoldTable();
-template std::span<const AlgorithmEntry<ManifoldFunction<Space2d>>> manifoldTable();
-template std::span<const AlgorithmEntry<ManifoldFunction<Space3f>>> manifoldTable();
-template std::span<const AlgorithmEntry<ManifoldFunction<Space3d>>> manifoldTable();
+#define RIGOR_INSTANTIATE(S) template std::span<const AlgorithmEntry<ManifoldFunction<S>>> manifoldTable();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 #define ALGORITHM(name, function, summary) ManifoldTraits function##Traits();
 #include "engine/narrowphase/manifolds.def"

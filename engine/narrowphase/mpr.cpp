@@ -152,10 +152,7 @@ void collideMpr(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const P
 #define INSTANTIATE(S)                                                                                     \
     template void collideMpr<S>(const Shape<S>&, const Pose<S>&, const Shape<S>&, const Pose<S>&, S::Real, \
                                 Manifold<S>&);
-INSTANTIATE(Space2f)
-INSTANTIATE(Space2d)
-INSTANTIATE(Space3f)
-INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(INSTANTIATE)
 #undef INSTANTIATE
 
 }  // namespace rigor::engine

@@ -56,10 +56,7 @@ std::shared_ptr<const NarrowPhase<S>> makeNarrowPhase(const std::string& name) {
 #define INSTANTIATE(S)                                        \
     template CollideFunction<S> findNarrowPhase(const char*); \
     template std::shared_ptr<const NarrowPhase<S>> makeNarrowPhase(const std::string&);
-INSTANTIATE(Space2f)
-INSTANTIATE(Space2d)
-INSTANTIATE(Space3f)
-INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(INSTANTIATE)
 #undef INSTANTIATE
 
 }  // namespace rigor::engine

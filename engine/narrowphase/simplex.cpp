@@ -187,9 +187,8 @@ typename S::Vec reduceSimplex(Simplex<S>& simplex, const typename S::Vec& target
     return r.v;
 }
 
-template Space2f::Vec reduceSimplex(Simplex<Space2f>&, const Space2f::Vec&);
-template Space2d::Vec reduceSimplex(Simplex<Space2d>&, const Space2d::Vec&);
-template Space3f::Vec reduceSimplex(Simplex<Space3f>&, const Space3f::Vec&);
-template Space3d::Vec reduceSimplex(Simplex<Space3d>&, const Space3d::Vec&);
+#define RIGOR_INSTANTIATE(S) template S::Vec reduceSimplex(Simplex<S>&, const S::Vec&);
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -92,10 +92,7 @@ void collidePair(const Sphere<S>& a, const Pose<S>& Xa, const HalfSpace<S>& b, c
     PAIR(Sphere, Box, S)     \
     PAIR(Sphere, Capsule, S) \
     PAIR(Sphere, HalfSpace, S)
-INSTANTIATE(Space2f)
-INSTANTIATE(Space2d)
-INSTANTIATE(Space3f)
-INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(INSTANTIATE)
 #undef INSTANTIATE
 #undef PAIR
 

@@ -298,10 +298,7 @@ Aabb<S> boxOnSurface(const Pose<S>& Xsurface, const Shape<S>& convex, const Pose
                                      const Pose<S>&, S::Real, Manifold<S>&);                               \
     template void flipManifold<S>(Manifold<S>&);                                                           \
     template Aabb<S> boxOnSurface<S>(const Pose<S>&, const Shape<S>&, const Pose<S>&, S::Real);
-INSTANTIATE(Space2f)
-INSTANTIATE(Space2d)
-INSTANTIATE(Space3f)
-INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(INSTANTIATE)
 #undef INSTANTIATE
 
 }  // namespace rigor::engine

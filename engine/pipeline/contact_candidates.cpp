@@ -110,9 +110,6 @@ void ContactSet<S>::rememberPairs() {
         candidatePairs_.assign(1, ProxyPair{});
 }
 
-template class ContactSet<Space2f>;
-template class ContactSet<Space2d>;
-template class ContactSet<Space3f>;
-template class ContactSet<Space3d>;
+RIGOR_INSTANTIATE_CLASS(ContactSet)
 
 }  // namespace rigor::engine

@@ -52,9 +52,6 @@ void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>
     for (; gone != gone_.end(); ++gone) add(EventKind::ContactEnds, *gone);
 }
 
-template class ContactSet<Space2f>;
-template class ContactSet<Space2d>;
-template class ContactSet<Space3f>;
-template class ContactSet<Space3d>;
+RIGOR_INSTANTIATE_CLASS(ContactSet)
 
 }  // namespace rigor::engine

@@ -182,9 +182,6 @@ void ContactSet<S>::placePoints(const BodyArrays<S>& bodies, Contact<S>& contact
     }
 }
 
-template class ContactSet<Space2f>;
-template class ContactSet<Space2d>;
-template class ContactSet<Space3f>;
-template class ContactSet<Space3d>;
+RIGOR_INSTANTIATE_CLASS(ContactSet)
 
 }  // namespace rigor::engine

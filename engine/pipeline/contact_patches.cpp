@@ -158,10 +158,7 @@ void ContactSet<S>::storePatches(Patches<S>& patches, const Tasks& tasks) {
     template void ContactSet<S>::addPatches(const BodyArrays<S>&, const ContactStep<S>&, Patches<S>&, \
                                             const Tasks&);                                            \
     template void ContactSet<S>::storePatches(Patches<S>&, const Tasks&);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -171,9 +171,6 @@ bool ContactSet<S>::completeRestored() {
     return count == contacts_.size();
 }
 
-template class ContactSet<Space2f>;
-template class ContactSet<Space2d>;
-template class ContactSet<Space3f>;
-template class ContactSet<Space3d>;
+RIGOR_INSTANTIATE_CLASS(ContactSet)
 
 }  // namespace rigor::engine

@@ -229,13 +229,9 @@ void ContactSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
         }
 }
 
-template std::array<Space2f::Vec, Space2f::tangents> tangentBasis<Space2f>(const Space2f::Vec&);
-template std::array<Space2d::Vec, Space2d::tangents> tangentBasis<Space2d>(const Space2d::Vec&);
-template std::array<Space3f::Vec, Space3f::tangents> tangentBasis<Space3f>(const Space3f::Vec&);
-template std::array<Space3d::Vec, Space3d::tangents> tangentBasis<Space3d>(const Space3d::Vec&);
-template class ContactSet<Space2f>;
-template class ContactSet<Space2d>;
-template class ContactSet<Space3f>;
-template class ContactSet<Space3d>;
+#define RIGOR_INSTANTIATE(S) template std::array<S::Vec, S::tangents> tangentBasis<S>(const S::Vec&);
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
+RIGOR_INSTANTIATE_CLASS(ContactSet)
 
 }  // namespace rigor::engine

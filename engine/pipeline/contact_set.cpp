@@ -265,9 +265,6 @@ bool ContactSet<S>::hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const {
                        [](std::uint32_t block) { return block != Contact<S>::kNoBlock; });
 }
 
-template class ContactSet<Space2f>;
-template class ContactSet<Space2d>;
-template class ContactSet<Space3f>;
-template class ContactSet<Space3d>;
+RIGOR_INSTANTIATE_CLASS(ContactSet)
 
 }  // namespace rigor::engine

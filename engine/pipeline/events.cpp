@@ -62,10 +62,7 @@ std::string describe(const ContactView<S>& c, const NameOf& nameOf) {
 #define RIGOR_INSTANTIATE(S)                                       \
     template std::string describe(const Event<S>&, const NameOf&); \
     template std::string describe(const ContactView<S>&, const NameOf&);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

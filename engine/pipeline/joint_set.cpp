@@ -307,9 +307,6 @@ void JointSet<S>::clearTotals() {
     }
 }
 
-template class JointSet<Space2f>;
-template class JointSet<Space2d>;
-template class JointSet<Space3f>;
-template class JointSet<Space3d>;
+RIGOR_INSTANTIATE_CLASS(JointSet)
 
 }  // namespace rigor::engine

@@ -57,10 +57,7 @@ void World<S>::wakeNeighboursOf(std::uint32_t body) {
     template SleepStep<S> World<S>::sleepStep();         \
     template void World<S>::wakeIslandOf(std::uint32_t); \
     template void World<S>::wakeNeighboursOf(std::uint32_t);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

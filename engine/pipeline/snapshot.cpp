@@ -231,10 +231,7 @@ void World<S>::checkRestored(std::size_t bodyCount) const {
     template std::uint64_t World<S>::stateHash() const;                      \
     template void World<S>::saveSnapshot(std::vector<unsigned char>&) const; \
     template void World<S>::restoreSnapshot(std::span<const unsigned char>);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -60,10 +60,7 @@ void World<S>::spoil(Phase phase) {
     template void ContactSet<S>::spoilManifolds(const BodyArrays<S>&, const Fault<S>&, std::uint64_t); \
     template void ContactSet<S>::spoilRows(const BodyArrays<S>&, const Fault<S>&, ConstraintRows<S>&); \
     template void World<S>::spoil(Phase);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

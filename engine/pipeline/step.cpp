@@ -458,10 +458,7 @@ void World<S>::checkFinite() {
     template void World<S>::beginStep(Real);            \
     template void World<S>::runPhase();                 \
     template void World<S>::checkFinite();
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

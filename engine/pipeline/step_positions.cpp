@@ -91,9 +91,6 @@ void StepPositions<S>::applyRotations() {
     scratch_.turned.clear();
 }
 
-template class StepPositions<Space2f>;
-template class StepPositions<Space2d>;
-template class StepPositions<Space3f>;
-template class StepPositions<Space3d>;
+RIGOR_INSTANTIATE_CLASS(StepPositions)
 
 }  // namespace rigor::engine

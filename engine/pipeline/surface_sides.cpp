@@ -98,10 +98,7 @@ void ContactSet<S>::keepSides(BodyArrays<S>& bodies, const Tasks& tasks) {
     template S::Vec ContactSet<S>::middleNow(const BodyArrays<S>&, std::uint32_t) const;         \
     template bool ContactSet<S>::stayOnSide(const BodyArrays<S>&, std::uint32_t, S::Vec&) const; \
     template void ContactSet<S>::keepSides(BodyArrays<S>&, const Tasks&);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

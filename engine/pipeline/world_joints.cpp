@@ -173,10 +173,7 @@ std::pair<std::uint32_t, std::uint32_t> World<S>::jointRows(JointId joint) const
     template const JointAxis<World<S>::Real>& World<S>::jointAxis(JointId, int) const; \
     template std::span<const World<S>::Real> World<S>::jointImpulses(JointId) const;   \
     template std::pair<std::uint32_t, std::uint32_t> World<S>::jointRows(JointId) const;
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -289,10 +289,7 @@ bool castRay(const Shape<S>& shape, const Pose<S>& X, const typename S::Vec& ori
 
 #define INSTANTIATE(S) \
     template bool castRay<S>(const Shape<S>&, const Pose<S>&, const S::Vec&, const S::Vec&, RayHit<S>&);
-INSTANTIATE(Space2f)
-INSTANTIATE(Space2d)
-INSTANTIATE(Space3f)
-INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(INSTANTIATE)
 #undef INSTANTIATE
 
 }  // namespace rigor::engine

@@ -56,10 +56,7 @@ CastResult<S> castConvex(const Shape<S>& a, const Pose<S>& Xa, const typename S:
 #define INSTANTIATE(S)                                                                                    \
     template CastResult<S> castConvex<S>(const Shape<S>&, const Pose<S>&, const S::Vec&, const Shape<S>&, \
                                          const Pose<S>&, S::Real);
-INSTANTIATE(Space2f)
-INSTANTIATE(Space2d)
-INSTANTIATE(Space3f)
-INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(INSTANTIATE)
 #undef INSTANTIATE
 
 }  // namespace rigor::engine

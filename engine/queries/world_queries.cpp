@@ -252,9 +252,6 @@ std::optional<NearestHit<S>> WorldQueries<S>::nearest(const Vec& point, Real mos
     return nearest(Shape<S>(Sphere<S>{Real(0)}), X, most, filter);
 }
 
-template class WorldQueries<Space2f>;
-template class WorldQueries<Space2d>;
-template class WorldQueries<Space3f>;
-template class WorldQueries<Space3d>;
+RIGOR_INSTANTIATE_CLASS(WorldQueries)
 
 }  // namespace rigor::engine

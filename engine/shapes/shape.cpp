@@ -278,10 +278,7 @@ const char* shapeName(const Shape<S>& shape) {
     template Hull<S> makeHull<S>(std::span<const typename S::Vec>);   \
     template Aabb<S> boundingBox<S>(const Shape<S>&, const Pose<S>&); \
     template S::Vec support<S>(const Shape<S>&, const S::Vec&);
-INSTANTIATE(Space2f)
-INSTANTIATE(Space2d)
-INSTANTIATE(Space3f)
-INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(INSTANTIATE)
 #undef INSTANTIATE
 
 }  // namespace rigor::engine

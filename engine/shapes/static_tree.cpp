@@ -46,9 +46,6 @@ void StaticTree<S>::split(std::span<const Aabb<S>> boxes, std::span<std::uint32_
     split(boxes, indices.subspan(half));
 }
 
-template class StaticTree<Space2f>;
-template class StaticTree<Space2d>;
-template class StaticTree<Space3f>;
-template class StaticTree<Space3d>;
+RIGOR_INSTANTIATE_CLASS(StaticTree)
 
 }  // namespace rigor::engine

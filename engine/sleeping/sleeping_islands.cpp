@@ -80,9 +80,8 @@ template <class S>
 SleepingScheme<S> sleepingIslands() {
     return {&wake<S>, &rest<S>};
 }
-template SleepingScheme<Space2f> sleepingIslands<Space2f>();
-template SleepingScheme<Space2d> sleepingIslands<Space2d>();
-template SleepingScheme<Space3f> sleepingIslands<Space3f>();
-template SleepingScheme<Space3d> sleepingIslands<Space3d>();
+#define RIGOR_INSTANTIATE(S) template SleepingScheme<S> sleepingIslands<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -10,9 +10,8 @@ template <class S>
 SleepingScheme<S> sleepingOff() {
     return {};
 }
-template SleepingScheme<Space2f> sleepingOff<Space2f>();
-template SleepingScheme<Space2d> sleepingOff<Space2d>();
-template SleepingScheme<Space3f> sleepingOff<Space3f>();
-template SleepingScheme<Space3d> sleepingOff<Space3d>();
+#define RIGOR_INSTANTIATE(S) template SleepingScheme<S> sleepingOff<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -19,9 +19,8 @@ std::span<const AlgorithmEntry<SleepingFactory<S>>> sleepingTable() {
     };
     return table;
 }
-template std::span<const AlgorithmEntry<SleepingFactory<Space2f>>> sleepingTable();
-template std::span<const AlgorithmEntry<SleepingFactory<Space2d>>> sleepingTable();
-template std::span<const AlgorithmEntry<SleepingFactory<Space3f>>> sleepingTable();
-template std::span<const AlgorithmEntry<SleepingFactory<Space3d>>> sleepingTable();
+#define RIGOR_INSTANTIATE(S) template std::span<const AlgorithmEntry<SleepingFactory<S>>> sleepingTable();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

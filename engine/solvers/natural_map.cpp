@@ -114,10 +114,7 @@ template Eigen::Vector3d projectOnCone(const Eigen::Vector3d&, double);
 #define RIGOR_INSTANTIATE(S)                                                                              \
     template typename S::Real naturalMapResidual(const ConstraintRows<S>&, std::span<const Velocity<S>>); \
     template typename S::Real velocityResolution(const ConstraintRows<S>&, std::span<const Velocity<S>>);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 RIGOR_INSTANTIATE(MatrixSpace<2>)
 RIGOR_INSTANTIATE(MatrixSpace<3>)
 #undef RIGOR_INSTANTIATE

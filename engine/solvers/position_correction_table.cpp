@@ -19,13 +19,9 @@ std::span<const AlgorithmEntry<PositionCorrectionFactory<S>>> positionCorrection
     };
     return table;
 }
-template std::span<const AlgorithmEntry<PositionCorrectionFactory<Space2f>>>
-positionCorrectionTable<Space2f>();
-template std::span<const AlgorithmEntry<PositionCorrectionFactory<Space2d>>>
-positionCorrectionTable<Space2d>();
-template std::span<const AlgorithmEntry<PositionCorrectionFactory<Space3f>>>
-positionCorrectionTable<Space3f>();
-template std::span<const AlgorithmEntry<PositionCorrectionFactory<Space3d>>>
-positionCorrectionTable<Space3d>();
+#define RIGOR_INSTANTIATE(S) \
+    template std::span<const AlgorithmEntry<PositionCorrectionFactory<S>>> positionCorrectionTable<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -19,9 +19,9 @@ std::span<const AlgorithmEntry<RestitutionFactory<S>>> restitutionTable() {
     };
     return table;
 }
-template std::span<const AlgorithmEntry<RestitutionFactory<Space2f>>> restitutionTable<Space2f>();
-template std::span<const AlgorithmEntry<RestitutionFactory<Space2d>>> restitutionTable<Space2d>();
-template std::span<const AlgorithmEntry<RestitutionFactory<Space3f>>> restitutionTable<Space3f>();
-template std::span<const AlgorithmEntry<RestitutionFactory<Space3d>>> restitutionTable<Space3d>();
+#define RIGOR_INSTANTIATE(S) \
+    template std::span<const AlgorithmEntry<RestitutionFactory<S>>> restitutionTable<S>();
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
+#undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -47,10 +47,7 @@ void SweepOrder::finish() {
 }
 
 #define RIGOR_INSTANTIATE(S) template void SweepOrder::add<S>(std::span<const Block<S>>);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 RIGOR_INSTANTIATE(MatrixSpace<2>)
 RIGOR_INSTANTIATE(MatrixSpace<3>)
 #undef RIGOR_INSTANTIATE

@@ -42,10 +42,7 @@ std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable() {
 #define RIGOR_INSTANTIATE(S)                                                     \
     template std::span<const AlgorithmEntry<SolverFactory<S>>> solverTable<S>(); \
     template std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable<S>();
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 #define ALGORITHM(name, factory, summary) SolverTraits factory##Traits();

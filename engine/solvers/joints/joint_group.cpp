@@ -116,9 +116,6 @@ typename S::Real JointGroup<S>::sweep(ConstraintRows<S>& constraints, std::span<
     return largest;
 }
 
-template class JointGroup<Space2f>;
-template class JointGroup<Space2d>;
-template class JointGroup<Space3f>;
-template class JointGroup<Space3d>;
+RIGOR_INSTANTIATE_CLASS(JointGroup)
 
 }  // namespace rigor::engine

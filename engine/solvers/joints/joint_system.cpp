@@ -280,9 +280,6 @@ void JointSystem<S>::substitute(const Part& part) {
     }
 }
 
-template class JointSystem<Space2f>;
-template class JointSystem<Space2d>;
-template class JointSystem<Space3f>;
-template class JointSystem<Space3d>;
+RIGOR_INSTANTIATE_CLASS(JointSystem)
 
 }  // namespace rigor::engine

@@ -159,10 +159,7 @@ std::size_t JointSystem<S>::entry(std::size_t column, std::uint32_t row) const {
 }
 
 #define RIGOR_INSTANTIATE(S) template bool JointSystem<S>::analyse(std::span<const Item>);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 }  // namespace rigor::engine

@@ -144,10 +144,7 @@ void AssembledProblem::readVelocities(const ConstraintRows<S>& rows,
 #define RIGOR_INSTANTIATE(S)                                                            \
     template void AssembledProblem::assemble<S>(const ConstraintRows<S>&, std::size_t); \
     template void AssembledProblem::readVelocities<S>(const ConstraintRows<S>&, std::span<const Velocity<S>>);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 RIGOR_INSTANTIATE(MatrixSpace<2>)
 RIGOR_INSTANTIATE(MatrixSpace<3>)
 #undef RIGOR_INSTANTIATE

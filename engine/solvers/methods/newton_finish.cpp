@@ -98,10 +98,7 @@ bool NewtonFinish<S>::runsAway() const {
 #define RIGOR_INSTANTIATE(S)        \
     template class NewtonFinish<S>; \
     template typename S::Real renewedResidual<S>(const SolverInput<S>&);
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 RIGOR_INSTANTIATE(MatrixSpace<2>)
 RIGOR_INSTANTIATE(MatrixSpace<3>)
 #undef RIGOR_INSTANTIATE

@@ -159,9 +159,6 @@ void Patches<S>::beginSubstep(std::span<Velocity<S>> velocities, const PatchPass
                     [&](std::size_t first, std::size_t last) { planPatches<F>(range(first, last), pass); });
 }
 
-template class Patches<Space2f>;
-template class Patches<Space2d>;
-template class Patches<Space3f>;
-template class Patches<Space3d>;
+RIGOR_INSTANTIATE_CLASS(Patches)
 
 }  // namespace rigor::engine

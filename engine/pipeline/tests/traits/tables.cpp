@@ -241,10 +241,7 @@ std::span<const AlgorithmEntry<FrictionLaw<S>>> frictionTable() {
     template std::span<const AlgorithmEntry<RestitutionFactory<S>>> restitutionTable<S>();       \
     template std::span<const AlgorithmEntry<ManifoldFunction<S>>> manifoldTable<S>();            \
     template std::span<const AlgorithmEntry<ContinuousCollisionFactory<S>>> continuousCollisionTable<S>();
-RIGOR_INSTANTIATE(Space2f)
-RIGOR_INSTANTIATE(Space2d)
-RIGOR_INSTANTIATE(Space3f)
-RIGOR_INSTANTIATE(Space3d)
+RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 
 // --- traits
