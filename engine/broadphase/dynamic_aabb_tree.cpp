@@ -26,12 +26,10 @@
 #include "engine/broadphase/broad_phase.hpp"
 #include "engine/broadphase/pair_sort.hpp"
 #include "engine/broadphase/spatial_order.hpp"
+#include "engine/core/ids.hpp"
 
 namespace rigor::engine {
 namespace {
-
-constexpr std::uint32_t kNil = 0xffffffffu;
-
 template <class S>
 Aabb<S> merged(const Aabb<S>& a, const Aabb<S>& b) {
     return {a.min.cwiseMin(b.min), a.max.cwiseMax(b.max)};
@@ -56,16 +54,16 @@ class Tree {
     void clear(std::uint32_t leaves) {
         nodes_.clear();
         nodes_.resize(leaves);
-        root_ = free_ = kNil;
+        root_ = free_ = kNullIndex;
     }
     const Box& box(std::uint32_t leaf) const { return nodes_[leaf].box; }
 
     void insert(std::uint32_t leaf, const Box& box) {
         Node& node = nodes_[leaf];
         node.box = box;
-        node.child[0] = node.child[1] = kNil;
-        node.parent = kNil;
-        if (root_ == kNil) {
+        node.child[0] = node.child[1] = kNullIndex;
+        node.parent = kNullIndex;
+        if (root_ == kNullIndex) {
             root_ = leaf;
             return;
         }
@@ -82,8 +80,8 @@ class Tree {
 
     void remove(std::uint32_t leaf) {
         const std::uint32_t inner = nodes_[leaf].parent;
-        if (inner == kNil) {
-            root_ = kNil;
+        if (inner == kNullIndex) {
+            root_ = kNullIndex;
             return;
         }
         const std::uint32_t sibling = nodes_[inner].child[nodes_[inner].child[0] == leaf ? 1 : 0];
@@ -92,13 +90,13 @@ class Tree {
         replaceChild(parent, inner, sibling);
         nodes_[inner].parent = free_;
         free_ = inner;
-        if (parent != kNil) refit(parent);
+        if (parent != kNullIndex) refit(parent);
     }
 
     /// Calls visit(leaf) for each leaf whose fat box overlaps `box`; adds the boxes it looked at to `tests`.
     template <class Visit>
     void query(const Box& box, std::vector<std::uint32_t>& stack, std::size_t& tests, Visit visit) const {
-        if (root_ == kNil) return;
+        if (root_ == kNullIndex) return;
         stack.clear();
         stack.push_back(root_);
         while (!stack.empty()) {
@@ -107,7 +105,7 @@ class Tree {
             const Node& node = nodes_[i];
             ++tests;
             if (!node.box.overlaps(box)) continue;
-            if (node.child[0] == kNil) {
+            if (node.child[0] == kNullIndex) {
                 visit(i);
             } else {
                 stack.push_back(node.child[0]);
@@ -120,29 +118,29 @@ class Tree {
     void build(std::span<const std::uint32_t> leaves, std::span<const Box> boxes) {
         nodes_.resize(boxes.size());
         nodes_.reserve(2 * boxes.size());
-        free_ = kNil;
-        root_ = leaves.empty() ? kNil : buildNode(leaves, boxes);
-        if (root_ != kNil) nodes_[root_].parent = kNil;
+        free_ = kNullIndex;
+        root_ = leaves.empty() ? kNullIndex : buildNode(leaves, boxes);
+        if (root_ != kNullIndex) nodes_[root_].parent = kNullIndex;
     }
 
     /// Calls visit(i, j) for each pair of leaves whose fat boxes overlap; tests as in query(). Only just
     /// after build(): it goes as deep as the tree.
     template <class Visit>
     void selfQuery(std::size_t& tests, const Visit& visit) const {
-        if (root_ != kNil) within(root_, tests, visit);
+        if (root_ != kNullIndex) within(root_, tests, visit);
     }
 
   private:
     struct Node {
         Box box;
-        std::uint32_t parent = kNil;  ///< of a free node: the next free one
-        std::uint32_t child[2] = {kNil, kNil};
+        std::uint32_t parent = kNullIndex;  ///< of a free node: the next free one
+        std::uint32_t child[2] = {kNullIndex, kNullIndex};
     };
 
     template <class Visit>
     void within(std::uint32_t i, std::size_t& tests, const Visit& visit) const {
         const auto [low, high] = nodes_[i].child;
-        if (low == kNil) return;
+        if (low == kNullIndex) return;
         within(low, tests, visit);
         within(high, tests, visit);
         between(low, high, tests, visit);
@@ -152,7 +150,7 @@ class Tree {
         const Node &a = nodes_[i], &b = nodes_[j];
         ++tests;
         if (!a.box.overlaps(b.box)) return;
-        const bool leafA = a.child[0] == kNil, leafB = b.child[0] == kNil;
+        const bool leafA = a.child[0] == kNullIndex, leafB = b.child[0] == kNullIndex;
         if (leafA && leafB)
             visit(i, j);
         else if (leafB || (!leafA && area<S>(a.box) > area<S>(b.box)))
@@ -163,20 +161,20 @@ class Tree {
 
     std::uint32_t buildNode(std::span<const std::uint32_t> leaves, std::span<const Box> boxes) {
         if (leaves.size() == 1) {
-            nodes_[leaves[0]] = {boxes[leaves[0]], kNil, {kNil, kNil}};
+            nodes_[leaves[0]] = {boxes[leaves[0]], kNullIndex, {kNullIndex, kNullIndex}};
             return leaves[0];
         }
         const std::uint32_t i = takeNode();
         const std::size_t half = std::bit_ceil(leaves.size()) / 2;
         const std::uint32_t low = buildNode(leaves.first(half), boxes);
         const std::uint32_t high = buildNode(leaves.subspan(half), boxes);
-        nodes_[i] = {merged<S>(nodes_[low].box, nodes_[high].box), kNil, {low, high}};
+        nodes_[i] = {merged<S>(nodes_[low].box, nodes_[high].box), kNullIndex, {low, high}};
         nodes_[low].parent = nodes_[high].parent = i;
         return i;
     }
 
     std::uint32_t takeNode() {
-        if (free_ == kNil) {
+        if (free_ == kNullIndex) {
             nodes_.emplace_back();
             return static_cast<std::uint32_t>(nodes_.size() - 1);
         }
@@ -185,7 +183,7 @@ class Tree {
         return i;
     }
     void replaceChild(std::uint32_t parent, std::uint32_t from, std::uint32_t to) {
-        if (parent == kNil)
+        if (parent == kNullIndex)
             root_ = to;
         else
             nodes_[parent].child[nodes_[parent].child[0] == from ? 0 : 1] = to;
@@ -194,14 +192,14 @@ class Tree {
     /// Greedy descent: stop where making a new parent here costs less than the least that going down costs.
     std::uint32_t cheapestSibling(const Box& box) const {
         std::uint32_t i = root_;
-        while (nodes_[i].child[0] != kNil) {
+        while (nodes_[i].child[0] != kNullIndex) {
             const Real here = area<S>(merged<S>(nodes_[i].box, box));
             const Real inherited = here - area<S>(nodes_[i].box);
             Real down[2];
             for (int k = 0; k < 2; ++k) {
                 const Node& child = nodes_[nodes_[i].child[k]];
                 const Real with = area<S>(merged<S>(child.box, box));
-                down[k] = inherited + (child.child[0] == kNil ? with : with - area<S>(child.box));
+                down[k] = inherited + (child.child[0] == kNullIndex ? with : with - area<S>(child.box));
             }
             if (here < down[0] && here < down[1]) break;
             i = nodes_[i].child[down[0] <= down[1] ? 0 : 1];
@@ -210,7 +208,7 @@ class Tree {
     }
 
     void refit(std::uint32_t i) {
-        for (; i != kNil; i = nodes_[i].parent) {
+        for (; i != kNullIndex; i = nodes_[i].parent) {
             nodes_[i].box = merged<S>(nodes_[nodes_[i].child[0]].box, nodes_[nodes_[i].child[1]].box);
             rotate(i);
         }
@@ -222,7 +220,7 @@ class Tree {
         int bestSide = -1, bestGrandchild = 0;
         for (int side = 0; side < 2; ++side) {
             const Node& low = nodes_[nodes_[i].child[1 - side]];
-            if (low.child[0] == kNil) continue;
+            if (low.child[0] == kNullIndex) continue;
             const Box& up = nodes_[nodes_[i].child[side]].box;
             for (int g = 0; g < 2; ++g) {
                 const Real gain = area<S>(low.box) - area<S>(merged<S>(up, nodes_[low.child[1 - g]].box));
@@ -240,7 +238,7 @@ class Tree {
     }
 
     std::vector<Node> nodes_;
-    std::uint32_t root_ = kNil, free_ = kNil;
+    std::uint32_t root_ = kNullIndex, free_ = kNullIndex;
 };
 
 template <class S>

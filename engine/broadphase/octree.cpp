@@ -27,11 +27,10 @@
 
 #include "engine/broadphase/box_tools.hpp"
 #include "engine/broadphase/broad_phase.hpp"
+#include "engine/core/ids.hpp"
 
 namespace rigor::engine {
 namespace {
-
-constexpr std::uint32_t kNil = 0xffffffffu;
 
 template <class S>
 class Octree final : public BroadPhase<S> {
@@ -50,14 +49,14 @@ class Octree final : public BroadPhase<S> {
         for (std::uint32_t i = 0; i < boxes.size(); ++i) {
             const bool unbounded = BroadPhase<S>::unbounded(boxes[i]);
             if (unbounded) outside_.push_back(i);
-            if (proxies_[i].cell != kNil && !unbounded && suits(proxies_[i].cell, boxes[i])) continue;
-            if (proxies_[i].cell != kNil) remove(i);
+            if (proxies_[i].cell != kNullIndex && !unbounded && suits(proxies_[i].cell, boxes[i])) continue;
+            if (proxies_[i].cell != kNullIndex) remove(i);
             if (!unbounded) insert(i, boxes[i]);
         }
         if (!boxes.empty()) renewContent(root_, boxes);
         pairs.clear();
         for (std::uint32_t i = 0; i < boxes.size(); ++i)
-            if (proxies_[i].cell != kNil) findPairs(i, boxes, movable, pairs);
+            if (proxies_[i].cell != kNullIndex) findPairs(i, boxes, movable, pairs);
         addOutside(boxes, movable, pairs);
         std::sort(pairs.begin(), pairs.end());
     }
@@ -67,16 +66,16 @@ class Octree final : public BroadPhase<S> {
     struct Cell {
         Box content;  ///< bounds of the boxes in it and below
         Vec center = Vec::Zero();
-        Real half = 0;                ///< half an edge of the cell [m]; of its loose bounds: twice that
-        std::uint32_t parent = kNil;  ///< of a free cell: the next free one
-        std::uint32_t below = 0;      ///< boxes in it and its descendants
-        std::uint32_t first = kNil;   ///< its boxes, linked through Proxy
-        std::int32_t level = 0;       ///< half = 2^-level of the first root's
+        Real half = 0;                      ///< half an edge of the cell [m]; of its loose bounds: twice that
+        std::uint32_t parent = kNullIndex;  ///< of a free cell: the next free one
+        std::uint32_t below = 0;            ///< boxes in it and its descendants
+        std::uint32_t first = kNullIndex;   ///< its boxes, linked through Proxy
+        std::int32_t level = 0;             ///< half = 2^-level of the first root's
         std::array<std::uint32_t, kChildren> child;
-        Cell() { child.fill(kNil); }
+        Cell() { child.fill(kNullIndex); }
     };
     struct Proxy {
-        std::uint32_t cell = kNil, next = kNil, previous = kNil;
+        std::uint32_t cell = kNullIndex, next = kNullIndex, previous = kNullIndex;
     };
 
     static Box looseBounds(const Vec& center, Real half) {
@@ -97,7 +96,7 @@ class Octree final : public BroadPhase<S> {
         proxies_.assign(boxes.size(), {});
         outside_.reserve(boxes.size());
         cells_.clear();
-        free_ = kNil;
+        free_ = kNullIndex;
         const Box all = boundsOfBounded<S>(boxes);
         // A power of two: halves and sums of them are exact. A single point could be of any size: 1 m.
         Real half = longestEdge<S>(all) / 2;
@@ -111,7 +110,7 @@ class Octree final : public BroadPhase<S> {
     }
 
     std::uint32_t takeCell() {
-        if (free_ == kNil) {
+        if (free_ == kNullIndex) {
             cells_.emplace_back();
             return static_cast<std::uint32_t>(cells_.size() - 1);
         }
@@ -153,7 +152,7 @@ class Octree final : public BroadPhase<S> {
         while (!sizeSuits(cells_[cell].half, box)) {
             const std::size_t o = octant(cells_[cell].center, target);
             std::uint32_t child = cells_[cell].child[o];
-            if (child == kNil) {
+            if (child == kNullIndex) {
                 const Real half = cells_[cell].half / 2;
                 Vec center = cells_[cell].center;
                 for (int k = 0; k < S::dim; ++k) center[k] += o >> k & 1 ? half : -half;
@@ -170,25 +169,25 @@ class Octree final : public BroadPhase<S> {
             cell = child;
         }
         const std::uint32_t head = cells_[cell].first;
-        proxies_[i] = {cell, head, kNil};
-        if (head != kNil) proxies_[head].previous = i;
+        proxies_[i] = {cell, head, kNullIndex};
+        if (head != kNullIndex) proxies_[head].previous = i;
         cells_[cell].first = i;
-        for (; cell != kNil; cell = cells_[cell].parent) ++cells_[cell].below;
+        for (; cell != kNullIndex; cell = cells_[cell].parent) ++cells_[cell].below;
     }
 
     void remove(std::uint32_t i) {
         const Proxy proxy = proxies_[i];
         proxies_[i] = {};
-        if (proxy.next != kNil) proxies_[proxy.next].previous = proxy.previous;
-        if (proxy.previous != kNil)
+        if (proxy.next != kNullIndex) proxies_[proxy.next].previous = proxy.previous;
+        if (proxy.previous != kNullIndex)
             proxies_[proxy.previous].next = proxy.next;
         else
             cells_[proxy.cell].first = proxy.next;
-        for (std::uint32_t cell = proxy.cell; cell != kNil;) {
+        for (std::uint32_t cell = proxy.cell; cell != kNullIndex;) {
             const std::uint32_t parent = cells_[cell].parent;
-            if (--cells_[cell].below == 0 && parent != kNil) {
+            if (--cells_[cell].below == 0 && parent != kNullIndex) {
                 auto& siblings = cells_[parent].child;
-                *std::find(siblings.begin(), siblings.end(), cell) = kNil;
+                *std::find(siblings.begin(), siblings.end(), cell) = kNullIndex;
                 cells_[cell].parent = free_;
                 free_ = cell;
             }
@@ -203,9 +202,9 @@ class Octree final : public BroadPhase<S> {
         const auto include = [&](const Box& box) {
             cell.content = {cell.content.min.cwiseMin(box.min), cell.content.max.cwiseMax(box.max)};
         };
-        for (std::uint32_t j = cell.first; j != kNil; j = proxies_[j].next) include(boxes[j]);
+        for (std::uint32_t j = cell.first; j != kNullIndex; j = proxies_[j].next) include(boxes[j]);
         for (const std::uint32_t child : cell.child)
-            if (child != kNil) renewContent(child, boxes), include(cells_[child].content);
+            if (child != kNullIndex) renewContent(child, boxes), include(cells_[child].content);
     }
 
     void findPairs(std::uint32_t i, std::span<const Box> boxes, std::span<const std::uint8_t> movable,
@@ -217,13 +216,13 @@ class Octree final : public BroadPhase<S> {
         while (!stack_.empty()) {
             const Cell& cell = cells_[stack_.back()];
             stack_.pop_back();
-            for (std::uint32_t j = cell.first; j != kNil; j = proxies_[j].next)
+            for (std::uint32_t j = cell.first; j != kNullIndex; j = proxies_[j].next)
                 if ((cell.level < depth || j > i) && (movable[i] || movable[j]) &&
                     this->overlap(box, boxes[j]))
                     pairs.push_back(orderedPair(i, j));
             if (cell.level == depth) continue;
             for (const std::uint32_t child : cell.child)
-                if (child != kNil && this->overlap(cells_[child].content, box)) stack_.push_back(child);
+                if (child != kNullIndex && this->overlap(cells_[child].content, box)) stack_.push_back(child);
         }
     }
 
@@ -231,7 +230,7 @@ class Octree final : public BroadPhase<S> {
                     std::vector<ProxyPair>& pairs) const {
         for (const std::uint32_t i : outside_)
             for (std::uint32_t j = 0; j < boxes.size(); ++j) {
-                const bool twice = proxies_[j].cell == kNil && j <= i;
+                const bool twice = proxies_[j].cell == kNullIndex && j <= i;
                 if (!twice && (movable[i] || movable[j]) && this->overlap(boxes[i], boxes[j]))
                     pairs.push_back(orderedPair(i, j));
             }
@@ -239,7 +238,7 @@ class Octree final : public BroadPhase<S> {
 
     std::vector<Cell> cells_;
     std::vector<Proxy> proxies_;
-    std::uint32_t root_ = kNil, free_ = kNil;
+    std::uint32_t root_ = kNullIndex, free_ = kNullIndex;
     Real smallestHalf_ = 0;
     std::vector<std::uint32_t> outside_, stack_;
     std::vector<Real> scratch_;

@@ -13,6 +13,9 @@
 
 namespace rigor::engine {
 
+/// In the place of an index into an array: none.
+inline constexpr std::uint32_t kNullIndex = 0xffffffffu;
+
 /// index 0 is "none" (for bodies: the world); generation tells re-used slots apart.
 template <class Tag>
 struct Id {

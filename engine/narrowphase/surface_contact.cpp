@@ -123,7 +123,7 @@ bool isSurfaceNormal(const Data& data, std::uint32_t piece, const typename S::Ve
         return n.dot(d) <= kPerpendicular<R> * d.norm();
     };
     const auto behind = [&](std::uint32_t w) {
-        if (w == kNone) return true;
+        if (w == kNullIndex) return true;
         const V d = data.point(w) - at(top);
         return n.dot(d) <= kPerpendicular<R> * d.norm();
     };
@@ -242,7 +242,7 @@ void collideDeepestPiece(CollideFunction<S> collide, const Shape<S>& surface, co
     using R = typename S::Real;
     out.count = 0;
     R deepest = std::numeric_limits<R>::max();
-    std::uint32_t first = kNone;
+    std::uint32_t first = kNullIndex;
     withSurface<S>(surface, [&](const auto& data) {
         data.query(boxOnSurface<S>(Xsurface, convex, Xconvex, speculative), [&](std::uint32_t piece) {
             Manifold<S> m;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "engine/core/ids.hpp"
 #include "engine/narrowphase/detail.hpp"
 #include "engine/shapes/surface.hpp"
 
@@ -36,7 +37,8 @@ bool passes(const Triangle<Space<R, 3>>& s, const Vec3<R>& o, const Vec3<R>& d) 
 
 /// Pieces that the way from `o` to o + d passes, beside `but`.
 template <class S, class Data>
-int passed(const Data& data, const typename S::Vec& o, const typename S::Vec& d, std::uint32_t but = kNone) {
+int passed(const Data& data, const typename S::Vec& o, const typename S::Vec& d,
+           std::uint32_t but = kNullIndex) {
     int count = 0;
     const typename S::Real limit = 1;
     data.ray(o, d, limit, [&](std::uint32_t piece) {

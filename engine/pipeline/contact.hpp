@@ -36,7 +36,7 @@ struct alignas(64) Contact {
     using Vec = typename S::Vec;
     template <class T>
     using PerPoint = std::array<T, S::maxManifoldPoints>;
-    static constexpr std::uint32_t kNoBlock = 0xffffffffu, kPatch = 0xfffffffeu;
+    static constexpr std::uint32_t kPatch = 0xfffffffeu;
     struct Impulse {
         Real normal = 0;             ///< [N s], >= 0
         Vec friction = Vec::Zero();  ///< on B, world frame [N s]
@@ -58,10 +58,10 @@ struct alignas(64) Contact {
     bool placed = false;    ///< the points' arms and separations are those of the manifold
     bool impacts = false;   ///< some of the points' are
     PairCoefficients<S> coefficients;
-    /// The rows of each point in this step; kPatch: it is solved, but not by rows; kNoBlock: let through.
+    /// The rows of each point in this step; kPatch: it is solved, but not by rows; kNullIndex: let through.
     PerPoint<std::uint32_t> block = [] {
         PerPoint<std::uint32_t> none;
-        none.fill(kNoBlock);
+        none.fill(kNullIndex);
         return none;
     }();
     Manifold<S> manifold;

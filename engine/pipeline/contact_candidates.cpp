@@ -20,10 +20,10 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
     order.clear(), keys_.clear();
     const bool hadPieces = std::exchange(candidatesHavePieces_, false);
     std::size_t old = 0;
-    const auto oldPiece = [&] { return hadPieces ? candidates_.at(oldOrder_[old]).piece : kNone; };
+    const auto oldPiece = [&] { return hadPieces ? candidates_.at(oldOrder_[old]).piece : kNullIndex; };
     const auto drop = [&] {
         const std::uint32_t slot = oldOrder_[old++];
-        if (const std::uint32_t contact = candidates_.at(slot).contact; contact != kNone)
+        if (const std::uint32_t contact = candidates_.at(slot).contact; contact != kNullIndex)
             dropped_.push_back(contact);
         candidates_.remove(slot);
     };
@@ -58,7 +58,7 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
         const ProxyPair& p = pairs[k];
         const std::uint64_t key = pairKey(p.a, p.b);
         while (old < oldKeys_.size() && oldKeys_[old] < key) drop();
-        if (mayHolds_ && old < oldKeys_.size() && oldKeys_[old] == key && oldPiece() == kNone) {
+        if (mayHolds_ && old < oldKeys_.size() && oldKeys_[old] == key && oldPiece() == kNullIndex) {
             put(key, oldOrder_[old++]);
             continue;
         }
@@ -67,7 +67,7 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
         const std::uint32_t a = ordered ? p.a : p.b, b = ordered ? p.b : p.a;
         const bool surfaceA = isComposite<S>(shapes_[a].shape);
         if (!surfaceA && !isComposite<S>(shapes_[b].shape)) {
-            add(a, b, kNone);
+            add(a, b, kNullIndex);
             continue;
         }
         candidatesHavePieces_ = true;

@@ -84,13 +84,13 @@ template <class S>
 bool ContactSet<S>::completeContact(const Search& search, Candidate& candidate, Contact<S>& contact) const {
     contact.asleep = contact.ahead = contact.placed = false;
     // Pieces of a chain, mesh or field are found where they are, not ahead.
-    if (candidate.piece == kNone && search.ccd.looksAhead()) {
+    if (candidate.piece == kNullIndex && search.ccd.looksAhead()) {
         placePoints(search.bodies, contact);
         const bool here = contact.manifold.count > 0;
         search.ccd.findAhead(contact, search.bodies, *this, search.narrowPhase);
         if (!here && contact.manifold.count > 0) candidate.kept = false;
     }
-    if (!(candidate.contact != kNone && coefficientsHold_))
+    if (!(candidate.contact != kNullIndex && coefficientsHold_))
         contact.coefficients = pair(shapes_[candidate.a].material, shapes_[candidate.b].material);
     contact.touching = false;
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
@@ -101,7 +101,7 @@ bool ContactSet<S>::completeContact(const Search& search, Candidate& candidate, 
 /// Of what the last step has left in the points, the impulses to start from stay: those of an impact do not.
 template <class S>
 void ContactSet<S>::clearStep(Contact<S>& contact) {
-    contact.block.fill(Contact<S>::kNoBlock);
+    contact.block.fill(kNullIndex);
     for (std::size_t i = 0; contact.impacts && i < contact.points.size(); ++i)
         if (std::exchange(contact.points[i].impact, false)) contact.impulses[i] = {};
     contact.impacts = false;
@@ -153,7 +153,7 @@ void ContactSet<S>::ask(const Search& search, Candidate& candidate, Manifold<S>&
     const std::uint32_t a = candidate.a, b = candidate.b;
     const Real distance = askedDistance(candidate);
     manifold.apart = 0;
-    if (candidate.piece == kNone) {
+    if (candidate.piece == kNullIndex) {
         search.narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
                                    distance, manifold);
         candidate.apart = manifold.apart;

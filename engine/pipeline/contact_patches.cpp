@@ -32,7 +32,7 @@ typename S::Vec takeVector(const Lanes<PatchReal>* from, std::size_t lane) {
 template <class S>
 const Contact<S>* contactAt(const Patches<S>& patches, const ContactList<S>& contacts, std::size_t b,
                             std::size_t lane) {
-    if (b == patches.blocks() || patches.sourceAt(b, lane) == Patches<S>::kNobody) return nullptr;
+    if (b == patches.blocks() || patches.sourceAt(b, lane) == kNullIndex) return nullptr;
     return &contacts[patches.sourceAt(b, lane)];
 }
 
@@ -113,7 +113,7 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
         contact.asleep = isAsleep(bodies, contact);
         const bool movesA = bodies.invMass[contact.bodyA] > 0, movesB = bodies.invMass[contact.bodyB] > 0;
         const bool solved = !contact.asleep && (movesA || movesB);
-        contact.block.fill(solved ? Contact<S>::kPatch : Contact<S>::kNoBlock);
+        contact.block.fill(solved ? Contact<S>::kPatch : kNullIndex);
         if (!solved && !contact.asleep) contact.totals.fill({});
         patches.offer(k, {contact.bodyA, contact.bodyB, movesA, movesB,
                           static_cast<std::uint8_t>(solved ? contact.manifold.count : 0)});
@@ -149,7 +149,7 @@ void ContactSet<S>::storePatches(Patches<S>& patches, const Tasks& tasks) {
         PatchRubs<PatchSpace<S>> rubs;
         patches.share(b, rubs);
         for (std::size_t lane = 0; lane < kLanes; ++lane)
-            if (const std::uint32_t source = patches.sourceAt(b, lane); source != Patches<S>::kNobody)
+            if (const std::uint32_t source = patches.sourceAt(b, lane); source != kNullIndex)
                 readLane(patches.block(b), rubs, lane, contacts_[source]);
     });
 }

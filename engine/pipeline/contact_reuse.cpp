@@ -89,7 +89,7 @@ bool ContactSet<S>::stillValid(const Candidate& candidate) const {
     if (!candidate.kept) return false;
     const Pose<S> now = relative(candidate);
     Real most = slack(candidate);
-    if (candidate.contact == kNone) most = std::max(most, candidate.apart - askedDistance(candidate));
+    if (candidate.contact == kNullIndex) most = std::max(most, candidate.apart - askedDistance(candidate));
     return (now.p - candidate.relative.p).norm() + candidate.radius * turned(now.q, candidate.relative.q) <=
            most;
 }
@@ -159,10 +159,10 @@ bool ContactSet<S>::completeRestored() {
         const auto key = [](const Candidate& x) { return std::pair(pairKey(x.a, x.b), x.piece); };
         if (k > 0 && key(candidates_[k - 1]) >= key(c)) return false;
         keys_.push_back(pairKey(c.a, c.b));
-        candidatesHavePieces_ = candidatesHavePieces_ || c.piece != kNone;
+        candidatesHavePieces_ = candidatesHavePieces_ || c.piece != kNullIndex;
         const Candidate made = makeCandidate(c.a, c.b, c.piece);
         c.byA = made.byA, c.radius = made.radius;
-        if (c.contact == kNone) continue;
+        if (c.contact == kNullIndex) continue;
         if (count >= contacts_.size()) return false;
         const Contact<S>& contact = contacts_[count++];
         if (contact.shapeA != c.a || contact.shapeB != c.b || contact.piece != c.piece) return false;

@@ -68,8 +68,7 @@ void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& s
     for (Contact<S>& contact : contacts_) {
         contact.firstRow = static_cast<std::uint32_t>(firstRow);
         for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i)
-            if (contact.block[i] != Contact<S>::kNoBlock)
-                contact.block[i] = static_cast<std::uint32_t>(firstBlock++);
+            if (contact.block[i] != kNullIndex) contact.block[i] = static_cast<std::uint32_t>(firstBlock++);
         firstRow += contact.blocks * rowsPerPoint(contact);
     }
     rows.rows.resize(firstRow);
@@ -78,7 +77,7 @@ void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& s
         const Contact<S>& contact = contacts_[k];
         std::uint32_t row = contact.firstRow;
         for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i) {
-            if (contact.block[i] == Contact<S>::kNoBlock) continue;
+            if (contact.block[i] == kNullIndex) continue;
             Block<S>& block = rows.blocks[contact.block[i]];
             block.first = row;
             makePointRows(bodies, step, contact, i, block, rows.rows.data() + row);
@@ -96,7 +95,7 @@ void ContactSet<S>::planRows(const BodyArrays<S>& bodies, const ContactStep<S>& 
     for (std::size_t i = 0; i < contact.block.size(); ++i) {
         const bool has = i < static_cast<std::size_t>(contact.manifold.count) && !contact.asleep &&
                          planPoint(bodies, step, contact, i);
-        contact.block[i] = has ? 0 : Contact<S>::kNoBlock;
+        contact.block[i] = has ? 0 : kNullIndex;
         contact.blocks += has;
     }
 }
@@ -190,7 +189,7 @@ bool ContactSet<S>::bounceAhead(ConstraintRows<S>& rows) const {
     for (const Contact<S>& contact : contacts_)
         for (int i = 0; contact.ahead && i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
-            if (contact.points[k].rebound == 0 || contact.block[k] == Contact<S>::kNoBlock) continue;
+            if (contact.points[k].rebound == 0 || contact.block[k] == kNullIndex) continue;
             Row<S>& normal = rows.rows[rows.blocks[contact.block[k]].first];
             if (!(normal.impulse > 0)) continue;
             normal.relaxedBias = contact.points[k].rebound;
@@ -216,7 +215,7 @@ void ContactSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
     for (Contact<S>& contact : contacts_)
         for (int i = 0; i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
-            if (contact.block[k] == Contact<S>::kNoBlock) continue;
+            if (contact.block[k] == kNullIndex) continue;
             const Block<S>& block = rows.blocks[contact.block[k]];
             typename Contact<S>::Impulse &now = contact.impulses[k], &total = contact.totals[k];
             now.normal = rows.rows[block.first].impulse;

@@ -143,7 +143,7 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
             candidate.kept = false;  // as if the pair had not been listed
             return;
         }
-        if (candidate.contact != kNone) {
+        if (candidate.contact != kNullIndex) {
             candidate.found = renewContact(search, candidate, contacts_.at(candidate.contact));
             return;
         }
@@ -160,14 +160,14 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
         Tally tally;
         for (std::size_t k = kTally * c; k < endOf(c, kTally, candidates_.size()); ++k) {
             constexpr std::size_t kAhead = 4;
-            if (k + kAhead < candidates_.size() && candidates_[k + kAhead].contact != kNone) {
+            if (k + kAhead < candidates_.size() && candidates_[k + kAhead].contact != kNullIndex) {
                 const Contact<S>& next = contacts_.at(candidates_[k + kAhead].contact);
                 prefetch(&next, &next.impulses);
             }
             Candidate& candidate = candidates_[k];
             look(candidate);
             outcomes_[k] = {candidate.contact, candidate.found};
-            tally.add(candidate.contact != kNone, candidate.found, candidate.asked);
+            tally.add(candidate.contact != kNullIndex, candidate.found, candidate.asked);
         }
         tallies_[c] = tally;
     });
@@ -200,7 +200,7 @@ void ContactSet<S>::settle(const Search& search, const Tasks& tasks) {
     tasks.forEach(tallies_.size(), 1, [&](std::size_t c) {
         std::uint32_t place = tallies_[c].first;
         for (std::size_t k = kTally * c; k < endOf(c, kTally, candidates_.size()); ++k)
-            if (candidates_[k].contact != kNone) candidates_[k].contact = place++;
+            if (candidates_[k].contact != kNullIndex) candidates_[k].contact = place++;
     });
 }
 
@@ -209,13 +209,13 @@ template <class S>
 void ContactSet<S>::changeContacts(const Search& search, std::size_t part) {
     for (std::size_t k = kTally * part; k < endOf(part, kTally, candidates_.size()); ++k) {
         const Outcome& outcome = outcomes_[k];
-        if ((outcome.contact != kNone) == outcome.found) continue;
+        if ((outcome.contact != kNullIndex) == outcome.found) continue;
         if (outcome.found) {
             addContact(search, candidates_[k]);
             continue;
         }
         removeContact(outcome.contact);
-        candidates_[k].contact = kNone;
+        candidates_[k].contact = kNullIndex;
     }
 }
 
@@ -226,8 +226,8 @@ void ContactSet<S>::orderContacts(std::size_t part) {
     for (std::size_t k = kTally * part; k < endOf(part, kTally, candidates_.size()); ++k) {
         if (!outcomes_[k].found) continue;
         const std::uint32_t had = outcomes_[k].contact;
-        *order++ = had != kNone ? had : candidates_[k].contact;
-        if (had == kNone && candidates_[k].fresh < fresh_.size())
+        *order++ = had != kNullIndex ? had : candidates_[k].contact;
+        if (had == kNullIndex && candidates_[k].fresh < fresh_.size())
             contacts_.at(candidates_[k].contact) = fresh_[candidates_[k].fresh];
     }
 }
@@ -262,7 +262,7 @@ bool ContactSet<S>::hasRows(std::uint32_t shapeA, std::uint32_t shapeB) const {
     const Contact<S>& found = contacts_.at(*first);
     if (pairKey(found.shapeA, found.shapeB) != key) return false;
     return std::any_of(found.block.begin(), found.block.begin() + found.manifold.count,
-                       [](std::uint32_t block) { return block != Contact<S>::kNoBlock; });
+                       [](std::uint32_t block) { return block != kNullIndex; });
 }
 
 RIGOR_INSTANTIATE_CLASS(ContactSet)

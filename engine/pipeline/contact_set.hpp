@@ -17,6 +17,7 @@
 #include "engine/constraints/row.hpp"
 #include "engine/constraints/soft.hpp"
 #include "engine/core/clone_ptr.hpp"
+#include "engine/core/ids.hpp"
 #include "engine/core/tasks.hpp"
 #include "engine/faults/fault.hpp"
 #include "engine/pipeline/contact.hpp"
@@ -142,16 +143,16 @@ class ContactSet {
     bool mayCollide(const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b) const;
 
   private:
-    static constexpr std::uint32_t kNone = 0xffffffffu;
     static bool isAsleep(const BodyArrays<S>& bodies, const Contact<S>& contact);
     /// Two shapes, or one and a piece of the other, that may touch.
     struct Candidate {
-        std::uint32_t a = 0, b = 0, piece = kNone;  ///< as in Contact
-        std::uint32_t contact = kNone;              ///< its slot in contacts_, or kNone
-        bool ridge = false;                         ///< facesDiffer() of the pieces near
-        std::uint32_t fresh = kNone;  ///< the place of a new one in fresh_, or kNone; while they are found
-        bool found = false;           ///< they touch or nearly do in this step
-        bool asked = false;           ///< the narrow phase was, in this step
+        std::uint32_t a = 0, b = 0, piece = kNullIndex;  ///< as in Contact
+        std::uint32_t contact = kNullIndex;              ///< its slot in contacts_, or kNullIndex
+        bool ridge = false;                              ///< facesDiffer() of the pieces near
+        std::uint32_t fresh =
+            kNullIndex;      ///< the place of a new one in fresh_, or kNullIndex; while they are found
+        bool found = false;  ///< they touch or nearly do in this step
+        bool asked = false;  ///< the narrow phase was, in this step
         // --- what the narrow phase has answered, while that is kept (contact_reuse.cpp)
         bool kept = false;
         bool onB = false;          ///< the normal turns with B, else with A
@@ -163,7 +164,7 @@ class ContactSet {
     };
     /// Of a candidate in this step: what is read of all of them, side by side.
     struct Outcome {
-        std::uint32_t contact = kNone;  ///< the slot of the one that it had before
+        std::uint32_t contact = kNullIndex;  ///< the slot of the one that it had before
         bool found = false;
     };
     /// Of kTally candidates in this step: contacts that they had and have, had, or have, and who was asked.

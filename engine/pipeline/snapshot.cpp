@@ -64,7 +64,7 @@ template <class A, class C>
 void ContactSet<S>::visitAnswers(A& archive, C& set) {
     constexpr bool kReading = !std::is_const_v<C>;
     visitValue(archive, set.keptFor_.speculativeDistance), visitValue(archive, set.keptFor_.reuseDistance);
-    const auto belongs = [](const Candidate& c) { return c.kept || c.contact != kNone; };
+    const auto belongs = [](const Candidate& c) { return c.kept || c.contact != kNullIndex; };
     std::size_t kept = 0;
     for (const Candidate& candidate : set.candidates_) kept += belongs(candidate);
     const std::size_t count = archive.size(kept);
@@ -72,9 +72,9 @@ void ContactSet<S>::visitAnswers(A& archive, C& set) {
     std::uint32_t contacts = 0;
     for (auto& candidate : set.candidates_) {
         if (!kReading && !belongs(candidate)) continue;
-        bool touches = candidate.contact != kNone;
+        bool touches = candidate.contact != kNullIndex;
         visitValue(archive, touches);
-        if constexpr (kReading) candidate.contact = touches ? contacts++ : kNone;
+        if constexpr (kReading) candidate.contact = touches ? contacts++ : kNullIndex;
 #define CANDIDATE_FIELD(member) visitValue(archive, candidate.member);
 #include "engine/state/state_fields.def"
         if (!candidate.kept) continue;

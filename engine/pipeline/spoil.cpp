@@ -20,7 +20,7 @@ void ContactSet<S>::spoilRows(const BodyArrays<S>& bodies, const Fault<S>& fault
     for (Contact<S>& contact : contacts_)
         for (int i = 0; i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
-            if (contact.block[k] == Contact<S>::kNoBlock) continue;
+            if (contact.block[k] == kNullIndex) continue;
             Block<S>& block = rows.blocks[contact.block[k]];
             Row<S>* first = rows.rows.data() + block.first;
             ContactRows<S> spoiled{block,

@@ -74,31 +74,58 @@ void checkCoefficients(const PairCoefficients<S>& c) {
             "material_static_friction", "static friction must be 0 (the same) or at least the friction");
 }
 
-/// Sizes finite and positive, normals unit.
+// Sizes finite and positive, normals unit: an overload for each shape, so that a new one does not compile
+// without.
+template <class R>
+bool validSize(R x) {
+    return x > 0 && std::isfinite(x);
+}
+template <class S>
+bool valid(const Sphere<S>& s) {
+    return validSize(s.radius);
+}
+template <class S>
+bool valid(const Capsule<S>& s) {
+    return validSize(s.radius) && validSize(s.halfLength);
+}
+template <class S>
+bool valid(const Box<S>& s) {
+    return s.halfExtents.allFinite() && s.halfExtents.minCoeff() > 0;
+}
+template <class S>
+bool valid(const HalfSpace<S>& s) {
+    using R = typename S::Real;
+    return std::isfinite(s.offset) && std::abs(s.normal.norm() - R(1)) < R(1e-4);
+}
+template <class S>
+bool valid(const Cylinder<S>& s) {
+    return validSize(s.radius) && validSize(s.halfLength);
+}
+template <class S>
+bool valid(const Cone<S>& s) {
+    return validSize(s.radius) && validSize(s.halfLength);
+}
+template <class S>
+bool valid(const Triangle<S>& s) {
+    return s.v[0].allFinite() && s.v[1].allFinite() && s.v[2].allFinite() &&
+           validSize((s.v[1] - s.v[0]).cross(s.v[2] - s.v[0]).norm());
+}
+template <class S>
+bool valid(const Segment<S>& s) {
+    return s.a.allFinite() && s.b.allFinite() && validSize((s.b - s.a).norm());
+}
+/// Of shapes whose data is checked where it is made (makeHull, makeChain, ...).
+template <class Shape>
+requires requires(const Shape& s) {
+    s.data != nullptr;
+}
+bool valid(const Shape& s) {
+    return s.data != nullptr;
+}
+
 template <class S>
 bool validShape(const Shape<S>& shape) {
-    using R = typename S::Real;
-    const auto size = [](R x) { return x > 0 && std::isfinite(x); };
-    if (const auto* s = std::get_if<Sphere<S>>(&shape)) return size(s->radius);
-    if (const auto* s = std::get_if<Capsule<S>>(&shape)) return size(s->radius) && size(s->halfLength);
-    if (const auto* s = std::get_if<Box<S>>(&shape))
-        return s->halfExtents.allFinite() && s->halfExtents.minCoeff() > 0;
-    if (const auto* s = std::get_if<HalfSpace<S>>(&shape))
-        return std::isfinite(s->offset) && std::abs(s->normal.norm() - R(1)) < R(1e-4);
-    if constexpr (S::dim == 3) {
-        if (const auto* s = std::get_if<Cylinder<S>>(&shape)) return size(s->radius) && size(s->halfLength);
-        if (const auto* s = std::get_if<Cone<S>>(&shape)) return size(s->radius) && size(s->halfLength);
-        if (const auto* s = std::get_if<Triangle<S>>(&shape))
-            return s->v[0].allFinite() && s->v[1].allFinite() && s->v[2].allFinite() &&
-                   size((s->v[1] - s->v[0]).cross(s->v[2] - s->v[0]).norm());
-        if (const auto* s = std::get_if<TriangleMesh<S>>(&shape)) return s->data != nullptr;
-        if (const auto* s = std::get_if<HeightField<S>>(&shape)) return s->data != nullptr;
-    } else {
-        if (const auto* s = std::get_if<Segment<S>>(&shape))
-            return s->a.allFinite() && s->b.allFinite() && size((s->b - s->a).norm());
-        if (const auto* s = std::get_if<Chain<S>>(&shape)) return s->data != nullptr;
-    }
-    return std::get<Hull<S>>(shape).data != nullptr;
+    return std::visit([](const auto& s) { return valid(s); }, shape);
 }
 
 }  // namespace
@@ -359,7 +386,7 @@ void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
         for (int i = 0; i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             const ManifoldPoint<S>& where = contact.manifold.points[k];
-            if (contact.block[k] == Contact<S>::kNoBlock && !contact.asleep) continue;
+            if (contact.block[k] == kNullIndex && !contact.asleep) continue;
             out.push_back({bodies_.id[contact.bodyA], bodies_.id[contact.bodyB],
                            contacts_.shapes()[contact.shapeA].id, contacts_.shapes()[contact.shapeB].id,
                            where.pointA, where.pointB, contact.manifold.normal, where.separation,

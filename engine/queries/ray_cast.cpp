@@ -75,7 +75,7 @@ struct Found {
     typename S::Real t = 2;
     typename S::Vec normal = S::Vec::Zero();
     bool inside = false;
-    std::uint32_t piece = kNone;
+    std::uint32_t piece = kNullIndex;
     void consider(typename S::Real at, const typename S::Vec& n) {
         if (at >= 0 && at <= 1 && at < t) t = at, normal = n;
     }

@@ -93,7 +93,7 @@ std::optional<WorldRayHit<S>> WorldQueries<S>::castRay(const Vec& origin, const 
                                                        const Filter& filter) const {
     requireRay<S>(origin, translation);
     std::optional<WorldRayHit<S>> best;
-    std::uint32_t first = kNone;
+    std::uint32_t first = kNullIndex;
     Real limit = 1;
     visit([&](const Aabb<S>& box) { return rayMeetsBox<S>(origin, translation, limit, box); }, filter,
           [&](std::uint32_t i) {
@@ -138,7 +138,7 @@ std::optional<ShapeCastHit<S>> WorldQueries<S>::castShape(const Shape<S>& shape,
     requireConvex<S>(shape, X);
     requireRay<S>(X.p, translation);
     std::optional<ShapeCastHit<S>> best;
-    std::uint32_t first = kNone;
+    std::uint32_t first = kNullIndex;
     Real most = 1;
     const auto consider = [&](std::uint32_t i, std::uint32_t piece, const CastResult<S>& r) {
         if (!r.touches) return;
@@ -154,7 +154,7 @@ std::optional<ShapeCastHit<S>> WorldQueries<S>::castShape(const Shape<S>& shape,
           [&](std::uint32_t i) {
               const Entry& entry = entries_[i];
               if (!isComposite<S>(entry.record->shape)) {
-                  consider(i, kNone,
+                  consider(i, kNullIndex,
                            castConvex<S>(shape, X, translation, entry.record->shape, entry.X, most));
                   return;
               }
@@ -181,17 +181,17 @@ std::vector<ShapeRef> WorldQueries<S>::overlapping(const Shape<S>& shape, const 
               const Entry& entry = entries_[i];
               if (!isComposite<S>(entry.record->shape)) {
                   if (closestPoints<S>(shape, X, entry.record->shape, entry.X).distance <= 0)
-                      found.push_back({i, kNone});
+                      found.push_back({i, kNullIndex});
                   return;
               }
-              std::uint32_t piece = kNone;
+              std::uint32_t piece = kNullIndex;
               withSurface<S>(entry.record->shape, [&](const auto& data) {
                   data.query(boxOnSurface<S>(entry.X, shape, X, Real(0)), [&](std::uint32_t k) {
                       const Shape<S> part = data.piece(k);
                       if (k < piece && closestPoints<S>(shape, X, part, entry.X).distance <= 0) piece = k;
                   });
               });
-              if (piece != kNone || underField<S>(entry.record->shape, entry.X, shape, X))
+              if (piece != kNullIndex || underField<S>(entry.record->shape, entry.X, shape, X))
                   found.push_back({i, piece});
           });
     std::sort(found.begin(), found.end());
@@ -207,7 +207,7 @@ std::vector<ShapeRef> WorldQueries<S>::inBox(const Aabb<S>& box, const Filter& f
           [&](std::uint32_t i) { found.push_back(i); });
     std::sort(found.begin(), found.end());
     std::vector<ShapeRef> refs;
-    for (const std::uint32_t i : found) refs.push_back(ref(i, kNone));
+    for (const std::uint32_t i : found) refs.push_back(ref(i, kNullIndex));
     return refs;
 }
 
@@ -217,7 +217,7 @@ std::optional<NearestHit<S>> WorldQueries<S>::nearest(const Shape<S>& shape, con
     requireConvex<S>(shape, X);
     if (!(most >= 0)) throw EngineError("query_distance", "the largest distance must not be negative");
     std::optional<NearestHit<S>> best;
-    std::uint32_t first = kNone;
+    std::uint32_t first = kNullIndex;
     const auto consider = [&](std::uint32_t i, std::uint32_t piece, const Shape<S>& other) {
         const ClosestPoints<S> c = closestPoints<S>(shape, X, other, entries_[i].X);
         if (c.distance > most) return;
@@ -233,7 +233,7 @@ std::optional<NearestHit<S>> WorldQueries<S>::nearest(const Shape<S>& shape, con
           [&](std::uint32_t i) {
               const Entry& entry = entries_[i];
               if (!isComposite<S>(entry.record->shape)) {
-                  consider(i, kNone, entry.record->shape);
+                  consider(i, kNullIndex, entry.record->shape);
                   return;
               }
               withSurface<S>(entry.record->shape, [&](const auto& data) {

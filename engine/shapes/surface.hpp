@@ -6,7 +6,7 @@
 //
 // All three have the same members, so that code is written once over them:
 //   pieceCount(); corners(piece): vertex numbers; point(vertex); piece(i): the Segment or Triangle;
-//   across(piece, side): the vertex beyond side `side` (from corner `side` to the next) of the piece, kNone
+//   across(piece, side): the vertex beyond side `side` (from corner `side` to the next) of the piece, kNullIndex
 //   at
 //     an open border; in 2D side 0, 1 is the end at corner 0, 1 and the answer the vertex beyond it;
 //   ring(vertex, visit): the vertices that share an edge with it (2D: the chain's next ones);
@@ -15,13 +15,11 @@
 
 #include <span>
 
+#include "engine/core/ids.hpp"
 #include "engine/shapes/shape.hpp"
 #include "engine/shapes/static_tree.hpp"
 
 namespace rigor::engine {
-
-inline constexpr std::uint32_t kNone = 0xffffffffu;
-
 /// Throws EngineError "chain_vertices" for fewer than 2 points (loop: 3), points that are not finite, and
 /// neighbours closer than rounding. Piece i runs from vertex i to the next.
 template <class S>
@@ -57,8 +55,8 @@ struct ChainData {
     std::uint32_t across(std::uint32_t i, int end) const { return end == 0 ? previous(i) : next(next(i)); }
     template <class Visit>
     void ring(std::uint32_t v, Visit visit) const {
-        if (const std::uint32_t w = previous(v); w != kNone) visit(w);
-        if (const std::uint32_t w = next(v); w != kNone) visit(w);
+        if (const std::uint32_t w = previous(v); w != kNullIndex) visit(w);
+        if (const std::uint32_t w = next(v); w != kNullIndex) visit(w);
     }
     template <class Visit>
     void query(const Aabb<S>& box, Visit visit) const {
@@ -71,11 +69,11 @@ struct ChainData {
 
   private:
     std::uint32_t next(std::uint32_t v) const {
-        if (v == kNone) return kNone;
-        return v + 1 < vertices.size() ? v + 1 : (loop ? 0 : kNone);
+        if (v == kNullIndex) return kNullIndex;
+        return v + 1 < vertices.size() ? v + 1 : (loop ? 0 : kNullIndex);
     }
     std::uint32_t previous(std::uint32_t v) const {
-        return v > 0 ? v - 1 : (loop ? static_cast<std::uint32_t>(vertices.size() - 1) : kNone);
+        return v > 0 ? v - 1 : (loop ? static_cast<std::uint32_t>(vertices.size() - 1) : kNullIndex);
     }
 };
 

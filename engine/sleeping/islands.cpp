@@ -23,7 +23,7 @@ void Islands::join(std::uint32_t a, std::uint32_t b) {
 
 void Islands::finish(std::span<const std::uint8_t> member, std::span<const BodyId> ids) {
     const auto n = static_cast<std::uint32_t>(parent_.size());
-    island_.assign(n, kNone);
+    island_.assign(n, kNullIndex);
     starts_.reserve(n + 2);
     starts_.assign(1, 0);
     // Sizes first; a root comes before its bodies, so its number is known when they ask for it.
@@ -42,7 +42,7 @@ void Islands::finish(std::span<const std::uint8_t> member, std::span<const BodyI
     ids_.resize(starts_.back());
     // Backwards from the ends, which become the starts.
     for (std::uint32_t i = n; i-- > 0;) {
-        if (island_[i] == kNone) continue;
+        if (island_[i] == kNullIndex) continue;
         const std::uint32_t place = --starts_[island_[i] + 1];
         members_[place] = i;
         ids_[place] = ids[i];

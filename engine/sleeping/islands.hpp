@@ -18,8 +18,6 @@ namespace rigor::engine {
 /// number of bodies has stopped growing.
 class Islands {
   public:
-    static constexpr std::uint32_t kNone = 0xffffffffu;
-
     /// Bodies 0..n-1, each alone.
     void begin(std::uint32_t n);
     void join(std::uint32_t a, std::uint32_t b);
@@ -34,8 +32,10 @@ class Islands {
     std::span<const BodyId> bodies(std::size_t k) const {
         return {ids_.data() + starts_[k], starts_[k + 1] - starts_[k]};
     }
-    /// Of a body by dense index; kNone for bodies that are in none.
-    std::uint32_t islandOf(std::uint32_t body) const { return body < island_.size() ? island_[body] : kNone; }
+    /// Of a body by dense index; kNullIndex for bodies that are in none.
+    std::uint32_t islandOf(std::uint32_t body) const {
+        return body < island_.size() ? island_[body] : kNullIndex;
+    }
 
   private:
     std::uint32_t rootOf(std::uint32_t i);

@@ -41,8 +41,8 @@ void markPushed(const SleepStep<S>& step) {
     for (const Contact<S>& contact : step.contacts.contacts()) {
         const std::uint32_t a = step.islands.islandOf(contact.bodyA),
                             b = step.islands.islandOf(contact.bodyB);
-        if (b != Islands::kNone && moving(contact.bodyA)) step.marked[b] = 1;
-        if (a != Islands::kNone && moving(contact.bodyB)) step.marked[a] = 1;
+        if (b != kNullIndex && moving(contact.bodyA)) step.marked[b] = 1;
+        if (a != kNullIndex && moving(contact.bodyB)) step.marked[a] = 1;
     }
 }
 

@@ -137,7 +137,7 @@ TYPED_TEST(Questions, NearestAndOverlaps) {
                 if (record.id == r.shape) break;
                 ++i;
             }
-            if (isComposite<S>(this->world.shapes()[i].shape) && r.piece == kNone)
+            if (isComposite<S>(this->world.shapes()[i].shape) && r.piece == kNullIndex)
                 solid.push_back(i);
             else
                 found.push_back(i);

@@ -32,7 +32,7 @@ void connect(MeshData<S>& mesh) {
             const std::uint32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
             sides[{std::min(a, b), std::max(a, b)}].push_back({t, k});
         }
-    mesh.beyond.assign(mesh.triangles.size(), {kNone, kNone, kNone});
+    mesh.beyond.assign(mesh.triangles.size(), {kNullIndex, kNullIndex, kNullIndex});
     std::vector<std::vector<std::uint32_t>> rings(mesh.vertices.size());
     for (const auto& [edge, both] : sides) {
         rings[edge.first].push_back(edge.second);
@@ -115,7 +115,7 @@ std::uint32_t HeightFieldData<S>::across(std::uint32_t piece, int side) const {
     int a = first ? i + 1 : i, b = first ? k + 1 : k;
     if (side == 0) a = first ? i - 1 : i + 2, b = first ? k + 1 : k;
     if (side == 2) a = first ? i + 1 : i, b = first ? k - 1 : k + 2;
-    if (a < 0 || a >= columns || b < 0 || b >= rows) return kNone;
+    if (a < 0 || a >= columns || b < 0 || b >= rows) return kNullIndex;
     return static_cast<std::uint32_t>(b * columns + a);
 }
 

@@ -106,7 +106,7 @@ void expectNeighbours(const Data& data) {
             const auto c = data.corners(i);
             const std::uint32_t a = c[static_cast<std::size_t>(side)],
                                 b = c[static_cast<std::size_t>((side + 1) % 3)];
-            std::uint32_t beyond = kNone;
+            std::uint32_t beyond = kNullIndex;
             for (std::uint32_t j = 0; j < data.pieceCount(); ++j) {
                 const auto other = data.corners(j);
                 if (j == i || !std::count(other.begin(), other.end(), a) ||
@@ -179,9 +179,9 @@ TYPED_TEST(Surfaces2d, ChainsAreOpenOrClosed) {
     const auto open = zigzag<TypeParam>(false).data, loop = zigzag<TypeParam>(true).data;
     EXPECT_EQ(open->pieceCount(), 11u);
     EXPECT_EQ(loop->pieceCount(), 12u);
-    EXPECT_EQ(open->across(0, 0), kNone);
+    EXPECT_EQ(open->across(0, 0), kNullIndex);
     EXPECT_EQ(open->across(0, 1), 2u);
-    EXPECT_EQ(open->across(10, 1), kNone);
+    EXPECT_EQ(open->across(10, 1), kNullIndex);
     EXPECT_EQ(loop->across(0, 0), 11u);
     EXPECT_EQ(loop->across(11, 1), 1u);
     EXPECT_EQ(loop->corners(11)[1], 0u);

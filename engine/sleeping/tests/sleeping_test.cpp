@@ -29,16 +29,16 @@ TEST(Islands, AreTheConnectedComponents) {
             next[a].push_back(b), next[b].push_back(a);
         }
         islands.finish(member, ids);
-        std::vector<std::uint32_t> expected(n, Islands::kNone);
+        std::vector<std::uint32_t> expected(n, kNullIndex);
         std::uint32_t count = 0;
         std::size_t seen = 0;
         for (std::uint32_t i = 0; i < n; ++i) {
-            if (!member[i] || expected[i] != Islands::kNone) continue;
+            if (!member[i] || expected[i] != kNullIndex) continue;
             std::vector<std::uint32_t> todo{i};
             while (!todo.empty()) {
                 const std::uint32_t j = todo.back();
                 todo.pop_back();
-                if (expected[j] != Islands::kNone) continue;
+                if (expected[j] != kNullIndex) continue;
                 expected[j] = count;
                 todo.insert(todo.end(), next[j].begin(), next[j].end());
             }
@@ -55,7 +55,7 @@ TEST(Islands, AreTheConnectedComponents) {
             }
             EXPECT_EQ(islands.bodies(k).size(), islands.members(k).size());
         }
-        EXPECT_EQ(islands.islandOf(n), Islands::kNone);
+        EXPECT_EQ(islands.islandOf(n), kNullIndex);
         seen = 0;
     }
 }

@@ -47,7 +47,7 @@ class Dissection {
         for (std::uint32_t k = 0; k < ends_.size(); ++k) {
             joints[k] = k;
             for (const std::uint32_t body : {ends_[k].first, ends_[k].second})
-                if (body != kNoBody && side_[body] == kOutside) side_[body] = 0, bodies.push_back(body);
+                if (body != kNullIndex && side_[body] == kOutside) side_[body] = 0, bodies.push_back(body);
         }
         std::sort(bodies.begin(), bodies.end());
         for (const std::uint32_t body : bodies) side_[body] = kOutside;
@@ -56,9 +56,11 @@ class Dissection {
     }
 
   private:
-    static bool inner(std::uint32_t a, std::uint32_t b) { return a != kNoBody && b != kNoBody && a != b; }
+    static bool inner(std::uint32_t a, std::uint32_t b) {
+        return a != kNullIndex && b != kNullIndex && a != b;
+    }
     bool hasSide(std::uint32_t body, std::int32_t side) const {
-        return body != kNoBody && side_[body] == side;
+        return body != kNullIndex && side_[body] == side;
     }
 
     /// Joints of these bodies; what runs between them and others has been given its place before.

@@ -10,11 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/ids.hpp"
+
 namespace rigor::engine {
-
-inline constexpr std::uint32_t kNoBody = 0xffffffff;  ///< in the place of a body that impulses do not move
-
-/// The joints, each given by its two bodies (below `bodies`, or kNoBody), in an order by which those of every
+/// The joints, each given by its two bodies (below `bodies`, or kNullIndex), in an order by which those of every
 /// part are eliminated before those that join it to the rest.
 std::vector<std::uint32_t> dissectJoints(std::span<const std::pair<std::uint32_t, std::uint32_t>> joints,
                                          std::size_t bodies);

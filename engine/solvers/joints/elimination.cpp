@@ -12,25 +12,25 @@
 #include <numeric>
 #include <set>
 
+#include "engine/core/ids.hpp"
+
 namespace rigor::engine {
 namespace {
 
 using Nodes = std::vector<std::uint32_t>;
-constexpr std::uint32_t kNone = 0xffffffff;
-
 /// Node -> number of its component, in the order of their first nodes.
 Nodes findComponents(const std::vector<Nodes>& near) {
-    Nodes component(near.size(), kNone), open;
+    Nodes component(near.size(), kNullIndex), open;
     std::uint32_t count = 0;
     for (std::uint32_t first = 0; first < near.size(); ++first) {
-        if (component[first] != kNone) continue;
+        if (component[first] != kNullIndex) continue;
         component[first] = count;
         open.assign(1, first);
         while (!open.empty()) {
             const std::uint32_t node = open.back();
             open.pop_back();
             for (const std::uint32_t other : near[node])
-                if (component[other] == kNone) component[other] = count, open.push_back(other);
+                if (component[other] == kNullIndex) component[other] = count, open.push_back(other);
         }
         ++count;
     }
@@ -92,7 +92,7 @@ bool columnsInOrder(std::vector<Nodes>& near, const Nodes& order, std::size_t mo
 /// A postorder of the elimination tree: a node's parent is the first of its column.
 Nodes postorder(const Nodes& order, const std::vector<Nodes>& columns, const Nodes& component) {
     const std::size_t n = order.size();
-    Nodes position(n), parent(n, kNone), child(n, kNone), sibling(n, kNone), roots;
+    Nodes position(n), parent(n, kNullIndex), child(n, kNullIndex), sibling(n, kNullIndex), roots;
     for (std::uint32_t k = 0; k < n; ++k) position[order[k]] = k;
     const auto earlier = [&](std::uint32_t a, std::uint32_t b) { return position[a] < position[b]; };
     for (std::size_t k = n; k-- > 0;) {
@@ -110,9 +110,9 @@ Nodes postorder(const Nodes& order, const std::vector<Nodes>& columns, const Nod
     Nodes result;
     for (std::uint32_t node : roots)
         for (const std::uint32_t root = node;;) {
-            while (child[node] != kNone) node = child[node];
+            while (child[node] != kNullIndex) node = child[node];
             result.push_back(node);
-            while (node != root && sibling[node] == kNone) result.push_back(node = parent[node]);
+            while (node != root && sibling[node] == kNullIndex) result.push_back(node = parent[node]);
             if (node == root) break;
             node = sibling[node];
         }

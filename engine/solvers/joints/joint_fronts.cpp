@@ -46,7 +46,7 @@ void JointFronts<R>::findFronts(std::span<const std::size_t> start, std::span<co
                                 std::uint32_t first) {
     const auto columns = static_cast<std::uint32_t>(start.size() - 1);
     const auto below = [&](std::uint32_t k) { return static_cast<std::uint32_t>(start[k + 1] - start[k]); };
-    const auto parentOf = [&](std::uint32_t k) { return below(k) == 0 ? kNone : row[start[k]] - first; };
+    const auto parentOf = [&](std::uint32_t k) { return below(k) == 0 ? kNullIndex : row[start[k]] - first; };
     // Every column as a front, joined to those before it that it is the parent of.
     std::vector<std::size_t> entries;  // of a front, in blocks without zeros
     fronts_.clear();
@@ -82,23 +82,23 @@ template <class R>
 void JointFronts<R>::layOut() {
     std::size_t panels = 0, top = 0, most = 0, tallest = 0;
     runs_.clear();
-    for (Front& front : fronts_) front.child = front.sibling = kNone;
+    for (Front& front : fronts_) front.child = front.sibling = kNullIndex;
     for (std::uint32_t f = 0; f < fronts_.size(); ++f) {
         Front& front = fronts_[f];
         const std::size_t height = (front.width + front.rows) * size_;
         front.stride = height;
         front.panel = panels, panels += roundedUp(height * front.width * size_);
         tallest = std::max(tallest, height);
-        front.parent = front.rows == 0 ? kNone : front_[rows_[front.row]];
+        front.parent = front.rows == 0 ? kNullIndex : front_[rows_[front.row]];
         findRuns(front);
         // Its children's updates are on top of the stack, and go when it has been made.
         const std::size_t square = roundedUp(front.rows * size_ * front.rows * size_);
         front.work = front.update = top;
-        for (std::uint32_t c = front.child; c != kNone; c = fronts_[c].sibling)
+        for (std::uint32_t c = front.child; c != kNullIndex; c = fronts_[c].sibling)
             front.update = std::min(front.update, fronts_[c].update);
         most = std::max(most, front.work + square);
         top = front.update + square;
-        if (front.parent == kNone) continue;
+        if (front.parent == kNullIndex) continue;
         front.sibling = fronts_[front.parent].child;
         fronts_[front.parent].child = f;
     }
@@ -117,7 +117,7 @@ std::uint32_t JointFronts<R>::placeIn(const Front& front, std::uint32_t row) con
 template <class R>
 void JointFronts<R>::findRuns(Front& front) {
     front.run = static_cast<std::uint32_t>(runs_.size()), front.runs = 0;
-    if (front.parent == kNone) return;
+    if (front.parent == kNullIndex) return;
     for (std::uint32_t i = 0; i < front.rows; ++i) {
         const std::uint32_t to = placeIn(fronts_[front.parent], rows_[front.row + i]);
         if (front.runs > 0 && runs_.back().to + runs_.back().count == to) {
@@ -151,7 +151,8 @@ void JointFronts<R>::factor(const R* floor) {
         const std::size_t n = front.rows * size_;
         R* const work = updates_.data() + front.work;
         std::fill_n(work, n * n, R(0));
-        for (std::uint32_t c = front.child; c != kNone; c = fronts_[c].sibling) extend(fronts_[c], front);
+        for (std::uint32_t c = front.child; c != kNullIndex; c = fronts_[c].sibling)
+            extend(fronts_[c], front);
         const FrontPanel<R> panel = panelOf(front);
         factorPanel(panel, floor + front.first * size_);
         subtractSquare(panel, work, n);

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/ids.hpp"
 #include "engine/solvers/joints/front_kernels.hpp"
 
 namespace rigor::engine {
@@ -40,7 +41,7 @@ class JointFronts {
         std::uint32_t first, width;    ///< columns, in blocks
         std::uint32_t row, rows;       ///< of rows_: those below, in blocks
         std::uint32_t run, runs;       ///< of runs_: where those are in its parent
-        std::uint32_t parent;          ///< kNone: a root
+        std::uint32_t parent;          ///< kNullIndex: a root
         std::uint32_t child, sibling;  ///< the first that depends on it; the next of its parent
         std::size_t panel, stride;     ///< in panels_; numbers between its columns
         std::size_t update, work;      ///< in updates_: what it leaves for its parent, and where that is made
@@ -49,8 +50,6 @@ class JointFronts {
     struct Run {
         std::uint32_t from, to, count;
     };
-    static constexpr std::uint32_t kNone = 0xffffffff;
-
     void findFronts(std::span<const std::size_t> start, std::span<const std::uint32_t> row,
                     std::uint32_t first);
     void layOut();

@@ -115,7 +115,7 @@ void withSize(int size, const Use& use) {
 template <class S>
 typename JointSystem<S>::Place JointSystem<S>::placeOf(const Item& item) {
     const Block<S>& block = *item.block;
-    return {block.invMassA > 0 ? block.a : kFixed, block.invMassB > 0 ? block.b : kFixed, block.rows};
+    return {block.invMassA > 0 ? block.a : kNullIndex, block.invMassB > 0 ? block.b : kNullIndex, block.rows};
 }
 
 template <class S>
@@ -126,7 +126,7 @@ bool JointSystem<S>::factor(std::span<const Item> items) {
     if (!fits_) return false;
     for (const Part& part : parts_)
         withSize(part.size, [&](auto size) {
-            if (part.fronts != kNoFronts) return factorFronts<size()>(items, part);
+            if (part.fronts != kNullIndex) return factorFronts<size()>(items, part);
             assemble<size()>(items, part);
             eliminate<size()>(part);
         });
@@ -235,7 +235,7 @@ void JointSystem<S>::eliminate(const Part& part) {
 template <class S>
 void JointSystem<S>::solve() {
     for (const Part& part : parts_) {
-        if (part.fronts != kNoFronts) {
+        if (part.fronts != kNullIndex) {
             fronts_[part.fronts].solve(x_.data() + part.x);
             continue;
         }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/constraints/row.hpp"
+#include "engine/core/ids.hpp"
 #include "engine/solvers/joints/elimination.hpp"
 #include "engine/solvers/joints/joint_fronts.hpp"
 
@@ -43,11 +44,10 @@ class JointSystem {
 
     /// What decides the pattern of K.
     struct Place {
-        std::uint32_t a, b;  ///< bodies; kFixed: moved by no impulse
+        std::uint32_t a, b;  ///< bodies; kNullIndex: moved by no impulse
         std::uint32_t rows;
         friend bool operator==(const Place&, const Place&) = default;
     };
-    static constexpr std::uint32_t kFixed = 0xffffffff;
     /// Two items at a body: there K has a block below its diagonal.
     struct Meeting {
         std::size_t at;                     ///< entry of row_; with fronts where the block stands in them
@@ -61,10 +61,8 @@ class JointSystem {
         std::size_t meeting, lastMeeting;  ///< of its meetings, the last one excluded
         std::size_t lower, diagonal, x;    ///< where its first numbers stand
         std::size_t target;                ///< likewise
-        std::uint32_t fronts;              ///< kNoFronts, or where its fronts are
+        std::uint32_t fronts;              ///< kNullIndex, or where its fronts are
     };
-    static constexpr std::uint32_t kNoFronts = 0xffffffff;
-
     static Place placeOf(const Item& item);
     bool analyse(std::span<const Item> items);
     bool findOrder(std::vector<std::vector<std::uint32_t>> near, Elimination& order) const;

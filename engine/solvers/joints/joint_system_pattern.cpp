@@ -29,7 +29,7 @@ bool JointSystem<S>::analyse(std::span<const Item> items) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> visits;
     for (std::uint32_t i = 0; i < n; ++i)
         for (const std::uint32_t body : {pattern_[i].a, pattern_[i].b})
-            if (body != kFixed) visits.push_back({body, i});
+            if (body != kNullIndex) visits.push_back({body, i});
     std::sort(visits.begin(), visits.end());
     std::vector<std::vector<std::uint32_t>> near(n);
     std::size_t met = 0;
@@ -61,7 +61,7 @@ bool JointSystem<S>::findOrder(std::vector<std::vector<std::uint32_t>> near, Eli
     for (const Place& place : pattern_) {
         ends.push_back({place.a, place.b});
         for (const std::uint32_t body : {place.a, place.b})
-            if (body != kFixed) bodies = std::max(bodies, std::size_t(body) + 1);
+            if (body != kNullIndex) bodies = std::max(bodies, std::size_t(body) + 1);
     }
     Elimination dissected;
     if (!findElimination(std::move(near), dissectJoints(ends, bodies), most, dissected)) return found;
@@ -78,7 +78,7 @@ void JointSystem<S>::layOut(Elimination& order) {
     parts_.clear(), target_.clear(), fronts_.clear();
     std::size_t lower = 0, diagonal = 0, x = 0;
     for (std::size_t p = 0; p + 1 < order.part.size(); ++p) {
-        Part part{order.part[p], order.part[p + 1], 1, 0, 0, lower, diagonal, x, target_.size(), kNoFronts};
+        Part part{order.part[p], order.part[p + 1], 1, 0, 0, lower, diagonal, x, target_.size(), kNullIndex};
         for (std::uint32_t k = part.first; k < part.last; ++k) {
             position_[item_[k]] = k;
             part.size = std::max(part.size, static_cast<int>(pattern_[item_[k]].rows));
@@ -142,7 +142,7 @@ void JointSystem<S>::findMeetings(std::span<const std::pair<std::uint32_t, std::
         part.meeting = m;
         while (m < meetings_.size() && meetings_[m].at < start_[part.last]) ++m;
         part.lastMeeting = m;
-        if (part.fronts == kNoFronts) continue;
+        if (part.fronts == kNullIndex) continue;
         for (std::size_t k = part.meeting; k < m; ++k) {
             Meeting& meeting = meetings_[k];
             meeting.at = fronts_[part.fronts].placeOf(position_[meeting.rowItem] - part.first,

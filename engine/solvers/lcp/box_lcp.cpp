@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/ids.hpp"
+
 namespace rigor::engine {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
-
 }  // namespace
 
 bool BoxLcp::solve(std::size_t n, const double* A, const double* shift, const double* q, const double* lower,
@@ -71,7 +71,7 @@ std::size_t BoxLcp::solveForStates(const Problem& p) {
 }
 
 bool BoxLcp::tryStates(const Problem& p) {
-    std::size_t fewest = kNobody;
+    std::size_t fewest = kNullIndex;
     constexpr int kTries = 10;
     for (int i = 0; i < kTries; ++i) {
         const std::size_t wrong = solveForStates(p);
@@ -133,12 +133,12 @@ bool BoxLcp::takeIn(const Problem& p, std::size_t d, std::size_t& pieces) {
         follow(p, d, direction);
         // How far? The first to object decides; among equals the one found first.
         double way = std::abs(w_[d]) / std::max(std::abs(dw_[d]), 1e-300);
-        std::size_t blocking = d, place = kNobody;
+        std::size_t blocking = d, place = kNullIndex;
         BoxState becomes = BoxState::Free;
         const auto object = [&](double t, std::size_t who, std::size_t where, BoxState state) {
             if (t < way) way = std::max(0.0, t), blocking = who, place = where, becomes = state;
         };
-        object(direction > 0 ? p.upper[d] - p.x[d] : p.x[d] - p.lower[d], d, kNobody,
+        object(direction > 0 ? p.upper[d] - p.x[d] : p.x[d] - p.lower[d], d, kNullIndex,
                direction > 0 ? BoxState::Upper : BoxState::Lower);
         for (std::size_t k = 0; k < factor_.size(); ++k) {
             const std::size_t i = factor_.member(k);
@@ -148,7 +148,7 @@ bool BoxLcp::takeIn(const Problem& p, std::size_t d, std::size_t& pieces) {
         for (std::size_t i = 0; i < p.n; ++i) {
             if (!taken_[i] || i == d || state_[i] == BoxState::Free || !(p.lower[i] < p.upper[i])) continue;
             if (state_[i] == BoxState::Lower ? dw_[i] < 0 : dw_[i] > 0)
-                object(-w_[i] / dw_[i], i, kNobody, BoxState::Free);
+                object(-w_[i] / dw_[i], i, kNullIndex, BoxState::Free);
         }
         p.x[d] += way * direction;
         for (std::size_t k = 0; k < factor_.size(); ++k) p.x[factor_.member(k)] += way * part_[k];
@@ -160,7 +160,7 @@ bool BoxLcp::takeIn(const Problem& p, std::size_t d, std::size_t& pieces) {
             factor_.append(p.A, p.n, p.shift, blocking);
         } else {
             p.x[blocking] = becomes == BoxState::Lower ? p.lower[blocking] : p.upper[blocking];
-            if (place != kNobody) factor_.remove(place);
+            if (place != kNullIndex) factor_.remove(place);
         }
         if (blocking == d) return true;
     }

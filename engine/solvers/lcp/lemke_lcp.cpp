@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/ids.hpp"
+
 namespace rigor::engine {
 namespace {
-
-constexpr std::size_t kNobody = static_cast<std::size_t>(-1);
 // Entries of the dictionary below this are rounding of entries of order one after some hundred pivots.
 constexpr double kZero = 1e-11;
 
@@ -41,8 +41,8 @@ LemkeLcp::Outcome LemkeLcp::solve(std::size_t n, const double* M, const double* 
         while (left != 2 * n) {
             const std::size_t column = columnOf(left < n ? left + n : left - n);
             const std::size_t row = leaving(column);
-            if (row == kNobody || pivots_ > most) {
-                outcome = row == kNobody ? Outcome::Ray : Outcome::TooManyPivots;
+            if (row == kNullIndex || pivots_ > most) {
+                outcome = row == kNullIndex ? Outcome::Ray : Outcome::TooManyPivots;
                 break;
             }
             left = basic_[row];
@@ -59,14 +59,14 @@ std::size_t LemkeLcp::columnOf(std::size_t variable) const {
 
 /// The basic variable that first comes to zero as the column's variable grows.
 std::size_t LemkeLcp::leaving(std::size_t column) const {
-    std::size_t best = kNobody;
+    std::size_t best = kNullIndex;
     double ratio = 0;
     for (std::size_t i = 0; i < n_; ++i) {
         const double rate = -dictionary_[i * (n_ + 1) + column];
         if (!(rate > kZero)) continue;
         const double mine = std::max(0.0, constant_[i]) / rate;
-        const double tie = best == kNobody ? 0 : noise_ / std::min(rate, 1.0);
-        if (best == kNobody || mine < ratio - tie) {
+        const double tie = best == kNullIndex ? 0 : noise_ / std::min(rate, 1.0);
+        if (best == kNullIndex || mine < ratio - tie) {
             best = i, ratio = mine;
         } else if (mine <= ratio + tie) {
             // z_0 leaves whenever it may: that is the end.

@@ -36,15 +36,15 @@ Colouring coloured(const std::vector<PatchPlan>& plans, std::size_t bodies, int 
 
 /// Where each plan comes: block * lanes + lane; twice or nowhere is an error.
 std::vector<std::uint32_t> placesOf(const Colouring& colouring, std::size_t plans) {
-    std::vector<std::uint32_t> places(plans, Colouring::kNobody);
+    std::vector<std::uint32_t> places(plans, kNullIndex);
     EXPECT_EQ(colouring.occupants().size(), colouring.blocks() * kWidth);
     for (std::uint32_t k = 0; k < colouring.occupants().size(); ++k) {
         const std::uint32_t plan = colouring.occupants()[k];
-        if (plan == Colouring::kNobody) continue;
-        EXPECT_EQ(places.at(plan), Colouring::kNobody) << "plan " << plan << " stands twice";
+        if (plan == kNullIndex) continue;
+        EXPECT_EQ(places.at(plan), kNullIndex) << "plan " << plan << " stands twice";
         places.at(plan) = k;
     }
-    EXPECT_EQ(std::ranges::count(places, Colouring::kNobody), 0);
+    EXPECT_EQ(std::ranges::count(places, kNullIndex), 0);
     return places;
 }
 
@@ -91,7 +91,7 @@ std::size_t expectProperRegions(const std::vector<PatchPlan>& plans, const Colou
         const auto has = [&](std::uint32_t body) {
             return region.firstBody <= body && body < region.lastBody;
         };
-        std::uint32_t lastPair = 0, firstWall = Colouring::kNobody;
+        std::uint32_t lastPair = 0, firstWall = kNullIndex;
         for (std::size_t k = 0; k < plans.size(); ++k) {
             const std::uint32_t block = places[k] / kWidth;
             if (block < region.first || block >= region.last) continue;
@@ -158,7 +158,7 @@ TEST(Colouring, PassesOverContactsWithoutPoints) {
     ASSERT_EQ(all.blocks(), without.blocks());
     for (std::size_t k = 0; k < all.occupants().size(); ++k) {
         const std::uint32_t plan = without.occupants()[k];
-        ASSERT_EQ(all.occupants()[k], plan == Colouring::kNobody ? plan : plan / 2 * 3 + 1 + plan % 2) << k;
+        ASSERT_EQ(all.occupants()[k], plan == kNullIndex ? plan : plan / 2 * 3 + 1 + plan % 2) << k;
     }
 }
 

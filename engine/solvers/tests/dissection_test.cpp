@@ -22,7 +22,7 @@ using Joints = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 Joints netOf(std::uint32_t side) {
     Joints joints;
     for (std::uint32_t i = 0; i < side * side; ++i) {
-        joints.push_back({i < side ? kNoBody : i - side, i});
+        joints.push_back({i < side ? kNullIndex : i - side, i});
         if (i % side > 0) joints.push_back({i - 1, i});
     }
     return joints;
@@ -33,7 +33,7 @@ std::vector<Nodes> meetingsOf(const Joints& joints) {
     for (std::uint32_t i = 0; i < joints.size(); ++i)
         for (std::uint32_t j = 0; j < joints.size(); ++j) {
             const auto shares = [&](std::uint32_t body) {
-                return body != kNoBody && (body == joints[j].first || body == joints[j].second);
+                return body != kNullIndex && (body == joints[j].first || body == joints[j].second);
             };
             if (i != j && (shares(joints[i].first) || shares(joints[i].second))) near[i].push_back(j);
         }
@@ -53,7 +53,9 @@ TEST(Dissections, EveryJointIsOrderedOnce) {
         const std::uint32_t bodies = 1 + random() % 60;
         Joints joints;
         for (std::uint32_t k = random() % 150; k > 0; --k) {
-            const auto end = [&] { return random() % 10 == 0 ? kNoBody : std::uint32_t(random() % bodies); };
+            const auto end = [&] {
+                return random() % 10 == 0 ? kNullIndex : std::uint32_t(random() % bodies);
+            };
             joints.push_back({end(), end()});  // also twice the same body, and nobody at all
         }
         expectPermutation(dissectJoints(joints, bodies), joints.size());
@@ -75,7 +77,7 @@ TEST(Dissections, TheLastJointsAreAllThatHoldsTwoHalvesTogether) {
         return i;
     };
     for (std::size_t k = 0; k + side < order.size(); ++k)
-        if (const auto [a, b] = joints[order[k]]; a != kNoBody) set[root(a)] = root(b);
+        if (const auto [a, b] = joints[order[k]]; a != kNullIndex) set[root(a)] = root(b);
     std::vector<std::size_t> sizes(side * side, 0);
     for (std::uint32_t i = 0; i < side * side; ++i) ++sizes[root(i)];
     std::sort(sizes.rbegin(), sizes.rend());

@@ -163,7 +163,7 @@ void Colouring::count(Group& group, std::uint32_t lanes) {
 
 void Colouring::place(Group& group, std::uint32_t lanes) {
     std::uint32_t* const occupants = occupants_.data() + group.block * lanes;
-    std::fill_n(occupants, group.blocks * lanes, kNobody);
+    std::fill_n(occupants, group.blocks * lanes, kNullIndex);
     const std::uint32_t alone = group.colours * group.perColour();
     for (const auto& [plan, bucket] : group.members) {
         std::uint32_t& next = group.begin[bucket];
@@ -185,7 +185,7 @@ void Colouring::addRanges(const Group& group, std::uint32_t lanes) {
                 group.block + (group.begin[c * perColour + k] + lanes / 2) / lanes;
     }
     for (std::uint32_t block = blockAt(group.colours); block < group.block + group.blocks; ++block)
-        ranges_.push_back({block, block + 1, kAlone});
+        ranges_.push_back({block, block + 1, kNullIndex});
 }
 
 void Colouring::colour(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes,
@@ -220,7 +220,7 @@ Colouring::Cut Colouring::cut(const Range& range, double part) const {
     constexpr double kUneven = 1.0 / 16;           // a share may be larger by this part of a range,
     constexpr double kLeast = workOf(kKinds) / 2;  // or by half a block
     Cut at;
-    if (range.table == kAlone) {
+    if (range.table == kNullIndex) {
         at.fill(range.last);
         if (part < 1) at[0] = range.first;
         return at;

@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/ids.hpp"
 #include "engine/core/tasks.hpp"
 
 namespace rigor::engine {
@@ -50,9 +51,8 @@ class Colouring {
     /// Blocks of lanes that may be worked on in any order: kind by kind, of a kind slice by slice.
     struct Range {
         std::uint32_t first, last;
-        std::uint32_t table;  ///< where its slices begin; kAlone: a single block
+        std::uint32_t table;  ///< where its slices begin; kNullIndex: a single block
     };
-    static constexpr std::uint32_t kAlone = 0xffffffffu;
     /// Where a range is cut, of each kind before this block.
     using Cut = std::array<std::uint32_t, kKinds>;
 
@@ -60,9 +60,8 @@ class Colouring {
     void colour(std::span<const PatchPlan> plans, std::size_t bodies, std::uint32_t lanes,
                 const Tasks& tasks);
 
-    /// The plan in each lane of the blocks, one block after the other, or kNobody.
+    /// The plan in each lane of the blocks, one block after the other, or kNullIndex.
     std::span<const std::uint32_t> occupants() const { return occupants_; }
-    static constexpr std::uint32_t kNobody = 0xffffffffu;
     std::uint32_t blocks() const { return blocks_; }
     /// That have been placed, and their points.
     std::size_t contacts() const { return contacts_; }

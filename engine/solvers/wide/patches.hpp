@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/ids.hpp"
 #include "engine/core/tasks.hpp"
 #include "engine/solvers/wide/colouring.hpp"
 #include "engine/solvers/wide/kernels.hpp"
@@ -22,9 +23,6 @@ class Patches {
   public:
     using Real = typename S::Real;
     using F = PatchSpace<S>;
-
-    static constexpr std::uint32_t kNobody = Colouring::kNobody;
-
     /// The patches of a step are planned, one for each of `count` sources; then they are placed in blocks;
     /// then each block is filled in lane by lane, also those of nobody, and prepared.
     void plan(std::size_t count) {
@@ -52,7 +50,7 @@ class Patches {
     std::size_t blocks() const { return colouring_.blocks(); }
     PatchBlock<F>& block(std::size_t b) { return blocks_[b]; }
     PatchRest<F>& rest(std::size_t b) { return rests_[b]; }
-    /// Whose patch stands there (its place among the plans); kNobody's lanes are filled with zeros.
+    /// Whose patch stands there (its place among the plans); kNullIndex's lanes are filled with zeros.
     std::uint32_t sourceAt(std::size_t b, std::size_t lane) const {
         return colouring_.occupants()[b * kLanes + lane];
     }
