@@ -153,10 +153,13 @@ class Tree {
         const bool leafA = a.child[0] == kNullIndex, leafB = b.child[0] == kNullIndex;
         if (leafA && leafB)
             visit(i, j);
-        else if (leafB || (!leafA && area<S>(a.box) > area<S>(b.box)))
-            between(a.child[0], j, tests, visit), between(a.child[1], j, tests, visit);
-        else
-            between(i, b.child[0], tests, visit), between(i, b.child[1], tests, visit);
+        else if (leafB || (!leafA && area<S>(a.box) > area<S>(b.box))) {
+            between(a.child[0], j, tests, visit);
+            between(a.child[1], j, tests, visit);
+        } else {
+            between(i, b.child[0], tests, visit);
+            between(i, b.child[1], tests, visit);
+        }
     }
 
     std::uint32_t buildNode(std::span<const std::uint32_t> leaves, std::span<const Box> boxes) {
@@ -224,7 +227,11 @@ class Tree {
             const Box& up = nodes_[nodes_[i].child[side]].box;
             for (int g = 0; g < 2; ++g) {
                 const Real gain = area<S>(low.box) - area<S>(merged<S>(up, nodes_[low.child[1 - g]].box));
-                if (gain > best) best = gain, bestSide = side, bestGrandchild = g;
+                if (gain > best) {
+                    best = gain;
+                    bestSide = side;
+                    bestGrandchild = g;
+                }
             }
         }
         if (bestSide < 0) return;

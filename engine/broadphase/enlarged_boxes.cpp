@@ -24,7 +24,10 @@ template <class S>
 bool EnlargedBoxes<S>::update(BroadPhase<S>& broadPhase, std::span<const Aabb<S>> boxes,
                               std::span<const std::uint8_t> movable, Real margin, const Tasks& tasks) {
     const bool afresh = boxes.size() != enlarged_.size();
-    if (afresh) enlarged_.resize(boxes.size()), movable_.assign(movable.begin(), movable.end());
+    if (afresh) {
+        enlarged_.resize(boxes.size());
+        movable_.assign(movable.begin(), movable.end());
+    }
     std::atomic<std::size_t> made = 0;
     tasks.forRanges(boxes.size(), kBoxGrain, [&](std::size_t first, std::size_t last) {
         std::size_t here = 0;
@@ -48,7 +51,9 @@ bool EnlargedBoxes<S>::update(BroadPhase<S>& broadPhase, std::span<const Aabb<S>
 
 template <class S>
 void EnlargedBoxes<S>::reset() {
-    enlarged_.clear(), movable_.clear(), pairs_.clear();
+    enlarged_.clear();
+    movable_.clear();
+    pairs_.clear();
     made_ = 0;
 }
 

@@ -204,7 +204,10 @@ class Octree final : public BroadPhase<S> {
         };
         for (std::uint32_t j = cell.first; j != kNullIndex; j = proxies_[j].next) include(boxes[j]);
         for (const std::uint32_t child : cell.child)
-            if (child != kNullIndex) renewContent(child, boxes), include(cells_[child].content);
+            if (child != kNullIndex) {
+                renewContent(child, boxes);
+                include(cells_[child].content);
+            }
     }
 
     void findPairs(std::uint32_t i, std::span<const Box> boxes, std::span<const std::uint8_t> movable,

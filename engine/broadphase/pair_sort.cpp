@@ -65,12 +65,16 @@ void PairSort::sort(std::span<const std::vector<ProxyPair>> parts, std::size_t p
     const std::size_t ranges = total < kWorthSharing ? 1 : static_cast<std::size_t>(tasks.threads());
     ends_.resize(proxies);
     ranges_.resize(ranges);
-    for (std::size_t r = 0; r < ranges; ++r)
-        ranges_[r].begin = static_cast<std::uint32_t>(proxies * r / ranges),
+    for (std::size_t r = 0; r < ranges; ++r) {
+        ranges_[r].begin = static_cast<std::uint32_t>(proxies * r / ranges);
         ranges_[r].end = static_cast<std::uint32_t>(proxies * (r + 1) / ranges);
+    }
     tasks.forEach(ranges, 1, [&](std::size_t r) { count(parts, ranges_[r]); });
     std::uint32_t first = 0;
-    for (Range& range : ranges_) range.first = first, first += range.count;
+    for (Range& range : ranges_) {
+        range.first = first;
+        first += range.count;
+    }
     tasks.forEach(ranges, 1, [&](std::size_t r) { place(parts, ranges_[r], sorted); });
 }
 

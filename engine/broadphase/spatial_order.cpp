@@ -111,8 +111,10 @@ void SpatialOrder<S>::halve(Center* begin, Center* end) const {
     std::array<float, S::dim> lo, hi;
     for (std::size_t k = 0; k < S::dim; ++k) {
         lo[k] = hi[k] = begin->at[k];
-        for (const Center* c = begin; c < end; ++c)
-            lo[k] = std::min(lo[k], c->at[k]), hi[k] = std::max(hi[k], c->at[k]);
+        for (const Center* c = begin; c < end; ++c) {
+            lo[k] = std::min(lo[k], c->at[k]);
+            hi[k] = std::max(hi[k], c->at[k]);
+        }
     }
     std::size_t axis = 0;
     for (std::size_t k = 1; k < S::dim; ++k)

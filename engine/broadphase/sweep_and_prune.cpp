@@ -59,8 +59,10 @@ class SweepAndPrune final : public BroadPhase<S> {
         interval.lo = box.min[axis_];
         interval.hi = box.max[axis_];
         // A box that is not a number overlaps nothing; it waits at the end, where it cannot spoil the order.
-        if (!(interval.lo <= interval.hi))
-            interval.lo = std::numeric_limits<Real>::infinity(), interval.hi = -interval.lo;
+        if (!(interval.lo <= interval.hi)) {
+            interval.lo = std::numeric_limits<Real>::infinity();
+            interval.hi = -interval.lo;
+        }
     }
 
     /// False: too far from sorted; some order is left.

@@ -73,7 +73,8 @@ class SweepAndPruneAllAxes final : public BroadPhase<S> {
 
     /// From the lists and pairs of the last update to those of this one. False: gave up half way.
     bool updateLists(std::span<const Box> boxes, std::span<const std::uint8_t> movable) {
-        begun_.clear(), ended_.clear();
+        begun_.clear();
+        ended_.clear();
         for (int axis = 0; axis < S::dim; ++axis) {
             List& list = lists_[axis];
             for (EndPoint& point : list) {
@@ -156,7 +157,8 @@ class SweepAndPruneAllAxes final : public BroadPhase<S> {
 
     /// All pairs from one list: open boxes are the ones whose minimum has been passed, not yet their maximum.
     void sweep(const List& list, std::span<const Box> boxes, std::span<const std::uint8_t> movable) {
-        overlapping_.clear(), open_.clear();
+        overlapping_.clear();
+        open_.clear();
         placeInOpen_.resize(boxes.size());
         for (const EndPoint& point : list) {
             const std::uint32_t i = point.proxy();

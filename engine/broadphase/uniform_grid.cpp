@@ -82,8 +82,10 @@ class UniformGrid final : public BroadPhase<S> {
     std::size_t bucketOf(const Cell& cell) const {
         // Large odd factors per axis, then the high bits folded down (the finalizer of a 64-bit mix).
         std::uint64_t h = 0;
-        for (const std::int32_t c : cell)
-            h = (h ^ static_cast<std::uint32_t>(c)) * 0x9e3779b97f4a7c15ull, h ^= h >> 29;
+        for (const std::int32_t c : cell) {
+            h = (h ^ static_cast<std::uint32_t>(c)) * 0x9e3779b97f4a7c15ull;
+            h ^= h >> 29;
+        }
         return static_cast<std::size_t>(h) & mask_;
     }
 
@@ -109,13 +111,15 @@ class UniformGrid final : public BroadPhase<S> {
     }
 
     void fillTable(std::span<const Box> boxes) {
-        large_.clear(), unsorted_.clear();
+        large_.clear();
+        unsorted_.clear();
         large_.reserve(boxes.size());
         isLarge_.assign(boxes.size(), 0);
         for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-            if (BroadPhase<S>::unbounded(boxes[i]) || longestEdge<S>(boxes[i]) > 2 * edge_)
-                large_.push_back(i), isLarge_[i] = 1;
-            else
+            if (BroadPhase<S>::unbounded(boxes[i]) || longestEdge<S>(boxes[i]) > 2 * edge_) {
+                large_.push_back(i);
+                isLarge_[i] = 1;
+            } else
                 forCells(boxes[i], [&](const Cell& cell) { unsorted_.push_back({cell, i}); });
         }
         // Twice as many buckets as boxes; the size never shrinks, so that it settles.

@@ -113,7 +113,8 @@ class WideTree final : public BroadPhase<S> {
         size_.assign(levels_[0].nodes.size(), 0.0f);
         growth_.assign(levels_[0].nodes.size(), 0);
         isChanged_.resize(boxes.size());
-        isNew_ = true, isWorn_ = false;
+        isNew_ = true;
+        isWorn_ = false;
         firstVisits_ = 0;
     }
 
@@ -141,12 +142,16 @@ class WideTree final : public BroadPhase<S> {
             Box& kept = kept_[first + j];
             if (!isNew_ && box.min == kept.min && box.max == kept.max && movable[i] == keptMovable_[i])
                 continue;
-            kept = box, keptMovable_[i] = movable[i];
+            kept = box;
+            keptMovable_[i] = movable[i];
             const auto bit = static_cast<std::uint8_t>(1u << j);
             marks.changed |= bit;
             marks.movable =
                 static_cast<std::uint8_t>(movable[i] ? marks.movable | bit : marks.movable & ~bit);
-            for (int k = 0; k < kDim; ++k) node.lo[k][j] = near(box.min, k), node.hi[k][j] = near(box.max, k);
+            for (int k = 0; k < kDim; ++k) {
+                node.lo[k][j] = near(box.min, k);
+                node.hi[k][j] = near(box.max, k);
+            }
         }
         if (!marks.changed) return;
         const float size = top_ > 0 ? bound(node, levels_[1].nodes[g / kChildren], g % kChildren) : 1.0f;
@@ -185,7 +190,8 @@ class WideTree final : public BroadPhase<S> {
                 lo = node.lo[k][i] < lo ? node.lo[k][i] : lo;
                 hi = node.hi[k][i] > hi ? node.hi[k][i] : hi;
             }
-            above.lo[k][j] = lo, above.hi[k][j] = hi;
+            above.lo[k][j] = lo;
+            above.hi[k][j] = hi;
             sum += hi - lo;
         }
         return sum;
@@ -219,7 +225,10 @@ class WideTree final : public BroadPhase<S> {
         const bool shared = tasks.threads() > 1 && units >= kUnitsWorthSharing;
         const std::size_t parts = shared ? std::min(units, 8 * static_cast<std::size_t>(tasks.threads())) : 1;
         parts_.resize(std::max(parts_.size(), parts));
-        for (Part& part : parts_) part.leaves.clear(), part.cost = {};
+        for (Part& part : parts_) {
+            part.leaves.clear();
+            part.cost = {};
+        }
         pairParts_.resize(parts_.size());
         tasks.forEach(parts_.size(), 1, [&](std::size_t p) {
             if (p < parts)
@@ -228,7 +237,10 @@ class WideTree final : public BroadPhase<S> {
             nameProxies(parts_[p].leaves, pairParts_[p]);
         });
         WideSearchCost all;
-        for (const Part& part : parts_) all.tests += part.cost.tests, all.visits += part.cost.visits;
+        for (const Part& part : parts_) {
+            all.tests += part.cost.tests;
+            all.visits += part.cost.visits;
+        }
         this->tests_ += all.tests;
         return all;
     }
@@ -240,7 +252,9 @@ class WideTree final : public BroadPhase<S> {
         pairSort_.sort(pairParts_, proxies_.size(), pairs_, tasks);
         // For findChanged(), which may be called for the first time long after this.
         const std::size_t count = pairs_.size();
-        hold(found_, count), hold(pairs_, 2 * count), hold(merged_, 2 * count);
+        hold(found_, count);
+        hold(pairs_, 2 * count);
+        hold(merged_, 2 * count);
     }
 
     void findChanged(const Tasks& tasks) {

@@ -186,7 +186,8 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         if (!mayPassUnseen<S>(a, b, rest)) return;
         c.impact = timeOfImpact<S>(a, b, rest, world.contacts.hasRows(c.a, c.b));
         if (!c.impact.hit) return;
-        c.impact.time += time, c.impact.exact += time;
+        c.impact.time += time;
+        c.impact.exact += time;
         candidates_.push_back(c);
     }
 

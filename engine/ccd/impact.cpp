@@ -50,9 +50,11 @@ void ImpactSolver<S>::begin(const BodyArrays<S>& bodies, std::uint32_t a, std::u
         Block<S> block;
         block.kind = BlockKind::Contact;
         block.first = static_cast<std::uint32_t>(rows_.rows.size());
-        block.a = a, block.b = b;
+        block.a = a;
+        block.b = b;
         block.friction = coefficients.friction;
-        block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
+        block.invMassA = bodies.invMass[a];
+        block.invMassB = bodies.invMass[b];
         const auto addRow = [&](const Vec& direction) {
             Row<S> row;
             row.lin = direction;
@@ -65,7 +67,10 @@ void ImpactSolver<S>::begin(const BodyArrays<S>& bodies, std::uint32_t a, std::u
         addRow(manifold.normal);
         block.rows = 1;
         if (block.friction > 0) {
-            for (const Vec& t : tangentsOf(manifold.normal)) addRow(t), ++block.rows;
+            for (const Vec& t : tangentsOf(manifold.normal)) {
+                addRow(t);
+                ++block.rows;
+            }
             const Row<S>* t = rows_.rows.data() + block.first + 1;
             block.k11 = rowCoupling<S>(t[0], t[0], block);
             block.k12 = S::tangents > 1 ? rowCoupling<S>(t[0], t[S::tangents - 1], block) : Real(0);

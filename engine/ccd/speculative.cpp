@@ -60,7 +60,8 @@ class Speculative final : public ContinuousCollision<S> {
             if (bodies.invMass[body] > 0)
                 m.velocity.v += h * (bodies.constants[body].gravityScale * gravity +
                                      bodies.invMass[body] * bodies.wrench[body].force);
-            m.reach = shapes[i].reach, m.inner = shapes[i].inner;
+            m.reach = shapes[i].reach;
+            m.inner = shapes[i].inner;
         }
     }
 
@@ -74,7 +75,7 @@ class Speculative final : public ContinuousCollision<S> {
         (void)bodies;
         MovingShape<S> a = moving_[contact.shapeA], b = moving_[contact.shapeB];
         // The world may have been copied since predict().
-        a.shape = &contacts.shapes()[contact.shapeA].shape,
+        a.shape = &contacts.shapes()[contact.shapeA].shape;
         b.shape = &contacts.shapes()[contact.shapeB].shape;
         contact.ahead = mayPassUnseen<S>(a, b, h_);
         if (!contact.ahead || contact.manifold.count > 0) return;
@@ -87,7 +88,8 @@ class Speculative final : public ContinuousCollision<S> {
             ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
             auto& point = contact.points[static_cast<std::size_t>(i)];
             const Vec at = Real(0.5) * (where.pointA + where.pointB);
-            point.rA = at - pA, point.rB = at - pB;
+            point.rA = at - pA;
+            point.rB = at - pB;
             const Vec u =
                 b.velocity.v + cross(b.velocity.w, point.rB) - a.velocity.v - cross(a.velocity.w, point.rA);
             point.separation = std::max(Real(0), where.separation - impact.time * n.dot(u));

@@ -41,12 +41,17 @@ void addAnchorRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, Jo
     for (int i = 0; i < S::dim; ++i) out.add(C[i]).lin[i] = typename S::Real(1);
     Row<S>* const row = &out.row[static_cast<std::size_t>(out.count - S::dim)];
     if constexpr (S::dim == 2) {
-        row[0].angA = rA.y(), row[1].angA = -rA.x();
-        row[0].angB = -rB.y(), row[1].angB = rB.x();
+        row[0].angA = rA.y();
+        row[1].angA = -rA.x();
+        row[0].angB = -rB.y();
+        row[1].angB = rB.x();
     } else {
-        row[0].angA = {0, -rA.z(), rA.y()}, row[0].angB = {0, rB.z(), -rB.y()};
-        row[1].angA = {rA.z(), 0, -rA.x()}, row[1].angB = {-rB.z(), 0, rB.x()};
-        row[2].angA = {-rA.y(), rA.x(), 0}, row[2].angB = {rB.y(), -rB.x(), 0};
+        row[0].angA = {0, -rA.z(), rA.y()};
+        row[0].angB = {0, rB.z(), -rB.y()};
+        row[1].angA = {rA.z(), 0, -rA.x()};
+        row[1].angB = {-rB.z(), 0, rB.x()};
+        row[2].angA = {-rA.y(), rA.x(), 0};
+        row[2].angB = {rB.y(), -rB.x(), 0};
     }
 }
 
@@ -161,12 +166,14 @@ void addAxisRows(const Joint<S>& joint, JointRows<S>& out) {
         }
         if (axis.hasMotor()) {
             law.role = RowRole::Motor;
-            law.speed = axis.motorSpeed, law.maxForce = axis.motorMaxForce;
+            law.speed = axis.motorSpeed;
+            law.maxForce = axis.motorMaxForce;
             append(Real(0), along, Real(1), law);
         }
         if (axis.hasSpring()) {
             law.role = RowRole::Spring;
-            law.stiffness = axis.stiffness, law.damping = axis.damping;
+            law.stiffness = axis.stiffness;
+            law.damping = axis.damping;
             law.softness = {axis.frequency, axis.dampingRatio};
             append(x - axis.target, along, Real(1), law);
         }

@@ -89,7 +89,8 @@ struct JointRows {
     Row<S>& add(Real C, const RowLaw<S>& rowLaw = {}) {
         const auto i = static_cast<std::size_t>(count++);
         if (rowLaw.role == RowRole::Hold) held = count;
-        error[i] = C, law[i] = rowLaw;
+        error[i] = C;
+        law[i] = rowLaw;
         row[i].lin.setZero();
         row[i].angA = row[i].angB = zeroAng<S>();
         return row[i];

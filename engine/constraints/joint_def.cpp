@@ -60,8 +60,10 @@ void makeFrames(const JointDef<S>& def, bool ownAxis, Joint<S>& joint) {
         const Vec normal = def.normalA - def.normalA.dot(joint.axisA) * joint.axisA;
         if (def.type == JointType::SixDof && normal.norm() > 0) joint.perpA1 = normal.normalized();
         joint.perpA2 = joint.axisA.cross(joint.perpA1);
-        joint.turnA = joint.axisA, joint.turnB = joint.axisB;
-        joint.turnPerpA1 = joint.perpA1, joint.turnPerpA2 = joint.perpA2;
+        joint.turnA = joint.axisA;
+        joint.turnB = joint.axisB;
+        joint.turnPerpA1 = joint.perpA1;
+        joint.turnPerpA2 = joint.perpA2;
         if (def.type == JointType::Wheel) {
             joint.turnB = def.spinAxisB.normalized();
             joint.turnA = rotate(joint.relative, joint.turnB);
@@ -157,7 +159,8 @@ Joint<S> makeJoint(const JointDef<S>& def, const Pose<S>& A, const typename S::V
     joint.length = def.length;
     joint.axisCount = entry.axes;
     joint.axes = def.axes;
-    joint.breakForce = def.breakForce, joint.breakTorque = def.breakTorque;
+    joint.breakForce = def.breakForce;
+    joint.breakTorque = def.breakTorque;
     makeFrames<S>(def, ownAxis, joint);
     resolveJointAxes<S>(joint);
     return joint;

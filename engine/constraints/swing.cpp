@@ -37,7 +37,8 @@ struct Swing {
           b(rotate(B.q, joint.turnB)),
           by(rotate(B.q, joint.turnPerpB1)) {
         normal = cross(x, b);
-        cosine = x.dot(b), sine = normal.norm();
+        cosine = x.dot(b);
+        sine = normal.norm();
         phi = std::atan2(sine, cosine);
         // Of nearly parallel vectors the product is rounding, in any direction: made normal to x again.
         const Vec u = normal - x.dot(normal) * x;

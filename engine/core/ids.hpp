@@ -74,8 +74,11 @@ class IdTable {
         table.visitSlots([&](auto& slots, auto& freeHead) {
             const std::size_t count = archive.size(slots.size());
             if constexpr (!std::is_const_v<Table>) slots.resize(count);
-            for (auto& slot : slots)
-                archive.scalar(slot.dense), archive.scalar(slot.generation), archive.scalar(slot.alive);
+            for (auto& slot : slots) {
+                archive.scalar(slot.dense);
+                archive.scalar(slot.generation);
+                archive.scalar(slot.alive);
+            }
             archive.scalar(freeHead);
         });
     }

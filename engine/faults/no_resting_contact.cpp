@@ -16,7 +16,11 @@ class NoRestingContact final : public Fault<S> {
   public:
     void contact(ContactRows<S>& contact) const override {
         if (contact.approach < typename S::Real(-0.5)) return;
-        for (Row<S>& row : contact.rows) row.invK = 0, row.impulse = 0, row.bias = row.relaxedBias = 0;
+        for (Row<S>& row : contact.rows) {
+            row.invK = 0;
+            row.impulse = 0;
+            row.bias = row.relaxedBias = 0;
+        }
         contact.block.friction = 0;
     }
 };

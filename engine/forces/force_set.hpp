@@ -34,8 +34,10 @@ class ForceSet {
     template <class Archive, class Set>
     static void visitIds(Archive& archive, Set& set) {
         IdTable<ForceTag>::visit(archive, set.ids_);
-        for (auto& record : set.records_)
-            archive.scalar(record.id.index), archive.scalar(record.id.generation);
+        for (auto& record : set.records_) {
+            archive.scalar(record.id.index);
+            archive.scalar(record.id.generation);
+        }
     }
 
     /// Adds what acts during the moment to its wrenches, in the order in which forces were added.

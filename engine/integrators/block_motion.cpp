@@ -42,7 +42,8 @@ template <class S>
 void BlockMotion<S>::begin(const BodyArrays<S>& bodies, const typename S::Vec& gravity, Real h,
                            const Tasks& tasks) {
     const std::size_t n = bodies.size(), blocks = (n + kLanes - 1) / kLanes;
-    kept_.resize(n), add_.resize(n);
+    kept_.resize(n);
+    add_.resize(n);
     moving_.resize(blocks);
     tumbling_.resize(S::dim == 3 && gyroscopic_ ? blocks : 0);
     twisted_.clear();

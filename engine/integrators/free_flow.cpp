@@ -9,7 +9,10 @@ namespace rigor::engine {
 template <class S>
 void FreeFlow<S>::begin(const BodyArrays<S>& bodies, const Load<S>& load, const RotationScheme<S>& rotation,
                         TurnRotation<S> turnRotation) {
-    bodies_ = &bodies, rotation_ = &rotation, turn_ = turnRotation, load_ = load;
+    bodies_ = &bodies;
+    rotation_ = &rotation;
+    turn_ = turnRotation;
+    load_ = load;
     pose.assign(bodies.pose.begin(), bodies.pose.end());
     velocity.assign(bodies.velocity.begin(), bodies.velocity.end());
     wrench.resize(bodies.size());
@@ -35,7 +38,8 @@ void FreeFlow<S>::advance(AdvanceFlow<S> advancePiece, Real h) {
             from = to;
         }
     }
-    bodies_ = nullptr, rotation_ = nullptr;
+    bodies_ = nullptr;
+    rotation_ = nullptr;
     load_.forces = nullptr;
 }
 

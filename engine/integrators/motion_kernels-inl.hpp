@@ -198,7 +198,8 @@ void predictAll(TumblingBlock<S>* blocks, std::size_t count, const Pose<S>* pose
             const auto q = side.load(poses).q;
             const AngVec<S> pushed = rotate(q, times(at(block.invInertia), rotate(q, at(block.kick), -1)));
             add(u.w, number<S>(1), pushed);
-            at.set(block.kicked, u.w), at.set(block.start, q);
+            at.set(block.kicked, u.w);
+            at.set(block.start, q);
             u.w = rotate(q, freeTurn(at(block.inertia), rotate(q, u.w, -1), number<S>(h)));
             at.set(block.predicted, u.w);
             side.store(u, velocities);

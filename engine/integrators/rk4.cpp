@@ -77,7 +77,8 @@ typename FreeFlow<S>::Rate slopeAt(const FreeFlow<S>& flow, std::size_t i, const
     k.p = velocity.v;
     k.turn = inverseDexp<S>(theta, velocity.w);
     if (!flow.isDynamic(i)) {
-        k.v = S::Vec::Zero(), k.spin = zeroAng<S>();
+        k.v = S::Vec::Zero();
+        k.spin = zeroAng<S>();
         return k;
     }
     const BodyConstants<S>& body = flow.constants(i);
@@ -113,8 +114,10 @@ void advance(FreeFlow<S>& flow, double begin, typename S::Real h) {
             if (stage > 0) theta = reach[stage] * flow.rate[i].turn;
             const typename FreeFlow<S>::Rate k = slopeAt(flow, i, theta);
             if (stage == 0) sum = {S::Vec::Zero(), S::Vec::Zero(), zeroAng<S>(), zeroAng<S>()};
-            sum.p += weight[stage] * k.p, sum.v += weight[stage] * k.v;
-            sum.turn += weight[stage] * k.turn, sum.spin += weight[stage] * k.spin;
+            sum.p += weight[stage] * k.p;
+            sum.v += weight[stage] * k.v;
+            sum.turn += weight[stage] * k.turn;
+            sum.spin += weight[stage] * k.spin;
             flow.rate[i] = k;
         }
     }

@@ -35,8 +35,12 @@ HWY_INLINE Quad<D> gatherQuads(D d, const At& at) {
 }
 template <class D, class At>
 HWY_INLINE void scatterQuads(D, const Quad<D>& q, const At& at) {
-    if (auto* p = at(0))
-        p[0] = hn::GetLane(q.x), p[1] = hn::GetLane(q.y), p[2] = hn::GetLane(q.z), p[3] = hn::GetLane(q.w);
+    if (auto* p = at(0)) {
+        p[0] = hn::GetLane(q.x);
+        p[1] = hn::GetLane(q.y);
+        p[2] = hn::GetLane(q.z);
+        p[3] = hn::GetLane(q.w);
+    }
 }
 
 #else

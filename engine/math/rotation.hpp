@@ -30,7 +30,10 @@ template <class R>
 Rot2<R> expMap(R v) {
     R x = v;
     int halvings = 0;
-    while (x * x > R(1.0 / 16) && halvings < 64) x *= R(0.5), ++halvings;
+    while (x * x > R(1.0 / 16) && halvings < 64) {
+        x *= R(0.5);
+        ++halvings;
+    }
     if (x * x > R(1.0 / 16)) return {};  // beyond what can be counted
     R c, s;
     cosSinc(x * x, c, s);
@@ -47,7 +50,10 @@ template <class R>
 Eigen::Quaternion<R> expMap(const Eigen::Matrix<R, 3, 1>& v) {
     Eigen::Matrix<R, 3, 1> u = R(0.5) * v;
     int halvings = 0;
-    while (u.squaredNorm() > R(1.0 / 16) && halvings < 64) u *= R(0.5), ++halvings;
+    while (u.squaredNorm() > R(1.0 / 16) && halvings < 64) {
+        u *= R(0.5);
+        ++halvings;
+    }
     if (u.squaredNorm() > R(1.0 / 16)) return Eigen::Quaternion<R>::Identity();  // beyond what can be counted
     R c, s;
     cosSinc(u.squaredNorm(), c, s);

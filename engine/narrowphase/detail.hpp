@@ -168,7 +168,10 @@ void reducePoints(int count, const typename S::Vec& normal, typename S::Real siz
         int index = 0;
         R top = score(0);
         for (int i = 1; i < count; ++i)
-            if (const R s = score(i); s > top) top = s, index = i;
+            if (const R s = score(i); s > top) {
+                top = s;
+                index = i;
+            }
         const R enough = (R(1) - share) * top - tolerance;
         for (std::uint32_t k = 0; k < memory.count; ++k)
             for (int i = 0; i < count; ++i)

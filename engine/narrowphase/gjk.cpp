@@ -53,7 +53,11 @@ GjkResult<S> gjk(const Minkowski<S>& D, const typename S::Vec& start) {
         size = std::max({size, p.a.norm(), p.b.norm()});
         const R gap = length - r.v.dot(p.w) / length;
         const bool known = holds(r.simplex, p.w);
-        if (gap < least || known) best.simplex = r.simplex, best.v = r.v, least = known ? R(0) : gap;
+        if (gap < least || known) {
+            best.simplex = r.simplex;
+            best.v = r.v;
+            least = known ? R(0) : gap;
+        }
         if (known || gap <= R(4) * std::numeric_limits<R>::epsilon() * length) break;
         r.simplex.points[static_cast<std::size_t>(r.simplex.count++)] = p;
         const V v = reduceSimplex<S>(r.simplex, V::Zero());
@@ -62,7 +66,10 @@ GjkResult<S> gjk(const Minkowski<S>& D, const typename S::Vec& start) {
         idle = v.squaredNorm() < r.v.squaredNorm() ? 0 : idle + 1;
         r.v = v;
     }
-    if (best.overlap) best.simplex = r.simplex, best.v.setZero();
+    if (best.overlap) {
+        best.simplex = r.simplex;
+        best.v.setZero();
+    }
     best.converged = best.overlap || least <= R(8) * kRounding<R> * size;
     return best;
 }

@@ -30,7 +30,10 @@ void verticesAgainstPlane(int count, Vertex vertex, typename S::Real radius, con
     for (int i = 0; i < count; ++i) {
         const R s = separation(i);
         size = std::max(size, vertex(i).cwiseAbs().maxCoeff());
-        if (s < lowest) lowest = s, deepest = i;
+        if (s < lowest) {
+            lowest = s;
+            deepest = i;
+        }
         if (s <= speculative && found < kMost) near[static_cast<std::size_t>(found++)] = i;
     }
     if (found == 0) return;

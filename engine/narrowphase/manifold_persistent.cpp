@@ -32,7 +32,10 @@ template <class S>
 std::uint32_t freeName(const Candidates<S>& points, int count) {
     std::uint32_t name = 0;
     for (int i = 0; i < count; ++i)
-        if (points[static_cast<std::size_t>(i)].feature == name) ++name, i = -1;
+        if (points[static_cast<std::size_t>(i)].feature == name) {
+            ++name;
+            i = -1;
+        }
     return name;
 }
 
@@ -63,7 +66,10 @@ void manifoldPersistent(const ManifoldPair<S>& pair, ManifoldCache<S>& cache, Ma
         if (separation > pair.speculativeDistance) continue;
         if ((gap - separation * n).squaredNorm() > drift * drift) continue;
         const R squared = (pB - fresh.pointB).squaredNorm();
-        if (squared < least) least = squared, nearest = count;
+        if (squared < least) {
+            least = squared;
+            nearest = count;
+        }
         points[static_cast<std::size_t>(count++)] = {pA, pB, separation, kept.name};
     }
     fresh.feature =

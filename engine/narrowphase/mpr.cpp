@@ -63,7 +63,10 @@ template <class S, class Visit>
 void eachSide(const Shape<S>& shape, Visit visit) {
     using V = typename S::Vec;
     if (std::holds_alternative<Box<S>>(shape)) {
-        for (int i = 0; i < S::dim; ++i) visit(V(V::Unit(i))), visit(V(-V::Unit(i)));
+        for (int i = 0; i < S::dim; ++i) {
+            visit(V(V::Unit(i)));
+            visit(V(-V::Unit(i)));
+        }
     } else if (const auto* hull = std::get_if<Hull<S>>(&shape)) {
         if constexpr (S::dim == 3)
             for (const auto& face : hull->data->faces) visit(face.normal);

@@ -23,7 +23,10 @@ class PortalQuery {
         DifferencePoint<S> p = D_.point(n);
         ++asked_;
         const R support = n.dot(p.w);
-        if (support < least_) least_ = support, normal_ = n;
+        if (support < least_) {
+            least_ = support;
+            normal_ = n;
+        }
         size_ = std::max({size_, p.a.norm(), p.b.norm(), margin_});
         p.w += margin_ * n;
         return p;

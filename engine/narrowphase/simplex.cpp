@@ -70,7 +70,10 @@ Nearest<S> onInside(const typename S::Vec& v, const std::array<int, n>& index,
     r.v = v;
     typename S::Real sum = part[0];
     for (std::size_t m = 1; m < n; ++m) sum += part[m];
-    for (std::size_t m = 0; m < n; ++m) r.weights[m] = part[m] / sum, r.index[m] = index[m];
+    for (std::size_t m = 0; m < n; ++m) {
+        r.weights[m] = part[m] / sum;
+        r.index[m] = index[m];
+    }
     r.count = static_cast<int>(n);
     return r;
 }
@@ -117,7 +120,10 @@ Nearest<Space<R, 3>> onTriangle(const Points<Space<R, 3>>& s, int i, int j, int 
     std::size_t apex = 0;
     R longest = -1;
     for (std::size_t m = 0; m < 3; ++m)
-        if (const R l = (at(m + 2) - at(m + 1)).squaredNorm(); l > longest) longest = l, apex = m;
+        if (const R l = (at(m + 2) - at(m + 1)).squaredNorm(); l > longest) {
+            longest = l;
+            apex = m;
+        }
     const Vec3<R> e1 = at(apex + 1) - at(apex), e2 = at(apex + 2) - at(apex);
     const Vec3<R> n = e1.cross(e2);
     const R nn = n.squaredNorm();

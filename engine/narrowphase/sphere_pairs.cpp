@@ -47,8 +47,11 @@ void collidePair(const Sphere<S>& a, const Pose<S>& Xa, const Box<S>& b, const P
         if (out.memory.axis == ManifoldMemory<S>::kFaceB && last < 2 * S::dim) {
             const R lastSign = last % 2 == 0 ? R(-1) : R(1);
             const R depth = b.halfExtents[last / 2] - lastSign * c[last / 2];
-            if (depth <= inside + kKeep<R> * std::min(a.radius, b.halfExtents.minCoeff()))
-                axis = last / 2, sign = lastSign, inside = depth;
+            if (depth <= inside + kKeep<R> * std::min(a.radius, b.halfExtents.minCoeff())) {
+                axis = last / 2;
+                sign = lastSign;
+                inside = depth;
+            }
         }
         out.memory.axis = ManifoldMemory<S>::kFaceB;
         out.memory.featureB = static_cast<std::uint32_t>(2 * axis + (sign < 0 ? 0 : 1));

@@ -102,7 +102,10 @@ bool faceIsShortest(const Piece& piece, const typename S::Vec& n, typename S::Re
     const R bound = s + R(0.1) * std::abs(s) + kRounding<R> * size;
     for (int i = 0; i < out.count; ++i) {
         const ManifoldPoint<S>& p = out.points[static_cast<std::size_t>(i)];
-        if (p.separation <= bound) foot += p.pointA, used += 1;
+        if (p.separation <= bound) {
+            foot += p.pointA;
+            used += 1;
+        }
     }
     return used > 0 && insideBy<R>(piece, n, foot / used) >= std::abs(s);
 }
@@ -129,7 +132,10 @@ bool isSurfaceNormal(const Data& data, std::uint32_t piece, const typename S::Ve
     };
     int touching = 0, other = top;
     for (int i = 0; i < kCorners; ++i)
-        if (i == top || level(at(i))) touching += 1, other = i == top ? other : i;
+        if (i == top || level(at(i))) {
+            touching += 1;
+            other = i == top ? other : i;
+        }
     if (touching == kCorners) return true;
     if (touching == 2) {
         const int side = (top + 1) % 3 == other ? top : other;  // from corner `side` to the next
@@ -216,7 +222,8 @@ bool facesDiffer(const Shape<S>& surface, std::span<const std::uint32_t> pieces,
         if (data.kSolidBelow) return;
         for (const std::uint32_t piece : pieces) {
             const R height = pieceNormal<R>(data.piece(piece)).dot(x - data.point(data.corners(piece)[0]));
-            front += height > 0, back += height < 0;
+            front += height > 0;
+            back += height < 0;
         }
     });
     return front > 0 && back > 0;

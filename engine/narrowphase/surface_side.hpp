@@ -65,7 +65,10 @@ Vec3<R> nearestOn(const Triangle<Space<R, 3>>& s, const Vec3<R>& x) {
         if (n.cross(e).dot(foot - a) >= 0) continue;
         over = false;
         const Vec3<R> on = a + std::clamp(e.dot(x - a) / e.squaredNorm(), R(0), R(1)) * e;
-        if (const R far = (x - on).squaredNorm(); far < least) best = on, least = far;
+        if (const R far = (x - on).squaredNorm(); far < least) {
+            best = on;
+            least = far;
+        }
     }
     return over ? foot : best;
 }

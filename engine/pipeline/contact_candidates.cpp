@@ -15,9 +15,11 @@ namespace rigor::engine {
 template <class S>
 void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tasks) {
     std::vector<std::uint32_t>& order = candidates_.order();
-    std::swap(order, oldOrder_), std::swap(keys_, oldKeys_);
+    std::swap(order, oldOrder_);
+    std::swap(keys_, oldKeys_);
     const std::vector<ProxyPair>& pairs = pairsNear();
-    order.clear(), keys_.clear();
+    order.clear();
+    keys_.clear();
     const bool hadPieces = std::exchange(candidatesHavePieces_, false);
     std::size_t old = 0;
     const auto oldPiece = [&] { return hadPieces ? candidates_.at(oldOrder_[old]).piece : kNullIndex; };
@@ -28,7 +30,8 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
         candidates_.remove(slot);
     };
     const auto put = [&](std::uint64_t key, std::uint32_t slot) {
-        keys_.push_back(key), order.push_back(slot);
+        keys_.push_back(key);
+        order.push_back(slot);
     };
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t piece) {
         const std::uint64_t key = pairKey(a, b);

@@ -21,8 +21,10 @@ void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>
     const auto add = [&](EventKind kind, const auto& c) -> Event<S>& {
         Event<S>& event = events.emplace_back();
         event.kind = kind;
-        event.bodyA = bodies.id[c.bodyA], event.bodyB = bodies.id[c.bodyB];
-        event.shapeA = shapes_[c.shapeA].id, event.shapeB = shapes_[c.shapeB].id;
+        event.bodyA = bodies.id[c.bodyA];
+        event.bodyB = bodies.id[c.bodyB];
+        event.shapeA = shapes_[c.shapeA].id;
+        event.shapeB = shapes_[c.shapeB].id;
         return event;
     };
     const auto begins = [&](const Contact<S>& contact) {

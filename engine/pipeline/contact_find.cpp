@@ -59,8 +59,11 @@ std::optional<Contact<S>> ContactSet<S>::findContact(const Search& search, Candi
     std::optional<Contact<S>> found(std::in_place);
     Contact<S>& contact = *found;
     contact.manifold = manifold;
-    contact.shapeA = candidate.a, contact.shapeB = candidate.b, contact.piece = candidate.piece;
-    contact.bodyA = shapes_[candidate.a].body, contact.bodyB = shapes_[candidate.b].body;
+    contact.shapeA = candidate.a;
+    contact.shapeB = candidate.b;
+    contact.piece = candidate.piece;
+    contact.bodyA = shapes_[candidate.a].body;
+    contact.bodyB = shapes_[candidate.b].body;
     if (manifold.count > 0) makePoints(search, candidate, contact);
     if (!completeContact(search, candidate, contact)) found.reset();
     return found;
@@ -141,7 +144,10 @@ void ContactSet<S>::matchPoints(const BodyArrays<S>& bodies, const OldPoints& ol
         std::size_t best = old.count;
         for (std::size_t j = 0; j < old.count; ++j) {
             const Real distance = (old.pointB[j] - at).squaredNorm();
-            if (!used[j] && distance < nearest) nearest = distance, best = j;
+            if (!used[j] && distance < nearest) {
+                nearest = distance;
+                best = j;
+            }
         }
         if (best < old.count) take(best, i);
     }
@@ -177,7 +183,8 @@ void ContactSet<S>::placePoints(const BodyArrays<S>& bodies, Contact<S>& contact
         const ManifoldPoint<S>& where = contact.manifold.points[static_cast<std::size_t>(i)];
         const Vec at = impulsePoint<S>(where, bodies.invMass[a] > 0, bodies.invMass[b] > 0);
         typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
-        point.rA = at - bodies.pose[a].p, point.rB = at - bodies.pose[b].p;
+        point.rA = at - bodies.pose[a].p;
+        point.rB = at - bodies.pose[b].p;
         point.separation = where.separation;
     }
 }

@@ -69,10 +69,12 @@ void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const Contact
     const std::uint32_t a = contact ? contact->bodyA : other, b = contact ? contact->bodyB : other;
     const PairCoefficients<S> pair = contact ? contact->coefficients : PairCoefficients<S>{};
     const auto count = static_cast<std::size_t>(contact ? contact->manifold.count : 0);
-    block.a[lane] = a, block.b[lane] = b;
+    block.a[lane] = a;
+    block.b[lane] = b;
     const auto lanes = [&](bool x) { return static_cast<std::uint32_t>(x && contact) << lane; };
     const bool movesA = bodies.invMass[a] > 0, movesB = bodies.invMass[b] > 0;
-    block.movesA |= lanes(movesA), block.movesB |= lanes(movesB);
+    block.movesA |= lanes(movesA);
+    block.movesB |= lanes(movesB);
     putVector(block.normal, lane, contact ? contact->manifold.normal : Vec(Vec::Zero()));
     putVector(block.offset, lane, Vec(bodies.pose[b].p - bodies.pose[a].p));
     put(block.invMassA, lane, contact ? bodies.invMass[a] : Real(0));
@@ -122,7 +124,8 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
     patches.forBlocks(tasks, [&](std::size_t b) {
         auto& block = patches.block(b);
         PatchRubs<PatchSpace<S>> rubs;
-        block.movesA = block.movesB = block.bounces = 0, block.points = 0;
+        block.movesA = block.movesB = block.bounces = 0;
+        block.points = 0;
         std::array<const Contact<S>*, kLanes> from;
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             if (const Contact<S>* next = contactAt(patches, contacts_, b + 1, lane)) {

@@ -66,7 +66,9 @@ template <class S>
 typename ContactSet<S>::Candidate ContactSet<S>::makeCandidate(std::uint32_t a, std::uint32_t b,
                                                                std::uint32_t piece) const {
     Candidate candidate;
-    candidate.a = a, candidate.b = b, candidate.piece = piece;
+    candidate.a = a;
+    candidate.b = b;
+    candidate.piece = piece;
     candidate.byA = shapes_[a].radius < shapes_[b].radius;
     if (worthKeeping<S>(shapes_[a].shape, shapes_[b].shape))
         candidate.radius = std::min(shapes_[a].radius, shapes_[b].radius);
@@ -128,7 +130,8 @@ void ContactSet<S>::carry(const Candidate& candidate, Contact<S>& contact) const
         ManifoldPoint<S>& point = contact.manifold.points[i];
         // From A's origin: far from the world's, where coordinates are coarse, the separation is not.
         const Vec a = Ra * kept.onA, b = between + Rb * kept.onB;
-        point.pointA = A.p + a, point.pointB = A.p + b;
+        point.pointA = A.p + a;
+        point.pointB = A.p + b;
         point.separation = n.dot(b - a);
     }
 }
@@ -161,7 +164,8 @@ bool ContactSet<S>::completeRestored() {
         keys_.push_back(pairKey(c.a, c.b));
         candidatesHavePieces_ = candidatesHavePieces_ || c.piece != kNullIndex;
         const Candidate made = makeCandidate(c.a, c.b, c.piece);
-        c.byA = made.byA, c.radius = made.radius;
+        c.byA = made.byA;
+        c.radius = made.radius;
         if (c.contact == kNullIndex) continue;
         if (count >= contacts_.size()) return false;
         const Contact<S>& contact = contacts_[count++];

@@ -130,10 +130,12 @@ void ContactSet<S>::makePointRows(const BodyArrays<S>& bodies, const ContactStep
     const Vec& n = contact.manifold.normal;
     const std::uint32_t a = contact.bodyA, b = contact.bodyB;
     block.kind = BlockKind::Contact;
-    block.a = a, block.b = b;
+    block.a = a;
+    block.b = b;
     block.friction = contact.coefficients.friction;
     block.staticFriction = contact.coefficients.staticFriction;
-    block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
+    block.invMassA = bodies.invMass[a];
+    block.invMassB = bodies.invMass[b];
     block.rows = static_cast<std::uint8_t>(rowsPerPoint(contact));
     const auto makeRow = [&](const Vec& direction) {
         Row<S> row = pointRow<S>(point, direction);

@@ -62,7 +62,12 @@ void ContactSet<S>::structureChanged(bool indicesChanged) {
     surfaces_.clear();
     for (std::uint32_t i = 0; i < shapes_.size(); ++i)
         if (isComposite<S>(shapes_[i].shape)) surfaces_.push_back(i);
-    if (indicesChanged) contacts_.clear(), candidates_.clear(), keys_.clear(), dropped_.clear();
+    if (indicesChanged) {
+        contacts_.clear();
+        candidates_.clear();
+        keys_.clear();
+        dropped_.clear();
+    }
 }
 
 template <class S>
@@ -91,7 +96,10 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
         shapePoses_[i] = compose<S>(bodies.pose[record.body], record.local);
         boxes_[i] = boundingBox<S>(record.shape, shapePoses_[i]);
         movable_[i] = bodies.constants[record.body].type == BodyType::Dynamic;
-        if (movable_[i]) boxes_[i].min -= margin, boxes_[i].max += margin;
+        if (movable_[i]) {
+            boxes_[i].min -= margin;
+            boxes_[i].max += margin;
+        }
         if (!isStatic && ccd.looksAhead()) ccd.growBox(static_cast<std::uint32_t>(i), boxes_[i]);
     });
     boxesValid_ = true;
@@ -181,7 +189,10 @@ template <class S>
 void ContactSet<S>::settle(const Search& search, const Tasks& tasks) {
     gone_.clear();
     Tally all;
-    for (Tally& tally : tallies_) tally.first = all.found(), all.add(tally);
+    for (Tally& tally : tallies_) {
+        tally.first = all.found();
+        all.add(tally);
+    }
     asked_ = all.asked;
     if (all.kept == contacts_.size() && all.fresh == 0) return;
 

@@ -63,7 +63,8 @@ class ContactSet {
     using Vec = typename S::Vec;
 
     void setCombineRules(CombineRule<Real> friction, CombineRule<Real> restitution) {
-        combineFriction_ = friction, combineRestitution_ = restitution;
+        combineFriction_ = friction;
+        combineRestitution_ = restitution;
     }
     std::uint32_t addMaterial(const PairCoefficients<S>& own);
     void setPair(std::uint32_t a, std::uint32_t b, const PairCoefficients<S>& coefficients);
@@ -173,10 +174,16 @@ class ContactSet {
         std::uint32_t first = 0;  ///< place of the first contact
         std::uint32_t found() const { return kept + fresh; }
         void add(bool had, bool has, bool was) {
-            kept += had && has, lost += had && !has, fresh += !had && has, asked += was;
+            kept += had && has;
+            lost += had && !has;
+            fresh += !had && has;
+            asked += was;
         }
         void add(const Tally& other) {
-            kept += other.kept, lost += other.lost, fresh += other.fresh, asked += other.asked;
+            kept += other.kept;
+            lost += other.lost;
+            fresh += other.fresh;
+            asked += other.asked;
         }
     };
     static constexpr std::size_t kTally = 32;

@@ -115,8 +115,10 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
         record.armB = rotate(bodies.pose[b].q, record.joint.anchorB);
         rows.rows.resize(record.firstRow + record.rows);
         Block<S> block;
-        block.a = a, block.b = b;
-        block.invMassA = bodies.invMass[a], block.invMassB = bodies.invMass[b];
+        block.a = a;
+        block.b = b;
+        block.invMassA = bodies.invMass[a];
+        block.invMassB = bodies.invMass[b];
         for (std::uint32_t i = 0; i < record.rows; ++i) {
             if (i == 0 || i >= record.held) {
                 block.kind = i < record.held ? BlockKind::Joint : BlockKind::Bounded;
@@ -126,7 +128,8 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
             }
             Row<S>& row = rows.rows[record.firstRow + i];
             row.lin = made_.row[i].lin;
-            row.angA = made_.row[i].angA, row.angB = made_.row[i].angB;
+            row.angA = made_.row[i].angA;
+            row.angB = made_.row[i].angB;
             addRow(bodies, step, made_.law[i], made_.error[i], block, row);
             row.impulse = step.warmStart * record.impulse[i];
             if (i >= record.held) row.impulse = std::clamp(row.impulse, row.lower, row.upper);
@@ -151,7 +154,8 @@ void JointSet<S>::addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, 
     switch (law.role) {
         case RowRole::Motor:
             row.bias = row.relaxedBias = -law.speed;
-            row.lower = -step.h * law.maxForce, row.upper = step.h * law.maxForce;
+            row.lower = -step.h * law.maxForce;
+            row.upper = step.h * law.maxForce;
             break;
         case RowRole::Spring: {
             const SoftTerms<Real> terms = law.softness.frequency > 0
@@ -246,7 +250,8 @@ typename S::Real JointSet<S>::work(const ConstraintRows<S>& rows,
             work += row.impulse * (rowVelocity<S>(row, startVelocities_[block.a], startVelocities_[block.b]) +
                                    rowVelocity<S>(row, velocities[block.a], velocities[block.b]));
         }
-        add(block.a, block.invMassA), add(block.b, block.invMassB);
+        add(block.a, block.invMassA);
+        add(block.b, block.invMassB);
     }
     return energy > 0 ? work / energy : Real(0);
 }

@@ -70,7 +70,8 @@ class SlotList {
         spare_.resize(order_.size());
         tasks.forEach(order_.size(), kGrain, [this](std::size_t k) { spare_[k] = slots_[order_[k]]; });
         std::swap(slots_, spare_);
-        free_.clear(), changes_ = 0;
+        free_.clear();
+        changes_ = 0;
         std::iota(order_.begin(), order_.end(), 0u);
     }
 
@@ -78,7 +79,8 @@ class SlotList {
     /// `count` new ones in the order of their slots.
     void reset(std::size_t count) {
         clear();
-        slots_.resize(count), order_.resize(count);
+        slots_.resize(count);
+        order_.resize(count);
         std::iota(order_.begin(), order_.end(), 0u);
     }
 

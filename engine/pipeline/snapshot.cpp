@@ -30,8 +30,10 @@ struct Header {
 };
 template <class A, class H>
 void visitHeader(A& archive, H& header) {
-    archive.scalar(header.version), archive.scalar(header.byteOrder);
-    archive.scalar(header.dimension), archive.scalar(header.realSize);
+    archive.scalar(header.version);
+    archive.scalar(header.byteOrder);
+    archive.scalar(header.dimension);
+    archive.scalar(header.realSize);
     archive.scalar(header.structure);
     visitValue(archive, header.joints);
 }
@@ -63,7 +65,8 @@ template <class S>
 template <class A, class C>
 void ContactSet<S>::visitAnswers(A& archive, C& set) {
     constexpr bool kReading = !std::is_const_v<C>;
-    visitValue(archive, set.keptFor_.speculativeDistance), visitValue(archive, set.keptFor_.reuseDistance);
+    visitValue(archive, set.keptFor_.speculativeDistance);
+    visitValue(archive, set.keptFor_.reuseDistance);
     const auto belongs = [](const Candidate& c) { return c.kept || c.contact != kNullIndex; };
     std::size_t kept = 0;
     for (const Candidate& candidate : set.candidates_) kept += belongs(candidate);
@@ -114,29 +117,42 @@ std::uint64_t World<S>::structureHash() const {
     HashArchive hash;
     hash.size(bodies_.size());
     for (const BodyConstants<S>& body : bodies_.constants) {
-        hash.scalar(body.type), hash.scalar(body.collides), hash.scalar(body.mass);
-        visitValue(hash, body.inertia), visitValue(hash, body.centerOfMass);
+        hash.scalar(body.type);
+        hash.scalar(body.collides);
+        hash.scalar(body.mass);
+        visitValue(hash, body.inertia);
+        visitValue(hash, body.centerOfMass);
         hash.scalar(body.gravityScale);
-        hash.scalar(body.linearVelocityKept), hash.scalar(body.angularVelocityKept);
+        hash.scalar(body.linearVelocityKept);
+        hash.scalar(body.angularVelocityKept);
     }
     hash.size(contacts_.shapes().size());
     for (const ShapeRecord<S>& shape : contacts_.shapes()) {
-        hash.scalar(shape.body), hash.scalar(shape.material), visitValue(hash, shape.local);
+        hash.scalar(shape.body);
+        hash.scalar(shape.material);
+        visitValue(hash, shape.local);
         hash.size(shape.shape.index());
         const Aabb<S> box = boundingBox<S>(shape.shape, Pose<S>{});
-        visitValue(hash, box.min), visitValue(hash, box.max);
+        visitValue(hash, box.min);
+        visitValue(hash, box.max);
     }
     hash.size(joints_.records().size());
     for (const auto& record : joints_.records()) {
         const Joint<S>& joint = record.joint;
-        hash.scalar(joint.type), hash.scalar(joint.a), hash.scalar(joint.b);
-        visitValue(hash, joint.anchorA), visitValue(hash, joint.anchorB);
+        hash.scalar(joint.type);
+        hash.scalar(joint.a);
+        hash.scalar(joint.b);
+        visitValue(hash, joint.anchorA);
+        visitValue(hash, joint.anchorB);
         hash.scalar(joint.length);
     }
     hash.size(forces_.size());
     for (const auto& record : forces_.records()) {
-        hash.size(record.def.index()), hash.scalar(record.place.a), hash.scalar(record.place.b);
-        visitValue(hash, record.place.armA), visitValue(hash, record.place.armB);
+        hash.size(record.def.index());
+        hash.scalar(record.place.a);
+        hash.scalar(record.place.b);
+        visitValue(hash, record.place.armA);
+        visitValue(hash, record.place.armB);
     }
     return hash.value();
 }
@@ -154,7 +170,9 @@ void World<S>::saveSnapshot(std::vector<unsigned char>& bytes) const {
     bytes.assign(std::begin(kMagic), std::end(kMagic));
     ByteWriter writer(bytes);
     Header header;
-    header.dimension = S::dim, header.realSize = sizeof(Real), header.structure = structureHash();
+    header.dimension = S::dim;
+    header.realSize = sizeof(Real);
+    header.structure = structureHash();
     for (const auto& record : joints_.records()) header.joints.push_back(record.joint.id);
     visitHeader(writer, header);
     visitState(writer, *this);

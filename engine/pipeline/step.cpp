@@ -341,7 +341,8 @@ PatchPass World<S>::patchPass() const {
     pass.biasRate = number(terms.biasRate);
     pass.massScale = number(Real(1) / (Real(1) + terms.gamma));
     pass.impulseScale = number(terms.gamma / (Real(1) + terms.gamma));
-    pass.slop = number(def_.slop), pass.fastestPush = softBiasRule<PatchReal>().fastestPush;
+    pass.slop = number(def_.slop);
+    pass.fastestPush = softBiasRule<PatchReal>().fastestPush;
     pass.threshold = number(def_.restitutionThreshold);
     pass.touching = PatchReal(64) * std::numeric_limits<PatchReal>::epsilon();
     pass.restingGap = std::max(pass.touching, number(Real(2) * h * h * def_.gravity.norm()));

@@ -38,8 +38,10 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
     if (bodies_.invMass[a] == 0 && bodies_.invMass[b] == 0) return;  // asleep
     record.evaluate(record.joint, bodies_.pose[a], bodies_.pose[b], made);
     out.block.kind = BlockKind::Joint;
-    out.block.a = a, out.block.b = b;
-    out.block.invMassA = bodies_.invMass[a], out.block.invMassB = bodies_.invMass[b];
+    out.block.a = a;
+    out.block.b = b;
+    out.block.invMassA = bodies_.invMass[a];
+    out.block.invMassB = bodies_.invMass[b];
     out.block.rows = static_cast<std::uint8_t>(made.held);
     out.count = 0;
     const auto turned = [&](std::uint32_t body, const typename S::Ang& ang) {
@@ -55,7 +57,8 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
         Row<S>& row = out.row[place];
         row = made.row[i];
         row.error = made.error[i];
-        row.invIAngA = turned(a, row.angA), row.invIAngB = turned(b, row.angB);
+        row.invIAngA = turned(a, row.angA);
+        row.invIAngB = turned(b, row.angB);
         row.softness = 0;
         const Real K = rowK<S>(row, out.block);
         row.invK = K > 0 ? Real(1) / K : Real(0);

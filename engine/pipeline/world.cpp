@@ -286,9 +286,16 @@ void World<S>::removeBody(BodyId body) {
         array[gone] = array.back();
         array.pop_back();
     };
-    fill(bodies_.pose), fill(bodies_.velocity), fill(bodies_.wrench), fill(bodies_.constants);
-    fill(bodies_.asleep), fill(bodies_.stillTime);
-    fill(bodies_.invMass), fill(bodies_.invInertiaLocal), fill(bodies_.invInertia), fill(bodies_.id);
+    fill(bodies_.pose);
+    fill(bodies_.velocity);
+    fill(bodies_.wrench);
+    fill(bodies_.constants);
+    fill(bodies_.asleep);
+    fill(bodies_.stillTime);
+    fill(bodies_.invMass);
+    fill(bodies_.invInertiaLocal);
+    fill(bodies_.invInertia);
+    fill(bodies_.id);
     bodyIds_.remove(body);
     if (gone != last) bodyIds_.move(bodies_.id[gone], gone);
 
@@ -341,13 +348,15 @@ void World<S>::applyForce(BodyId body, const Vec& force, const Ang& torque) {
 template <class S>
 ForceId World<S>::addForce(const ForceDef<S>& def) {
     const ForceId id = forces_.add(def, bodies_, bodyIds_);
-    wakeIslandOf(forces_.place(id).a), wakeIslandOf(forces_.place(id).b);
+    wakeIslandOf(forces_.place(id).a);
+    wakeIslandOf(forces_.place(id).b);
     return id;
 }
 
 template <class S>
 void World<S>::removeForce(ForceId force) {
-    wakeIslandOf(forces_.place(force).a), wakeIslandOf(forces_.place(force).b);
+    wakeIslandOf(forces_.place(force).a);
+    wakeIslandOf(forces_.place(force).b);
     forces_.remove(force);
 }
 

@@ -25,12 +25,14 @@ JointId World<S>::addJoint(const JointDef<S>& def) {
     const std::uint32_t a = bodyOrWorld(def.bodyA), b = bodyOrWorld(def.bodyB);
     require(a != b, "joint_bodies", "a joint needs two bodies");
     islands();  // of the last step
-    wakeIslandOf(a), wakeIslandOf(b);
+    wakeIslandOf(a);
+    wakeIslandOf(b);
     require(bodies_.invMass[a] > 0 || bodies_.invMass[b] > 0, "joint_bodies", "a joint needs a dynamic body");
     typename JointSet<S>::Record record;
     record.joint = makeJoint<S>(def, bodies_.pose[a], bodies_.constants[a].centerOfMass, bodies_.pose[b],
                                 bodies_.constants[b].centerOfMass);
-    record.joint.a = a, record.joint.b = b;
+    record.joint.a = a;
+    record.joint.b = b;
     record.evaluate = findJoint<S>(def.type).evaluate;
     record.joint.id = jointIds_.add(static_cast<std::uint32_t>(joints_.records().size()));
     joints_.records().push_back(record);
@@ -44,7 +46,8 @@ void World<S>::removeJoint(JointId joint) {
     islands();  // of the last step
     auto& records = joints_.records();
     const std::uint32_t gone = jointIds_.dense(joint);
-    wakeIslandOf(records[gone].joint.a), wakeIslandOf(records[gone].joint.b);
+    wakeIslandOf(records[gone].joint.a);
+    wakeIslandOf(records[gone].joint.b);
     jointIds_.remove(joint);
     records.erase(records.begin() + gone);
     for (std::uint32_t i = gone; i < records.size(); ++i) jointIds_.move(records[i].joint.id, i);
@@ -121,7 +124,8 @@ void World<S>::setJointAxis(JointId joint, int axis, const JointAxis<Real>& cont
                           static_cast<int>(std::isfinite(a.upper)), static_cast<int>(a.hasMotor()),
                           static_cast<int>(a.hasSpring())};
     };
-    wakeIslandOf(changed.a), wakeIslandOf(changed.b);
+    wakeIslandOf(changed.a);
+    wakeIslandOf(changed.b);
     if (rows(changed) != rows(record.joint)) record.impulse.fill(0);
     record.joint = changed;
 }
@@ -129,7 +133,8 @@ void World<S>::setJointAxis(JointId joint, int axis, const JointAxis<Real>& cont
 template <class S>
 void World<S>::setJointMotor(JointId joint, int axis, Real speed, Real maxForce) {
     JointAxis<Real> control = jointAxis(joint, axis);
-    control.motorSpeed = speed, control.motorMaxForce = maxForce;
+    control.motorSpeed = speed;
+    control.motorMaxForce = maxForce;
     setJointAxis(joint, axis, control);
 }
 

@@ -47,8 +47,10 @@ struct Stretch {
         const R t = -s / v;
         if (v > 0)
             exit = std::min(exit, t);
-        else if (s > 0 && t >= enter)
-            enter = t, normal = n;
+        else if (s > 0 && t >= enter) {
+            enter = t;
+            normal = n;
+        }
         return enter <= exit;
     }
 };
@@ -77,7 +79,10 @@ struct Found {
     bool inside = false;
     std::uint32_t piece = kNullIndex;
     void consider(typename S::Real at, const typename S::Vec& n) {
-        if (at >= 0 && at <= 1 && at < t) t = at, normal = n;
+        if (at >= 0 && at <= 1 && at < t) {
+            t = at;
+            normal = n;
+        }
     }
 };
 
@@ -176,7 +181,10 @@ void meet(const Ray<S>& ray, const Cylinder<S>& s, Found<S>& found) {
     if (a == 0 || !roots<R>(a, o.dot(d), c, t0, t1)) {
         met = met && c <= 0;
     } else {
-        if (c > 0 && t0 >= stretch.enter) stretch.enter = t0, stretch.normal = V((o + t0 * d).normalized());
+        if (c > 0 && t0 >= stretch.enter) {
+            stretch.enter = t0;
+            stretch.normal = V((o + t0 * d).normalized());
+        }
         met = met && stretch.enter <= std::min(stretch.exit, t1) && (c <= 0 || t0 >= 0);
     }
     take(stretch, met, found);
@@ -258,7 +266,9 @@ void meet(const Ray<S>& ray, const Composite& s, Found<S>& found) {
         meet(ray, s.data->piece(piece), own);
         // The lowest number of equals: a side belongs to two.
         if (own.t > found.t || (own.t == found.t && piece > found.piece) || own.t > 1) return;
-        found.t = own.t, found.normal = own.normal, found.piece = piece;
+        found.t = own.t;
+        found.normal = own.normal;
+        found.piece = piece;
         limit = own.t;
     });
 }

@@ -17,7 +17,8 @@ std::uint32_t Islands::rootOf(std::uint32_t i) {
 }
 
 void Islands::join(std::uint32_t a, std::uint32_t b) {
-    a = rootOf(a), b = rootOf(b);
+    a = rootOf(a);
+    b = rootOf(b);
     parent_[std::max(a, b)] = std::min(a, b);
 }
 

@@ -80,7 +80,10 @@ typename S::Real naturalMapResidual(const ConstraintRows<S>& constraints,
             residual = std::abs(row.impulse - next) / row.invK;
         } else {
             Vec3 r = Vec3::Zero(), w = Vec3::Zero();
-            for (int i = 0; i < block.rows; ++i) r[i] = rows[i].impulse, w[i] = rowDefect<S>(rows[i], a, b);
+            for (int i = 0; i < block.rows; ++i) {
+                r[i] = rows[i].impulse;
+                w[i] = rowDefect<S>(rows[i], a, b);
+            }
             residual = block.appliedNormal > 0
                            ? pressedResidual<Real>(r, w, block.friction, block.staticFriction,
                                                    block.appliedNormal, rows[0].invK)

@@ -9,7 +9,8 @@ namespace rigor::engine {
 void SweepOrder::begin(const Tasks& tasks, std::size_t bodies, std::size_t grain) {
     tasks_ = &tasks;
     shared_ = tasks.threads() > 1;
-    units_ = 0, grain_ = grain;
+    units_ = 0;
+    grain_ = grain;
     level_.clear();
     if (shared_) next_.assign(bodies, 0);
 }

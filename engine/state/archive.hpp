@@ -94,14 +94,17 @@ requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void visitValue(A& archiv
 }
 template <class A, class M>
 requires requires(M& m) {
-    m.derived(), m.coeffRef(0), m.size();
+    m.derived();
+    m.coeffRef(0);
+    m.size();
 }
 void visitValue(A& archive, M& m) {
     for (Eigen::Index i = 0; i < m.size(); ++i) archive.scalar(m.coeffRef(i));
 }
 template <class A, class Q>
 requires requires(Q& q) {
-    q.coeffs(), q.vec();
+    q.coeffs();
+    q.vec();
 }
 void visitValue(A& archive, Q& q) {
     visitValue(archive, q.coeffs());
@@ -143,7 +146,8 @@ void visitValue(A& archive, C& cache) {
     ByteReader::require(cache.count >= 0 && cache.count <= static_cast<int>(cache.points.size()),
                         "a manifold of too many points");
     for (std::size_t i = 0; i < static_cast<std::size_t>(cache.count); ++i) {
-        visitValue(archive, cache.points[i].onA), visitValue(archive, cache.points[i].onB);
+        visitValue(archive, cache.points[i].onA);
+        visitValue(archive, cache.points[i].onB);
         archive.scalar(cache.points[i].name);
     }
 }
@@ -152,14 +156,19 @@ requires requires(M& m) {
     m.axis, m.featureA, m.featureB, m.names;
 }
 void visitValue(A& archive, M& memory) {
-    archive.scalar(memory.axis), archive.scalar(memory.featureA), archive.scalar(memory.featureB);
-    visitValue(archive, memory.normal), archive.scalar(memory.count);
+    archive.scalar(memory.axis);
+    archive.scalar(memory.featureA);
+    archive.scalar(memory.featureB);
+    visitValue(archive, memory.normal);
+    archive.scalar(memory.count);
     ByteReader::require(memory.count <= memory.names.size(), "a manifold of too many points");
     for (auto& name : memory.names) archive.scalar(name);
 }
 template <class A, class L>
 requires requires(L& l) {
-    l.begin(), l.data(), l.max_size();
+    l.begin();
+    l.data();
+    l.max_size();
 }
 void visitValue(A& archive, L& list) {
     if constexpr (requires { list.resize(std::size_t(0)); }) {

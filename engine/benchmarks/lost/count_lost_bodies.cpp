@@ -117,7 +117,8 @@ int count(const Arguments& arguments) {
                         std::printf(" %d@%d:%s", loss.body, loss.step, loss.shape.c_str());
                     std::printf("\n");
                     std::fflush(stdout);
-                    lost += outcome.lost.size(), ++cases;
+                    lost += outcome.lost.size();
+                    ++cases;
                 });
             }
     });

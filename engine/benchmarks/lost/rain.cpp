@@ -136,7 +136,9 @@ class Rain {
         const Shape<S> shape = makeShape<S>(index, random_);
         const MassProperties<S> m = massProperties<S>(shape, R(1000));
         BodyDef<S> body;
-        body.mass = m.mass, body.inertia = m.inertia, body.centerOfMass = m.center;
+        body.mass = m.mass;
+        body.inertia = m.inertia;
+        body.centerOfMass = m.center;
         body.pose.p = placeOf(index);
         const auto any = [this](double most) { return static_cast<R>(between(random_, -most, most)); };
         if constexpr (S::dim == 3) {

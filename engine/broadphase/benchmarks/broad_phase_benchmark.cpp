@@ -21,7 +21,10 @@ void update(benchmark::State& state, const AlgorithmEntry<BroadPhaseFactory<S>>&
     MovingBoxes<S> world(scene, count, order);
     std::vector<ProxyPair> pairs;
     const auto once = [&] { broadPhase->update(world.boxes, world.movable, pairs); };
-    for (int warmUp = 0; warmUp < 5; ++warmUp) once(), world.advance();
+    for (int warmUp = 0; warmUp < 5; ++warmUp) {
+        once();
+        world.advance();
+    }
     const std::size_t before = broadPhase->tests();
     double found = 0;
     for (auto _ : state) {

@@ -45,7 +45,8 @@ class MovingBoxes {
                 continue;
             }
             const Vec d = scene_ == "uniform" ? flown(i) : vector(-0.01, 0.01);
-            boxes[i].min += d, boxes[i].max += d;
+            boxes[i].min += d;
+            boxes[i].max += d;
         }
     }
 
@@ -73,7 +74,8 @@ class MovingBoxes {
     }
     Aabb<S> floor() const {
         Aabb<S> box{Vec::Constant(static_cast<Real>(-side_)), Vec::Constant(static_cast<Real>(2 * side_))};
-        box.min[1] = -1, box.max[1] = 0;
+        box.min[1] = -1;
+        box.max[1] = 0;
         return box;
     }
     Vec flown(std::size_t i) {

@@ -32,10 +32,12 @@ BodyArrays<S> tumbling() {
     BodyArrays<S> bodies;
     for (std::size_t i = 0; i < kBodies; ++i) {
         BodyConstants<S> constants;
-        constants.type = BodyType::Dynamic, constants.mass = 1;
+        constants.type = BodyType::Dynamic;
+        constants.mass = 1;
         typename S::Inertia inverse;
         if constexpr (S::dim == 2) {
-            constants.inertia = R(0.2), inverse = R(5);
+            constants.inertia = R(0.2);
+            inverse = R(5);
         } else {
             constants.inertia = typename S::Vec(R(0.1), R(0.2), R(0.25)).asDiagonal();
             inverse = typename S::Vec(R(10), R(5), R(4)).asDiagonal();

@@ -102,8 +102,14 @@ void clipSides(const SideMeeting<R>& m, const Pose<Space<R, 2>>& ref, R speculat
         return;
     }
     const Vec2<R> step = (q - p) / (tq - tp), p0 = p;
-    if (tp > end) p = p0 + (end - tp) * step, fp = vertexFeature(m.refIsA, r1);
-    if (tq < -end) q = p0 - (end + tp) * step, fq = vertexFeature(m.refIsA, r0);
+    if (tp > end) {
+        p = p0 + (end - tp) * step;
+        fp = vertexFeature(m.refIsA, r1);
+    }
+    if (tq < -end) {
+        q = p0 - (end + tp) * step;
+        fq = vertexFeature(m.refIsA, r0);
+    }
     emitPoint<R>(m, ref, p, m.height(p), speculative, fp, out);
     emitPoint<R>(m, ref, q, m.height(q), speculative, fq, out);
 }
@@ -139,7 +145,10 @@ void collidePair(const Box<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, const B
     const auto last = static_cast<int>(lastIsA ? out.memory.featureA : out.memory.featureB);
     if (out.memory.axis != Memory::kNoAxis && last < 4) {
         const R then = (lastIsA ? byA : byB).separation(last);
-        if (then >= most - kKeep<R> * std::min(sizeA, sizeB)) refIsA = lastIsA, side = last;
+        if (then >= most - kKeep<R> * std::min(sizeA, sizeB)) {
+            refIsA = lastIsA;
+            side = last;
+        }
     }
     out.memory.axis = refIsA ? Memory::kFaceA : Memory::kFaceB;
     out.memory.featureA = out.memory.featureB = static_cast<std::uint32_t>(side);

@@ -25,8 +25,10 @@ class Polygon {
     explicit Polygon(R tolerance) : tolerance_(tolerance) {}
 
     void insert(int at, const DifferencePoint<S>& p) {
-        for (int i = count_; i > at; --i)
-            points_[index(i)] = points_[index(i - 1)], edges_[index(i)] = edges_[index(i - 1)];
+        for (int i = count_; i > at; --i) {
+            points_[index(i)] = points_[index(i - 1)];
+            edges_[index(i)] = edges_[index(i - 1)];
+        }
         points_[index(at)] = p;
         ++count_;
         setEdge((at + count_ - 1) % count_);
@@ -96,7 +98,10 @@ EpaResult<Space<R, 2>> epa(const Minkowski<Space<R, 2>>& D) {
         const DifferencePoint<S> x = D.point(edge.normal);
         ++best.iterations;
         const R support = edge.normal.dot(x.w);
-        if (support < best.depth) best.depth = support, best.normal = edge.normal;
+        if (support < best.depth) {
+            best.depth = support;
+            best.normal = edge.normal;
+        }
         best.converged = best.depth - edge.offset <= tolerance;
         if (best.converged || polygon.count() == kMostVertices) break;
         if (x.w == polygon.point(i).w || x.w == polygon.point(i + 1).w)
@@ -112,7 +117,10 @@ EpaResult<Space<R, 2>> epa(const Minkowski<Space<R, 2>>& D) {
         edge.points[1] = polygon.point(i + 1);
         edge.count = 2;
         const R squared = reduceSimplex<S>(edge, target).squaredNorm();
-        if (squared < nearest) nearest = squared, best.simplex = edge;
+        if (squared < nearest) {
+            nearest = squared;
+            best.simplex = edge;
+        }
     }
     return best;
 }

@@ -105,7 +105,10 @@ void featureManifold(const Shape<Space<R, 2>>& a, const Shape<Space<R, 2>>& b,
             addPoint<S>(out, refIsA ? pRef : pInc, refIsA ? pInc : pRef, separation,
                         vertexFeature(end != refIsA, end ? inc.index[k] : ref.index[k]));
         };
-        if (!upright && high > low) add(low), add(high);
+        if (!upright && high > low) {
+            add(low);
+            add(high);
+        }
     }
     const R size = std::max(contact.onA.norm(), contact.onB.norm()) + rA + rB;
     addDeepest<S>(contact, rA, rB, R(4) * kRounding<R> * size, out);

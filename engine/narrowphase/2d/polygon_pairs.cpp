@@ -119,7 +119,10 @@ void closestVertex(const Polygon<R>& p, const Polygon<R>& q, const Pose<Space<R,
             const R squared = (x - v - clamped * e).squaredNorm();
             // On the back edge of a capsule's segment the normal would point the wrong way.
             if (squared < best.squared && p.normals[i].dot(x - v) >= 0) {
-                best.squared = squared, best.vertex = j, best.edge = i, best.vertexOnB = vertexOnB;
+                best.squared = squared;
+                best.vertex = j;
+                best.edge = i;
+                best.vertexOnB = vertexOnB;
                 best.corner = t <= 0 ? i : (t >= 1 ? p.next(i) : -1);
             }
         }
@@ -201,8 +204,14 @@ void clipEdges(const Reference<R>& c, int edge, Manifold<Space<R, 2>>& out) {
     }
     const Vec2<R> p0 = p, d = q - p;
     const R t0 = tp, slope = R(1) / (tq - tp);
-    if (tp > length) p = p0 + (length - t0) * slope * d, fp = vertexFeature(c.refIsA, r1);
-    if (tq < 0) q = p0 - t0 * slope * d, fq = vertexFeature(c.refIsA, r0);
+    if (tp > length) {
+        p = p0 + (length - t0) * slope * d;
+        fp = vertexFeature(c.refIsA, r1);
+    }
+    if (tq < 0) {
+        q = p0 - t0 * slope * d;
+        fq = vertexFeature(c.refIsA, r0);
+    }
     emitPoint<R>(c, n, p, n.dot(p - v0), fp, out);
     emitPoint<R>(c, n, q, n.dot(q - v0), fq, out);
 }
@@ -232,7 +241,11 @@ void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Pol
     const auto last = static_cast<int>(lastIsA ? out.memory.featureA : out.memory.featureB);
     if (out.memory.axis != Memory::kNoAxis && last < (lastIsA ? a : b).count) {
         const R s = lastIsA ? edgeSeparation(a, b, XAB, last) : edgeSeparation(b, a, XBA, last);
-        if (s >= widest - kKeep<R> * std::min(sizeA, sizeB)) refIsA = lastIsA, edge = last, separation = s;
+        if (s >= widest - kKeep<R> * std::min(sizeA, sizeB)) {
+            refIsA = lastIsA;
+            edge = last;
+            separation = s;
+        }
     }
 
     const bool segments = a.count == 2 && b.count == 2;
@@ -251,7 +264,10 @@ void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Pol
             out.memory.axis = Memory::kNoAxis;
             return;
         }
-        if (!touching) refIsA = closest.vertexOnB, edge = closest.edge;
+        if (!touching) {
+            refIsA = closest.vertexOnB;
+            edge = closest.edge;
+        }
     }
     out.memory.axis = refIsA ? Memory::kFaceA : Memory::kFaceB;
     out.memory.featureA = out.memory.featureB = static_cast<std::uint32_t>(edge);
@@ -279,13 +295,19 @@ void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, cons
     int edge = 0;
     R height = -std::numeric_limits<R>::max();
     for (int i = 0; i < p.count; ++i)
-        if (const R h = p.normals[i].dot(c - p.vertices[i]); h > height) height = h, edge = i;
+        if (const R h = p.normals[i].dot(c - p.vertices[i]); h > height) {
+            height = h;
+            edge = i;
+        }
     if (height - a.radius > speculative) return;
     // A centre inside keeps the edge of the last step while it is as near within kKeep.
     const auto last = static_cast<int>(out.memory.featureB);
     if (height <= 0 && out.memory.axis == ManifoldMemory<S>::kFaceB && last < p.count) {
         const R h = p.normals[last].dot(c - p.vertices[last]);
-        if (h >= height - kKeep<R> * std::min(a.radius, sizeOf(p))) height = h, edge = last;
+        if (h >= height - kKeep<R> * std::min(a.radius, sizeOf(p))) {
+            height = h;
+            edge = last;
+        }
     }
     out.memory.axis = ManifoldMemory<S>::kFaceB;
     out.memory.featureB = static_cast<std::uint32_t>(edge);

@@ -205,7 +205,8 @@ void BoxAxes<R>::keep(const ManifoldMemory<Space<R, 3>>& memory, PolytopeAxis<R>
     } else {
         return;
     }
-    last.featureA = i, last.featureB = j;
+    last.featureA = i;
+    last.featureB = j;
     last.kept = last.separation < best.separation;
     if (last.separation >= best.separation - kKeep<R> * std::min(halfA.maxCoeff(), halfB.maxCoeff()))
         best = last;

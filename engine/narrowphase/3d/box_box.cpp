@@ -246,7 +246,8 @@ bool meetingFaces(const BoxAxes<R>& boxes, const PolytopeAxis<R>& axis, Manifold
         R facingA, facingB;
         faceA = betterBoxFace<R>(axis.featureA, axis.normal, facingA);
         faceB = betterBoxFace<R>(axis.featureB, Vec3<R>(-towardsB), facingB);
-        memory.axis = kind, memory.featureA = static_cast<std::uint32_t>(axis.featureA),
+        memory.axis = kind;
+        memory.featureA = static_cast<std::uint32_t>(axis.featureA);
         memory.featureB = static_cast<std::uint32_t>(axis.featureB);
         // An edge that lies along a face meets it in a stretch, as two faces do in a polygon.
         if (std::max(facingA, facingB) < kFlat<R>) return false;
@@ -258,15 +259,20 @@ bool meetingFaces(const BoxAxes<R>& boxes, const PolytopeAxis<R>& axis, Manifold
             faceB = incidentBoxFace<R>(boxes.halfB, Vec3<R>(-towardsB), same ? number(memory.featureB) : -1);
         else
             faceA = incidentBoxFace<R>(boxes.halfA, axis.normal, same ? number(memory.featureA) : -1);
-        memory.axis = kind, memory.featureA = static_cast<std::uint32_t>(faceA),
+        memory.axis = kind;
+        memory.featureA = static_cast<std::uint32_t>(faceA);
         memory.featureB = static_cast<std::uint32_t>(faceB);
     }
-    m.refFace = m.refIsA ? faceA : faceB, m.incFace = m.refIsA ? faceB : faceA;
-    m.refHalf = m.refIsA ? boxes.halfA : boxes.halfB, m.incHalf = m.refIsA ? boxes.halfB : boxes.halfA;
+    m.refFace = m.refIsA ? faceA : faceB;
+    m.incFace = m.refIsA ? faceB : faceA;
+    m.refHalf = m.refIsA ? boxes.halfA : boxes.halfB;
+    m.incHalf = m.refIsA ? boxes.halfB : boxes.halfA;
     if (m.refIsA) {
-        m.rotation = boxes.X.rotation, m.center = boxes.X.translation;
+        m.rotation = boxes.X.rotation;
+        m.center = boxes.X.translation;
     } else {
-        m.rotation = boxes.X.rotation.transpose(), m.center = -boxes.tB;
+        m.rotation = boxes.X.rotation.transpose();
+        m.center = -boxes.tB;
     }
     if (axis.kind != Axis::Edges)
         m.outward = m.side() * Vec3<R>::Unit(m.axis());

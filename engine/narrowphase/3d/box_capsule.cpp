@@ -52,10 +52,13 @@ R closestOnCore(const Core<R>& core) {
             const R s = (side - core.p[i]) / core.d[i];
             if (!(s > low && s < high)) continue;
             const R slope = core.slope(s);
-            if (slope > 0)
-                high = s, atHigh = slope;
-            else
-                low = s, atLow = slope;
+            if (slope > 0) {
+                high = s;
+                atHigh = slope;
+            } else {
+                low = s;
+                atLow = slope;
+            }
         }
     return low + (high - low) * (atLow / (atLow - atHigh));
 }

@@ -136,7 +136,10 @@ int incidentFace(const Polytope<R>& p, const Vec3<R>& direction, int last = -1) 
     for (int i = 0; i < p.faceCount; ++i) {
         const HullFace<R>& f = p.faces[i];
         if (f.offset - f.normal.dot(v) > kRounding<R> * p.size) continue;
-        if (const R c = f.normal.dot(direction); c > facing) facing = c, best = i;
+        if (const R c = f.normal.dot(direction); c > facing) {
+            facing = c;
+            best = i;
+        }
     }
     if (last >= 0 && last < p.faceCount) {
         const HullFace<R>& f = p.faces[last];

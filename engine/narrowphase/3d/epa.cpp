@@ -210,7 +210,11 @@ int widestStart(const Minkowski<Space<R, 3>>& D, std::array<DifferencePoint<Spac
     R widest = -1;
     for (int i = 0; i < 3; ++i) {
         const auto low = ask(-V::Unit(i)), high = ask(V::Unit(i));
-        if (const R l = (high.w - low.w).norm(); l > widest) widest = l, start[0] = low, start[1] = high;
+        if (const R l = (high.w - low.w).norm(); l > widest) {
+            widest = l;
+            start[0] = low;
+            start[1] = high;
+        }
     }
     result.normal = V::UnitY();
     if (!(widest > R(4) * kRounding<R> * size)) return 1;
@@ -220,7 +224,10 @@ int widestStart(const Minkowski<Space<R, 3>>& D, std::array<DifferencePoint<Spac
     R farthest = -1;
     for (const V& d : {u, V(-u), w, V(-w)}) {
         const auto p = ask(d);
-        if (const R l = along.cross(p.w - start[0].w).norm(); l > farthest) farthest = l, start[2] = p;
+        if (const R l = along.cross(p.w - start[0].w).norm(); l > farthest) {
+            farthest = l;
+            start[2] = p;
+        }
     }
     if (!(farthest > R(4) * kRounding<R> * size)) return 2;
     const V n = along.cross(start[2].w - start[0].w).normalized();
@@ -228,7 +235,10 @@ int widestStart(const Minkowski<Space<R, 3>>& D, std::array<DifferencePoint<Spac
     R highest = -1;
     for (const V& d : {n, V(-n)}) {
         const auto p = ask(d);
-        if (const R l = std::abs(n.dot(p.w - start[0].w)); l > highest) highest = l, start[3] = p;
+        if (const R l = std::abs(n.dot(p.w - start[0].w)); l > highest) {
+            highest = l;
+            start[3] = p;
+        }
     }
     return highest > R(4) * kRounding<R> * size ? 4 : 3;
 }
@@ -247,22 +257,35 @@ void sharpen(const Minkowski<Space<R, 3>>& D, const Polytope<R>& polytope, R tol
     int p = 0, q = 0, r = 0;
     R widest = 0;
     for (int i = 1; i < n; ++i)
-        if (const R l = (w(i) - w(0)).squaredNorm(); l > widest) widest = l, p = i;
+        if (const R l = (w(i) - w(0)).squaredNorm(); l > widest) {
+            widest = l;
+            p = i;
+        }
     widest = 0;
     for (int i = 0; i < n; ++i)
-        if (const R l = (w(i) - w(p)).squaredNorm(); l > widest) widest = l, q = i;
+        if (const R l = (w(i) - w(p)).squaredNorm(); l > widest) {
+            widest = l;
+            q = i;
+        }
     Vec3<R> normal = best.normal;
     widest = 0;
     for (int i = 0; i < n; ++i) {
         const Vec3<R> c = (w(q) - w(p)).cross(w(i) - w(p));
-        if (const R l = c.squaredNorm(); l > widest) widest = l, r = i, normal = c;
+        if (const R l = c.squaredNorm(); l > widest) {
+            widest = l;
+            r = i;
+            normal = c;
+        }
     }
     if (!(widest > 0) || r == p || r == q) return;
     normal.normalize();
     if (normal.dot(best.normal) < 0) normal = -normal;
     const R support = normal.dot(D.point(normal).w);
     ++best.iterations;
-    if (support < best.depth) best.depth = support, best.normal = normal;
+    if (support < best.depth) {
+        best.depth = support;
+        best.normal = normal;
+    }
 }
 
 }  // namespace
@@ -288,7 +311,10 @@ EpaResult<Space<R, 3>> epa(const Minkowski<Space<R, 3>>& D) {
         const DifferencePoint<S> x = D.point(f.normal);
         ++best.iterations;
         const R support = f.normal.dot(x.w);
-        if (support < best.depth) best.depth = support, best.normal = f.normal;
+        if (support < best.depth) {
+            best.depth = support;
+            best.normal = f.normal;
+        }
         best.converged = best.depth - f.offset <= tolerance;
         if (best.converged) break;
         if (polytope.knows(x.w))
@@ -306,7 +332,10 @@ EpaResult<Space<R, 3>> epa(const Minkowski<Space<R, 3>>& D) {
         for (std::size_t k = 0; k < 3; ++k) triangle.points[k] = polytope.point(f.v[k]);
         triangle.count = 3;
         const R squared = reduceSimplex<S>(triangle, target).squaredNorm();
-        if (squared < nearest) nearest = squared, best.simplex = triangle;
+        if (squared < nearest) {
+            nearest = squared;
+            best.simplex = triangle;
+        }
     }
     return best;
 }

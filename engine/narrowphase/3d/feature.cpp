@@ -47,7 +47,10 @@ void polytopeFeature(const Polytope<R>& p, const Vec3<R>& d, SupportFeature<R>& 
         const HullEdge& e = p.edges[i];
         if (e.v0 != vertex && e.v1 != vertex) continue;
         const Vec3<R> along = p.vertices[e.v1] - p.vertices[e.v0];
-        if (const R s = std::abs(along.dot(d)) / along.norm(); s < slope) slope = s, best = i;
+        if (const R s = std::abs(along.dot(d)) / along.norm(); s < slope) {
+            slope = s;
+            best = i;
+        }
     }
     if (best < 0) {
         out.add(p.vertices[vertex], vertex);
@@ -86,8 +89,10 @@ void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, SupportF
     for (int k = 0; k < 16; ++k) {
         const int turn = outward < 0 ? k : 16 - k;  // x to z is clockwise seen from +y
         const Vec3<R> x(radius * cosine(turn), y, radius * cosine(turn + 12));
-        if (const R r = x.x() * d.x() + x.z() * d.z(); nearest < 0 || r > reach)
-            reach = r, nearest = out.count;
+        if (const R r = x.x() * d.x() + x.z() * d.z(); nearest < 0 || r > reach) {
+            reach = r;
+            nearest = out.count;
+        }
         out.add(x, firstName + turn % 16);
     }
     if (radius * across > reach + std::max(kRimNoise<R>, kRounding<R>) * radius)
@@ -145,7 +150,10 @@ void featureOf(const Triangle<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& ou
     for (std::size_t i = 0; i < 3; ++i) {
         if (i == top) continue;
         const Vec3<R> along = s.v[i] - s.v[top];
-        if (const R c = std::abs(along.dot(d)) / along.norm(); c < slope) slope = c, end = i;
+        if (const R c = std::abs(along.dot(d)) / along.norm(); c < slope) {
+            slope = c;
+            end = i;
+        }
     }
     out.add(s.v[std::min(top, end)], static_cast<int>(std::min(top, end)));
     if (end != top) out.add(s.v[std::max(top, end)], static_cast<int>(std::max(top, end)));

@@ -67,7 +67,10 @@ bool preferFaceNormal(Meeting<R>& m, const SupportFeature<R>& fa, const SupportF
     R most = m.separation - m.tolerance;
     const auto consider = [&](const Vec3<R>& n) {
         // B's face must be better than A's by more than rounding, or they would take turns.
-        if (const R s = separationAlong(m, n); s >= most) best = n, most = s + m.tolerance;
+        if (const R s = separationAlong(m, n); s >= most) {
+            best = n;
+            most = s + m.tolerance;
+        }
     };
     if (fa.count > 2) consider(fa.normal);
     if (fb.count > 2) consider(-fb.normal);
@@ -177,8 +180,10 @@ void clipFeatures(const Meeting<R>& m, const SupportFeature<R>& ref, const Suppo
     int found = 0;
     R lowest = std::numeric_limits<R>::max();
     for (int i = 0; i < polygon.count; ++i)
-        if (const R h = height(polygon[i].x); h <= m.speculative)
-            near[static_cast<std::size_t>(found++)] = i, lowest = std::min(lowest, h);
+        if (const R h = height(polygon[i].x); h <= m.speculative) {
+            near[static_cast<std::size_t>(found++)] = i;
+            lowest = std::min(lowest, h);
+        }
     const auto at = [&](int k) -> const ClipVertex<R>& { return polygon[near[static_cast<std::size_t>(k)]]; };
     const R noise = selectionNoise(m, ref, inc);
     reducePoints<S3<R>>(

@@ -31,7 +31,11 @@ struct FlatPolygon {
     int count = 0;
 
     void set(std::size_t i, R atU, R atV, R height, int before, int after) {
-        u[i] = atU, v[i] = atV, h[i] = height, in[i] = before, out[i] = after;
+        u[i] = atU;
+        v[i] = atV;
+        h[i] = height;
+        in[i] = before;
+        out[i] = after;
     }
     FlatVertex<R> operator[](int i) const {
         const auto k = static_cast<std::size_t>(i);
@@ -48,19 +52,24 @@ void clipFlat(FlatPolygon<R>& from, R limit, int low, int high, FlatPolygon<R>& 
     std::array<R, kFlatMost> inY, inH, outY, outH;
     const auto n = static_cast<std::size_t>(from.count);
     auto &x = from.*X, &y = from.*Y, &h = from.h;
-    x[n] = x[0], y[n] = y[0], h[n] = h[0];
+    x[n] = x[0];
+    y[n] = y[0];
+    h[n] = h[0];
     for (std::size_t i = 0; i < kFlatMost; ++i) {
         // Each from the end that is nearer the inside: the same points whichever way round.
         const R step = x[i + 1] - x[i];
         const R in = (x[i + 1] - std::copysign(limit, x[i])) / step;
         const R out = (std::copysign(limit, x[i + 1]) - x[i]) / step;
-        inY[i] = y[i + 1] - in * (y[i + 1] - y[i]), inH[i] = h[i + 1] - in * (h[i + 1] - h[i]);
-        outY[i] = y[i] + out * (y[i + 1] - y[i]), outH[i] = h[i] + out * (h[i + 1] - h[i]);
+        inY[i] = y[i + 1] - in * (y[i + 1] - y[i]);
+        inH[i] = h[i + 1] - in * (h[i + 1] - h[i]);
+        outY[i] = y[i] + out * (y[i + 1] - y[i]);
+        outH[i] = h[i] + out * (h[i + 1] - h[i]);
     }
     std::size_t count = 0;
     const auto add = [&](R atX, R atY, R height, int before, int after, bool really) {
         (to.*X)[count] = atX, (to.*Y)[count] = atY, to.h[count] = height;
-        to.in[count] = before, to.out[count] = after;
+        to.in[count] = before;
+        to.out[count] = after;
         count += really;
     };
     const auto beyond = [&](R at) { return static_cast<int>(at > limit) - static_cast<int>(at < -limit); };
@@ -92,7 +101,9 @@ void reduceFlat(const FlatPolygon<R>& polygon, const std::array<int, kFlatMost>&
     std::array<std::uint32_t, kFlatMost> names;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
         const FlatVertex<R> x = polygon[corners[i]];
-        u[i] = x.u, v[i] = x.v, score[i] = -x.h;
+        u[i] = x.u;
+        v[i] = x.v;
+        score[i] = -x.h;
         if (memory.count > 0) names[i] = name(x);
     }
     const auto best = [&](R share, R tolerance, R rounding, R& top) {

@@ -77,8 +77,10 @@ Portal<Space<R, 3>> castPortal(PortalQuery<Space<R, 3>>& query, const Vec3<R>& f
         std::size_t keep = 0;
         R best = -std::numeric_limits<R>::max();
         for (std::size_t i = 0; i < 3; ++i)
-            if (const R inside = std::min(side[i], -side[(i + 1) % 3]); inside > best)
-                best = inside, keep = i;
+            if (const R inside = std::min(side[i], -side[(i + 1) % 3]); inside > best) {
+                best = inside;
+                keep = i;
+            }
         v[(keep + 2) % 3] = p;
     }
     return portal;

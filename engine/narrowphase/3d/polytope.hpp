@@ -84,7 +84,10 @@ int deepestAlong(const Polytope<R>& p, const Vec3<R>& direction) {
     int best = 0;
     R most = p.vertices[0].dot(direction);
     for (int i = 1; i < p.vertexCount; ++i)
-        if (const R at = p.vertices[i].dot(direction); at > most) most = at, best = i;
+        if (const R at = p.vertices[i].dot(direction); at > most) {
+            most = at;
+            best = i;
+        }
     return best;
 }
 

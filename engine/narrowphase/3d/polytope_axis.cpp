@@ -50,7 +50,10 @@ struct FaceSearch {
         R low = n.dot(q.vertices[0]);
         deepest = 0;
         for (int j = 1; j < q.vertexCount; ++j)
-            if (const R at = n.dot(q.vertices[j]); at < low) low = at, deepest = j;
+            if (const R at = n.dot(q.vertices[j]); at < low) {
+                low = at;
+                deepest = j;
+            }
         return low + f.normal.dot(X.translation) - f.offset;
     }
 
@@ -68,8 +71,10 @@ struct FaceSearch {
         if (p.faceCount > kBounded) return tryAll(stopAbove, tolerance);
         std::array<R, kBounded> bound, exact;
         const auto faces = static_cast<std::size_t>(p.faceCount);
-        for (std::size_t i = 0; i < faces; ++i)
-            bound[i] = std::numeric_limits<R>::max(), exact[i] = -std::numeric_limits<R>::max();
+        for (std::size_t i = 0; i < faces; ++i) {
+            bound[i] = std::numeric_limits<R>::max();
+            exact[i] = -std::numeric_limits<R>::max();
+        }
         R most = -std::numeric_limits<R>::max();
         int next = deepestAlong<R>(q, Vec3<R>(X.rotation.transpose() * -X.translation));
         for (;;) {
@@ -96,7 +101,10 @@ struct FaceSearch {
             const HullFace<R>& f = p.faces[i];
             own[k] = f.normal.dot(witness) - f.offset;
             bound[k] = std::min(bound[k], own[k]);
-            if (bound[k] > most) most = bound[k], highest = i;
+            if (bound[k] > most) {
+                most = bound[k];
+                highest = i;
+            }
         }
         return highest;
     }
@@ -260,7 +268,8 @@ void keepAxis(const Polytope<R>& a, const Polytope<R>& b, const Relative<R>& X,
     } else {
         return;
     }
-    last.featureA = i, last.featureB = j;
+    last.featureA = i;
+    last.featureB = j;
     last.separation = separationAlong(a, b, X, last.normal);
     last.kept = last.separation < best.separation;
     if (last.separation >= best.separation - kKeep<R> * std::min(a.size, b.size)) best = last;

@@ -93,7 +93,8 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
     out.memory.axis = edges                                 ? Memory::kEdges
                       : axis.kind == PolytopeAxis<R>::FaceA ? Memory::kFaceA
                                                             : Memory::kFaceB;
-    out.memory.featureA = feature(axis.featureA), out.memory.featureB = feature(axis.featureB);
+    out.memory.featureA = feature(axis.featureA);
+    out.memory.featureB = feature(axis.featureB);
     const bool keepsAxis = last.axis == out.memory.axis &&
                            (axis.kind == PolytopeAxis<R>::FaceA ? last.featureA == feature(axis.featureA)
                                                                 : last.featureB == feature(axis.featureB));
@@ -114,7 +115,10 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
     } else {
         faceA = incidentFace<R>(a, axis.normal, keepsAxis ? static_cast<int>(last.featureA) : -1);
     }
-    if (!edges) out.memory.featureA = feature(faceA), out.memory.featureB = feature(faceB);
+    if (!edges) {
+        out.memory.featureA = feature(faceA);
+        out.memory.featureB = feature(faceB);
+    }
     FaceLoop<R> loopA, loopB;
     loadFace(
         a, faceA, [](const V& v) { return v; }, loopA);

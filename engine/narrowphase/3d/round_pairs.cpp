@@ -171,7 +171,10 @@ Vec3<R> nearestOnTriangle(const Triangle<Space<R, 3>>& t, const Vec3<R>& n, cons
         const Vec3<R> e = t.v[(i + 1) % 3] - v;
         overFace = overFace && n.cross(e).dot(x - v) >= 0;
         const Vec3<R> p = v + std::clamp(e.dot(x - v) / e.squaredNorm(), R(0), R(1)) * e;
-        if (const R d = (x - p).squaredNorm(); d < least) least = d, best = p;
+        if (const R d = (x - p).squaredNorm(); d < least) {
+            least = d;
+            best = p;
+        }
     }
     return overFace ? Vec3<R>(x - n.dot(x - t.v[0]) * n) : best;
 }

@@ -80,7 +80,8 @@ struct CoreHeights {
 
     void set(int face, R atFirst, R atSecond) {
         if (face >= kMost) return;
-        first[static_cast<std::size_t>(face)] = atFirst, second[static_cast<std::size_t>(face)] = atSecond;
+        first[static_cast<std::size_t>(face)] = atFirst;
+        second[static_cast<std::size_t>(face)] = atSecond;
     }
     /// Is either end higher than `level` over either face?
     bool over(const HullEdge& e, R level) const {

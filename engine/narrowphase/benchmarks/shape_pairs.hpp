@@ -70,7 +70,8 @@ class PairMaker {
             Xb.q = yaw();
             Xb.p = Vec::Unit(1) * (a.half[1] + b.half[1] - 0.01);
         } else {
-            Xa.q = rotation(), Xb.q = rotation();
+            Xa.q = rotation();
+            Xb.q = rotation();
             const Vec d = direction();
             touch(shape<double>(a), Xa, shape<double>(b), Xb, d);
             Xb.p += d * (kind.closeness == Closeness::Overlap ? -0.05 : 0.1);

@@ -34,7 +34,9 @@ class SceneBuilder {
         const MassProperties<S> mass = massProperties<S>(shape, Real(1000));
         BodyDef<S> def;
         def.pose.p = place;
-        def.mass = mass.mass, def.inertia = mass.inertia, def.centerOfMass = mass.center;
+        def.mass = mass.mass;
+        def.inertia = mass.inertia;
+        def.centerOfMass = mass.center;
         const BodyId id = world.addBody(def);
         world.addShape(id, {shape, {}, material_});
         bodies.push_back(id);
@@ -114,7 +116,8 @@ SceneBuilder<S> chain(int links, const WorldDef<S>& def = onEarth<S>()) {
     for (int i = 0; i < links; ++i) {
         const BodyId link = scene.add(Capsule<S>{R(0.1), R(0.15)}, place<S>(0.02 * i, -0.25 - 0.5 * i, 0));
         JointDef<S> joint;
-        joint.bodyA = above, joint.bodyB = link;
+        joint.bodyA = above;
+        joint.bodyB = link;
         joint.anchorA = above ? place<S>(0, -0.25, 0) : place<S>(0, 0, 0);
         joint.anchorB = place<S>(0, 0.25, 0);
         scene.world.addJoint(joint);

@@ -62,7 +62,10 @@ HullData<Space<R, 2>> buildHull(std::span<const Eigen::Matrix<R, 2, 1>> points) 
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
     if (sorted.size() < 3) throw std::invalid_argument("hull: fewer than three distinct points");
     V low = sorted.front(), high = sorted.front();
-    for (const V& p : sorted) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    for (const V& p : sorted) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
     const double tolerance = kHullTolerance<R> * (high - low).norm();
 
     std::vector<V> hull = chain(sorted.begin(), sorted.end(), tolerance);

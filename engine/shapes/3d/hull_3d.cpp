@@ -143,7 +143,10 @@ HullData<Space<R, 3>> buildHull(std::span<const Eigen::Matrix<R, 3, 1>> points) 
     }
     if (distinct.size() < 4) throw std::invalid_argument("hull: fewer than four points");
     V low = distinct.front(), high = distinct.front();
-    for (const V& p : distinct) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    for (const V& p : distinct) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
     const double tolerance = kHullTolerance<R> * (high - low).norm();
     const std::vector<HullTriangle> triangles = quickhull(distinct, tolerance);
     // Twice: a vertex may lie out of the seed's plane by the tolerance of its own triangle and of the seed.

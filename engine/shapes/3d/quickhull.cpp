@@ -110,7 +110,10 @@ class Builder {
         double best = tolerance_;
         int owner = -1;
         for (int f : faces)
-            if (const double d = distance(face(f), p); d > best) best = d, owner = f;
+            if (const double d = distance(face(f), p); d > best) {
+                best = d;
+                owner = f;
+            }
         if (owner >= 0) face(owner).outside.push_back(p);
     }
 

@@ -97,8 +97,10 @@ HeightField<S> makeHeightField(int columns, int rows, typename S::Real dx, typen
     require(std::all_of(heights.begin(), heights.end(), [](R h) { return std::isfinite(h); }),
             "heights must be finite");
     auto data = std::make_shared<HeightFieldData<S>>();
-    data->columns = columns, data->rows = rows;
-    data->dx = dx, data->dz = dz;
+    data->columns = columns;
+    data->rows = rows;
+    data->dx = dx;
+    data->dz = dz;
     data->heights.assign(heights.begin(), heights.end());
     data->lowest = *std::min_element(heights.begin(), heights.end());
     data->highest = *std::max_element(heights.begin(), heights.end());
@@ -113,8 +115,14 @@ std::uint32_t HeightFieldData<S>::across(std::uint32_t piece, int side) const {
     const bool first = piece % 2 == 0;
     // Sides of the first half: at i, the diagonal, at k; of the second: at i + 1, the diagonal, at k + 1.
     int a = first ? i + 1 : i, b = first ? k + 1 : k;
-    if (side == 0) a = first ? i - 1 : i + 2, b = first ? k + 1 : k;
-    if (side == 2) a = first ? i + 1 : i, b = first ? k - 1 : k + 2;
+    if (side == 0) {
+        a = first ? i - 1 : i + 2;
+        b = first ? k + 1 : k;
+    }
+    if (side == 2) {
+        a = first ? i + 1 : i;
+        b = first ? k - 1 : k + 2;
+    }
     if (a < 0 || a >= columns || b < 0 || b >= rows) return kNullIndex;
     return static_cast<std::uint32_t>(b * columns + a);
 }

@@ -54,7 +54,8 @@ class Ngs final : public PositionCorrection<S> {
         if (n == 0) return 0;
         if (joints_.size() < n) joints_.resize(n);
         Real largest = 0;
-        items_.clear(), held_.clear();
+        items_.clear();
+        held_.clear();
         for (std::size_t j = 0; j < n; ++j) {
             JointPositions<S>& joint = joints_[j];
             problem.evaluateJoint(j, joint);

@@ -33,12 +33,18 @@ class Dissection {
     Dissection(Ends joints, std::size_t bodies) : ends_(joints), side_(bodies, kOutside) {
         start_.assign(bodies + 1, 0);
         for (const auto& [a, b] : ends_)
-            if (inner(a, b)) ++start_[a + 1], ++start_[b + 1];
+            if (inner(a, b)) {
+                ++start_[a + 1];
+                ++start_[b + 1];
+            }
         for (std::size_t i = 0; i < bodies; ++i) start_[i + 1] += start_[i];
         near_.resize(start_.back());
         Nodes next(start_.begin(), start_.end() - 1);
         for (const auto& [a, b] : ends_)
-            if (inner(a, b)) near_[next[a]++] = b, near_[next[b]++] = a;
+            if (inner(a, b)) {
+                near_[next[a]++] = b;
+                near_[next[b]++] = a;
+            }
         for (auto& distance : distance_) distance.assign(bodies, kUnseen);
     }
 
@@ -47,7 +53,10 @@ class Dissection {
         for (std::uint32_t k = 0; k < ends_.size(); ++k) {
             joints[k] = k;
             for (const std::uint32_t body : {ends_[k].first, ends_[k].second})
-                if (body != kNullIndex && side_[body] == kOutside) side_[body] = 0, bodies.push_back(body);
+                if (body != kNullIndex && side_[body] == kOutside) {
+                    side_[body] = 0;
+                    bodies.push_back(body);
+                }
         }
         std::sort(bodies.begin(), bodies.end());
         for (const std::uint32_t body : bodies) side_[body] = kOutside;
@@ -77,7 +86,8 @@ class Dissection {
             (isLeft && isRight ? between : isLeft ? leftJoints : rightJoints).push_back(k);
         }
         for (const std::uint32_t body : bodies) side_[body] = kOutside;
-        Nodes().swap(bodies), Nodes().swap(joints);
+        Nodes().swap(bodies);
+        Nodes().swap(joints);
         divide(left, leftJoints);
         divide(right, rightJoints);
         order_.insert(order_.end(), between.begin(), between.end());
@@ -160,12 +170,14 @@ class Dissection {
             const auto [a, b] = ends_[k];
             if (!hasSide(a, 0) || !hasSide(b, 0)) continue;
             const std::int32_t u = coordinate(a, from, to), v = coordinate(b, from, to);
-            ++at(std::min(u, v)).cut, --at(std::max(u, v)).cut;
+            ++at(std::min(u, v)).cut;
+            --at(std::max(u, v)).cut;
         }
         std::int32_t below = 0, joined = 0;
         for (std::int32_t value = -count; value <= count; ++value) {
             if (at(value).bodies == 0) continue;
-            below += at(value).bodies, joined += at(value).cut;
+            below += at(value).bodies;
+            joined += at(value).cut;
             const std::int32_t smaller = std::min(below, count - below);
             const double share = double(smaller) / count;
             if (smaller == 0 || (share < kLeastShare && smaller < count / 2)) continue;

@@ -30,7 +30,10 @@ Nodes findComponents(const std::vector<Nodes>& near) {
             const std::uint32_t node = open.back();
             open.pop_back();
             for (const std::uint32_t other : near[node])
-                if (component[other] == kNullIndex) component[other] = count, open.push_back(other);
+                if (component[other] == kNullIndex) {
+                    component[other] = count;
+                    open.push_back(other);
+                }
         }
         ++count;
     }
@@ -123,7 +126,9 @@ Nodes postorder(const Nodes& order, const std::vector<Nodes>& columns, const Nod
 void arrange(std::vector<Nodes>& near, const Nodes& found, const Nodes& component, Elimination& out) {
     const std::size_t n = near.size();
     out.order = postorder(found, near, component);
-    out.part.clear(), out.start.assign(1, 0), out.row.clear();
+    out.part.clear();
+    out.start.assign(1, 0);
+    out.row.clear();
     Nodes position(n);
     for (std::uint32_t k = 0; k < n; ++k) position[out.order[k]] = k;
     for (std::uint32_t k = 0; k < n; ++k) {

@@ -52,7 +52,8 @@ void JointFronts<R>::findFronts(std::span<const std::size_t> start, std::span<co
     fronts_.clear();
     for (std::uint32_t k = 0; k < columns; ++k) {
         Front front{};
-        front.first = k, front.width = 1;
+        front.first = k;
+        front.width = 1;
         std::size_t own = below(k) + 1;
         while (!fronts_.empty()) {
             const Front& last = fronts_.back();
@@ -62,17 +63,23 @@ void JointFronts<R>::findFronts(std::span<const std::size_t> start, std::span<co
             const std::size_t blocks = width * (width + 1) / 2 + width * rows;
             const std::size_t zeros = blocks - own - entries.back();
             if (zeros > 0 && !better(width, zeros, blocks)) break;
-            front.first = last.first, front.width += last.width, own += entries.back();
-            fronts_.pop_back(), entries.pop_back();
+            front.first = last.first;
+            front.width += last.width;
+            own += entries.back();
+            fronts_.pop_back();
+            entries.pop_back();
         }
-        fronts_.push_back(front), entries.push_back(own);
+        fronts_.push_back(front);
+        entries.push_back(own);
     }
-    front_.resize(columns), rows_.clear();
+    front_.resize(columns);
+    rows_.clear();
     for (std::uint32_t f = 0; f < fronts_.size(); ++f) {
         Front& front = fronts_[f];
         const std::uint32_t end = front.first + front.width - 1;
         std::fill_n(front_.begin() + front.first, front.width, f);
-        front.row = static_cast<std::uint32_t>(rows_.size()), front.rows = below(end);
+        front.row = static_cast<std::uint32_t>(rows_.size());
+        front.rows = below(end);
         for (std::size_t e = start[end]; e < start[end + 1]; ++e) rows_.push_back(row[e] - first);
     }
 }
@@ -87,7 +94,8 @@ void JointFronts<R>::layOut() {
         Front& front = fronts_[f];
         const std::size_t height = (front.width + front.rows) * size_;
         front.stride = height;
-        front.panel = panels, panels += roundedUp(height * front.width * size_);
+        front.panel = panels;
+        panels += roundedUp(height * front.width * size_);
         tallest = std::max(tallest, height);
         front.parent = front.rows == 0 ? kNullIndex : front_[rows_[front.row]];
         findRuns(front);
@@ -102,7 +110,8 @@ void JointFronts<R>::layOut() {
         front.sibling = fronts_[front.parent].child;
         fronts_[front.parent].child = f;
     }
-    panels_.assign(panels + kFrontSlack, R(0)), updates_.assign(most, R(0));
+    panels_.assign(panels + kFrontSlack, R(0));
+    updates_.assign(most, R(0));
     gathered_.assign(tallest + kFrontSlack, R(0));
 }
 
@@ -116,7 +125,8 @@ std::uint32_t JointFronts<R>::placeIn(const Front& front, std::uint32_t row) con
 
 template <class R>
 void JointFronts<R>::findRuns(Front& front) {
-    front.run = static_cast<std::uint32_t>(runs_.size()), front.runs = 0;
+    front.run = static_cast<std::uint32_t>(runs_.size());
+    front.runs = 0;
     if (front.parent == kNullIndex) return;
     for (std::uint32_t i = 0; i < front.rows; ++i) {
         const std::uint32_t to = placeIn(fronts_[front.parent], rows_[front.row + i]);

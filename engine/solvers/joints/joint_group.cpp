@@ -11,7 +11,10 @@ namespace rigor::engine {
 
 template <class S>
 void JointGroup<S>::begin(ConstraintRows<S>& constraints) {
-    all_.clear(), equalities_.clear(), bounded_.clear(), items_.clear();
+    all_.clear();
+    equalities_.clear();
+    bounded_.clear();
+    items_.clear();
     for (std::uint32_t i = 0; i < constraints.blocks.size(); ++i) {
         const Block<S>& block = constraints.blocks[i];
         if (block.kind == BlockKind::Contact) continue;
@@ -88,7 +91,8 @@ typename S::Real JointGroup<S>::solveEqualities(ConstraintRows<S>& constraints,
         for (int i = 0; i < block.rows; ++i) {
             rows[i].impulse += lambda[i];
             push += lambda[i] * rows[i].lin;
-            turnA += lambda[i] * rows[i].invIAngA, turnB += lambda[i] * rows[i].invIAngB;
+            turnA += lambda[i] * rows[i].invIAngA;
+            turnB += lambda[i] * rows[i].invIAngB;
         }
         if (block.invMassA > 0) {
             velocities[block.a].v -= block.invMassA * push;

@@ -72,10 +72,15 @@ bool JointSystem<S>::findOrder(std::vector<std::vector<std::uint32_t>> near, Eli
 /// Where everything stands in memory.
 template <class S>
 void JointSystem<S>::layOut(Elimination& order) {
-    item_.swap(order.order), start_.swap(order.start), row_.swap(order.row);
+    item_.swap(order.order);
+    start_.swap(order.start);
+    row_.swap(order.row);
     const std::size_t n = item_.size();
-    position_.resize(n), place_.resize(n);
-    parts_.clear(), target_.clear(), fronts_.clear();
+    position_.resize(n);
+    place_.resize(n);
+    parts_.clear();
+    target_.clear();
+    fronts_.clear();
     std::size_t lower = 0, diagonal = 0, x = 0;
     for (std::size_t p = 0; p + 1 < order.part.size(); ++p) {
         Part part{order.part[p], order.part[p + 1], 1, 0, 0, lower, diagonal, x, target_.size(), kNullIndex};
@@ -100,7 +105,9 @@ void JointSystem<S>::layOut(Elimination& order) {
         }
         parts_.push_back(part);
     }
-    lower_.assign(lower, Real(0)), diagonal_.assign(diagonal, Real(0)), x_.assign(x, Real(0));
+    lower_.assign(lower, Real(0));
+    diagonal_.assign(diagonal, Real(0));
+    x_.assign(x, Real(0));
 }
 
 /// Whether the columns of a part are so long that dense fronts are faster than blocks.

@@ -64,7 +64,8 @@ class Poisson final : public Restitution<S> {
             Row<S>& row = rows.rows[i];
             saved_[i].compression = row.impulse;
             row.bias += row.softness * row.impulse;
-            row.lower -= row.impulse, row.upper -= row.impulse;
+            row.lower -= row.impulse;
+            row.upper -= row.impulse;
             row.impulse = 0;
         }
         forEachBounce(rows, [&](Block<S>& block, Row<S>& normal) {
@@ -77,7 +78,9 @@ class Poisson final : public Restitution<S> {
         for (std::size_t i = 0; i < saved_.size(); ++i) {
             Row<S>& row = rows.rows[i];
             row.impulse += saved_[i].compression;
-            row.bias = saved_[i].bias, row.lower = saved_[i].lower, row.upper = saved_[i].upper;
+            row.bias = saved_[i].bias;
+            row.lower = saved_[i].lower;
+            row.upper = saved_[i].upper;
         }
         forEachBounce(rows, [&](Block<S>& block, Row<S>& normal) {
             normal.impulse += block.appliedNormal;

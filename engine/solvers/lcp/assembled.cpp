@@ -39,7 +39,11 @@ void AssembledProblem::assemble(const ConstraintRows<S>& rows, std::size_t bodie
     n = rows.rows.size();
     if (W.size() < n * n) W.resize(n * n);
     std::fill_n(W.begin(), n * n, 0.0);
-    q.resize(n), lambda.resize(n), lower.resize(n), upper.resize(n), kind.resize(n);
+    q.resize(n);
+    lambda.resize(n);
+    lower.resize(n);
+    upper.resize(n);
+    kind.resize(n);
     contacts.clear();
     if constexpr (OnMatrix<S>)
         for (std::size_t j = 0; j < n; ++j)
@@ -81,9 +85,12 @@ void AssembledProblem::readRows(const ConstraintRows<S>& rows) {
     for (const Block<S>& block : rows.blocks) {
         for (std::uint32_t i = block.first; i < block.first + block.rows; ++i) {
             const Row<S>& row = rows.rows[i];
-            kind[i] = RowKind::Free, lower[i] = -kInfinity, upper[i] = kInfinity;
+            kind[i] = RowKind::Free;
+            lower[i] = -kInfinity;
+            upper[i] = kInfinity;
             if (block.kind == BlockKind::Bounded) {
-                lower[i] = static_cast<double>(row.lower), upper[i] = static_cast<double>(row.upper);
+                lower[i] = static_cast<double>(row.lower);
+                upper[i] = static_cast<double>(row.upper);
                 if (lower[i] > -kInfinity || upper[i] < kInfinity) kind[i] = RowKind::Bounded;
             } else if (block.kind == BlockKind::Contact) {
                 kind[i] = i == block.first ? RowKind::Normal : RowKind::Tangent;

@@ -17,7 +17,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 bool BoxLcp::solve(std::size_t n, const double* A, const double* shift, const double* q, const double* lower,
                    const double* upper, double* x) {
     const Problem p{n, A, shift, q, lower, upper, x};
-    if (w_.size() < n) w_.resize(n), dw_.resize(n), part_.resize(n), taken_.resize(n);
+    if (w_.size() < n) {
+        w_.resize(n);
+        dw_.resize(n);
+        part_.resize(n);
+        taken_.resize(n);
+    }
     double scale = 0;
     for (std::size_t i = 0; i < n; ++i) scale = std::max(scale, std::abs(q[i]));
     // Rounding of sums of some hundred terms of this size.
@@ -93,7 +98,8 @@ bool BoxLcp::pivot(const Problem& p) {
         p.x[i] = std::clamp(0.0, p.lower[i], p.upper[i]);
         if (p.lower[i] > -kInfinity || p.upper[i] < kInfinity) continue;
         factor_.append(p.A, p.n, p.shift, i);
-        state_[i] = BoxState::Free, taken_[i] = 1;
+        state_[i] = BoxState::Free;
+        taken_[i] = 1;
     }
     updateFree(p);
     for (std::size_t i = 0; i < p.n; ++i) w_[i] = taken_[i] ? 0.0 : row(p, i);
@@ -136,7 +142,12 @@ bool BoxLcp::takeIn(const Problem& p, std::size_t d, std::size_t& pieces) {
         std::size_t blocking = d, place = kNullIndex;
         BoxState becomes = BoxState::Free;
         const auto object = [&](double t, std::size_t who, std::size_t where, BoxState state) {
-            if (t < way) way = std::max(0.0, t), blocking = who, place = where, becomes = state;
+            if (t < way) {
+                way = std::max(0.0, t);
+                blocking = who;
+                place = where;
+                becomes = state;
+            }
         };
         object(direction > 0 ? p.upper[d] - p.x[d] : p.x[d] - p.lower[d], d, kNullIndex,
                direction > 0 ? BoxState::Upper : BoxState::Lower);

@@ -56,9 +56,13 @@ class Dantzig final : public DirectRounds<S> {
 
     void begin(const SolverInput<S>& input) override {
         const std::size_t n = problem_.n;
-        shift_.resize(n), q_.resize(n), x_.assign(n, 0.0);
+        shift_.resize(n);
+        q_.resize(n);
+        x_.assign(n, 0.0);
         // Room for any number of free rows: a later step may have more of them.
-        free_.reserve(n), right_.reserve(n), lu_.reset(n);
+        free_.reserve(n);
+        right_.reserve(n);
+        lu_.reset(n);
         for (std::size_t i = 0; i < n; ++i) shift_[i] = kSigma * problem_.at(i, i);
         limits_.resize(problem_.contacts.size());
         sticks_.assign(n, 1);
@@ -149,7 +153,10 @@ class Dantzig final : public DirectRounds<S> {
         place_.assign(n, n);
         free_.clear();
         for (std::size_t i = 0; i < n; ++i)
-            if (state[i] == BoxState::Free) place_[i] = free_.size(), free_.push_back(i);
+            if (state[i] == BoxState::Free) {
+                place_[i] = free_.size();
+                free_.push_back(i);
+            }
         const std::size_t f = free_.size();
         double* M = lu_.reset(f);
         right_.assign(f, 0.0);

@@ -10,7 +10,10 @@ namespace rigor::engine {
 double* DenseLu::reset(std::size_t n) {
     n_ = n;
     if (a_.size() < n * n) a_.resize(n * n);
-    if (swap_.size() < n) swap_.resize(n), scale_.resize(n);
+    if (swap_.size() < n) {
+        swap_.resize(n);
+        scale_.resize(n);
+    }
     return a_.data();
 }
 

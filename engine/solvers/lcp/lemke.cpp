@@ -93,7 +93,10 @@ class Lemke final : public DirectRounds<S> {
 
     void begin(const SolverInput<S>&) override {
         const std::size_t n = problem_.n;
-        x_.resize(n), q_.resize(n), shift_.assign(n, 0.0), reduced_.resize(n);
+        x_.resize(n);
+        q_.resize(n);
+        shift_.assign(n, 0.0);
+        reduced_.resize(n);
         free_.reset(n);
         for (std::size_t i = 0; i < n; ++i)
             if (problem_.kind[i] == RowKind::Free) {
@@ -104,7 +107,10 @@ class Lemke final : public DirectRounds<S> {
         slips_.assign(problem_.contacts.size(), 0);
         softened_ = Softened::No;
         // In single precision J and M^-1 are only so good, and W has negative eigenvalues of that size.
-        if (sizeof(Real) < sizeof(double)) soften(), softened_ = Softened::Yes;
+        if (sizeof(Real) < sizeof(double)) {
+            soften();
+            softened_ = Softened::Yes;
+        }
     }
     /// Schur complement of the free rows: R = W_CC - W_CF A_FF^-1 W_FC. response_ holds A_FF^-1 W_FC.
     void makeSchur() {
@@ -139,11 +145,15 @@ class Lemke final : public DirectRounds<S> {
             offset_[i] = below ? problem_.lower[i] : problem_.upper[i];
             const double scale = 1 / std::sqrt(problem_.at(i, i));
             Variable x;
-            x.row[0] = i, x.share[0] = below ? scale : -scale, x.scale = scale;
+            x.row[0] = i;
+            x.share[0] = below ? scale : -scale;
+            x.scale = scale;
             variables_.push_back(x);
             if (!below || !std::isfinite(problem_.upper[i])) continue;
             Variable y;
-            y.kind = Variable::Kind::UpperMultiplier, y.of = variables_.size() - 1, y.scale = scale;
+            y.kind = Variable::Kind::UpperMultiplier;
+            y.of = variables_.size() - 1;
+            y.scale = scale;
             variables_.push_back(y);
         }
         reduceConstant();
@@ -169,7 +179,8 @@ class Lemke final : public DirectRounds<S> {
         const std::size_t n = contact.normal;
         Variable v;
         v.scale = 1 / std::sqrt(problem_.at(n, n));
-        v.row[0] = n, v.share[0] = v.scale;
+        v.row[0] = n;
+        v.share[0] = v.scale;
         firstOf_.resize(problem_.contacts.size());
         firstOf_[c] = variables_.size();
         variables_.push_back(v);
@@ -182,12 +193,18 @@ class Lemke final : public DirectRounds<S> {
             const double angle = start + 6.283185307179586 * k / directions;
             Variable beta;
             beta.scale = v.scale;
-            beta.row[0] = n + 1, beta.share[0] = v.scale * std::cos(angle);
-            if (contact.tangents == 2) beta.row[1] = n + 2, beta.share[1] = v.scale * std::sin(angle);
+            beta.row[0] = n + 1;
+            beta.share[0] = v.scale * std::cos(angle);
+            if (contact.tangents == 2) {
+                beta.row[1] = n + 2;
+                beta.share[1] = v.scale * std::sin(angle);
+            }
             variables_.push_back(beta);
         }
         Variable slip;
-        slip.kind = Variable::Kind::Slip, slip.of = c, slip.scale = v.scale;
+        slip.kind = Variable::Kind::Slip;
+        slip.of = c;
+        slip.scale = v.scale;
         variables_.push_back(slip);
     }
     void makeMatrix() {
@@ -198,14 +215,18 @@ class Lemke final : public DirectRounds<S> {
             const Variable& x = variables_[a];
             if (x.kind == Variable::Kind::UpperMultiplier) {
                 const std::size_t row = variables_[x.of].row[0];
-                M_[a * N + x.of] = -1, M_[x.of * N + a] = 1;
+                M_[a * N + x.of] = -1;
+                M_[x.of * N + a] = 1;
                 constant_[a] = (problem_.upper[row] - problem_.lower[row]) / x.scale;
             } else if (x.kind == Variable::Kind::Slip) {
                 const AssembledContact& contact = problem_.contacts[x.of];
                 const double mu = slips_[x.of] ? contact.mu : contact.muStatic;
                 M_[a * N + firstOf_[x.of]] = mu;
                 constant_[a] = mu * contact.applied / x.scale;
-                for (std::size_t b = firstOf_[x.of] + 1; b < a; ++b) M_[a * N + b] = -1, M_[b * N + a] = 1;
+                for (std::size_t b = firstOf_[x.of] + 1; b < a; ++b) {
+                    M_[a * N + b] = -1;
+                    M_[b * N + a] = 1;
+                }
             } else {
                 for (int p = 0; p < 2; ++p) {
                     if (x.share[p] == 0) continue;

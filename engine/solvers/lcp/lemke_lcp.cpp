@@ -18,20 +18,26 @@ LemkeLcp::Outcome LemkeLcp::solve(std::size_t n, const double* M, const double* 
     n_ = n;
     pivots_ = 0;
     if (dictionary_.size() < n * (n + 1)) dictionary_.resize(n * (n + 1));
-    constant_.resize(n), basic_.resize(n), nonbasic_.resize(n + 1), where_.resize(2 * n + 1);
+    constant_.resize(n);
+    basic_.resize(n);
+    nonbasic_.resize(n + 1);
+    where_.resize(2 * n + 1);
     double scale = 0;
     std::size_t worst = 0;
     for (std::size_t i = 0; i < n; ++i) {
         std::copy_n(M + i * n, n, &T(i, 0));
         T(i, n) = 1;
         constant_[i] = q[i];
-        basic_[i] = i, where_[i] = i;
-        nonbasic_[i] = n + i, where_[n + i] = n + i;
+        basic_[i] = i;
+        where_[i] = i;
+        nonbasic_[i] = n + i;
+        where_[n + i] = n + i;
         scale = std::max(scale, std::abs(q[i]));
         // Of equal ones the last: with epsilon^k it is the least.
         if (q[i] <= q[worst]) worst = i;
     }
-    nonbasic_[n] = 2 * n, where_[2 * n] = 2 * n;
+    nonbasic_[n] = 2 * n;
+    where_[2 * n] = 2 * n;
     noise_ = 1e-13 * scale;
     Outcome outcome = Outcome::Solved;
     if (n > 0 && q[worst] < 0) {
@@ -67,12 +73,16 @@ std::size_t LemkeLcp::leaving(std::size_t column) const {
         const double mine = std::max(0.0, constant_[i]) / rate;
         const double tie = best == kNullIndex ? 0 : noise_ / std::min(rate, 1.0);
         if (best == kNullIndex || mine < ratio - tie) {
-            best = i, ratio = mine;
+            best = i;
+            ratio = mine;
         } else if (mine <= ratio + tie) {
             // z_0 leaves whenever it may: that is the end.
             const bool better =
                 basic_[i] == 2 * n_ || (basic_[best] != 2 * n_ && lexicographicallyLess(i, best, column));
-            if (better) best = i, ratio = std::min(ratio, mine);
+            if (better) {
+                best = i;
+                ratio = std::min(ratio, mine);
+            }
         }
     }
     return best;

@@ -61,7 +61,9 @@ Vec3<R> solveContactAlone(const Mat3<R>& W, const Vec3<R>& b, R mu, R muStatic, 
     Slip<R> slip;
     slip.applied = applied;
     slip.c = Vec2<R>(W(1, 0), W(2, 0));
-    slip.wn = W(0, 0), slip.bn = b[0], slip.mu = mu;
+    slip.wn = W(0, 0);
+    slip.bn = b[0];
+    slip.mu = mu;
     if (!(std::max(mu, muStatic) > 0)) return {-b[0] / slip.wn, R(0), R(0)};
     slip.s11 = W(1, 1) - slip.c[0] * slip.c[0] / slip.wn;
     slip.s12 = W(1, 2) - slip.c[0] * slip.c[1] / slip.wn;
@@ -74,7 +76,10 @@ Vec3<R> solveContactAlone(const Mat3<R>& W, const Vec3<R>& b, R mu, R muStatic, 
     if (!(mu > 0)) return {-b[0] / slip.wn, R(0), R(0)};
     R low = 0, high = slip.s11 + slip.s22;
     constexpr int kDoublings = 200;  // over the whole range of the exponent; f(inf) < 0 ends it before
-    for (int i = 0; i < kDoublings && slip.evaluate(high) > 0; ++i) low = high, high *= R(4);
+    for (int i = 0; i < kDoublings && slip.evaluate(high) > 0; ++i) {
+        low = high;
+        high *= R(4);
+    }
     R alpha = low > 0 ? std::sqrt(low * high) : R(0.5) * high;
     constexpr int kSteps = 100;  // Newton takes about 5; bisection alone would be done by then too
     for (int i = 0; i < kSteps; ++i) {

@@ -74,7 +74,10 @@ bool ContactInterior::solve(const AssembledProblem& problem, double shift, std::
         evaluate(problem);
         const double error = std::max(gap(), distance_ * distance_);
         slow = error < kProgress * best ? 0 : slow + 1;
-        if (error < best) best = error, impulses = lambda_;
+        if (error < best) {
+            best = error;
+            impulses = lambda_;
+        }
         if (error < kDone * start || slow > kPatience) break;
         scaleCones();
         if (!factor(problem)) break;
@@ -95,9 +98,12 @@ bool ContactInterior::solve(const AssembledProblem& problem, double shift, std::
 
 void ContactInterior::begin(const AssembledProblem& p, double shift) {
     const std::size_t n = p.n;
-    cones_.clear(), bounds_.clear();
+    cones_.clear();
+    bounds_.clear();
     lambda_.assign(p.lambda.begin(), p.lambda.end());
-    w_.resize(n), right_.resize(n), y_.resize(n);
+    w_.resize(n);
+    right_.resize(n);
+    y_.resize(n);
     pinned_.assign(n, 0);
     // Scaled, velocities and impulses of light and heavy bodies are alike: roots of energies.
     double size = std::numeric_limits<double>::min();
@@ -117,14 +123,16 @@ void ContactInterior::addBounds(const AssembledProblem& p, std::size_t i, double
     const double root = std::sqrt(p.at(i, i)), room = 0.5 * (upper - lower),
                  margin = std::min(size / root, room);
     if (!(room > 1e-12 * size / root)) {  // no inside
-        pinned_[i] = 1, lambda_[i] = lower;
+        pinned_[i] = 1;
+        lambda_[i] = lower;
         return;
     }
     if (cold) lambda_[i] = 0;
     lambda_[i] = std::clamp(lambda_[i], lower + margin, upper - margin);
     for (const double sign : {1.0, -1.0}) {
         Bound bound;
-        bound.row = i, bound.sign = sign;
+        bound.row = i;
+        bound.sign = sign;
         const double at = sign > 0 ? lower : upper;
         if (!std::isfinite(at)) continue;
         bound.a = sign * (lambda_[i] - at);
@@ -138,11 +146,15 @@ void ContactInterior::addCone(const AssembledProblem& p, const AssembledContact&
     const std::size_t normal = contact.normal;
     if (contact.tangents == 0 || !(contact.mu > 0)) {
         addBounds(p, normal, 0.0, std::numeric_limits<double>::infinity(), size, cold);
-        for (std::size_t t = 1; t <= contact.tangents; ++t) pinned_[normal + t] = 1, lambda_[normal + t] = 0;
+        for (std::size_t t = 1; t <= contact.tangents; ++t) {
+            pinned_[normal + t] = 1;
+            lambda_[normal + t] = 0;
+        }
         return;
     }
     Cone cone;
-    cone.first = normal, cone.rows = 1 + contact.tangents;
+    cone.first = normal;
+    cone.rows = 1 + contact.tangents;
     const double c = 1 / std::sqrt(p.at(normal + 1, normal + 1));
     cone.d[0] = c / contact.mu;
     for (std::size_t t = 1; t < cone.rows; ++t) cone.d[t] = c;
@@ -285,11 +297,13 @@ void ContactInterior::advance(double step) {
     for (std::size_t i = 0; i < lambda_.size(); ++i)
         if (!pinned_[i]) lambda_[i] += step * y_[i];
     for (Bound& bound : bounds_) {
-        bound.a += step * bound.da, bound.z += step * bound.dz;
+        bound.a += step * bound.da;
+        bound.z += step * bound.dz;
     }
     for (Cone& cone : cones_)
         for (int i = 0; i < kDim; ++i) {
-            cone.x[i] += step * cone.dx[i], cone.u[i] += step * cone.du[i];
+            cone.x[i] += step * cone.dx[i];
+            cone.u[i] += step * cone.du[i];
         }
 }
 

@@ -10,7 +10,9 @@ namespace rigor::engine {
 bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<double>& next) {
     const std::size_t n = p.n;
     double* A = lu_.reset(n);
-    w_.resize(n), right_.resize(n), next.resize(n);
+    w_.resize(n);
+    right_.resize(n);
+    next.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
         const double* W = p.W.data() + i * n;
         double w = p.q[i];

@@ -71,10 +71,12 @@ class Jacobi final : public Solver<S> {
         input.tasks.forEach(split_.blocks.size(), kBlockGrain, [this](std::size_t k) {
             Block<S>& block = split_.blocks[k];
             const Real nA = partners_[block.a], nB = partners_[block.b];
-            block.invMassA *= nA, block.invMassB *= nB;
+            block.invMassA *= nA;
+            block.invMassB *= nB;
             Row<S>* rows = split_.rows.data() + block.first;
             for (int i = 0; i < block.rows; ++i) {
-                rows[i].invIAngA *= nA, rows[i].invIAngB *= nB;
+                rows[i].invIAngA *= nA;
+                rows[i].invIAngB *= nB;
                 const Real K = rowK<S>(rows[i], block);
                 rows[i].invK = K > 0 ? Real(1) / K : Real(0);
             }
@@ -95,7 +97,8 @@ class Jacobi final : public Solver<S> {
         split.tasks.forEach(results_.size(), kUnitGrain, [&](std::size_t u) {
             const Block<S>& block = split_.blocks[units_[u]];
             Result& result = results_[u];
-            result.a = split.velocities[block.a], result.b = split.velocities[block.b];
+            result.a = split.velocities[block.a];
+            result.b = split.velocities[block.b];
             result.change = solveUnit(split, units_[u], units_[u + 1], result.a, result.b);
         });
         // The order of a sum is part of it: unit by unit.

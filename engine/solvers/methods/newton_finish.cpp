@@ -46,13 +46,15 @@ typename S::Real NewtonFinish<S>::attempt(const SolverInput<S>& input, Real resi
         Real reached = std::numeric_limits<Real>::infinity();
         if (newton_.step(problem_, damping, target_) && !runsAway()) reached = take(input, target_);
         if (reached < best) {
-            best = reached, astray = 0;
+            best = reached;
+            astray = 0;
             best_.save(input);
             damping = std::max(kLeastDamping, 1e-2 * damping);
         } else if (!(reached < kLost * best) || ++astray > 2) {
             best_.restore(input);
             input.monitor.before(input.velocities);
-            damping *= 100, astray = 0;
+            damping *= 100;
+            astray = 0;
             if (damping > kMostDamping) break;
         }
     }

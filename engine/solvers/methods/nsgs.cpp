@@ -113,8 +113,11 @@ class Nsgs final : public Solver<S> {
         const std::size_t n = all.rows.size();
         for (auto& column : stepHistory_) column.resize(n);
         for (auto& column : mapHistory_) column.resize(n);
-        kept_ = 0, next_ = 0, havePrevious_ = false;
-        previousStep_.resize(n), previousMap_.resize(n);
+        kept_ = 0;
+        next_ = 0;
+        havePrevious_ = false;
+        previousStep_.resize(n);
+        previousMap_.resize(n);
         finish_.forget();
         // What the impulses have to stop or to bring about.
         fastest_ = 0;
@@ -151,7 +154,10 @@ class Nsgs final : public Solver<S> {
             step[0] = std::clamp(old - rows[0].invK * step[0], rows[0].lower, rows[0].upper) - old;
         } else {
             Vec3<Real> r = Vec3<Real>::Zero(), w = Vec3<Real>::Zero();
-            for (int i = 0; i < block.rows; ++i) r[i] = rows[i].impulse, w[i] = step[i];
+            for (int i = 0; i < block.rows; ++i) {
+                r[i] = rows[i].impulse;
+                w[i] = step[i];
+            }
             const Vec3<Real> free = w - local_[k] * r;
             const Vec3<Real> next =
                 block.rows > 1 ? solveContactAlone<Real>(local_[k], free, block.friction,
@@ -183,7 +189,9 @@ class Nsgs final : public Solver<S> {
         Real reached = finish_.attempt(input, residual, enough);
         if (reached > enough) reached = finish_.attemptFromInside(input, reached, enough);
         // Anderson's history is of another path.
-        kept_ = 0, next_ = 0, havePrevious_ = false;
+        kept_ = 0;
+        next_ = 0;
+        havePrevious_ = false;
         return reached;
     }
 
@@ -203,7 +211,8 @@ class Nsgs final : public Solver<S> {
             next_ = (next_ + 1) % kDepth;
             kept_ = std::min<std::size_t>(kept_ + 1, kDepth);
         }
-        previousStep_ = start_, previousMap_ = mapped_;
+        previousStep_ = start_;
+        previousMap_ = mapped_;
         havePrevious_ = true;
         if (kept_ == 0) return residual;
         extrapolate(all);
@@ -212,7 +221,9 @@ class Nsgs final : public Solver<S> {
         const Real extrapolated = renewedResidual(input);
         if (extrapolated <= residual) return extrapolated;
         setImpulses(input, mapped_);
-        kept_ = 0, next_ = 0, havePrevious_ = false;
+        kept_ = 0;
+        next_ = 0;
+        havePrevious_ = false;
         return renewedResidual(input);
     }
 

@@ -39,7 +39,10 @@ void Colouring::divide(std::span<const PatchPlan> plans, std::size_t bodies, con
     });
     slice();
     contacts_ = points_ = 0;
-    for (const Part& part : parts_) contacts_ += part.contacts, points_ += part.points;
+    for (const Part& part : parts_) {
+        contacts_ += part.contacts;
+        points_ += part.points;
+    }
     // As many regions, a power of two, as have enough contacts, few of them across; about as many as last
     // time, which is tried first.
     const std::size_t many = std::clamp<std::size_t>(contacts_ / kRegionContacts, 1, kMostRegions);
@@ -61,7 +64,8 @@ void Colouring::weigh(std::span<const PatchPlan> plans, Part& part) const {
     part.work.assign(slice_.size(), 0);
     part.contacts = part.points = 0;
     for (const PatchPlan& plan : plans) {
-        part.contacts += plan.points > 0, part.points += plan.points;
+        part.contacts += plan.points > 0;
+        part.points += plan.points;
         const std::uint32_t work = plan.points > 0 ? workOf(plan.points) : 0;
         part.work[plan.a >> binBits_] += plan.movesA ? work : 0;
         part.work[plan.b >> binBits_] += plan.movesB ? work : 0;
@@ -107,7 +111,9 @@ void Colouring::list(std::span<const PatchPlan> plans, std::uint32_t first, Part
         const bool wall = !plan.movesA || !plan.movesB;
         const std::uint32_t a = sliceOf(wall ? keyOf(plan) : plan.a), b = wall ? a : sliceOf(plan.b);
         const bool across = (a ^ b) >> sliceBits() != 0, inside = regions_.size() > 1 && !across;
-        part.pairs += !wall, part.across += across, part.finer += (a ^ b) >> (sliceBits() - 1) != 0;
+        part.pairs += !wall;
+        part.across += across;
+        part.finer += (a ^ b) >> (sliceBits() - 1) != 0;
         part.members[(inside ? own(a >> sliceBits()) : 0) + wall].push_back(first + i);
     }
 }
@@ -116,7 +122,11 @@ void Colouring::list(std::span<const PatchPlan> plans, std::uint32_t first, Part
 /// few would be.
 int Colouring::betterBits(int most) const {
     std::size_t pairs = 0, across = 0, finer = 0;
-    for (const Part& part : parts_) pairs += part.pairs, across += part.across, finer += part.finer;
+    for (const Part& part : parts_) {
+        pairs += part.pairs;
+        across += part.across;
+        finer += part.finer;
+    }
     if (5 * across > pairs) return regionBits_ - 1;
     return regionBits_ < most && 5 * finer <= pairs ? regionBits_ + 1 : regionBits_;
 }
@@ -196,12 +206,17 @@ void Colouring::colour(std::span<const PatchPlan> plans, std::size_t bodies, std
         count(groups_[g], lanes);
     });
     blocks_ = 0;
-    for (Group& group : groups()) group.block = blocks_, blocks_ += group.blocks;
+    for (Group& group : groups()) {
+        group.block = blocks_;
+        blocks_ += group.blocks;
+    }
     for (std::size_t r = 0; r < regions_.size(); ++r) {
         const Group &own = groups_[Colouring::own(r)], &walls = groups_[Colouring::own(r) + 1];
-        regions_[r].first = own.block, regions_[r].last = walls.block + walls.blocks;
+        regions_[r].first = own.block;
+        regions_[r].last = walls.block + walls.blocks;
     }
-    ranges_.clear(), tables_.clear();
+    ranges_.clear();
+    tables_.clear();
     for (std::size_t g = 0; g < own(0); ++g) addRanges(groups_[g], lanes);
     occupants_.resize(blocks_ * lanes);
     tasks.forEach(groups().size(), 1, [&](std::size_t g) { place(groups_[g], lanes); });
@@ -231,7 +246,8 @@ Colouring::Cut Colouring::cut(const Range& range, double part) const {
         const std::uint32_t begin = end(range, kind, 0), last = end(range, kind, kSlices);
         const double work = workOf(kKinds - kind);
         at[kind] = end(range, kind, slices);
-        all += work * (last - begin), sliced += work * (at[kind] - begin);
+        all += work * (last - begin);
+        sliced += work * (at[kind] - begin);
     }
     const double off = std::abs(sliced - part * all), slack = std::max(kUneven * all, kLeast);
     if (part == 0 || part == 1 || off <= slack) return at;

@@ -34,9 +34,15 @@ void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
         colouring_.colour(plans_, n, kLanes, tasks);
         before_.clear();
         // What is over is kept for the next time there are more.
-        if (blocks_.size() < blocks()) blocks_.resize(blocks()), rests_.resize(blocks());
+        if (blocks_.size() < blocks()) {
+            blocks_.resize(blocks());
+            rests_.resize(blocks());
+        }
     }
-    inertia_.resize(n), motions_.resize(n), velocities_.resize(n), gained_.resize(n);
+    inertia_.resize(n);
+    motions_.resize(n);
+    velocities_.resize(n);
+    gained_.resize(n);
     cut(tasks);
     gainedHolds_ = bounce_ = false;
     const auto begin = [&](std::size_t i) {
@@ -67,7 +73,8 @@ void Patches<S>::cut(const Tasks& tasks) {
         holds = std::exchange(before_[share], before) == before && holds;
     }
     if (holds) return;
-    stages_.clear(), cuts_.clear();
+    stages_.clear();
+    cuts_.clear();
     if (threads_ > 1) addRangeStages();
     addRegionStage();
 }

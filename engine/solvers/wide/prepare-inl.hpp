@@ -55,7 +55,8 @@ struct Preparation {
           mass(at(block.invMassA) + at(block.invMassB)),
           normal(at(block.normal)),
           offset(at(block.offset)) {
-        at.set(block.invInertiaA, inertiaA), at.set(block.invInertiaB, inertiaB);
+        at.set(block.invInertiaA, inertiaA);
+        at.set(block.invInertiaB, inertiaB);
     }
     static HWY_INLINE std::array<Num<S>, PatchSize<S>::inertia> inertiaOf(const PatchInertia<S>* inertia,
                                                                           const std::uint32_t* index) {
@@ -140,7 +141,8 @@ struct Preparation {
         } else {
             const LinVec<S> t = firstTangent<S>(normal), u = moment(normal, t);
             at.set(block.tangent, t);
-            at.set(block.rubImpulse[0], dot(force, t)), at.set(block.rubImpulse[1], dot(force, u));
+            at.set(block.rubImpulse[0], dot(force, t));
+            at.set(block.rubImpulse[1], dot(force, u));
             const Num<S> tt = rubK(centre, t, t), uu = rubK(centre, u, u), tu = rubK(centre, t, u);
             const Num<S> half = number<S>(Real(0.5)), difference = half * (tt - uu);
             Num<S> largest = half * (tt + uu) + hn::Sqrt(difference * difference + tu * tu);
@@ -160,7 +162,8 @@ struct Preparation {
             widest = hn::Max(widest, radius);
             impulse = impulse + dot(normal, moment(arm, at(rubs.last[i])));
         }
-        at.set(block.twistImpulse, impulse), at.set(block.twistTotal, zero);
+        at.set(block.twistImpulse, impulse);
+        at.set(block.twistTotal, zero);
         return widest * widest *
                (dot(normal, times(inertiaA, normal)) + dot(normal, times(inertiaB, normal)));
     }

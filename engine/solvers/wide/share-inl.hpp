@@ -68,7 +68,10 @@ HWY_INLINE void shareLanes(const PatchBlock<S>& block, const PatchRest<S>& rest,
         }
     };
     Num<S> twist = hn::Zero(Tag<S>()), twistTotal = twist;
-    if constexpr (S::dim == 3) twist = at(block.twistImpulse), twistTotal = at(block.twistTotal);
+    if constexpr (S::dim == 3) {
+        twist = at(block.twistImpulse);
+        twistTotal = at(block.twistTotal);
+    }
     share<S>(
         block, rest, at, force(block.rubImpulse), twist,
         [&](const auto& p) RIGOR_INLINE_LAMBDA { return at(p.impulse); },

@@ -74,7 +74,8 @@ struct PatchGroup {
           inertiaA(at(block.invInertiaA)),
           inertiaB(at(block.invInertiaB)) {}
     HWY_INLINE void store(Velocity<S>* velocities) const {
-        sideA.store(a, velocities), sideB.store(b, velocities);
+        sideA.store(a, velocities);
+        sideB.store(b, velocities);
     }
     HWY_INLINE AngVec<S> jB(int i) const { return at(block.point[i].jB); }
     HWY_INLINE Relative<S> velocity() const {
@@ -213,7 +214,8 @@ struct NormalRow {
             bias = hn::IfThenElse(rebound < zero, rebound, bias);
             invK = hn::IfThenElseZero(p.at(p.rest.open[i]) == zero, invK);
         }
-        factor = invK, leak = change = zero;
+        factor = invK;
+        leak = change = zero;
         if (pass.soft) {
             factor = hn::IfThenElse(rigid, invK, number<S>(pass.massScale) * invK);
             leak = hn::IfThenElse(rigid, zero, number<S>(pass.impulseScale));

@@ -25,7 +25,10 @@ class PatchVelocities {
 
     void resize(std::size_t bodies) {
         before_.resize(bodies);
-        if constexpr (kSplit) base_.resize(bodies), rest_.resize(bodies);
+        if constexpr (kSplit) {
+            base_.resize(bodies);
+            rest_.resize(bodies);
+        }
     }
     std::size_t size() const { return before_.size(); }
     /// What patches work on: data()[i] of body i, from base()[i] unless that is null.
