@@ -71,7 +71,11 @@ function(rigor_test name)
     if(NOT ARG_TIMEOUT)
         set(ARG_TIMEOUT 120)
     endif()
-    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+    # Two builds on one machine may run the same test at once: each has temporary files of its own.
+    set(temporary ${PROJECT_BINARY_DIR}/tests/tmp/${name})
+    file(MAKE_DIRECTORY ${temporary})
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT_MODIFICATION
+                                                                   "TEST_TMPDIR=set:${temporary}/")
     if(ARG_LABELS)
         set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}")
     endif()
