@@ -27,7 +27,7 @@ SleepStep<S> World<S>::sleepStep() {
             contacts_,
             islands(),
             islandMarks_,
-            cursor_.size,
+            progress_.size,
             def_.sleepLinearVelocity,
             def_.sleepAngularVelocity,
             def_.timeToSleep};

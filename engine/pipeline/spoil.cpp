@@ -33,7 +33,7 @@ void ContactSet<S>::spoilRows(const BodyArrays<S>& bodies, const Fault<S>& fault
 }
 
 template <class S>
-void World<S>::spoil(Phase phase) {
+void World<S>::injectFault(Phase phase) {
     switch (phase) {
         case Phase::BroadPhase:
             contacts_.spoilPairs(*fault_);
@@ -48,7 +48,7 @@ void World<S>::spoil(Phase phase) {
             fault_->solved(bodies_, rows_);
             break;
         case Phase::Move:
-            fault_->moved(bodies_, motion_.startRotations(), cursor_.substepSize);
+            fault_->moved(bodies_, motion_.startRotations(), progress_.substepSize);
             if (fault_->movesStatics()) contacts_.structureChanged(false);
             break;
         default:
@@ -59,7 +59,7 @@ void World<S>::spoil(Phase phase) {
 #define RIGOR_INSTANTIATE(S)                                                                           \
     template void ContactSet<S>::spoilManifolds(const BodyArrays<S>&, const Fault<S>&, std::uint64_t); \
     template void ContactSet<S>::spoilRows(const BodyArrays<S>&, const Fault<S>&, ConstraintRows<S>&); \
-    template void World<S>::spoil(Phase);
+    template void World<S>::injectFault(Phase);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 

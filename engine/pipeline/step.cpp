@@ -1,83 +1,26 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// One step of h: find contacts where the bodies are (broad phase, narrow phase); then, in each of the
-// sub-steps,
-//     rows         joints, contacts (approach speeds from before the forces)
-//     velocities   v += h a; damping; gyroscopic term
-//     solve        impulses for the rows
-//     move         x += h v, q := exp(h w) q
-//     impacts      fast bodies back to where they collide, and on from there  (where the choice wants it)
-//     relax        impulses again, without what position errors asked for     (where the choice wants it)
-//     correct      position correction; angular momentum to end velocity
+// One step of h, as World::forEachStage writes it down:
+//     find contacts    broad phase, narrow phase, where the bodies are
+//     in each sub-step
+//         rows         joints, contacts (approach speeds from before the forces)
+//         velocities   v += h a; damping; gyroscopic term
+//         solve        impulses for the rows
+//         move         x += h v, q := exp(h w) q
+//         impacts      fast bodies back to where they collide, and on from there  (where the choice wants it)
+//         relax        impulses again, without what position errors asked for     (where the choice wants it)
+//         correct      position correction; angular momentum to end velocity
 // Solvers that iterate on positions move first, are put right (`positions`), and solve velocities after that.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 
 #include "engine/pipeline/world.hpp"
-#include "engine/solvers/natural_map.hpp"
 #include "engine/solvers/wide/patches.hpp"
 
 namespace rigor::engine {
 namespace {
-
-/// Renews the biases of joints before an iteration, keeps its residual after it.
-template <class S>
-class StepMonitor final : public IterationMonitor<S> {
-  public:
-    using Real = typename S::Real;
-    StepMonitor(JointSet<S>& joints, const BodyArrays<S>& bodies, JointStep<S>& step, ConstraintRows<S>& rows,
-                Real tolerance, bool measure, const IterationObserver<S>& observer,
-                std::vector<Real>& residuals)
-        : joints_(joints),
-          bodies_(bodies),
-          step_(step),
-          rows_(rows),
-          tolerance_(tolerance),
-          measure_(measure),
-          observer_(observer),
-          residuals_(residuals) {}
-    void before(std::span<const Velocity<S>> velocities) override {
-        aim_ = joints_.updateBiases(bodies_, step_, velocities, rows_);
-        ++renewals_;
-    }
-    /// Joints were aimed at where the bodies come to be, not at where they would have come.
-    bool aimSettled() const {
-        const Real still = kStill * std::max(tolerance_, std::numeric_limits<Real>::epsilon());
-        return renewals_ < 4 || aim_.step <= std::max(kSettled * aim_.largest, still);
-    }
-
-    bool after(std::span<const Velocity<S>> velocities, Real change) override {
-        Real residual = change;
-        if (measure_) {
-            before(velocities);
-            residual = naturalMapResidual<S>(rows_, velocities);
-        }
-        residuals_.push_back(residual);
-        if (observer_) observer_(static_cast<int>(residuals_.size()) - 1, rows_, residual);
-        return change < tolerance_;
-    }
-    Real tolerance() const override { return tolerance_; }
-
-  private:
-    static constexpr Real kSettled = Real(1e-3);  ///< of the largest bias
-    static constexpr Real kStill = Real(1e3);  ///< tolerances of the iteration: rounding of positions over h
-    BiasChange<Real> aim_;
-    int renewals_ = 0;  ///< two or three are not asked to settle
-    JointSet<S>& joints_;
-    const BodyArrays<S>& bodies_;
-    JointStep<S>& step_;
-    ConstraintRows<S>& rows_;
-    Real tolerance_;
-    bool measure_;
-    const IterationObserver<S>& observer_;
-    std::vector<Real>& residuals_;
-};
-
-/// Work of the joints that hold, as a share of the energy of their bodies, beyond which aims at the end of
-/// the step are not believed. A pendulum of length L has up to g h^2 / (2 L) of it; a chain of 20 links 6e-5.
-constexpr double kMostWork = 0.01;
 
 class PhaseClock {
   public:
@@ -101,22 +44,36 @@ const char* phaseName(Phase phase) {
     return names[static_cast<std::size_t>(phase)];
 }
 
-namespace {
-
-// What a sub-step consists of.
-constexpr std::array kMoveLast{Phase::Rows,    Phase::Velocities, Phase::Solve,  Phase::Move,
-                               Phase::Impacts, Phase::Relax,      Phase::Correct};
-constexpr std::array kMoveFirst{Phase::Rows,  Phase::Velocities, Phase::Move,   Phase::Positions,
-                                Phase::Solve, Phase::Impacts,    Phase::Correct};
-static_assert(kMoveLast.size() == kMoveFirst.size());
-
-}  // namespace
+/// The stages of a step in their order: calls stage(Phase, sub-step, the member function that does the work).
+template <class S>
+template <class Visitor>
+void World<S>::forEachStage(const Visitor& stage) const {
+    stage(Phase::BroadPhase, 0, &World::findPairs);
+    stage(Phase::NarrowPhase, 0, &World::findManifolds);
+    for (int substep = 0; substep < substeps(); ++substep) {
+        stage(Phase::Rows, substep, &World::makeRows);
+        stage(Phase::Velocities, substep, &World::kick);
+        if (!style_.positions) {
+            stage(Phase::Solve, substep, &World::solve);
+            stage(Phase::Move, substep, &World::move);
+            stage(Phase::Impacts, substep, &World::resolveImpacts);
+            stage(Phase::Relax, substep, &World::relax);
+        } else {
+            stage(Phase::Move, substep, &World::move);
+            stage(Phase::Positions, substep, &World::solvePositions);
+            stage(Phase::Solve, substep, &World::solve);
+            stage(Phase::Impacts, substep, &World::resolveImpacts);
+        }
+        stage(Phase::Correct, substep, &World::correct);
+    }
+}
 
 template <class S>
 const StepResult<S>& World<S>::step(Real h) {
     beginStep(h);
     tasks_.enter([this] {
-        while (stepping()) runPhase();
+        forEachStage([this](Phase phase, int substep, Work work) { runStage(phase, substep, work); });
+        endStep();
     });
     return result_;
 }
@@ -134,90 +91,51 @@ void World<S>::beginStep(Real h) {
     impacts_.clear();
     joints_.clearTotals();
     motion_.beginStep();
-    cursor_ = {true, Phase::BroadPhase, 0, 0, h, h / Real(substeps())};
+    progress_ = {true, 0, 0, h, h / Real(substeps())};
 }
 
+template <class S>
+void World<S>::runStage(Phase phase, int substep, Work work) {
+    PhaseClock clock(result_.seconds);
+    progress_.substep = substep;
+    (this->*work)();
+    if (fault_ != nullptr) injectFault(phase);
+    clock.end(phase);
+    ++progress_.stagesDone;
+}
+
+/// The same loop as in step(), of which this call runs the first stage that has not run yet.
 template <class S>
 void World<S>::runPhase() {
     if (!stepping()) throw EngineError("no_step", "no step has begun");
-    PhaseClock clock(result_.seconds);
-    const Phase phase = cursor_.next;
-    tasks_.enter([this, phase] { runInside(phase); });
-    if (fault_ != nullptr) spoil(phase);
-    clock.end(phase);
-    advanceCursor();
-}
-
-/// A phase, in the company of the threads that share it.
-template <class S>
-void World<S>::runInside(Phase phase) {
-    switch (phase) {
-        case Phase::BroadPhase:
-            ccd_->predict(bodies_, contacts_, def_.gravity, cursor_.size);
-            result_.pairTests = broadPhase_->tests();
-            contacts_.findPairs(bodies_, *broadPhase_, contactSearch(), *ccd_, tasks_);
-            result_.pairTests = broadPhase_->tests() - result_.pairTests;
-            break;
-        case Phase::NarrowPhase:
-            contacts_.findManifolds(bodies_, *narrowPhase_, makeManifold_, *ccd_, tasks_);
-            islandsStale_ = true;
-            if (sleeping_.wake) sleeping_.wake(sleepStep());
-            break;
-        case Phase::Rows:
-            makeRows();
-            break;
-        case Phase::Velocities:
-            kick();
-            break;
-        case Phase::Solve:
-            solveVelocities(firstStep() && !style_.iterations
-                                ? std::max(def_.firstStepIterations, velocityIterations())
-                                : velocityIterations(),
-                            false);
-            break;
-        case Phase::Move:
-            motion_.move(bodies_, cursor_.substepSize, tasks_);
-            break;
-        case Phase::Impacts:
-            resolveImpacts();
-            break;
-        case Phase::Relax:
-            relax();
-            break;
-        case Phase::Positions:
-            solvePositions();
-            break;
-        case Phase::Correct:
-            correct();
-            break;
-    }
+    const int next = progress_.stagesDone;
+    int stages = 0;
+    tasks_.enter([&] {
+        forEachStage([&](Phase phase, int substep, Work work) {
+            if (stages++ == next) runStage(phase, substep, work);
+        });
+        if (progress_.stagesDone == stages) endStep();
+    });
 }
 
 template <class S>
-void World<S>::advanceCursor() {
-    const auto& order = style_.positions ? kMoveFirst : kMoveLast;
-    if (cursor_.next == Phase::BroadPhase) {
-        cursor_.next = Phase::NarrowPhase;
-        return;
-    }
-    if (cursor_.next != Phase::NarrowPhase && ++cursor_.place == order.size()) {
-        cursor_.place = 0;
-        if (++cursor_.substep == substeps()) {
-            endStep();
-            return;
-        }
-    }
-    cursor_.next = order[cursor_.place];
+typename World<S>::Stage World<S>::nextStage() const {
+    Stage next;
+    int stages = 0;
+    forEachStage([&](Phase phase, int substep, Work) {
+        if (stages++ == progress_.stagesDone) next = {phase, substep};
+    });
+    return next;
 }
 
 template <class S>
 void World<S>::endStep() {
-    cursor_.active = false;
+    progress_.active = false;
     tasks_.forEach(bodies_.size(), kBodyGrain, [this](std::size_t i) { bodies_.wrench[i] = {}; });
     contacts_.keepSides(bodies_, tasks_);
     if (sleeping_.rest) sleeping_.rest(sleepStep());
     checkFinite();
-    time_ += static_cast<double>(cursor_.size);
+    time_ += static_cast<double>(progress_.size);
     ++stepCount_;
     result_.pairs = contacts_.pairCount();
     result_.contacts = static_cast<std::size_t>(
@@ -240,209 +158,6 @@ void World<S>::endStep() {
     result_.sleeping = static_cast<std::size_t>(std::count(bodies_.asleep.begin(), bodies_.asleep.end(), 1));
 }
 
-/// A fault may spoil what would be kept.
-template <class S>
-ContactSearch<S> World<S>::contactSearch() const {
-    if (fault_ != nullptr) return {def_.speculativeDistance, 0, 0};
-    return {def_.speculativeDistance, def_.reuseDistance, def_.boxMargin};
-}
-
-template <class S>
-void World<S>::kick() {
-    ccd_->remember(bodies_);
-    motion_.kick(bodies_, load(), cursor_.substepSize, tasks_);
-    ccd_->rememberKick(bodies_);
-}
-
-template <class S>
-void World<S>::resolveImpacts() {
-    const Real h = cursor_.substepSize;
-    const bool inTime = ccd_->resolve({bodies_, contacts_, motion_, *narrowPhase_, friction_,
-                                       def_.restitutionThreshold, h, static_cast<Real>(cursor_.substep) * h},
-                                      impacts_);
-    result_.impactsCut = result_.impactsCut || !inTime;
-}
-
-template <class S>
-Load<S> World<S>::load() const {
-    return {def_.gravity, &forces_, time_ + cursor_.substep * static_cast<double>(cursor_.substepSize)};
-}
-
-template <class S>
-void World<S>::makeRows() {
-    const Real h = cursor_.substepSize;
-    // Patches have theirs from the beginning of the step.
-    const bool inertiaHolds =
-        solver_->patches() != nullptr && joints_.records().empty() && motion_.inertiaHolds();
-    if (cursor_.substep == 0 || !inertiaHolds) Motion<S>::setInertia(bodies_, tasks_);
-    rows_.clear();
-    const Real warmStart = def_.warmStarting && lastStepSize_ > 0 ? h / lastStepSize_ : Real(0);
-    const BiasRule<Real> bias = biasRule();
-    const BiasRule<Real> jointBias = def_.curvedJoints ? bias : style_.linearJointBias.value_or(bias);
-    jointStep_ = {h, jointBias, warmStart, def_.curvedJoints && motion_.movesWithSolvedVelocity()};
-    joints_.addRows(bodies_, jointStep_, rows_);
-    // Twice what gravity adds in a step: a resting contact never approaches that fast.
-    const Real gravityStep = h * def_.gravity.norm();
-    const Real impactSpeed = std::max(def_.restitutionThreshold, Real(2) * gravityStep);
-    const ContactStep<S> contactStep{h,
-                                     def_.restitutionThreshold,
-                                     Real(2) * h * gravityStep,
-                                     impactSpeed,
-                                     bias,
-                                     def_.slop,
-                                     def_.gapSlop,
-                                     warmStart,
-                                     restitution_->bounces(),
-                                     cursor_.substep == 0};
-    if (Patches<S>* patches = solver_->patches()) {
-        if (cursor_.substep == 0) contacts_.addPatches(bodies_, contactStep, *patches, tasks_);
-        return patches->beginSubstep(bodies_.velocity, patchPass(), tasks_);
-    }
-    contacts_.addRows(bodies_, contactStep, rows_, tasks_);
-    if (restitution_->solvesImpacts()) solveImpacts();
-}
-
-/// Impacts by themselves, before the forces of the step.
-template <class S>
-void World<S>::solveImpacts() {
-    if (std::none_of(rows_.blocks.begin(), rows_.blocks.end(),
-                     [](const Block<S>& block) { return block.restitution > 0; }))
-        return;
-    warmStart_.clear();
-    for (const Row<S>& row : rows_.rows) warmStart_.push_back(row.impulse);
-    const bool curved = std::exchange(jointStep_.curved, false);
-    // Like a first step, an impact has no impulses to start from.
-    restitution_->impact(rows_, bodies_.velocity, [this] {
-        solveVelocities(std::max(def_.firstStepIterations, velocityIterations()), false);
-    });
-    jointStep_.curved = curved;
-    joints_.storeImpulses(bodies_, rows_);
-    contacts_.storeImpulses(rows_);
-    for (std::size_t i = 0; i < warmStart_.size(); ++i) rows_.rows[i].impulse = warmStart_[i];
-}
-
-template <class S>
-BiasRule<typename S::Real> World<S>::biasRule() const {
-    BiasRule<Real> rule = style_.bias ? *style_.bias : correction_->bias();
-    // A spring faster than a quarter of the step rate cannot be resolved [Catto2011].
-    const Real fastest = Real(0.25) / cursor_.substepSize;
-    rule.contact = {std::min(def_.contactFrequency, fastest), def_.contactDampingRatio};
-    rule.joint = {std::min(def_.jointFrequency, fastest), def_.jointDampingRatio};
-    return rule;
-}
-
-template <class S>
-PatchPass World<S>::patchPass() const {
-    const auto number = [](Real x) { return static_cast<PatchReal>(x); };
-    const Real h = cursor_.substepSize;
-    const SoftTerms<Real> terms = softTerms(biasRule().contact, Real(1), h);  // of K = 1
-    PatchPass pass;
-    pass.invH = number(Real(1) / h);
-    pass.biasRate = number(terms.biasRate);
-    pass.massScale = number(Real(1) / (Real(1) + terms.gamma));
-    pass.impulseScale = number(terms.gamma / (Real(1) + terms.gamma));
-    pass.slop = number(def_.slop);
-    pass.fastestPush = softBiasRule<PatchReal>().fastestPush;
-    pass.threshold = number(def_.restitutionThreshold);
-    pass.touching = PatchReal(64) * std::numeric_limits<PatchReal>::epsilon();
-    pass.restingGap = std::max(pass.touching, number(Real(2) * h * h * def_.gravity.norm()));
-    return pass;
-}
-
-/// At the end of a sub-step.
-template <class S>
-void World<S>::finishPatches(bool lastSubstep) {
-    Patches<S>& patches = *solver_->patches();
-    if (!lastSubstep) return patches.advance(motion_.used(), cursor_.substepSize, tasks_);
-    contacts_.storePatches(patches, tasks_);
-}
-
-template <class S>
-void World<S>::solveVelocities(int iterations, bool warmStarted) {
-    const Real h = cursor_.substepSize;
-    const Real converged =
-        def_.velocityTolerance > 0
-            ? std::max(def_.velocityTolerance * h * def_.gravity.norm(), std::numeric_limits<Real>::epsilon())
-            : Real(0);
-    StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, converged, def_.measureResiduals, observer_,
-                           residuals_);
-    const PatchPass pass = patchPass();
-    const bool aims = jointStep_.curved && solver_->patches() == nullptr;
-    if (aims) joints_.remember(rows_, bodies_.velocity);
-    solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted,
-                    def_.residualTolerance, def_.pyramidDirections, tasks_, &pass});
-    result_.solverGaveUp = result_.solverGaveUp || solver_->gaveUp();
-    if (!jointStep_.curved) return;
-    // The aim of joints at the end of the step is renewed with every iteration, which diverges where a step
-    // turns light links far, or asks for motion that the joints hardly allow, as in a flat net: then the
-    // linearisation at its start has to do.
-    const bool ideal = !jointStep_.bias.soft && jointStep_.bias.share == 0;  // else joints may do work
-    const bool strays = aims && ideal && joints_.work(rows_, bodies_.velocity) > Real(kMostWork);
-    if (!strays && monitor.aimSettled()) return;
-    jointStep_.curvature = 0;
-    if (strays) joints_.restart(rows_, bodies_.velocity);
-    solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted || !strays,
-                    def_.residualTolerance, def_.pyramidDirections, tasks_, &pass});
-}
-
-template <class S>
-void World<S>::relax() {
-    int iterations =
-        style_.bias ? style_.relaxIterations : std::min(correction_->relaxIterations(), velocityIterations());
-    if (solver_->patches() == nullptr && contacts_.bounceAhead(rows_))
-        iterations = std::max(iterations, velocityIterations());
-    if (iterations == 0) return;
-    rows_.relax();
-    jointStep_.curved = false;
-    solveVelocities(iterations, true);
-}
-
-template <class S>
-void World<S>::solvePositions() {
-    const Real h = cursor_.substepSize;
-    StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, Real(0), def_.measureResiduals, observer_,
-                           residuals_);
-    StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h,
-                               std::numeric_limits<Real>::infinity(), positionScratch_);
-    jointStep_.curved = false;
-    solver_->solvePositions(positions,
-                            {rows_, bodies_.velocity, friction_, monitor, velocityIterations(), h, true});
-    // Velocities get what has moved the bodies beyond them: with symplectic Euler the result is (x - x0) / h,
-    // and a body that nothing has moved keeps its velocity to the bit.
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (bodies_.invMass[i] == 0) continue;
-        const Velocity<S>&used = motion_.used()[i], &moved = positionScratch_.motion[i];
-        bodies_.velocity[i].v += (moved.v - h * used.v) / h;
-        const Ang turned = moved.w - Ang(h * used.w);
-        if (dotAng(turned, turned) == Real(0)) continue;
-        const Ang whole = logMap(compose(bodies_.pose[i].q, inverse(motion_.startRotations()[i])));
-        bodies_.velocity[i].w += whole / h - used.w;
-    }
-}
-
-template <class S>
-void World<S>::correct() {
-    joints_.storeImpulses(bodies_, rows_);
-    const bool patches = solver_->patches() != nullptr;
-    if (!patches) contacts_.storeImpulses(rows_);
-    const Real h = cursor_.substepSize;
-    const bool more = cursor_.substep + 1 < substeps();
-    if (!style_.ownsCorrection) {
-        // Slower than this a contact is as good as resting, and its overlap is corrected.
-        const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
-        StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, positionScratch_);
-        correction_->correct(positions, def_.positionIterations, def_.slop);
-    } else if (!style_.positions && !patches) {
-        StepPositions<S>(bodies_, joints_, rows_, motion_.used(), h, Real(0), positionScratch_);
-    }
-    motion_.finish(bodies_, h, tasks_);
-    if (patches)
-        finishPatches(!more);
-    else if (more)
-        contacts_.advance(positionScratch_.motion);
-    lastStepSize_ = h;
-}
-
 template <class S>
 void World<S>::checkFinite() {
     std::atomic<bool> finite = true;
@@ -454,10 +169,11 @@ void World<S>::checkFinite() {
     if (!finite) result_.nonFinite = true;
 }
 
-#define RIGOR_INSTANTIATE(S)                            \
-    template const StepResult<S>& World<S>::step(Real); \
-    template void World<S>::beginStep(Real);            \
-    template void World<S>::runPhase();                 \
+#define RIGOR_INSTANTIATE(S)                                       \
+    template const StepResult<S>& World<S>::step(Real);            \
+    template void World<S>::beginStep(Real);                       \
+    template void World<S>::runPhase();                            \
+    template typename World<S>::Stage World<S>::nextStage() const; \
     template void World<S>::checkFinite();
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE

@@ -123,9 +123,9 @@ class World {
     /// The same a phase at a time: beginStep(h), then runPhase() while stepping(). Between phases everything
     /// may be read; bodies, shapes and joints may not be added or removed.
     void beginStep(Real h);
-    bool stepping() const { return cursor_.active; }
-    Phase nextPhase() const { return cursor_.next; }
-    int substep() const { return cursor_.substep; }  ///< 0 .. substeps() - 1
+    bool stepping() const { return progress_.active; }
+    Phase nextPhase() const { return nextStage().phase; }
+    int substep() const { return nextStage().substep; }  ///< of the next phase: 0 .. substeps() - 1
     void runPhase();
     /// Watches the solver from now on; null: nobody. Copies of the world are watched by the same observer.
     void observeIterations(IterationObserver<S> observer) { observer_ = std::move(observer); }
@@ -202,19 +202,30 @@ class World {
     void restoreSnapshot(std::span<const unsigned char> bytes);
 
   private:
-    /// Where in a step we are.
-    struct Cursor {
-        bool active = false;
-        Phase next = Phase::BroadPhase;
-        std::size_t place = 0;  ///< in the order of a sub-step
+    /// A part of a step, and the sub-step that it belongs to.
+    struct Stage {
+        Phase phase = Phase::BroadPhase;
         int substep = 0;
+    };
+    /// How far the step is.
+    struct Progress {
+        bool active = false;
+        int stagesDone = 0;
+        int substep = 0;                 ///< of the stage that runs, or has run last
         Real size = 0, substepSize = 0;  ///< [s]
     };
 
-    void runInside(Phase phase);
-    void advanceCursor();
+    using Work = void (World::*)();
+
+    template <class Visitor>
+    void forEachStage(const Visitor& stage) const;
+    void runStage(Phase phase, int substep, Work work);
+    Stage nextStage() const;
+    void findPairs();
+    void findManifolds();
+    void solve();
+    void move();
     void endStep();
-    bool firstStep() const { return stepCount_ == 0 && cursor_.substep == 0; }
     BiasRule<Real> biasRule() const;
     Load<S> load() const;
     void makeRows();
@@ -232,7 +243,7 @@ class World {
     void solveImpacts();
     void solvePositions();
     void correct();
-    void spoil(Phase phase);
+    void injectFault(Phase phase);
     void rebuildExclusions();
     void breakJoints();
     const Joint<S>& joint_(JointId joint) const { return joints_.records()[jointIds_.dense(joint)].joint; }
@@ -270,7 +281,7 @@ class World {
     std::uint64_t stepCount_ = 0;
 
     // --- recomputed every step
-    Cursor cursor_;
+    Progress progress_;
     JointStep<S> jointStep_{};
     ConstraintRows<S> rows_;
     PositionScratch<S> positionScratch_;
