@@ -24,7 +24,7 @@ bool isWithin(T value, double min, double max) {
 
 const std::vector<SettingInfo>& settings() {
     static const std::vector<SettingInfo> all{
-#define ALGORITHM(member, key, byDefault, help) {key, SettingKind::Algorithm, byDefault, 0, 0, help},
+#define CHOICE(member, key, byDefault, help) {key, SettingKind::Algorithm, byDefault, 0, 0, help},
 #define INTEGER(member, key, byDefault, min, max, help) \
     {key, SettingKind::Integer, #byDefault, min, max, help},
 #define REAL(member, key, byDefault, min, max, help) {key, SettingKind::Real, #byDefault, min, max, help},

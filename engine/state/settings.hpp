@@ -35,7 +35,7 @@ void checkSettings(const WorldDef<S>& def);
 template <class S, class Get>
 void assignSettings(WorldDef<S>& def, const Get& get) {
     using Real = typename S::Real;
-#define ALGORITHM(member, key, byDefault, help) def.member = get.text(key);
+#define CHOICE(member, key, byDefault, help) def.member = get.text(key);
 #define INTEGER(member, key, byDefault, min, max, help) def.member = get.integer(key);
 #define REAL(member, key, byDefault, min, max, help) def.member = static_cast<Real>(get.real(key));
 #define SWITCH(member, key, byDefault, help) def.member = get.on(key);

@@ -28,7 +28,7 @@ template <class S>
 struct WorldDef {
     using Real = typename S::Real;
     typename S::Vec gravity = S::Vec::Zero();  ///< [m/s^2]
-#define ALGORITHM(member, key, byDefault, help) std::string member = byDefault;
+#define CHOICE(member, key, byDefault, help) std::string member = byDefault;
 #define INTEGER(member, key, byDefault, min, max, help) int member = byDefault;
 #define REAL(member, key, byDefault, min, max, help) Real member = static_cast<Real>(byDefault);
 #define SWITCH(member, key, byDefault, help) bool member = byDefault;

@@ -51,7 +51,7 @@ TYPED_TEST(EverySetting, HasTheDefaultOfWorldDef) {
     const WorldDef<S> plain;
     WorldDef<S> told;
     assignSettings(told, Given{});
-#define ALGORITHM(member, key, byDefault, help) EXPECT_EQ(told.member, plain.member) << key;
+#define CHOICE(member, key, byDefault, help) EXPECT_EQ(told.member, plain.member) << key;
 #define INTEGER(member, key, byDefault, min, max, help) EXPECT_EQ(told.member, plain.member) << key;
 #define REAL(member, key, byDefault, min, max, help) EXPECT_EQ(told.member, plain.member) << key;
 #define SWITCH(member, key, byDefault, help) EXPECT_EQ(told.member, plain.member) << key;
