@@ -5,10 +5,10 @@
 #include "validation/references/planar_motion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
-#include "validation/references/numerics/linear_system.hpp"
 #include "validation/references/numerics/roots.hpp"
 
 namespace rigor::validation {
@@ -20,14 +20,14 @@ using Kind = PlanarMotion::Kind;
 
 constexpr Real kStill = 1e-10L;  // beside the speeds of the scene: rounding of events, not physics
 constexpr int kChunks = 48;      // pieces of the duration that are integrated at a time
+constexpr int kShorter = 10;     // times that a piece is cut to a quarter
 constexpr int kLooks = 64;       // samples of the event functions in a piece
 constexpr std::size_t kMostEvents = 200;
 constexpr Real kZero = 1e-15L;  // of the event functions beside lengths, speeds and forces of the scene
 constexpr Real kNear = 1e-3L;   // beside the size: a corner that may land soon
 constexpr int kHalvings = 30;   // of the first sample, for motions that come back at once
 constexpr std::size_t kMostPhases = 5000;
-constexpr int kMostStops = 8;      // changes of the mode in a row in which no time passes
-constexpr Real kSettling = 1e-5L;  // rocking beside its natural rate from which the limit is extrapolated
+constexpr int kMostStops = 8;  // changes of the mode in a row in which no time passes
 
 OdeState pack(const PlanarMotion::State& s) {
     return {s.x, s.z, s.angle, s.vx, s.vz, s.rate};
@@ -225,6 +225,28 @@ double PlanarMotion::pieceFrom(const State& s, const Mode& mode) const {
     return static_cast<double>(piece);
 }
 
+/// One mode from t on, for a piece of time that may reach past its next event. Beyond the event the contact
+/// may come to where no force fits it: then a shorter piece is taken.
+PlanarMotion::Phase PlanarMotion::piece(double t, const State& s, const Mode& mode) const {
+    const auto rhs = [this, mode](Real, const OdeState& y, OdeState& d) {
+        const auto f = forcesIn(mode, unpack(y));
+        if (f)
+            d = {y[3], y[4], y[5], f->ax, f->az, f->spin};
+        else
+            d.assign(6, std::numeric_limits<Real>::quiet_NaN());
+    };
+    double length = std::min(end_ - t, pieceFrom(s, mode));
+    for (int attempt = 0;; ++attempt) {
+        const double end = length < end_ - t ? t + length : end_;
+        try {
+            return {t, end, mode, s, 0, t, numerics::DenseSolution(rhs, t, pack(s), end, 1e-14L, {}, scale_)};
+        } catch (const std::runtime_error&) {
+            if (attempt == kShorter || !(t + length / 4 > t)) throw;
+        }
+        length /= 4;
+    }
+}
+
 /// Integrates one mode to its next event and says which mode follows.
 PlanarMotion::Mode PlanarMotion::follow(double& t, State& s, Mode mode) {
     if (mode.kind == Kind::Rest) {
@@ -242,13 +264,8 @@ PlanarMotion::Mode PlanarMotion::follow(double& t, State& s, Mode mode) {
         s = next;
         return after;
     }
-    const double end = std::min(end_, t + pieceFrom(s, mode));
-    const auto rhs = [this, mode](Real, const OdeState& y, OdeState& d) {
-        const auto f = forcesIn(mode, unpack(y));
-        if (!f) throw std::runtime_error("a slipping contact approaches the state that Painleve found");
-        d = {y[3], y[4], y[5], f->ax, f->az, f->spin};
-    };
-    Phase phase{t, end, mode, s, 0, t, numerics::DenseSolution(rhs, t, pack(s), end, 1e-14L, {}, scale_)};
+    Phase phase = piece(t, s, mode);
+    const double end = phase.end;
     const auto stateAt = [&](Real at) { return unpack(phase.solution.at(at)); };
     // Functions that are positive while the mode holds, and what of them is zero.
     struct Watched {
@@ -320,49 +337,8 @@ PlanarMotion::Mode PlanarMotion::slide(double& t, State& s, Mode mode) {
     s.x += past * (s.vx + past * rate / 2);
     s.vx = 0;
     t = phase.end;
-    events_.push_back({t, EventKind::Stick, -1, s, s});
+    events_.push_back({t, EventKind::Stick, -1, -1, s, s});
     return flatMode(lowest(s), s);
-}
-
-/// The corners of the side that the body lies on.
-std::vector<int> PlanarMotion::lowest(const State& s) const {
-    std::vector<int> corners;
-    for (int i = 0; i < static_cast<int>(setup_.corners.size()); ++i)
-        if (gapOf(i, s) < 1e-6L * setup_.size) corners.push_back(i);
-    return corners;
-}
-
-/// A body that rocks between two corners at ever shorter intervals comes to lie flat after a finite time: the
-/// times and velocities after every second impact form geometric series, whose limits Aitken's rule finds.
-/// True where the motion has come so far; t and s are then those of the limit.
-bool PlanarMotion::settles(double& t, State& s) const {
-    const Real natural = std::sqrt(std::abs(setup_.pullAbove) * setup_.size);
-    if (!(std::abs(s.rate) * setup_.size <= kSettling * natural)) return false;
-    std::vector<const Event*> impacts;
-    for (const Event& event : events_)
-        if (event.kind == EventKind::Impact) impacts.push_back(&event);
-    const std::size_t n = impacts.size();
-    if (n < 5) return false;
-    const Event &last = *impacts[n - 1], &before = *impacts[n - 3], &first = *impacts[n - 5];
-    const int other = impacts[n - 2]->corner;
-    if (last.corner != before.corner || last.corner != first.corner || other == last.corner) return false;
-    if (std::abs(last.after.rate) >= std::abs(before.after.rate)) return false;
-    const auto limit = [&](auto read) {
-        const Real a = read(first), b = read(before), c = read(last), bend = (c - b) - (b - a);
-        return bend == 0 ? c : c - (c - b) * (c - b) / bend;
-    };
-    State flat = s;
-    flat.x = limit([](const Event& e) { return e.after.x; });
-    flat.vx = limit([](const Event& e) { return e.after.vx; });
-    flat.vz = flat.rate = 0;
-    for (int newton = 0; newton < 3; ++newton) {
-        const Arm a = armOf(last.corner, flat.angle), b = armOf(other, flat.angle);
-        flat.angle -= (a.cz - b.cz) / (a.x - b.x);
-    }
-    flat.z = -armOf(last.corner, flat.angle).cz;
-    t = static_cast<double>(limit([](const Event& e) { return static_cast<Real>(e.time); }));
-    s = flat;
-    return true;
 }
 
 /// The mode after the event at time t.
@@ -378,7 +354,7 @@ PlanarMotion::Mode PlanarMotion::resolve(double& t, State& s, const Mode& mode) 
     const auto f = forcesIn(mode, s);
     const Real pull = setup_.mass * std::hypot(setup_.pullAlong, setup_.pullAbove);
     if (f->load.normal <= kStill * pull) {
-        events_.push_back({t, EventKind::Release, mode.corner, s, s});
+        events_.push_back({t, EventKind::Release, mode.corner, -1, s, s});
         return {Kind::Flight, -1};
     }
     const Mode next =
@@ -386,111 +362,8 @@ PlanarMotion::Mode PlanarMotion::resolve(double& t, State& s, const Mode& mode) 
             ? contactMode(mode.corner, s)
             : Mode{f->load.tangential > 0 ? Kind::SlipBackward : Kind::SlipForward, mode.corner};
     if (next != mode)
-        events_.push_back({t, isSlip(next.kind) ? EventKind::Slip : EventKind::Stick, mode.corner, s, s});
+        events_.push_back({t, isSlip(next.kind) ? EventKind::Slip : EventKind::Stick, mode.corner, -1, s, s});
     return next;
-}
-
-/// Impulses at the corners that touch and land, each in one of the modes leave, stick, slip either way.
-PlanarMotion::Mode PlanarMotion::impact(double& t, State& s, const std::vector<int>& touching,
-                                        const std::vector<int>& landing, EventKind kind) {
-    std::vector<int> corners = landing;
-    corners.insert(corners.end(), touching.begin(), touching.end());
-    require(corners.size() <= 2, "three corners meet the floor at once");
-    const std::size_t n = corners.size();
-    const Real speed = std::abs(s.vx) + std::abs(s.vz) + setup_.size * std::abs(s.rate), tiny = 1e-9L * speed;
-    struct Outcome {
-        State state;
-        std::array<int, 2> choice{};  ///< 0 leave, 1 stick, 2 slip forward, 3 slip backward
-    };
-    std::vector<Outcome> outcomes;
-    int combinations = 1;
-    for (std::size_t i = 0; i < n; ++i) combinations *= 4;
-    for (int pick = 0; pick < combinations; ++pick) {
-        std::array<int, 2> choice{pick % 4, pick / 4};
-        // Unknown: impulses (Pn, Pt) of each corner; equations: its law.
-        const auto unknowns = static_cast<Eigen::Index>(2 * n);
-        numerics::Matrix matrix = numerics::Matrix::Zero(unknowns, unknowns);
-        numerics::Vector right = numerics::Vector::Zero(unknowns);
-        for (std::size_t i = 0; i < n; ++i) {
-            const Arm a = armOf(corners[i], s.angle);
-            const bool lands = i < landing.size();
-            const auto normal = static_cast<Eigen::Index>(2 * i), tangent = normal + 1;
-            if (choice[i] == 0) {
-                matrix(normal, normal) = matrix(tangent, tangent) = 1;
-                continue;
-            }
-            for (std::size_t j = 0; j < n; ++j) {
-                const Arm b = armOf(corners[j], s.angle);
-                const auto column = static_cast<Eigen::Index>(2 * j);
-                matrix(normal, column) += 1 / setup_.mass + a.x * b.cx / setup_.inertia;
-                matrix(normal, column + 1) += -a.x * b.cz / setup_.inertia;
-                if (choice[i] != 1) continue;
-                matrix(tangent, column) += -a.cz * b.cx / setup_.inertia;
-                matrix(tangent, column + 1) += 1 / setup_.mass + a.cz * b.cz / setup_.inertia;
-            }
-            const Real e = lands ? setup_.restitution : 0;
-            right[normal] = -(1 + e) * closingOf(corners[i], s);
-            if (choice[i] == 1) {
-                right[tangent] = -slipOf(corners[i], s);
-            } else {
-                matrix(tangent, tangent) = 1;
-                matrix(tangent, normal) = choice[i] == 2 ? setup_.friction : -setup_.friction;
-            }
-        }
-        const auto solution = numerics::solveDense(std::move(matrix), std::move(right));
-        // Both corners stick: the three velocities are zero, one impulse is left open.
-        if (!solution) continue;
-        std::array<Real, 2> push{}, drag{};
-        for (std::size_t i = 0; i < n; ++i) {
-            push[i] = (*solution)[static_cast<Eigen::Index>(2 * i)];
-            drag[i] = (*solution)[static_cast<Eigen::Index>(2 * i + 1)];
-        }
-        State after = s;
-        for (std::size_t i = 0; i < n; ++i) {
-            const Arm a = armOf(corners[i], s.angle);
-            after.vx += drag[i] / setup_.mass;
-            after.vz += push[i] / setup_.mass;
-            after.rate += (a.cx * push[i] - a.cz * drag[i]) / setup_.inertia;
-        }
-        bool fits = true;
-        Real total = 0;
-        for (std::size_t i = 0; i < n; ++i) {
-            const Real normal = push[i], tangential = drag[i], slip = slipOf(corners[i], after);
-            const Real least = i < landing.size() && choice[i] != 0 ? -tiny : 0;
-            total += normal;
-            fits = fits && normal >= least - 1e-12L * setup_.mass * speed;
-            if (choice[i] == 0) fits = fits && closingOf(corners[i], after) >= -tiny;
-            if (choice[i] == 1)
-                fits =
-                    fits && std::abs(tangential) <= setup_.friction * normal + 1e-12L * setup_.mass * speed;
-            if (choice[i] == 2) fits = fits && slip > tiny;
-            if (choice[i] == 3) fits = fits && slip < -tiny;
-        }
-        // A jam is the answer with an impulse; without one the contact has no force that fits.
-        if (fits && (kind != EventKind::Jam || total > 1e-9L * setup_.mass * speed))
-            outcomes.push_back({after, choice});
-    }
-    // Both corners hold: at rest.
-    State rest = s;
-    rest.vx = rest.vz = rest.rate = 0;
-    if (outcomes.empty() && n == 2 && restsOn(corners, s)) outcomes.push_back({rest, {1, 1}});
-    require(!outcomes.empty(), "an impact has no answer by the laws of Newton and Coulomb");
-    for (const Outcome& other : outcomes) {
-        const State &a = other.state, &b = outcomes[0].state;
-        require(std::abs(a.vx - b.vx) + std::abs(a.vz - b.vz) + setup_.size * std::abs(a.rate - b.rate) <=
-                    1e-8L * speed,
-                "an impact has several answers by the laws of Newton and Coulomb");
-    }
-    const State before = s;
-    s = outcomes[0].state;
-    events_.push_back({t, kind, corners[0], before, s});
-    std::vector<int> staying;
-    for (const int i : corners)
-        if (closingOf(i, s) <= tiny) staying.push_back(i);
-    if (staying.empty()) return {Kind::Flight, -1};
-    if (staying.size() == 2) return flatMode(staying, s);
-    if (!settles(t, s)) return contactMode(staying[0], s);
-    return flatMode(lowest(s), s);
 }
 
 const PlanarMotion::Phase& PlanarMotion::phaseAt(double t) const {

@@ -10,7 +10,8 @@
 //   slips, s = x' - phi' c_z:  F = -mu N sign(s);   sticks:  s' = 0 with |F| <= mu N.
 // Events: N = 0 (flight), s = 0 (stick, or slip the other way), |F| = mu N (slip), another corner lands.
 // Where both ends of a flat side touch the body rests, slides as a whole or tips over one of them. A block
-// that rocks between two corners at ever shorter intervals lies flat at the limit of the geometric series.
+// that rocks between two corners at ever shorter intervals lies flat at the limit of the geometric series, one
+// that bounces ever lower touches at the limit of its own.
 // Impacts: all laws at the level of impulses at once (Newton's restitution at the corner that lands, Coulomb
 // with the slip after the impact), the answer by trying every mode. Where a slipping contact can carry no
 // force and not open either (Painleve), it stops in an impact without collision.
@@ -18,6 +19,7 @@
 // 18 (1999) 653; Brogliato, Nonsmooth Mechanics, 2016, chapters 4-5; Stronge, Impact Mechanics, 2000.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -59,6 +61,7 @@ class PlanarMotion {
         double time = 0.0;
         EventKind kind = EventKind::Impact;
         int corner = -1;
+        int other = -1;  ///< of an impact in which a second corner takes part
         State before, after;
     };
     struct Load {
@@ -106,12 +109,17 @@ class PlanarMotion {
     Real leverOf(const Mode& mode, const State& s) const;
     Mode startMode(State& s) const;
     Mode contactMode(int corner, const State& s) const;
+    std::optional<State> bothStick(const std::vector<int>& corners, const State& s,
+                                   std::array<Real, 2> rates) const;
     bool restsOn(const std::vector<int>& corners, const State& s) const;
     bool slidesOn(const std::vector<int>& corners, const State& s, Real sign) const;
     Mode flatMode(const std::vector<int>& corners, State& s) const;
     std::vector<int> lowest(const State& s) const;
+    void layFlat(int one, int other, State& s) const;
     bool settles(double& t, State& s) const;
+    bool chatters(double& t, State& s) const;
     double pieceFrom(const State& s, const Mode& mode) const;
+    Phase piece(double t, const State& s, const Mode& mode) const;
     Mode follow(double& t, State& s, Mode mode);
     Mode slide(double& t, State& s, Mode mode);
     Mode resolve(double& t, State& s, const Mode& mode);

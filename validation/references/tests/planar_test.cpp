@@ -11,6 +11,7 @@
 #include "validation/references/numerics/real.hpp"
 #include "validation/references/planar_motion.hpp"
 #include "validation/references/tests/newton_euler.hpp"
+#include "validation/references/tests/other_units.hpp"
 
 namespace rigor::validation::testing {
 namespace {
@@ -356,6 +357,84 @@ TEST(PlanarContact, RockingOnASmoothFloorEndsFlatAfterAFiniteTime) {
             if (load) given += static_cast<double>(load->normal) * settled / pieces;
         }
         EXPECT_NEAR(given, 9.81 * settled, 2e-4) << mu;
+    }
+}
+
+TEST(PlanarContact, ABoxThatFallsFlatBouncesAsTheRestitutionSays) {
+    for (const double mu : {0.0, 0.8}) {
+        const double h = 0.25, drop = 0.05, e = 0.6, g = 9.81;
+        Scenario s = onFloor(1.2, mu, e);
+        addBox(s, "block", {0.4, h, 0}, 1, {0, h + drop, 0});
+        s.bodies.back().massProperties.inertia = Mat3::diagonal(1, 1, (0.16 + h * h) / 3);
+        const auto r = makeReference(s);
+        const double fall = std::sqrt(2 * drop / g), fast = g * fall;
+        EXPECT_NEAR(r->exact(1, fall * (1 + e)).position->y, h + e * e * drop, 1e-12) << mu;
+        EXPECT_NEAR(r->exact(1, fall * (1 + 2 * e + e * e)).position->y, h + e * e * e * e * drop, 1e-12)
+            << mu;
+        EXPECT_NEAR(r->exact(1, fall * (1 + 1.5 * e)).velocity->y, -0.5 * e * fast, 1e-11) << mu;
+        // Bounces end when the geometric series of the flights has run out, and the box stays.
+        const double stop = fall * (1 + e) / (1 - e);
+        EXPECT_GT(r->validUntil(), s.duration) << mu;
+        EXPECT_NEAR(r->exact(1, stop + 1e-6).position->y, h, 1e-12) << mu;
+        EXPECT_EQ(norm(*r->exact(1, stop + 1e-6).velocity), 0.0) << mu;
+        const double before = r->exact(1, stop - 1e-3).position->y - h;
+        EXPECT_GT(before, 1e-8) << mu;
+    }
+}
+
+TEST(PlanarContact, ARockingBlockThatBouncesIsFollowedToTheEndWithoutGainingEnergy) {
+    for (const double e : {0.01, 0.3}) {
+        Scenario s = onFloor(4, 0.9, e);
+        addTilted(s, 0.12, 0.45, 0.14);
+        const auto r = makeReference(s);
+        ASSERT_GT(r->validUntil(), s.duration) << e;
+        double before = energyOf(s, *r, 0);
+        for (int k = 1; k <= 800; ++k) {
+            const double now = energyOf(s, *r, 0.005 * k);
+            EXPECT_LE(now, before + 1e-9) << e << " at " << 0.005 * k;
+            before = now;
+        }
+        EXPECT_LT(before, energyOf(s, *r, 0) - 1e-3) << e;
+    }
+}
+
+TEST(PlanarContact, AnotherCornerThatLandsBouncesWhileTheFirstHolds) {
+    // A low box turns about its left corner and lands on its base; the impulse at the right corner leaves the
+    // left one pressed down, so that the box turns back with e times its rate.
+    const double b = 0.42, h = 0.072, e = 0.35;
+    Scenario s = onFloor(0.5, 0.9, e);
+    addTilted(s, b, h, 0.1);
+    const auto r = makeReference(s);
+    const PlanarFrame frame(s, 1, 0);
+    const PlanarMotion motion(frame.setup(), frame.start(), 0.5);
+    ASSERT_FALSE(motion.events().empty());
+    const auto& hit = motion.events()[0];
+    ASSERT_GE(hit.other, 0);
+    EXPECT_NEAR(static_cast<double>(hit.after.rate / hit.before.rate), -e, 1e-12);
+    EXPECT_NEAR(static_cast<double>(hit.after.vx), static_cast<double>(-e * hit.before.vx), 1e-12);
+}
+
+TEST(PlanarContact, SmallAndLightBodiesHaveTheImpactsOfLargeOnes) {
+    Scenario s = onFloor(1.5, 1.28, 0.0108);
+    addTilted(s, 0.523, 1.962, 0.14);
+    const auto whole = makeReference(s);
+    Scenario small = s;
+    const double scale = std::ldexp(1.0, -20);
+    ASSERT_TRUE(inUnits(small, {scale, 1, scale}));
+    const auto same = makeReference(small);
+    for (const double t : {0.5, 0.7, 1.0, 1.5})
+        EXPECT_NEAR(same->exact(1, t).position->y / scale, whole->exact(1, t).position->y, 1e-9) << t;
+}
+
+TEST(PlanarContact, RefusesAnImpactThatAddsEnergy) {
+    // Perfect restitution and friction: after some bounces the slip is turned round and the law adds energy.
+    Scenario s = onFloor(1.5, 0.9, 1.0);
+    addTilted(s, 0.12, 0.45, 0.14);
+    try {
+        (void)makeReference(s);
+        ADD_FAILURE() << "not refused";
+    } catch (const AssumptionViolated& e) {
+        EXPECT_NE(std::string(e.what()).find("adds energy"), std::string::npos) << e.what();
     }
 }
 
