@@ -10,8 +10,10 @@
 // Source: Goldstein, Poole, Safko 2002, chapter 1; Hairer, Norsett, Wanner, Solving ODEs I, 1993, II.9.
 // Assumes: hinges with parallel axes (2D: also ball joints; 3D ball joints where the motion stays in a plane:
 // arms, gravity and principal axes in or across it), nothing else.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "validation/references/joint_parts.hpp"
 #include "validation/references/numerics/linear_system.hpp"
@@ -67,7 +69,11 @@ void derivative(const std::vector<Link>& links, Point gravity, const OdeState& y
         mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) += links[i].inertia;
     }
     const auto acceleration = numerics::solveDense(std::move(mass), std::move(force));
-    if (!acceleration) throw std::runtime_error("the masses of the chain are singular");
+    if (!acceleration) {
+        // A trial step far off: the integrator tries a shorter step.
+        std::fill(d.begin(), d.end(), std::numeric_limits<Real>::quiet_NaN());
+        return;
+    }
     for (std::size_t j = 0; j < n; ++j) {
         d[j] = y[n + j];
         d[n + j] = (*acceleration)[static_cast<Eigen::Index>(j)];

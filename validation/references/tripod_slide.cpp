@@ -13,6 +13,7 @@
 // bodies.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "validation/references/flat_motion.hpp"
 #include "validation/references/numerics/linear_system.hpp"
@@ -64,8 +65,11 @@ class TripodSlide : public Reference {
                 -p.x + height_ * mu_ * loads.slip[i].x;
         }
         const auto normal = solveDense(m, Vector::Unit(3, 0) * (-motion_.mass * pull_[2]));
-        if (!normal) throw std::runtime_error("the three feet stand on one line");
-        loads.normal.assign(normal->begin(), normal->end());
+        // A trial step far off has no loads: the integrator tries a shorter one.
+        if (normal)
+            loads.normal.assign(normal->begin(), normal->end());
+        else
+            loads.normal.assign(3, std::numeric_limits<Real>::quiet_NaN());
         return loads;
     }
 

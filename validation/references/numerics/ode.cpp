@@ -21,6 +21,7 @@ constexpr int kMaxSteps = 20000;
 constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
 // An oscillation takes a panel or two: some thousand of them, and a few seconds of computing.
 constexpr std::size_t kMostPanels = 4000;
+constexpr int kGrowAfter = 4;     // panels of one length, before a longer one is tried
 constexpr int kPanelDegree = 15;  // 16 nodes
 
 void midpointRule(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dydt, Real step, int n,
@@ -202,18 +203,22 @@ void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, Real t1, Real 
                            const OdeState& scale) {
     Real length = t1 - t0;
     const Real shortest = (t1 - t0) * 1e-6L;
+    int inOneGo = 0;  // panels of this length
     for (Real t = t0; t < t1;) {
         Panel panel;
         panel.begin = t;
         panel.end = t1 - t <= length * 1.0001L ? t1 : t + length;
         if (!build(f, y, tolerance, scale, panel)) {
             length = (panel.end - panel.begin) / 2;
+            inOneGo = 0;
             if (length < shortest) throw std::runtime_error("DenseSolution: panels became too short");
             continue;
         }
         t = panel.end;
         y = panel.nodes.back();
         panels_.push_back(std::move(panel));
+        // One quick moment must not leave short panels to the end.
+        if (++inOneGo == kGrowAfter) length *= 2, inOneGo = 0;
         if (panels_.size() > kMostPanels)
             throw std::runtime_error("DenseSolution: the motion is too long for its oscillations");
     }
