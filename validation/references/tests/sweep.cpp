@@ -2,22 +2,22 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Random parameters over every scenario of the library that has a reference:
-//   references_sweep [--sets N] [--seed N] [--only TEXT] [--seconds N] [--verbose]
-// Each set changes the size of the scene, friction of both kinds, restitution, masses, moments of inertia,
-// velocities, spins, strength and direction of gravity, duration and steps over wide ranges, zero included,
-// and is computed in a child of its own under a limit of time and memory. A set is refused by the reference,
-// or its answers must pass what holds for every reference:
+//   references_sweep [--sets N] [--seed N] [--only TEXT] [--seconds N] [--verbose] [--refusals]
+//   references_sweep --only NAME --seed N --write SET      the scenario of one set, as JSON
+// Each set changes the values of the scene (random_change.hpp) and is computed in a child of its own under a
+// limit of time and memory. A set is refused by the reference, or its answers must pass what holds for every
+// reference:
+//   time       making the reference, its last state and its quantities take less than the limit;
 //   finite     no state and no quantity is infinite or undefined;
 //   start      exact(0) is the start of the scenario;
 //   rate       away from events the velocity is the rate of change of the centre of mass (central differences
 //              of order h^4 at random times; a quarter of the times may fall on events);
 //   energy     kinetic and potential energy never grow where nothing drives the bodies (all of them known to
-//   the
-//              reference, no springs, motors, forces or events, no moving supports);
+//              the reference, no springs, motors, forces or events, no moving supports);
 //   units      in units of length, time and mass that are powers of two, up to six decades off, the same
-//   scene
-//              gives the same answers (rounding is the same, so only absolute thresholds differ).
-// Prints counts and every set that failed with what makes it again; exit code 1 where one did.
+//              scene gives the same answers (rounding is the same, so only absolute thresholds differ).
+// Prints counts and every set that failed with what makes it again; with --refusals for each scenario how
+// many sets were refused, why, and the longest time. Exit code 1 where a set failed.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,14 +28,19 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
 #include <string>
 
 #include "scenarios/loader/loader.hpp"
+#include "scenarios/loader/write.hpp"
 #include "validation/references/parts.hpp"
-#include "validation/references/tests/other_units.hpp"
+#include "validation/references/tests/random_change.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -46,86 +51,9 @@ using testing::inUnits;
 using testing::Units;
 
 struct Options {
-    int sets = 1, seed = 1, seconds = 10;
+    int sets = 1, seed = 1, seconds = 10, write = -1;
     std::string only;
-    bool verbose = false;
-};
-
-class Change {
-  public:
-    explicit Change(unsigned seed) : random_(seed) {}
-    double uniform(double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(random_);
-    }
-    bool chance(double share) { return uniform(0, 1) < share; }
-    double decades(double reach) { return std::pow(10.0, uniform(-reach, reach)); }
-
-    void apply(Scenario& s) {
-        const bool many = chance(0.5);  // else one thing at a time
-        const int one = static_cast<int>(uniform(0, 9));
-        const auto picks = [&](int which) { return many ? chance(0.3) : one == which; };
-        if (picks(0)) changeFriction(s);
-        if (picks(1)) {
-            for (auto& m : s.materials) m.restitution = coefficient(1.0);
-            for (auto& p : s.pairs) p.restitution = coefficient(1.0);
-        }
-        if (picks(2)) forEachMass(s, 3, true);
-        if (picks(3)) {
-            const double factor = chance(0.3) ? 0.0 : decades(2), turn = chance(0.7) ? factor : decades(2);
-            for (auto& b : s.bodies)
-                b.velocity = factor * b.velocity, b.angularVelocity = turn * b.angularVelocity;
-        }
-        if (picks(4)) s.gravity = (chance(0.2) ? 0.0 : decades(2)) * s.gravity;
-        if (picks(5)) s.duration *= decades(1.5);
-        if (picks(6)) {
-            const double factor = decades(1.5);
-            for (double& dt : s.timeSteps) dt = std::min(factor * dt, s.duration);
-        }
-        if (picks(7)) {
-            // Larger or smaller under the same gravity: in its own time, or in the time that it had.
-            const double length = decades(3), time = chance(0.5) ? std::sqrt(length) : 1.0;
-            const Vec3 gravity = s.gravity;
-            Scenario other = s;
-            if (inUnits(other, {length, time, chance(0.5) ? length * length * length : 1.0}))
-                s = other, s.gravity = gravity;
-        }
-        if (picks(8)) {
-            const Quat tilt =
-                scenario::fromAxisAngle({0, 0, 1}, uniform(-1, 1) * std::pow(10.0, uniform(-3, 0)));
-            if (chance(0.5))
-                s.gravity = rotate(tilt, s.gravity);
-            else
-                forEachMass(s, 1, false);
-        }
-    }
-
-  private:
-    void changeFriction(Scenario& s) {
-        const bool isOne = chance(0.6);
-        const auto change = [&](auto& m) {
-            m.friction = coefficient(2.0);
-            m.staticFriction = isOne ? 0.0 : m.friction + coefficient(1.0);
-        };
-        for (auto& m : s.materials) change(m);
-        for (auto& p : s.pairs) change(p);
-    }
-    void forEachMass(Scenario& s, double reach, bool withMass) {
-        for (auto& b : s.bodies) {
-            if (b.type != BodyType::Dynamic) continue;
-            const double factor = decades(reach);
-            if (withMass) b.massProperties.mass *= factor;
-            for (int i = 0; i < 3; ++i)
-                for (int j = 0; j < 3; ++j) b.massProperties.inertia(i, j) *= factor;
-        }
-    }
-    double coefficient(double most) {
-        const double kind = uniform(0, 1);
-        if (kind < 0.2) return 0.0;
-        if (kind < 0.3) return most;
-        if (kind < 0.6) return most * std::pow(10.0, uniform(-4, 0));
-        return uniform(0, most);
-    }
-    std::mt19937 random_;
+    bool verbose = false, refusals = false;
 };
 
 // ------------------------------------------------------------------------------------------------- checks
@@ -292,47 +220,70 @@ std::string checkUnits(const Scenario& s, const Reference& r, double end) {
     return "";
 }
 
-/// "" where all holds, "refused: ..." or what failed.
-std::string judge(Scenario s, unsigned seed) {
-    Change(seed).apply(s);
+/// What came of a set: "" where all holds, "refused: ..." or what failed.
+struct Judged {
+    std::string text;
+    double seconds = 0.0;  ///< processor time of making the reference, its last state and its quantities
+};
+
+Judged judge(Scenario s, unsigned seed, double longest) {
+    testing::Change(seed).apply(s);
     std::unique_ptr<Reference> r;
+    const std::clock_t start = std::clock();
+    Judged judged;
+    const auto stop = [&] {
+        judged.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+        if (judged.seconds > longest) judged.text = "time: " + std::to_string(judged.seconds) + " s";
+    };
     try {
         r = makeReference(s);
+        for (const int body : r->bodies()) (void)r->exact(body, std::min(s.duration, r->validUntil()));
+        (void)r->quantities(s.timeSteps.empty() ? 0.01 : s.timeSteps[0], Scheme::Unknown);
     } catch (const AssumptionViolated& e) {
-        return std::string("refused: ") + e.what();
+        judged.text = std::string("refused: ") + e.what();
     } catch (const std::invalid_argument& e) {
-        return std::string("refused: ") + e.what();
+        judged.text = std::string("refused: ") + e.what();
     }
-    if (!r->bodies().empty() && r->measured(r->bodies()[0], 0.0)) return "refused: a measurement";
+    stop();
+    if (!judged.text.empty()) return judged;
+    if (!r->bodies().empty() && r->measured(r->bodies()[0], 0.0)) {
+        judged.text = "refused: a measurement";
+        return judged;
+    }
     const double end = std::min(s.duration, r->validUntil());
-    if (!(end >= 0.0)) return "finite: valid until " + std::to_string(end);
-    std::string wrong = checkFinite(s, *r, end);
+    if (!(end >= 0.0)) {
+        judged.text = "finite: valid until " + std::to_string(end);
+        return judged;
+    }
+    std::string& wrong = judged.text;
+    wrong = checkFinite(s, *r, end);
     if (wrong.empty()) wrong = checkStart(s, *r);
     if (wrong.empty() && end > 0.0) wrong = checkRate(s, *r, end, seed);
     if (wrong.empty() && end > 0.0) wrong = checkEnergy(s, *r, end);
     if (wrong.empty()) wrong = checkUnits(s, *r, end);
-    return wrong;
+    return judged;
 }
 
 /// The same in a child; "hangs", "dies" besides.
-std::string judgeInChild(const Scenario& s, unsigned seed, int seconds) {
+Judged judgeInChild(const Scenario& s, unsigned seed, const Options& options) {
     int ends[2];
-    if (pipe(ends) != 0) return "no pipe";
+    if (pipe(ends) != 0) return {"no pipe", 0};
     const pid_t child = fork();
-    if (child < 0) return "no child";
+    if (child < 0) return {"no child", 0};
     if (child == 0) {
         close(ends[0]);
-        const auto limit = static_cast<rlim_t>(seconds);
+        // The checks make the reference three times more.
+        const auto limit = static_cast<rlim_t>(5 * options.seconds);
         const rlimit time{limit, limit}, memory{rlim_t{2} << 30, rlim_t{2} << 30};
         setrlimit(RLIMIT_CPU, &time);
         setrlimit(RLIMIT_AS, &memory);
-        std::string result;
+        Judged judged;
         try {
-            result = judge(s, seed);
+            judged = judge(s, seed, options.seconds);
         } catch (const std::exception& e) {
-            result = std::string("throws: ") + e.what();
+            judged.text = std::string("throws: ") + e.what();
         }
-        result = result.substr(0, 400);
+        const std::string result = std::to_string(judged.seconds) + " " + judged.text.substr(0, 400);
         const auto written = write(ends[1], result.data(), result.size());
         _exit(written == static_cast<ssize_t>(result.size()) ? 0 : 3);
     }
@@ -345,8 +296,52 @@ std::string judgeInChild(const Scenario& s, unsigned seed, int seconds) {
     int status = 0;
     waitpid(child, &status, 0);
     if (WIFSIGNALED(status))
-        return WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL ? "hangs" : "dies";
-    return WEXITSTATUS(status) == 0 ? result : "dies";
+        return {WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL ? "hangs" : "dies", 0};
+    const auto space = result.find(' ');
+    if (WEXITSTATUS(status) != 0 || space == std::string::npos) return {"dies", 0};
+    return {result.substr(space + 1), std::atof(result.c_str())};
+}
+
+// ---------------------------------------------------------------------------------------------- the sweep
+unsigned seedOf(const Options& options, int set, int place) {
+    return static_cast<unsigned>(options.seed * 1000003 + set * 7919 + place);
+}
+
+void writeSet(const std::filesystem::path& file, Scenario s, unsigned seed) {
+    testing::Change(seed).apply(s);
+    auto json = nlohmann::ordered_json::parse(scenario::scenarioText(s));
+    std::ifstream original(file);
+    json["reference"] = nlohmann::ordered_json::parse(original).at("reference");
+    std::printf("%s\n", json.dump(1).c_str());
+}
+
+struct Counts {
+    int checked = 0, refused = 0, failed = 0, late = 0;
+};
+
+/// The sets of one scenario.
+void sweep(const Scenario& s, const Options& options, int place, Counts& all) {
+    double longest = 0.0;
+    std::map<std::string, int> reasons;
+    int refused = 0;
+    for (int set = 0; set < options.sets; ++set) {
+        const Judged judged = judgeInChild(s, seedOf(options, set, place), options);
+        longest = std::max(longest, judged.seconds);
+        ++all.checked;
+        if (judged.text.rfind("refused: ", 0) == 0) {
+            ++refused, ++reasons[judged.text.substr(9)];
+            if (options.verbose) std::printf("%s set %d: %s\n", s.name.c_str(), set, judged.text.c_str());
+        } else if (!judged.text.empty()) {
+            ++(judged.text == "hangs" ? all.late : all.failed);
+            std::printf("%s (%s) --seed %d set %d: %s\n", s.name.c_str(), s.reference->name.c_str(),
+                        options.seed, set, judged.text.c_str());
+            std::fflush(stdout);
+        }
+    }
+    all.refused += refused;
+    if (!options.refusals) return;
+    std::printf("%-28s %4d of %4d refused, longest %.2f s\n", s.name.c_str(), refused, options.sets, longest);
+    for (const auto& [reason, count] : reasons) std::printf("    %4d  %s\n", count, reason.c_str());
 }
 
 int run(const Options& options) {
@@ -356,31 +351,25 @@ int run(const Options& options) {
                  std::string(RIGOR_SOURCE_DIR "/scenarios/library/") + folder))
             if (entry.path().extension() == ".json") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
-    int checked = 0, refused = 0, failed = 0, late = 0, scenes = 0, place = 0;
+    Counts all;
+    int scenes = 0, place = 0;
     for (const auto& file : files) {
         const Scenario s = scenario::loadScenario(file).scenario;
         if (!s.reference) continue;
         ++place;
-        if (s.name.find(options.only) == std::string::npos) continue;
+        if (options.write >= 0 ? s.name != options.only : s.name.find(options.only) == std::string::npos)
+            continue;
         ++scenes;
-        for (int set = 0; set < options.sets; ++set) {
-            const auto seed = static_cast<unsigned>(options.seed * 1000003 + set * 7919 + place);
-            const std::string result = judgeInChild(s, seed, options.seconds);
-            ++checked;
-            if (result.rfind("refused", 0) == 0) {
-                ++refused;
-                if (options.verbose) std::printf("%s set %d: %s\n", s.name.c_str(), set, result.c_str());
-            } else if (!result.empty()) {
-                ++(result == "hangs" ? late : failed);
-                std::printf("%s (%s) --seed %d set %d: %s\n", s.name.c_str(), s.reference->name.c_str(),
-                            options.seed, set, result.c_str());
-                std::fflush(stdout);
-            }
-        }
+        if (options.write >= 0)
+            writeSet(file, s, seedOf(options, options.write, place));
+        else
+            sweep(s, options, place, all);
     }
+    if (options.write >= 0) return scenes == 1 ? 0 : 1;
     std::printf("%d scenarios, %d sets: %d agree, %d refused, %d failed, %d not finished in time\n", scenes,
-                checked, checked - refused - failed - late, refused, failed, late);
-    return failed + late == 0 && checked > 0 ? 0 : 1;
+                all.checked, all.checked - all.refused - all.failed - all.late, all.refused, all.failed,
+                all.late);
+    return all.failed + all.late == 0 && all.checked > 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -392,6 +381,8 @@ int main(int count, char** arguments) {
         const auto is = [&](const char* name) { return std::strcmp(arguments[i], name) == 0; };
         if (is("--verbose")) {
             options.verbose = true;
+        } else if (is("--refusals")) {
+            options.refusals = true;
         } else if (i + 1 < count && is("--only")) {
             options.only = arguments[++i];
         } else if (i + 1 < count && is("--sets")) {
@@ -400,10 +391,12 @@ int main(int count, char** arguments) {
             options.seed = std::atoi(arguments[++i]);
         } else if (i + 1 < count && is("--seconds")) {
             options.seconds = std::atoi(arguments[++i]);
+        } else if (i + 1 < count && is("--write")) {
+            options.write = std::atoi(arguments[++i]);
         } else {
-            std::fprintf(
-                stderr,
-                "usage: references_sweep [--sets N] [--seed N] [--only TEXT] [--seconds N] [--verbose]\n");
+            std::fprintf(stderr,
+                         "usage: references_sweep [--sets N] [--seed N] [--only TEXT] [--seconds N] "
+                         "[--verbose] [--refusals] [--write SET]\n");
             return 2;
         }
     }
