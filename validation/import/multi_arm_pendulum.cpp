@@ -11,14 +11,21 @@
 // Each joint brakes by k_i times the relative rate. Masses, lengths, inertias, k and g are the source's fits,
 // of which only the combinations that enter the equations mean something. Angular velocities are filtered
 // and serve as start values alone.
+//
+// A scenario is a whole recording or any span of one (a list with columns file, start, end, in seconds of
+// the file's column t). Its start, unless the caller wants the first row as it stands, is fitted: the angles
+// and rates from which the source's model is nearest to the first 0.1 s (arm_model.hpp).
 // Source: Kaheman, Fasel, Bramburger, Strom, Kutz, Brunton, arXiv 2205.06231 (2022).
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "scenarios/loader/json_text.hpp"
 #include "scenarios/loader/overrides.hpp"
+#include "validation/import/arm_model.hpp"
 #include "validation/import/csv.hpp"
 #include "validation/import/dataset.hpp"
 #include "validation/import/importer.hpp"
@@ -33,32 +40,36 @@ using nlohmann::ordered_json;
 constexpr std::array kEngines{results::kInHouseEngine, "ode:preset=matched", "bullet:preset=matched"};
 constexpr double kRate = 1000.0;           // samples per second
 constexpr double kTimeTolerance = 1e-6;    // [s]
+constexpr std::size_t kFitSamples = 100;   // 0.1 s: rates to 4 mrad/s with encoders of 1 mrad
+constexpr std::size_t kLeastSamples = 20;  // of a span whose start is fitted
 constexpr double kHalfThickness = 0.01;    // of the picture of an arm [m]
 constexpr double kFineStep = 1.0 / 16000;  // [s] of the judged study: well below the noise of the encoders
 // Two codes that integrate one model differ by rounding of the record (1e-5 rad), of its first velocity and
 // by the first order of a time step: half a milliradian of an RMS of 2 to 220.
 constexpr double kSameModel = 5e-4, kSameModelShare = 0.02;
 
-/// The source's model of a pendulum.
-struct Model {
-    double gravity = 0.0;                                     ///< [m/s^2]
-    std::vector<double> mass, com, length, inertia, braking;  ///< of each arm [kg, m, m, kg m^2, N m s]
-    std::size_t arms() const { return mass.size(); }
-};
-
 struct Swing {
     std::vector<double> times, angles;  ///< [s], [rad] by sample, then by arm
-    std::vector<double> rates;          ///< at the start [rad/s]
+    ArmState start;
+    double modelError = 0.0;  ///< RMS of the worst angle of the source's model from this start [rad]
+};
+
+/// A recording or a part of it.
+struct Span {
+    fs::path file;
+    std::string name;  ///< of the scenario
+    bool whole = true;
+    double start = 0.0, end = 0.0;  ///< [s] of the column t
 };
 
 std::size_t armsOf(const std::string& kind) {
     return kind == "single" ? 1 : kind == "double" ? 2 : 3;
 }
 
-Model readModel(const fs::path& from, const std::string& kind) {
+ArmModel readModel(const fs::path& from, const std::string& kind) {
     const fs::path file = from / "parameters.json";
     const auto root = nlohmann::json::parse(readTextFile(file), nullptr, false);
-    Model model;
+    ArmModel model;
     const auto refuse = [&](const std::string& pointer, const std::string& found,
                             const std::string& expected) {
         throw LoadError({{"import.parameters", file.string(), pointer, 0, found, expected}});
@@ -89,16 +100,33 @@ Model readModel(const fs::path& from, const std::string& kind) {
     return model;
 }
 
-Swing readSwing(const fs::path& file, std::size_t arms) {
+/// Rows of the table that a span takes; refuses spans that are not in it.
+std::pair<std::size_t, std::size_t> rowsOf(const CsvTable& table, const Span& span) {
+    if (span.whole) return {0, table.size()};
+    const double first = table.number(0, "t"), last = table.number(table.size() - 1, "t");
+    const auto begin = static_cast<std::ptrdiff_t>(std::lround((span.start - first) * kRate)),
+               end = static_cast<std::ptrdiff_t>(std::lround((span.end - first) * kRate));
+    if (begin < 0 || end >= static_cast<std::ptrdiff_t>(table.size()) || end <= begin)
+        throw LoadError({table.problem(
+            "import.span", 0,
+            "the span " + ordered_json(span.start).dump() + " .. " + ordered_json(span.end).dump(),
+            "one within the times " + ordered_json(first).dump() + " .. " + ordered_json(last).dump() +
+                " of the file")});
+    return {static_cast<std::size_t>(begin), static_cast<std::size_t>(end) + 1};
+}
+
+Swing readSwing(const Span& span, const ArmModel& model, bool fitted) {
+    const std::size_t arms = model.arms();
     std::vector<std::string> columns{"t"};
     for (const char* name : {"theta", "omega"})
         for (std::size_t i = 1; i <= arms; ++i) columns.push_back(name + std::to_string(i));
-    const CsvTable table(file, columns);
+    const CsvTable table(span.file, columns);
     if (table.size() < 2) throw LoadError({table.problem("import.short", 0, "one sample", "at least two")});
+    const auto [begin, end] = rowsOf(table, span);
     Swing swing;
-    const double start = table.number(0, "t");
-    for (std::size_t row = 0; row < table.size(); ++row) {
-        const double t = static_cast<double>(row) / kRate;
+    const double start = table.number(begin, "t");
+    for (std::size_t row = begin; row < end; ++row) {
+        const double t = static_cast<double>(row - begin) / kRate;
         if (!(std::abs(table.number(row, "t") - start - t) <= kTimeTolerance))
             throw LoadError({table.problem("import.time", table.line(row), "t = " + table.text(row, "t"),
                                            "times that rise by 0.001 s from line to line")});
@@ -106,24 +134,70 @@ Swing readSwing(const fs::path& file, std::size_t arms) {
         for (std::size_t i = 1; i <= arms; ++i)
             swing.angles.push_back(table.number(row, "theta" + std::to_string(i)));
     }
-    for (std::size_t i = 1; i <= arms; ++i)
-        swing.rates.push_back(table.number(0, "omega" + std::to_string(i)));
+    for (std::size_t i = 1; i <= arms; ++i) {
+        swing.start.angles.push_back(swing.angles[i - 1]);
+        swing.start.rates.push_back(table.number(begin, "omega" + std::to_string(i)));
+    }
+    const std::size_t samples = swing.times.size();
+    if (fitted) {
+        if (samples < kLeastSamples)
+            throw LoadError({table.problem(
+                "import.short", 0, std::to_string(samples) + " samples",
+                "at least " + std::to_string(kLeastSamples) + ", from which a start can be fitted")});
+        swing.start = fitStart(model, swing.start, swing.angles, 1.0 / kRate, std::min(samples, kFitSamples));
+    }
+    swing.modelError = worstRms(predictAngles(model, swing.start, 1.0 / kRate, samples), swing.angles, arms);
     return swing;
 }
 
-/// How far the source's model is from a segment: the largest RMS of an angle [rad].
-double publishedError(const CsvTable& segments, const std::string& file, std::size_t arms) {
+/// How far the source's model is from a segment that its list has: the largest RMS of an angle [rad].
+std::optional<double> publishedError(const fs::path& from, const std::string& kind, const std::string& file,
+                                     std::size_t arms) {
+    const fs::path list = from / (kind + "_segments.csv");
+    if (!fs::exists(list)) return std::nullopt;
+    std::vector<std::string> columns{"file"};
+    for (std::size_t i = 1; i <= arms; ++i)
+        columns.push_back("rms_theta" + std::to_string(i) + "_published_parameters");
+    const CsvTable segments(list, columns);
     for (std::size_t row = 0; row < segments.size(); ++row) {
         if (segments.text(row, "file") != file) continue;
         double worst = 0.0;
-        for (std::size_t i = 1; i <= arms; ++i)
-            worst = std::max(worst,
-                             segments.number(row, "rms_theta" + std::to_string(i) + "_published_parameters"));
+        for (std::size_t i = 1; i <= arms; ++i) worst = std::max(worst, segments.number(row, columns[i]));
         return worst;
     }
-    throw LoadError({segments.problem("import.segment", 0, "no line for " + file, "one for each recording")});
+    return std::nullopt;
 }
 
+/// The recordings that a list names, by file and span; its lines are numbered from 1.
+std::vector<Span> spansOf(const CsvTable& list, const std::map<int, fs::path>& files) {
+    std::vector<Span> spans;
+    for (std::size_t row = 0; row < list.size(); ++row) {
+        std::string name = list.text(row, "file");
+        if (fs::path(name).extension() != ".csv") name += ".csv";
+        const auto it = std::find_if(files.begin(), files.end(),
+                                     [&](const auto& f) { return f.second.filename() == name; });
+        if (it == files.end())
+            throw LoadError(
+                {list.problem("import.unknown", list.line(row), name,
+                              "one of the " + std::to_string(files.size()) + " recordings that are there")});
+        Span span{it->second, fs::path(name).stem().string(), false, list.number(row, "start"),
+                  list.number(row, "end")};
+        for (const double t : {span.start, span.end})
+            span.name += "_" + std::to_string(std::lround(t * kRate));
+        if (std::any_of(spans.begin(), spans.end(), [&](const Span& s) { return s.name == span.name; }))
+            throw LoadError(
+                {list.problem("import.duplicate", list.line(row), "a span a second time", "each once")});
+        spans.push_back(std::move(span));
+    }
+    return spans;
+}
+
+/// With four digits.
+std::string shown(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text;
+}
 std::string armName(std::size_t i) {
     return "arm_" + std::to_string(i + 1);
 }
@@ -131,11 +205,11 @@ std::string jointName(std::size_t i) {
     return "joint_" + std::to_string(i + 1);
 }
 
-/// Adds bodies and joints of the model in the first sample of the swing.
-void addArms(const Model& model, const Swing& swing, ordered_json& bodies, ordered_json& joints) {
+/// Adds bodies and joints of the model in the start of the swing.
+void addArms(const ArmModel& model, const Swing& swing, ordered_json& bodies, ordered_json& joints) {
     Vec3 pivot, pivotVelocity;
     for (std::size_t i = 0; i < model.arms(); ++i) {
-        const double angle = swing.angles[i], rate = swing.rates[i];
+        const double angle = swing.start.angles[i], rate = swing.start.rates[i];
         const Vec3 along{-std::sin(angle), std::cos(angle), 0};
         const Vec3 turning{-rate * std::cos(angle), -rate * std::sin(angle), 0};  // d(along)/dt
         const Vec3 place = pivot + model.com[i] * along;
@@ -163,8 +237,8 @@ void addArms(const Model& model, const Swing& swing, ordered_json& bodies, order
     }
 }
 
-std::string scenarioOf(const std::string& name, const std::string& kind, bool train, const Model& model,
-                       const Swing& swing, double published) {
+std::string scenarioOf(const std::string& name, const std::string& kind, bool train, const ArmModel& model,
+                       const Swing& swing, bool fitted) {
     ordered_json bodies = ordered_json::array(), joints = ordered_json::array(), names = joints;
     addArms(model, swing, bodies, joints);
     for (std::size_t i = 0; i < model.arms(); ++i) names.push_back(armName(i));
@@ -174,9 +248,11 @@ std::string scenarioOf(const std::string& name, const std::string& kind, bool tr
          {"title", "A measured free swing of a " + kind + " pendulum"},
          {"description",
           "Angles by encoders at 1 kHz. Masses, lengths, inertias, friction of the joints and g are the "
-          "source's fits; its own model of them is off by up to " +
-              ordered_json(published).dump() +
-              " rad (RMS of the worst angle) when it starts from the first sample, as this scenario does."},
+          "source's fits; its own model of them is off by " +
+              shown(swing.modelError) +
+              " rad (RMS of the worst angle) when it starts as this scenario does: " +
+              (fitted ? "angles and rates fitted to the first 0.1 s."
+                      : "from the first row, rates filtered by the source.")},
          {"source",
           "MultiArm-Pendulum, (c) 2022 dynamicslab, MIT; Kaheman, Fasel, Bramburger, Strom, Kutz, Brunton, "
           "arXiv 2205.06231"},
@@ -222,35 +298,50 @@ ordered_json partOf(const std::string& name, double published) {
 }  // namespace
 
 const std::vector<ImportChoice>& multiArmPendulumChoices() {
-    static const std::vector<ImportChoice> choices{{"arms",
-                                                    {{"triple", "three arms, segments of 1.5 s"},
-                                                     {"double", "two arms, segments of 2.7 s"},
-                                                     {"single", "one arm, segments of 9.2 s"}}}};
+    static const std::vector<ImportChoice> choices{
+        {"arms",
+         {{"triple", "three arms, segments of 1.5 s"},
+          {"double", "two arms, segments of 2.7 s"},
+          {"single", "one arm, segments of 9.2 s"}}},
+        {"start",
+         {{"fit", "angles and rates from which the source's model is nearest to the first 0.1 s"},
+          {"row", "the first row: angles as measured, rates as the source filtered them"}}}};
     return choices;
 }
 
 Imported importMultiArmPendulum(const ImportRequest& request) {
     const std::string& kind = request.choices.at("arms");
+    const bool fitted = request.choices.at("start") == "fit";
     const auto files = numberedRecordings(request.from, kind, "", "segments");
-    std::vector<int> ids;
-    for (const auto& [id, file] : files) ids.push_back(id);
-    const Model model = readModel(request.from, kind);
-    std::vector<std::string> columns{"file"};
-    for (std::size_t i = 1; i <= model.arms(); ++i)
-        columns.push_back("rms_theta" + std::to_string(i) + "_published_parameters");
-    const CsvTable segments(request.from / (kind + "_segments.csv"), columns);
+    const ArmModel model = readModel(request.from, kind);
+    std::vector<std::pair<Span, bool>> chosen;  // and whether it is to fit on
+    const bool isList = request.select != "all" && CsvTable(request.select, {}).has("file");
+    if (isList) {
+        const std::vector<Span> spans = spansOf(CsvTable(request.select, {"file", "start", "end"}), files);
+        std::vector<int> ids;
+        for (std::size_t i = 0; i < spans.size(); ++i) ids.push_back(static_cast<int>(i) + 1);
+        ImportRequest all = request;
+        all.select = "all";
+        for (const Chosen& c : chooseRecordings(ids, all))
+            chosen.emplace_back(spans[static_cast<std::size_t>(c.id) - 1], c.train);
+    } else {
+        std::vector<int> ids;
+        for (const auto& [id, file] : files) ids.push_back(id);
+        for (const Chosen& c : chooseRecordings(ids, request))
+            chosen.emplace_back(Span{files.at(c.id), numberedName(kind, c.id, 2), true, 0, 0}, c.train);
+    }
 
     Imported imported;
     imported.title = "Measured free swings of a " + kind + " pendulum";
     ordered_json parts = ordered_json::array();
-    for (const Chosen& chosen : chooseRecordings(ids, request)) {
-        const fs::path& file = files.at(chosen.id);
-        const std::string name = numberedName(kind, chosen.id, 2);
-        const double published = publishedError(segments, file.filename().string(), model.arms());
+    for (const auto& [span, train] : chosen) {
+        const Swing swing = readSwing(span, model, fitted);
         imported.scenarios.push_back(
-            {name, scenarioOf(name, kind, chosen.train, model, readSwing(file, model.arms()), published),
-             chosen.train});
-        parts.push_back(partOf(name, published));
+            {span.name, scenarioOf(span.name, kind, train, model, swing, fitted), train});
+        std::optional<double> published;
+        if (span.whole && !fitted)
+            published = publishedError(request.from, kind, span.file.filename().string(), model.arms());
+        parts.push_back(partOf(span.name, published.value_or(swing.modelError)));
     }
     for (std::size_t i = 0; i < model.arms(); ++i) {
         const double k = model.braking[i];

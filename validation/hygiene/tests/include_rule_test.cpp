@@ -85,7 +85,7 @@ bool isAllowed(const Rule& rule, const std::string& file, const std::string& inc
         (included.starts_with("validation/oracle/") || included == "scenarios/loader/collision_cases.hpp"))
         return true;
     if (isTest(file) && file.starts_with("validation/references/") &&
-        included == "scenarios/loader/loader.hpp")
+        (included == "scenarios/loader/loader.hpp" || included == "scenarios/loader/write.hpp"))
         return true;
     for (const auto& prefix : rule.allowed)
         if (included.starts_with(prefix)) return true;
