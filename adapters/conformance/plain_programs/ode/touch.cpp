@@ -69,19 +69,14 @@ dBodyID addBlock(OdeSimulation& demo, const Vec3& position) {
     return block;
 }
 
-TEST(PlainOde, HeightField) {
+/// mesh.cpp has the adapter beside it.
+TEST(PlainOde, ABlockOnAHeightFieldFallsForOneStep) {
     OdeSimulation demo;
     demo.surface.mu = 0.5;
     demo.inSpace(levelField(41, 9, 0.31, 0.29));
     demo.addBody(nullptr, {0, 0, 0});
     addBlock(demo, {-1, 0.05, 0});
-    const Trajectory plain = demo.run(kStep, 90);
-    EXPECT_NEAR(deepest(plain, 1), 9.81 * kStep * kStep, 1e-9);
-
-    const Scenario scene =
-        load("scenarios/library/3d/slide_on_height_field.json", {"bodies.block.inertia=[0.045,0.085,0.045]"});
-    EXPECT_GT(travel(plain, 1), 1.5);
-    EXPECT_TRUE(same(plain, adapterRun("ode:preset=default", scene, kStep, 90)));
+    EXPECT_NEAR(deepest(demo.run(kStep, 90), 1), 9.81 * kStep * kStep, 1e-9);
 }
 
 /// The block of slide_and_stop as the first of the pair: no contact at the touch, one free step.
