@@ -204,7 +204,7 @@ class Ledger {
         const char* stays = "the velocities that remove overlap stay in the bodies";
         if (leavesErrors()) {
             const auto bias = correction_->bias();
-            const bool keeps = (bias.share > 0 || bias.soft) && correction_->relaxIterations() == 0;
+            const bool keeps = (bias.baumgarte > 0 || bias.soft) && correction_->relaxIterations() == 0;
             add("position_correction", asked, text("position_correction") + ", slop " + text("slop") + " m",
                 keeps ? stays : "");
         } else if (solver_.errors == ErrorHandling::Springs) {
@@ -224,9 +224,9 @@ class Ledger {
         if (solver_.errors == ErrorHandling::Positions)
             add("joints", "rigid", "rigid in positions, from which velocities follow",
                 "what swings is damped by (w h)^2 / 2 in each sub-step");
-        else if (areSprings() && solver_.linearJointShare && !curved)
+        else if (areSprings() && solver_.linearJointBaumgarte && !curved)
             add("joints", "rigid",
-                "rigid, linearised at the start of each sub-step; " + shown(*solver_.linearJointShare) +
+                "rigid, linearised at the start of each sub-step; " + shown(*solver_.linearJointBaumgarte) +
                     " of the error is removed in each",
                 "a joint that turns leaves its constraint by the second order of the sub-step");
         else if (areSprings())

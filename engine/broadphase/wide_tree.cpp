@@ -59,7 +59,7 @@ class WideTree final : public BroadPhase<S> {
         if (boxes.empty())
             reset();
         else
-            tasks.enter([&] { updateSome(boxes, movable, tasks); });
+            tasks.withWorkers([&] { updateSome(boxes, movable, tasks); });
         hold(pairs, pairs_.size());
         pairs = pairs_;
     }

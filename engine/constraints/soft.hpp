@@ -40,17 +40,17 @@ SoftTerms<R> springTerms(R k, R c, R h) {
     return {h * k * gamma, gamma};
 }
 
-/// How position errors act on the velocity rows of a step.
+/// Bias of the velocity rows of a step due to position errors.
 template <class R>
 struct BiasRule {
-    R share = 0;        ///< hard: share of the error to remove per step; 0: none
-    bool soft = false;  ///< as damped springs instead
+    R baumgarte = 0;    ///< hard rows: Baumgarte factor, fraction of the error removed per step; 0: none
+    bool soft = false;  ///< rows are damped springs instead
     Softness<R> contact{30, 10};
     Softness<R> joint{60, 2};
-    R fastestPush = 3;  ///< soft contacts: largest velocity that overlap asks for [m/s]
+    R maxBiasVelocity = 3;  ///< soft contacts: largest bias velocity from penetration [m/s]
 };
 
-/// Position errors as damped springs; the world fills in frequencies and damping ratios.
+/// Rule of solvers with soft rows; the world fills in frequencies and damping ratios.
 template <class R>
 BiasRule<R> softBiasRule() {
     BiasRule<R> rule;

@@ -12,9 +12,9 @@
 namespace rigor::engine {
 namespace {
 
-/// Pauses before the share of a thread that seems to be away is taken over: a microsecond or two, longer than
-/// a thread takes to see that a stage has begun.
-constexpr int kPatience = 64;
+/// Pauses before the chunk of a worker that may be descheduled is taken over: a microsecond or two, longer
+/// than a running worker needs to see that a stage has begun.
+constexpr int kSpinCount = 64;
 
 constexpr std::uint64_t kCountBits = 24;
 constexpr std::uint64_t before(std::uint64_t run) {
@@ -35,8 +35,8 @@ void pauseThread(int waits) {
 }
 
 Stages::Stages(std::size_t threads)
-    : shares_(threads), walkers_(threads), weights_(threads, 1.0 / static_cast<double>(threads)) {
-    for (Walker& walker : walkers_) walker.patience.assign(threads, kPatience);
+    : chunks_(threads), workers_(threads), weights_(threads, 1.0 / static_cast<double>(threads)) {
+    for (Worker& worker : workers_) worker.spinCount.assign(threads, kSpinCount);
 }
 
 void Stages::run(std::size_t stages, const Work& work) {
@@ -47,72 +47,72 @@ void Stages::run(std::size_t stages, const Work& work) {
     failed_.store(false, std::memory_order_relaxed);
     const std::uint64_t next = before_ << kCountBits | stages;
     run_.store(next, std::memory_order_release);
-    walk(0, next);
+    runStages(0, next);
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
-bool Stages::help(std::size_t self) {
+bool Stages::join(std::size_t self) {
     const std::uint64_t run = run_.load(std::memory_order_acquire);
-    if (std::exchange(walkers_[self].seen, run) == run) return false;
-    walk(self, run);
+    if (std::exchange(workers_[self].lastRun, run) == run) return false;
+    runStages(self, run);
     return true;
 }
 
-void Stages::walk(std::size_t self, std::uint64_t run) {
-    Walker& walker = walkers_[self];
+void Stages::runStages(std::size_t self, std::uint64_t run) {
+    Worker& worker = workers_[self];
     for (std::uint64_t stage = before(run) + 1; stage <= before(run) + count(run); ++stage) {
-        take(self, stage);
-        for (std::size_t k = 1; k < shares_.size(); ++k) await(walker, (self + k) % shares_.size(), stage);
-        await(walker, self, stage);  // somebody else may have taken it
+        tryRun(self, stage);
+        for (std::size_t k = 1; k < chunks_.size(); ++k) await(worker, (self + k) % chunks_.size(), stage);
+        await(worker, self, stage);  // another worker may have taken it
     }
 }
 
-void Stages::await(Walker& walker, std::size_t share, std::uint64_t stage) {
-    int& patience = walker.patience[share];
+void Stages::await(Worker& worker, std::size_t chunk, std::uint64_t stage) {
+    int& spinCount = worker.spinCount[chunk];
     bool mayTake = true;
     int waits = 0;
-    for (; shares_[share].done.load(std::memory_order_acquire) < stage; ++waits) {
-        if (mayTake && waits >= patience) {
+    for (; chunks_[chunk].done.load(std::memory_order_acquire) < stage; ++waits) {
+        if (mayTake && waits >= spinCount) {
             mayTake = false;
-            patience = take(share, stage) ? 0 : kPatience;
-            if (patience == 0) return;
+            spinCount = tryRun(chunk, stage) ? 0 : kSpinCount;
+            if (spinCount == 0) return;
         } else {
             pauseThread(waits);
         }
     }
     if (waits == 0) return;
-    walker.waited.store(walker.waited.load(std::memory_order_relaxed) + static_cast<std::uint64_t>(waits),
+    worker.waited.store(worker.waited.load(std::memory_order_relaxed) + static_cast<std::uint64_t>(waits),
                         std::memory_order_relaxed);
 }
 
-/// Does a share of a stage unless somebody has begun it.
-bool Stages::take(std::size_t share, std::uint64_t stage) {
-    Share& mine = shares_[share];
-    std::uint64_t taken = mine.taken.load(std::memory_order_relaxed);
-    if (taken >= stage || !mine.taken.compare_exchange_strong(taken, stage, std::memory_order_relaxed))
+/// Runs the chunk of a stage unless another thread has taken it.
+bool Stages::tryRun(std::size_t chunk, std::uint64_t stage) {
+    Chunk& own = chunks_[chunk];
+    std::uint64_t taken = own.taken.load(std::memory_order_relaxed);
+    if (taken >= stage || !own.taken.compare_exchange_strong(taken, stage, std::memory_order_relaxed))
         return false;
     try {
-        if (!failed_.load(std::memory_order_relaxed)) (*work_)(stage - before_ - 1, share);
+        if (!failed_.load(std::memory_order_relaxed)) (*work_)(stage - before_ - 1, chunk);
     } catch (...) {
         const std::lock_guard lock(failing_);
         if (!error_) error_ = std::current_exception();
         failed_.store(true, std::memory_order_relaxed);
     }
-    mine.done.store(stage, std::memory_order_release);
+    own.done.store(stage, std::memory_order_release);
     return true;
 }
 
 const std::vector<double>& Stages::weights() {
     constexpr double kGain = 0.01, kEven = 0.1, kMost = 1.5;
     constexpr std::uint64_t kLeast = 64;  // pauses: less says nothing
-    const auto threads = static_cast<double>(walkers_.size());
+    const auto threads = static_cast<double>(workers_.size());
     std::uint64_t all = 0;
-    for (const Walker& walker : walkers_) all += walker.waited.load(std::memory_order_relaxed);
+    for (const Worker& worker : workers_) all += worker.waited.load(std::memory_order_relaxed);
     if (all < kLeast) return weights_;
     const double mean = static_cast<double>(all) / threads;
     double sum = 0;
-    for (std::size_t k = 0; k < walkers_.size(); ++k) {
-        const auto waited = static_cast<double>(walkers_[k].waited.exchange(0, std::memory_order_relaxed));
+    for (std::size_t k = 0; k < workers_.size(); ++k) {
+        const auto waited = static_cast<double>(workers_[k].waited.exchange(0, std::memory_order_relaxed));
         const double change = std::abs(waited - mean) <= kEven * mean ? 0 : waited > mean ? kGain : -kGain;
         weights_[k] = std::clamp(weights_[k] + change / threads, (2 - kMost) / threads, kMost / threads);
         sum += weights_[k];

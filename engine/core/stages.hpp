@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Short stages that threads walk through side by side. Each stage has a share for each thread; a thread does
-// its own, waits until all others are done, and goes on. It takes its own share by a word that nobody else
-// touches as a rule, and says that it is done by another one that the others wait for: a stage costs each
-// thread one line that goes from cache to cache. A share that is not done for long is taken over, if its
-// thread has not begun it, and from then on at once, until that thread comes back. What a share consists of
-// is up to the work; where a thread has the same one in many stages it finds that in its own cache.
+// A sequence of short stages with a barrier after each. Every stage has one chunk of work per thread.
 //
-// Threads that share a core with somebody else are slower than others. How long each one waits says so, and
-// shares are weighted by it (weights()).
+//     stage      1          2          3
+//     chunk 0  [#####]    [####]     [#####]      worker 0
+//     chunk 1  [####]     [#####]    [####]       worker 1
+//                     |          |          |     barrier: done[k] >= stage for all k
+//
+// A worker claims its own chunk by `taken`, a word that other workers rarely touch, and reports it by `done`,
+// which the others spin on: a stage moves one cache line per thread between cores. A chunk whose worker has
+// not begun it after spinCount pauses (its thread may be descheduled) is run by a waiting worker, and from
+// then on without pauses, until its own worker comes back. The content of a chunk is up to the caller; where
+// a thread gets the same data in many stages it finds them in its own cache.
+//
+// A thread whose core is shared with another process is slower. The time that the others wait shows it, and
+// the sizes of the chunks are weighted by it (weights()).
 #pragma once
 
 #include <atomic>
@@ -22,49 +28,49 @@
 
 namespace rigor::engine {
 
-/// Waits a little, after `waits` times before.
+/// One pause of a spin loop that has already paused `waits` times: a CPU pause first, then a yield.
 void pauseThread(int waits);
 
 class Stages {
   public:
-    /// The share `share` of a stage; as many as there are threads.
-    using Work = std::function<void(std::size_t stage, std::size_t share)>;
+    /// Runs one chunk of a stage, chunk in [0, threads).
+    using Work = std::function<void(std::size_t stage, std::size_t chunk)>;
 
     explicit Stages(std::size_t threads);
 
-    /// Stages 0 .. count - 1 as Tasks::forStages does them, with those who help(); count < 2^24.
+    /// Runs stages 0 .. count - 1 in the calling thread and in those that join(); count < 2^24.
     void run(std::size_t count, const Work& work);
-    /// By any other thread, at any time; `self` in [1, threads). False: there was nothing to do.
-    bool help(std::size_t self);
+    /// Called by the other threads at any time, `self` in [1, threads). False: there was no new run.
+    bool join(std::size_t self);
 
-    /// Between runs: what part of the work each thread should have, such that all are done at the same time;
-    /// the sum is 1. Follows what they have waited since the last call, slowly.
+    /// Between runs: the fraction of the work for each thread such that all finish at the same time; the sum
+    /// is 1. A slow integrator of the times that the threads have waited since the last call.
     const std::vector<double>& weights();
 
   private:
-    // Stages are counted through all runs, from 1, so that nothing has to be put back. Who has taken a share
-    // keeps its stage, and with it the run, from ending: only then what belongs to the run is read. Who comes
-    // late finds all shares of the run that it knows of taken and done.
-    struct Share {
-        alignas(64) std::atomic<std::uint64_t> taken{0};  ///< stages up to this one
-        alignas(64) std::atomic<std::uint64_t> done{0};
+    // Stages are numbered through all runs, from 1, so that no counter is ever reset. A worker that has taken
+    // a chunk keeps its stage, and with it the run, from ending; the members of the run are read only while a
+    // chunk is taken. A worker that joins late finds all chunks of that run taken and done.
+    struct Chunk {
+        alignas(64) std::atomic<std::uint64_t> taken{0};  ///< last stage whose chunk has been taken
+        alignas(64) std::atomic<std::uint64_t> done{0};   ///< last stage whose chunk is done
     };
-    /// What a thread knows.
-    struct alignas(64) Walker {
-        std::uint64_t seen = 0;                ///< the last run
-        std::vector<int> patience;             ///< with each share, before it is taken over
-        std::atomic<std::uint64_t> waited{0};  ///< pauses, for others who were at work
+    /// State of one thread.
+    struct alignas(64) Worker {
+        std::uint64_t lastRun = 0;             ///< the last run that it has joined
+        std::vector<int> spinCount;            ///< pauses before each chunk of another worker is taken over
+        std::atomic<std::uint64_t> waited{0};  ///< pauses at barriers since weights() was called
     };
-    void walk(std::size_t self, std::uint64_t run);
-    bool take(std::size_t share, std::uint64_t stage);
-    void await(Walker& walker, std::size_t share, std::uint64_t stage);
+    void runStages(std::size_t self, std::uint64_t run);
+    bool tryRun(std::size_t chunk, std::uint64_t stage);
+    void await(Worker& worker, std::size_t chunk, std::uint64_t stage);
 
-    std::vector<Share> shares_;
-    std::vector<Walker> walkers_;
+    std::vector<Chunk> chunks_;
+    std::vector<Worker> workers_;
     std::vector<double> weights_;
-    /// The run that is under way, or was last: stages of earlier ones, and how many it has.
+    /// The current or last run: [stages of all runs before | its number of stages].
     alignas(64) std::atomic<std::uint64_t> run_{0};
-    // --- of the run
+    // --- the current run
     alignas(64) std::uint64_t before_ = 0;
     const Work* work_ = nullptr;
     std::atomic<bool> failed_{false};

@@ -110,7 +110,7 @@ void BlockMotion<S>::addTumbling(const BodyArrays<S>& bodies, std::size_t i, Rea
 
 template <class S>
 void BlockMotion<S>::kick(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
-    tasks.forShares(bodies.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+    tasks.forChunks(bodies.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
         auto u = numbers(bodies.velocity.data(), first, last);
         u = numbers(kept_.data(), first, last) * u + numbers(add_.data(), first, last);
         if constexpr (S::dim == 3)
@@ -127,7 +127,7 @@ void BlockMotion<S>::kick(BodyArrays<S>& bodies, Real h, const Tasks& tasks) {
 template <class S>
 void BlockMotion<S>::move(BodyArrays<S>& bodies, std::span<Velocity<S>> used, Real h,
                           const Tasks& tasks) const {
-    tasks.forShares(bodies.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+    tasks.forChunks(bodies.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
         numbers(used.data(), first, last) = numbers(bodies.velocity.data(), first, last);
         moveBodies<S>(moving_.data() + first / kLanes, blocksIn(first, last), bodies.pose.data(),
                       bodies.velocity.data(), h);
@@ -138,7 +138,7 @@ template <class S>
 void BlockMotion<S>::finish(BodyArrays<S>& bodies, const Tasks& tasks) const {
     if constexpr (S::dim == 3) {
         if (tumbling_.empty()) return;
-        tasks.forShares(bodies.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+        tasks.forChunks(bodies.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
             finishTumbling<S>(tumbling_.data() + first / kLanes, blocksIn(first, last), bodies.pose.data(),
                               bodies.velocity.data());
         });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Contacts as patches for the solver `wide`, and their impulses back.
+// Converts contacts to the patches of the solver `wide`, and reads their impulses back.
 #include <algorithm>
 #include <array>
 
@@ -11,7 +11,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kContactGrain = 64;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kContactGrain = 64;  ///< worth a task: some microseconds of work
 
 template <class R>
 void put(Lanes<PatchReal>& to, std::size_t lane, R x) {
@@ -28,7 +28,7 @@ typename S::Vec takeVector(const Lanes<PatchReal>* from, std::size_t lane) {
     return v;
 }
 
-/// The contact of a lane. Null: there is none.
+/// Contact of a lane; null for an empty lane.
 template <class S>
 const Contact<S>* contactAt(const Patches<S>& patches, const ContactList<S>& contacts, std::size_t b,
                             std::size_t lane) {
@@ -36,14 +36,14 @@ const Contact<S>* contactAt(const Patches<S>& patches, const ContactList<S>& con
     return &contacts[patches.sourceAt(b, lane)];
 }
 
-/// One lane of a block and of what belongs to it.
+/// One lane of a block, its cold data and the friction of its points.
 template <class S>
 struct PatchLane {
     using Real = typename S::Real;
     using F = PatchSpace<S>;
     PatchBlock<F>& block;
-    PatchRest<F>& rest;
-    PatchRubs<F>& rubs;
+    PatchColdData<F>& cold;
+    PatchFriction<F>& friction;
     std::size_t lane;
 
     void setPoint(std::size_t i, bool is, Real separation, const typename S::Vec& armB, Real warmStart,
@@ -52,13 +52,14 @@ struct PatchLane {
         point.invK[lane] = is ? PatchReal(1) : PatchReal(0);
         put(point.separation, lane, separation);
         put(point.impulse, lane, warmStart * impulse.normal);
-        putVector(rest.armB[i], lane, armB);
-        putVector(rubs.last[i], lane, typename S::Vec(warmStart * impulse.friction));
+        putVector(cold.armB[i], lane, armB);
+        putVector(friction.last[i], lane, typename S::Vec(warmStart * impulse.friction));
     }
 };
 
-/// What the narrow phase knows of a contact; the rest is made of it in SIMD (Patches::prepare). Null: zeros,
-/// of the body `other`, which no other block of the colour moves: all lanes are read.
+/// Fills a lane with the result of the narrow phase; Patches::prepare derives the other numbers in SIMD. A
+/// null contact leaves an empty lane: zeros that refer to the body `other`. All lanes are read, and no other
+/// block of the colour moves `other`.
 template <class S>
 void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const ContactStep<S>& step,
               const Contact<S>* contact, std::uint32_t other) {
@@ -81,11 +82,11 @@ void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const Contact
     put(block.invMassB, lane, contact ? bodies.invMass[b] : Real(0));
     put(block.friction, lane, pair.friction);
     put(block.staticFriction, lane, std::max(pair.friction, pair.staticFriction));
-    put(to.rest.restitution, lane, step.bounces ? pair.restitution : Real(0));
-    block.bounces |= lanes(to.rest.restitution[lane] > 0);
+    put(to.cold.restitution, lane, step.bounces ? pair.restitution : Real(0));
+    block.bounces |= lanes(to.cold.restitution[lane] > 0);
     for (std::size_t i = 0; i < count; ++i) {
         const ManifoldPoint<S>& where = contact->manifold.points[i];
-        // Points found ahead have their arms of then.
+        // Speculative points found by continuous collision keep their arms at the time of impact.
         const Vec arm = contact->ahead ? contact->points[i].rB
                                        : Vec(impulsePoint<S>(where, movesA, movesB) - bodies.pose[b].p);
         to.setPoint(i, true, where.separation, arm, step.warmStart, contact->impulses[i]);
@@ -95,11 +96,11 @@ void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const Contact
 }
 
 template <class S>
-void readLane(const PatchBlock<PatchSpace<S>>& block, const PatchRubs<PatchSpace<S>>& rubs, std::size_t lane,
-              Contact<S>& contact) {
+void readLane(const PatchBlock<PatchSpace<S>>& block, const PatchFriction<PatchSpace<S>>& friction,
+              std::size_t lane, Contact<S>& contact) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
-        contact.impulses[i] = {block.point[i].impulse[lane], takeVector<S>(rubs.last[i], lane)};
-        contact.totals[i] = {block.point[i].total[lane], takeVector<S>(rubs.total[i], lane)};
+        contact.impulses[i] = {block.point[i].impulse[lane], takeVector<S>(friction.last[i], lane)};
+        contact.totals[i] = {block.point[i].total[lane], takeVector<S>(friction.total[i], lane)};
         contact.touching = contact.touching || contact.totals[i].normal > 0;
     }
 }
@@ -109,7 +110,7 @@ void readLane(const PatchBlock<PatchSpace<S>>& block, const PatchRubs<PatchSpace
 template <class S>
 void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>& step, Patches<S>& patches,
                                const Tasks& tasks) {
-    patches.plan(contacts_.size());
+    patches.resize(contacts_.size());
     tasks.forEach(contacts_.size(), kContactGrain, [&](std::size_t k) {
         Contact<S>& contact = contacts_[k];
         contact.asleep = isAsleep(bodies, contact);
@@ -117,13 +118,13 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
         const bool solved = !contact.asleep && (movesA || movesB);
         contact.block.fill(solved ? Contact<S>::kPatch : kNullIndex);
         if (!solved && !contact.asleep) contact.totals.fill({});
-        patches.offer(k, {contact.bodyA, contact.bodyB, movesA, movesB,
-                          static_cast<std::uint8_t>(solved ? contact.manifold.count : 0)});
+        patches.setDescriptor(k, {contact.bodyA, contact.bodyB, movesA, movesB,
+                                  static_cast<std::uint8_t>(solved ? contact.manifold.count : 0)});
     });
-    patches.place(bodies, tasks);
+    patches.assignLanes(bodies, tasks);
     patches.forBlocks(tasks, [&](std::size_t b) {
         auto& block = patches.block(b);
-        PatchRubs<PatchSpace<S>> rubs;
+        PatchFriction<PatchSpace<S>> friction;
         block.movesA = block.movesB = block.bounces = 0;
         block.points = 0;
         std::array<const Contact<S>*, kLanes> from;
@@ -136,8 +137,9 @@ void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>
             if (from[lane]) block.points = std::max(block.points, from[lane]->manifold.count);
         }
         for (std::size_t lane = 0; lane < kLanes; ++lane)
-            fillLane<S>({block, patches.rest(b), rubs, lane}, bodies, step, from[lane], from[0]->bodyA);
-        patches.prepare(b, rubs);
+            fillLane<S>({block, patches.coldData(b), friction, lane}, bodies, step, from[lane],
+                        from[0]->bodyA);
+        patches.prepare(b, friction);
     });
 }
 
@@ -149,11 +151,11 @@ void ContactSet<S>::storePatches(Patches<S>& patches, const Tasks& tasks) {
                 prefetch(next, &next->manifold.apart);
                 prefetch(&next->impulses, &next->shapeA);
             }
-        PatchRubs<PatchSpace<S>> rubs;
-        patches.share(b, rubs);
+        PatchFriction<PatchSpace<S>> friction;
+        patches.distribute(b, friction);
         for (std::size_t lane = 0; lane < kLanes; ++lane)
             if (const std::uint32_t source = patches.sourceAt(b, lane); source != kNullIndex)
-                readLane(patches.block(b), rubs, lane, contacts_[source]);
+                readLane(patches.block(b), friction, lane, contacts_[source]);
     });
 }
 

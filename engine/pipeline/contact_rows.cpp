@@ -175,12 +175,12 @@ template <class S>
 void ContactSet<S>::pushApart(const ContactStep<S>& step, const Block<S>& block, Real s, Row<S>& normal) {
     const Real overlap = std::min(Real(0), s + step.slop);
     if (!step.bias.soft) {
-        normal.bias = step.bias.share * overlap / step.h;
+        normal.bias = step.bias.baumgarte * overlap / step.h;
         return;
     }
     if (s > 0) return;
     const SoftTerms<Real> terms = softTerms(step.bias.contact, rowCoupling<S>(normal, normal, block), step.h);
-    normal.bias = std::max(terms.biasRate * overlap, -step.bias.fastestPush);
+    normal.bias = std::max(terms.biasRate * overlap, -step.bias.maxBiasVelocity);
     normal.softness = terms.gamma;
     normal.invK = Real(1) / rowK<S>(normal, block);
 }

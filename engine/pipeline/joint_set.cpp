@@ -178,7 +178,7 @@ void JointSet<S>::addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, 
                 row.bias = terms.biasRate * error;
                 row.softness = terms.gamma;
             } else {
-                row.bias = step.bias.share * error / step.h;
+                row.bias = step.bias.baumgarte * error / step.h;
             }
             break;
     }

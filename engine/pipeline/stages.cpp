@@ -200,7 +200,7 @@ PatchPass World<S>::patchPass() const {
     pass.massScale = number(Real(1) / (Real(1) + terms.gamma));
     pass.impulseScale = number(terms.gamma / (Real(1) + terms.gamma));
     pass.slop = number(def_.slop);
-    pass.fastestPush = softBiasRule<PatchReal>().fastestPush;
+    pass.maxBiasVelocity = softBiasRule<PatchReal>().maxBiasVelocity;
     pass.threshold = number(def_.restitutionThreshold);
     pass.touching = PatchReal(64) * std::numeric_limits<PatchReal>::epsilon();
     pass.restingGap = std::max(pass.touching, number(Real(2) * h * h * def_.gravity.norm()));
@@ -234,7 +234,7 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
     // The aim of joints at the end of the step is renewed with every iteration, which diverges where a step
     // turns light links far, or asks for motion that the joints hardly allow, as in a flat net: then the
     // linearisation at its start has to do.
-    const bool ideal = !jointStep_.bias.soft && jointStep_.bias.share == 0;  // else joints may do work
+    const bool ideal = !jointStep_.bias.soft && jointStep_.bias.baumgarte == 0;  // else joints may do work
     const bool strays = aims && ideal && joints_.work(rows_, bodies_.velocity) > Real(kMostWork);
     if (!strays && monitor.aimSettled()) return;
     jointStep_.curvature = 0;

@@ -71,7 +71,7 @@ void World<S>::forEachStage(const Visitor& stage) const {
 template <class S>
 const StepResult<S>& World<S>::step(Real h) {
     beginStep(h);
-    tasks_.enter([this] {
+    tasks_.withWorkers([this] {
         forEachStage([this](Phase phase, int substep, Work work) { runStage(phase, substep, work); });
         endStep();
     });
@@ -110,7 +110,7 @@ void World<S>::runPhase() {
     if (!stepping()) throw EngineError("no_step", "no step has begun");
     const int next = progress_.stagesDone;
     int stages = 0;
-    tasks_.enter([&] {
+    tasks_.withWorkers([&] {
         forEachStage([&](Phase phase, int substep, Work work) {
             if (stages++ == next) runStage(phase, substep, work);
         });

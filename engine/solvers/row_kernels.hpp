@@ -143,12 +143,13 @@ class BlockSweeps {
             order_.add<S>({blocks.data() + starts_[u], starts_[u + 1] - starts_[u]});
         order_.finish();
     }
-    /// The largest result of Real visit(block index), or zero.
-    template <class Visit>
-    Real largest(const Visit& visit) {
+    /// The largest result of Real solveBlock(block index), or zero.
+    template <class SolveBlock>
+    Real largest(const SolveBlock& solveBlock) {
         return order_.template largest<Real>(false, [&](std::size_t unit) {
             Real most = 0;
-            for (std::size_t k = starts_[unit]; k < starts_[unit + 1]; ++k) most = std::max(most, visit(k));
+            for (std::size_t k = starts_[unit]; k < starts_[unit + 1]; ++k)
+                most = std::max(most, solveBlock(k));
             return most;
         });
     }
@@ -168,7 +169,7 @@ void solveRowByRow(const SolverInput<S>& input, ContactOrder order, BlockSweeps<
     const auto solve = [&input](auto kernel, const Block<S>& block) -> Real {
         return kernel(input, block, input.velocities[block.a], input.velocities[block.b]);
     };
-    const auto visit = [&](std::size_t k) -> Real {
+    const auto solveBlock = [&](std::size_t k) -> Real {
         if (blocks[k].kind == BlockKind::Joint) return solve(solveJointRows<S>, blocks[k]);
         if (blocks[k].kind == BlockKind::Bounded) return solve(solveBoundedRow<S>, blocks[k]);
         const Real friction =
@@ -180,7 +181,7 @@ void solveRowByRow(const SolverInput<S>& input, ContactOrder order, BlockSweeps<
     };
     for (int i = 0; i < input.iterations; ++i) {
         input.monitor.before(input.velocities);
-        Real change = sweeps.largest(visit);
+        Real change = sweeps.largest(solveBlock);
         if (order == ContactOrder::FrictionLast) change = std::max(change, sweeps.largest(rub));
         if (input.monitor.after(input.velocities, change)) break;
     }

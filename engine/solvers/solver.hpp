@@ -64,7 +64,7 @@ struct SolverInput {
     bool warmStarted = false;           ///< the velocities already contain the rows' impulses (relaxation)
     Real residualTolerance = 0;         ///< natural map at which solvers that iterate on it may stop [m/s]
     int pyramidDirections = 4;          ///< generators of the polyhedral friction cone, even (lemke)
-    const Tasks& tasks = Tasks::one();  ///< to share the work among; the result is the same
+    const Tasks& tasks = Tasks::one();  ///< threads; the result does not depend on them
     const PatchPass* pass = nullptr;    ///< for a solver of patches: what they need to know
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Gauss-Seidel sweeps shared among threads with the bits of one thread. A sweep visits units (rows, blocks or
+// Parallel Gauss-Seidel sweeps with the bits of one thread. A sweep solves units (rows, blocks or
 // groups of them) one after the other, and each sees what its predecessors have done to its bodies. Units
 // that move no common body do not see each other, so that only the order between those that do matters:
 //     level(k) = 1 + max over the bodies i that unit k moves of (level of the last unit before k that moves i)
@@ -11,7 +11,7 @@
 // and fill the same levels side by side, and so does one large pile: its levels are the layers that a front
 // running through the sweep's order leaves behind.
 //
-// Bodies that impulses do not move are read by everybody and written by nobody. Cost: O(units + bodies) to
+// Bodies that impulses do not move are read by all threads and never written. Cost: O(units + bodies) to
 // find the levels, nothing for one thread. Known limits: a chain whose units come in order has as many levels
 // as units; threads are of no use to it.
 #pragma once

@@ -50,8 +50,8 @@ struct SolverTraits {
     int relaxIterations = 0;             ///< more of them after the bodies have moved
     ErrorHandling errors = ErrorHandling::Correction;
     /// Of Springs: joints that are linearised (WorldDef::curvedJoints off) are rigid instead and lose this
-    /// share of their error in each sub-step.
-    std::optional<double> linearJointShare = {};
+    /// fraction of their error in each sub-step.
+    std::optional<double> linearJointBaumgarte = {};
     std::optional<FrictionShape> friction = {};  ///< a law of its own; empty: that of WorldDef::friction
     /// The contacts of two shapes rub as one, at the centre of their pressure, which is the law of the points
     /// only where they slide without turning or turn without sliding.
@@ -82,9 +82,9 @@ SolverStyle<S> styleOf(const SolverTraits& traits) {
     style.ownsCorrection = traits.errors != ErrorHandling::Correction;
     if (traits.errors == ErrorHandling::Springs) style.bias = softBiasRule<Real>();
     if (traits.errors == ErrorHandling::Positions) style.bias = BiasRule<Real>{};
-    if (traits.linearJointShare) {
+    if (traits.linearJointBaumgarte) {
         BiasRule<Real> joints;
-        joints.share = static_cast<Real>(*traits.linearJointShare);
+        joints.baumgarte = static_cast<Real>(*traits.linearJointBaumgarte);
         style.linearJointBias = joints;
     }
     return style;

@@ -61,7 +61,7 @@ TEST(Tasks, TwoThreadsReallyWorkAtTheSameTime) {
     EXPECT_EQ(most, 2);
 }
 
-TEST(Tasks, TwoThreadsReallyShareAStage) {
+TEST(Tasks, TwoThreadsReallyRunAStage) {
     const Tasks tasks(2);
     std::atomic<int> inside = 0, most = 0;
     tasks.forStages(3, [&](std::size_t, std::size_t) {
@@ -82,10 +82,10 @@ TEST(Tasks, StagesFollowEachOtherAndVisitEveryIndexOnce) {
         for (std::size_t s = 0; s < stages; ++s) visits[s].assign(s * 7 % 30, 0);
         std::atomic<bool> early = false;  // a stage began before the last one had ended
         std::vector<std::atomic<std::size_t>> done(stages);
-        tasks.forStages(stages, [&](std::size_t s, std::size_t share) {
+        tasks.forStages(stages, [&](std::size_t s, std::size_t chunk) {
             if (s > 0 && done[s - 1] != visits[s - 1].size()) early = true;
-            const std::size_t end = tasks.cut(visits[s].size(), 4, share + 1);
-            for (std::size_t i = tasks.cut(visits[s].size(), 4, share); i < end; ++i)
+            const std::size_t end = tasks.chunkBegin(visits[s].size(), 4, chunk + 1);
+            for (std::size_t i = tasks.chunkBegin(visits[s].size(), 4, chunk); i < end; ++i)
                 ++visits[s][i], ++done[s];
         });
         EXPECT_FALSE(early) << threads;
@@ -102,25 +102,25 @@ TEST(Tasks, WhoComesLateWaitsForWhatOthersHaveTakenOver) {
     std::atomic<int> early = 0, twice = 0;
     for (int round = 0; round < 20; ++round) {
         std::array<std::atomic<int>, stages * threads> done{};
-        tasks.forStages(stages, [&](std::size_t s, std::size_t share) {
+        tasks.forStages(stages, [&](std::size_t s, std::size_t chunk) {
             for (std::size_t k = 0; s > 0 && k < threads; ++k)
                 if (done[(s - 1) * threads + k] == 0) ++early;
-            if ((s * 5 + share * 3) % 7 == 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
-            if (done[s * threads + share]++ != 0) ++twice;
+            if ((s * 5 + chunk * 3) % 7 == 0) std::this_thread::sleep_for(std::chrono::microseconds(200));
+            if (done[s * threads + chunk]++ != 0) ++twice;
         });
-        for (const std::atomic<int>& share : done) ASSERT_EQ(share, 1);
+        for (const std::atomic<int>& chunk : done) ASSERT_EQ(chunk, 1);
     }
     EXPECT_EQ(early, 0);
     EXPECT_EQ(twice, 0);
 }
 
-TEST(Tasks, SharesAreCutAtMultiplesOfTheGrain) {
+TEST(Tasks, ChunksBeginAtMultiplesOfTheGrain) {
     for (int threads = 1; threads <= 4; ++threads) {
         const Tasks tasks(threads);
         for (const std::size_t n : {0u, 1u, 15u, 16u, 17u, 100u, 1000u}) {
             std::vector<int> visits(n, 0);
             std::atomic<int> parts = 0, strange = 0;
-            tasks.forShares(n, 16, [&](std::size_t begin, std::size_t end) {
+            tasks.forChunks(n, 16, [&](std::size_t begin, std::size_t end) {
                 ++parts;
                 if (begin % 16 != 0 || (end % 16 != 0 && end != n)) ++strange;
                 for (std::size_t i = begin; i < end; ++i) ++visits[i];
@@ -135,13 +135,13 @@ TEST(Tasks, SharesAreCutAtMultiplesOfTheGrain) {
     }
 }
 
-/// The second share takes its thread three times as long as it should: it becomes smaller, and large again
+/// The second chunk takes its thread three times as long as it should: it becomes smaller, and large again
 /// when the thread is as fast as the other one.
-TEST(Tasks, SharesFollowTheSpeedOfThreads) {
+TEST(Tasks, ChunksFollowTheSpeedOfThreads) {
     const Tasks tasks(2);
-    EXPECT_EQ(tasks.before(0), 0.0);
-    EXPECT_EQ(tasks.before(1), 0.5);
-    EXPECT_EQ(tasks.before(2), 1.0);
+    EXPECT_EQ(tasks.fractionBefore(0), 0.0);
+    EXPECT_EQ(tasks.fractionBefore(1), 0.5);
+    EXPECT_EQ(tasks.fractionBefore(2), 1.0);
     const auto spin = [](double microseconds) {
         const auto end =
             std::chrono::steady_clock::now() + std::chrono::duration<double, std::micro>(microseconds);
@@ -150,18 +150,18 @@ TEST(Tasks, SharesFollowTheSpeedOfThreads) {
     };
     const auto run = [&](double slowness, const auto& until) {
         // Fifty to some hundred rounds; on a busy machine that may take longer.
-        for (int round = 0; round < 20000 && !until(tasks.before(1)); ++round)
-            tasks.forStages(10, [&](std::size_t, std::size_t share) {
-                const double part = tasks.before(share + 1) - tasks.before(share);
-                spin(40 * part * (share == 1 ? slowness : 1.0));
+        for (int round = 0; round < 20000 && !until(tasks.fractionBefore(1)); ++round)
+            tasks.forStages(10, [&](std::size_t, std::size_t chunk) {
+                const double part = tasks.fractionBefore(chunk + 1) - tasks.fractionBefore(chunk);
+                spin(40 * part * (chunk == 1 ? slowness : 1.0));
             });
     };
     const auto begun = std::chrono::steady_clock::now();
     const std::clock_t used = std::clock();
     run(3, [](double before) { return before > 0.6; });
-    const bool slower = tasks.before(1) > 0.6;
+    const bool slower = tasks.fractionBefore(1) > 0.6;
     run(1, [](double before) { return before < 0.55; });
-    const bool even = tasks.before(1) < 0.55;
+    const bool even = tasks.fractionBefore(1) < 0.55;
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     const double cores = static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC / wall;
     // Threads that take turns on a core do not wait for each other: the speed of neither is known.
@@ -186,11 +186,12 @@ TEST(Tasks, RangesInsideOfRangesAndStagesAreDone) {
     for (int threads = 1; threads <= 4; ++threads) {
         const Tasks tasks(threads);
         std::vector<std::atomic<int>> visits(60);
-        tasks.enter([&] {
+        tasks.withWorkers([&] {
             tasks.forRanges(6, 1, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i)
-                    tasks.forStages(2, [&](std::size_t s, std::size_t share) {
-                        for (std::size_t k = tasks.cut(5, 1, share); k < tasks.cut(5, 1, share + 1); ++k)
+                    tasks.forStages(2, [&](std::size_t s, std::size_t chunk) {
+                        for (std::size_t k = tasks.chunkBegin(5, 1, chunk);
+                             k < tasks.chunkBegin(5, 1, chunk + 1); ++k)
                             ++visits[10 * i + 5 * s + k];
                     });
             });
@@ -203,11 +204,11 @@ TEST(Tasks, ExceptionsOfStagesReachTheCallerAndWorkGoesOn) {
     const Tasks tasks(3);
     for (int round = 0; round < 50; ++round) {
         EXPECT_THROW(tasks.forStages(4,
-                                     [&](std::size_t s, std::size_t share) {
-                                         if (s == 2 && share == 1) throw std::runtime_error("1 of 2");
+                                     [&](std::size_t s, std::size_t chunk) {
+                                         if (s == 2 && chunk == 1) throw std::runtime_error("1 of 2");
                                      }),
                      std::runtime_error);
-        EXPECT_THROW(tasks.enter([] { throw std::runtime_error("entered"); }), std::runtime_error);
+        EXPECT_THROW(tasks.withWorkers([] { throw std::runtime_error("entered"); }), std::runtime_error);
         std::atomic<int> sum = 0;
         tasks.forEach(1000, 1, [&](std::size_t i) { sum += static_cast<int>(i); });
         EXPECT_EQ(sum, 499500);
@@ -217,10 +218,10 @@ TEST(Tasks, ExceptionsOfStagesReachTheCallerAndWorkGoesOn) {
 /// More threads than there are processors, on runs of stages of all sizes: who comes late finds nothing left.
 TEST(Tasks, ShortRunsOfStagesFollowEachOther) {
     const Tasks tasks(8);
-    tasks.enter([&] {
+    tasks.withWorkers([&] {
         for (std::size_t run = 1; run < 1000; ++run) {
             std::vector<std::atomic<int>> visits(run % 7 * 8);
-            tasks.forStages(run % 7, [&](std::size_t s, std::size_t share) { ++visits[8 * s + share]; });
+            tasks.forStages(run % 7, [&](std::size_t s, std::size_t chunk) { ++visits[8 * s + chunk]; });
             for (const std::atomic<int>& visit : visits) ASSERT_EQ(visit, 1) << run;
         }
     });
@@ -229,7 +230,7 @@ TEST(Tasks, ShortRunsOfStagesFollowEachOther) {
 /// Many short ranges one after the other: a thread that comes late for one takes part in the next.
 TEST(Tasks, ShortRangesFollowEachOther) {
     const Tasks tasks(4);
-    tasks.enter([&] {
+    tasks.withWorkers([&] {
         std::vector<int> visits;
         for (std::size_t n = 1; n < 3000; ++n) {
             visits.assign(n % 97 + 1, 0);

@@ -126,7 +126,7 @@ TYPED_TEST(WidePatches, OverlapIsPushedOutToTheSlopAndNotFast) {
     EXPECT_EQ(rise(0.006, 20).first, 0);
     EXPECT_NEAR(rise(0.03, 60).first, 0.02, 5e-3);
     const auto [far, fastest] = rise(1.5, 10, 2);
-    EXPECT_LE(fastest, static_cast<double>(softBiasRule<R>().fastestPush) * 1.001);
+    EXPECT_LE(fastest, static_cast<double>(softBiasRule<R>().maxBiasVelocity) * 1.001);
     EXPECT_GT(far, 0.05);
 }
 

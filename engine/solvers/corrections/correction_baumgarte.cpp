@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Baumgarte stabilisation [Baumgarte1972]: the velocity rows aim at J v = -beta C / h, so a share beta of the
-// error goes per step. Simple, but the bias velocity stays in the bodies: it adds energy.
+// Baumgarte stabilisation [Baumgarte1972]: the velocity rows aim at J v = -beta C / h, so a fraction beta of
+// the error goes per step. Simple, but the bias velocity stays in the bodies: it adds energy.
 #include "engine/solvers/position_correction.hpp"
 
 namespace rigor::engine {
@@ -16,7 +16,7 @@ class Baumgarte final : public PositionCorrection<S> {
     }
     BiasRule<typename S::Real> bias() const override {
         BiasRule<typename S::Real> rule;
-        rule.share = typename S::Real(0.2);
+        rule.baumgarte = typename S::Real(0.2);
         return rule;
     }
 };

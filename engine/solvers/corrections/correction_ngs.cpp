@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Non-linear Gauss-Seidel on positions [Catto2009, "position correction"]: after the bodies have moved, each
-// iteration visits the constraints, evaluates C where the bodies are now, and moves them along M^-1 J^T:
+// iteration loops over the constraints, evaluates C where the bodies are now, and moves them along M^-1 J^T:
 //     joints    lambda = -K^-1 C                                all of the error, all joints at once by a
 //                                                               direct method (joint_system.hpp); then limits
 //                                                               where C < 0, one by one
-//     contact   lambda = max(0, -beta (C + slop)) / K           a share of it, so that coupled contacts
+//     contact   lambda = max(0, -beta (C + slop)) / K           a part of it, so that coupled contacts
 //     settle
 // Velocities are not touched, so no energy enters through them (potential energy does: bodies are lifted
 // out). Without contacts and limits the iterations end when they improve the joints no more.
@@ -44,7 +44,7 @@ class Ngs final : public PositionCorrection<S> {
     }
 
   private:
-    static constexpr Real kShare = Real(0.2);        ///< beta of contacts
+    static constexpr Real kBaumgarte = Real(0.2);    ///< beta of contacts
     static constexpr Real kLongestMove = Real(0.2);  ///< per contact and iteration [m]
 
     /// Returns the largest error of a row that holds.
@@ -121,7 +121,8 @@ class Ngs final : public PositionCorrection<S> {
             const Real error = problem.separation(c) + slop;
             if (error >= 0) continue;
             const Row<S>& row = problem.contactRow(c);
-            problem.move(problem.contactBlock(c), row, std::min(-kShare * error, kLongestMove) * row.invK);
+            problem.move(problem.contactBlock(c), row,
+                         std::min(-kBaumgarte * error, kLongestMove) * row.invK);
         }
     }
 

@@ -44,7 +44,7 @@ class SplitImpulse final : public PositionCorrection<S> {
     }
 
   private:
-    static constexpr Real kShare = Real(0.2);        ///< beta
+    static constexpr Real kBaumgarte = Real(0.2);    ///< beta
     static constexpr Real kLongestMove = Real(0.2);  ///< per step and contact [m]
 
     struct Unit {
@@ -63,8 +63,8 @@ class SplitImpulse final : public PositionCorrection<S> {
             for (std::size_t r = 0; r < static_cast<std::size_t>(joint_.count); ++r) {
                 const Row<S>& row = joint_.row[r];
                 if (joint_.unilateral[r] && row.error >= 0) continue;
-                units_.push_back({joint_.block, row, kShare * row.error, problem.moved(joint_.block, row), 0,
-                                  joint_.unilateral[r]});
+                units_.push_back({joint_.block, row, kBaumgarte * row.error, problem.moved(joint_.block, row),
+                                  0, joint_.unilateral[r]});
             }
         }
         for (std::size_t c = 0; c < problem.contactCount(); ++c) {
@@ -72,7 +72,7 @@ class SplitImpulse final : public PositionCorrection<S> {
             const Real error = problem.separation(c) + slop;
             const Block<S>& block = problem.contactBlock(c);
             const Row<S>& row = problem.contactRow(c);
-            const Real asked = error < 0 ? std::max(kShare * error, -kLongestMove) : error;
+            const Real asked = error < 0 ? std::max(kBaumgarte * error, -kLongestMove) : error;
             units_.push_back({block, row, asked, problem.moved(block, row), 0, true});
         }
     }

@@ -23,8 +23,8 @@ namespace {
 using Nodes = std::vector<std::uint32_t>;
 using Ends = std::span<const std::pair<std::uint32_t, std::uint32_t>>;
 
-constexpr std::size_t kLeaf = 4;     ///< so few joints are not divided
-constexpr double kLeastShare = 0.3;  ///< of the bodies on the smaller side
+constexpr std::size_t kLeaf = 4;        ///< so few joints are not divided
+constexpr double kLeastFraction = 0.3;  ///< of the bodies on the smaller side
 constexpr std::size_t kLandmarks = 4;
 constexpr std::int32_t kOutside = -1, kUnseen = 0x7fffffff;
 
@@ -179,9 +179,9 @@ class Dissection {
             below += at(value).bodies;
             joined += at(value).cut;
             const std::int32_t smaller = std::min(below, count - below);
-            const double share = double(smaller) / count;
-            if (smaller == 0 || (share < kLeastShare && smaller < count / 2)) continue;
-            const double weight = joined * (2 - 2 * share);
+            const double fraction = double(smaller) / count;
+            if (smaller == 0 || (fraction < kLeastFraction && smaller < count / 2)) continue;
+            const double weight = joined * (2 - 2 * fraction);
             if (best.weight == 0 || weight < best.weight) best = {weight, from, to, value};
         }
     }

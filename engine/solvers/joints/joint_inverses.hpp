@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Inverse K of every joint block, for solvers that visit joints one by one.
+// Inverse K of every joint block, for solvers that solve joints one by one.
 #pragma once
 
 #include "engine/constraints/row.hpp"

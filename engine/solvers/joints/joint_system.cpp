@@ -150,18 +150,18 @@ void JointSystem<S>::addDiagonal(const Item& own, Real* m, std::size_t stride) {
 }
 
 template <class S>
-void JointSystem<S>::addMeeting(const Meeting& meeting, std::span<const Item> items, Real* m,
-                                std::size_t stride) {
-    const Item &mine = items[meeting.rowItem], &other = items[meeting.columnItem];
-    const Real invMass = meeting.isRowB ? mine.block->invMassB : mine.block->invMassA;
-    const Real linear = meeting.isRowB == meeting.isColumnB ? invMass : -invMass;
+void JointSystem<S>::addCoupling(const Coupling& coupling, std::span<const Item> items, Real* m,
+                                 std::size_t stride) {
+    const Item &mine = items[coupling.rowItem], &other = items[coupling.columnItem];
+    const Real invMass = coupling.isRowB ? mine.block->invMassB : mine.block->invMassA;
+    const Real linear = coupling.isRowB == coupling.isColumnB ? invMass : -invMass;
     for (int j = 0; j < other.block->rows; ++j, m += stride) {
         const Row<S>& column = other.rows[j];
         const typename S::Vec lin = linear * column.lin;
-        const typename S::Ang ang = meeting.isColumnB ? column.invIAngB : column.invIAngA;
+        const typename S::Ang ang = coupling.isColumnB ? column.invIAngB : column.invIAngA;
         for (int i = 0; i < mine.block->rows; ++i) {
             const Row<S>& row = mine.rows[i];
-            m[i] += row.lin.dot(lin) + dotAng(meeting.isRowB ? row.angB : row.angA, ang);
+            m[i] += row.lin.dot(lin) + dotAng(coupling.isRowB ? row.angB : row.angA, ang);
         }
     }
 }
@@ -175,11 +175,11 @@ void JointSystem<S>::assemble(std::span<const Item> items, const Part& part) {
     Real* lower = lower_.data() + part.lower;
     const std::size_t firstEntry = start_[part.first];
     std::fill(lower, lower + (start_[part.last] - firstEntry) * B, Real(0));
-    for (std::size_t k = part.meeting; k < part.lastMeeting; ++k)
-        addMeeting(meetings_[k], items, lower + (meetings_[k].at - firstEntry) * B, P);
+    for (std::size_t k = part.coupling; k < part.lastCoupling; ++k)
+        addCoupling(couplings_[k], items, lower + (couplings_[k].at - firstEntry) * B, P);
 }
 
-/// The pivot with its shift, a share of K's diagonal before elimination; returns the floor of the pivot.
+/// The pivot with its shift, a fraction of K's diagonal before elimination; returns the floor of the pivot.
 template <class S>
 typename S::Real JointSystem<S>::shiftPivot(Real& pivot) {
     constexpr Real epsilon = sizeof(Real) == sizeof(float) ? Real(2.4e-5) : Real(3.7e-11);
@@ -200,10 +200,10 @@ void JointSystem<S>::factorFronts(std::span<const Item> items, const Part& part)
         addDiagonal<N>(items[item_[part.first + k]], m, stride);
         for (std::size_t i = 0; i < N; ++i) *floor++ = shiftPivot(m[i * stride + i]);
     }
-    for (std::size_t k = part.meeting; k < part.lastMeeting; ++k) {
-        const Meeting& meeting = meetings_[k];
-        addMeeting(meeting, items, numbers + meeting.at,
-                   fronts.stride(position_[meeting.columnItem] - part.first));
+    for (std::size_t k = part.coupling; k < part.lastCoupling; ++k) {
+        const Coupling& coupling = couplings_[k];
+        addCoupling(coupling, items, numbers + coupling.at,
+                    fronts.stride(position_[coupling.columnItem] - part.first));
     }
     fronts.factor(x_.data() + part.x);
 }

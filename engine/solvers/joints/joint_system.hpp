@@ -27,7 +27,7 @@ class JointSystem {
         const Row<S>* rows = nullptr;
     };
 
-    /// Factors K of the items. False: so many blocks meet at the same bodies that the factors would be nearly
+    /// Factors K of the items. False: so many blocks share bodies that the factors would be nearly
     /// dense (more than kMaxFill blocks per item); then there are no factors and solve() may not be called.
     /// Allocates where the items' bodies or numbers of rows are not those of the call before.
     bool factor(std::span<const Item> items);
@@ -40,28 +40,28 @@ class JointSystem {
   private:
     static constexpr std::size_t kMaxFill = 24;
     /// Items, and products of blocks per item, from which dense fronts are faster than blocks.
-    static constexpr std::size_t kLeastNet = 60, kLongColumns = 24;
+    static constexpr std::size_t kMinFrontItems = 60, kLongColumns = 24;
 
-    /// What decides the pattern of K.
+    /// Bodies and size of an item: they determine the sparsity pattern of K.
     struct Place {
         std::uint32_t a, b;  ///< bodies; kNullIndex: moved by no impulse
         std::uint32_t rows;
         friend bool operator==(const Place&, const Place&) = default;
     };
-    /// Two items at a body: there K has a block below its diagonal.
-    struct Meeting {
+    /// An off-diagonal block of K, below the diagonal: two items that act on the same body.
+    struct Coupling {
         std::size_t at;                     ///< entry of row_; with fronts where the block stands in them
         std::uint32_t rowItem, columnItem;  ///< the item of the block's rows, and that of its columns
         bool isRowB, isColumnB;             ///< whether the body is B of these items
     };
     /// Items that are connected, as consecutive positions: blocks of one size, that of the largest.
     struct Part {
-        std::uint32_t first, last;         ///< positions, the last one excluded
-        int size;                          ///< rows of a block
-        std::size_t meeting, lastMeeting;  ///< of its meetings, the last one excluded
-        std::size_t lower, diagonal, x;    ///< where its first numbers stand
-        std::size_t target;                ///< likewise
-        std::uint32_t fronts;              ///< kNullIndex, or where its fronts are
+        std::uint32_t first, last;           ///< positions, the last one excluded
+        int size;                            ///< rows of a block
+        std::size_t coupling, lastCoupling;  ///< of its couplings, the last one excluded
+        std::size_t lower, diagonal, x;      ///< indices of its first numbers
+        std::size_t target;                  ///< likewise
+        std::uint32_t fronts;                ///< kNullIndex, or where its fronts are
     };
     static Place placeOf(const Item& item);
     bool analyse(std::span<const Item> items);
@@ -69,7 +69,7 @@ class JointSystem {
     bool needsFronts(std::uint32_t first, std::uint32_t last) const;
     void layOut(Elimination& order);
     void findTargets(const Part& part);
-    void findMeetings(std::span<const std::pair<std::uint32_t, std::uint32_t>> visits);
+    void findCouplings(std::span<const std::pair<std::uint32_t, std::uint32_t>> incidences);
     std::size_t entry(std::size_t column, std::uint32_t row) const;
     template <int N>
     void assemble(std::span<const Item> items, const Part& part);
@@ -77,7 +77,8 @@ class JointSystem {
     void factorFronts(std::span<const Item> items, const Part& part);
     template <int N>
     static void addDiagonal(const Item& item, Real* m, std::size_t stride);
-    static void addMeeting(const Meeting& meeting, std::span<const Item> items, Real* m, std::size_t stride);
+    static void addCoupling(const Coupling& coupling, std::span<const Item> items, Real* m,
+                            std::size_t stride);
     static Real shiftPivot(Real& pivot);
     template <int N>
     void eliminate(const Part& part);
@@ -87,7 +88,7 @@ class JointSystem {
     std::vector<Place> pattern_;
     bool fits_ = false;
     std::vector<Part> parts_;
-    std::vector<Meeting> meetings_;
+    std::vector<Coupling> couplings_;
     std::vector<std::uint32_t> item_;      ///< position -> item
     std::vector<std::uint32_t> position_;  ///< item -> position
     std::vector<std::size_t> place_;       ///< item -> where its right side stands in x_

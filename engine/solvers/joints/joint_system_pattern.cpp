@@ -26,18 +26,19 @@ bool JointSystem<S>::analyse(std::span<const Item> items) {
     pattern_.clear();
     for (const Item& item : items) pattern_.push_back(placeOf(item));
     // Who is at each body, so that neighbours are found without looking at all pairs.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> visits;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;
     for (std::uint32_t i = 0; i < n; ++i)
         for (const std::uint32_t body : {pattern_[i].a, pattern_[i].b})
-            if (body != kNullIndex) visits.push_back({body, i});
-    std::sort(visits.begin(), visits.end());
+            if (body != kNullIndex) incidences.push_back({body, i});
+    std::sort(incidences.begin(), incidences.end());
     std::vector<std::vector<std::uint32_t>> near(n);
     std::size_t met = 0;
-    for (std::size_t k = 0; k < visits.size(); ++k)
-        for (std::size_t l = k + 1; l < visits.size() && visits[l].first == visits[k].first; ++l) {
+    for (std::size_t k = 0; k < incidences.size(); ++k)
+        for (std::size_t l = k + 1; l < incidences.size() && incidences[l].first == incidences[k].first;
+             ++l) {
             if (++met > kMaxFill * n) return false;
-            near[visits[k].second].push_back(visits[l].second);
-            near[visits[l].second].push_back(visits[k].second);
+            near[incidences[k].second].push_back(incidences[l].second);
+            near[incidences[l].second].push_back(incidences[k].second);
         }
     for (auto& list : near) {
         std::sort(list.begin(), list.end());
@@ -46,7 +47,7 @@ bool JointSystem<S>::analyse(std::span<const Item> items) {
     Elimination order;
     if (!findOrder(std::move(near), order)) return false;
     layOut(order);
-    findMeetings(visits);
+    findCouplings(incidences);
     return true;
 }
 
@@ -55,7 +56,7 @@ template <class S>
 bool JointSystem<S>::findOrder(std::vector<std::vector<std::uint32_t>> near, Elimination& order) const {
     const std::size_t n = near.size(), most = kMaxFill * n;
     const bool found = findElimination(near, most, order);
-    if (n < kLeastNet || (found && order.products() < kLongColumns * n)) return found;
+    if (n < kMinFrontItems || (found && order.products() < kLongColumns * n)) return found;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
     std::size_t bodies = 0;
     for (const Place& place : pattern_) {
@@ -118,7 +119,7 @@ bool JointSystem<S>::needsFronts(std::uint32_t first, std::uint32_t last) const 
         const std::size_t count = start_[k + 1] - start_[k];
         products += count * (count + 3) / 2;
     }
-    return last - first >= kLeastNet && products >= kLongColumns * (last - first);
+    return last - first >= kMinFrontItems && products >= kLongColumns * (last - first);
 }
 
 template <class S>
@@ -131,29 +132,30 @@ void JointSystem<S>::findTargets(const Part& part) {
 
 /// Pairs of items at a body that impulses move, in the order of the parts.
 template <class S>
-void JointSystem<S>::findMeetings(std::span<const std::pair<std::uint32_t, std::uint32_t>> visits) {
-    meetings_.clear();
-    for (std::size_t k = 0; k < visits.size(); ++k)
-        for (std::size_t l = k + 1; l < visits.size() && visits[l].first == visits[k].first; ++l) {
-            std::uint32_t i = visits[k].second, j = visits[l].second;
+void JointSystem<S>::findCouplings(std::span<const std::pair<std::uint32_t, std::uint32_t>> incidences) {
+    couplings_.clear();
+    for (std::size_t k = 0; k < incidences.size(); ++k)
+        for (std::size_t l = k + 1; l < incidences.size() && incidences[l].first == incidences[k].first;
+             ++l) {
+            std::uint32_t i = incidences[k].second, j = incidences[l].second;
             if (i == j) continue;
             if (position_[i] < position_[j]) std::swap(i, j);
-            const std::uint32_t body = visits[k].first;
-            meetings_.push_back(
+            const std::uint32_t body = incidences[k].first;
+            couplings_.push_back(
                 {entry(position_[j], position_[i]), i, j, pattern_[i].b == body, pattern_[j].b == body});
         }
-    std::sort(meetings_.begin(), meetings_.end(),
-              [](const Meeting& a, const Meeting& b) { return a.at < b.at; });
+    std::sort(couplings_.begin(), couplings_.end(),
+              [](const Coupling& a, const Coupling& b) { return a.at < b.at; });
     std::size_t m = 0;
     for (Part& part : parts_) {
-        part.meeting = m;
-        while (m < meetings_.size() && meetings_[m].at < start_[part.last]) ++m;
-        part.lastMeeting = m;
+        part.coupling = m;
+        while (m < couplings_.size() && couplings_[m].at < start_[part.last]) ++m;
+        part.lastCoupling = m;
         if (part.fronts == kNullIndex) continue;
-        for (std::size_t k = part.meeting; k < m; ++k) {
-            Meeting& meeting = meetings_[k];
-            meeting.at = fronts_[part.fronts].placeOf(position_[meeting.rowItem] - part.first,
-                                                      position_[meeting.columnItem] - part.first);
+        for (std::size_t k = part.coupling; k < m; ++k) {
+            Coupling& coupling = couplings_[k];
+            coupling.at = fronts_[part.fronts].placeOf(position_[coupling.rowItem] - part.first,
+                                                       position_[coupling.columnItem] - part.first);
         }
     }
 }

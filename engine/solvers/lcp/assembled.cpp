@@ -11,7 +11,7 @@
 namespace rigor::engine {
 namespace {
 
-/// One row's share of one body.
+/// The part of one row that acts on one body.
 struct Half {
     double lin[3] = {0, 0, 0}, ang[3] = {0, 0, 0}, invIAng[3] = {0, 0, 0};
 };

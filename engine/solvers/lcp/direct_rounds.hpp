@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the direct solvers (dantzig.cpp, lemke.cpp) share: rounds, each of which makes impulses of the whole
-// problem (assembled.hpp) from those of the round before, until the problem's own conditions hold.
+// Common part of the direct solvers (dantzig.cpp, lemke.cpp): rounds, each of which makes impulses of the
+// whole problem (assembled.hpp) from those of the round before, until the problem's own conditions hold.
 //
 // They hold when the residual, a velocity, is at most the larger of WorldDef::residualTolerance and rounding:
 // 32 epsilon of the velocities that the terms of w = W lambda + q are made of. Terms may cancel by any

@@ -39,9 +39,9 @@ namespace {
 struct Variable {
     enum class Kind : std::uint8_t { Impulse, UpperMultiplier, Slip } kind = Kind::Impulse;
     std::size_t row[2] = {0, 0};
-    double share[2] = {0, 0};  ///< lambda_row += share z
-    std::size_t of = 0;        ///< UpperMultiplier: its variable; Slip: its contact
-    double scale = 1;          ///< of the impulse
+    double coefficient[2] = {0, 0};  ///< lambda_row += coefficient z
+    std::size_t of = 0;              ///< UpperMultiplier: its variable; Slip: its contact
+    double scale = 1;                ///< of the impulse
 };
 
 template <class S>
@@ -146,7 +146,7 @@ class Lemke final : public DirectRounds<S> {
             const double scale = 1 / std::sqrt(problem_.at(i, i));
             Variable x;
             x.row[0] = i;
-            x.share[0] = below ? scale : -scale;
+            x.coefficient[0] = below ? scale : -scale;
             x.scale = scale;
             variables_.push_back(x);
             if (!below || !std::isfinite(problem_.upper[i])) continue;
@@ -180,7 +180,7 @@ class Lemke final : public DirectRounds<S> {
         Variable v;
         v.scale = 1 / std::sqrt(problem_.at(n, n));
         v.row[0] = n;
-        v.share[0] = v.scale;
+        v.coefficient[0] = v.scale;
         firstOf_.resize(problem_.contacts.size());
         firstOf_[c] = variables_.size();
         variables_.push_back(v);
@@ -194,10 +194,10 @@ class Lemke final : public DirectRounds<S> {
             Variable beta;
             beta.scale = v.scale;
             beta.row[0] = n + 1;
-            beta.share[0] = v.scale * std::cos(angle);
+            beta.coefficient[0] = v.scale * std::cos(angle);
             if (contact.tangents == 2) {
                 beta.row[1] = n + 2;
-                beta.share[1] = v.scale * std::sin(angle);
+                beta.coefficient[1] = v.scale * std::sin(angle);
             }
             variables_.push_back(beta);
         }
@@ -229,13 +229,14 @@ class Lemke final : public DirectRounds<S> {
                 }
             } else {
                 for (int p = 0; p < 2; ++p) {
-                    if (x.share[p] == 0) continue;
-                    constant_[a] += x.share[p] * reduced_[x.row[p]];
+                    if (x.coefficient[p] == 0) continue;
+                    constant_[a] += x.coefficient[p] * reduced_[x.row[p]];
                     for (std::size_t b = 0; b < N; ++b) {
                         const Variable& y = variables_[b];
                         if (y.kind != Variable::Kind::Impulse) continue;
                         for (int r = 0; r < 2; ++r)
-                            M_[a * N + b] += x.share[p] * y.share[r] * R_[x.row[p] * n + y.row[r]];
+                            M_[a * N + b] +=
+                                x.coefficient[p] * y.coefficient[r] * R_[x.row[p] * n + y.row[r]];
                     }
                 }
             }
@@ -247,7 +248,7 @@ class Lemke final : public DirectRounds<S> {
         for (std::size_t a = 0; a < variables_.size(); ++a) {
             const Variable& v = variables_[a];
             for (int p = 0; p < 2; ++p)
-                if (v.share[p] != 0) x_[v.row[p]] += v.share[p] * z_[a];
+                if (v.coefficient[p] != 0) x_[v.row[p]] += v.coefficient[p] * z_[a];
             // Once it slips it slides.
             if (v.kind == Variable::Kind::Slip && z_[a] > 0) slips_[v.of] = 1;
         }
@@ -282,7 +283,7 @@ class Lemke final : public DirectRounds<S> {
         double slip = 0, sum = 0, largest = 0;
         const auto along = [&](std::size_t a) {
             const Variable& v = variables_[a];
-            return (v.share[0] * w[0] + v.share[1] * w[1]) / v.scale;
+            return (v.coefficient[0] * w[0] + v.coefficient[1] * w[1]) / v.scale;
         };
         std::size_t end = first;
         for (; variables_[end].kind == Variable::Kind::Impulse; ++end) {

@@ -5,7 +5,7 @@
 // that acts between two bodies, and all joints together. Kernels: row_kernels.hpp; source [Catto2005],
 // [Catto2009]. What differs:
 //   - the contacts between two bodies are a group that is swept until it is nearly solved before the next one
-//     is visited: a box then meets its neighbours without the rotation that solving its corners one by one
+//     is solved: a box then meets its neighbours without the rotation that solving its corners one by one
 //     would leave it with, which is what makes tall stacks rock;
 //   - iterations go forwards and backwards in turn, so that weight travels down a stack as fast as up;
 //   - all joints are a group too, whose equality blocks are solved at once (joint_group.hpp); the normal goes
@@ -84,7 +84,7 @@ class BlockGaussSeidel final : public Solver<S> {
         sweeps_.finish();
     }
 
-    /// Returns the residual that the group had when it was visited.
+    /// Returns the residual of the group before it was solved.
     Real solveGroup(const SolverInput<S>& input, std::uint32_t first, std::uint32_t last) {
         if (isJoint(input.constraints.blocks[first]))
             return joints_.solve(input.constraints, input.velocities);
@@ -108,7 +108,7 @@ class BlockGaussSeidel final : public Solver<S> {
     static constexpr std::size_t kFinishRows = 128;  ///< n^3 / 3 is then less than a millisecond
     static constexpr int kFinishSteps = 12;
     static constexpr int kFinishIterations = 30;         ///< fewer than that are too few to sort contacts by
-    static constexpr int kInnerSweeps = 10;              ///< at most, per visit of a group
+    static constexpr int kInnerSweeps = 10;              ///< at most, per solve of a group
     static constexpr Real kInnerTolerance = Real(0.01);  ///< of the first sweep's residual
     std::vector<std::uint32_t> groups_;
     SweepOrder sweeps_;

@@ -13,9 +13,9 @@ constexpr double kSigma = 1e-11;
 constexpr int kMostSteps = 60;
 constexpr double kDone = 1e-22;  ///< of the start: in velocities the rounding of the start
 constexpr double kProgress = 0.9;
-constexpr int kPatience = 8;          ///< steps without progress
-constexpr double kShareOfWay = 0.99;  ///< to the boundary of the cones
-constexpr double kFar = 0.2;          ///< shorter steps do not pay
+constexpr int kPatience = 8;            ///< steps without progress
+constexpr double kStepFraction = 0.99;  ///< to the boundary of the cones
+constexpr double kFar = 0.2;            ///< shorter steps do not pay
 
 double dot(const double* a, const double* b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -85,10 +85,10 @@ bool ContactInterior::solve(const AssembledProblem& problem, double shift, std::
         const double far = std::min(1.0, longestStep());
         // Mehrotra's rule: little centring where the straight step would go far.
         direction(std::pow(1 - far, 3) * gap(), far > kFar);
-        double length = std::min(1.0, kShareOfWay * longestStep());
+        double length = std::min(1.0, kStepFraction * longestStep());
         if (length < kFar) {  // off the path: back to its middle before going on
             direction(gap(), false);
-            length = std::min(1.0, kShareOfWay * longestStep());
+            length = std::min(1.0, kStepFraction * longestStep());
         }
         if (!(length > 1e-12)) break;
         advance(length);

@@ -33,8 +33,8 @@ class ContactInterior {
     /// True where all contacts have the form that the method needs.
     static bool fits(const AssembledProblem& problem);
     /// Impulses for the problem's W and q; how good they are is for the caller to see. Starts with what the
-    /// problem's lambda are, moved into the cones by `shift`, a share of what there is to stop; from 1 on
-    /// from the middle of the cones, whatever lambda is. False: there are none.
+    /// problem's lambda are, moved into the cones by `shift`, a fraction of the velocity to be stopped; from
+    /// 1 on from the middle of the cones, whatever lambda is. False: there are none.
     bool solve(const AssembledProblem& problem, double shift, std::vector<double>& impulses);
 
   private:

@@ -56,24 +56,24 @@ bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<do
 ///     d_t - e mu d_n - (R / |z_t|) (I - e e^T) (d_t - rho W_t d) = -(lambda_t - R e)
 void ContactNewton::tangentRows(const AssembledProblem& p, const AssembledContact& contact, double* A) {
     const std::size_t n = p.n, first = contact.normal + 1, m = contact.tangents;
-    const double pressed = std::max(0.0, p.lambda[contact.normal]) + contact.applied;
+    const double load = std::max(0.0, p.lambda[contact.normal]) + contact.applied;
     const double rho = 1 / p.at(first, first);
     double z[2] = {0, 0}, length = 0;
     for (std::size_t t = 0; t < m; ++t) z[t] = p.lambda[first + t] - rho * w_[first + t];
     length = std::sqrt(z[0] * z[0] + z[1] * z[1]);
-    if (length <= contact.muStatic * pressed) return;
-    const double R = contact.mu * pressed, e[2] = {z[0] / length, z[1] / length};
-    const double share = R / length;
+    if (length <= contact.muStatic * load) return;
+    const double R = contact.mu * load, e[2] = {z[0] / length, z[1] / length};
+    const double scale = R / length;
     for (std::size_t t = 0; t < m; ++t) {
         double* row = A + (first + t) * n;
         std::fill_n(row, n, 0.0);
         for (std::size_t s = 0; s < m; ++s) {
-            const double across = share * ((s == t ? 1.0 : 0.0) - e[s] * e[t]);
-            // In the plane there is nothing across.
+            const double projected = scale * ((s == t ? 1.0 : 0.0) - e[s] * e[t]);
+            // 2D has a single tangent, so that I - e e^T = 0.
             if (m == 1) break;
             const double* W = p.W.data() + (first + s) * n;
-            for (std::size_t j = 0; j < n; ++j) row[j] += across * rho * W[j];
-            row[first + s] -= across;
+            for (std::size_t j = 0; j < n; ++j) row[j] += projected * rho * W[j];
+            row[first + s] -= projected;
         }
         row[first + t] += 1;
         row[contact.normal] -= contact.mu * e[t];

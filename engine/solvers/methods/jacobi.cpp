@@ -122,7 +122,7 @@ class Jacobi final : public Solver<S> {
         change_[body].w += (part.w - whole.w) / partners_[body];
     }
 
-    /// Returns the error that the unit had when it was visited.
+    /// Returns the error of the unit before it was solved.
     static Real solveUnit(const SolverInput<S>& split, std::uint32_t first, std::uint32_t last,
                           Velocity<S>& a, Velocity<S>& b) {
         Real found = 0;

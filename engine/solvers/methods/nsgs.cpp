@@ -7,7 +7,7 @@
 //
 // With w = W r + b at one contact (r its impulse, b the velocity that all other impulses lead to, bias
 // included), the law is  K* > (w + mu |w_t| n)  _|_  r < K = {|r_t| <= mu r_n}  after De Saxce's change of
-// variable [DeSaxceFeng1998]. Each visit solves this 3x3 problem exactly (contact_alone.hpp). Joints get
+// variable [DeSaxceFeng1998]. Each update solves this 3x3 problem exactly (contact_alone.hpp). Joints get
 // -K^-1 (w) as a block, bounded rows are clamped.
 //
 // One iteration is a symmetric sweep (forwards, backwards) of all blocks, a fixed-point map g(r). Plain

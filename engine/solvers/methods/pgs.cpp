@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Projected Gauss-Seidel on velocities, known as sequential impulses [Catto2005]: each iteration visits the
+// Projected Gauss-Seidel on velocities, known as sequential impulses [Catto2005]: each iteration solves the
 // rows one after the other, always in the same order, and gives each the impulse that satisfies it alone at
 // the velocities its predecessors have led to (row_kernels.hpp). For the linear complementarity problem
 //     w = A lambda + b,   A = J M^-1 J^T,   0 <= lambda _|_ w >= 0

@@ -12,8 +12,8 @@
 //
 // Why it fails:
 //   - an impulse undoes what the one before it did, and nothing comes back to repair that: only the bottom of
-//     a stack in the visiting order feels the load above it in the same step. The rest falls on by a part of
-//     g h each step, sinks into its support and is pushed out again: jitter, then collapse;
+//     a stack in the order of the sweep feels the load above it in the same step. The rest falls on by a part
+//     of g h each step, sinks into its support and is pushed out again: jitter, then collapse;
 //   - clamping each pass's impulse to lambda >= 0, and not the sum over the passes, means that an impulse too
 //     large can never be taken back: corners of a box solved in turn leave it spinning, and more passes do
 //     not converge to the answer;
@@ -53,17 +53,18 @@ class SinglePass final : public Solver<S> {
             const Real change = sweeps_.largest([&](std::size_t k) {
                 const Block<S>& block = input.constraints.blocks[k];
                 Velocity<S>&a = input.velocities[block.a], &b = input.velocities[block.b];
-                return block.kind == BlockKind::Contact ? hit(input, block, a, b)
+                return block.kind == BlockKind::Contact ? solveContact(input, block, a, b)
                        : block.kind == BlockKind::Joint ? solveJointRows(input, block, a, b)
-                                                        : push(input, block, a, b);
+                                                        : solveBounded(input, block, a, b);
             });
             if (input.monitor.after(input.velocities, change)) break;
         }
     }
 
   private:
-    /// A limit, motor or spring: its bounds hold for the impulse of this pass.
-    static Real push(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a, Velocity<S>& b) {
+    /// Solves a limit, motor or spring row: its bounds hold for the impulse of this pass.
+    static Real solveBounded(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                             Velocity<S>& b) {
         Row<S>& row = input.constraints.rows[block.first];
         const Real lambda = std::clamp(-row.invK * rowError<S>(row, a, b), row.lower, row.upper);
         row.impulse += lambda;
@@ -71,20 +72,21 @@ class SinglePass final : public Solver<S> {
         return row.invK > 0 ? std::abs(lambda) / row.invK : Real(0);
     }
 
-    static Real hit(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a, Velocity<S>& b) {
+    static Real solveContact(const SolverInput<S>& input, const Block<S>& block, Velocity<S>& a,
+                             Velocity<S>& b) {
         Row<S>* rows = input.constraints.rows.data() + block.first;
         const Real error = rowVelocity<S>(rows[0], a, b) + rows[0].bias;
         if (!(error < 0)) return 0;
         const Real lambda = -rows[0].invK * error;
         rows[0].impulse += lambda;
         applyRowImpulse<S>(rows[0], block, lambda, a, b);
-        if (block.rows > 1) slow(input, block, rows, lambda, a, b);
+        if (block.rows > 1) solveFriction(input, block, rows, lambda, a, b);
         return -error;
     }
 
-    /// Friction of this pass, limited by the normal impulse of this pass.
-    static void slow(const SolverInput<S>& input, const Block<S>& block, Row<S>* rows, Real normal,
-                     Velocity<S>& a, Velocity<S>& b) {
+    /// Solves the friction of a contact, limited by the normal impulse of this pass.
+    static void solveFriction(const SolverInput<S>& input, const Block<S>& block, Row<S>* rows, Real normal,
+                              Velocity<S>& a, Velocity<S>& b) {
         using Vec2 = Eigen::Matrix<Real, 2, 1>;
         Vec2 velocity = Vec2::Zero();
         for (int i = 0; i < S::tangents; ++i) velocity[i] = rowVelocity<S>(rows[1 + i], a, b);

@@ -19,7 +19,7 @@
 // substeps and velocity_iterations 0 mean 8 and 1 ([Catto2024] has 4). Cost per step: substeps * 2 * rows.
 // Known limits: errors die out at the springs' rate and not within a step: 9 mm of overlap in sum in a stack
 // of five boxes of 1 m, 35 mm in one of ten; a load of 100 times the mass squeezes its support out, one of 30
-// stands; a body that starts to slide or lands has lost a share of one sub-step's friction. Each row of a
+// stands; a body that starts to slide or lands has lost a part of one sub-step's friction. Each row of a
 // joint is as soft as its own effective mass says, which on a long arm is mostly the turn's: a small ball on
 // a rod of 1 m gives way by 15 mm at the default 60 Hz, whatever the step (joint_frequency 240: 1 mm; a
 // spring of the masses alone gains energy without bound at 1/60).

@@ -15,184 +15,192 @@ namespace {
 
 constexpr std::uint32_t kWidth = 8;
 
-/// Contacts of random bodies; every fifth body is a wall.
-std::vector<PatchPlan> randomPlans(std::size_t count, std::uint32_t bodies, unsigned seed) {
+/// Contacts of random bodies; every fifth body is static.
+std::vector<PatchDescriptor> randomDescriptors(std::size_t count, std::uint32_t bodies, unsigned seed) {
     std::mt19937 random(seed);
-    std::vector<PatchPlan> plans;
-    while (plans.size() < count) {
+    std::vector<PatchDescriptor> descriptors;
+    while (descriptors.size() < count) {
         const std::uint32_t a = random() % bodies, b = random() % bodies;
         if (a == b || (a % 5 == 0 && b % 5 == 0)) continue;
-        plans.push_back({std::min(a, b), std::max(a, b), std::min(a, b) % 5 != 0, std::max(a, b) % 5 != 0,
-                         static_cast<std::uint8_t>(1 + random() % 4)});
+        descriptors.push_back({std::min(a, b), std::max(a, b), std::min(a, b) % 5 != 0,
+                               std::max(a, b) % 5 != 0, static_cast<std::uint8_t>(1 + random() % 4)});
     }
-    return plans;
+    return descriptors;
 }
 
-Colouring coloured(const std::vector<PatchPlan>& plans, std::size_t bodies, int threads = 1) {
+Colouring coloured(const std::vector<PatchDescriptor>& descriptors, std::size_t bodies, int threads = 1) {
     Colouring colouring;
-    colouring.colour(plans, bodies, kWidth, Tasks(threads));
+    colouring.colour(descriptors, bodies, kWidth, Tasks(threads));
     return colouring;
 }
 
-/// Where each plan comes: block * lanes + lane; twice or nowhere is an error.
-std::vector<std::uint32_t> placesOf(const Colouring& colouring, std::size_t plans) {
-    std::vector<std::uint32_t> places(plans, kNullIndex);
-    EXPECT_EQ(colouring.occupants().size(), colouring.blocks() * kWidth);
-    for (std::uint32_t k = 0; k < colouring.occupants().size(); ++k) {
-        const std::uint32_t plan = colouring.occupants()[k];
-        if (plan == kNullIndex) continue;
-        EXPECT_EQ(places.at(plan), kNullIndex) << "plan " << plan << " stands twice";
-        places.at(plan) = k;
+/// Lane of each descriptor, as block * lanes + lane; each must have exactly one.
+std::vector<std::uint32_t> placesOf(const Colouring& colouring, std::size_t descriptors) {
+    std::vector<std::uint32_t> places(descriptors, kNullIndex);
+    EXPECT_EQ(colouring.laneContents().size(), colouring.blocks() * kWidth);
+    for (std::uint32_t k = 0; k < colouring.laneContents().size(); ++k) {
+        const std::uint32_t descriptor = colouring.laneContents()[k];
+        if (descriptor == kNullIndex) continue;
+        EXPECT_EQ(places.at(descriptor), kNullIndex) << "descriptor " << descriptor << " has two lanes";
+        places.at(descriptor) = k;
     }
     EXPECT_EQ(std::ranges::count(places, kNullIndex), 0);
     return places;
 }
 
-/// Of a range that `of` threads share evenly, whose share a block is; `of`: nobody's.
-std::size_t shareOf(std::uint32_t block, const Colouring& colouring, const Colouring::Range& range,
+/// Thread of a block in a range split evenly among `of` threads; `of`: no thread has it.
+std::size_t chunkOf(std::uint32_t block, const Colouring& colouring, const Colouring::Range& range,
                     std::size_t of) {
-    for (std::size_t share = 0; share < of; ++share) {
-        const Colouring::Cut begin = colouring.cut(range, double(share) / double(of));
-        const Colouring::Cut end = colouring.cut(range, double(share + 1) / double(of));
-        for (std::uint32_t kind = 0; kind < Colouring::kKinds; ++kind)
-            if (begin[kind] <= block && block < end[kind]) return share;
+    for (std::size_t chunk = 0; chunk < of; ++chunk) {
+        const Colouring::Split begin = colouring.split(range, double(chunk) / double(of));
+        const Colouring::Split end = colouring.split(range, double(chunk + 1) / double(of));
+        for (std::uint32_t sizeClass = 0; sizeClass < Colouring::kSizeClasses; ++sizeClass)
+            if (begin[sizeClass] <= block && block < end[sizeClass]) return chunk;
     }
     return of;
 }
 
-/// No two plans in the blocks [first, last) move the same body; returns how many there are.
-std::size_t expectIndependent(const std::vector<PatchPlan>& plans, const Colouring& colouring,
+/// Expects that no two contacts in the blocks [first, last) move the same body; returns their number.
+std::size_t expectIndependent(const std::vector<PatchDescriptor>& descriptors, const Colouring& colouring,
                               std::uint32_t first, std::uint32_t last) {
     std::size_t found = 0;
-    const std::vector<std::uint32_t> places = placesOf(colouring, plans.size());
+    const std::vector<std::uint32_t> places = placesOf(colouring, descriptors.size());
     std::set<std::uint32_t> moved;
-    for (std::size_t k = 0; k < plans.size(); ++k) {
+    for (std::size_t k = 0; k < descriptors.size(); ++k) {
         const std::uint32_t block = places[k] / kWidth;
         if (block < first || block >= last) continue;
         ++found;
-        EXPECT_TRUE(!plans[k].movesA || moved.insert(plans[k].a).second) << "body " << plans[k].a;
-        EXPECT_TRUE(!plans[k].movesB || moved.insert(plans[k].b).second) << "body " << plans[k].b;
+        EXPECT_TRUE(!descriptors[k].movesA || moved.insert(descriptors[k].a).second)
+            << "body " << descriptors[k].a;
+        EXPECT_TRUE(!descriptors[k].movesB || moved.insert(descriptors[k].b).second)
+            << "body " << descriptors[k].b;
     }
     return found;
 }
 
-/// Regions have all bodies, and blocks that move bodies of their own alone, at last those with walls.
-std::size_t expectProperRegions(const std::vector<PatchPlan>& plans, const Colouring& colouring,
-                                std::size_t bodies) {
+/// Expects that partitions cover all bodies and that their blocks move only their own bodies, static contacts
+/// last.
+std::size_t expectProperPartitions(const std::vector<PatchDescriptor>& descriptors,
+                                   const Colouring& colouring, std::size_t bodies) {
     std::size_t found = 0;
-    const std::vector<std::uint32_t> places = placesOf(colouring, plans.size());
-    std::uint32_t nextBlock = colouring.regions().front().first, nextBody = 0;
-    for (const Colouring::Region& region : colouring.regions()) {
-        EXPECT_EQ(region.first, nextBlock);
-        EXPECT_EQ(region.firstBody, nextBody);
-        nextBlock = region.last, nextBody = region.lastBody;
-        for (std::uint32_t block = region.first; block < region.last; ++block)
-            found += expectIndependent(plans, colouring, block, block + 1);
+    const std::vector<std::uint32_t> places = placesOf(colouring, descriptors.size());
+    std::uint32_t nextBlock = colouring.partitions().front().first, nextBody = 0;
+    for (const Colouring::Partition& partition : colouring.partitions()) {
+        EXPECT_EQ(partition.first, nextBlock);
+        EXPECT_EQ(partition.firstBody, nextBody);
+        nextBlock = partition.last, nextBody = partition.lastBody;
+        for (std::uint32_t block = partition.first; block < partition.last; ++block)
+            found += expectIndependent(descriptors, colouring, block, block + 1);
         const auto has = [&](std::uint32_t body) {
-            return region.firstBody <= body && body < region.lastBody;
+            return partition.firstBody <= body && body < partition.lastBody;
         };
-        std::uint32_t lastPair = 0, firstWall = kNullIndex;
-        for (std::size_t k = 0; k < plans.size(); ++k) {
+        std::uint32_t lastPair = 0, firstStatic = kNullIndex;
+        for (std::size_t k = 0; k < descriptors.size(); ++k) {
             const std::uint32_t block = places[k] / kWidth;
-            if (block < region.first || block >= region.last) continue;
-            EXPECT_TRUE((!plans[k].movesA || has(plans[k].a)) && (!plans[k].movesB || has(plans[k].b))) << k;
-            if (plans[k].movesA && plans[k].movesB)
+            if (block < partition.first || block >= partition.last) continue;
+            EXPECT_TRUE((!descriptors[k].movesA || has(descriptors[k].a)) &&
+                        (!descriptors[k].movesB || has(descriptors[k].b)))
+                << k;
+            if (descriptors[k].movesA && descriptors[k].movesB)
                 lastPair = std::max(lastPair, block);
             else
-                firstWall = std::min(firstWall, block);
+                firstStatic = std::min(firstStatic, block);
         }
-        EXPECT_LT(lastPair, firstWall) << "walls have the last word";
+        EXPECT_LT(lastPair, firstStatic) << "static contacts come last";
     }
     EXPECT_EQ(nextBody, bodies);
     EXPECT_EQ(nextBlock, colouring.blocks());
     return found;
 }
 
-/// Every plan has a lane of its own, and what may be done side by side moves no body twice.
-void expectProper(const std::vector<PatchPlan>& plans, const Colouring& colouring, std::size_t bodies) {
-    std::size_t found = expectProperRegions(plans, colouring, bodies);
+/// Every contact has a lane of its own, and blocks that may run in parallel move no body twice.
+void expectProper(const std::vector<PatchDescriptor>& descriptors, const Colouring& colouring,
+                  std::size_t bodies) {
+    std::size_t found = expectProperPartitions(descriptors, colouring, bodies);
     std::uint32_t next = 0;
     for (const Colouring::Range& range : colouring.ranges()) {
         EXPECT_EQ(range.first, next) << "ranges follow each other";
         next = range.last;
         for (std::size_t of = 1; of <= 6; ++of)
             for (std::uint32_t block = range.first; block < range.last; ++block)
-                EXPECT_LT(shareOf(block, colouring, range, of), of) << "block " << block << " among " << of;
-        found += expectIndependent(plans, colouring, range.first, range.last);
+                EXPECT_LT(chunkOf(block, colouring, range, of), of) << "block " << block << " among " << of;
+        found += expectIndependent(descriptors, colouring, range.first, range.last);
     }
-    EXPECT_EQ(next, colouring.regions().front().first);
-    EXPECT_EQ(found, plans.size());
+    EXPECT_EQ(next, colouring.partitions().front().first);
+    EXPECT_EQ(found, descriptors.size());
 }
 
 /// A sheet of bodies on the ground, numbered row by row.
 constexpr std::uint32_t kSide = 60;
-std::vector<PatchPlan> sheetPlans(std::uint32_t side = kSide) {
-    std::vector<PatchPlan> plans;
+std::vector<PatchDescriptor> sheetDescriptors(std::uint32_t side = kSide) {
+    std::vector<PatchDescriptor> descriptors;
     const auto body = [side](std::uint32_t x, std::uint32_t y) { return 1 + y * side + x; };
     for (std::uint32_t y = 0; y < side; ++y)
         for (std::uint32_t x = 0; x < side; ++x) {
-            plans.push_back({0, body(x, y), false, true, 4});
-            if (x + 1 < side) plans.push_back({body(x, y), body(x + 1, y), true, true, 2});
-            if (y + 1 < side) plans.push_back({body(x, y), body(x, y + 1), true, true, 2});
+            descriptors.push_back({0, body(x, y), false, true, 4});
+            if (x + 1 < side) descriptors.push_back({body(x, y), body(x + 1, y), true, true, 2});
+            if (y + 1 < side) descriptors.push_back({body(x, y), body(x, y + 1), true, true, 2});
         }
-    return plans;
+    return descriptors;
 }
 
 TEST(Colouring, NoTwoOfAColourMoveTheSameBody) {
     for (const std::size_t count : {0u, 1u, 7u, 8u, 9u, 500u, 3000u})
         for (unsigned seed = 0; seed < 4; ++seed) {
-            const std::vector<PatchPlan> plans = randomPlans(count, 100 + count / 4, seed);
-            expectProper(plans, coloured(plans, 100 + count / 4), 100 + count / 4);
+            const std::vector<PatchDescriptor> descriptors = randomDescriptors(count, 100 + count / 4, seed);
+            expectProper(descriptors, coloured(descriptors, 100 + count / 4), 100 + count / 4);
         }
 }
 
 TEST(Colouring, PassesOverContactsWithoutPoints) {
-    std::vector<PatchPlan> plans = randomPlans(2000, 500, 3), some;
-    for (std::size_t k = 0; k < plans.size(); ++k)
+    std::vector<PatchDescriptor> descriptors = randomDescriptors(2000, 500, 3), some;
+    for (std::size_t k = 0; k < descriptors.size(); ++k)
         if (k % 3 == 0)
-            plans[k].points = 0;
+            descriptors[k].points = 0;
         else
-            some.push_back(plans[k]);
-    const Colouring all = coloured(plans, 500), without = coloured(some, 500);
-    ASSERT_EQ(all.regions().size(), without.regions().size()) << "or they cannot be compared";
+            some.push_back(descriptors[k]);
+    const Colouring all = coloured(descriptors, 500), without = coloured(some, 500);
+    ASSERT_EQ(all.partitions().size(), without.partitions().size()) << "or they cannot be compared";
     ASSERT_EQ(all.blocks(), without.blocks());
-    for (std::size_t k = 0; k < all.occupants().size(); ++k) {
-        const std::uint32_t plan = without.occupants()[k];
-        ASSERT_EQ(all.occupants()[k], plan == kNullIndex ? plan : plan / 2 * 3 + 1 + plan % 2) << k;
+    for (std::size_t k = 0; k < all.laneContents().size(); ++k) {
+        const std::uint32_t descriptor = without.laneContents()[k];
+        ASSERT_EQ(all.laneContents()[k],
+                  descriptor == kNullIndex ? descriptor : descriptor / 2 * 3 + 1 + descriptor % 2)
+            << k;
     }
 }
 
 TEST(Colouring, DoesNotDependOnThreads) {
-    for (const auto& plans : {randomPlans(6000, 2000, 1), sheetPlans()})
+    for (const auto& descriptors : {randomDescriptors(6000, 2000, 1), sheetDescriptors()})
         for (int repeat = 0; repeat < 20; ++repeat) {
-            const Colouring one = coloured(plans, 4000), three = coloured(plans, 4000, 3);
-            ASSERT_TRUE(std::ranges::equal(one.occupants(), three.occupants()));
+            const Colouring one = coloured(descriptors, 4000), three = coloured(descriptors, 4000, 3);
+            ASSERT_TRUE(std::ranges::equal(one.laneContents(), three.laneContents()));
             ASSERT_EQ(one.ranges().size(), three.ranges().size());
             for (std::size_t k = 0; k < one.ranges().size(); ++k)
                 ASSERT_EQ(one.ranges()[k].last, three.ranges()[k].last);
-            ASSERT_EQ(one.regions().size(), three.regions().size());
-            for (std::size_t r = 0; r < one.regions().size(); ++r)
-                ASSERT_EQ(one.regions()[r].firstBody, three.regions()[r].firstBody);
+            ASSERT_EQ(one.partitions().size(), three.partitions().size());
+            for (std::size_t r = 0; r < one.partitions().size(); ++r)
+                ASSERT_EQ(one.partitions()[r].firstBody, three.partitions()[r].firstBody);
         }
 }
 
 TEST(Colouring, DoesNotDependOnWhatWasColouredBefore) {
-    const std::vector<PatchPlan> sheet = sheetPlans(), mixed = randomPlans(700, 300, 5);
+    const std::vector<PatchDescriptor> sheet = sheetDescriptors(), mixed = randomDescriptors(700, 300, 5);
     Colouring again = coloured(sheet, kSide * kSide + 1);
     again.colour(mixed, 300, kWidth, Tasks(1));
-    EXPECT_TRUE(std::ranges::equal(again.occupants(), coloured(mixed, 300).occupants()));
+    EXPECT_TRUE(std::ranges::equal(again.laneContents(), coloured(mixed, 300).laneContents()));
     again.colour(sheet, kSide * kSide + 1, kWidth, Tasks(2));
-    EXPECT_TRUE(std::ranges::equal(again.occupants(), coloured(sheet, kSide * kSide + 1).occupants()));
+    EXPECT_TRUE(std::ranges::equal(again.laneContents(), coloured(sheet, kSide * kSide + 1).laneContents()));
     expectProper(sheet, again, kSide * kSide + 1);
 }
 
-/// However many regions there were before.
+/// However many partitions there were before.
 TEST(Colouring, DoesNotAllocateForWhatItHasHadBefore) {
-    const std::vector<PatchPlan> sheet = sheetPlans(), mixed = randomPlans(6000, 2000, 2);
+    const std::vector<PatchDescriptor> sheet = sheetDescriptors(), mixed = randomDescriptors(6000, 2000, 2);
     Colouring colouring;
     const auto both = [&] {
-        for (const auto& plans : {std::span(sheet), std::span(mixed)})
-            colouring.colour(plans, kSide * kSide + 1, kWidth, Tasks::one());
+        for (const auto& descriptors : {std::span(sheet), std::span(mixed)})
+            colouring.colour(descriptors, kSide * kSide + 1, kWidth, Tasks::one());
     };
     both(), both();
     const long before = allocationCount();
@@ -200,119 +208,121 @@ TEST(Colouring, DoesNotAllocateForWhatItHasHadBefore) {
     EXPECT_EQ(allocationCount() - before, 0);
 }
 
-TEST(Colouring, BodiesOfVeryManyContactsLeaveSomeOver) {
+TEST(Colouring, BodiesOfVeryManyContactsHaveOverflow) {
     // A plate that carries 150 balls and stands on 100 posts.
-    std::vector<PatchPlan> plans;
-    for (std::uint32_t i = 1; i <= 150; ++i) plans.push_back({0, i, true, true, 1});
-    for (std::uint32_t i = 151; i <= 250; ++i) plans.push_back({0, i, true, false, 4});
-    const Colouring colouring = coloured(plans, 300);
-    expectProper(plans, colouring, 300);
+    std::vector<PatchDescriptor> descriptors;
+    for (std::uint32_t i = 1; i <= 150; ++i) descriptors.push_back({0, i, true, true, 1});
+    for (std::uint32_t i = 151; i <= 250; ++i) descriptors.push_back({0, i, true, false, 4});
+    const Colouring colouring = coloured(descriptors, 300);
+    expectProper(descriptors, colouring, 300);
     EXPECT_EQ(colouring.ranges().size(), 250u) << "nothing can be done side by side";
 }
 
-TEST(Colouring, IsDenseAndPutsWallsLast) {
+TEST(Colouring, IsDenseAndPutsStaticContactsLast) {
     // A chain of 400 bodies on the ground: two colours of 200 and one of 400.
-    std::vector<PatchPlan> plans;
-    for (std::uint32_t i = 1; i < 400; ++i) plans.push_back({i, i + 1, true, true, 2});
-    for (std::uint32_t i = 1; i <= 400; ++i) plans.push_back({0, i, false, true, 2});
-    const Colouring colouring = coloured(plans, 401);
-    expectProper(plans, colouring, 401);
+    std::vector<PatchDescriptor> descriptors;
+    for (std::uint32_t i = 1; i < 400; ++i) descriptors.push_back({i, i + 1, true, true, 2});
+    for (std::uint32_t i = 1; i <= 400; ++i) descriptors.push_back({0, i, false, true, 2});
+    const Colouring colouring = coloured(descriptors, 401);
+    expectProper(descriptors, colouring, 401);
     EXPECT_EQ(colouring.ranges().size(), 3u);
     EXPECT_EQ(colouring.blocks(), 25u + 25u + 50u);
-    EXPECT_GE(placesOf(colouring, plans.size()).back() / kWidth, 50u);
+    EXPECT_GE(placesOf(colouring, descriptors.size()).back() / kWidth, 50u);
 }
 
-/// Threads would have little of their own, or one would have everything: regions are left out.
-TEST(Colouring, FewContactsAndThoseBetweenAllBodiesHaveNoRegions) {
-    const std::vector<PatchPlan> few = sheetPlans(), mixed = randomPlans(6000, 2000, 2);
-    const std::vector<PatchPlan> start(few.begin(), few.begin() + 1000);
-    for (const auto& plans : {start, mixed}) {
-        const Colouring colouring = coloured(plans, kSide * kSide + 1);
-        expectProper(plans, colouring, kSide * kSide + 1);
-        EXPECT_EQ(colouring.regions().size(), 1u);
-        EXPECT_EQ(colouring.ranges().back().last, colouring.blocks()) << "all contacts are shared";
+/// Partitions would be small, or one would have nearly everything: there is a single one.
+TEST(Colouring, FewContactsAndThoseBetweenAllBodiesHaveOnePartition) {
+    const std::vector<PatchDescriptor> few = sheetDescriptors(), mixed = randomDescriptors(6000, 2000, 2);
+    const std::vector<PatchDescriptor> start(few.begin(), few.begin() + 1000);
+    for (const auto& descriptors : {start, mixed}) {
+        const Colouring colouring = coloured(descriptors, kSide * kSide + 1);
+        expectProper(descriptors, colouring, kSide * kSide + 1);
+        EXPECT_EQ(colouring.partitions().size(), 1u);
+        EXPECT_EQ(colouring.ranges().back().last, colouring.blocks()) << "all contacts are in ranges";
     }
 }
 
-/// 3600 bodies in a sheet of 10 680 contacts: sixteen regions of as much work, a row of bonds between two.
-TEST(Colouring, RegionsHaveAsMuchWorkAndFewContactsAcross) {
-    const std::vector<PatchPlan> plans = sheetPlans();
-    const Colouring colouring = coloured(plans, kSide * kSide + 1);
-    expectProper(plans, colouring, kSide * kSide + 1);
-    ASSERT_EQ(colouring.regions().size(), 16u);
-    const std::vector<std::uint32_t> places = placesOf(colouring, plans.size());
+/// 3600 bodies in a sheet of 10 680 contacts: sixteen partitions of equal work, a row of pairs between
+/// two.
+TEST(Colouring, PartitionsHaveEqualWorkAndFewCutContacts) {
+    const std::vector<PatchDescriptor> descriptors = sheetDescriptors();
+    const Colouring colouring = coloured(descriptors, kSide * kSide + 1);
+    expectProper(descriptors, colouring, kSide * kSide + 1);
+    ASSERT_EQ(colouring.partitions().size(), 16u);
+    const std::vector<std::uint32_t> places = placesOf(colouring, descriptors.size());
     std::vector<double> inside(16, 0);
-    double across = 0;
-    for (std::size_t k = 0; k < plans.size(); ++k) {
-        if (!plans[k].movesA) continue;
+    double cut = 0;
+    for (std::size_t k = 0; k < descriptors.size(); ++k) {
+        if (!descriptors[k].movesA) continue;
         const std::uint32_t block = places[k] / kWidth;
         std::size_t r = 0;
-        while (block >= colouring.regions()[r].last) ++r;
-        block >= colouring.regions()[r].first ? ++inside[r] : ++across;
+        while (block >= colouring.partitions()[r].last) ++r;
+        block >= colouring.partitions()[r].first ? ++inside[r] : ++cut;
     }
     for (const double contacts : inside)
         EXPECT_NEAR(contacts, 2.0 * kSide * kSide / 16 - kSide, 0.1 * contacts);
-    EXPECT_LE(across, 15 * (kSide + 1));
+    EXPECT_LE(cut, 15 * (kSide + 1));
     // Blocks are filled but for the last ones of colours.
-    EXPECT_LE(colouring.blocks(), double(plans.size()) / kWidth * 1.08);
+    EXPECT_LE(colouring.blocks(), double(descriptors.size()) / kWidth * 1.08);
 }
 
-/// What two (or three, or four) threads move in all colours is about a half of it each, and few bodies at the
-/// seam are moved by two.
-TEST(Colouring, SharesOfAllColoursMoveTheSameBodies) {
+/// The chunks of two (or three, or four) threads in all colours are about equal, and few bodies at the
+/// borders are moved by two threads.
+TEST(Colouring, ChunksOfAllColoursMoveTheSameBodies) {
     constexpr std::uint32_t kFew = 18;
-    const std::vector<PatchPlan> plans = sheetPlans(kFew);
-    const Colouring colouring = coloured(plans, kFew * kFew + 1);
-    ASSERT_EQ(colouring.regions().size(), 1u);
-    const std::vector<std::uint32_t> places = placesOf(colouring, plans.size());
+    const std::vector<PatchDescriptor> descriptors = sheetDescriptors(kFew);
+    const Colouring colouring = coloured(descriptors, kFew * kFew + 1);
+    ASSERT_EQ(colouring.partitions().size(), 1u);
+    const std::vector<std::uint32_t> places = placesOf(colouring, descriptors.size());
     for (std::size_t of = 2; of <= 4; ++of) {
         std::vector<std::size_t> work(of, 0);
         std::vector<std::set<std::uint32_t>> moved(of);
         std::size_t shared = 0;
-        for (std::size_t k = 0; k < plans.size(); ++k)
+        for (std::size_t k = 0; k < descriptors.size(); ++k)
             for (const Colouring::Range& range : colouring.ranges())
-                if (const std::size_t share = shareOf(places[k] / kWidth, colouring, range, of); share < of) {
-                    ++work[share], ++shared;
-                    if (plans[k].movesA) moved[share].insert(plans[k].a);
-                    if (plans[k].movesB) moved[share].insert(plans[k].b);
+                if (const std::size_t chunk = chunkOf(places[k] / kWidth, colouring, range, of); chunk < of) {
+                    ++work[chunk], ++shared;
+                    if (descriptors[k].movesA) moved[chunk].insert(descriptors[k].a);
+                    if (descriptors[k].movesB) moved[chunk].insert(descriptors[k].b);
                 }
         std::size_t all = 0;
-        for (std::size_t share = 0; share < of; ++share) {
-            all += moved[share].size();
-            EXPECT_NEAR(double(work[share]), double(shared) / double(of), 0.1 * double(shared));
+        for (std::size_t chunk = 0; chunk < of; ++chunk) {
+            all += moved[chunk].size();
+            EXPECT_NEAR(double(work[chunk]), double(shared) / double(of), 0.1 * double(shared));
         }
-        // A row of bodies at each seam, and blocks that the seam goes through. Cuts of each colour by itself
-        // (one in the middle of the ground's, another of the bonds') would lie rows apart.
+        // A row of bodies at each border, and blocks that the border goes through. Splits of each colour by
+        // itself (one in the middle of the ground's, another of the pairs') would lie rows apart.
         EXPECT_LE(all, kFew * kFew + (of - 1) * 4 * kFew) << of << " threads";
     }
 }
 
-/// A pyramid's ground contacts are all of bodies of the first slices: threads share them all the same.
-TEST(Colouring, NoShareOfAColourIsMuchLargerThanAnother) {
-    std::vector<PatchPlan> plans;
-    for (std::uint32_t i = 1; i <= 160; ++i) plans.push_back({0, i, false, true, 4});
-    for (std::uint32_t i = 1; i < 1600; i += 2) plans.push_back({i, i + 1, true, true, 2});
-    const Colouring colouring = coloured(plans, 1601);
-    expectProper(plans, colouring, 1601);
+/// A pyramid's ground contacts are all of bodies of the first intervals: threads split them evenly all the
+/// same.
+TEST(Colouring, NoChunkOfAColourIsMuchLargerThanAnother) {
+    std::vector<PatchDescriptor> descriptors;
+    for (std::uint32_t i = 1; i <= 160; ++i) descriptors.push_back({0, i, false, true, 4});
+    for (std::uint32_t i = 1; i < 1600; i += 2) descriptors.push_back({i, i + 1, true, true, 2});
+    const Colouring colouring = coloured(descriptors, 1601);
+    expectProper(descriptors, colouring, 1601);
     ASSERT_GE(colouring.ranges().size(), 1u);
     const Colouring::Range& ground = colouring.ranges().back();
     std::vector<double> blocks(2, 0);
     for (std::uint32_t block = ground.first; block < ground.last; ++block)
-        ++blocks[shareOf(block, colouring, ground, 2)];
+        ++blocks[chunkOf(block, colouring, ground, 2)];
     const double all = ground.last - ground.first;
     EXPECT_NEAR(blocks[0], all / 2, all / 16 + 1) << "of " << all;
 }
 
 TEST(Colouring, PutsPatchesOfAsManyPointsTogether) {
     // 64 pairs that share no body: one colour, the patches of four points in the first blocks.
-    std::vector<PatchPlan> plans;
+    std::vector<PatchDescriptor> descriptors;
     for (std::uint32_t i = 0; i < 64; ++i)
-        plans.push_back({2 * i, 2 * i + 1, true, true, static_cast<std::uint8_t>(1 + i % 4)});
-    const Colouring colouring = coloured(plans, 128);
-    expectProper(plans, colouring, 128);
-    const std::vector<std::uint32_t> places = placesOf(colouring, plans.size());
+        descriptors.push_back({2 * i, 2 * i + 1, true, true, static_cast<std::uint8_t>(1 + i % 4)});
+    const Colouring colouring = coloured(descriptors, 128);
+    expectProper(descriptors, colouring, 128);
+    const std::vector<std::uint32_t> places = placesOf(colouring, descriptors.size());
     for (std::uint32_t i = 0; i < 64; ++i)
-        EXPECT_EQ(places[i] / 16, 4u - plans[i].points) << "16 of each kind";
+        EXPECT_EQ(places[i] / 16, 4u - descriptors[i].points) << "16 of each size class";
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ Joints netOf(std::uint32_t side) {
     return joints;
 }
 
-std::vector<Nodes> meetingsOf(const Joints& joints) {
+std::vector<Nodes> neighboursOf(const Joints& joints) {
     std::vector<Nodes> near(joints.size());
     for (std::uint32_t i = 0; i < joints.size(); ++i)
         for (std::uint32_t j = 0; j < joints.size(); ++j) {
@@ -90,7 +90,7 @@ TEST(Dissections, NetsHaveFewProducts) {
     for (const std::uint32_t side : {10u, 20u, 30u}) {
         const Joints joints = netOf(side);
         Elimination found, degree;
-        const auto near = meetingsOf(joints);
+        const auto near = neighboursOf(joints);
         ASSERT_TRUE(findElimination(near, dissectJoints(joints, side * side), 1u << 20, found));
         ASSERT_TRUE(findElimination(near, 1u << 20, degree));
         const double n = double(joints.size());

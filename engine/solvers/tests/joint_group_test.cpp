@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// All joints of a step as one unit: rows that hold are satisfied in one visit, bounded rows keep their
-// bounds, warm starts change velocities as the rows say, and a visit in a steady state does not allocate.
+// All joints of a step as one unit: equality rows are satisfied in one pass, bounded rows keep their
+// bounds, warm starts change velocities as the rows say, and a pass in a steady state does not allocate.
 #include <gtest/gtest.h>
 
 #include "engine/core/tests/counting_new.hpp"

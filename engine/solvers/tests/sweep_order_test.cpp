@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Sweeps shared among threads: units that share a body keep their order, those of a level share none.
+// Parallel sweeps: units that share a body keep their order, those of a level share none.
 #include <gtest/gtest.h>
 
 #include <algorithm>

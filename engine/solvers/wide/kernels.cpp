@@ -9,8 +9,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "engine/solvers/wide/distribute-inl.hpp"
 #include "engine/solvers/wide/prepare-inl.hpp"
-#include "engine/solvers/wide/share-inl.hpp"
 #include "engine/solvers/wide/solve-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,11 +26,11 @@ namespace rigor::engine::HWY_NAMESPACE {
     void solve##S(const PatchRange<S>& range, const PatchPass& pass) {            \
         solveAll(range, pass);                                                    \
     }                                                                             \
-    void plan##S(const PatchRange<S>& range, const PatchPass& pass) {             \
-        planAll(range, pass);                                                     \
+    void bounces##S(const PatchRange<S>& range, const PatchPass& pass) {          \
+        prepareAllBounces(range, pass);                                           \
     }                                                                             \
-    void share##S(const PatchRange<S>& range) {                                   \
-        shareAll(range);                                                          \
+    void distribute##S(const PatchRange<S>& range) {                              \
+        distributeAll(range);                                                     \
     }
 RIGOR_KERNELS(Space2f)
 RIGOR_KERNELS(Space3f)
@@ -49,8 +49,8 @@ namespace rigor::engine {
     HWY_EXPORT(prepare##S);                                                              \
     HWY_EXPORT(warmStart##S);                                                            \
     HWY_EXPORT(solve##S);                                                                \
-    HWY_EXPORT(plan##S);                                                                 \
-    HWY_EXPORT(share##S);                                                                \
+    HWY_EXPORT(bounces##S);                                                              \
+    HWY_EXPORT(distribute##S);                                                           \
     template <>                                                                          \
     void preparePatches<S>(const PatchRange<S>& range, const PatchInertia<S>* inertia) { \
         HWY_DYNAMIC_DISPATCH(prepare##S)(range, inertia);                                \
@@ -64,12 +64,12 @@ namespace rigor::engine {
         HWY_DYNAMIC_DISPATCH(solve##S)(range, pass);                                     \
     }                                                                                    \
     template <>                                                                          \
-    void planPatches<S>(const PatchRange<S>& range, const PatchPass& pass) {             \
-        HWY_DYNAMIC_DISPATCH(plan##S)(range, pass);                                      \
+    void prepareBounces<S>(const PatchRange<S>& range, const PatchPass& pass) {          \
+        HWY_DYNAMIC_DISPATCH(bounces##S)(range, pass);                                   \
     }                                                                                    \
     template <>                                                                          \
-    void sharePatches<S>(const PatchRange<S>& range) {                                   \
-        HWY_DYNAMIC_DISPATCH(share##S)(range);                                           \
+    void distributeFriction<S>(const PatchRange<S>& range) {                             \
+        HWY_DYNAMIC_DISPATCH(distribute##S)(range);                                      \
     }
 RIGOR_DISPATCH(Space2f)
 RIGOR_DISPATCH(Space3f)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is done with blocks of patches, in SIMD. The instruction set is chosen when the program runs; the
-// results are the same on all of them, and without any, to the bit: lanes do not mix, and there are no fused
-// or approximate operations.
+// SIMD kernels on blocks of patches. The instruction set is chosen at run time. The results are the same bits
+// on every instruction set and in scalar code: lanes do not mix, and there are no fused or approximate
+// operations.
 #pragma once
 
 #include "engine/solvers/wide/patch.hpp"
@@ -11,40 +11,41 @@
 
 namespace rigor::engine {
 
-/// The blocks of a call, and the bodies that all of them refer to.
+/// Arguments of every kernel: consecutive blocks and the arrays of bodies that they refer to.
 template <class S>
 struct PatchRange {
     PatchBlock<S>* blocks;
-    PatchRest<S>* rests;
+    PatchColdData<S>* cold;
     std::size_t count;
     Velocity<S>* velocities;
-    /// Null, or what velocities are counted from, body by body: in worlds of f64 a velocity is base +
-    /// velocity, and what is common to two bodies falls out before anything is rounded.
+    /// Base velocity of each body, or null. In f64 worlds a velocity is base + velocity: the part common to
+    /// two bodies cancels before anything is rounded.
     const Velocity<S>* base;
     /// Translations [m] and rotation vectors [rad] since the step began.
     const Velocity<S>* motions;
-    bool shared = false;           ///< among threads: other cores may have velocities in their caches
-    PatchRubs<S>* rubs = nullptr;  ///< of each block; to prepare and to share
+    bool shared = false;  ///< several threads work: other cores may hold the velocities in their caches
+    PatchFriction<S>* pointFriction = nullptr;  ///< of each block; for preparePatches, distributeFriction
 };
 
-/// From normals, arms and the impulses of the last step to rows. Bodies have the velocities of the start of
-/// the step.
+/// Makes rows from normals, arms and the impulses of the last step. Bodies have the velocities of the start
+/// of the step.
 template <class S>
 void preparePatches(const PatchRange<S>& range, const PatchInertia<S>* inertia);
-/// Applies the impulses that patches start with.
+/// Applies the initial impulses of all patches.
 template <class S>
 void warmStartPatches(const PatchRange<S>& range);
-/// One visit of every patch: its normals, then its friction.
+/// One Gauss-Seidel pass: for every patch first its normal rows, then its friction.
 template <class S>
 void solvePatches(const PatchRange<S>& range, const PatchPass& pass);
-/// What a sub-step makes of points that can bounce, with velocities from before its forces.
+/// Begins a sub-step for points with restitution: sets their rebound and whether they are active, from the
+/// velocities before forces.
 template <class S>
-void planPatches(const PatchRange<S>& range, const PatchPass& pass);
-/// Shares the friction of patches out among their points, so that force and moment about the normal are kept.
+void prepareBounces(const PatchRange<S>& range, const PatchPass& pass);
+/// Distributes the friction of each patch over its points; force and moment about the normal are conserved.
 template <class S>
-void sharePatches(const PatchRange<S>& range);
+void distributeFriction(const PatchRange<S>& range);
 
-/// The instruction set that these functions use on this machine: "AVX3", "AVX2", ... or "SCALAR".
+/// Instruction set used on this machine: "AVX3", "AVX2", ... or "SCALAR".
 const char* simdTarget();
 
 }  // namespace rigor::engine

@@ -9,13 +9,13 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kBlockGrain = 8;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kBlockGrain = 8;  ///< blocks worth a task: some microseconds of work
 
 /// Raises `largest` to at least x.
 template <class R>
 void raise(std::atomic<R>& largest, R x) {
-    R seen = largest.load();
-    while (seen < x && !largest.compare_exchange_weak(seen, x)) {
+    R current = largest.load();
+    while (current < x && !largest.compare_exchange_weak(current, x)) {
     }
 }
 
@@ -28,23 +28,23 @@ std::size_t Patches<S>::rows() const {
 }
 
 template <class S>
-void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
+void Patches<S>::assignLanes(const BodyArrays<S>& bodies, const Tasks& tasks) {
     const std::size_t n = bodies.size();
-    if (std::exchange(changed_, false)) {  // else, as in most steps, everybody stays in place
-        colouring_.colour(plans_, n, kLanes, tasks);
-        before_.clear();
-        // What is over is kept for the next time there are more.
+    if (std::exchange(changed_, false)) {  // in most steps the assignment stays valid
+        colouring_.colour(descriptors_, n, kLanes, tasks);
+        fractions_.clear();
+        // The arrays never shrink, so that a steady state does not allocate.
         if (blocks_.size() < blocks()) {
             blocks_.resize(blocks());
-            rests_.resize(blocks());
+            cold_.resize(blocks());
         }
     }
     inertia_.resize(n);
     motions_.resize(n);
     velocities_.resize(n);
-    gained_.resize(n);
-    cut(tasks);
-    gainedHolds_ = bounce_ = false;
+    impulseDelta_.resize(n);
+    split(tasks);
+    impulseDeltaValid_ = bounce_ = false;
     const auto begin = [&](std::size_t i) {
         motions_[i] = {};
         PatchReal* I = inertia_[i].number;
@@ -57,97 +57,97 @@ void Patches<S>::place(const BodyArrays<S>& bodies, const Tasks& tasks) {
             *I = moves ? static_cast<PatchReal>(bodies.invInertia[i]) : PatchReal(0);
         }
     };
-    tasks.forShares(n, kBodyGrain, [&](std::size_t first, std::size_t last) {
+    tasks.forChunks(n, kBodyGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) begin(i);
     });
 }
 
-/// Stages for shares after the threads' speed; unless all is as it was.
+/// Makes the stages, with chunks weighted by the threads' speed, unless these have not changed.
 template <class S>
-void Patches<S>::cut(const Tasks& tasks) {
+void Patches<S>::split(const Tasks& tasks) {
     threads_ = static_cast<std::size_t>(tasks.threads());
-    bool holds = before_.size() == threads_ + 1;
-    before_.resize(threads_ + 1);
-    for (std::size_t share = 0; share <= threads_; ++share) {
-        const double before = tasks.before(share);
-        holds = std::exchange(before_[share], before) == before && holds;
+    bool valid = fractions_.size() == threads_ + 1;
+    fractions_.resize(threads_ + 1);
+    for (std::size_t chunk = 0; chunk <= threads_; ++chunk) {
+        const double fraction = tasks.fractionBefore(chunk);
+        valid = std::exchange(fractions_[chunk], fraction) == fraction && valid;
     }
-    if (holds) return;
+    if (valid) return;
     stages_.clear();
-    cuts_.clear();
+    splits_.clear();
     if (threads_ > 1) addRangeStages();
-    addRegionStage();
+    addPartitionStage();
 }
 
-/// Regions are cut where as many of their blocks come before as belong there, to half a region. A thread
-/// alone does all blocks in one go.
+/// Each thread gets whole partitions, in number of blocks within half a partition of its fraction. A single
+/// thread runs all blocks in one chunk.
 template <class S>
-void Patches<S>::addRegionStage() {
-    const std::span<const Colouring::Region> regions = colouring_.regions();
-    firstRegion_.assign(threads_ + 1, 0);
-    stages_.push_back({cuts_.size(), false});
-    const std::uint32_t first = threads_ > 1 ? regions.front().first : 0, last = regions.back().last;
-    cuts_.push_back({first});
-    for (std::size_t share = 1; share <= threads_; ++share) {
-        const double before = first + before_[share] * (last - first);
-        std::size_t& r = firstRegion_[share];
-        r = share < threads_ ? firstRegion_[share - 1] : regions.size();
-        while (r < regions.size() && 0.5 * (regions[r].first + regions[r].last) < before) ++r;
-        cuts_.push_back({r < regions.size() ? regions[r].first : last});
+void Patches<S>::addPartitionStage() {
+    const std::span<const Colouring::Partition> partitions = colouring_.partitions();
+    firstPartition_.assign(threads_ + 1, 0);
+    stages_.push_back({splits_.size(), false});
+    const std::uint32_t first = threads_ > 1 ? partitions.front().first : 0, last = partitions.back().last;
+    splits_.push_back({first});
+    for (std::size_t chunk = 1; chunk <= threads_; ++chunk) {
+        const double before = first + fractions_[chunk] * (last - first);
+        std::size_t& r = firstPartition_[chunk];
+        r = chunk < threads_ ? firstPartition_[chunk - 1] : partitions.size();
+        while (r < partitions.size() && 0.5 * (partitions[r].first + partitions[r].last) < before) ++r;
+        splits_.push_back({r < partitions.size() ? partitions[r].first : last});
     }
 }
 
-/// Few blocks are not worth sharing: the first thread does them, and goes on with the next ones if these are
-/// few as well.
+/// Fewer than two blocks per thread are not split: the first thread runs them, and without a barrier between
+/// consecutive ranges of this kind.
 template <class S>
 void Patches<S>::addRangeStages() {
     bool afterFew = false;
     for (const Colouring::Range& range : colouring_.ranges()) {
         const bool few = range.last - range.first < 2 * threads_;
         if (few && afterFew) {
-            for (std::size_t share = 1; share <= threads_; ++share)
-                cuts_[stages_.back().cuts + share][0] = range.last;
+            for (std::size_t chunk = 1; chunk <= threads_; ++chunk)
+                splits_[stages_.back().splits + chunk][0] = range.last;
             continue;
         }
         afterFew = few;
-        stages_.push_back({cuts_.size(), !few});
-        for (std::size_t share = 0; share <= threads_; ++share) {
-            Colouring::Cut next{share == 0 ? range.first : range.last};
-            if (!few) next = colouring_.cut(range, before_[share]);
-            for (std::uint32_t kind = 0; kind < Colouring::kKinds && share > 0; ++kind)
-                next[kind] = std::max(next[kind], cuts_.back()[kind]);
-            cuts_.push_back(next);
+        stages_.push_back({splits_.size(), !few});
+        for (std::size_t chunk = 0; chunk <= threads_; ++chunk) {
+            Colouring::Split next{chunk == 0 ? range.first : range.last};
+            if (!few) next = colouring_.split(range, fractions_[chunk]);
+            for (std::uint32_t c = 0; c < Colouring::kSizeClasses && chunk > 0; ++c)
+                next[c] = std::max(next[c], splits_.back()[c]);
+            splits_.push_back(next);
         }
     }
 }
 
 template <class S>
-typename S::Real Patches<S>::visit(std::span<Velocity<S>> velocities, const PatchPass& pass, bool warmStart,
-                                   const Tasks& tasks) {
+typename S::Real Patches<S>::solvePass(std::span<Velocity<S>> velocities, const PatchPass& pass,
+                                       bool warmStart, const Tasks& tasks) {
     velocities_.refer(velocities);
-    const Velocity<F>* const gained = warmStart && gainedHolds_ ? gained_.data() : nullptr;
+    const Velocity<F>* const delta = warmStart && impulseDeltaValid_ ? impulseDelta_.data() : nullptr;
     std::atomic<PatchReal> change = 0;
-    // One run: what bodies begin with; all stages once or twice; how bodies end, by those who have worked on
-    // them in the last one.
-    const std::size_t n = stages_.size(), warm = warmStart && gained == nullptr ? n : 0;
-    tasks.forStages(1 + warm + n, [&](std::size_t stage, std::size_t share) {
-        const std::size_t from = bodyOf(share, tasks), to = bodyOf(share + 1, tasks);
-        if (stage == 0) return velocities_.begin(from, to, gained);
+    // One sequence of stages: load the velocities; warm start, if needed; solve; store the velocities, each
+    // by the thread whose partition it belongs to.
+    const std::size_t n = stages_.size(), warm = warmStart && delta == nullptr ? n : 0;
+    tasks.forStages(1 + warm + n, [&](std::size_t stage, std::size_t chunk) {
+        const std::size_t from = firstBody(chunk, tasks), to = firstBody(chunk + 1, tasks);
+        if (stage == 0) return velocities_.begin(from, to, delta);
         const Stage& blocks = stages_[(stage - 1) % n];
         if (stage <= warm)
-            return ofShare(blocks, share,
-                           [&](auto first, auto last) { warmStartPatches<F>(range(first, last)); });
-        ofShare(blocks, share, [&](auto first, auto last) { solvePatches<F>(range(first, last), pass); });
+            return forChunk(blocks, chunk,
+                            [&](auto first, auto last) { warmStartPatches<F>(range(first, last)); });
+        forChunk(blocks, chunk, [&](auto first, auto last) { solvePatches<F>(range(first, last), pass); });
         if (stage == warm + n && from < to)
-            raise(change, velocities_.end(from, to, gained_.data(), !warmStart));
+            raise(change, velocities_.end(from, to, impulseDelta_.data(), !warmStart));
     });
-    gainedHolds_ = gainedHolds_ || warmStart;
+    impulseDeltaValid_ = impulseDeltaValid_ || warmStart;
     return static_cast<Real>(change.load());
 }
 
 template <class S>
 void Patches<S>::advance(std::span<const Velocity<S>> used, Real h, const Tasks& tasks) {
-    tasks.forShares(used.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+    tasks.forChunks(used.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
         numbers(motions_.data(), first, last) +=
             (h * numbers(used.data(), first, last)).template cast<PatchReal>();
     });
@@ -156,14 +156,15 @@ void Patches<S>::advance(std::span<const Velocity<S>> used, Real h, const Tasks&
 template <class S>
 void Patches<S>::beginSubstep(std::span<Velocity<S>> velocities, const PatchPass& pass, const Tasks& tasks) {
     if (!bounce_) return;
-    gainedHolds_ = false;  // impulses may change
+    impulseDeltaValid_ = false;  // prepareBounces may reset impulses
     velocities_.refer(velocities);
     if constexpr (PatchVelocities<S>::kSplit)
-        tasks.forShares(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
+        tasks.forChunks(velocities.size(), kBodyGrain, [&](std::size_t first, std::size_t last) {
             velocities_.begin(first, last, nullptr);
         });
-    tasks.forRanges(blocks(), kBlockGrain,
-                    [&](std::size_t first, std::size_t last) { planPatches<F>(range(first, last), pass); });
+    tasks.forRanges(blocks(), kBlockGrain, [&](std::size_t first, std::size_t last) {
+        prepareBounces<F>(range(first, last), pass);
+    });
 }
 
 RIGOR_INSTANTIATE_CLASS(Patches)

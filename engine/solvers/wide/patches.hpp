@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The patches of a step: placed in blocks, prepared once, and visited in every sub-step. What the blocks
-// hold: patch.hpp; what is done with them: kernels.hpp.
+// The patches of a step: assigned to lanes, prepared once, and solved in every sub-step. Data: patch.hpp;
+// SIMD kernels: kernels.hpp; order and threads: colouring.hpp.
+//
+//     contacts --setDescriptor--> descriptors --assignLanes--> blocks --fill, prepare--> rows
+//     each sub-step: beginSubstep, solvePass (soft), advance, solvePass (relaxation)
+//     rows --distribute--> friction impulses of the points
+//
+// Invariant between the stages of a pass: no moving body belongs to the chunks of two threads.
 #pragma once
 
 #include <atomic>
@@ -23,114 +29,115 @@ class Patches {
   public:
     using Real = typename S::Real;
     using F = PatchSpace<S>;
-    /// The patches of a step are planned, one for each of `count` sources; then they are placed in blocks;
-    /// then each block is filled in lane by lane, also those of nobody, and prepared.
-    void plan(std::size_t count) {
-        if (count != plans_.size()) changed_ = true;
-        plans_.resize(count);
+    /// A step begins with a descriptor for each of `count` sources (contacts). assignLanes() then gives each
+    /// a lane; the caller fills every lane of every block, empty ones with zeros, and calls prepare().
+    void resize(std::size_t count) {
+        if (count != descriptors_.size()) changed_ = true;
+        descriptors_.resize(count);
     }
-    /// Of a source, by any thread; of no points where there is no patch.
-    void offer(std::size_t source, const PatchPlan& plan) {
-        if (plans_[source] == plan) return;
-        plans_[source] = plan;
-        const std::atomic_ref changed(changed_);  // written once: others read what stands beside it
+    /// Sets the descriptor of a source; may be called by any thread. Zero points: no patch.
+    void setDescriptor(std::size_t source, const PatchDescriptor& descriptor) {
+        if (descriptors_[source] == descriptor) return;
+        descriptors_[source] = descriptor;
+        const std::atomic_ref changed(changed_);  // stored only once: the cache line stays shared
         if (!changed.load(std::memory_order_relaxed)) changed.store(true, std::memory_order_relaxed);
     }
-    void place(const BodyArrays<S>& bodies, const Tasks& tasks);
-    /// work(b) for each block, by the thread that visits it later on.
+    void assignLanes(const BodyArrays<S>& bodies, const Tasks& tasks);
+    /// work(b) for each block, in the thread that solves the block in each pass.
     template <class Work>
     void forBlocks(const Tasks& tasks, const Work& work) const {
-        tasks.forStages(1, [&](std::size_t, std::size_t share) {
+        tasks.forStages(1, [&](std::size_t, std::size_t chunk) {
             for (const Stage& stage : stages_)
-                ofShare(stage, share, [&work](std::size_t first, std::size_t last) {
+                forChunk(stage, chunk, [&work](std::size_t first, std::size_t last) {
                     for (std::size_t b = first; b < last; ++b) work(b);
                 });
         });
     }
     std::size_t blocks() const { return colouring_.blocks(); }
     PatchBlock<F>& block(std::size_t b) { return blocks_[b]; }
-    PatchRest<F>& rest(std::size_t b) { return rests_[b]; }
-    /// Whose patch stands there (its place among the plans); kNullIndex's lanes are filled with zeros.
+    PatchColdData<F>& coldData(std::size_t b) { return cold_[b]; }
+    /// Source of the patch in a lane; kNullIndex: the lane is empty.
     std::uint32_t sourceAt(std::size_t b, std::size_t lane) const {
-        return colouring_.occupants()[b * kLanes + lane];
+        return colouring_.laneContents()[b * kLanes + lane];
     }
-    /// Rows from what has been filled in.
-    void prepare(std::size_t b, PatchRubs<F>& rubs) {
-        preparePatches<F>(range(b, rubs), inertia_.data());
+    /// Makes the rows of a block whose lanes have been filled.
+    void prepare(std::size_t b, PatchFriction<F>& friction) {
+        preparePatches<F>(range(b, friction), inertia_.data());
         const std::atomic_ref bounce(bounce_);
         if (blocks_[b].bounces != 0 && !bounce.load(std::memory_order_relaxed))
             bounce.store(true, std::memory_order_relaxed);
     }
 
     std::size_t size() const { return colouring_.contacts(); }
-    /// Points of all patches, and the rows they have: one for each point, and those of friction.
+    /// Points of all patches; rows: one normal row per point, and the friction rows of each patch.
     std::size_t points() const { return colouring_.points(); }
     std::size_t rows() const;
     bool empty() const { return size() == 0; }
 
-    /// Begins a sub-step, before forces: which points bounce in it.
+    /// Begins a sub-step, before forces: decides which points bounce in it.
     void beginSubstep(std::span<Velocity<S>> velocities, const PatchPass& pass, const Tasks& tasks);
-    /// One visit of every patch. `warmStart`: applies their impulses first. Returns the largest change of a
-    /// velocity [m/s or rad/s].
-    Real visit(std::span<Velocity<S>> velocities, const PatchPass& pass, bool warmStart, const Tasks& tasks);
-    /// Bodies have moved for h [s] with these velocities.
+    /// One Gauss-Seidel pass over all patches. `warmStart`: applies their impulses first. Returns the largest
+    /// change of a velocity [m/s or rad/s].
+    Real solvePass(std::span<Velocity<S>> velocities, const PatchPass& pass, bool warmStart,
+                   const Tasks& tasks);
+    /// Adds the displacement of the bodies, which have moved for h [s] with the velocities `used`.
     void advance(std::span<const Velocity<S>> used, Real h, const Tasks& tasks);
-    /// Friction of the points of a block, before it is read.
-    void share(std::size_t b, PatchRubs<F>& rubs) { sharePatches<F>(range(b, rubs)); }
+    /// Distributes friction over the points of a block, at the end of a step.
+    void distribute(std::size_t b, PatchFriction<F>& friction) { distributeFriction<F>(range(b, friction)); }
 
   private:
     PatchRange<F> range(std::size_t first, std::size_t last) {
-        return {blocks_.data() + first, rests_.data() + first, last - first, velocities_.data(),
-                velocities_.base(),     motions_.data(),       threads_ > 1};
+        return {blocks_.data() + first, cold_.data() + first, last - first, velocities_.data(),
+                velocities_.base(),     motions_.data(),      threads_ > 1};
     }
-    PatchRange<F> range(std::size_t b, PatchRubs<F>& rubs) {
+    PatchRange<F> range(std::size_t b, PatchFriction<F>& friction) {
         PatchRange<F> one = range(b, b + 1);
-        one.rubs = &rubs;
+        one.pointFriction = &friction;
         return one;
     }
-    /// What threads do side by side before they wait for each other. cuts_[cuts + share]: where the share of
-    /// a thread begins, of each kind; where it ends stands with the next one.
+    /// Blocks that threads solve in parallel between two barriers. The chunk of thread t is, in each size
+    /// class, the blocks from splits_[splits + t] to splits_[splits + t + 1].
     struct Stage {
-        std::size_t cuts;
-        bool kinds;  ///< else the first kind is all there is
+        std::size_t splits;
+        bool allClasses;  ///< else only the first size class is used
     };
-    void cut(const Tasks& tasks);
+    void split(const Tasks& tasks);
     void addRangeStages();
-    void addRegionStage();
-    /// work(first, last) on ranges of blocks that are the share of a thread in a stage.
+    void addPartitionStage();
+    /// work(first, last) for each range of blocks in the chunk of a thread in a stage.
     template <class Work>
-    void ofShare(const Stage& stage, std::size_t share, const Work& work) const {
-        const Colouring::Cut* const cut = cuts_.data() + stage.cuts + share;
-        for (std::uint32_t kind = 0; kind < (stage.kinds ? Colouring::kKinds : 1); ++kind)
-            if (cut[0][kind] < cut[1][kind]) work(cut[0][kind], cut[1][kind]);
+    void forChunk(const Stage& stage, std::size_t chunk, const Work& work) const {
+        const Colouring::Split* const split = splits_.data() + stage.splits + chunk;
+        for (std::uint32_t c = 0; c < (stage.allClasses ? Colouring::kSizeClasses : 1); ++c)
+            if (split[0][c] < split[1][c]) work(split[0][c], split[1][c]);
     }
-    /// The first body of a share.
-    std::size_t bodyOf(std::size_t share, const Tasks& tasks) const {
-        const auto regions = colouring_.regions();
-        if (regions.size() == 1) return tasks.cut(velocities_.size(), kBodyGrain, share);
-        return firstRegion_[share] < regions.size() ? regions[firstRegion_[share]].firstBody
-                                                    : velocities_.size();
+    /// First body of the chunk of a thread.
+    std::size_t firstBody(std::size_t chunk, const Tasks& tasks) const {
+        const auto partitions = colouring_.partitions();
+        if (partitions.size() == 1) return tasks.chunkBegin(velocities_.size(), kBodyGrain, chunk);
+        return firstPartition_[chunk] < partitions.size() ? partitions[firstPartition_[chunk]].firstBody
+                                                          : velocities_.size();
     }
 
-    std::vector<PatchPlan> plans_;
-    bool changed_ = false;  ///< they have, since they were placed
+    std::vector<PatchDescriptor> descriptors_;
+    bool changed_ = false;  ///< descriptors_ has changed since assignLanes
     Colouring colouring_;
     std::size_t threads_ = 1;
-    std::vector<double> before_;            ///< parts of the work before each thread's, and all of it
-    std::vector<std::size_t> firstRegion_;  ///< of each share, and their number
-    std::vector<Stage> stages_;             ///< ranges, then regions
-    std::vector<Colouring::Cut> cuts_;      ///< of all stages
+    std::vector<double> fractions_;            ///< fraction of the work before each thread's; last: 1
+    std::vector<std::size_t> firstPartition_;  ///< of each thread; last: the number of partitions
+    std::vector<Stage> stages_;                ///< of the ranges, then of the partitions
+    std::vector<Colouring::Split> splits_;     ///< of all stages
     std::vector<PatchBlock<F>> blocks_;
-    std::vector<PatchRest<F>> rests_;
+    std::vector<PatchColdData<F>> cold_;
     // --- by body
     std::vector<PatchInertia<F>> inertia_;
     std::vector<Velocity<F>> motions_;
     PatchVelocities<S> velocities_;
-    /// What the impulses that patches have now have made of the velocities, in all visits of a sub-step: rows
-    /// stay as they are during a step, so that to apply those impulses again is to add this.
-    std::vector<Velocity<F>> gained_;
-    bool gainedHolds_ = false;
-    bool bounce_ = false;  ///< some can
+    /// Change of the velocities by the current impulses. Rows are constant during a step, so that a warm
+    /// start adds this in place of applying the impulses again.
+    std::vector<Velocity<F>> impulseDelta_;
+    bool impulseDeltaValid_ = false;
+    bool bounce_ = false;  ///< some patch has restitution > 0
 };
 
 }  // namespace rigor::engine

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Rows of patches from what the narrow phase has found.
+// Makes the rows of patches from the manifolds of the narrow phase.
 //
-// The centre of a patch is that of its pressure, as far as the last step knows it: the mean of its points
-// weighted by their impulses. Friction there has the moment that friction at the points would have.
+// The center of a patch is its center of pressure in the last step: the mean of its points weighted by their
+// normal impulses. Friction there has the moment that friction at the points would have.
 #if defined(RIGOR_PREPARE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef RIGOR_PREPARE_INL_HPP
 #undef RIGOR_PREPARE_INL_HPP
@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace rigor::engine::HWY_NAMESPACE {
 
-/// A unit tangent of n in space: the first of contact_rows.cpp.
+/// First unit tangent of n in 3D, the same as in contact_rows.cpp.
 template <class S>
 HWY_INLINE LinVec<S> firstTangent(const LinVec<S>& n) {
     // x cross n or y cross n, whichever is longer.
@@ -32,13 +32,13 @@ HWY_INLINE LinVec<S> firstTangent(const LinVec<S>& n) {
     return t;
 }
 
-/// Reads inertia, and makes of what a block has been filled with the rest.
+/// Reads the inertia and computes the derived numbers of a block from those filled in.
 template <class S>
 struct Preparation {
     using Real = typename S::Real;
     PatchBlock<S>& block;
-    const PatchRest<S>& rest;
-    const PatchRubs<S>& rubs;
+    const PatchColdData<S>& cold;
+    const PatchFriction<S>& pointFriction;
     At<S> at;
     std::array<Num<S>, PatchSize<S>::inertia> inertiaA, inertiaB;
     Num<S> mass;
@@ -47,8 +47,8 @@ struct Preparation {
     HWY_INLINE Preparation(const PatchRange<S>& range, const PatchInertia<S>* inertia, std::size_t k,
                            std::size_t first)
         : block(range.blocks[k]),
-          rest(range.rests[k]),
-          rubs(range.rubs[k]),
+          cold(range.cold[k]),
+          pointFriction(range.pointFriction[k]),
           at{first},
           inertiaA(inertiaOf(inertia, block.a + first)),
           inertiaB(inertiaOf(inertia, block.b + first)),
@@ -73,7 +73,7 @@ struct Preparation {
             return {q.x, q.y, q.z, q.w, r.x, r.y};
         }
     }
-    /// jA of a row with that jB in the direction d.
+    /// jA of the row along d whose arm on B is jB.
     HWY_INLINE AngVec<S> sideA(const AngVec<S>& jB, const LinVec<S>& d) const {
         AngVec<S> jA = jB;
         add(jA, number<S>(1), moment(offset, d));
@@ -85,7 +85,7 @@ struct Preparation {
         for (int i = 0; i < block.points; ++i) {
             PatchPoint<S>& point = block.point[i];
             const auto there = at(point.invK) > zero;
-            const AngVec<S> jB = moment(at(rest.armB[i]), normal), jA = sideA(jB, normal);
+            const AngVec<S> jB = moment(at(cold.armB[i]), normal), jA = sideA(jB, normal);
             const AngVec<S> iA = times(inertiaA, jA), iB = times(inertiaB, jB);
             at.set(point.jB, jB);
             for (int k = 0; k <= i; ++k) {
@@ -98,72 +98,73 @@ struct Preparation {
         }
     }
 
-    /// From B's centre: the mean of the points, weighted by their impulses where there are some.
-    HWY_INLINE LinVec<S> findCentre() const {
+    /// Center of pressure from the centre of mass of B; the mean of the points where no impulse is known.
+    HWY_INLINE LinVec<S> findCenter() const {
         const Num<S> zero = hn::Zero(Tag<S>()), one = number<S>(1);
         Num<S> pressure = zero;
         for (int i = 0; i < block.points; ++i) pressure = pressure + at(block.point[i].impulse);
-        const auto pressed = invertible(pressure);
+        const auto loaded = invertible(pressure);
         Num<S> sum = zero;
-        LinVec<S> centre;
-        for (auto& x : centre) x = zero;
+        LinVec<S> center;
+        for (auto& x : center) x = zero;
         for (int i = 0; i < block.points; ++i) {
             const PatchPoint<S>& point = block.point[i];
             const Num<S> there = hn::IfThenElseZero(at(point.invK) > zero, one);
-            const Num<S> weight = hn::IfThenElse(pressed, at(point.impulse), there);
-            add(centre, weight, at(rest.armB[i]));
+            const Num<S> weight = hn::IfThenElse(loaded, at(point.impulse), there);
+            add(center, weight, at(cold.armB[i]));
             sum = sum + weight;
         }
         const Num<S> scale = inverseOrZero(sum);
-        for (auto& x : centre) x = x * scale;
-        return centre;
+        for (auto& x : center) x = x * scale;
+        return center;
     }
 
-    /// K between two directions of friction at the centre.
-    HWY_INLINE Num<S> rubK(const LinVec<S>& centre, const LinVec<S>& s, const LinVec<S>& t) const {
-        const AngVec<S> sB = moment(centre, s), tB = moment(centre, t);
+    /// Element of K between two directions of friction at the center.
+    HWY_INLINE Num<S> tangentK(const LinVec<S>& center, const LinVec<S>& s, const LinVec<S>& t) const {
+        const AngVec<S> sB = moment(center, s), tB = moment(center, t);
         return mass * dot(s, t) + dot(sideA(sB, s), times(inertiaA, sideA(tB, t))) +
                dot(sB, times(inertiaB, tB));
     }
 
     HWY_INLINE void friction() const {
         const Num<S> zero = hn::Zero(Tag<S>());
-        const LinVec<S> centre = findCentre();
-        at.set(block.centre, centre);
+        const LinVec<S> center = findCenter();
+        at.set(block.center, center);
         LinVec<S> force;
         for (auto& x : force) x = zero;
-        for (int i = 0; i < block.points; ++i) add(force, number<S>(1), at(rubs.last[i]));
-        for (auto& total : block.rubTotal) at.set(total, zero);
+        for (int i = 0; i < block.points; ++i) add(force, number<S>(1), at(pointFriction.last[i]));
+        for (auto& total : block.frictionTotal) at.set(total, zero);
         if constexpr (S::dim == 2) {
             const LinVec<S> t{zero - normal[1], normal[0]};
-            at.set(block.rubImpulse[0], dot(force, t));
-            at.set(block.rubInvK, inverseOrZero(rubK(centre, t, t)));
+            at.set(block.frictionImpulse[0], dot(force, t));
+            at.set(block.tangentMass, inverseOrZero(tangentK(center, t, t)));
         } else {
             const LinVec<S> t = firstTangent<S>(normal), u = moment(normal, t);
             at.set(block.tangent, t);
-            at.set(block.rubImpulse[0], dot(force, t));
-            at.set(block.rubImpulse[1], dot(force, u));
-            const Num<S> tt = rubK(centre, t, t), uu = rubK(centre, u, u), tu = rubK(centre, t, u);
+            at.set(block.frictionImpulse[0], dot(force, t));
+            at.set(block.frictionImpulse[1], dot(force, u));
+            const Num<S> tt = tangentK(center, t, t), uu = tangentK(center, u, u),
+                         tu = tangentK(center, t, u);
             const Num<S> half = number<S>(Real(0.5)), difference = half * (tt - uu);
             Num<S> largest = half * (tt + uu) + hn::Sqrt(difference * difference + tu * tu);
-            largest = hn::Max(largest, twist(centre));
-            at.set(block.rubInvK, inverseOrZero(largest));
+            largest = hn::Max(largest, torsion(center));
+            at.set(block.tangentMass, inverseOrZero(largest));
         }
     }
 
-    /// The impulse to start from and the radii; returns K of the twist, scaled like that of a force.
-    HWY_INLINE Num<S> twist(const LinVec<S>& centre) const {
+    /// Sets the initial torsional impulse and the radii; returns K of torsion, scaled like that of a force.
+    HWY_INLINE Num<S> torsion(const LinVec<S>& center) const {
         const Num<S> zero = hn::Zero(Tag<S>());
         Num<S> impulse = zero, widest = zero;
         for (int i = 0; i < block.points; ++i) {
-            const LinVec<S> arm = minus(at(rest.armB[i]), centre);
+            const LinVec<S> arm = minus(at(cold.armB[i]), center);
             const Num<S> radius = hn::IfThenElseZero(at(block.point[i].invK) > zero, hn::Sqrt(dot(arm, arm)));
             at.set(block.radius[i], radius);
             widest = hn::Max(widest, radius);
-            impulse = impulse + dot(normal, moment(arm, at(rubs.last[i])));
+            impulse = impulse + dot(normal, moment(arm, at(pointFriction.last[i])));
         }
-        at.set(block.twistImpulse, impulse);
-        at.set(block.twistTotal, zero);
+        at.set(block.torsionImpulse, impulse);
+        at.set(block.torsionTotal, zero);
         return widest * widest *
                (dot(normal, times(inertiaA, normal)) + dot(normal, times(inertiaB, normal)));
     }

@@ -6,14 +6,14 @@
 //     s > 0    lambda := max(0, lambda - (J v + s/h) / K)                           may just close the gap
 //     s <= 0   lambda := max(0, lambda - alpha (J v + beta min(0, s + slop)) / K - gamma lambda)
 // with the damped spring's alpha = massScale, gamma = impulseScale, beta = biasRate [Catto2011]; relaxation
-// has alpha = 1, gamma = beta = 0. A point that hits has the bias e J v_0 in both instead, with v_0 from
+// has alpha = 1, gamma = beta = 0. A point that bounces has the bias e J v_0 in both instead, with v_0 from
 // before the forces of the sub-step. Friction then acts on the slip u = (v_t, r w_n) of the patch, where r is
-// the mean distance of the pressure from its centre, with the impulse f = (lambda_t, lambda_twist / r):
+// the mean distance of the pressure from its center, with the impulse f = (lambda_t, lambda_torsion / r):
 //     f := P(f - u / rho),   P the projection on the ball of radius mu sum lambda_i
 // with rho at least the largest eigenvalue of the rows' K. At a fixed point u opposes f: Coulomb's law,
 // maximal dissipation on an ellipsoid in place of the exact limit surface of force and moment
-// [GoyalRuina1991] [HoweCutkosky1996]. A patch that turns gives way sideways to the least force, as it
-// should.
+// [GoyalRuina1991] [HoweCutkosky1996]. A spinning patch has no static friction left against a sideways force,
+// as the exact limit surface has it.
 #if defined(RIGOR_SOLVE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef RIGOR_SOLVE_INL_HPP
 #undef RIGOR_SOLVE_INL_HPP
@@ -30,8 +30,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace rigor::engine::HWY_NAMESPACE {
 
-/// What B has against A's frame: the velocity of its centre of mass there, or the way it has come, and what
-/// it turns.
+/// Velocity (or displacement) of B relative to A's frame: v of B's centre of mass, w of its rotation.
 template <class S>
 struct Relative {
     LinVec<S> v;
@@ -41,25 +40,25 @@ struct Relative {
         : v(minus(minus(b.v, a.v), turning(a.w, offset))), w(minus(b.w, a.w)) {}
 };
 
-/// Lanes of a block while they are worked on: the velocities of both sides, and what rows read of the block.
-/// `based`: velocities are counted from PatchRange::base.
+/// One register of lanes of a block: velocities of both bodies and the numbers of the block that rows read.
+/// `based`: velocities are relative to PatchRange::base.
 template <class S, bool based>
 struct PatchGroup {
     using Real = typename S::Real;
     PatchBlock<S>& block;
-    PatchRest<S>& rest;
+    PatchColdData<S>& cold;
     At<S> at;
     const Velocity<S>* motions;
     Side<S> sideA, sideB;
     Twist<S> a, b;
     LinVec<S> normal, offset;
-    Relative<S> base;  ///< of what velocities are counted from; if based
+    Relative<S> base;  ///< relative base velocity; if based
     Num<S> massA, massB;
     std::array<Num<S>, PatchSize<S>::inertia> inertiaA, inertiaB;  ///< inverse
 
     HWY_INLINE PatchGroup(const PatchRange<S>& range, std::size_t k, std::size_t first)
         : block(range.blocks[k]),
-          rest(range.rests[k]),
+          cold(range.cold[k]),
           at{first},
           motions(range.motions),
           sideA{block.a + first, block.movesA >> first},
@@ -86,30 +85,30 @@ struct PatchGroup {
         }
         return u;
     }
-    /// Since the step began.
+    /// Relative displacement since the step began.
     HWY_INLINE Relative<S> motion() const { return {sideA.load(motions), sideB.load(motions), offset}; }
-    /// Angular impulses, about the centres of mass, on B and against that on A.
-    HWY_INLINE void turn(const AngVec<S>& onA, const AngVec<S>& onB) {
+    /// Angular impulses about the centres of mass: onB on B, -onA on A.
+    HWY_INLINE void applyAngularImpulse(const AngVec<S>& onA, const AngVec<S>& onB) {
         a.w = minus(a.w, times(inertiaA, onA));
         add(b.w, number<S>(1), times(inertiaB, onB));
     }
-    /// Of normal rows with the impulses lambda: `sum` of them, and `spin` = sum lambda_i jB_i.
-    HWY_INLINE void press(Num<S> sum, const AngVec<S>& spin) {
+    /// Impulses lambda_i of the normal rows, as sum = sum lambda_i and spin = sum lambda_i jB_i.
+    HWY_INLINE void applyNormalImpulse(Num<S> sum, const AngVec<S>& spin) {
         subtract(a.v, sum * massA, normal);
         add(b.v, sum * massB, normal);
         AngVec<S> onA = spin;
         add(onA, sum, moment(offset, normal));
-        turn(onA, spin);
+        applyAngularImpulse(onA, spin);
     }
-    /// A force's impulse at the centre of the patch, and in 3D one about the normal.
-    HWY_INLINE void rub(const LinVec<S>& impulse, [[maybe_unused]] Num<S> twist) {
+    /// Impulse of friction at the center of the patch, and in 3D the torsional one about the normal.
+    HWY_INLINE void applyFrictionImpulse(const LinVec<S>& impulse, [[maybe_unused]] Num<S> torsion) {
         subtract(a.v, massA, impulse);
         add(b.v, massB, impulse);
-        AngVec<S> onB = moment(at(block.centre), impulse);
-        if constexpr (S::dim == 3) add(onB, twist, normal);
+        AngVec<S> onB = moment(at(block.center), impulse);
+        if constexpr (S::dim == 3) add(onB, torsion, normal);
         AngVec<S> onA = onB;
         add(onA, number<S>(1), moment(offset, impulse));
-        turn(onA, onB);
+        applyAngularImpulse(onA, onB);
     }
     HWY_INLINE std::array<LinVec<S>, PatchSize<S>::tangents> tangents() const {
         if constexpr (S::dim == 2) {
@@ -128,16 +127,16 @@ struct PatchGroup {
     }
 };
 
-/// What motion or velocity is along the normals: centre + jB_i . w at point i.
+/// Component of a relative motion or velocity along the normals: center + jB_i . w at point i.
 template <class S>
 struct Along {
-    Num<S> centre;
+    Num<S> center;
     AngVec<S> w;
-    HWY_INLINE Along(const LinVec<S>& normal, const Relative<S>& u) : centre(dot(normal, u.v)), w(u.w) {}
-    HWY_INLINE Num<S> operator()(const AngVec<S>& jB) const { return centre + dot(jB, w); }
+    HWY_INLINE Along(const LinVec<S>& normal, const Relative<S>& u) : center(dot(normal, u.v)), w(u.w) {}
+    HWY_INLINE Num<S> operator()(const AngVec<S>& jB) const { return center + dot(jB, w); }
 };
 
-/// What another thread has moved in the last colour is on its way while a block is worked on.
+/// Prefetches the velocities of the next block: in the last colour another thread may have written them.
 template <class S>
 HWY_INLINE void fetchBodies(const PatchBlock<S>& block, const Velocity<S>* velocities) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -146,15 +145,15 @@ HWY_INLINE void fetchBodies(const PatchBlock<S>& block, const Velocity<S>* veloc
     }
 }
 
-/// Calls visit(patches) for every register's worth of lanes, and stores their velocities.
-template <bool based, class S, class Visit>
-HWY_INLINE void forPatches(const PatchRange<S>& range, const Visit& visit) {
+/// Calls work(patches) for every register of lanes and stores their velocities.
+template <bool based, class S, class Work>
+HWY_INLINE void forPatches(const PatchRange<S>& range, const Work& work) {
     const std::size_t lanes = hn::Lanes(Tag<S>());
     for (std::size_t k = 0; k < range.count; ++k) {
         if (range.shared && k + 1 < range.count) fetchBodies(range.blocks[k + 1], range.velocities);
         for (std::size_t first = 0; first < kLanes; first += lanes) {
             PatchGroup<S, based> patches(range, k, first);
-            visit(patches);
+            work(patches);
             patches.store(range.velocities);
         }
     }
@@ -171,26 +170,26 @@ HWY_INLINE void warmStart(PatchGroup<S, based>& p) {
         sum = sum + lambda;
         add(spin, lambda, p.jB(i));
     }
-    p.press(sum, spin);
-    Num<S> twist = hn::Zero(Tag<S>());
-    if constexpr (S::dim == 3) twist = p.at(block.twistImpulse);
-    p.rub(p.alongTangents(p.at(block.rubImpulse)), twist);
+    p.applyNormalImpulse(sum, spin);
+    Num<S> torsion = hn::Zero(Tag<S>());
+    if constexpr (S::dim == 3) torsion = p.at(block.torsionImpulse);
+    p.applyFrictionImpulse(p.alongTangents(p.at(block.frictionImpulse)), torsion);
 }
 
-/// What friction may lean on.
+/// Normal load of a patch: what bounds its friction.
 template <class S>
-struct Pressed {
-    Num<S> sum;     ///< of normal impulses
-    Num<S> moment;  ///< of them times their distances from the centre
+struct NormalLoad {
+    Num<S> sum;     ///< sum lambda_i of the normal impulses
+    Num<S> moment;  ///< sum lambda_i r_i, r_i the distance from the center
 };
 
-/// A normal row of this visit:  lambda := max(0, lambda - factor (J v + bias) - leak lambda).
+/// A normal row in one pass:  lambda := max(0, lambda - factor (J v + bias) - leak lambda).
 template <class S>
 struct NormalRow {
     AngVec<S> jB;
-    Num<S> error;  ///< J v + bias before the visit
+    Num<S> error;  ///< J v + bias before the pass
     Num<S> factor, leak, lambda;
-    Num<S> change;  ///< of lambda in this visit
+    Num<S> change;  ///< of lambda in this pass
 
     template <class Group>
     HWY_INLINE NormalRow(const Group& p, const PatchPass& pass, const Along<S>& velocity,
@@ -203,16 +202,16 @@ struct NormalRow {
         Num<S> bias = s * number<S>(pass.invH), invK = p.at(point.invK);
         if (pass.soft) {
             const Num<S> push = hn::Max(number<S>(pass.biasRate) * hn::Min(s + number<S>(pass.slop), zero),
-                                        number<S>(-pass.fastestPush));
+                                        number<S>(-pass.maxBiasVelocity));
             bias = hn::IfThenElse(rigid, bias, push);
         } else {
             bias = hn::IfThenElseZero(rigid, bias);
         }
         if (p.block.bounces) {
-            const Num<S> rebound = p.at(p.rest.rebound[i]);
+            const Num<S> rebound = p.at(p.cold.rebound[i]);
             rigid = hn::Or(rigid, rebound < zero);
             bias = hn::IfThenElse(rebound < zero, rebound, bias);
-            invK = hn::IfThenElseZero(p.at(p.rest.open[i]) == zero, invK);
+            invK = hn::IfThenElseZero(p.at(p.cold.inactive[i]) == zero, invK);
         }
         factor = invK;
         leak = change = zero;
@@ -228,10 +227,10 @@ struct NormalRow {
         change = change + (next - lambda);
         lambda = next;
     }
-    /// Further visits change nothing where `more` does not hold.
-    HWY_INLINE void keepUnless(hn::Mask<Tag<S>> more) {
-        factor = hn::IfThenElseZero(more, factor);
-        leak = hn::IfThenElseZero(more, leak);
+    /// Makes solve() a no-op in lanes where `active` is false.
+    HWY_INLINE void disableUnless(hn::Mask<Tag<S>> active) {
+        factor = hn::IfThenElseZero(active, factor);
+        leak = hn::IfThenElseZero(active, leak);
     }
 };
 
@@ -246,35 +245,35 @@ HWY_INLINE decltype(auto) eachPoint(const Work& work) {
     (std::make_integer_sequence<int, n>());
 }
 
-/// All normal rows. The points of a patch are swept forwards and back: a body that the first corner turns is
-/// turned back by the others before its neighbours see it. One sweep alone makes tall stacks rock. A point
-/// that is alone has one visit, whoever stands beside it: what is made of a patch does not depend on what its
-/// block holds besides. The bodies get the sum of what the sweeps make; on the way the points act on each
-/// other through K.
+/// Solves all normal rows by one symmetric Gauss-Seidel sweep (forwards, then backwards): the rotation that
+/// the first corner of a box causes is cancelled by the others before its neighbours see it. A forward sweep
+/// alone makes tall stacks rock. The only point of a patch is solved once, whatever the other lanes hold: the
+/// result of a patch does not depend on the rest of its block. Within the sweep the points act on each other
+/// through K; the bodies get the sum of the impulses at the end.
 template <int n, class S, bool based>
-HWY_INLINE Pressed<S> solveNormals(PatchGroup<S, based>& p, const PatchPass& pass) {
+HWY_INLINE NormalLoad<S> solveNormals(PatchGroup<S, based>& p, const PatchPass& pass) {
     const Num<S> zero = hn::Zero(Tag<S>());
     PatchBlock<S>& block = p.block;
     const Along<S> velocity(p.normal, p.velocity()), motion(p.normal, p.motion());
     std::array<NormalRow<S>, n> row = eachPoint<n>([&](auto... i) RIGOR_INLINE_LAMBDA {
         return std::array<NormalRow<S>, n>{NormalRow<S>(p, pass, velocity, motion, i)...};
     });
-    const auto visit = [&](auto i, auto changed) RIGOR_INLINE_LAMBDA {
+    const auto solveRow = [&](auto i, auto changed) RIGOR_INLINE_LAMBDA {
         Num<S> now = row[i].error;
         eachPoint<changed>([&](auto... k) RIGOR_INLINE_LAMBDA {
             ((now = now + p.at(block.K[pairAt(i, k)]) * row[k].change), ...);
         });
         row[i].solve(now);
     };
-    eachPoint<n>([&](auto... i) RIGOR_INLINE_LAMBDA { (visit(i, i), ...); });
+    eachPoint<n>([&](auto... i) RIGOR_INLINE_LAMBDA { (solveRow(i, i), ...); });
     if constexpr (n > 1) {
         eachPoint<n - 1>([&](auto... i)
-                             RIGOR_INLINE_LAMBDA { (visit(Index<n - 1 - i>(), Index<n>()), ...); });
-        row[0].keepUnless(p.at(block.point[1].invK) > zero);
-        visit(Index<0>(), Index<n>());
+                             RIGOR_INLINE_LAMBDA { (solveRow(Index<n - 1 - i>(), Index<n>()), ...); });
+        row[0].disableUnless(p.at(block.point[1].invK) > zero);
+        solveRow(Index<0>(), Index<n>());
     }
 
-    Pressed<S> pressed{zero, zero};
+    NormalLoad<S> load{zero, zero};
     Num<S> sum = zero;
     AngVec<S> spin;
     for (auto& x : spin) x = zero;
@@ -284,67 +283,68 @@ HWY_INLINE Pressed<S> solveNormals(PatchGroup<S, based>& p, const PatchPass& pas
         if (pass.last) p.at.set(point.total, p.at(point.total) + row[i].lambda);
         sum = sum + row[i].change;
         add(spin, row[i].change, row[i].jB);
-        pressed.sum = pressed.sum + row[i].lambda;
-        if constexpr (S::dim == 3) pressed.moment = pressed.moment + row[i].lambda * p.at(block.radius[i]);
+        load.sum = load.sum + row[i].lambda;
+        if constexpr (S::dim == 3) load.moment = load.moment + row[i].lambda * p.at(block.radius[i]);
     };
     eachPoint<n>([&](auto... i) RIGOR_INLINE_LAMBDA { (finish(i), ...); });
-    p.press(sum, spin);
-    return pressed;
+    p.applyNormalImpulse(sum, spin);
+    return load;
 }
 
-/// Tangents and twist at once: in (lambda_t, lambda_twist / r) with r the mean distance of the pressure from
-/// the centre, the limit surface is a ball.
+/// Solves sliding and torsional friction together: in (lambda_t, lambda_torsion / r), with r the mean
+/// distance of the pressure from the center, the limit surface is a ball.
 template <class S, bool based>
-HWY_INLINE void solveFriction(PatchGroup<S, based>& p, const Pressed<S>& pressed, bool last) {
+HWY_INLINE void solveFriction(PatchGroup<S, based>& p, const NormalLoad<S>& load, bool last) {
     PatchBlock<S>& block = p.block;
     constexpr std::size_t tangents = PatchSize<S>::tangents;
     const Relative<S> u = p.velocity();
     LinVec<S> slip = u.v;
-    add(slip, number<S>(1), turning(u.w, p.at(block.centre)));
+    add(slip, number<S>(1), turning(u.w, p.at(block.center)));
     const auto t = p.tangents();
-    const Num<S> invK = p.at(block.rubInvK), one = number<S>(1);
-    const std::array<Num<S>, tangents> old = p.at(block.rubImpulse);
+    const Num<S> invK = p.at(block.tangentMass), one = number<S>(1);
+    const std::array<Num<S>, tangents> old = p.at(block.frictionImpulse);
     std::array<Num<S>, tangents> next, change;
     for (std::size_t k = 0; k < tangents; ++k) next[k] = old[k] - dot(t[k], slip) * invK;
     Num<S> size2 = dot(next, next);
-    const Num<S> sticking = p.at(block.staticFriction) * pressed.sum;
-    [[maybe_unused]] Num<S> twist = one, oldTwist = one, radius = one;
+    const Num<S> sticking = p.at(block.staticFriction) * load.sum;
+    [[maybe_unused]] Num<S> torsion = one, oldTorsion = one, radius = one;
     if constexpr (S::dim == 3) {
-        const auto spread = invertible(pressed.moment);
-        radius = pressed.moment / hn::IfThenElse(spread, pressed.sum, one);
-        oldTwist = p.at(block.twistImpulse);
-        // The pressure may have come together at the centre since the old one was found.
-        const Num<S> before = oldTwist / hn::IfThenElse(spread, radius, one);
+        const auto spread = invertible(load.moment);
+        radius = load.moment / hn::IfThenElse(spread, load.sum, one);
+        oldTorsion = p.at(block.torsionImpulse);
+        // The load may have moved to the center since the old impulse was computed: r = 0 then.
+        const Num<S> before = oldTorsion / hn::IfThenElse(spread, radius, one);
         const Num<S> bounded = hn::Max(hn::Min(before, sticking), hn::Zero(Tag<S>()) - sticking);
-        twist = hn::IfThenElseZero(spread, bounded - radius * dot(p.normal, u.w) * invK);
-        size2 = size2 + twist * twist;
+        torsion = hn::IfThenElseZero(spread, bounded - radius * dot(p.normal, u.w) * invK);
+        size2 = size2 + torsion * torsion;
     }
     const auto sticks = size2 <= sticking * sticking;
     Num<S> scale = one;
     if (!hn::AllTrue(Tag<S>(), sticks)) {  // where it slides size2 > 0
         const Num<S> size = hn::Sqrt(hn::IfThenElse(sticks, one, size2));
-        scale = hn::IfThenElse(sticks, one, p.at(block.friction) * pressed.sum / size);
+        scale = hn::IfThenElse(sticks, one, p.at(block.friction) * load.sum / size);
     }
     for (std::size_t k = 0; k < tangents; ++k) {
         next[k] = scale * next[k];
         change[k] = next[k] - old[k];
-        if (last) p.at.set(block.rubTotal[k], p.at(block.rubTotal[k]) + next[k]);
+        if (last) p.at.set(block.frictionTotal[k], p.at(block.frictionTotal[k]) + next[k]);
     }
-    p.at.set(block.rubImpulse, next);
+    p.at.set(block.frictionImpulse, next);
     if constexpr (S::dim == 3) {
-        twist = scale * twist * radius;
-        p.at.set(block.twistImpulse, twist);
-        if (last) p.at.set(block.twistTotal, p.at(block.twistTotal) + twist);
+        torsion = scale * torsion * radius;
+        p.at.set(block.torsionImpulse, torsion);
+        if (last) p.at.set(block.torsionTotal, p.at(block.torsionTotal) + torsion);
     }
-    p.rub(p.alongTangents(change), twist - oldTwist);
+    p.applyFrictionImpulse(p.alongTangents(change), torsion - oldTorsion);
 }
 
-/// What a sub-step makes of points that can bounce, before forces: those that hit get their rebound; a gap
-/// that may end in one is let through, because closing it would take the speed that is to be reversed.
+/// Begins a sub-step for points with restitution, before forces. A point that hits gets its rebound velocity.
+/// A point whose gap may close in this sub-step is inactive: a speculative row would take the approach speed
+/// that restitution is to reverse.
 template <class S, bool based>
-HWY_INLINE void plan(PatchGroup<S, based>& p, const PatchPass& pass) {
+HWY_INLINE void prepareBounce(PatchGroup<S, based>& p, const PatchPass& pass) {
     PatchBlock<S>& block = p.block;
-    const Num<S> zero = hn::Zero(Tag<S>()), e = p.at(p.rest.restitution);
+    const Num<S> zero = hn::Zero(Tag<S>()), e = p.at(p.cold.restitution);
     const Num<S> touching = number<S>(pass.touching);
     const Along<S> velocity(p.normal, p.velocity()), motion(p.normal, p.motion());
     for (int i = 0; i < block.points; ++i) {
@@ -352,12 +352,12 @@ HWY_INLINE void plan(PatchGroup<S, based>& p, const PatchPass& pass) {
         const AngVec<S> jB = p.jB(i);
         const Num<S> approach = velocity(jB), s = p.at(point.separation) + motion(jB);
         const auto fast = hn::And(e > zero, approach < number<S>(-pass.threshold));
-        const auto apart = s > touching;
+        const auto separated = s > touching;
         const auto mayHit = hn::And(e > zero, s > number<S>(pass.restingGap));
-        const auto open = hn::And(apart, hn::Or(fast, mayHit));
-        p.at.set(p.rest.rebound[i], hn::IfThenElseZero(hn::AndNot(apart, fast), e * approach));
-        p.at.set(p.rest.open[i], hn::IfThenElseZero(open, number<S>(1)));
-        p.at.set(point.impulse, hn::IfThenElse(open, zero, p.at(point.impulse)));
+        const auto inactive = hn::And(separated, hn::Or(fast, mayHit));
+        p.at.set(p.cold.rebound[i], hn::IfThenElseZero(hn::AndNot(separated, fast), e * approach));
+        p.at.set(p.cold.inactive[i], hn::IfThenElseZero(inactive, number<S>(1)));
+        p.at.set(point.impulse, hn::IfThenElse(inactive, zero, p.at(point.impulse)));
     }
 }
 
@@ -380,19 +380,19 @@ template <class S>
 void solveAll(const PatchRange<S>& range, const PatchPass& pass) {
     range.base == nullptr ? solveFrom<false>(range, pass) : solveFrom<true>(range, pass);
 }
-/// Blocks of all colours side by side: velocities are read, and not written back.
+/// Blocks of all colours may run in parallel: velocities are read only.
 template <bool based, class S>
-HWY_INLINE void planFrom(const PatchRange<S>& range, const PatchPass& pass) {
+HWY_INLINE void prepareBouncesFrom(const PatchRange<S>& range, const PatchPass& pass) {
     const std::size_t lanes = hn::Lanes(Tag<S>());
     for (std::size_t k = 0; k < range.count; ++k)
         for (std::size_t first = 0; range.blocks[k].bounces && first < kLanes; first += lanes) {
             PatchGroup<S, based> patches(range, k, first);
-            plan(patches, pass);
+            prepareBounce(patches, pass);
         }
 }
 template <class S>
-void planAll(const PatchRange<S>& range, const PatchPass& pass) {
-    range.base == nullptr ? planFrom<false>(range, pass) : planFrom<true>(range, pass);
+void prepareAllBounces(const PatchRange<S>& range, const PatchPass& pass) {
+    range.base == nullptr ? prepareBouncesFrom<false>(range, pass) : prepareBouncesFrom<true>(range, pass);
 }
 
 }  // namespace rigor::engine::HWY_NAMESPACE

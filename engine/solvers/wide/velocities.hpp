@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The velocities of bodies as patches read and change them, in f32. In worlds of f32 they are the world's
-// own. In worlds of f64 a velocity is the sum of two f32 numbers, v = base + rest: base is v rounded and
-// stays, rest is what rounding has left, 2^-24 of v, and takes the changes. The difference of two bases is
-// exact where the bodies go nearly alike, so that a patch knows its relative velocity, and bodies get what it
-// makes of it, as well as if they were slow.
+// The f32 velocities of bodies that patches read and change. In f32 worlds they are the world's own. In f64
+// worlds a velocity is the sum of two f32 numbers, v = base + remainder. The base is v rounded and constant;
+// the remainder is the rounding error, 2^-24 of v, and takes the changes. The difference of two bases is
+// exact where the velocities are nearly equal, so that relative velocities are as accurate as those of slow
+// bodies.
 #pragma once
 
 #include <span>
@@ -27,23 +27,23 @@ class PatchVelocities {
         before_.resize(bodies);
         if constexpr (kSplit) {
             base_.resize(bodies);
-            rest_.resize(bodies);
+            remainder_.resize(bodies);
         }
     }
     std::size_t size() const { return before_.size(); }
-    /// What patches work on: data()[i] of body i, from base()[i] unless that is null.
+    /// data()[i]: f32 velocity of body i, relative to base()[i] unless base() is null.
     Velocity<F>* data() const { return data_; }
     const Velocity<F>* base() const { return kSplit ? base_.data() : nullptr; }
-    /// The world's velocities, from now on and until they change.
+    /// Sets the world's velocities; called before each begin().
     void refer(std::span<Velocity<S>> world) {
         world_ = world.data();
         if constexpr (kSplit)
-            data_ = rest_.data();
+            data_ = remainder_.data();
         else
             data_ = world_;
     }
-    /// Bodies [first, last) before patches are visited; `gained`, unless it is null, is added.
-    void begin(std::size_t first, std::size_t last, const Velocity<F>* gained) {
+    /// Loads bodies [first, last) before a pass and adds `delta` unless it is null.
+    void begin(std::size_t first, std::size_t last, const Velocity<F>* delta) {
         auto before = numbers(before_.data(), first, last);
         if constexpr (kSplit) {
             const auto v = numbers(world_, first, last);
@@ -54,10 +54,10 @@ class PatchVelocities {
         } else {
             before = numbers(data_, first, last);
         }
-        if (gained != nullptr) numbers(data_, first, last) += numbers(gained, first, last);
+        if (delta != nullptr) numbers(data_, first, last) += numbers(delta, first, last);
     }
-    /// After it: made[i] is what the visits (and `gained`) have made, or is added to what it was. Returns the
-    /// largest [m/s or rad/s].
+    /// Stores bodies after a pass. made[i] becomes the change by the pass (and `delta`), or is increased by
+    /// it. Returns the largest change [m/s or rad/s].
     PatchReal end(std::size_t first, std::size_t last, Velocity<F>* made, bool add) {
         const auto change = numbers(data_, first, last) - numbers(before_.data(), first, last);
         if constexpr (kSplit) numbers(world_, first, last) += change.template cast<typename S::Real>();
@@ -72,8 +72,8 @@ class PatchVelocities {
   private:
     Velocity<S>* world_ = nullptr;
     Velocity<F>* data_ = nullptr;
-    std::vector<Velocity<F>> base_, rest_;  ///< if split
-    std::vector<Velocity<F>> before_;       ///< data() before a visit
+    std::vector<Velocity<F>> base_, remainder_;  ///< if split
+    std::vector<Velocity<F>> before_;            ///< data() before a pass
 };
 
 }  // namespace rigor::engine

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Small steps with soft contacts, eight contacts at a time. The method is that of tgs_soft.cpp [Catto2024];
-// what differs is what a contact is and how it is visited:
-//   - the contacts of two shapes are one patch (patch.hpp): up to four normal rows, and friction of the patch
-//     as a whole at its centre of pressure, three rows in place of eight;
-//   - the points of a patch are swept twice at each visit, which calms stacks for little more time;
-//   - patches are coloured so that those of one colour share no body that moves, and stand in blocks of
-//     eight, number by number, which SIMD takes side by side; threads take what is between regions of bodies
-//     colour by colour, then regions (colouring.hpp);
+// Small steps with soft contacts, eight contacts at a time in SIMD. The method is that of tgs_soft.cpp
+// [Catto2024], with a different contact model and order:
+//   - the contact of two shapes is one patch (patch.hpp): up to four normal rows, and friction of the whole
+//     patch at its center of pressure, three rows in place of eight;
+//   - each pass sweeps the points of a patch forwards and backwards, which steadies stacks at little cost;
+//   - patches are coloured so that those of one colour share no moving body, and stored in blocks of eight,
+//     structure of arrays, for SIMD; threads solve the contacts between partitions of bodies colour by
+//     colour, then one partition each (colouring.hpp);
 //   - patches are made once per step; in the sub-steps their separations follow the bodies to first order;
-//   - joints are rows as everywhere, remade in every sub-step and solved all at once (joint_group.hpp): rigid
-//     and aimed half of the way to where they should be where they are linearised (WorldDef::curvedJoints
-//     off), which long chains under heavy ends need and which damps what swings; else as springs.
-// Patches are reckoned with in f32 whatever the world's precision (patch.hpp); joints and bodies are not.
-// A contact of one point obeys the same laws as with tgs_soft, and a patch that slides without turning or
-// turns without sliding, too. Contacts that come as rows, where nobody has made patches, are solved row by
-// row as there.
+//   - joints are rows as in the other solvers, made again in every sub-step and solved by one factorisation
+//     (joint_group.hpp). Linearised joints (WorldDef::curvedJoints off) are rigid with a Baumgarte factor
+//     of one half: long chains under heavy ends need it, and it damps swings. Otherwise joints are springs.
+// Patches are f32 whatever the world's precision (patch.hpp); joints and bodies are not.
+// A contact of one point obeys the same laws as with tgs_soft; so does a patch that slides without spinning
+// or spins without sliding. Contacts given as rows (no patches were made) are solved row by row as there.
 //
-// substeps and velocity_iterations 0 mean 4 and 1. Cost per step: substeps * 2 visits of every patch.
+// substeps and velocity_iterations 0 mean 4 and 1. Cost per step: substeps * 2 passes over all patches.
 // Known limits: those of soft contacts, tgs_soft.cpp.
 #include "engine/solvers/joints/joint_group.hpp"
 #include "engine/solvers/row_kernels.hpp"
@@ -32,9 +31,9 @@ SolverTraits makeWideTraits() {
             .iterations = 1,
             .relaxIterations = 1,
             .errors = ErrorHandling::Springs,
-            // One visit solves what is linear: rigid joints, half of whose drift goes in each sub-step, and
-            // the velocity of that with the relaxation. What is curved it takes as springs.
-            .linearJointShare = 0.5,
+            // One pass solves linearised joints: rigid, with half of the drift removed in each sub-step and
+            // the velocity of that removed by the relaxation. Joints are springs otherwise.
+            .linearJointBaumgarte = 0.5,
             .friction = FrictionShape::Cone,
             .frictionOfPatches = true,
             .contactsInSingle = true,
@@ -68,7 +67,7 @@ class Wide final : public Solver<S> {
             pass.last = input.warmStarted && i + 1 == input.iterations;
             Real change = 0;
             if (!patches_.empty())
-                change = patches_.visit(input.velocities, pass, pass.soft && i == 0, input.tasks);
+                change = patches_.solvePass(input.velocities, pass, pass.soft && i == 0, input.tasks);
             if (!joints_.empty()) change = std::max(change, joints_.solve(rows, input.velocities));
             input.monitor.after(input.velocities, change);
         }

@@ -17,7 +17,7 @@ namespace rigor::engine::test {
 
 /// What is measured of a solver beside its traits.
 struct MeasuredSolver {
-    SolverTraits traits;       ///< iterations with relaxation; linearJointShare: any value for "rigid"
+    SolverTraits traits;       ///< iterations with relaxation; linearJointBaumgarte: any value for "rigid"
     double contactSpring = 0;  ///< frequency where kAskedContact is asked for [Hz]; 0: rigid
     double jointSpring = 0;    ///< frequency where kAskedJoint is asked for [Hz]; 0: rigid
     bool ownsCorrection = false;

@@ -178,7 +178,7 @@ MeasuredSolver measureSolver(const std::string& name) {
     m.contactSpring = contactSpring(name);
     m.jointSpring = jointSpring(name, true);
     t.errors = errors(name, m.contactSpring > 0);
-    if (m.jointSpring > 0 && jointSpring(name, false) == 0) t.linearJointShare = 0.0;
+    if (m.jointSpring > 0 && jointSpring(name, false) == 0) t.linearJointBaumgarte = 0.0;
     m.ownsCorrection = ownsCorrection(name);
     t.relaxIterations = std::abs(afterOverlap(name, "none", 0)[1]) < 1e-3 ? 1 : 0;
     t.friction = ownFriction(name, t.substeps);
@@ -211,7 +211,8 @@ std::vector<std::string> liesOfSolver(const std::string& name) {
     check("errors", t.errors == declared.errors);
     check("contact_frequency", !springs || near(measured.contactSpring, kAskedContact));
     check("joint_frequency", springs ? near(measured.jointSpring, kAskedJoint) : measured.jointSpring == 0);
-    check("linear_joint_share", t.linearJointShare.has_value() == declared.linearJointShare.has_value());
+    check("linear_joint_share",
+          t.linearJointBaumgarte.has_value() == declared.linearJointBaumgarte.has_value());
     check("correction", measured.ownsCorrection == (declared.errors != ErrorHandling::Correction));
     check("relax_iterations", !springs || (t.relaxIterations > 0) == (declared.relaxIterations > 0));
     check("friction", t.friction == declared.friction);

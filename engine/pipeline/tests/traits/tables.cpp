@@ -133,7 +133,7 @@ std::unique_ptr<Restitution<S>> makeIdle() {
     LIAR(friction, makePgs, makePgs, t.friction = FrictionShape::Cone)           \
     LIAR(friction_of_patches, makeWide, makeWide, t.frictionOfPatches = false)   \
     LIAR(iterations, makePgs, makePgs, t.iterations = 20)                        \
-    LIAR(linear_joint_share, makeWide, makeWide, t.linearJointShare.reset())     \
+    LIAR(linear_joint_share, makeWide, makeWide, t.linearJointBaumgarte.reset()) \
     LIAR(friction_obeys, makeDantzig, makeDantzig, t.friction.reset())           \
     LIAR(contacts_in_single, makeWide, makeWide, t.contactsInSingle = false)     \
     LIAR(relax_iterations, makePgsSoft, makePgsSoft, t.relaxIterations = 1)      \

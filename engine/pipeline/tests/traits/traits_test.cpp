@@ -72,7 +72,7 @@ TEST(Traits, PositionCorrectionsLeaveVelocityAsTheirBiasSays) {
     for (const auto& entry : positionCorrectionTable<S>()) {
         const auto correction = entry.make();
         const BiasRule<double> bias = correction->bias();
-        const bool keeps = (bias.share > 0 || bias.soft) && correction->relaxIterations() == 0;
+        const bool keeps = (bias.baumgarte > 0 || bias.soft) && correction->relaxIterations() == 0;
         EXPECT_EQ(correctionKeepsVelocity(entry.name), keeps) << entry.name;
     }
 }
