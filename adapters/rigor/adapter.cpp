@@ -28,10 +28,10 @@ Preset fastPreset() {
              {"substeps", std::to_string(def.substeps)},
              {"velocity_iterations", std::to_string(def.velocityIterations)},
              {"contact_frequency", shown(def.contactFrequency)},
-             {"reuse_distance", shown(def.reuseDistance)},
+             {"reuse_distance", shown(def.cacheTolerance)},
              {"box_margin", shown(def.boxMargin)},
              {"speculative_distance", shown(def.speculativeDistance)},
-             {"curved_joints", def.curvedJoints ? "on" : "off"}}};
+             {"curved_joints", def.relinearizedJoints ? "on" : "off"}}};
 }
 
 /// What `matched` sets otherwise than `default`.

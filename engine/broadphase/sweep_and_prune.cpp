@@ -58,7 +58,7 @@ class SweepAndPrune final : public BroadPhase<S> {
     void read(const Box& box, Interval& interval) const {
         interval.lo = box.min[axis_];
         interval.hi = box.max[axis_];
-        // A box that is not a number overlaps nothing; it waits at the end, where it cannot spoil the order.
+        // A box with a NaN overlaps nothing; it is kept at the end, where it does not break the order.
         if (!(interval.lo <= interval.hi)) {
             interval.lo = std::numeric_limits<Real>::infinity();
             interval.hi = -interval.lo;

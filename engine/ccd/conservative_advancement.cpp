@@ -43,7 +43,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr int kMaxImpacts = 32;  // of one body in one (sub-)step: a ball rattling between two walls
+constexpr int kMaxImpacts = 32;  // of one body in one (sub-)step: a sphere rattling between two walls
 
 template <class S>
 class ConservativeAdvancement final : public ContinuousCollision<S> {
@@ -126,14 +126,14 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
     MovingShape<S> moving(const MovedWorld<S>& world, std::uint32_t shape, Real from) const {
         const ShapeRecord<S>& record = world.contacts.shapes()[shape];
         const Way& way = ways_[record.body];
-        return {&record.shape, record.local, movedPose<S>(way.start, way.velocity, from - way.begin),
-                way.velocity,  record.reach, record.inner};
+        return {&record.shape, record.local,          movedPose<S>(way.start, way.velocity, from - way.begin),
+                way.velocity,  record.boundingRadius, record.inscribedRadius};
     }
 
     /// If two shapes may pass unseen, at least one of them moves by more than half of its own thickness.
     bool isFast(const MovedWorld<S>& world, std::uint32_t shape) const {
         const MovingShape<S> m = moving(world, shape, 0);
-        return m.motion(world.h) > Real(0.5) * m.inner;
+        return m.motion(world.h) > Real(0.5) * m.inscribedRadius;
     }
     bool anyFast(const MovedWorld<S>& world) {
         fast_.clear();

@@ -64,7 +64,7 @@ class ContinuousCollision {
     /// The box of a shape that may move, grown by its way ahead.
     virtual void growBox(std::uint32_t shape, Aabb<S>& box) const { (void)shape, (void)box; }
     /// The contact of two shapes that the narrow phase has (count > 0) or has not found where they are: sets
-    /// Contact::ahead, and the manifold, separations and arms of a contact further ahead.
+    /// Contact::speculative, and the manifold, separations and arms of a contact further ahead.
     virtual void findAhead(Contact<S>& contact, const BodyArrays<S>& bodies, const ContactSet<S>& contacts,
                            const NarrowPhase<S>& narrowPhase) const {
         (void)contact, (void)bodies, (void)contacts, (void)narrowPhase;

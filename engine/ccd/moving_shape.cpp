@@ -31,7 +31,7 @@ R hullInnerRadius(const HullData<Space<R, 3>>& hull) {
 }  // namespace
 
 template <class S>
-typename S::Real innerRadius(const Shape<S>& shape) {
+typename S::Real inscribedRadiusOf(const Shape<S>& shape) {
     using Real = typename S::Real;
     return std::visit(
         [&](const auto& s) -> Real {
@@ -46,7 +46,7 @@ typename S::Real innerRadius(const Shape<S>& shape) {
                 return hullInnerRadius(*s.data);
             } else {
                 // Cylinders and cones: 0.4 of the shortest half edge of the box around is less than their
-                // inscribed balls have down to cones of aspect 1:1.5, and the right order beyond.
+                // inscribed spheres have down to cones of aspect 1:1.5, and the right order beyond.
                 const Aabb<S> box = boundingBox<S>(shape, {});
                 return Real(0.4) * Real(0.5) * (box.max - box.min).minCoeff();
             }
@@ -61,7 +61,7 @@ typename S::Vec middleOf(const Shape<S>& shape) {
 }
 
 template <class S>
-typename S::Real coreReach(const Shape<S>& shape, const Pose<S>& local) {
+typename S::Real coreBoundingRadius(const Shape<S>& shape, const Pose<S>& local) {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
     return std::visit(
@@ -75,9 +75,9 @@ typename S::Real coreReach(const Shape<S>& shape, const Pose<S>& local) {
             } else if constexpr (std::is_same_v<Kind, HalfSpace<S>>) {
                 return 0;  // static
             } else if constexpr (std::is_same_v<Kind, Hull<S>>) {
-                Real reach = 0;
-                for (const Vec& v : s.data->vertices) reach = std::max(reach, toWorld<S>(local, v).norm());
-                return reach;
+                Real radius = 0;
+                for (const Vec& v : s.data->vertices) radius = std::max(radius, toWorld<S>(local, v).norm());
+                return radius;
             } else {
                 const Aabb<S> box = boundingBox<S>(shape, {});
                 const Vec furthest = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs());
@@ -90,10 +90,10 @@ typename S::Real coreReach(const Shape<S>& shape, const Pose<S>& local) {
 template <class S>
 bool mayPassUnseen(const MovingShape<S>& a, const MovingShape<S>& b, typename S::Real t) {
     using Real = typename S::Real;
-    const Real turning = std::sqrt(dotAng(a.velocity.w, a.velocity.w)) * a.reach +
-                         std::sqrt(dotAng(b.velocity.w, b.velocity.w)) * b.reach;
+    const Real turning = std::sqrt(dotAng(a.velocity.w, a.velocity.w)) * a.boundingRadius +
+                         std::sqrt(dotAng(b.velocity.w, b.velocity.w)) * b.boundingRadius;
     const Real motion = t * ((b.velocity.v - a.velocity.v).norm() + turning);
-    return motion > Real(0.5) * a.inner + Real(0.5) * b.inner;
+    return motion > Real(0.5) * a.inscribedRadius + Real(0.5) * b.inscribedRadius;
 }
 
 template <class S>
@@ -102,7 +102,7 @@ Aabb<S> sweptBox(const MovingShape<S>& shape, typename S::Real t) {
     using Vec = typename S::Vec;
     Aabb<S> box = boundingBox<S>(*shape.shape, shape.at(0));
     const Real turn =
-        std::min(t * std::sqrt(dotAng(shape.velocity.w, shape.velocity.w)), Real(2)) * shape.reach;
+        std::min(t * std::sqrt(dotAng(shape.velocity.w, shape.velocity.w)), Real(2)) * shape.boundingRadius;
     const Vec d = t * shape.velocity.v;
     box.min += d.cwiseMin(Real(0)) - Vec::Constant(turn);
     box.max += d.cwiseMax(Real(0)) + Vec::Constant(turn);
@@ -110,9 +110,9 @@ Aabb<S> sweptBox(const MovingShape<S>& shape, typename S::Real t) {
 }
 
 #define RIGOR_INSTANTIATE(S)                                                               \
-    template S::Real innerRadius<S>(const Shape<S>&);                                      \
+    template S::Real inscribedRadiusOf<S>(const Shape<S>&);                                \
     template S::Vec middleOf<S>(const Shape<S>&);                                          \
-    template S::Real coreReach<S>(const Shape<S>&, const Pose<S>&);                        \
+    template S::Real coreBoundingRadius<S>(const Shape<S>&, const Pose<S>&);               \
     template bool mayPassUnseen<S>(const MovingShape<S>&, const MovingShape<S>&, S::Real); \
     template Aabb<S> sweptBox<S>(const MovingShape<S>&, S::Real);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)

@@ -12,20 +12,20 @@
 
 namespace rigor::engine {
 
-/// A ball of this radius fits into the shape (rounded down where there is no closed form) [m]; the largest
+/// A sphere of this radius fits into the shape (rounded down where there is no closed form) [m]; the largest
 /// number there is for half-spaces, which nothing passes through.
 template <class S>
-typename S::Real innerRadius(const Shape<S>& shape);
+typename S::Real inscribedRadiusOf(const Shape<S>& shape);
 
-/// The centre of such a ball, or near it, in the frame of the shape [m]; zero for half-spaces and surfaces.
+/// The centre of such a sphere, or near it, in the frame of the shape [m]; zero for half-spaces and surfaces.
 template <class S>
 typename S::Vec middleOf(const Shape<S>& shape);
 
 /// How far the shape's core reaches from a point at `local.p` beyond its frame's origin, i.e. from the
-/// body's centre of mass [m]. The core is the shape without its rounding radius: the turning of a ball about
-/// its own centre moves nothing.
+/// body's centre of mass [m]. The core is the shape without its rounding radius: the turning of a sphere
+/// about its own centre moves nothing.
 template <class S>
-typename S::Real coreReach(const Shape<S>& shape, const Pose<S>& local);
+typename S::Real coreBoundingRadius(const Shape<S>& shape, const Pose<S>& local);
 
 /// Pose after t [s] of a body that starts at X.
 template <class S>
@@ -36,15 +36,15 @@ Pose<S> movedPose(const Pose<S>& X, const Velocity<S>& velocity, typename S::Rea
 template <class S>
 struct MovingShape {
     const Shape<S>* shape = nullptr;
-    Pose<S> local;               ///< in the frame at the body's centre of mass
-    Pose<S> body;                ///< of that frame, at time 0
-    Velocity<S> velocity;        ///< constant
-    typename S::Real reach = 0;  ///< coreReach [m]
-    typename S::Real inner = 0;  ///< innerRadius [m]
+    Pose<S> local;                         ///< in the frame at the body's centre of mass
+    Pose<S> body;                          ///< of that frame, at time 0
+    Velocity<S> velocity;                  ///< constant
+    typename S::Real boundingRadius = 0;   ///< coreBoundingRadius [m]
+    typename S::Real inscribedRadius = 0;  ///< inscribedRadiusOf [m]
     Pose<S> at(typename S::Real t) const { return compose<S>(movedPose<S>(body, velocity, t), local); }
     /// Bound on the path of any of its points over t [m].
     typename S::Real motion(typename S::Real t) const {
-        return t * (velocity.v.norm() + std::sqrt(dotAng(velocity.w, velocity.w)) * reach);
+        return t * (velocity.v.norm() + std::sqrt(dotAng(velocity.w, velocity.w)) * boundingRadius);
     }
 };
 

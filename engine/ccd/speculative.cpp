@@ -6,21 +6,21 @@
 //
 // At the start of a step of h each body is expected to move with v + h (g + F/m), w, and its boxes are swept
 // along that way. Two shapes that may pass each other unseen (their relative motion is more than half of
-// their thickness) are asked for their time of impact t on it (time_of_impact.cpp). If there is one, their
+// their thickness) have their time of impact t computed on it (time_of_impact.cpp). If there is one, their
 // manifold there, with normal n, arms rA, rB and closing speed u_n = -n . (vB + wB x rB - vA - wA x rA), is
 // the contact of this step, with the separation
 //     s = t u_n     so that the row     n . u + s / h >= 0
-// asks no more than that the shapes have not passed t's pose at the end of the step. [Catto2005] gives the
+// requires only that the shapes have not passed t's pose at the end of the step. [Catto2005] gives the
 // row; the usual separation is the distance at the start, with the plane between the closest points there.
 // Deviation: plane, arms and distance are those of the impact. The usual plane stops bodies that would have
 // passed beside the other ("ghost collisions"), and a plane and arms from 8 m away are those of the wrong
 // corner.
 //
 // Restitution: the body stops at the surface with the step's end, and then gets its rebound
-// e times the approach of before (ContactSet::bounceAhead, in the relaxation after the move).
+// e times the approach of before (ContactSet::applySpeculativeRestitution, in the relaxation after the move).
 //
 // An impact off the centre of mass makes the body spin, and the rest of its way in the step carries it round
-// the point that the row holds. So the way of a contact ahead is looked at again after the move: where it
+// the point that the row holds. So the way of a speculative contact is checked again after the move: where it
 // ends deeper in the other body than a quarter of their thickness, both go back to where they touch, with the
 // velocities they have.
 //
@@ -60,8 +60,8 @@ class Speculative final : public ContinuousCollision<S> {
             if (bodies.invMass[body] > 0)
                 m.velocity.v += h * (bodies.constants[body].gravityScale * gravity +
                                      bodies.invMass[body] * bodies.wrench[body].force);
-            m.reach = shapes[i].reach;
-            m.inner = shapes[i].inner;
+            m.boundingRadius = shapes[i].boundingRadius;
+            m.inscribedRadius = shapes[i].inscribedRadius;
         }
     }
 
@@ -77,8 +77,8 @@ class Speculative final : public ContinuousCollision<S> {
         // The world may have been copied since predict().
         a.shape = &contacts.shapes()[contact.shapeA].shape;
         b.shape = &contacts.shapes()[contact.shapeB].shape;
-        contact.ahead = mayPassUnseen<S>(a, b, h_);
-        if (!contact.ahead || contact.manifold.count > 0) return;
+        contact.speculative = mayPassUnseen<S>(a, b, h_);
+        if (!contact.speculative || contact.manifold.count > 0) return;
         const TimeOfImpact<S> impact = timeOfImpact<S>(a, b, h_);
         if (!impact.hit) return;
         collideAt<S>(a, b, impact, narrowPhase, contact.manifold);
@@ -108,10 +108,11 @@ class Speculative final : public ContinuousCollision<S> {
             const std::uint32_t i = record.body;
             const Velocity<S> v =
                 straightVelocity<S>(starts_[i], world.bodies.pose[i], world.motion.used()[i], world.h);
-            return MovingShape<S>{&record.shape, record.local, starts_[i], v, record.reach, record.inner};
+            return MovingShape<S>{&record.shape,         record.local,          starts_[i], v,
+                                  record.boundingRadius, record.inscribedRadius};
         };
         for (const Contact<S>& contact : world.contacts.contacts()) {
-            if (!contact.ahead) continue;
+            if (!contact.speculative) continue;
             const MovingShape<S> a = moved(contact.shapeA), b = moved(contact.shapeB);
             const TimeOfImpact<S> impact = timeOfImpact<S>(a, b, world.h, true);
             if (!impact.hit) continue;

@@ -10,8 +10,8 @@
 // n with n . (w x r) = r . (n x w), and n x w stays as it is while the body turns about w). So they cannot
 // meet before
 //     t + d / mu,
-// which is the next t; mu <= 0: they never meet. Translation meets a flat face in one step, ball against
-// ball converges quadratically, turning bodies linearly. Advancing by (d - gap/2) / mu ends between 0 and
+// which is the next t; mu <= 0: they never meet. Translation meets a flat face in one step, sphere against
+// sphere converges quadratically, turning bodies linearly. Advancing by (d - gap/2) / mu ends between 0 and
 // `gap` apart instead of at an overlap of rounding size.
 //
 // Within `gap` it counts as met if the closest points approach. If they do not (a body that has just
@@ -87,9 +87,9 @@ typename S::Real touchingGap(const MovingShape<S>& a, const MovingShape<S>& b) {
     const auto scale = [](const MovingShape<S>& m) {
         return std::holds_alternative<HalfSpace<S>>(*m.shape)
                    ? Real(0)
-                   : m.body.p.cwiseAbs().maxCoeff() + m.reach + m.inner;
+                   : m.body.p.cwiseAbs().maxCoeff() + m.boundingRadius + m.inscribedRadius;
     };
-    const Real thin = std::min(a.inner, b.inner);
+    const Real thin = std::min(a.inscribedRadius, b.inscribedRadius);
     // 1e-3 of the thinner one: its time is that share of the time it takes to cross it. 16 roundings.
     return std::max(Real(1e-3) * thin,
                     Real(16) * std::numeric_limits<Real>::epsilon() * (scale(a) + scale(b)));
@@ -100,16 +100,17 @@ TimeOfImpact<S> timeOfImpact(const MovingShape<S>& a, const MovingShape<S>& b, t
                              bool known) {
     using Real = typename S::Real;
     const Real gap = touchingGap<S>(a, b);
-    const Real thickness = std::min(a.inner, std::numeric_limits<Real>::max() / 4) +
-                           std::min(b.inner, std::numeric_limits<Real>::max() / 4);
+    const Real thickness = std::min(a.inscribedRadius, std::numeric_limits<Real>::max() / 4) +
+                           std::min(b.inscribedRadius, std::numeric_limits<Real>::max() / 4);
     TimeOfImpact<S> out;
     Real t = 0, apart = -1;  // apart: the last time where they were, if the step after it was a long one
     bool held = true;        // touching since the start, or known
     for (int step = 0; step < kMaxSteps; ++step) {
         const Real d = look<S>(a, b, t, out);
         const typename S::Vec& n = out.closest.normal;
-        const Real mu = n.dot(a.velocity.v - b.velocity.v) + turningAcross(n, a.velocity.w) * a.reach +
-                        turningAcross(n, b.velocity.w) * b.reach;
+        const Real mu = n.dot(a.velocity.v - b.velocity.v) +
+                        turningAcross(n, a.velocity.w) * a.boundingRadius +
+                        turningAcross(n, b.velocity.w) * b.boundingRadius;
         if (!(mu > 0)) return out;
         if (d <= gap) {
             const bool deep = out.approach * (horizon - t) - d > Real(0.25) * thickness;

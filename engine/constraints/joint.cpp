@@ -126,16 +126,16 @@ void addTravelCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>&
 // aA . (wB - wA) while the axes are parallel.
 template <class S>
 void addTurnCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
-    const typename S::Real seen = joint.seen[static_cast<std::size_t>(out.axes)];
+    const typename S::Real last = joint.lastCoordinate[static_cast<std::size_t>(out.axes)];
     if constexpr (S::dim == 2) {
         const typename S::Real angle = logMap(compose(B.q, inverse(compose(A.q, joint.relative))));
-        Row<S>& row = out.coordinate(unwrapped(angle, seen));
+        Row<S>& row = out.coordinate(unwrapped(angle, last));
         row.angA = -1;
         row.angB = 1;
     } else {
         const typename S::Vec u = rotateInverse(A.q, rotate(B.q, joint.turnPerpB1));
         Row<S>& row =
-            out.coordinate(unwrapped(std::atan2(joint.turnPerpA2.dot(u), joint.turnPerpA1.dot(u)), seen));
+            out.coordinate(unwrapped(std::atan2(joint.turnPerpA2.dot(u), joint.turnPerpA1.dot(u)), last));
         row.angB = rotate(A.q, joint.turnA);
         row.angA = -row.angB;
     }

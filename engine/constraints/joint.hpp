@@ -28,30 +28,30 @@ struct Joint {
     Vec perpA1, perpA2;    ///< with axisA an orthonormal frame of A (2D: perpA1 alone)
     Vec turnA, turnB;      ///< the axis that B turns about: axisA and axisB, but for a wheel
     Vec turnPerpA1, turnPerpA2;
-    Vec turnPerpB1;            ///< in B, parallel to turnPerpA1 at angle zero
-    typename S::Rot relative;  ///< qA^-1 qB when the joint was made
-    Real length = 0;           ///< [m]
-    int axisCount = 0;         ///< coordinates
-    bool driven = false;       ///< some coordinate is locked, limited, or has a motor or spring
+    Vec turnPerpB1;                ///< in B, parallel to turnPerpA1 at angle zero
+    typename S::Rot relative;      ///< qA^-1 qB when the joint was made
+    Real length = 0;               ///< [m]
+    int axisCount = 0;             ///< coordinates
+    bool hasLimitOrMotor = false;  ///< some coordinate is locked, limited, or has a motor or spring
     std::array<JointAxis<Real>, kMaxJointAxes> axes;  ///< modes are resolved: none is Usual
-    /// Coordinates at the end of the last (sub-)step. Angles that count turns are the value nearest to this
-    /// one: they are right as long as no joint turns by half a turn or more in a (sub-)step.
-    std::array<Real, kMaxJointAxes> seen{};
+    /// Coordinates at the end of the last (sub-)step. An angle over several turns is unwrapped to the value
+    /// nearest to this one, which is right as long as no joint turns by half a turn or more in a (sub-)step.
+    std::array<Real, kMaxJointAxes> lastCoordinate{};
     Real breakForce = 0, breakTorque = 0;  ///< [N], [N m]; may be infinite
     JointId id;
 };
 
-/// What a row of a joint is for.
+/// Kind of constraint of a joint's row.
 enum class RowRole : std::uint8_t {
-    Hold,    ///< C = 0
-    Limit,   ///< C >= 0: a unilateral stop
-    Motor,   ///< J v = speed, as far as maxForce allows; C plays no part
-    Spring,  ///< C = 0 softly, by stiffness and damping
+    Equality,  ///< C = 0
+    Limit,     ///< C >= 0: a unilateral stop
+    Motor,     ///< J v = speed, with at most maxForce; C is not used
+    Spring,    ///< soft C = 0, with stiffness and damping
 };
 template <class S>
 struct RowLaw {
     using Real = typename S::Real;
-    RowRole role = RowRole::Hold;
+    RowRole role = RowRole::Equality;
     Real speed = 0;                   ///< motor [m/s] or [rad/s]
     Real maxForce = 0;                ///< motor [N] or [N m], >= 0
     Real stiffness = 0, damping = 0;  ///< spring [N/m, N s/m] or per radian
@@ -60,13 +60,13 @@ struct RowLaw {
 
 inline constexpr int kMaxRowsPerJoint = 24;  ///< of all roles: two limits, motor and spring per coordinate
 
-/// Directions and errors of a joint at given poses; rows that hold come first. Only lin, angA and angB of the
-/// rows are filled. The number and the roles of the rows do not depend on the poses.
-/// A joint adds the rows it always holds, names its coordinates with coordinate(), and calls addAxisRows.
+/// Jacobian rows and errors of a joint at given poses; equality rows come first. Only lin, angA and angB of
+/// the rows are filled. The number and the roles of the rows do not depend on the poses. A joint adds its
+/// equality rows, registers its coordinates with coordinate(), and calls addAxisRows.
 template <class S>
 struct JointRows {
     using Real = typename S::Real;
-    int count = 0, held = 0;
+    int count = 0, equalities = 0;  ///< all rows; equality rows
     std::array<Row<S>, kMaxRowsPerJoint> row;
     std::array<Real, kMaxRowsPerJoint> error;  ///< C, zero when satisfied [m] or [rad]
     std::array<RowLaw<S>, kMaxRowsPerJoint> law;
@@ -76,8 +76,8 @@ struct JointRows {
     std::array<Real, kMaxJointAxes> value;    ///< of the coordinates [m] or [rad]
     std::array<Row<S>, kMaxJointAxes> along;  ///< their rates are J v of these
 
-    void clear() { count = held = axes = 0; }
-    bool wantsCoordinates(const Joint<S>& joint) const { return reading || joint.driven; }
+    void clear() { count = equalities = axes = 0; }
+    bool wantsCoordinates(const Joint<S>& joint) const { return reading || joint.hasLimitOrMotor; }
     /// The next coordinate; the caller fills the row.
     Row<S>& coordinate(Real x) {
         const auto k = static_cast<std::size_t>(axes++);
@@ -88,7 +88,7 @@ struct JointRows {
     }
     Row<S>& add(Real C, const RowLaw<S>& rowLaw = {}) {
         const auto i = static_cast<std::size_t>(count++);
-        if (rowLaw.role == RowRole::Hold) held = count;
+        if (rowLaw.role == RowRole::Equality) equalities = count;
         error[i] = C;
         law[i] = rowLaw;
         row[i].lin.setZero();
@@ -115,10 +115,10 @@ std::span<const JointEntry<S>> jointTable();
 template <class S>
 const JointEntry<S>& findJoint(JointType type);
 
-/// Appends rows that hold the two anchors together (dim rows).
+/// Appends equality rows that keep the two anchors together (dim rows).
 template <class S>
 void addAnchorRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out);
-/// Appends rows that hold the relative orientation (2D: 1 row, 3D: 3).
+/// Appends equality rows that keep the relative orientation (2D: 1 row, 3D: 3).
 template <class S>
 void addOrientationRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out);
 /// Appends rows that keep turnA and turnB parallel (2D: none, 3D: 2).
@@ -131,23 +131,23 @@ void addLineRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, Join
 template <class S>
 void addTravelCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, const typename S::Vec& t,
                          JointRows<S>& out);
-/// Adds the coordinate "angle about turnA", counted over turns from joint.seen.
+/// Adds the coordinate "angle about turnA", counted over turns from joint.lastCoordinate.
 template <class S>
 void addTurnCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out);
-/// Appends what the joint's axes ask of its coordinates: rows that hold, then limits, motors and springs.
+/// Appends the rows of the joint's axes: equality rows, then limits, motors and springs.
 template <class S>
 void addAxisRows(const Joint<S>& joint, JointRows<S>& out);
-/// The value nearest to `seen` among angle + n turns [rad].
+/// The value nearest to `last` among angle + n turns [rad].
 template <class R>
-R unwrapped(R angle, R seen) {
+R unwrapped(R angle, R last) {
     constexpr R turn = R(6.283185307179586);
-    return angle + turn * std::round((seen - angle) / turn);
+    return angle + turn * std::round((last - angle) / turn);
 }
 
 /// A joint from its definition; poses and centres of mass are those of its bodies now. Throws EngineError:
 ///     joint_anchor, joint_axis, joint_length    non-finite anchors, axes not unit, length not positive
 ///     joint_dimension                           no such joint in this dimension
-///     joint_axes                                something is asked of a coordinate that the joint lacks
+///     joint_axes                                a limit, motor or spring on a coordinate it does not have
 ///     joint_limits, joint_motor, joint_spring   numbers out of range; motor or spring on a locked coordinate
 ///     joint_break                               break force or torque not positive
 template <class S>

@@ -111,7 +111,7 @@ void checkJointAxis(JointType type, std::size_t k, const JointAxis<typename S::R
 template <class S>
 void resolveJointAxes(Joint<S>& joint) {
     using Real = typename S::Real;
-    joint.driven = false;
+    joint.hasLimitOrMotor = false;
     for (std::size_t k = 0; k < static_cast<std::size_t>(joint.axisCount); ++k) {
         JointAxis<Real>& axis = joint.axes[k];
         if (axis.mode == AxisMode::Usual)
@@ -121,7 +121,8 @@ void resolveJointAxes(Joint<S>& joint) {
         if (axis.mode == AxisMode::Locked && axis.lower != axis.upper)
             axis.lower = axis.upper = joint.type == JointType::Distance ? joint.length : Real(0);
         if (axis.mode == AxisMode::Limited && axis.lower == axis.upper) axis.mode = AxisMode::Locked;
-        joint.driven = joint.driven || axis.mode != AxisMode::Free || axis.hasMotor() || axis.hasSpring();
+        joint.hasLimitOrMotor =
+            joint.hasLimitOrMotor || axis.mode != AxisMode::Free || axis.hasMotor() || axis.hasSpring();
         require(axis.mode != AxisMode::Locked || !axis.hasMotor(), "joint_motor",
                 "a locked coordinate cannot have a motor");
         require(axis.mode != AxisMode::Locked || !axis.hasSpring(), "joint_spring",

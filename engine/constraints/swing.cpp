@@ -4,10 +4,9 @@
 // Twist and swing. Let x, y, z be turnA, turnPerpA1, turnPerpA2 in world axes, b = aB the axis of B, and
 // w = wB - wA. The swing is the shortest rotation that takes x to b, by the angle phi; what is left of the
 // relative rotation is a twist tau about x. In a frame that turns with A:
-//     cone     phi = atan2(|x x b|, x . b)                phi_dot = n . w,   n = x x b / |x x b|
-//     twist    tau = angle from y to yB swung back        tau_dot = (x + b) . w / (1 + x . b)
-//     swing    s = phi n = (0, s_y, s_z)                  s_dot = [n n^T + phi cot(phi) e e^T] w - phi e (x .
-//     w)
+//     cone     phi = atan2(|x x b|, x . b)             phi_dot = n . w,   n = x x b / |x x b|
+//     twist    tau = angle from y to yB swung back     tau_dot = (x + b) . w / (1 + x . b)
+//     swing    s = phi n = (0, s_y, s_z)               s_dot = [n n^T + phi cot(phi) e e^T] w - phi e (x . w)
 //              with e = n x x the unit vector of b's part normal to x, phi e = (0, s_z, -s_y)
 // The twist's rate follows from tau = 2 atan2(q_x, q_w) of the relative quaternion and q_dot = w q / 2; the
 // swing's from the rates of phi and of the azimuth of b. All are exact gradients, so that limits and springs
@@ -63,10 +62,10 @@ void direct(const typename S::Vec& rate, Row<S>& row) {
 
 template <class S>
 void addTwistCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
-    const typename S::Real seen = joint.seen[static_cast<std::size_t>(out.axes)];
+    const typename S::Real last = joint.lastCoordinate[static_cast<std::size_t>(out.axes)];
     const Swing<S> swing(joint, A, B);
     const typename S::Vec u = swing.swungBack(swing.by);
-    Row<S>& row = out.coordinate(unwrapped(std::atan2(u.dot(swing.z), u.dot(swing.y)), seen));
+    Row<S>& row = out.coordinate(unwrapped(std::atan2(u.dot(swing.z), u.dot(swing.y)), last));
     direct<S>((swing.x + swing.b) / swing.opening(), row);
 }
 

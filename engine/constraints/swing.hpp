@@ -8,7 +8,7 @@
 
 namespace rigor::engine {
 
-/// Adds the coordinate "twist about the axis", counted over turns from joint.seen [rad].
+/// Adds the coordinate "twist about the axis", counted over turns from joint.lastCoordinate [rad].
 template <class S>
 void addTwistCoordinate(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out);
 /// Adds the coordinate "angle between turnA and turnB", in [0, pi] [rad].

@@ -3,7 +3,7 @@
 //
 // What algorithms declare of themselves. Beside its factory `make`, the file of an algorithm defines a
 // function `makeTraits`; the family's table calls both by its .def file, so that a missing one is a link
-// error. Whoever has to know what an algorithm does reads its traits, never its name. Each of them is
+// error. Code that depends on what an algorithm does reads its traits, never its name. Each of them is
 // measured (pipeline/tests/traits_test.cpp).
 #pragma once
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Deliberate mistakes, for study alone: what a first engine of one's own gets wrong, switched on by name so
-// that the symptom can be seen beside its cure. A fault looks at the data between two phases of a step and
-// spoils it; it has no state. `none` is no fault and costs a null pointer test per phase.
+// Fault injection: typical mistakes of a first engine, switched on by name, so that a symptom can be compared
+// with the correct result. A fault changes the data between two phases of a step; it has no state. `none` is
+// no fault and costs a null pointer test per phase.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@ constexpr std::size_t blocksIn(std::size_t first, std::size_t last) {
     return (last - first + kLanes - 1) / kLanes;
 }
 
-/// The inertia is that of a ball, to rounding: the velocity stays as it is.
+/// The inertia is that of a sphere, to rounding: the velocity stays as it is.
 template <class S>
 bool isRound(const typename S::Inertia& inertia) {
     if constexpr (S::dim == 2) {

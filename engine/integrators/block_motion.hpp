@@ -7,7 +7,7 @@
 //
 // What a sub-step adds to the velocities does not change during a step, so that kick() is
 //     u := kept u + add
-// over one row of numbers; only bodies whose inertia is not that of a ball need more, eight at a time.
+// over one row of numbers; only bodies whose inertia is not that of a sphere need more, eight at a time.
 #pragma once
 
 #include <span>

@@ -15,7 +15,7 @@ struct BodyBlock {
     std::uint32_t moves = 0;           ///< bit of each lane: there is a body
 };
 
-/// Eight bodies whose angular velocity changes by itself, because their inertia is not that of a ball.
+/// Eight bodies whose angular velocity changes by itself, because their inertia is not that of a sphere.
 template <class S>
 struct alignas(64) TumblingBlock : BodyBlock {
     using Real = typename S::Real;

@@ -4,7 +4,7 @@
 // The textbook update by the quaternion's derivative, q' = w q / 2 [Baraff2001, section 2.3]:
 //     q := (q + v q / 2) / |q + v q / 2|
 // It turns about the right axis by 2 atan(|v| / 2) instead of |v|: short by |v|^3 / 12, hence of order 2 in h
-// at a fixed angular velocity, and never by more than half a turn in a step. In the plane the same rotation
+// at a fixed angular velocity, and never by more than half a turn in a step. In 2D the same rotation
 // is made from its cosine and sine.
 #include "engine/integrators/integrator.hpp"
 #include "engine/integrators/traits.hpp"

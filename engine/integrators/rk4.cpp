@@ -7,8 +7,7 @@
 // for y = (p, v, theta, L): position, velocity, the rotation vector theta with q = exp(theta) q_0, and the
 // angular momentum L in the world. So orientations never leave the group [MuntheKaas1999],
 // [HairerLubichWanner2006, section IV.8]:
-//     theta' = dexp^-1_theta(w) = w - theta x w / 2 + theta x (theta x w) / 12,     w = I(q)^-1 L,     L' =
-//     torque
+//     theta' = dexp^-1_theta(w) = w - theta x w / 2 + theta x (theta x w) / 12,   w = I(q)^-1 L,   L' = torque
 // (the next term of dexp^-1 is of order 4 in theta = O(h), hence of order 5 in y). Momentum is kept exactly
 // where there is no torque; energy is not: its error falls with h^4 and grows with time.
 //

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // What the files of the family `rotation` share: a law of free rotation is written in the body frame, and
-// for space alone; in the plane there is nothing to do.
+// for space alone; in 2D there is nothing to do.
 #pragma once
 
 #include <limits>

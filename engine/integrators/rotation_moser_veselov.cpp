@@ -17,7 +17,7 @@
 // without gyroscopic term.
 //
 // Deviation: where velocity and momentum are parallel (spheres, principal axes) the body turns by h w
-// exactly. There Moser-Veselov would turn by asin(h |w|), and a ball that rolls would seem to slip.
+// exactly. There Moser-Veselov would turn by asin(h |w|), and a sphere that rolls would seem to slip.
 //
 // In a step with constraints as lie_midpoint. Cost: one to five Newton steps (h |w| = 0.01 .. 0.8).
 #include "engine/integrators/angular_momentum.hpp"

@@ -128,8 +128,8 @@ Pose<S> relativePose(const Pose<S>& Xa, const Pose<S>& Xb) {
     return {rotateInverse<typename S::Real>(Xa.q, Xb.p - Xa.p), compose(inverse(Xa.q), Xb.q)};
 }
 
-/// One point between two balls of radius rA, rB around a and b (points of the cores of A and B). Where a and
-/// b coincide, the normal is `fallback` (unit).
+/// One point between two spheres of radius rA, rB around a and b (points of the cores of A and B). Where a
+/// and b coincide, the normal is `fallback` (unit).
 template <class S>
 void roundedPoint(const typename S::Vec& a, typename S::Real rA, const typename S::Vec& b,
                   typename S::Real rB, const typename S::Vec& fallback, typename S::Real speculative,

@@ -4,10 +4,10 @@
 // Signed distance of any two convex shapes: half-spaces in closed form, else GJK between the cores and, where
 // they overlap, EPA; the rounding radii come off in the end:
 //   distance(A, B) = distance(core A, core B) - rA - rB
-// A core difference without volume (two crossing segments, concentric balls) has no inside: the cores touch,
-// the normal is across it, and its sign such that B is on the side of its own centre.
-// Where EPA ran out of vertices (rings of nearly as deep ways out of curved sides) the descents of mpr.cpp,
-// which need no more of the surface than a portal, go on from its normal and from the shapes' axes.
+// A core difference without volume (two crossing segments, concentric spheres) has no inside: the cores
+// touch, the normal is across it, and its sign such that B is on the side of its own centre. Where EPA ran
+// out of vertices (rings of nearly as deep ways out of curved sides) the descents of mpr.cpp, which need no
+// more of the surface than a portal, go on from its normal and from the shapes' axes.
 #include "engine/narrowphase/distance.hpp"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ void finishByDescent(const Minkowski<S>& D, CoreContact<S>& r) {
     for (std::size_t i = 0; i < kAxes; ++i) {
         const auto k = static_cast<Eigen::Index>(i / 4);
         const V axis = i % 2 == 0 ? V(V::Unit(k)) : V(D.rotation().col(k)), d = i % 4 < 2 ? axis : V(-axis);
-        starts[i] = {d.dot(query.ask(d).w), d};
+        starts[i] = {d.dot(query.support(d).w), d};
     }
     std::partial_sort(starts.begin(), starts.begin() + kDescents, starts.end(),
                       [](const auto& x, const auto& y) { return x.first < y.first; });
@@ -70,7 +70,7 @@ void finishByDescent(const Minkowski<S>& D, CoreContact<S>& r) {
         before = query.least();
         descend<S>(query, query.normal());
     }
-    r.iterations += query.asked();
+    r.iterations += query.queries();
     if (query.least() < -r.distance) {
         r.normal = query.normal();
         r.distance = -query.least();

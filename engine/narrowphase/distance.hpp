@@ -20,11 +20,11 @@ struct ClosestPoints {
     bool converged = false;          ///< upper and lower bound of the distance met, to rounding
 };
 
-/// By GJK, and EPA where the shapes' cores overlap (gjk.cpp, 2d/epa.cpp, 3d/epa.cpp). Balls and capsules are
-/// points and segments with a rounding radius, hence exact; half-spaces are closed forms. Shapes with curved
-/// sides are approached to the bound that `converged` tells of. Computed in the frame of A: distance from the
-/// world's origin costs no digits but those of the positions. Two half-spaces have no distance: converged is
-/// false, the distance the lowest number there is. Does not allocate.
+/// By GJK, and EPA where the shapes' cores overlap (gjk.cpp, 2d/epa.cpp, 3d/epa.cpp). Spheres and capsules
+/// are points and segments with a rounding radius, hence exact; half-spaces are closed forms. Shapes with
+/// curved sides are approached to the bound that `converged` tells of. Computed in the frame of A: distance
+/// from the world's origin costs no digits but those of the positions. Two half-spaces have no distance:
+/// converged is false, the distance the lowest number there is. Does not allocate.
 template <class S>
 ClosestPoints<S> closestPoints(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb);
 

@@ -36,10 +36,10 @@ typename S::Real coreSize(const Shape<S>& shape) {
 }  // namespace
 
 template <class S>
-WayOut<S> descend(PortalQuery<S>& query, const typename S::Vec& start) {
+PenetrationVector<S> descend(PortalQuery<S>& query, const typename S::Vec& start) {
     using R = typename S::Real;
     using V = typename S::Vec;
-    WayOut<S> out{start, R(start.dot(query.ask(start).w))};
+    PenetrationVector<S> out{start, R(start.dot(query.support(start).w))};
     for (int ray = 0; ray < kMostRays; ++ray) {
         const Portal<S> portal = castPortal<R>(query, V(V::Zero()), out.normal);
         if (portal.facet.count == 0) break;
@@ -71,9 +71,9 @@ void placeFoot(PortalQuery<S>& query, const Minkowski<S>& D, const typename S::V
     if (gap.norm() > kLostFoot<typename S::Real> * std::max(contact.onA.norm(), contact.onB.norm()) &&
         std::abs(contact.distance) <= query.tolerance()) {
         // Cores that cross without a volume in common (two segments): no facet holds the foot. They meet.
-        const GjkResult<S> meeting = gjk<S>(D, D.translation());
-        contact.onA = meeting.simplex.onA();
-        contact.onB = meeting.simplex.onB();
+        const GjkResult<S> closest = gjk<S>(D, D.translation());
+        contact.onA = closest.simplex.onA();
+        contact.onB = closest.simplex.onB();
         gap = contact.onB - contact.onA - contact.distance * contact.normal;
     }
     // The foot point is shared: what is left of a difference across the normal goes half to either side.
@@ -97,8 +97,8 @@ void keepNormal(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, con
     using R = typename S::Real;
     if (!(contact.distance < 0) || last.dot(contact.normal) > kFlatFeature<R>) return;
     PortalQuery<S> query(D, R(0));
-    // Of the descent alone, not the least of all directions asked on the way: that may be the other one.
-    const WayOut<S> found = descend<S>(query, last);
+    // The result of the descent, not the least of all directions queried: that may be the other one.
+    const PenetrationVector<S> found = descend<S>(query, last);
     if (!(found.support <= kKeep<R> * std::min(coreSize<S>(a), coreSize<S>(b)) - contact.distance)) return;
     contact.normal = found.normal;
     contact.distance = -found.support;
@@ -106,7 +106,7 @@ void keepNormal(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, con
 }
 
 #define INSTANTIATE(S)                                                                                \
-    template WayOut<S> descend(PortalQuery<S>&, const S::Vec&);                                       \
+    template PenetrationVector<S> descend(PortalQuery<S>&, const S::Vec&);                            \
     template void placeFoot(PortalQuery<S>&, const Minkowski<S>&, const S::Vec&, CoreContact<S>&);    \
     template S::Vec innerPoint<S>(const Shape<S>&);                                                   \
     template void keepNormal<S>(const Shape<S>&, const Shape<S>&, const Minkowski<S>&, const S::Vec&, \

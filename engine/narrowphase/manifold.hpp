@@ -37,9 +37,9 @@ template <class S>
 struct Manifold {
     typename S::Vec normal = S::Vec::Zero();  ///< unit, world frame, A to B
     int count = 0;                            ///< 0: no contact within the speculative distance
-    /// Where there is none: the shapes are at least so far apart, as far as that is known for nothing; 0: it
-    /// is not [m].
-    typename S::Real apart = 0;
+    /// Without a contact: lower bound of the separation of the shapes [m], where the algorithm computes one
+    /// at no extra cost; else 0.
+    typename S::Real separationLowerBound = 0;
     std::array<ManifoldPoint<S>, S::maxManifoldPoints> points;
     ManifoldMemory<S> memory;
 };
@@ -51,8 +51,8 @@ template <class S>
 using CollideFunction = void (*)(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,
                                  typename S::Real speculativeDistance, Manifold<S>& out);
 
-/// A narrow phase as an object, for those that are not in the table: WorldDef::customNarrowPhase. With
-/// the same shapes and poses it must answer the same.
+/// A narrow phase as an object, for those that are not in the table: WorldDef::customNarrowPhase. With/ the
+/// same shapes and poses it must give the same result.
 template <class S>
 class NarrowPhase {
   public:

@@ -29,7 +29,7 @@ struct ManifoldPair {
     const Pose<S>& Xa;
     const Pose<S>& Xb;
     typename S::Real size;                 ///< of the smaller of the two shapes [m]
-    typename S::Real speculativeDistance;  ///< as the narrow phase was asked [m]
+    typename S::Real speculativeDistance;  ///< query distance of the narrow phase [m]
 };
 
 /// Turns what the narrow phase found (count >= 1) into what the solver gets; `cache` comes from the last

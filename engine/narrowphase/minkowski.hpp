@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The Minkowski difference D = core A - core B as GJK, EPA and MPR see it: a support mapping in the frame of
-// A. A core is the shape without its rounding radius: a point for a ball, a segment for a capsule.
+// A. A core is the shape without its rounding radius: a point for a sphere, a segment for a capsule.
 //   support of D along d:  w = a - b,  a = support of A along d,  b = support of B along -d
 // D holds the origin iff the cores overlap; a facet of D with outward normal n is a way to part them by
 // moving B along n. Private to this folder.

@@ -11,15 +11,15 @@
 //
 // Deviation: the paper takes the first portal's normal; the descent above is ours. It ends in a local minimum
 // of h, which a deep overlap can have several of, so it starts again from every face of either polytope (each
-// is a facet of D) and from the neighbours of a grid point (26 directions in space, 8 in the plane), lowest
+// is a facet of D) and from the neighbours of a grid point (26 directions in 3D, 8 in 2D), lowest
 // support first, and the least is kept.
 //
-// Known limits: in space the least depth is not proven, unlike EPA's: crossings of edges are facets that a
-// descent has to run into. Of 6000 pairs of hulls of 8 to 20 vertices, boxes, balls and capsules, a third of
-// them concentric, identical or deep, 2 came out too deep, by 0.5 % at most (16 and 2.6 % with starts on the
-// grid alone), and of 4000 in the plane none; the depth is always one that parts the shapes. Curved sides
-// end when the portal is within rounding of the surface, with the normal off by the square root of that.
-// Cost: 10 to 20 support points per ray, 2 rays per start.
+// Known limits: in 3D the least depth is not proven, unlike EPA's: crossings of edges are facets that a
+// descent has to run into. Of 6000 pairs of hulls of 8 to 20 vertices, boxes, spheres and capsules, a third
+// of them concentric, identical or deep, 2 came out too deep, by 0.5 % at most (16 and 2.6 % with starts on
+// the grid alone), and of 4000 in 2D none; the depth is always one that parts the shapes. Curved sides end
+// when the portal is within rounding of the surface, with the normal off by the square root of that. Cost: 10
+// to 20 support points per ray, 2 rays per start.
 #include "engine/narrowphase/mpr.hpp"
 
 #include "engine/narrowphase/narrowphases.hpp"
@@ -36,7 +36,7 @@ class Starts {
     using V = typename S::Vec;
 
     void offer(PortalQuery<S>& query, const V& direction) {
-        const R support = direction.dot(query.ask(direction).w);
+        const R support = direction.dot(query.support(direction).w);
         int at = count_ < kMost ? count_++ : kMost;
         for (; at > 0 && support < found_[index(at - 1)].support; --at)
             if (at < kMost) found_[index(at)] = found_[index(at - 1)];
@@ -82,7 +82,7 @@ bool leastSupport(PortalQuery<S>& query, const typename S::Vec& inner, const Sid
     using R = typename S::Real;
     using V = typename S::Vec;
     const R length = inner.norm();
-    query.ask(V::UnitY());
+    query.support(V::UnitY());
     if (length > query.tolerance()) {
         castPortal<R>(query, inner, V(-inner / length));
         if (query.least() + query.margin() < 0) return false;
@@ -125,7 +125,7 @@ bool portalContact(const Shape<S>& a, const Shape<S>& b, const Minkowski<S>& D, 
     contact.normal = query.normal();
     contact.distance = -query.least();
     placeFoot<S>(query, D, inner, contact);
-    contact.iterations = cores.asked() + grown.asked();
+    contact.iterations = cores.queries() + grown.queries();
     contact.converged = true;
     return true;
 }

@@ -19,9 +19,9 @@ class PortalQuery {
     PortalQuery(const Minkowski<S>& difference, R margin) : D_(difference), margin_(margin) {}
 
     /// Support point of the grown difference along the unit vector n.
-    DifferencePoint<S> ask(const V& n) {
+    DifferencePoint<S> support(const V& n) {
         DifferencePoint<S> p = D_.point(n);
-        ++asked_;
+        ++queries_;
         const R support = n.dot(p.w);
         if (support < least_) {
             least_ = support;
@@ -33,8 +33,8 @@ class PortalQuery {
     }
     R margin() const { return margin_; }
     R tolerance() const { return kRounding<R> * size_; }
-    int asked() const { return asked_; }
-    /// Least support of D itself (without the margin) over all directions asked, and the direction.
+    int queries() const { return queries_; }
+    /// Least support of D itself (without the margin) over all directions queried, and the direction.
     R least() const { return least_; }
     const V& normal() const { return normal_; }
 
@@ -42,7 +42,7 @@ class PortalQuery {
     const Minkowski<S>& D_;
     R margin_, size_ = 0, least_ = std::numeric_limits<R>::max();
     V normal_ = V::UnitY();
-    int asked_ = 0;
+    int queries_ = 0;
 };
 
 /// The facet of the grown difference through which the ray from `from` (inside) along the unit vector `d`
@@ -53,15 +53,15 @@ struct Portal {
     typename S::Vec normal;
     Simplex<S> facet;
 };
-/// A direction and the support of the (grown) difference along it.
+/// Candidate of the penetration vector: a unit direction and the support of the (grown) difference along it.
 template <class S>
-struct WayOut {
+struct PenetrationVector {
     typename S::Vec normal;
     typename S::Real support;
 };
 /// Follows the normals of portals from the direction `start` down to a local minimum of the support.
 template <class S>
-WayOut<S> descend(PortalQuery<S>& query, const typename S::Vec& start);
+PenetrationVector<S> descend(PortalQuery<S>& query, const typename S::Vec& start);
 /// Points on the cores for a normal and distance that a query has found; `inner` is inside the difference.
 template <class S>
 void placeFoot(PortalQuery<S>& query, const Minkowski<S>& D, const typename S::Vec& inner,

@@ -6,8 +6,8 @@
 //
 // Known limits: faces are preferred to edges within 1e-7 of the depth. Measured in double precision against
 // the separations along all normals of three vertices and all cross products of two differences of vertices,
-// in extended precision: 10 000 pairs of hulls of 8 to 20 vertices, boxes, balls and capsules, 1e-3 m to 1e3
-// m, up to 1e4 m from the origin, touching to 1e-9 m, grazing, with parallel or nearly parallel edges and
+// in extended precision: 10 000 pairs of hulls of 8 to 20 vertices, boxes, spheres and capsules, 1e-3 m to
+// 1e3 m, up to 1e4 m from the origin, touching to 1e-9 m, grazing, with parallel or nearly parallel edges and
 // faces, plates and needles 1:1000, concentric, identical: no wrong verdict beyond 1e-9 m of touching, depths
 // within max(1e-9 m, 2e-7 of the depth), normals that lose no more. Overlapping curved sides: as EPA's.
 #include <array>
@@ -36,7 +36,7 @@ void collideKinds(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const
     using A = std::variant_alternative_t<IndexA, Shape<S>>;
     using B = std::variant_alternative_t<IndexB, Shape<S>>;
     if constexpr (kStaticOnly<A> && kStaticOnly<B>) {
-        // Both stand still: no contact is asked for.
+        // Both bodies are static: no contact is needed.
     } else if constexpr (kComposite<A>) {
         collideDeepestPiece<S>(&collideSat<S>, a, Xa, b, Xb, speculative, out);
     } else if constexpr (kComposite<B>) {

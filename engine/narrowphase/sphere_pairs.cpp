@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Closed forms of a ball against ball, box, capsule and half-space, the same in both dimensions.
+// Closed forms of a sphere against sphere, box, capsule and half-space, the same in both dimensions.
 #include "engine/narrowphase/detail.hpp"
 #include "engine/narrowphase/pairs.hpp"
 
 namespace rigor::engine {
 
-/// separation = |b - a| - rA - rB. Concentric balls are pushed apart along +y: every direction is equally
+/// separation = |b - a| - rA - rB. Concentric spheres are pushed apart along +y: every direction is equally
 /// good.
 template <class S>
 void collidePair(const Sphere<S>& a, const Pose<S>& Xa, const Sphere<S>& b, const Pose<S>& Xb,
@@ -20,7 +20,7 @@ void collidePair(const Sphere<S>& a, const Pose<S>& Xa, const Sphere<S>& b, cons
     }
 }
 
-/// In the frame of the box: the ball's centre clamped to the box is the nearest point; a centre inside is
+/// In the frame of the box: the sphere's centre clamped to the box is the nearest point; a centre inside is
 /// pushed out through the nearest face.
 template <class S>
 void collidePair(const Sphere<S>& a, const Pose<S>& Xa, const Box<S>& b, const Pose<S>& Xb,
@@ -65,7 +65,7 @@ void collidePair(const Sphere<S>& a, const Pose<S>& Xa, const Box<S>& b, const P
     addPoint<S>(out, Xa.p - a.radius * n, toWorld<S>(Xb, onBox), separation, 0);
 }
 
-/// The ball against the nearest point of the capsule's segment.
+/// The sphere against the nearest point of the capsule's segment.
 template <class S>
 void collidePair(const Sphere<S>& a, const Pose<S>& Xa, const Capsule<S>& b, const Pose<S>& Xb,
                  typename S::Real speculative, Manifold<S>& out) {

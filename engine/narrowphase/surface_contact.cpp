@@ -6,8 +6,7 @@
 // Taken by itself a piece has edges that its surface has not: a box that slides over two triangles of one
 // floor would meet the side of the second. With m the piece's normal on the side of the shape's middle:
 //
-//   1. Face first. Contact points along m: the shape's supporting feature clipped to the prism over the
-//   piece.
+//   1. Face first. Contact points along m: the shape's supporting feature clipped to the prism over it.
 //      If the shape's lowest point, depth s, is over the piece and no side of the piece is nearer than |s|,
 //      no other way out is shorter: for a way u at angle theta to m, the disc of radius |s| in the piece
 //      around the foot gives the separation |s| (sin theta + cos theta) >= |s|.
@@ -88,7 +87,7 @@ struct Placed {
     }
 };
 
-/// Step 1: is the contact along m the shortest way out? `out` in the frame of the surface.
+/// Step 1: is the contact along m the shortest penetration vector? `out` in the frame of the surface.
 template <class S, class Piece>
 bool faceIsShortest(const Piece& piece, const typename S::Vec& n, typename S::Real s,
                     const Manifold<S>& out) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a world keeps of a shape, and of two shapes that touch or nearly do.
+// Records of a world: a shape, and the contact of two shapes.
 #pragma once
 
 #include <array>
@@ -22,14 +22,15 @@ struct ShapeRecord {
     std::uint32_t body = 0;  ///< dense index
     std::uint32_t material = 0;
     ShapeId id;
-    typename S::Real reach = 0, inner = 0;    ///< coreReach, innerRadius (ccd/moving_shape.hpp) [m]
-    typename S::Real radius = 0;              ///< no point is further from its own origin [m]
+    /// Bounding radius of the core about the centre of mass, and inscribed radius (ccd/moving_shape.hpp) [m].
+    typename S::Real boundingRadius = 0, inscribedRadius = 0;
+    typename S::Real radius = 0;              ///< bounding radius about the shape's own origin [m]
     typename S::Vec middle = S::Vec::Zero();  ///< a point well inside, in the frame of the shape [m]
 };
 
-/// Two shapes that touch or nearly do. A is the body of lower index. Large worlds read all of them three
-/// times in a step, from memory: what a kept contact that is solved as a patch needs comes first, in whole
-/// cache lines, and the rest is left alone.
+/// Contact of two shapes that touch or nearly do. A is the body of lower index. A large world reads all
+/// contacts three times per step, from memory: the fields that a contact with a cached manifold, solved as a
+/// patch, needs come first, in whole cache lines.
 template <class S>
 struct alignas(64) Contact {
     using Real = typename S::Real;
@@ -41,31 +42,31 @@ struct alignas(64) Contact {
         Real normal = 0;             ///< [N s], >= 0
         Vec friction = Vec::Zero();  ///< on B, world frame [N s]
     };
-    /// What rows are made of.
+    /// Input of the rows of one point.
     struct Point {
-        Vec rA = Vec::Zero(), rB = Vec::Zero();  ///< arms of the impulses, as found: world axes, from the
+        Vec rA = Vec::Zero(), rB = Vec::Zero();  ///< arms of the impulses when found: world axes, from the
                                                  ///< centres of mass [m]
-        Real separation = 0;  ///< now: found, and what the bodies' motion since has made of it [m]
-        Real rebound = 0;     ///< bias of the normal row once an impact ahead has taken place, < 0 [m/s]
-        Real approach = 0;    ///< normal speed when its rows were planned; < 0: closing [m/s]
-        bool impact = false;  ///< hit, rather than rested, in this step
+        Real separation = 0;  ///< signed distance now: as found, updated by the bodies' motion since [m]
+        Real rebound = 0;     ///< bias of the normal row after a speculative impact, < 0 [m/s]
+        Real approach = 0;    ///< normal velocity when its rows were made; < 0: closing [m/s]
+        bool impact = false;  ///< an impact, not a resting contact, in this step
     };
     std::uint32_t bodyA = 0, bodyB = 0;  ///< dense indices
-    bool asleep = false;                 ///< neither body takes impulses: it stays as it was, without rows
-    bool ahead = false;     ///< fast for their sizes: must not be let through, however far apart they are
-    bool touching = false;  ///< overlapped when found, or pushed in the step since
-    bool touched = false;   ///< at the end of the step before
-    bool placed = false;    ///< the points' arms and separations are those of the manifold
-    bool impacts = false;   ///< some of the points' are
+    bool asleep = false;                 ///< neither body takes impulses: it is not updated and has no rows
+    bool speculative = false;  ///< found on the bodies' way by continuous collision: has rows at any distance
+    bool touching = false;     ///< overlapped when found, or had an impulse in the step since
+    bool touched = false;      ///< value of `touching` at the end of the step before
+    bool placed = false;       ///< the points' arms and separations are those of the manifold
+    bool impacts = false;      ///< some point has `impact`
     PairCoefficients<S> coefficients;
-    /// The rows of each point in this step; kPatch: it is solved, but not by rows; kNullIndex: let through.
+    /// Row block of each point in this step; kPatch: solved as a patch, without rows; kNullIndex: not solved.
     PerPoint<std::uint32_t> block = [] {
         PerPoint<std::uint32_t> none;
         none.fill(kNullIndex);
         return none;
     }();
     Manifold<S> manifold;
-    ManifoldCache<S> cache;  ///< of the manifold choice, or the points of an answer that is kept
+    ManifoldCache<S> cache;  ///< of the manifold choice, or the points of a cached manifold
     alignas(S::dim == 3 ? 64 : alignof(Real)) PerPoint<Impulse> impulses;  ///< of the last (sub-)step
     PerPoint<Impulse> totals;                                              ///< of all of the last step
     std::uint32_t shapeA = 0, shapeB = 0;                                  ///< dense indices
@@ -74,9 +75,9 @@ struct alignas(64) Contact {
     PerPoint<Point> points;
 };
 
-/// Where the impulse of a point acts.
-/// One point for both bodies, or equal and opposite impulses would make a couple; against a body that takes
-/// no momentum the other's own surface, so that its arm does not depend on the overlap.
+/// Point at which the impulse of a contact point acts: the same for both bodies, otherwise opposite impulses
+/// would make a couple. Against a body that takes no momentum it lies on the other body's surface, so that
+/// its arm does not depend on the penetration.
 template <class S>
 typename S::Vec impulsePoint(const ManifoldPoint<S>& where, bool movesA, bool movesB) {
     if (!movesB) return where.pointA;

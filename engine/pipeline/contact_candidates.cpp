@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which shapes may touch: from the pairs of the broad phase to candidates, which keep what is known of them.
+// Candidates: the pairs of shapes that may touch, made from the pairs of the broad phase.
+//
+//     broad phase pairs  (2,5)      (2,9)   (4,5)              sorted by pairKey
+//     old candidates     (2,5)      (3,7)   (4,5)#0 (4,5)#3    sorted by pairKey, then by piece
+//     new candidates     (2,5)kept  (2,9)   (4,5)#0 (4,5)#4    a merge; (3,7) and (4,5)#3 are removed
+//
+// Invariant: candidates are sorted as contacts are; a candidate that persists keeps its slot, its contact and
+// its cached manifold. The candidates of chains, meshes and height fields are per piece and found anew in
+// every step.
 #include <algorithm>
 #include <utility>
 
@@ -10,8 +18,7 @@
 
 namespace rigor::engine {
 
-/// In the order of contacts: by shape pair and piece. What is known of a candidate goes on: it stays where it
-/// is, and its place in the order alone is written anew.
+/// Merges the sorted pairs with the sorted candidates of the last step.
 template <class S>
 void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tasks) {
     std::vector<std::uint32_t>& order = candidates_.order();
@@ -23,10 +30,10 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
     const bool hadPieces = std::exchange(candidatesHavePieces_, false);
     std::size_t old = 0;
     const auto oldPiece = [&] { return hadPieces ? candidates_.at(oldOrder_[old]).piece : kNullIndex; };
-    const auto drop = [&] {
+    const auto removeOld = [&] {
         const std::uint32_t slot = oldOrder_[old++];
         if (const std::uint32_t contact = candidates_.at(slot).contact; contact != kNullIndex)
-            dropped_.push_back(contact);
+            removed_.push_back(contact);
         candidates_.remove(slot);
     };
     const auto put = [&](std::uint64_t key, std::uint32_t slot) {
@@ -36,14 +43,14 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t piece) {
         const std::uint64_t key = pairKey(a, b);
         const auto before = [&] { return std::pair(oldKeys_[old], oldPiece()) < std::pair(key, piece); };
-        while (old < oldKeys_.size() && before()) drop();
+        while (old < oldKeys_.size() && before()) removeOld();
         if (old < oldKeys_.size() && oldKeys_[old] == key && oldPiece() == piece)
             return put(key, oldOrder_[old++]);
         const std::uint32_t slot = candidates_.add();
         candidates_.at(slot) = makeCandidate(a, b, piece);
         put(key, slot);
     };
-    // Those that were there before, in one go: from `first` on, as many as there are.
+    // Keeps the longest run of pairs, from `first` on, that are the old candidates in the same order.
     const auto keepRun = [&](std::size_t first) {
         const std::size_t most = std::min(pairs.size() - first, oldKeys_.size() - old);
         std::size_t run = 0;
@@ -56,12 +63,12 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
         return run;
     };
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-        if (mayHolds_ && !hadPieces) k += keepRun(k);
+        if (mayCollideHolds_ && !hadPieces) k += keepRun(k);
         if (k == pairs.size()) break;
         const ProxyPair& p = pairs[k];
         const std::uint64_t key = pairKey(p.a, p.b);
-        while (old < oldKeys_.size() && oldKeys_[old] < key) drop();
-        if (mayHolds_ && old < oldKeys_.size() && oldKeys_[old] == key && oldPiece() == kNullIndex) {
+        while (old < oldKeys_.size() && oldKeys_[old] < key) removeOld();
+        if (mayCollideHolds_ && old < oldKeys_.size() && oldKeys_[old] == key && oldPiece() == kNullIndex) {
             put(key, oldOrder_[old++]);
             continue;
         }
@@ -85,10 +92,10 @@ void ContactSet<S>::findCandidates(const BodyArrays<S>& bodies, const Tasks& tas
             candidates_.at(order.back()).ridge = ridge;
         }
     }
-    while (old < oldKeys_.size()) drop();
-    if (candidates_.untidy()) candidates_.tidy(tasks);
+    while (old < oldKeys_.size()) removeOld();
+    if (candidates_.fragmented()) candidates_.defragment(tasks);
     rememberPairs();
-    candidatesValid_ = mayHolds_ = true;
+    candidatesValid_ = mayCollideHolds_ = true;
 }
 
 /// Pieces of a chain, mesh or height field near another shape, in ascending order.
@@ -96,15 +103,15 @@ template <class S>
 void ContactSet<S>::findPieces(std::uint32_t surface, std::uint32_t other) {
     pieces_.clear();
     const Aabb<S> box = boxOnSurface<S>(shapePoses_[surface], shapes_[other].shape, shapePoses_[other],
-                                        search_.speculativeDistance + search_.reuseDistance);
+                                        search_.speculativeDistance + search_.cacheTolerance);
     withSurface<S>(shapes_[surface].shape, [&](const auto& data) {
         data.query(box, [&](std::uint32_t piece) { pieces_.push_back(piece); });
     });
     std::sort(pieces_.begin(), pieces_.end());
 }
 
-/// Pairs that were found exactly are compared with the next ones; those of enlarged boxes are known to be the
-/// same by themselves (findPairs), and a list of no other pairs stands for them.
+/// Remembers the pairs of boxes without a margin, to be compared with those of the next step. Those of fat
+/// AABBs report changes themselves (findPairs): an invalid pair stands for them.
 template <class S>
 void ContactSet<S>::rememberPairs() {
     if (search_.boxMargin == 0)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What began and what ended in a step.
+// Events: contacts that have begun or ended in a step.
 #include "engine/pipeline/contact_set.hpp"
 
 #include <algorithm>
@@ -11,12 +11,13 @@
 namespace rigor::engine {
 
 template <class S>
-void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events,
-                               const Tasks& tasks) {
-    constexpr std::size_t kContactGrain = 64;  // worth sharing: some microseconds of work
-    turned_.resize(contacts_.size());
-    tasks.forEach(contacts_.size(), kContactGrain,
-                  [this](std::size_t k) { turned_[k] = contacts_[k].touching != contacts_[k].touched; });
+void ContactSet<S>::addEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events,
+                              const Tasks& tasks) {
+    constexpr std::size_t kContactGrain = 64;  // worth a task: some microseconds of work
+    touchChanged_.resize(contacts_.size());
+    tasks.forEach(contacts_.size(), kContactGrain, [this](std::size_t k) {
+        touchChanged_[k] = contacts_[k].touching != contacts_[k].touched;
+    });
     const auto key = [](const auto& c) { return std::pair(pairKey(c.shapeA, c.shapeB), c.piece); };
     const auto add = [&](EventKind kind, const auto& c) -> Event<S>& {
         Event<S>& event = events.emplace_back();
@@ -36,22 +37,24 @@ void ContactSet<S>::noteEvents(const BodyArrays<S>& bodies, std::vector<Event<S>
             event.impulse += contact.totals[i].normal;
         }
     };
-    auto gone = gone_.begin();
-    const std::uint8_t* const end = turned_.data() + turned_.size();
+    auto ended = ended_.begin();
+    const std::uint8_t* const end = touchChanged_.data() + touchChanged_.size();
     const auto next = [end](const std::uint8_t* from) {
         const void* found =
             from == end ? nullptr : std::memchr(from, 1, static_cast<std::size_t>(end - from));
         return found == nullptr ? end : static_cast<const std::uint8_t*>(found);
     };
-    for (const std::uint8_t* turned = next(turned_.data()); turned != end; turned = next(turned + 1)) {
-        const Contact<S>& contact = contacts_[static_cast<std::size_t>(turned - turned_.data())];
-        for (; gone != gone_.end() && key(*gone) < key(contact); ++gone) add(EventKind::ContactEnds, *gone);
+    for (const std::uint8_t* changed = next(touchChanged_.data()); changed != end;
+         changed = next(changed + 1)) {
+        const Contact<S>& contact = contacts_[static_cast<std::size_t>(changed - touchChanged_.data())];
+        for (; ended != ended_.end() && key(*ended) < key(contact); ++ended)
+            add(EventKind::ContactEnds, *ended);
         if (contact.touching)
             begins(contact);
         else
             add(EventKind::ContactEnds, contact);
     }
-    for (; gone != gone_.end(); ++gone) add(EventKind::ContactEnds, *gone);
+    for (; ended != ended_.end(); ++ended) add(EventKind::ContactEnds, *ended);
 }
 
 RIGOR_INSTANTIATE_CLASS(ContactSet)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// One contact: from the poses of two shapes to points, and what it knew in the last step goes over to them.
+// Update of one contact: manifold from the poses of two shapes, and impulses from the points of the last
+// step.
 #include "engine/pipeline/contact_set.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 
 namespace rigor::engine {
 
-/// Both bodies at rest and at least one of them asleep: walls, and bodies asleep, do not move.
+/// True when neither body takes impulses and neither moves: sleeping, static or resting kinematic bodies.
 template <class S>
 bool ContactSet<S>::isAsleep(const BodyArrays<S>& bodies, const Contact<S>& contact) {
     if (bodies.invMass[contact.bodyA] > 0 || bodies.invMass[contact.bodyB] > 0) return false;
@@ -24,11 +25,11 @@ bool ContactSet<S>::isAsleep(const BodyArrays<S>& bodies, const Contact<S>& cont
 }
 
 template <class S>
-bool ContactSet<S>::renewContact(const Search& search, Candidate& candidate, Contact<S>& contact) const {
+bool ContactSet<S>::updateContact(const Search& search, Candidate& candidate, Contact<S>& contact) const {
     contact.touched = contact.touching;
     if (isAsleep(search.bodies, contact)) return true;
-    if (stillValid(candidate)) {
-        carry(candidate, contact);
+    if (isCacheValid(candidate)) {
+        moveCachedManifold(candidate, contact);
         clearStep(contact);
         return completeContact(search, candidate, contact);
     }
@@ -38,22 +39,23 @@ bool ContactSet<S>::renewContact(const Search& search, Candidate& candidate, Con
         old.feature[i] = contact.manifold.points[i].feature;
         old.pointB[i] = contact.manifold.points[i].pointB;
     }
-    if (candidate.kept) contact.manifold.memory.normal = contact.manifold.normal;  // it has turned since
+    if (candidate.cached)
+        contact.manifold.memory.normal = contact.manifold.normal;  // turned with its body since
     contact.manifold.normal.setZero();
     contact.manifold.count = 0;
-    ask(search, candidate, contact.manifold);
+    queryNarrowPhase(search, candidate, contact.manifold);
     if (contact.manifold.count == 0) contact.cache.count = 0;
     makePoints(search, candidate, contact);
     if (!completeContact(search, candidate, contact)) return false;
-    takeOver(search.bodies, old, contact);
+    transferImpulses(search.bodies, old, contact);
     return true;
 }
 
 template <class S>
 std::optional<Contact<S>> ContactSet<S>::findContact(const Search& search, Candidate& candidate) const {
     Manifold<S> manifold;
-    if (!stillValid(candidate)) {
-        ask(search, candidate, manifold);
+    if (!isCacheValid(candidate)) {
+        queryNarrowPhase(search, candidate, manifold);
     }
     if (manifold.count == 0 && !search.ccd.looksAhead()) return std::nullopt;
     std::optional<Contact<S>> found(std::in_place);
@@ -69,31 +71,31 @@ std::optional<Contact<S>> ContactSet<S>::findContact(const Search& search, Candi
     return found;
 }
 
-/// What the manifold choice makes of the points found, and of no points what is kept of that.
+/// Reduces the points to the manifold that the solver gets, and caches it.
 template <class S>
 void ContactSet<S>::makePoints(const Search& search, Candidate& candidate, Contact<S>& contact) const {
     const std::uint32_t a = candidate.a, b = candidate.b;
     if (contact.manifold.count > 0 && search.makeManifold != nullptr) {
         const Real size =
             std::min((boxes_[a].max - boxes_[a].min).norm(), (boxes_[b].max - boxes_[b].min).norm());
-        search.makeManifold({shapePoses_[a], shapePoses_[b], size, askedDistance(candidate)}, contact.cache,
+        search.makeManifold({shapePoses_[a], shapePoses_[b], size, queryDistance(candidate)}, contact.cache,
                             contact.manifold);
     }
-    keepPoints(candidate, contact);
+    cacheManifold(candidate, contact);
 }
 
-/// From the points to what the solver gets. False: there are none.
+/// Completes a contact for the solver: speculative points, coefficients, touching. False: it has no points.
 template <class S>
 bool ContactSet<S>::completeContact(const Search& search, Candidate& candidate, Contact<S>& contact) const {
-    contact.asleep = contact.ahead = contact.placed = false;
-    // Pieces of a chain, mesh or field are found where they are, not ahead.
+    contact.asleep = contact.speculative = contact.placed = false;
+    // Continuous collision does not predict contacts with pieces of a chain, mesh or height field.
     if (candidate.piece == kNullIndex && search.ccd.looksAhead()) {
         placePoints(search.bodies, contact);
         const bool here = contact.manifold.count > 0;
         search.ccd.findAhead(contact, search.bodies, *this, search.narrowPhase);
-        if (!here && contact.manifold.count > 0) candidate.kept = false;
+        if (!here && contact.manifold.count > 0) candidate.cached = false;
     }
-    if (!(candidate.contact != kNullIndex && coefficientsHold_))
+    if (!(candidate.contact != kNullIndex && coefficientsValid_))
         contact.coefficients = pair(shapes_[candidate.a].material, shapes_[candidate.b].material);
     contact.touching = false;
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
@@ -101,7 +103,7 @@ bool ContactSet<S>::completeContact(const Search& search, Candidate& candidate, 
     return contact.manifold.count > 0;
 }
 
-/// Of what the last step has left in the points, the impulses to start from stay: those of an impact do not.
+/// Resets the results of the last step. Impulses stay as the warm start, but for those of an impact.
 template <class S>
 void ContactSet<S>::clearStep(Contact<S>& contact) {
     contact.block.fill(kNullIndex);
@@ -110,9 +112,9 @@ void ContactSet<S>::clearStep(Contact<S>& contact) {
     contact.impacts = false;
 }
 
-/// The points start with the impulses of the last step.
+/// Transfers the impulses of the last step to the points of this step.
 template <class S>
-void ContactSet<S>::takeOver(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact) {
+void ContactSet<S>::transferImpulses(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact) {
     clearStep(contact);
     const auto n = static_cast<std::size_t>(contact.manifold.count);
     bool same = n == old.count;
@@ -120,8 +122,8 @@ void ContactSet<S>::takeOver(const BodyArrays<S>& bodies, const OldPoints& old, 
     if (!same) matchPoints(bodies, old, contact);
 }
 
-/// By feature; points whose feature is new (a face that has become the other body's reference) take the
-/// impulses of the nearest point left over, if it is near compared with its arm.
+/// Matches points by feature. A point with a new feature (the reference face has changed to the other body)
+/// takes the impulses of the nearest unmatched point, if that is near compared with its arm.
 template <class S>
 void ContactSet<S>::matchPoints(const BodyArrays<S>& bodies, const OldPoints& old, Contact<S>& contact) {
     const auto impulses = contact.impulses;
@@ -154,15 +156,16 @@ void ContactSet<S>::matchPoints(const BodyArrays<S>& bodies, const OldPoints& ol
 }
 
 template <class S>
-void ContactSet<S>::ask(const Search& search, Candidate& candidate, Manifold<S>& manifold) const {
-    candidate.asked = true;
+void ContactSet<S>::queryNarrowPhase(const Search& search, Candidate& candidate,
+                                     Manifold<S>& manifold) const {
+    candidate.queried = true;
     const std::uint32_t a = candidate.a, b = candidate.b;
-    const Real distance = askedDistance(candidate);
-    manifold.apart = 0;
+    const Real distance = queryDistance(candidate);
+    manifold.separationLowerBound = 0;
     if (candidate.piece == kNullIndex) {
         search.narrowPhase.collide(shapes_[a].shape, shapePoses_[a], shapes_[b].shape, shapePoses_[b],
                                    distance, manifold);
-        candidate.apart = manifold.apart;
+        candidate.separationBound = manifold.separationLowerBound;
     } else {
         const bool surfaceA = isComposite<S>(shapes_[a].shape);
         const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
@@ -170,9 +173,9 @@ void ContactSet<S>::ask(const Search& search, Candidate& candidate, Manifold<S>&
         collidePiece<S>(search.narrowPhase, shapes_[surface].shape, candidate.piece, candidate.ridge,
                         shapePoses_[surface], shapes_[other].shape, shapePoses_[other], distance, manifold);
         if (!surfaceA) flipManifold(manifold);
-        candidate.apart = 0;  // of one of its sides, perhaps
+        candidate.separationBound = 0;  // a bound for this piece only
     }
-    keep(candidate);
+    cacheResult(candidate);
 }
 
 template <class S>

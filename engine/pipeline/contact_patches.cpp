@@ -87,8 +87,8 @@ void fillLane(const PatchLane<S>& to, const BodyArrays<S>& bodies, const Contact
     for (std::size_t i = 0; i < count; ++i) {
         const ManifoldPoint<S>& where = contact->manifold.points[i];
         // Speculative points found by continuous collision keep their arms at the time of impact.
-        const Vec arm = contact->ahead ? contact->points[i].rB
-                                       : Vec(impulsePoint<S>(where, movesA, movesB) - bodies.pose[b].p);
+        const Vec arm = contact->speculative ? contact->points[i].rB
+                                             : Vec(impulsePoint<S>(where, movesA, movesB) - bodies.pose[b].p);
         to.setPoint(i, true, where.separation, arm, step.warmStart, contact->impulses[i]);
     }
     for (std::size_t i = count; i < static_cast<std::size_t>(block.points); ++i)
@@ -148,7 +148,7 @@ void ContactSet<S>::storePatches(Patches<S>& patches, const Tasks& tasks) {
     patches.forBlocks(tasks, [&](std::size_t b) {
         for (std::size_t lane = 0; lane < kLanes; ++lane)
             if (const Contact<S>* next = contactAt(patches, contacts_, b + 1, lane)) {
-                prefetch(next, &next->manifold.apart);
+                prefetch(next, &next->manifold.separationLowerBound);
                 prefetch(&next->impulses, &next->shapeA);
             }
         PatchFriction<PatchSpace<S>> friction;

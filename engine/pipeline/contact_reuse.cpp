@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Answers of the narrow phase that are kept while two shapes hardly move against each other
-// (WorldDef::reuseDistance). The idea is that of the contact caches of [Rouwe2022] and of
-// [Box2D2024], which recycles contacts likewise; code and bounds are our own.
+// Contact cache: the narrow phase is not called again while two shapes have hardly moved relative to each
+// other (WorldDef::cacheTolerance). The idea is that of the contact caches of [Rouwe2022] and [Box2D2024];
+// code and bounds are our own.
 //
-// With T the pose of the smaller shape (by its radius r about its origin) in the frame of the other, T' the
-// same when the narrow phase was asked, no point of the smaller has moved by more than
+// Let T be the pose of the smaller shape (by its radius r about its origin) in the frame of the other, and T'
+// the same at the last query. No point of the smaller shape has moved, relative to the other, by more than
 //     m = |p - p'| + r |R - R'|,       |R - R'| = 2 sin(angle / 2) <= 2 |q - q'|   (2D: equal to |q - q'|)
-// against the other. The answer stays while m <= s = min(reuseDistance, kMostTurn r). Narrow phases are asked
-// for what is within speculativeDistance + s, so that
-//     nothing found    stays true: nothing can have come within speculativeDistance; where the narrow phase
-//     knows
-//                      how far apart they are (Manifold::apart), until they could be as near as it was asked
-//     a manifold       keeps its points, each where it was on its body, and its normal, fixed to the body
-//                      whose face it is: n . (pB - pA) is the separation of the same two points now
-// Against asking again, the deepest separation is off by at most 2 s, and exact between a corner and the face
-// that it rests on; corners are the same corners, points where two edges cross slide with one of them; the
-// normal of two edges turns with A, by at most s / r <= kMostTurn from the right one. What the solver sees
-// moves with the bodies and jumps only at the moment of asking.
+// The cached result is valid while m <= s = min(cacheTolerance, kMaxTurn r). The narrow phase is queried with
+// the distance speculativeDistance + s, so that
+//     no contact    stays true: nothing can have come within speculativeDistance. With a lower bound of the
+//                   separation (Manifold::separationLowerBound) it is valid until that has shrunk to the
+//                   query distance
+//     a manifold    keeps its points, each fixed to its body, and its normal, fixed to the body whose face it
+//                   is: n . (pB - pA) is the separation of the same two points now
+// Compared with a new query, the deepest separation is off by at most 2 s, and exact between a corner and the
+// face that it rests on. Corners stay the same corners; points where two edges cross slide with one of them;
+// the normal of two edges turns with A, by at most s / r <= kMaxTurn from the exact one. The solver's input
+// moves with the bodies and jumps only at a query.
 //
-// Not kept: pairs with a ball, and of capsules and half-spaces, whose closed forms cost no more than this;
-// and contacts found ahead (continuous_collision = speculative).
+// Not cached: pairs with a sphere or circle, pairs of capsules and half-spaces, whose closed forms cost no
+// more than this, and speculative contacts of continuous collision.
 #include <algorithm>
 #include <cmath>
 
@@ -30,27 +30,28 @@
 namespace rigor::engine {
 namespace {
 
-/// However small the shapes, more than this changes what they touch with [rad].
+/// Largest rotation of a cached manifold [rad], however small the shapes: beyond it the touching features may
+/// change.
 template <class R>
-inline constexpr R kMostTurn = R(0.02);
+inline constexpr R kMaxTurn = R(0.02);
 
 template <class S>
-bool worthKeeping(const Shape<S>& a, const Shape<S>& b) {
-    const auto ball = [](const Shape<S>& s) { return std::holds_alternative<Sphere<S>>(s); };
+bool isWorthCaching(const Shape<S>& a, const Shape<S>& b) {
+    const auto round = [](const Shape<S>& s) { return std::holds_alternative<Sphere<S>>(s); };
     const auto smooth = [](const Shape<S>& s) {
         return std::holds_alternative<Capsule<S>>(s) || std::holds_alternative<HalfSpace<S>>(s);
     };
-    return !ball(a) && !ball(b) && !(smooth(a) && smooth(b));
+    return !round(a) && !round(b) && !(smooth(a) && smooth(b));
 }
 
-/// At least |R - R'| of two rotations.
+/// Upper bound of |R - R'| of two rotations.
 template <class R>
-R turned(const Rot2<R>& q, const Rot2<R>& p) {
+R rotationDistance(const Rot2<R>& q, const Rot2<R>& p) {
     const R c = q.c - p.c, s = q.s - p.s;
     return std::sqrt(c * c + s * s);
 }
 template <class R>
-R turned(const Eigen::Quaternion<R>& q, const Eigen::Quaternion<R>& p) {
+R rotationDistance(const Eigen::Quaternion<R>& q, const Eigen::Quaternion<R>& p) {
     return R(2) * (q.coeffs() - p.coeffs()).norm();
 }
 
@@ -70,14 +71,14 @@ typename ContactSet<S>::Candidate ContactSet<S>::makeCandidate(std::uint32_t a, 
     candidate.b = b;
     candidate.piece = piece;
     candidate.byA = shapes_[a].radius < shapes_[b].radius;
-    if (worthKeeping<S>(shapes_[a].shape, shapes_[b].shape))
+    if (isWorthCaching<S>(shapes_[a].shape, shapes_[b].shape))
         candidate.radius = std::min(shapes_[a].radius, shapes_[b].radius);
     return candidate;
 }
 
 template <class S>
 typename S::Real ContactSet<S>::slack(const Candidate& candidate) const {
-    return std::min(search_.reuseDistance, kMostTurn<Real> * candidate.radius);
+    return std::min(search_.cacheTolerance, kMaxTurn<Real> * candidate.radius);
 }
 
 template <class S>
@@ -87,26 +88,28 @@ Pose<S> ContactSet<S>::relative(const Candidate& candidate) const {
 }
 
 template <class S>
-bool ContactSet<S>::stillValid(const Candidate& candidate) const {
-    if (!candidate.kept) return false;
+bool ContactSet<S>::isCacheValid(const Candidate& candidate) const {
+    if (!candidate.cached) return false;
     const Pose<S> now = relative(candidate);
     Real most = slack(candidate);
-    if (candidate.contact == kNullIndex) most = std::max(most, candidate.apart - askedDistance(candidate));
-    return (now.p - candidate.relative.p).norm() + candidate.radius * turned(now.q, candidate.relative.q) <=
+    if (candidate.contact == kNullIndex)
+        most = std::max(most, candidate.separationBound - queryDistance(candidate));
+    return (now.p - candidate.relative.p).norm() +
+               candidate.radius * rotationDistance(now.q, candidate.relative.q) <=
            most;
 }
 
-/// Keeps what the narrow phase has just answered.
+/// Marks the result of the query just made as cached.
 template <class S>
-void ContactSet<S>::keep(Candidate& candidate) const {
-    candidate.kept = slack(candidate) > 0;
-    if (candidate.kept) candidate.relative = relative(candidate);
+void ContactSet<S>::cacheResult(Candidate& candidate) const {
+    candidate.cached = slack(candidate) > 0;
+    if (candidate.cached) candidate.relative = relative(candidate);
 }
 
-/// And the manifold of its contact.
+/// Caches the manifold of a contact, in the frames of its bodies.
 template <class S>
-void ContactSet<S>::keepPoints(Candidate& candidate, Contact<S>& contact) const {
-    if (!candidate.kept) return;
+void ContactSet<S>::cacheManifold(Candidate& candidate, Contact<S>& contact) const {
+    if (!candidate.cached) return;
     const Pose<S>&A = shapePoses_[candidate.a], &B = shapePoses_[candidate.b];
     const Manifold<S>& manifold = contact.manifold;
     candidate.onB = manifold.memory.axis == ManifoldMemory<S>::kFaceB;
@@ -118,42 +121,42 @@ void ContactSet<S>::keepPoints(Candidate& candidate, Contact<S>& contact) const 
     }
 }
 
-/// The manifold that is kept, where its bodies are now.
+/// Moves the cached manifold to the current poses of its bodies.
 template <class S>
-void ContactSet<S>::carry(const Candidate& candidate, Contact<S>& contact) const {
+void ContactSet<S>::moveCachedManifold(const Candidate& candidate, Contact<S>& contact) const {
     const Pose<S>&A = shapePoses_[candidate.a], &B = shapePoses_[candidate.b];
     const typename S::Mat Ra = toMatrix(A.q), Rb = toMatrix(B.q);
     const Vec between = B.p - A.p, n = (candidate.onB ? Rb : Ra) * candidate.normal;
     contact.manifold.normal = n;
     for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
-        const typename ManifoldCache<S>::Point& kept = contact.cache.points[i];
+        const typename ManifoldCache<S>::Point& cached = contact.cache.points[i];
         ManifoldPoint<S>& point = contact.manifold.points[i];
-        // From A's origin: far from the world's, where coordinates are coarse, the separation is not.
-        const Vec a = Ra * kept.onA, b = between + Rb * kept.onB;
+        // Relative to A's origin, so that the separation is accurate far from the world's origin.
+        const Vec a = Ra * cached.onA, b = between + Rb * cached.onB;
         point.pointA = A.p + a;
         point.pointB = A.p + b;
         point.separation = n.dot(b - a);
     }
 }
 
-/// Answers of another search, in a world that a snapshot of other settings was restored into, hold no more.
+/// Invalidates manifolds cached with other distances: a snapshot may come from a world with other settings.
 template <class S>
-void ContactSet<S>::forgetOtherAnswers() {
-    if (keptFor_.speculativeDistance != search_.speculativeDistance ||
-        keptFor_.reuseDistance != search_.reuseDistance)
-        for (Candidate& candidate : candidates_) candidate.kept = false;
-    keptFor_ = search_;
+void ContactSet<S>::invalidateCacheOfOtherSearch() {
+    if (cachedSearch_.speculativeDistance != search_.speculativeDistance ||
+        cachedSearch_.cacheTolerance != search_.cacheTolerance)
+        for (Candidate& candidate : candidates_) candidate.cached = false;
+    cachedSearch_ = search_;
 }
 
 template <class S>
 bool ContactSet<S>::completeRestored() {
-    coefficientsHold_ = mayHolds_ = candidatesHavePieces_ = false;
+    coefficientsValid_ = mayCollideHolds_ = candidatesHavePieces_ = false;
     std::size_t count = 0;
     keys_.clear();
     for (Contact<S>& contact : contacts_) {
         const auto n = static_cast<std::size_t>(contact.manifold.count);
         for (std::size_t i = 0; i < n; ++i) contact.impacts = contact.impacts || contact.points[i].impact;
-        // A world that solves patches leaves the points alone.
+        // A world that solves patches does not write the points.
         contact.placed = n > 0 && !contact.points[0].rB.isZero(0);
     }
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
@@ -170,7 +173,7 @@ bool ContactSet<S>::completeRestored() {
         if (count >= contacts_.size()) return false;
         const Contact<S>& contact = contacts_[count++];
         if (contact.shapeA != c.a || contact.shapeB != c.b || contact.piece != c.piece) return false;
-        if (c.kept && contact.cache.count != contact.manifold.count) return false;
+        if (c.cached && contact.cache.count != contact.manifold.count) return false;
     }
     return count == contacts_.size();
 }

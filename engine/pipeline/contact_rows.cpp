@@ -22,7 +22,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kContactGrain = 16;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kContactGrain = 16;  ///< worth a task: some microseconds of work
 
 /// Rounding of coordinates of order one metre: closer than this is touching.
 template <class R>
@@ -63,7 +63,7 @@ template <class S>
 void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows,
                             const Tasks& tasks) {
     tasks.forEach(contacts_.size(), kContactGrain,
-                  [&](std::size_t k) { planRows(bodies, step, contacts_[k]); });
+                  [&](std::size_t k) { prepareRows(bodies, step, contacts_[k]); });
     std::size_t firstRow = rows.rows.size(), firstBlock = rows.blocks.size();
     for (Contact<S>& contact : contacts_) {
         contact.firstRow = static_cast<std::uint32_t>(firstRow);
@@ -87,14 +87,15 @@ void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& s
 }
 
 template <class S>
-void ContactSet<S>::planRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact) {
+void ContactSet<S>::prepareRows(const BodyArrays<S>& bodies, const ContactStep<S>& step,
+                                Contact<S>& contact) {
     contact.asleep = isAsleep(bodies, contact);
     contact.blocks = 0;
     if (!contact.placed) placePoints(bodies, contact);
     if (step.begins && !contact.asleep) contact.totals.fill({});
     for (std::size_t i = 0; i < contact.block.size(); ++i) {
         const bool has = i < static_cast<std::size_t>(contact.manifold.count) && !contact.asleep &&
-                         planPoint(bodies, step, contact, i);
+                         preparePoint(bodies, step, contact, i);
         contact.block[i] = has ? 0 : kNullIndex;
         contact.blocks += has;
     }
@@ -102,8 +103,8 @@ void ContactSet<S>::planRows(const BodyArrays<S>& bodies, const ContactStep<S>& 
 
 /// What this step makes of a point. False: it is let through, without rows.
 template <class S>
-bool ContactSet<S>::planPoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
-                              std::size_t index) {
+bool ContactSet<S>::preparePoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
+                                 std::size_t index) {
     typename Contact<S>::Point& point = contact.points[index];
     const Row<S> normal = pointRow<S>(point, contact.manifold.normal);
     const Real s = point.separation;
@@ -114,9 +115,10 @@ bool ContactSet<S>::planPoint(const BodyArrays<S>& bodies, const ContactStep<S>&
     if (point.impact) contact.impulses[index] = {};
     point.impact = point.approach < -step.impactSpeed;
     contact.impacts = contact.impacts || point.impact;
-    point.rebound = contact.ahead && bounces && s > kTouching<Real> ? restitution * point.approach : Real(0);
+    point.rebound =
+        contact.speculative && bounces && s > kTouching<Real> ? restitution * point.approach : Real(0);
     const bool mayBounce = restitution > 0 && s > std::max(kTouching<Real>, step.restingGap);
-    if (contact.ahead || !((bounces && s > kTouching<Real>) || mayBounce)) return true;
+    if (contact.speculative || !((bounces && s > kTouching<Real>) || mayBounce)) return true;
     contact.impulses[index] = {};
     return false;
 }
@@ -155,7 +157,7 @@ void ContactSet<S>::makePointRows(const BodyArrays<S>& bodies, const ContactStep
     else if (point.separation > (point.impact ? Real(0) : step.gapSlop))
         normal.bias = point.separation / step.h;
     normal.relaxedBias = normal.bias;
-    if (normal.bias == 0) pushApart(step, block, point.separation, normal);
+    if (normal.bias == 0) setPenetrationBias(step, block, point.separation, normal);
     normal.impulse = step.warmStart * contact.impulses[index].normal;
     if (block.rows == 1) return;
 
@@ -172,7 +174,8 @@ void ContactSet<S>::makePointRows(const BodyArrays<S>& bodies, const ContactStep
 
 /// What the bias rule makes of overlap.
 template <class S>
-void ContactSet<S>::pushApart(const ContactStep<S>& step, const Block<S>& block, Real s, Row<S>& normal) {
+void ContactSet<S>::setPenetrationBias(const ContactStep<S>& step, const Block<S>& block, Real s,
+                                       Row<S>& normal) {
     const Real overlap = std::min(Real(0), s + step.slop);
     if (!step.bias.soft) {
         normal.bias = step.bias.baumgarte * overlap / step.h;
@@ -186,10 +189,10 @@ void ContactSet<S>::pushApart(const ContactStep<S>& step, const Block<S>& block,
 }
 
 template <class S>
-bool ContactSet<S>::bounceAhead(ConstraintRows<S>& rows) const {
+bool ContactSet<S>::applySpeculativeRestitution(ConstraintRows<S>& rows) const {
     bool any = false;
     for (const Contact<S>& contact : contacts_)
-        for (int i = 0; contact.ahead && i < contact.manifold.count; ++i) {
+        for (int i = 0; contact.speculative && i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (contact.points[k].rebound == 0 || contact.block[k] == kNullIndex) continue;
             Row<S>& normal = rows.rows[rows.blocks[contact.block[k]].first];

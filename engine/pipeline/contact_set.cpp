@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which shapes may touch, and the list of those that do: contacts stay where they are from step to step, and
-// only those that are new or gone cost more than finding their points (contact_find.cpp). Rows:
-// contact_rows.cpp; events: contact_events.cpp.
+// Materials, the broad phase, and the list of contacts. Contacts keep their slot from step to step; only
+// those that begin or end cost more than updating their points (contact_find.cpp). Rows: contact_rows.cpp;
+// events: contact_events.cpp.
 #include "engine/pipeline/contact_set.hpp"
 
 #include <algorithm>
@@ -12,12 +12,12 @@
 namespace rigor::engine {
 namespace {
 
-/// Of a part of n things that are taken `size` at a time.
-constexpr std::size_t endOf(std::size_t part, std::size_t size, std::size_t n) {
-    return std::min(size * (part + 1), n);
+/// End of a batch of n items in batches of `size`.
+constexpr std::size_t endOf(std::size_t batch, std::size_t size, std::size_t n) {
+    return std::min(size * (batch + 1), n);
 }
 
-constexpr std::size_t kShapeGrain = 64, kPairGrain = 16;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kShapeGrain = 64, kPairGrain = 16;  ///< worth a task: some microseconds of work
 
 }  // namespace
 
@@ -45,20 +45,20 @@ std::uint32_t ContactSet<S>::addMaterial(const PairCoefficients<S>& own) {
                 table[a * materialCount_ + b] = combine(materials_[a], materials_[b]);
         }
     pairs_ = std::move(table);
-    coefficientsHold_ = false;
+    coefficientsValid_ = false;
     return added;
 }
 
 template <class S>
 void ContactSet<S>::setPair(std::uint32_t a, std::uint32_t b, const PairCoefficients<S>& coefficients) {
     pairs_[a * materialCount_ + b] = pairs_[b * materialCount_ + a] = coefficients;
-    coefficientsHold_ = false;
+    coefficientsValid_ = false;
 }
 
 template <class S>
 void ContactSet<S>::structureChanged(bool indicesChanged) {
-    boxesValid_ = candidatesValid_ = coefficientsHold_ = mayHolds_ = false;
-    enlarged_.reset();
+    boxesValid_ = candidatesValid_ = coefficientsValid_ = mayCollideHolds_ = false;
+    fatBoxes_.reset();
     surfaces_.clear();
     for (std::uint32_t i = 0; i < shapes_.size(); ++i)
         if (isComposite<S>(shapes_[i].shape)) surfaces_.push_back(i);
@@ -66,7 +66,7 @@ void ContactSet<S>::structureChanged(bool indicesChanged) {
         contacts_.clear();
         candidates_.clear();
         keys_.clear();
-        dropped_.clear();
+        removed_.clear();
     }
 }
 
@@ -88,7 +88,7 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
     shapePoses_.resize(n);
     boxes_.resize(n);
     movable_.resize(n);
-    const Vec margin = Vec::Constant(search.speculativeDistance + search.reuseDistance);
+    const Vec margin = Vec::Constant(search.speculativeDistance + search.cacheTolerance);
     tasks.forEach(n, kShapeGrain, [&](std::size_t i) {
         const ShapeRecord<S>& record = shapes_[i];
         const bool isStatic = bodies.constants[record.body].type == BodyType::Static;
@@ -106,28 +106,28 @@ void ContactSet<S>::findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadP
     if (search.boxMargin == 0) {
         broadPhase.update(boxes_, movable_, proxyPairs_, tasks);
         pairCount_ = proxyPairs_.size();
-        proxyPairsHold_ = true;
+        proxyPairsValid_ = true;
         return;
     }
-    if (enlarged_.update(broadPhase, boxes_, movable_, search.boxMargin, tasks)) candidatesValid_ = false;
+    if (fatBoxes_.update(broadPhase, boxes_, movable_, search.boxMargin, tasks)) candidatesValid_ = false;
     std::atomic<std::size_t> count = 0;
-    tasks.forRanges(enlarged_.pairs().size(), kPairGrain * 16, [&](std::size_t first, std::size_t last) {
-        const auto pair = enlarged_.pairs().begin();
+    tasks.forRanges(fatBoxes_.pairs().size(), kPairGrain * 16, [&](std::size_t first, std::size_t last) {
+        const auto pair = fatBoxes_.pairs().begin();
         count += static_cast<std::size_t>(
             std::count_if(pair + static_cast<std::ptrdiff_t>(first), pair + static_cast<std::ptrdiff_t>(last),
                           [this](const ProxyPair& p) { return boxes_[p.a].overlaps(boxes_[p.b]); }));
     });
     pairCount_ = count;
-    proxyPairsHold_ = false;
+    proxyPairsValid_ = false;
 }
 
 template <class S>
 const std::vector<ProxyPair>& ContactSet<S>::proxyPairs() const {
-    if (!proxyPairsHold_) {
+    if (!proxyPairsValid_) {
         proxyPairs_.clear();
-        for (const ProxyPair& pair : enlarged_.pairs())
+        for (const ProxyPair& pair : fatBoxes_.pairs())
             if (boxes_[pair.a].overlaps(boxes_[pair.b])) proxyPairs_.push_back(pair);
-        proxyPairsHold_ = true;
+        proxyPairsValid_ = true;
     }
     return proxyPairs_;
 }
@@ -139,86 +139,86 @@ void ContactSet<S>::findManifolds(const BodyArrays<S>& bodies, const NarrowPhase
     const bool exact = search_.boxMargin == 0;
     if (!candidatesValid_ || candidatesHavePieces_ || (exact && candidatePairs_ != proxyPairs_))
         findCandidates(bodies, tasks);
-    forgetOtherAnswers();
+    invalidateCacheOfOtherSearch();
     if (makeManifold == &manifoldClipped<S>) makeManifold = nullptr;
     const Search search{bodies, narrowPhase, makeManifold, ccd};
-    // New contacts take the next free place in fresh_; those that it has no room for are found once more.
+    // Each new contact takes the next element of begun_; those beyond its size are computed again later.
     std::atomic<std::uint32_t> taken = 0;
     const Tasks& those = narrowPhase.manyThreads() ? tasks : Tasks::one();
-    const auto look = [&](Candidate& candidate) {
-        candidate.found = candidate.asked = false;
+    const auto update = [&](Candidate& candidate) {
+        candidate.found = candidate.queried = false;
         if (!exact && !boxes_[candidate.a].overlaps(boxes_[candidate.b])) {
-            candidate.kept = false;  // as if the pair had not been listed
+            candidate.cached = false;  // as for a pair that the broad phase does not list
             return;
         }
         if (candidate.contact != kNullIndex) {
-            candidate.found = renewContact(search, candidate, contacts_.at(candidate.contact));
+            candidate.found = updateContact(search, candidate, contacts_.at(candidate.contact));
             return;
         }
-        if (stillValid(candidate) && !ccd.looksAhead()) return;
+        if (isCacheValid(candidate) && !ccd.looksAhead()) return;
         if (const std::optional<Contact<S>> contact = findContact(search, candidate)) {
             candidate.found = true;
-            candidate.fresh = taken.fetch_add(1, std::memory_order_relaxed);
-            if (candidate.fresh < fresh_.size()) fresh_[candidate.fresh] = *contact;
+            candidate.begun = taken.fetch_add(1, std::memory_order_relaxed);
+            if (candidate.begun < begun_.size()) begun_[candidate.begun] = *contact;
         }
     };
     outcomes_.resize(candidates_.size());
-    tallies_.resize((candidates_.size() + kTally - 1) / kTally);
-    those.forEach(tallies_.size(), 1, [&](std::size_t c) {
-        Tally tally;
-        for (std::size_t k = kTally * c; k < endOf(c, kTally, candidates_.size()); ++k) {
-            constexpr std::size_t kAhead = 4;
-            if (k + kAhead < candidates_.size() && candidates_[k + kAhead].contact != kNullIndex) {
-                const Contact<S>& next = contacts_.at(candidates_[k + kAhead].contact);
+    counters_.resize((candidates_.size() + kBatch - 1) / kBatch);
+    those.forEach(counters_.size(), 1, [&](std::size_t c) {
+        Counters counters;
+        for (std::size_t k = kBatch * c; k < endOf(c, kBatch, candidates_.size()); ++k) {
+            constexpr std::size_t kPrefetch = 4;
+            if (k + kPrefetch < candidates_.size() && candidates_[k + kPrefetch].contact != kNullIndex) {
+                const Contact<S>& next = contacts_.at(candidates_[k + kPrefetch].contact);
                 prefetch(&next, &next.impulses);
             }
             Candidate& candidate = candidates_[k];
-            look(candidate);
+            update(candidate);
             outcomes_[k] = {candidate.contact, candidate.found};
-            tally.add(candidate.contact != kNullIndex, candidate.found, candidate.asked);
+            counters.add(candidate.contact != kNullIndex, candidate.found, candidate.queried);
         }
-        tallies_[c] = tally;
+        counters_[c] = counters;
     });
-    settle(search, tasks);
-    coefficientsHold_ = true;
-    if (fresh_.size() < taken) fresh_.resize(taken);
+    commitContacts(search, tasks);
+    coefficientsValid_ = true;
+    if (begun_.size() < taken) begun_.resize(taken);
 }
 
-/// Contacts that are gone leave, new ones come in.
+/// Removes the contacts that have ended and inserts the new ones.
 template <class S>
-void ContactSet<S>::settle(const Search& search, const Tasks& tasks) {
-    gone_.clear();
-    Tally all;
-    for (Tally& tally : tallies_) {
-        tally.first = all.found();
-        all.add(tally);
+void ContactSet<S>::commitContacts(const Search& search, const Tasks& tasks) {
+    ended_.clear();
+    Counters all;
+    for (Counters& counters : counters_) {
+        counters.first = all.found();
+        all.add(counters);
     }
-    asked_ = all.asked;
-    if (all.kept == contacts_.size() && all.fresh == 0) return;
+    queries_ = all.queried;
+    if (all.persisting == contacts_.size() && all.begun == 0) return;
 
-    for (const std::uint32_t slot : dropped_) removeContact(slot);
-    dropped_.clear();
-    for (std::size_t c = 0; c < tallies_.size(); ++c)
-        if (tallies_[c].lost + tallies_[c].fresh > 0) changeContacts(search, c);
-    std::sort(gone_.begin(), gone_.end(), [](const Gone& c, const Gone& d) {
+    for (const std::uint32_t slot : removed_) removeContact(slot);
+    removed_.clear();
+    for (std::size_t c = 0; c < counters_.size(); ++c)
+        if (counters_[c].ended + counters_[c].begun > 0) changeContacts(search, c);
+    std::sort(ended_.begin(), ended_.end(), [](const EndedContact& c, const EndedContact& d) {
         return std::pair(pairKey(c.shapeA, c.shapeB), c.piece) <
                std::pair(pairKey(d.shapeA, d.shapeB), d.piece);
     });
     contacts_.order().resize(all.found());
-    tasks.forEach(tallies_.size(), 1, [&](std::size_t c) { orderContacts(c); });
-    if (!contacts_.untidy()) return;
-    contacts_.tidy(tasks);
-    tasks.forEach(tallies_.size(), 1, [&](std::size_t c) {
-        std::uint32_t place = tallies_[c].first;
-        for (std::size_t k = kTally * c; k < endOf(c, kTally, candidates_.size()); ++k)
+    tasks.forEach(counters_.size(), 1, [&](std::size_t c) { orderContacts(c); });
+    if (!contacts_.fragmented()) return;
+    contacts_.defragment(tasks);
+    tasks.forEach(counters_.size(), 1, [&](std::size_t c) {
+        std::uint32_t place = counters_[c].first;
+        for (std::size_t k = kBatch * c; k < endOf(c, kBatch, candidates_.size()); ++k)
             if (candidates_[k].contact != kNullIndex) candidates_[k].contact = place++;
     });
 }
 
-/// Of a part of the candidates: slots are given back, and taken by those that have none.
+/// In a batch of candidates: frees the slots of ended contacts and takes slots for new ones.
 template <class S>
-void ContactSet<S>::changeContacts(const Search& search, std::size_t part) {
-    for (std::size_t k = kTally * part; k < endOf(part, kTally, candidates_.size()); ++k) {
+void ContactSet<S>::changeContacts(const Search& search, std::size_t batch) {
+    for (std::size_t k = kBatch * batch; k < endOf(batch, kBatch, candidates_.size()); ++k) {
         const Outcome& outcome = outcomes_[k];
         if ((outcome.contact != kNullIndex) == outcome.found) continue;
         if (outcome.found) {
@@ -230,32 +230,33 @@ void ContactSet<S>::changeContacts(const Search& search, std::size_t part) {
     }
 }
 
-/// Of a part of the candidates: the slots of their contacts, in order; those that are new come there.
+/// For a batch of candidates: writes the slots of their contacts in order, and the new contacts to their
+/// slots.
 template <class S>
-void ContactSet<S>::orderContacts(std::size_t part) {
-    std::uint32_t* order = contacts_.order().data() + tallies_[part].first;
-    for (std::size_t k = kTally * part; k < endOf(part, kTally, candidates_.size()); ++k) {
+void ContactSet<S>::orderContacts(std::size_t batch) {
+    std::uint32_t* order = contacts_.order().data() + counters_[batch].first;
+    for (std::size_t k = kBatch * batch; k < endOf(batch, kBatch, candidates_.size()); ++k) {
         if (!outcomes_[k].found) continue;
         const std::uint32_t had = outcomes_[k].contact;
         *order++ = had != kNullIndex ? had : candidates_[k].contact;
-        if (had == kNullIndex && candidates_[k].fresh < fresh_.size())
-            contacts_.at(candidates_[k].contact) = fresh_[candidates_[k].fresh];
+        if (had == kNullIndex && candidates_[k].begun < begun_.size())
+            contacts_.at(candidates_[k].contact) = begun_[candidates_[k].begun];
     }
 }
 
 template <class S>
 void ContactSet<S>::removeContact(std::uint32_t slot) {
     const Contact<S>& c = contacts_.at(slot);
-    if (c.touching) gone_.push_back({c.bodyA, c.bodyB, c.shapeA, c.shapeB, c.piece});
+    if (c.touching) ended_.push_back({c.bodyA, c.bodyB, c.shapeA, c.shapeB, c.piece});
     contacts_.remove(slot);
 }
 
-/// A slot for what was found for a candidate that had none; fresh_ is copied into it later.
+/// Takes a slot for a new contact; orderContacts copies it there from begun_.
 template <class S>
 void ContactSet<S>::addContact(const Search& search, Candidate& candidate) {
     const std::uint32_t slot = contacts_.add();
-    if (candidate.fresh >= fresh_.size()) {
-        candidate.kept = false;  // that there is something is kept, not what
+    if (candidate.begun >= begun_.size()) {
+        candidate.cached = false;  // the manifold itself was not stored
         contacts_.at(slot) = findContact(search, candidate).value();
     }
     candidate.contact = slot;

@@ -10,12 +10,12 @@ namespace rigor::engine {
 namespace {
 
 // An anchor that swings by up to 0.4 rad in a step gets all of the term beyond the linear one, from 0.6 rad
-// none: the end of the step says less and less about the direction to go, and the iteration may diverge.
+// on none: the predicted end of the step gives an ever poorer direction, and the iteration may diverge.
 // Chosen among 0.2..1 on whipping chains of ten links, where 0.9..1 gained energy.
 constexpr double kFullSwing = 0.4, kNoSwing = 0.6;
 
 template <class S>
-typename S::Real endShare(typename S::Real h, const typename S::Ang& w, const typename S::Vec& arm) {
+typename S::Real swingFraction(typename S::Real h, const typename S::Ang& w, const typename S::Vec& arm) {
     using Real = typename S::Real;
     const Real length = arm.norm();
     if (!(length > 0)) return Real(1);
@@ -23,37 +23,38 @@ typename S::Real endShare(typename S::Real h, const typename S::Ang& w, const ty
     return std::clamp((Real(kNoSwing) - swing) / Real(kNoSwing - kFullSwing), Real(0), Real(1));
 }
 
-/// The inverse of the block's K without softness: soft rows hold as well as hard ones, only later, and what
-/// the joint lets move does not depend on the step by which their softness grows.
+/// Inverse K of the block without softness: soft rows are satisfied as hard ones are, only later, and the
+/// degrees of freedom left do not depend on the step size, which softness does.
 template <class S>
-BlockMatrix<S> invertHard(const Row<S>* held, const Block<S>& holding) {
+BlockMatrix<S> invertHard(const Row<S>* equalities, const Block<S>& block) {
     std::array<Row<S>, kMaxJointRows> hard;
-    for (int i = 0; i < holding.rows; ++i) {
+    for (int i = 0; i < block.rows; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        hard[k] = held[i];
+        hard[k] = equalities[i];
         hard[k].softness = 0;
     }
     BlockMatrix<S> inverse;
-    invertBlock<S>(hard.data(), holding, inverse);
+    invertBlock<S>(hard.data(), block, inverse);
     return inverse;
 }
 
-/// A spring given by its frequency swings what the joint lets move: of a door that is its moment about the
-/// hinge, not about its centre of mass. With c = J M^-1 Jh^T of the rows that hold, Kh = Jh M^-1 Jh^T,
-///     1/m = K - c Kh^-1 c^T   (the Schur complement of the held rows).
+/// A spring given by its frequency acts on the effective mass left by the joint: for a door that is its
+/// inertia about the hinge, not about its centre of mass. With the equality rows Jh, c = J M^-1 Jh^T and Kh =
+/// Jh M^-1 Jh^T,
+///     1/m = K - c Kh^-1 c^T   (the Schur complement of the equality rows).
 template <class S>
-void setSpringFrequency(const Row<S>* held, const Block<S>& holding, const Softness<typename S::Real>& spring,
-                        typename S::Real h, Row<S>& row) {
+void setSpringFrequency(const Row<S>* equalities, const Block<S>& block,
+                        const Softness<typename S::Real>& spring, typename S::Real h, Row<S>& row) {
     using Real = typename S::Real;
-    const BlockMatrix<S> inverse = invertHard<S>(held, holding);
-    const Real K = rowCoupling<S>(row, row, holding);
+    const BlockMatrix<S> inverse = invertHard<S>(equalities, block);
+    const Real K = rowCoupling<S>(row, row, block);
     Real taken = 0;
-    for (int i = 0; i < holding.rows; ++i) {
-        const Real ci = rowCoupling<S>(row, held[i], holding);
-        for (int j = 0; j < holding.rows; ++j)
-            taken += ci * inverse(i, j) * rowCoupling<S>(row, held[j], holding);
+    for (int i = 0; i < block.rows; ++i) {
+        const Real ci = rowCoupling<S>(row, equalities[i], block);
+        for (int j = 0; j < block.rows; ++j)
+            taken += ci * inverse(i, j) * rowCoupling<S>(row, equalities[j], block);
     }
-    // Below the rounding of K the coordinate does not move at all, and any spring will do.
+    // Below the rounding of K the coordinate cannot move, and the spring has no effect.
     const Real left = K - taken;
     if (!(left > Real(16) * std::numeric_limits<Real>::epsilon() * K)) return;
     const SoftTerms<Real> terms = softTerms(spring, left, h);
@@ -63,10 +64,11 @@ void setSpringFrequency(const Row<S>* held, const Block<S>& holding, const Softn
 }
 
 // A joint that pulls with F on an arm r turns its body back like a spring of stiffness F r per radian (the
-// geometric stiffness of [Andrews2017]), of circular frequency w^2 = F r / I, with I about the joint. Aimed
-// at the end of the step the scheme conserves the energy of that swing, and like every explicit scheme of
-// second order it is unstable where w h > 2; linearised at the start it damps it. Full up to (w h)^2 = 1/2,
-// none from 3/2: chains of light links under a heavy load, whose swing a step this long cannot follow.
+// geometric stiffness of [Andrews2017]), of circular frequency w^2 = F r / I, with I about the joint.
+// Re-linearised at the end of the step the scheme conserves the energy of that swing, and like every explicit
+// scheme of second order it is unstable where w h > 2; linearised at the start it damps it. Full up to (w
+// h)^2 = 1/2, none from 3/2: chains of light links under a heavy load, whose swing a step this long cannot
+// follow.
 constexpr double kFullStiffness = 0.5, kNoStiffness = 1.5;
 
 template <class S>
@@ -77,21 +79,21 @@ typename S::Real traceOf(const typename S::Inertia& I) {
         return I;
 }
 
-/// `push`: impulse of the joint in this step [N s].
+/// `impulse`: that of the joint in this step [N s].
 template <class S>
-typename S::Real stiffShare(typename S::Real h, typename S::Real push, const typename S::Vec& arm,
-                            typename S::Real invMass, const typename S::Inertia& invInertia) {
+typename S::Real stiffnessFraction(typename S::Real h, typename S::Real impulse, const typename S::Vec& arm,
+                                   typename S::Real invMass, const typename S::Inertia& invInertia) {
     using Real = typename S::Real;
     if (!(invMass > 0)) return Real(1);
     const Real squared = arm.squaredNorm(), spin = traceOf<S>(invInertia);
     const Real inertia = squared / invMass + (spin > 0 ? Real(1) / spin : Real(0));
     if (!(inertia > 0)) return Real(1);
-    const Real stiffness = h * push * std::sqrt(squared) / inertia;
+    const Real stiffness = h * impulse * std::sqrt(squared) / inertia;
     return std::clamp((Real(kNoStiffness) - stiffness) / Real(kNoStiffness - kFullStiffness), Real(0),
                       Real(1));
 }
 
-/// Some coordinate of these is an angle that counts turns.
+/// True for joints with an angle over several turns.
 constexpr bool countsTurns(JointType type) {
     return type == JointType::ConeTwist || type == JointType::Hinge || type == JointType::SixDof ||
            type == JointType::Wheel;
@@ -105,12 +107,12 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
         const std::uint32_t a = record.joint.a, b = record.joint.b;
         record.firstRow = static_cast<std::uint32_t>(rows.rows.size());
         if (bodies.invMass[a] == 0 && bodies.invMass[b] == 0) {  // asleep
-            record.rows = record.held = 0;
+            record.rows = record.equalities = 0;
             continue;
         }
         record.evaluate(record.joint, bodies.pose[a], bodies.pose[b], made_);
         record.rows = static_cast<std::uint32_t>(made_.count);
-        record.held = static_cast<std::uint32_t>(made_.held);
+        record.equalities = static_cast<std::uint32_t>(made_.equalities);
         record.block = static_cast<std::uint32_t>(rows.blocks.size());
         record.armB = rotate(bodies.pose[b].q, record.joint.anchorB);
         rows.rows.resize(record.firstRow + record.rows);
@@ -120,9 +122,9 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
         block.invMassA = bodies.invMass[a];
         block.invMassB = bodies.invMass[b];
         for (std::uint32_t i = 0; i < record.rows; ++i) {
-            if (i == 0 || i >= record.held) {
-                block.kind = i < record.held ? BlockKind::Joint : BlockKind::Bounded;
-                block.rows = static_cast<std::uint8_t>(i < record.held ? record.held : 1);
+            if (i == 0 || i >= record.equalities) {
+                block.kind = i < record.equalities ? BlockKind::Joint : BlockKind::Bounded;
+                block.rows = static_cast<std::uint8_t>(i < record.equalities ? record.equalities : 1);
                 block.first = record.firstRow + i;
                 rows.blocks.push_back(block);
             }
@@ -132,11 +134,11 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
             row.angB = made_.row[i].angB;
             addRow(bodies, step, made_.law[i], made_.error[i], block, row);
             row.impulse = step.warmStart * record.impulse[i];
-            if (i >= record.held) row.impulse = std::clamp(row.impulse, row.lower, row.upper);
+            if (i >= record.equalities) row.impulse = std::clamp(row.impulse, row.lower, row.upper);
         }
-        if (record.held == 0) continue;
+        if (record.equalities == 0) continue;
         Row<S>* own = rows.rows.data() + record.firstRow;
-        for (std::uint32_t i = record.held; i < record.rows; ++i)
+        for (std::uint32_t i = record.equalities; i < record.rows; ++i)
             if (made_.law[i].role == RowRole::Spring && made_.law[i].softness.frequency > 0)
                 setSpringFrequency<S>(own, rows.blocks[record.block], made_.law[i].softness, step.h, own[i]);
     }
@@ -144,7 +146,7 @@ void JointSet<S>::addRows(const BodyArrays<S>& bodies, const JointStep<S>& step,
     for (std::size_t i = 0; i < startBias_.size(); ++i) startBias_[i] = rows.rows[i].bias;
 }
 
-/// Everything of a row but its directions: products, bias, softness, bounds.
+/// Completes a row whose Jacobian is set: effective mass, bias, softness, bounds.
 template <class S>
 void JointSet<S>::addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, const RowLaw<S>& law,
                          Real error, const Block<S>& block, Row<S>& row) const {
@@ -172,7 +174,7 @@ void JointSet<S>::addRow(const BodyArrays<S>& bodies, const JointStep<S>& step, 
                 break;
             }
             [[fallthrough]];
-        case RowRole::Hold:
+        case RowRole::Equality:
             if (step.bias.soft) {
                 const SoftTerms<Real> terms = softTerms(step.bias.joint, K, step.h);
                 row.bias = terms.biasRate * error;
@@ -191,7 +193,7 @@ BiasChange<typename S::Real> JointSet<S>::updateBiases(const BodyArrays<S>& bodi
                                                        std::span<const Velocity<S>> velocities,
                                                        ConstraintRows<S>& rows) {
     BiasChange<Real> change;
-    if (!step.curved) return change;
+    if (!step.relinearized) return change;
     const auto moved = [&](std::uint32_t i) -> Pose<S> {
         return {bodies.pose[i].p + step.h * velocities[i].v,
                 rotatedBy(bodies.pose[i].q, typename S::Ang(step.h * velocities[i].w))};
@@ -199,23 +201,24 @@ BiasChange<typename S::Real> JointSet<S>::updateBiases(const BodyArrays<S>& bodi
     for (const Record& record : records_) {
         if (record.rows == 0) continue;
         const Block<S>& block = rows.blocks[record.block];
-        typename S::Vec push = S::Vec::Zero();
+        typename S::Vec force = S::Vec::Zero();
         for (std::uint32_t i = 0; i < record.rows; ++i)
-            push += rows.rows[record.firstRow + i].impulse * rows.rows[record.firstRow + i].lin;
-        const auto shareOf = [&](std::uint32_t i, const typename S::Vec& anchor) {
+            force += rows.rows[record.firstRow + i].impulse * rows.rows[record.firstRow + i].lin;
+        const auto fractionOf = [&](std::uint32_t i, const typename S::Vec& anchor) {
             const typename S::Vec arm = rotate(bodies.pose[i].q, anchor);
-            return std::min(endShare<S>(step.h, velocities[i].w, arm),
-                            stiffShare<S>(step.h, push.norm(), arm, bodies.invMass[i], bodies.invInertia[i]));
+            return std::min(
+                swingFraction<S>(step.h, velocities[i].w, arm),
+                stiffnessFraction<S>(step.h, force.norm(), arm, bodies.invMass[i], bodies.invInertia[i]));
         };
-        const Real share = step.curvature * std::min(shareOf(block.a, record.joint.anchorA),
-                                                     shareOf(block.b, record.joint.anchorB));
+        const Real fraction = step.curvature * std::min(fractionOf(block.a, record.joint.anchorA),
+                                                        fractionOf(block.b, record.joint.anchorB));
         record.evaluate(record.joint, moved(block.a), moved(block.b), made_);
         for (std::uint32_t i = 0; i < record.rows; ++i) {
-            if (made_.law[i].role != RowRole::Hold && made_.law[i].role != RowRole::Limit) continue;
+            if (made_.law[i].role != RowRole::Equality && made_.law[i].role != RowRole::Limit) continue;
             Row<S>& row = rows.rows[record.firstRow + i];
             const Real beyondLinear = (made_.error[i] - row.error) / step.h -
                                       rowVelocity<S>(row, velocities[block.a], velocities[block.b]);
-            const Real bias = share * beyondLinear;
+            const Real bias = fraction * beyondLinear;
             change.step = std::max(change.step, std::abs(bias - row.relaxedBias));
             change.largest = std::max(change.largest, std::abs(bias));
             row.relaxedBias = bias;
@@ -243,9 +246,9 @@ typename S::Real JointSet<S>::work(const ConstraintRows<S>& rows,
             energy += (startVelocities_[body].v.squaredNorm() + velocities[body].v.squaredNorm()) / invMass;
     };
     for (const Record& record : records_) {
-        if (record.held == 0) continue;
+        if (record.equalities == 0) continue;
         const Block<S>& block = rows.blocks[record.block];
-        for (std::uint32_t i = record.firstRow; i < record.firstRow + record.held; ++i) {
+        for (std::uint32_t i = record.firstRow; i < record.firstRow + record.equalities; ++i) {
             const Row<S>& row = rows.rows[i];
             work += row.impulse * (rowVelocity<S>(row, startVelocities_[block.a], startVelocities_[block.b]) +
                                    rowVelocity<S>(row, velocities[block.a], velocities[block.b]));
@@ -261,7 +264,7 @@ void JointSet<S>::restart(ConstraintRows<S>& rows, std::span<Velocity<S>> veloci
     std::copy(startVelocities_.begin(), startVelocities_.end(), velocities.begin());
     for (std::size_t i = 0; i < rows.rows.size(); ++i) rows.rows[i].impulse = startImpulses_[i];
     for (const Record& record : records_)
-        for (std::uint32_t i = record.firstRow; i < record.firstRow + record.held; ++i)
+        for (std::uint32_t i = record.firstRow; i < record.firstRow + record.equalities; ++i)
             rows.rows[i].impulse = 0;
 }
 
@@ -269,22 +272,22 @@ template <class S>
 void JointSet<S>::storeImpulses(const BodyArrays<S>& bodies, const ConstraintRows<S>& rows) {
     for (Record& record : records_) {
         Joint<S>& joint = record.joint;
-        typename S::Vec push = S::Vec::Zero();
+        typename S::Vec force = S::Vec::Zero();
         typename S::Ang moment = zeroAng<S>();
         for (std::uint32_t i = 0; i < record.rows; ++i) {
             const Row<S>& row = rows.rows[record.firstRow + i];
             record.impulse[i] = row.impulse;
             record.total[i] += row.impulse;
-            push += row.impulse * row.lin;
+            force += row.impulse * row.lin;
             moment += row.impulse * row.angB;
         }
-        record.push += push;
-        record.twist += moment - cross(record.armB, push);
+        record.reactionImpulse += force;
+        record.reactionAngularImpulse += moment - cross(record.armB, force);
         if (!countsTurns(joint.type)) continue;
         made_.reading = true;
         record.evaluate(joint, bodies.pose[joint.a], bodies.pose[joint.b], made_);
         made_.reading = false;
-        std::copy_n(made_.value.begin(), made_.axes, joint.seen.begin());
+        std::copy_n(made_.value.begin(), made_.axes, joint.lastCoordinate.begin());
     }
 }
 
@@ -307,8 +310,8 @@ template <class S>
 void JointSet<S>::clearTotals() {
     for (Record& record : records_) {
         record.total.fill(0);
-        record.push.setZero();
-        record.twist = zeroAng<S>();
+        record.reactionImpulse.setZero();
+        record.reactionAngularImpulse = zeroAng<S>();
     }
 }
 

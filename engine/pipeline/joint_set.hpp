@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The joints of a world: rows for the solver, biases that aim at the end of the step, impulses for warm
-// starting.
+// The joints of a world: rows for the solver, biases re-linearised at the predicted end of the step, impulses
+// for warm starting.
 #pragma once
 
 #include <vector>
@@ -12,17 +12,17 @@
 
 namespace rigor::engine {
 
-/// What making joint rows needs to know of a step.
+/// Parameters of a step for joint rows.
 template <class S>
 struct JointStep {
-    typename S::Real h;               ///< of the (sub-)step [s]
-    BiasRule<typename S::Real> bias;  ///< what position errors do to the rows
+    typename S::Real h;               ///< size of the (sub-)step [s]
+    BiasRule<typename S::Real> bias;  ///< bias of the rows from position errors
     typename S::Real warmStart;       ///< factor on the last impulses; 0: none
-    bool curved;                      ///< aim at the constraint at the end of the step
-    typename S::Real curvature = 1;   ///< share of that aim; less where the iteration diverges, in [0, 1]
+    bool relinearized;                ///< biases are re-linearised at the predicted end of the step
+    typename S::Real curvature = 1;   ///< factor on that change of the bias; < 1 where the iteration diverges
 };
 
-/// How far the aims of joints at the end of the step moved when they were renewed [m/s or rad/s].
+/// Change of the joints' biases when they were re-linearised [m/s or rad/s].
 template <class Real>
 struct BiasChange {
     Real step = 0;     ///< largest change of a row's bias
@@ -39,12 +39,12 @@ class JointSet {
         std::array<Real, kMaxRowsPerJoint> impulse{};  ///< of the last (sub-)step [N s] or [N m s]
         std::array<Real, kMaxRowsPerJoint> total{};    ///< of all sub-steps of the last step
         /// Sum of J^T impulse over the last step: on B [N s], and its moment about B's anchor [N m s].
-        typename S::Vec push = S::Vec::Zero();
-        typename S::Ang twist = zeroAng<S>();
-        typename S::Vec armB = S::Vec::Zero();  ///< B's anchor from its centre when the rows were made [m]
-        std::uint32_t firstRow = 0;             ///< its rows in this step follow each other
-        std::uint32_t rows = 0, held = 0;       ///< all, and those that hold (the first ones)
-        std::uint32_t block = 0;                ///< of the rows that hold; each other row has its own
+        typename S::Vec reactionImpulse = S::Vec::Zero();
+        typename S::Ang reactionAngularImpulse = zeroAng<S>();
+        typename S::Vec armB = S::Vec::Zero();   ///< B's anchor from its centre when the rows were made [m]
+        std::uint32_t firstRow = 0;              ///< its rows in this step follow each other
+        std::uint32_t rows = 0, equalities = 0;  ///< all rows; equality rows, which come first
+        std::uint32_t block = 0;                 ///< of the equality rows; each other row has its own
     };
 
     std::vector<Record>& records() { return records_; }
@@ -53,27 +53,27 @@ class JointSet {
     void addRows(const BodyArrays<S>& bodies, const JointStep<S>& step, ConstraintRows<S>& rows);
     /// Reads the impulses of the solved rows, and the coordinates where the bodies are now.
     void storeImpulses(const BodyArrays<S>& bodies, const ConstraintRows<S>& rows);
-    /// Where a joint's coordinates are and how fast they change. Returns their number.
+    /// Coordinates of a joint and their rates. Returns their number.
     int readCoordinates(const BodyArrays<S>& bodies, const Record& record,
                         std::array<Real, kMaxJointAxes>& value, std::array<Real, kMaxJointAxes>& rate) const;
     /// A new step: totals start at zero.
     void clearTotals();
 
-    /// Biases for the given velocities. A linear row lets the bodies leave the constraint along its tangent;
-    /// here each row aims at C(end of the step) = C(start) instead:
-    ///     bias = (C(x + h v, exp(h w) q) - C(x, q)) / h - J v + what the bias rule makes of C
-    /// With symplectic Euler this is SHAKE [RyckaertCiccottiBerendsen1977], which keeps the energy of a
-    /// pendulum where the linear row loses a share (h w)^2 / 2 of the speed in every step.
+    /// Re-linearises the biases at the poses that the given velocities lead to. A linear row lets the bodies
+    /// leave the constraint along its tangent; here each row requires C(end of the step) = C(start) instead:
+    ///     bias = (C(x + h v, exp(h w) q) - C(x, q)) / h - J v + bias of C by the bias rule
+    /// With symplectic Euler this is SHAKE [RyckaertCiccottiBerendsen1977], which conserves the energy of a
+    /// pendulum, whereas the linear row loses a fraction (h w)^2 / 2 of the speed in every step.
     BiasChange<Real> updateBiases(const BodyArrays<S>& bodies, const JointStep<S>& step,
                                   std::span<const Velocity<S>> velocities, ConstraintRows<S>& rows);
 
-    /// Before a solve, so that work() and restart() know what it started from. Allocates where rows or bodies
-    /// are more than ever.
+    /// Stores impulses and velocities before a solve, for work() and restart(). Allocates only when there are
+    /// more rows or bodies than ever before.
     void remember(const ConstraintRows<S>& rows, std::span<const Velocity<S>> velocities);
-    /// Work of the rows that hold since remember(), over the kinetic energy before and after of what moves
-    /// along (of each joint's bodies, so that bodies count once per joint). Ideal joints do none.
+    /// Work of the equality rows since remember(), relative to the kinetic energy before and after (summed
+    /// over each joint's bodies, so that a body counts once per joint). Zero for ideal joints.
     Real work(const ConstraintRows<S>& rows, std::span<const Velocity<S>> velocities) const;
-    /// Velocities and impulses as they were at remember(), but no impulses of rows that hold.
+    /// Restores the velocities and impulses of remember(); the impulses of equality rows become zero.
     void restart(ConstraintRows<S>& rows, std::span<Velocity<S>> velocities) const;
 
   private:
@@ -81,7 +81,7 @@ class JointSet {
                 const Block<S>& block, Row<S>& row) const;
 
     std::vector<Record> records_;
-    std::vector<Real> startBias_;  ///< of rows that hold, by row
+    std::vector<Real> startBias_;  ///< of each row
     std::vector<Real> startImpulses_;
     std::vector<Velocity<S>> startVelocities_;
     JointRows<S> made_;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Things in an order of their own: each stays where it is in memory while others come and go.
+// A list in sorted order whose items keep their slot in memory while others are added and removed.
+//
+//     order  [ 2 | 0 | 3 ]          list[k] is slots[order[k]]
+//     slots  [ b | - | a | c ]      slot 1 is free
 #pragma once
 
 #include <cstddef>
@@ -42,13 +45,13 @@ class SlotList {
     auto begin() const { return Iterator<const SlotList>(this, 0); }
     auto end() const { return Iterator<const SlotList>(this, size()); }
 
-    /// By the place in memory.
+    /// The item in a slot.
     T& at(std::uint32_t slot) { return slots_[slot]; }
     const T& at(std::uint32_t slot) const { return slots_[slot]; }
-    /// Slots in the order of the things; whoever adds or removes some makes it anew.
+    /// Slots in the order of the list. A caller of add() or remove() updates it.
     std::vector<std::uint32_t>& order() { return order_; }
     const std::vector<std::uint32_t>& order() const { return order_; }
-    /// A slot for one that is not in the order yet; what it holds is left from another.
+    /// Takes a slot that is not in order() yet. Its value is unspecified.
     std::uint32_t add() {
         ++changes_;
         if (free_.empty()) {
@@ -61,11 +64,11 @@ class SlotList {
     }
     void remove(std::uint32_t slot) { free_.push_back(slot), ++changes_; }
 
-    /// Slots follow the order no more: who goes through them waits for memory.
-    bool untidy() const { return changes_ > size() / 4; }
-    /// Moves each to the slot that is its place in the order.
-    void tidy(const Tasks& tasks) {
-        constexpr std::size_t kGrain = 32;  // worth sharing: some microseconds of work
+    /// True when many slots are out of order, so that a loop over the list misses the cache.
+    bool fragmented() const { return changes_ > size() / 4; }
+    /// Moves the item of each position k to slot k.
+    void defragment(const Tasks& tasks) {
+        constexpr std::size_t kGrain = 32;  // worth a task: some microseconds of work
         spare_.reserve(slots_.capacity());
         spare_.resize(order_.size());
         tasks.forEach(order_.size(), kGrain, [this](std::size_t k) { spare_[k] = slots_[order_[k]]; });
@@ -76,7 +79,7 @@ class SlotList {
     }
 
     void clear() { slots_.clear(), order_.clear(), free_.clear(), changes_ = 0; }
-    /// `count` new ones in the order of their slots.
+    /// Replaces the list by `count` default items in the order of their slots.
     void reset(std::size_t count) {
         clear();
         slots_.resize(count);
@@ -87,7 +90,7 @@ class SlotList {
   private:
     std::vector<T> slots_, spare_;
     std::vector<std::uint32_t> order_, free_;
-    std::size_t changes_ = 0;  ///< since slots followed the order
+    std::size_t changes_ = 0;  ///< since the last defragment()
 };
 
 }  // namespace rigor::engine

@@ -4,8 +4,8 @@
 // The state of a world as a hash, as bytes, and back (state/state_fields.def).
 //
 // Bytes: "RIGORSNP", version, a word that tells the byte order, dimension, size of a number, a hash of the
-// world's structure, the fields, and a hash (FNV-1a, 64 bits) of all bytes before it. The structure is what
-// the world was told when it was built: bodies, shapes and joints with their constants. Settings are not part
+// world's structure, the fields, and a hash (FNV-1a, 64 bits) of all bytes before it. The structure is the
+// bodies, shapes and joints of the world as built, with their constants. Settings are not part
 // of it: restored into a world of other settings the state goes on under those.
 //
 // Spatial structures of the broad phase are not stored: which pairs it finds, and in which order, does not
@@ -63,14 +63,14 @@ void visitContact(A& archive, C& contact) {
 
 template <class S>
 template <class A, class C>
-void ContactSet<S>::visitAnswers(A& archive, C& set) {
+void ContactSet<S>::visitManifoldCache(A& archive, C& set) {
     constexpr bool kReading = !std::is_const_v<C>;
-    visitValue(archive, set.keptFor_.speculativeDistance);
-    visitValue(archive, set.keptFor_.reuseDistance);
-    const auto belongs = [](const Candidate& c) { return c.kept || c.contact != kNullIndex; };
-    std::size_t kept = 0;
-    for (const Candidate& candidate : set.candidates_) kept += belongs(candidate);
-    const std::size_t count = archive.size(kept);
+    visitValue(archive, set.cachedSearch_.speculativeDistance);
+    visitValue(archive, set.cachedSearch_.cacheTolerance);
+    const auto belongs = [](const Candidate& c) { return c.cached || c.contact != kNullIndex; };
+    std::size_t archived = 0;
+    for (const Candidate& candidate : set.candidates_) archived += belongs(candidate);
+    const std::size_t count = archive.size(archived);
     if constexpr (kReading) set.candidates_.reset(count);
     std::uint32_t contacts = 0;
     for (auto& candidate : set.candidates_) {
@@ -80,8 +80,8 @@ void ContactSet<S>::visitAnswers(A& archive, C& set) {
         if constexpr (kReading) candidate.contact = touches ? contacts++ : kNullIndex;
 #define CANDIDATE_FIELD(member) visitValue(archive, candidate.member);
 #include "engine/state/state_fields.def"
-        if (!candidate.kept) continue;
-#define ANSWER_FIELD(member) visitValue(archive, candidate.member);
+        if (!candidate.cached) continue;
+#define CACHED_FIELD(member) visitValue(archive, candidate.member);
 #include "engine/state/state_fields.def"
     }
 }
@@ -106,12 +106,12 @@ void World<S>::visitState(A& archive, W& world) {
     const std::size_t count = archive.size(contacts.size());
     if constexpr (!std::is_const_v<W>) contacts.reset(count);
     for (auto& contact : contacts) visitContact(archive, contact);
-    // Without answers that are kept, the candidates follow from the rest.
-    if (!std::is_same_v<A, HashArchive> || world.def_.reuseDistance > 0)
-        ContactSet<S>::visitAnswers(archive, world.contacts_);
+    // Without cached manifolds the candidates follow from the rest of the state.
+    if (!std::is_same_v<A, HashArchive> || world.def_.cacheTolerance > 0)
+        ContactSet<S>::visitManifoldCache(archive, world.contacts_);
 }
 
-/// What the world was told when it was built.
+/// Structure of the world as built.
 template <class S>
 std::uint64_t World<S>::structureHash() const {
     HashArchive hash;

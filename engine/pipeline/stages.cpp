@@ -28,13 +28,13 @@ class StepMonitor final : public IterationMonitor<S> {
           observer_(observer),
           residuals_(residuals) {}
     void before(std::span<const Velocity<S>> velocities) override {
-        aim_ = joints_.updateBiases(bodies_, step_, velocities, rows_);
-        ++renewals_;
+        change_ = joints_.updateBiases(bodies_, step_, velocities, rows_);
+        ++updates_;
     }
-    /// Joints were aimed at where the bodies come to be, not at where they would have come.
-    bool aimSettled() const {
+    /// True once the joint bias, re-linearised at the predicted end-of-step poses, has stopped changing.
+    bool biasConverged() const {
         const Real still = kStill * std::max(tolerance_, std::numeric_limits<Real>::epsilon());
-        return renewals_ < 4 || aim_.step <= std::max(kSettled * aim_.largest, still);
+        return updates_ < 4 || change_.step <= std::max(kSettled * change_.largest, still);
     }
 
     bool after(std::span<const Velocity<S>> velocities, Real change) override {
@@ -52,8 +52,8 @@ class StepMonitor final : public IterationMonitor<S> {
   private:
     static constexpr Real kSettled = Real(1e-3);  ///< of the largest bias
     static constexpr Real kStill = Real(1e3);  ///< tolerances of the iteration: rounding of positions over h
-    BiasChange<Real> aim_;
-    int renewals_ = 0;  ///< two or three are not asked to settle
+    BiasChange<Real> change_;
+    int updates_ = 0;  ///< convergence is not required of two or three
     JointSet<S>& joints_;
     const BodyArrays<S>& bodies_;
     JointStep<S>& step_;
@@ -64,8 +64,8 @@ class StepMonitor final : public IterationMonitor<S> {
     std::vector<Real>& residuals_;
 };
 
-/// Work of the joints that hold, as a share of the energy of their bodies, beyond which aims at the end of
-/// the step are not believed. A pendulum of length L has up to g h^2 / (2 L) of it; a chain of 20 links 6e-5.
+/// Divergence test of the re-linearisation: largest work of the equality rows relative to the kinetic energy
+/// of their bodies. A pendulum of length L has up to g h^2 / (2 L); a chain of 20 links 6e-5.
 constexpr double kMostWork = 0.01;
 
 }  // namespace
@@ -97,11 +97,11 @@ void World<S>::move() {
     motion_.move(bodies_, progress_.substepSize, tasks_);
 }
 
-/// A fault may spoil what would be kept.
+/// A fault may change what would be cached.
 template <class S>
 ContactSearch<S> World<S>::contactSearch() const {
     if (fault_ != nullptr) return {def_.speculativeDistance, 0, 0};
-    return {def_.speculativeDistance, def_.reuseDistance, def_.boxMargin};
+    return {def_.speculativeDistance, def_.cacheTolerance, def_.boxMargin};
 }
 
 template <class S>
@@ -136,8 +136,8 @@ void World<S>::makeRows() {
     rows_.clear();
     const Real warmStart = def_.warmStarting && lastStepSize_ > 0 ? h / lastStepSize_ : Real(0);
     const BiasRule<Real> bias = biasRule();
-    const BiasRule<Real> jointBias = def_.curvedJoints ? bias : style_.linearJointBias.value_or(bias);
-    jointStep_ = {h, jointBias, warmStart, def_.curvedJoints && motion_.movesWithSolvedVelocity()};
+    const BiasRule<Real> jointBias = def_.relinearizedJoints ? bias : style_.linearJointBias.value_or(bias);
+    jointStep_ = {h, jointBias, warmStart, def_.relinearizedJoints && motion_.movesWithSolvedVelocity()};
     joints_.addRows(bodies_, jointStep_, rows_);
     // Twice what gravity adds in a step: a resting contact never approaches that fast.
     const Real gravityStep = h * def_.gravity.norm();
@@ -168,12 +168,12 @@ void World<S>::solveImpacts() {
         return;
     warmStart_.clear();
     for (const Row<S>& row : rows_.rows) warmStart_.push_back(row.impulse);
-    const bool curved = std::exchange(jointStep_.curved, false);
+    const bool relinearized = std::exchange(jointStep_.relinearized, false);
     // Like a first step, an impact has no impulses to start from.
     restitution_->impact(rows_, bodies_.velocity, [this] {
         solveVelocities(std::max(def_.firstStepIterations, velocityIterations()), false);
     });
-    jointStep_.curved = curved;
+    jointStep_.relinearized = relinearized;
     joints_.storeImpulses(bodies_, rows_);
     contacts_.storeImpulses(rows_);
     for (std::size_t i = 0; i < warmStart_.size(); ++i) rows_.rows[i].impulse = warmStart_[i];
@@ -225,21 +225,21 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
     StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, converged, def_.measureResiduals, observer_,
                            residuals_);
     const PatchPass pass = patchPass();
-    const bool aims = jointStep_.curved && solver_->patches() == nullptr;
-    if (aims) joints_.remember(rows_, bodies_.velocity);
+    const bool relinearizes = jointStep_.relinearized && solver_->patches() == nullptr;
+    if (relinearizes) joints_.remember(rows_, bodies_.velocity);
     solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted,
                     def_.residualTolerance, def_.pyramidDirections, tasks_, &pass});
     result_.solverGaveUp = result_.solverGaveUp || solver_->gaveUp();
-    if (!jointStep_.curved) return;
-    // The aim of joints at the end of the step is renewed with every iteration, which diverges where a step
-    // turns light links far, or asks for motion that the joints hardly allow, as in a flat net: then the
-    // linearisation at its start has to do.
+    if (!jointStep_.relinearized) return;
+    // The joint biases are re-linearised in every iteration. That diverges where light links rotate far in a
+    // step, or where the joints hardly allow the motion, as in a flat net: then the step is solved again with
+    // the linearisation at its start.
     const bool ideal = !jointStep_.bias.soft && jointStep_.bias.baumgarte == 0;  // else joints may do work
-    const bool strays = aims && ideal && joints_.work(rows_, bodies_.velocity) > Real(kMostWork);
-    if (!strays && monitor.aimSettled()) return;
+    const bool diverges = relinearizes && ideal && joints_.work(rows_, bodies_.velocity) > Real(kMostWork);
+    if (!diverges && monitor.biasConverged()) return;
     jointStep_.curvature = 0;
-    if (strays) joints_.restart(rows_, bodies_.velocity);
-    solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted || !strays,
+    if (diverges) joints_.restart(rows_, bodies_.velocity);
+    solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted || !diverges,
                     def_.residualTolerance, def_.pyramidDirections, tasks_, &pass});
 }
 
@@ -247,11 +247,11 @@ template <class S>
 void World<S>::relax() {
     int iterations =
         style_.bias ? style_.relaxIterations : std::min(correction_->relaxIterations(), velocityIterations());
-    if (solver_->patches() == nullptr && contacts_.bounceAhead(rows_))
+    if (solver_->patches() == nullptr && contacts_.applySpeculativeRestitution(rows_))
         iterations = std::max(iterations, velocityIterations());
     if (iterations == 0) return;
     rows_.relax();
-    jointStep_.curved = false;
+    jointStep_.relinearized = false;
     solveVelocities(iterations, true);
 }
 
@@ -262,7 +262,7 @@ void World<S>::solvePositions() {
                            residuals_);
     StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h,
                                std::numeric_limits<Real>::infinity(), positionScratch_);
-    jointStep_.curved = false;
+    jointStep_.relinearized = false;
     solver_->solvePositions(positions,
                             {rows_, bodies_.velocity, friction_, monitor, velocityIterations(), h, true});
     // Velocities get what has moved the bodies beyond them: with symplectic Euler the result is (x - x0) / h,

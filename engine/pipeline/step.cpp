@@ -8,8 +8,8 @@
 //         velocities   v += h a; damping; gyroscopic term
 //         solve        impulses for the rows
 //         move         x += h v, q := exp(h w) q
-//         impacts      fast bodies back to where they collide, and on from there  (where the choice wants it)
-//         relax        impulses again, without what position errors asked for     (where the choice wants it)
+//         impacts      fast bodies back to where they collide, and on from there  (where the choice needs it)
+//         relax        impulses again, without the bias of position errors        (where the choice needs it)
 //         correct      position correction; angular momentum to end velocity
 // Solvers that iterate on positions move first, are put right (`positions`), and solve velocities after that.
 #include <algorithm>
@@ -146,12 +146,12 @@ void World<S>::endStep() {
         result_.contacts += patches->points();
         result_.rows += patches->rows();
     }
-    result_.narrowPhaseCalls = contacts_.asked();
+    result_.narrowPhaseCalls = contacts_.queries();
     result_.iterations = static_cast<int>(residuals_.size());
     result_.measure = def_.measureResiduals ? ResidualMeasure::NaturalMap : ResidualMeasure::Change;
     result_.residuals = residuals_;
     events_.clear();
-    contacts_.noteEvents(bodies_, events_, tasks_);
+    contacts_.addEvents(bodies_, events_, tasks_);
     result_.events = events_;
     breakJoints();
     result_.impacts = impacts_;

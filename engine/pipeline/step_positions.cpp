@@ -42,7 +42,7 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
     out.block.b = b;
     out.block.invMassA = bodies_.invMass[a];
     out.block.invMassB = bodies_.invMass[b];
-    out.block.rows = static_cast<std::uint8_t>(made.held);
+    out.block.rows = static_cast<std::uint8_t>(made.equalities);
     out.count = 0;
     const auto turned = [&](std::uint32_t body, const typename S::Ang& ang) {
         return bodies_.invMass[body] > 0
@@ -52,7 +52,7 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
     };
     for (std::size_t i = 0; i < static_cast<std::size_t>(made.count); ++i) {
         const RowRole role = made.law[i].role;
-        if (role != RowRole::Hold && role != RowRole::Limit) continue;
+        if (role != RowRole::Equality && role != RowRole::Limit) continue;
         const auto place = static_cast<std::size_t>(out.count++);
         Row<S>& row = out.row[place];
         row = made.row[i];
@@ -65,7 +65,7 @@ void StepPositions<S>::evaluateJoint(std::size_t index, JointPositions<S>& out) 
         out.unilateral[place] = role == RowRole::Limit;
         out.velocityRow[place] = record.firstRow + static_cast<std::uint32_t>(i);
     }
-    if (made.held > 0) invertBlock<S>(out.row.data(), out.block, out.inverseK);
+    if (made.equalities > 0) invertBlock<S>(out.row.data(), out.block, out.inverseK);
 }
 
 template <class S>

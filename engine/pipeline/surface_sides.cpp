@@ -8,7 +8,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kShapeGrain = 256;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kShapeGrain = 256;  ///< worth a task: some microseconds of work
 
 template <class S>
 bool blocked(const Shape<S>& surface, const typename S::Vec& from, const typename S::Vec& to,
@@ -63,7 +63,8 @@ bool ContactSet<S>::stayOnSide(const BodyArrays<S>& bodies, std::uint32_t shape,
             if (!mayCollide(bodies, record.body, shapes_[surface].body)) continue;
             const Pose<S>& X = shapePoses_[surface];
             Vec x = toLocal<S>(X, now);
-            if (!stayOnSideOf<S>(shapes_[surface].shape, toLocal<S>(X, before), x, kGap * record.inner))
+            if (!stayOnSideOf<S>(shapes_[surface].shape, toLocal<S>(X, before), x,
+                                 kGap * record.inscribedRadius))
                 continue;
             now = toWorld<S>(X, x);
             moved = any = true;

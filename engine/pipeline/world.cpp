@@ -135,7 +135,7 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     checkSettings<S>(def);
     tasks_ = Tasks(def.threads);
     require(def.gravity.allFinite(), "gravity", "gravity must be finite");
-    require(def.reuseDistance == 0 || !manifoldTraits(def.manifold).remembers, "reuse_manifold",
+    require(def.cacheTolerance == 0 || !manifoldTraits(def.manifold).remembers, "reuse_manifold",
             "a manifold that remembers needs the narrow phase in every step: reuse distance must be 0");
     const RotationScheme<S> rotation = findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make();
     motion_ = {
@@ -156,7 +156,7 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     fault_ = findAlgorithm(faultTable<S>(), "fault", def.fault).make();
     if (solver_->patches() != nullptr) {
         require(fault_ == nullptr, "fault_solver",
-                "faults spoil rows of contacts, which this solver does not have");
+                "faults change rows of contacts, which this solver does not have");
         require(frictionShape(def.friction) == solverTraits(def.solver).friction, "friction_solver",
                 "this solver has a friction law of its own, the cone's: friction must be cone");
         require(!restitution_->solvesImpacts(), "restitution_solver",
@@ -238,8 +238,8 @@ ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
     record.local = {def.pose.p - bodies_.constants[dense].centerOfMass, normalizedRot(def.pose.q)};
     record.body = dense;
     record.material = def.material;
-    record.reach = coreReach<S>(record.shape, record.local);
-    record.inner = innerRadius<S>(record.shape);
+    record.boundingRadius = coreBoundingRadius<S>(record.shape, record.local);
+    record.inscribedRadius = inscribedRadiusOf<S>(record.shape);
     const Aabb<S> box = boundingBox<S>(record.shape, {});
     record.middle = middleOf<S>(record.shape);
     record.radius = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).norm();

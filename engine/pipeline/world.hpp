@@ -54,9 +54,8 @@ struct StepResult {
     bool nonFinite = false;     ///< a velocity or pose has become NaN or infinite
     std::size_t pairTests = 0;  ///< boxes that the broad phase compared
     std::size_t pairs = 0, contacts = 0, rows = 0;
-    std::size_t narrowPhaseCalls =
-        0;               ///< pairs, or pieces of surfaces, that the narrow phase was asked about
-    int iterations = 0;  ///< of the solver, in all sub-steps
+    std::size_t narrowPhaseCalls = 0;  ///< narrow-phase queries: pairs, or pieces of surfaces
+    int iterations = 0;                ///< of the solver, in all sub-steps
     /// Collisions that continuous_collision = conservative_advancement has put at their time, in its order.
     std::span<const ImpactEvent<S>> impacts;
     std::size_t sleeping = 0;  ///< bodies asleep at the end of the step
@@ -127,7 +126,7 @@ class World {
     Phase nextPhase() const { return nextStage().phase; }
     int substep() const { return nextStage().substep; }  ///< of the next phase: 0 .. substeps() - 1
     void runPhase();
-    /// Watches the solver from now on; null: nobody. Copies of the world are watched by the same observer.
+    /// Sets the observer of the solver, null: none. Copies of the world have the same observer.
     void observeIterations(IterationObserver<S> observer) { observer_ = std::move(observer); }
 
     // --- joints while running; coordinates are numbered as in JointDef. Throw EngineError as addJoint does.

@@ -84,14 +84,14 @@ template <class S>
 typename S::Vec World<S>::jointForce(JointId joint) const {
     const auto& record = joints_.records()[jointIds_.dense(joint)];
     if (stepCount_ == 0) return Vec::Zero();
-    return record.push / (lastStepSize_ * Real(substeps()));
+    return record.reactionImpulse / (lastStepSize_ * Real(substeps()));
 }
 
 template <class S>
 typename S::Ang World<S>::jointTorque(JointId joint) const {
     const auto& record = joints_.records()[jointIds_.dense(joint)];
     if (stepCount_ == 0) return zeroAng<S>();
-    return record.twist / (lastStepSize_ * Real(substeps()));
+    return record.reactionAngularImpulse / (lastStepSize_ * Real(substeps()));
 }
 
 template <class S>

@@ -5,14 +5,14 @@
 //
 //   convex by planes (box, hull, half-space; the caps of a cylinder): each plane n . x <= c bounds t on one
 //     side; the last way in before the first way out is the hit [CyrusBeck1978]
-//   ball, side of capsule, cylinder, cone: |P x|^2 <= r(y)^2, a quadratic in t with roots
+//   sphere, side of capsule, cylinder, cone: |P x|^2 <= r(y)^2, a quadratic in t with roots
 //     q = -(b + sign(b) sqrt(b^2 - a c)),  t = q / a, c / q, which loses no digits to cancellation
 //   triangle: o + t d = v0 + u e1 + w e2, by Cramer's rule [MollerTrumbore1997]; the ray is between its
 //     sides where d . (a x b) has one sign for all of them, a -> b from o
 //   segment: the same with one edge
 //   composites: their pieces along the ray (surface.hpp), the nearest hit
-// A capsule is met where the first of its side and its two balls is. Sides shared by two triangles belong to
-// both, widened by rounding; and d . (a x b) is exactly -d . (b x a), so that both of them agree on which
+// A capsule is met where the first of its side and its two spheres is. Sides shared by two triangles belong
+// to both, widened by rounding; and d . (a x b) is exactly -d . (b x a), so that both of them agree on which
 // side of theirs a ray passes, as in [Woop2013]: nothing passes between them, slivers or not. Cost: O(1);
 // O(faces) of hulls; O(log n + pieces met) of composites.
 #include "engine/queries/ray_cast.hpp"
@@ -31,9 +31,9 @@ struct Ray {
     typename S::Vec at(typename S::Real t) const { return o + t * d; }
 };
 
-/// The stretch of the ray inside so far, and the normal where it enters.
+/// Interval of the ray inside the clipping planes so far, and the normal where it enters.
 template <class S>
-struct Stretch {
+struct Interval {
     using R = typename S::Real;
     using V = typename S::Vec;
     R enter = 0, exit = 1;
@@ -87,13 +87,13 @@ struct Found {
 };
 
 template <class S>
-void take(const Stretch<S>& s, bool met, Found<S>& found) {
+void take(const Interval<S>& s, bool met, Found<S>& found) {
     if (!met) return;
     found.inside = s.inside;
     if (!s.inside) found.consider(s.enter, s.normal);
 }
 
-/// Entry into the ball of radius r around c.
+/// Entry into the sphere of radius r around c.
 template <class S>
 void meetBall(const Ray<S>& ray, const typename S::Vec& c, typename S::Real r, Found<S>& found) {
     using R = typename S::Real;
@@ -101,7 +101,7 @@ void meetBall(const Ray<S>& ray, const typename S::Vec& c, typename S::Real r, F
     const R dd = ray.d.squaredNorm(), b = m.dot(ray.d), outside = m.squaredNorm() - r * r;
     if (outside <= 0) found.inside = true;
     if (outside <= 0 || b >= 0) return;
-    // The discriminant from the ray's distance to the centre: exact for small far balls.
+    // The discriminant from the ray's distance to the centre: exact for small far spheres.
     const typename S::Vec nearest = m - (b / dd) * ray.d;
     const R disc = r * r - nearest.squaredNorm();
     if (disc < 0) return;
@@ -122,14 +122,14 @@ void meet(const Ray<S>& ray, const Sphere<S>& s, Found<S>& found) {
 }
 template <class S>
 void meet(const Ray<S>& ray, const Box<S>& s, Found<S>& found) {
-    Stretch<S> stretch;
+    Interval<S> interval;
     bool met = true;
     for (int i = 0; i < S::dim && met; ++i) {
         const typename S::Vec e = S::Vec::Unit(i);
-        met = stretch.clip(ray.o[i] - s.halfExtents[i], ray.d[i], e) &&
-              stretch.clip(-ray.o[i] - s.halfExtents[i], -ray.d[i], -e);
+        met = interval.clip(ray.o[i] - s.halfExtents[i], ray.d[i], e) &&
+              interval.clip(-ray.o[i] - s.halfExtents[i], -ray.d[i], -e);
     }
-    take(stretch, met, found);
+    take(interval, met, found);
 }
 template <class S>
 void meet(const Ray<S>& ray, const Capsule<S>& s, Found<S>& found) {
@@ -146,48 +146,48 @@ void meet(const Ray<S>& ray, const Capsule<S>& s, Found<S>& found) {
 }
 template <class S>
 void meet(const Ray<S>& ray, const HalfSpace<S>& s, Found<S>& found) {
-    Stretch<S> stretch;
-    const bool met = stretch.clip(s.normal.dot(ray.o) - s.offset, s.normal.dot(ray.d), s.normal);
-    take(stretch, met, found);
+    Interval<S> interval;
+    const bool met = interval.clip(s.normal.dot(ray.o) - s.offset, s.normal.dot(ray.d), s.normal);
+    take(interval, met, found);
 }
 template <class S>
 void meet(const Ray<S>& ray, const Hull<S>& s, Found<S>& found) {
-    Stretch<S> stretch;
+    Interval<S> interval;
     bool met = true;
     const auto& data = *s.data;
     if constexpr (S::dim == 2) {
         for (std::size_t i = 0; i < data.normals.size() && met; ++i)
-            met = stretch.clip(data.normals[i].dot(ray.o - data.vertices[i]), data.normals[i].dot(ray.d),
-                               data.normals[i]);
+            met = interval.clip(data.normals[i].dot(ray.o - data.vertices[i]), data.normals[i].dot(ray.d),
+                                data.normals[i]);
     } else {
         for (std::size_t i = 0; i < data.faces.size() && met; ++i) {
             const auto& f = data.faces[i];
-            met = stretch.clip(f.normal.dot(ray.o) - f.offset, f.normal.dot(ray.d), f.normal);
+            met = interval.clip(f.normal.dot(ray.o) - f.offset, f.normal.dot(ray.d), f.normal);
         }
     }
-    take(stretch, met, found);
+    take(interval, met, found);
 }
 template <class S>
 void meet(const Ray<S>& ray, const Cylinder<S>& s, Found<S>& found) {
     using R = typename S::Real;
     using V = typename S::Vec;
-    Stretch<S> stretch;
-    bool met = stretch.clip(ray.o.y() - s.halfLength, ray.d.y(), V::UnitY()) &&
-               stretch.clip(-ray.o.y() - s.halfLength, -ray.d.y(), -V::UnitY());
+    Interval<S> interval;
+    bool met = interval.clip(ray.o.y() - s.halfLength, ray.d.y(), V::UnitY()) &&
+               interval.clip(-ray.o.y() - s.halfLength, -ray.d.y(), -V::UnitY());
     const V o = across<S>(ray.o), d = across<S>(ray.d);
     const R a = d.squaredNorm(), c = o.squaredNorm() - s.radius * s.radius;
     R t0 = 0, t1 = 0;
-    if (c > 0) stretch.inside = false;
+    if (c > 0) interval.inside = false;
     if (a == 0 || !roots<R>(a, o.dot(d), c, t0, t1)) {
         met = met && c <= 0;
     } else {
-        if (c > 0 && t0 >= stretch.enter) {
-            stretch.enter = t0;
-            stretch.normal = V((o + t0 * d).normalized());
+        if (c > 0 && t0 >= interval.enter) {
+            interval.enter = t0;
+            interval.normal = V((o + t0 * d).normalized());
         }
-        met = met && stretch.enter <= std::min(stretch.exit, t1) && (c <= 0 || t0 >= 0);
+        met = met && interval.enter <= std::min(interval.exit, t1) && (c <= 0 || t0 >= 0);
     }
-    take(stretch, met, found);
+    take(interval, met, found);
 }
 /// Side |P x| = k (h - y), k = r / (2 h), below the apex and above the base.
 template <class S>

@@ -8,7 +8,7 @@
 //   if (const auto hit = queries.castRay({0, 5, 0}, {0, -10, 0})) use(hit->body, hit->point, hit->normal);
 //
 // Making one builds a tree over the boxes of all shapes where the bodies are now: O(n log n), once for any
-// number of questions; it is stale after the next step or change of the world. All bodies are asked, those
+// number of questions; it is stale after the next step or change of the world. All bodies are searched, those
 // without contacts too; `filter` may leave some out. Ties go to the shape added first.
 #pragma once
 
@@ -50,7 +50,7 @@ template <class S>
 struct NearestHit : ShapeRef {
     typename S::Real distance = 0;  ///< [m]; < 0: overlap (of a surface: with its nearest piece)
     typename S::Vec point, onShape,
-        normal;  ///< on what was asked about, on the world's shape; first to second
+        normal;  ///< on the query shape, on the world's shape; first to second
 };
 
 template <class S>

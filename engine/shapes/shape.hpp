@@ -16,7 +16,7 @@
 
 namespace rigor::engine {
 
-/// Ball (2D: disc). radius > 0 [m].
+/// Sphere (2D: disc). radius > 0 [m].
 template <class S>
 struct Sphere {
     typename S::Real radius;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Bounding-volume hierarchy over boxes that do not move: the triangles of a mesh, the segments of a chain,
-// the shapes of a world while it is asked questions. Built top down by splitting at the median centre along
+// the shapes of a world during queries. Built top down by splitting at the median centre along
 // the widest axis [Ericson2005, ch. 6.2], so that its depth is log2 of the count; nodes lie depth first.
 // Cost: building O(n log^2 n), a query O(log n + found) for compact boxes. Queries do not allocate.
 #pragma once

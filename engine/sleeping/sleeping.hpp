@@ -34,7 +34,7 @@ struct SleepStep {
 
 template <class S>
 struct SleepingScheme {
-    /// When contacts are known, before rows are made: who wakes. Null: nobody ever sleeps.
+    /// Wakes bodies, when contacts are known and before rows are made. Null: no body ever sleeps.
     void (*wake)(const SleepStep<S>& step) = nullptr;
     /// At the end of the step: who falls asleep.
     void (*rest)(const SleepStep<S>& step) = nullptr;

@@ -176,13 +176,14 @@ void solveRowByRow(const SolverInput<S>& input, ContactOrder order, BlockSweeps<
             order == ContactOrder::FrictionFirst ? solve(solveFriction<S>, blocks[k]) : Real(0);
         return std::max(friction, solve(solveNormal<S>, blocks[k]));
     };
-    const auto rub = [&](std::size_t k) -> Real {
+    const auto solveBlockFriction = [&](std::size_t k) -> Real {
         return blocks[k].kind == BlockKind::Contact ? solve(solveFriction<S>, blocks[k]) : Real(0);
     };
     for (int i = 0; i < input.iterations; ++i) {
         input.monitor.before(input.velocities);
         Real change = sweeps.largest(solveBlock);
-        if (order == ContactOrder::FrictionLast) change = std::max(change, sweeps.largest(rub));
+        if (order == ContactOrder::FrictionLast)
+            change = std::max(change, sweeps.largest(solveBlockFriction));
         if (input.monitor.after(input.velocities, change)) break;
     }
 }

@@ -81,7 +81,7 @@ struct SolverStyle {
     bool positions = false;
     /// How position errors act on the rows, where the solver has its own way; else the position correction's.
     std::optional<BiasRule<Real>> bias;
-    /// Of joints that are linearised (WorldDef::curvedJoints off), where that is not the same.
+    /// Of joints that are linearised (WorldDef::relinearizedJoints off), where that is not the same.
     std::optional<BiasRule<Real>> linearJointBias;
     /// Iterations of solve() after the bodies have moved, with relaxed biases.
     int relaxIterations = 0;

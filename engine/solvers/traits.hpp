@@ -49,12 +49,12 @@ struct SolverTraits {
     std::optional<int> iterations = {};  ///< of a sub-step, where velocityIterations is 0; empty: 50
     int relaxIterations = 0;             ///< more of them after the bodies have moved
     ErrorHandling errors = ErrorHandling::Correction;
-    /// Of Springs: joints that are linearised (WorldDef::curvedJoints off) are rigid instead and lose this
-    /// fraction of their error in each sub-step.
+    /// Of Springs: joints that are linearised (WorldDef::relinearizedJoints off) are rigid instead and lose
+    /// this fraction of their error in each sub-step.
     std::optional<double> linearJointBaumgarte = {};
     std::optional<FrictionShape> friction = {};  ///< a law of its own; empty: that of WorldDef::friction
-    /// The contacts of two shapes rub as one, at the centre of their pressure, which is the law of the points
-    /// only where they slide without turning or turn without sliding.
+    /// The contacts of two shapes have friction as one, at their center of pressure, which is the law of the
+    /// points only where they slide without turning or turn without sliding.
     bool frictionOfPatches = false;
     bool contactsInSingle = false;  ///< contacts are reckoned in f32 in worlds of f64, too
     bool direct = false;            ///< one iteration solves contacts without friction, however many

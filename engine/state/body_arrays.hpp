@@ -22,7 +22,7 @@ enum class BodyType : std::uint8_t { Static, Kinematic, Dynamic };
 inline constexpr std::size_t kBodyGrain = 64;
 
 /// Velocity of the centre of mass [m/s] and angular velocity [rad/s], world frame. In memory groups of four
-/// numbers, the gaps 0, that SIMD takes as they are: (v, gap), (w, gap) in space, (v, w, gap) in the plane.
+/// numbers, the gaps 0, that SIMD takes as they are: (v, gap), (w, gap) in 3D, (v, w, gap) in 2D.
 template <class S>
 struct Velocity;
 template <class R>

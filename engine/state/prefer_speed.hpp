@@ -10,7 +10,7 @@ namespace rigor::engine {
 
 /// Sets the choices that cost accuracy for speed, or that only pay in large scenes, and leaves the others:
 /// the solver `wide` with springs of contact half as stiff again as usual, answers of the narrow phase kept
-/// while a pair moves by less than a millimetre, the broad phase `wide_tree` with enlarged boxes, points
+/// while a pair moves by less than a millimetre, the broad phase `wide_tree` with fat AABBs, points
 /// found 5 mm ahead, and joints that are linearised at the start of each sub-step. What it gives up is what
 /// soft contacts give up (solvers/wide/wide.cpp): bodies overlap by what the springs need to carry the load.
 template <class S>
@@ -19,11 +19,11 @@ void preferSpeed(WorldDef<S>& def) {
     def.solver = "wide";
     def.substeps = 5;
     def.contactFrequency = Real(45);
-    def.reuseDistance = Real(1e-3);
+    def.cacheTolerance = Real(1e-3);
     def.boxMargin = Real(0.05);
     def.broadPhase = "wide_tree";
     def.speculativeDistance = Real(5e-3);
-    def.curvedJoints = false;
+    def.relinearizedJoints = false;
 }
 
 }  // namespace rigor::engine

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a world is told before it starts: settings, bodies, shapes and joints. Bad values are refused with an
+// Definition of a world before it starts: settings, bodies, shapes and joints. Bad values are refused with an
 // EngineError when they are used.
 #pragma once
 
@@ -22,8 +22,8 @@ namespace rigor::engine {
 template <class S>
 class NarrowPhase;  // narrowphase/manifold.hpp
 
-/// Settings of a world, constant after construction: settings.def describes each. Algorithms are named as in the
-/// tables of their folders.
+/// Settings of a world, constant after construction: settings.def describes each. Algorithms are named as in
+/// the tables of their folders.
 template <class S>
 struct WorldDef {
     using Real = typename S::Real;

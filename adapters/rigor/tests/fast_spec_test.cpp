@@ -25,10 +25,10 @@ TEST(FastPreset, IsTheMatchedOneWithWhatPreferSpeedSets) {
     EXPECT_EQ(integerSetting(fast, "substeps"), wanted.substeps);
     EXPECT_EQ(integerSetting(fast, "velocity_iterations"), wanted.velocityIterations);
     EXPECT_EQ(numberSetting(fast, "contact_frequency"), wanted.contactFrequency);
-    EXPECT_EQ(numberSetting(fast, "reuse_distance"), wanted.reuseDistance);
+    EXPECT_EQ(numberSetting(fast, "reuse_distance"), wanted.cacheTolerance);
     EXPECT_EQ(numberSetting(fast, "box_margin"), wanted.boxMargin);
     EXPECT_EQ(numberSetting(fast, "speculative_distance"), wanted.speculativeDistance);
-    EXPECT_EQ(textSetting(fast, "curved_joints") == "on", wanted.curvedJoints);
+    EXPECT_EQ(textSetting(fast, "curved_joints") == "on", wanted.relinearizedJoints);
 
     Settings others = resolveSettings(parseSpec("rigor:preset=matched"), *engine);
     int changed = 0;

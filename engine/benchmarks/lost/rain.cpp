@@ -95,7 +95,7 @@ class Rain {
         int index = 0;
         std::string shape;
         double radius = 0;  ///< no point is further from the centre of mass [m]
-        double inner = 0;   ///< of a ball inside the shape [m]
+        double inner = 0;   ///< of a sphere inside the shape [m]
         bool done = false;  ///< lost, or away
     };
 
@@ -149,7 +149,7 @@ class Rain {
         }
         setMotion(body);
         bodies_.push_back({world_.addBody(body), index, shapeName<S>(shape), radiusOf<S>(shape, m.center),
-                           static_cast<double>(innerRadius<S>(shape))});
+                           static_cast<double>(inscribedRadiusOf<S>(shape))});
         world_.addShape(bodies_.back().id, {shape, {}, stuff_});
     }
 

@@ -19,11 +19,11 @@ TYPED_TEST_SUITE(Impacts, Spaces);
 
 template <class S>
 MovingShape<S> moving(const Shape<S>& shape, const Pose<S>& body, const Velocity<S>& velocity) {
-    return {&shape, {}, body, velocity, coreReach<S>(shape, {}), innerRadius<S>(shape)};
+    return {&shape, {}, body, velocity, coreBoundingRadius<S>(shape, {}), inscribedRadiusOf<S>(shape)};
 }
 
 template <class S>
-struct Dice {
+struct Rng {
     using R = typename S::Real;
     std::mt19937 random{17};
     double uniform(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); }
@@ -44,12 +44,12 @@ TYPED_TEST(Impacts, OfTwoBallsIsTheRootOfAQuadratic) {
     using S = TypeParam;
     using R = typename S::Real;
     const bool fine = sizeof(R) == 8;
-    Dice<S> dice;
+    Rng<S> rng;
     int hits = 0;
     for (int i = 0; i < 6000; ++i) {
-        const Shape<S> a = Sphere<S>{R(dice.uniform(0.05, 1))}, b = Sphere<S>{R(dice.uniform(0.05, 1))};
-        const Velocity<S> va{dice.vec(100), dice.ang(50)}, vb{dice.vec(100), dice.ang(50)};
-        const Pose<S> Xa{dice.vec(3), {}}, Xb{dice.vec(3), {}};
+        const Shape<S> a = Sphere<S>{R(rng.uniform(0.05, 1))}, b = Sphere<S>{R(rng.uniform(0.05, 1))};
+        const Velocity<S> va{rng.vec(100), rng.ang(50)}, vb{rng.vec(100), rng.ang(50)};
+        const Pose<S> Xa{rng.vec(3), {}}, Xb{rng.vec(3), {}};
         const auto p = (Xb.p - Xa.p).template cast<double>().eval();
         const auto v = (vb.v - va.v).template cast<double>().eval();
         const double r = double(std::get<Sphere<S>>(a).radius) + double(std::get<Sphere<S>>(b).radius);
@@ -65,7 +65,7 @@ TYPED_TEST(Impacts, OfTwoBallsIsTheRootOfAQuadratic) {
         ASSERT_EQ(found.hit, expected) << i << " exact " << exact;
         if (!expected) continue;
         ++hits;
-        // The extrapolation is first order in the gap of at most 1e-3 of the smaller ball.
+        // The extrapolation is first order in the gap of at most 1e-3 of the smaller sphere.
         EXPECT_NEAR(double(found.exact), exact, fine ? 1e-6 : 1e-5);
         EXPECT_GE(double(found.closest.distance), fine ? 0 : -1e-6);
         EXPECT_TRUE(found.converged);
@@ -77,16 +77,16 @@ TYPED_TEST(Impacts, OfTwoBallsIsTheRootOfAQuadratic) {
 TYPED_TEST(Impacts, OfTurningBoxesIsTheFirstTouchOfAFineSampling) {
     using S = TypeParam;
     using R = typename S::Real;
-    Dice<S> dice;
+    Rng<S> rng;
     int hits = 0, misses = 0;
     for (int i = 0; i < 150; ++i) {
         typename S::Vec thin = S::Vec::Constant(R(0.4));
         thin[0] = R(0.02);
         const Shape<S> a = Box<S>{thin}, b = Box<S>{S::Vec::Constant(R(0.2))};
-        typename S::Vec apart = dice.vec(1.5);
+        typename S::Vec apart = rng.vec(1.5);
         if (apart.norm() < R(1)) continue;
-        const Velocity<S> va{dice.vec(3), dice.ang(20)},
-            vb{typename S::Vec(R(-20) * apart + dice.vec(15)), dice.ang(20)};
+        const Velocity<S> va{rng.vec(3), rng.ang(20)},
+            vb{typename S::Vec(R(-20) * apart + rng.vec(15)), rng.ang(20)};
         const auto A = moving<S>(a, {S::Vec::Zero(), Pose<S>::identityRot()}, va);
         const auto B = moving<S>(b, {apart, Pose<S>::identityRot()}, vb);
         const R horizon = R(0.1);

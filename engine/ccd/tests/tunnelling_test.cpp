@@ -249,7 +249,7 @@ TYPED_TEST(Tunnelling, AChainOfBallsPassesTheBlowOnWithinTheStep) {
     for (int i = 0; i < 5; ++i)
         EXPECT_NEAR(speedX<S>(world, balls[static_cast<std::size_t>(i)]), i == 4 ? 300 : 0,
                     tol<S>(1e-6, 1e-2));
-    // The way of the momentum is 300 m/s times the step, less four gaps' worth of ball.
+    // The way of the momentum is 300 m/s times the step, less four gaps' worth of sphere.
     EXPECT_NEAR(placeX<S>(world, balls[4]), 300 * kStep + 4 * 0.2, 1e-3);
 }
 

@@ -100,10 +100,11 @@ TYPED_TEST(JointRowsOf, RowsAreTheGradientsOfWhatTheyMeasure) {
             evaluate(joint, this->moved(A, u, h), this->moved(B, v, h), after);
             ASSERT_EQ(now.count, after.count);
             ASSERT_LE(now.count, kMaxRowsPerJoint);
-            ASSERT_LE(now.held, kMaxJointRows);
+            ASSERT_LE(now.equalities, kMaxJointRows);
             for (int i = 0; i < now.count; ++i) {
                 const auto r = static_cast<std::size_t>(i);
-                EXPECT_EQ(now.law[r].role == RowRole::Hold, i < now.held) << "rows that hold come first";
+                EXPECT_EQ(now.law[r].role == RowRole::Equality, i < now.equalities)
+                    << "equality rows come first";
                 if (now.law[r].role == RowRole::Motor) continue;
                 EXPECT_NEAR(rowVelocity<S>(now.row[r], u, v), (after.error[r] - before.error[r]) / (2 * h),
                             1e-6 * 50)
@@ -133,7 +134,8 @@ TYPED_TEST(JointRowsOf, RowsPushBothBodiesOppositely) {
         const typename S::Ang w = this->turn(1);
         const Velocity<S> a{cross(w, A.p), w}, b{cross(w, B.p), w};
         for (int i = 0; i < rows.count; ++i) {
-            if (i < rows.held) continue;  // where anchors are apart, held rows are exact at C = 0 only
+            if (i < rows.equalities)
+                continue;  // where anchors are apart, equality rows are exact at C = 0 only
             const Row<S>& row = rows.row[static_cast<std::size_t>(i)];
             EXPECT_NEAR(rowVelocity<S>(row, a, b), 0, 1e-12) << "row " << i;
         }
@@ -154,7 +156,7 @@ TEST(JointAngles, TwistSurvivesSwingAndCountsTurns) {
         findJoint<S>(def.type).evaluate(joint, {}, B, rows);
         EXPECT_NEAR(rows.value[0], twist, 1e-12);
         EXPECT_NEAR(rows.value[1], 1, 1e-12);
-        joint.seen = rows.value;
+        joint.lastCoordinate = rows.value;
     }
 }
 

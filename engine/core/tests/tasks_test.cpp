@@ -95,7 +95,7 @@ TEST(Tasks, StagesFollowEachOtherAndVisitEveryIndexOnce) {
 }
 
 /// More threads than there are processors, which fall asleep at work: others take over what they come too
-/// late for, and nobody goes on before it is done.
+/// late for, and no thread goes on before it is done.
 TEST(Tasks, WhoComesLateWaitsForWhatOthersHaveTakenOver) {
     constexpr std::size_t threads = 6, stages = 30;
     const Tasks tasks(threads);

@@ -210,7 +210,7 @@ TYPED_TEST(Faults, UnguardedDivisionOfCoincidentBalls) {
     }
 }
 
-/// |q| grows by sqrt(1 + (h w / 2)^2) per step, in the plane (cosine and sine) by sqrt(1 + (h w)^2).
+/// |q| grows by sqrt(1 + (h w / 2)^2) per step, in 2D (cosine and sine) by sqrt(1 + (h w)^2).
 TYPED_TEST(Faults, UnnormalisedQuaternionGrows) {
     using S = TypeParam;
     using R = typename S::Real;

@@ -22,7 +22,7 @@ TYPED_TEST_SUITE(BlockMotionTest, Spaces);
 template <class S>
 using Inertia = typename S::Inertia;
 
-/// Positive definite, far from that of a ball, not along the axes; 2D: positive.
+/// Positive definite, far from that of a sphere, not along the axes; 2D: positive.
 template <class S, class Random>
 Inertia<S> anyInertia(Random& random) {
     using R = typename S::Real;
@@ -37,7 +37,7 @@ Inertia<S> anyInertia(Random& random) {
     }
 }
 
-/// World, walls, kinematic bodies, sleepers, balls and tumblers, some turning by many radians in a step.
+/// World, walls, kinematic bodies, sleepers, spheres and tumblers, some turning by many radians in a step.
 template <class S>
 BodyArrays<S> someBodies(std::size_t n) {
     using R = typename S::Real;

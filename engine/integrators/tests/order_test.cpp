@@ -107,7 +107,7 @@ std::vector<BodyId> onASpring(World<S>& world) {
 }
 /// Two spinning bodies with offset centres of mass on springs and dampers at off-centre anchors.
 template <class S>
-std::vector<BodyId> offCentre(World<S>& world) {
+std::vector<BodyId> offCenter(World<S>& world) {
     std::vector<BodyId> bodies;
     for (int i = 0; i < 2; ++i) {
         BodyDef<S> def;
@@ -159,7 +159,7 @@ struct Problem {
 const Problem kProblems[] = {
     {"drag", &thrownInAMedium<Space2d>, &thrownInAMedium<Space3d>, 2, 32},
     {"spring", &onASpring<Space2d>, &onASpring<Space3d>, 2, 512},
-    {"off centre", &offCentre<Space2d>, &offCentre<Space3d>, 1, 1024},
+    {"off centre", &offCenter<Space2d>, &offCenter<Space3d>, 1, 1024},
     {"damped", &dampedAndTwisted<Space2d>, &dampedAndTwisted<Space3d>, 1, 256},
 };
 

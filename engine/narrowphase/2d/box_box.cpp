@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Box against box in the plane: what polygon_pairs.cpp does for any two polygons, with closed forms in place
+// Box against box in 2D: what polygon_pairs.cpp does for any two polygons, with closed forms in place
 // of its loops [Gottschalk1996, in two dimensions]. With C = axes of B in the frame of A, t = centre of B, a
 // and b the half extents:
 //
@@ -50,9 +50,9 @@ struct SeenBox {
     }
 };
 
-/// Both boxes from the one whose side is the reference.
+/// Reference side and incident box, in the frame of the reference box.
 template <class R>
-struct SideMeeting {
+struct SidePair {
     bool refIsA;
     int side;
     Vec2<R> refHalf, incHalf;
@@ -71,8 +71,8 @@ struct SideMeeting {
 
 /// A point of the incident box and its foot on the reference side, into the world.
 template <class R>
-void emitPoint(const SideMeeting<R>& m, const Pose<Space<R, 2>>& ref, const Vec2<R>& x, R height,
-               R speculative, std::uint32_t feature, Manifold<Space<R, 2>>& out) {
+void emitPoint(const SidePair<R>& m, const Pose<Space<R, 2>>& ref, const Vec2<R>& x, R height, R speculative,
+               std::uint32_t feature, Manifold<Space<R, 2>>& out) {
     if (height > speculative) return;
     const Vec2<R> onInc = toWorld<Space<R, 2>>(ref, x);
     const Vec2<R> onRef = onInc - (m.refIsA ? height : -height) * out.normal;
@@ -81,7 +81,7 @@ void emitPoint(const SideMeeting<R>& m, const Pose<Space<R, 2>>& ref, const Vec2
 
 /// The side of the incident box that faces the reference side, clipped to what is over it.
 template <class R>
-void clipSides(const SideMeeting<R>& m, const Pose<Space<R, 2>>& ref, R speculative,
+void clipSides(const SidePair<R>& m, const Pose<Space<R, 2>>& ref, R speculative,
                Manifold<Space<R, 2>>& out) {
     const Vec2<R> d = m.towards();
     const int across = std::abs(d.x()) > std::abs(d.y()) ? 0 : 1, incSide = sideOf(across, d[across] < 0);
@@ -130,12 +130,12 @@ void collidePair(const Box<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, const B
     const R sizeA = a.halfExtents.maxCoeff(), sizeB = b.halfExtents.maxCoeff();
     const R tolerance = kRounding<R> * std::max({sizeA, sizeB, X.p.cwiseAbs().maxCoeff()});
     const int onA = byA.best(tolerance);
-    out.apart = byA.separation(onA);
-    if (out.apart > speculative) return;
+    out.separationLowerBound = byA.separation(onA);
+    if (out.separationLowerBound > speculative) return;
     const SeenBox<R> byB{b.halfExtents, -rotateInverse<R>(X.q, X.p), reach(a.halfExtents)};
     const int onB = byB.best(tolerance);
-    out.apart = std::max(out.apart, byB.separation(onB));
-    if (out.apart > speculative) return;
+    out.separationLowerBound = std::max(out.separationLowerBound, byB.separation(onB));
+    if (out.separationLowerBound > speculative) return;
 
     bool refIsA = byB.separation(onB) <= byA.separation(onA) + tolerance;
     int side = refIsA ? onA : onB;
@@ -153,9 +153,9 @@ void collidePair(const Box<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, const B
     out.memory.axis = refIsA ? Memory::kFaceA : Memory::kFaceB;
     out.memory.featureA = out.memory.featureB = static_cast<std::uint32_t>(side);
 
-    const SideMeeting<R> m =
-        refIsA ? SideMeeting<R>{true, side, a.halfExtents, b.halfExtents, X.q, byA.center}
-               : SideMeeting<R>{false, side, b.halfExtents, a.halfExtents, inverse(X.q), byB.center};
+    const SidePair<R> m =
+        refIsA ? SidePair<R>{true, side, a.halfExtents, b.halfExtents, X.q, byA.center}
+               : SidePair<R>{false, side, b.halfExtents, a.halfExtents, inverse(X.q), byB.center};
     const Pose<Space<R, 2>>& ref = refIsA ? Xa : Xb;
     clipSides<R>(m, ref, speculative, out);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The expanding polytope algorithm in the plane: see 3d/epa.cpp for the method and the bounds. A convex
+// The expanding polytope algorithm in 2D: see 3d/epa.cpp for the method and the bounds. A convex
 // polygon of support points, counter-clockwise, grows at its edge of least offset; an edge's support point
 // always fits between the edge's ends, so nothing is ever removed. Two points are enough to start from: a
 // polygon of two edges with opposite normals.
@@ -44,7 +44,9 @@ class Polygon {
     const DifferencePoint<S>& point(int i) const { return points_[index(i % count_)]; }
     int count() const { return count_; }
     /// Edge i grows no further: `support` is the support of D along its normal.
-    void settle(int i, R support) { edges_[index(i)].offset = std::max(edges_[index(i)].offset, support); }
+    void raiseOffset(int i, R support) {
+        edges_[index(i)].offset = std::max(edges_[index(i)].offset, support);
+    }
 
   private:
     static std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -105,7 +107,7 @@ EpaResult<Space<R, 2>> epa(const Minkowski<Space<R, 2>>& D) {
         best.converged = best.depth - edge.offset <= tolerance;
         if (best.converged || polygon.count() == kMostVertices) break;
         if (x.w == polygon.point(i).w || x.w == polygon.point(i + 1).w)
-            polygon.settle(i, support);
+            polygon.raiseOffset(i, support);
         else
             polygon.insert(i + 1, x);
     }

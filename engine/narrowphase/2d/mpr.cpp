@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Portal discovery and refinement in the plane (see ../mpr.cpp): the portal is a segment of two support
+// Portal discovery and refinement in 2D (see ../mpr.cpp): the portal is a segment of two support
 // points on either side of the ray,
 //   cross(u_0, d) >= 0 >= cross(u_1, d),   u_i = v_i - from,
 // so that v_0 v_1 is counter-clockwise about `from` and its normal points out.
@@ -21,7 +21,7 @@ Portal<Space<R, 2>> castPortal(PortalQuery<Space<R, 2>>& query, const Vec2<R>& f
     Portal<S> portal;
     portal.normal = d;
     std::array<DifferencePoint<S>, 2> v;
-    DifferencePoint<S> p = query.ask(d);
+    DifferencePoint<S> p = query.support(d);
     const R first = cross(V(p.w - from), d);
     const std::size_t known = first > 0 ? 0u : 1u;
     const R turn = first > 0 ? R(1) : R(-1);
@@ -31,7 +31,7 @@ Portal<Space<R, 2>> castPortal(PortalQuery<Space<R, 2>>& query, const Vec2<R>& f
         const V u = v[known].w - from;
         const R length = u.norm();
         if (i == kMostDiscoveries || !(length > query.tolerance())) return portal;
-        p = query.ask(V(-u.y(), u.x()) * (turn / length));
+        p = query.support(V(-u.y(), u.x()) * (turn / length));
         if (!(turn * cross(V(p.w - from), d) > 0)) break;
         v[known] = p;
     }
@@ -44,7 +44,7 @@ Portal<Space<R, 2>> castPortal(PortalQuery<Space<R, 2>>& query, const Vec2<R>& f
         portal.facet.points[0] = v[0];
         portal.facet.points[1] = v[1];
         portal.facet.count = 2;
-        p = query.ask(portal.normal);
+        p = query.support(portal.normal);
         if (!(portal.normal.dot(p.w - v[0].w) > query.tolerance())) return portal;
         v[cross(V(p.w - from), d) > 0 ? 0u : 1u] = p;
     }

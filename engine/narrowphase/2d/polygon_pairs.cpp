@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Convex polygons and capsules of the plane against each other: separating axes over edge normals, then the
+// Convex polygons and capsules in 2D against each other: separating axes over edge normals, then the
 // incident edge clipped to the reference edge [Ericson2005, ch. 5.2; Gregorius2013].
 //
 // A capsule is a polygon of two vertices (both edge normals of its segment) with a rounding radius, a segment
@@ -226,11 +226,11 @@ void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Pol
     const R sizeA = sizeOf(a), sizeB = sizeOf(b);
     const R tolerance = kRounding<R> * std::max({sizeA, sizeB, XAB.p.cwiseAbs().maxCoeff()});
     const EdgeAxis<R> onA = bestEdge(a, b, XAB, tolerance);
-    out.apart = onA.separation - radius;
-    if (out.apart > speculative) return;
+    out.separationLowerBound = onA.separation - radius;
+    if (out.separationLowerBound > speculative) return;
     const EdgeAxis<R> onB = bestEdge(b, a, XBA, tolerance);
-    out.apart = std::max(out.apart, onB.separation - radius);
-    if (out.apart > speculative) return;
+    out.separationLowerBound = std::max(out.separationLowerBound, onB.separation - radius);
+    if (out.separationLowerBound > speculative) return;
     bool refIsA = onB.separation <= onA.separation + tolerance;
     int edge = refIsA ? onA.edge : onB.edge;
     const R widest = refIsA ? onA.separation : onB.separation;

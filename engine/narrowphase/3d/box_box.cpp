@@ -34,9 +34,9 @@ bool positive(int vertex, int axis) {
     return ((vertex >> axis) & 1) != 0;
 }
 
-/// Two boxes and the axis between them, as seen from the reference box.
+/// Reference and incident face of two boxes, in the frame of the reference box.
 template <class R>
-struct FaceMeeting {
+struct FacePair {
     bool refIsA;
     int refFace, incFace;
     Vec3<R> refHalf, incHalf;
@@ -52,7 +52,7 @@ struct FaceMeeting {
 
 /// The incident face in the coordinates (u, v, h) of the reference face.
 template <class R>
-void layOut(const FaceMeeting<R>& m, FlatPolygon<R>& out) {
+void layOut(const FacePair<R>& m, FlatPolygon<R>& out) {
     const int k = m.axis(), u = m.u(), v = m.v();
     const R slope = R(1) / m.outward[k];
     const auto flat = [&](const Vec3<R>& x, R height) {
@@ -91,7 +91,7 @@ int sideLine(int face, int axis, bool high) {
 /// Is what lies lower than `near` over the reference face all within its prism? Between corners that are, and
 /// the points where sides of the incident face rise above `near`, so is everything.
 template <class R>
-bool withinPrism(const FaceMeeting<R>& m, const FlatPolygon<R>& p, R near) {
+bool withinPrism(const FacePair<R>& m, const FlatPolygon<R>& p, R near) {
     const R u = m.refHalf[m.u()], v = m.refHalf[m.v()];
     for (std::size_t i = 0; i < 4; ++i)
         if (p.h[i] <= near && (std::abs(p.u[i]) > u || std::abs(p.v[i]) > v)) return false;
@@ -107,7 +107,7 @@ bool withinPrism(const FaceMeeting<R>& m, const FlatPolygon<R>& p, R near) {
 
 /// The incident face inside the prism of the reference face; what is higher than `near` may be outside.
 template <class R>
-void clipToFace(const FaceMeeting<R>& m, R near, FlatPolygon<R>& polygon) {
+void clipToFace(const FacePair<R>& m, R near, FlatPolygon<R>& polygon) {
     using Polygon = FlatPolygon<R>;
     Polygon between;
     layOut(m, polygon);
@@ -119,7 +119,7 @@ void clipToFace(const FaceMeeting<R>& m, R near, FlatPolygon<R>& polygon) {
 }
 
 template <class R>
-std::uint32_t featureOf(const FlatVertex<R>& x, const FaceMeeting<R>& m) {
+std::uint32_t featureOf(const FlatVertex<R>& x, const FacePair<R>& m) {
     const bool inRef = x.in >= kRefLine, outRef = x.out >= kRefLine;
     if (!inRef && !outRef) return vertexFeature(!m.refIsA, loopVertex(m.incFace, x.out));
     if (inRef && outRef) {
@@ -134,8 +134,7 @@ std::uint32_t featureOf(const FlatVertex<R>& x, const FaceMeeting<R>& m) {
 
 /// Fills `out` in the world; `ref` is the pose of the reference box. Returns the least separation.
 template <class R>
-R clipFaces(const FaceMeeting<R>& m, const Pose<Space<R, 3>>& ref, R speculative,
-            Manifold<Space<R, 3>>& out) {
+R clipFaces(const FacePair<R>& m, const Pose<Space<R, 3>>& ref, R speculative, Manifold<Space<R, 3>>& out) {
     using S = Space<R, 3>;
     using V = Vec3<R>;
     FlatPolygon<R> polygon;
@@ -231,8 +230,8 @@ struct Boxes {
 
 /// The faces that meet along the axis, and their names into the memory. False: two edges cross.
 template <class R>
-bool meetingFaces(const BoxAxes<R>& boxes, const PolytopeAxis<R>& axis, ManifoldMemory<Space<R, 3>>& memory,
-                  FaceMeeting<R>& m) {
+bool findFacePair(const BoxAxes<R>& boxes, const PolytopeAxis<R>& axis, ManifoldMemory<Space<R, 3>>& memory,
+                  FacePair<R>& m) {
     using Memory = ManifoldMemory<Space<R, 3>>;
     using Axis = PolytopeAxis<R>;
     const auto number = [](std::uint32_t i) { return static_cast<int>(i); };
@@ -291,17 +290,17 @@ void collidePair(const Box<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const B
     BoxAxes<R> axes(a.halfExtents, b.halfExtents, {toMatrix(X.q), X.p});
     PolytopeAxis<R> axis;
     if (!axes.find(speculative, axis)) {
-        out.apart = axis.separation;
+        out.separationLowerBound = axis.separation;
         return;
     }
     axes.keep(out.memory, axis);
     const Boxes<R> boxes{axes, Xa, axis, out};
-    FaceMeeting<R> meeting;
-    if (!meetingFaces<R>(axes, axis, out.memory, meeting)) {
+    FacePair<R> faces;
+    if (!findFacePair<R>(axes, axis, out.memory, faces)) {
         boxes.edgePoint();
         return;
     }
-    const R least = clipFaces<R>(meeting, meeting.refIsA ? Xa : Xb, speculative, out);
+    const R least = clipFaces<R>(faces, faces.refIsA ? Xa : Xb, speculative, out);
     // Of overlapping boxes the deepest point is on both faces; where rounding clipped it away it is put back.
     // Along an axis that is not the best it can well be beside them.
     const R size = std::max(a.halfExtents.maxCoeff(), b.halfExtents.maxCoeff());

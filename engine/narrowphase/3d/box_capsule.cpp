@@ -183,13 +183,14 @@ CoreContact<R> deepestPoint(const Core<R>& core, const CoreAxis<R>& axis) {
 template <class R>
 inline constexpr R kFlat = R(0.999);
 
-/// The part of the core over the face that n points out of: s, and heights along n.
+/// Interval of the core's parameter s over the face that n points out of, with the heights along n at its
+/// ends.
 template <class R>
-struct Stretch {
+struct Interval {
     R low = 0, high = 1, atLow = 0, atHigh = 0;
 };
 template <class R>
-bool overFace(const Core<R>& core, const Vec3<R>& n, Stretch<R>& part) {
+bool overFace(const Core<R>& core, const Vec3<R>& n, Interval<R>& part) {
     int k;
     const R cosine = n.cwiseAbs().maxCoeff(&k);
     if (!(cosine > kFlat<R>)) return false;
@@ -216,8 +217,8 @@ void collideCore(const Core<R>& core, R radius, R speculative, Manifold<Space<R,
         std::max({core.h.maxCoeff(), core.p.cwiseAbs().maxCoeff(), core.at(R(1)).cwiseAbs().maxCoeff()});
     const R tolerance = kRounding<R> * size;
     CoreAxis<R> axis = bestFace(core, tolerance);
-    out.apart = axis.separation - radius;
-    if (out.apart > speculative) return;
+    out.separationLowerBound = axis.separation - radius;
+    if (out.separationLowerBound > speculative) return;
     if (axis.separation <= tolerance) tryEdges(core, tolerance, axis);
 
     CoreContact<R> contact;
@@ -239,7 +240,7 @@ void collideCore(const Core<R>& core, R radius, R speculative, Manifold<Space<R,
         if (height - radius > speculative) return;
         addPoint<Space<R, 3>>(out, x - height * n, x - radius * n, height - radius, feature);
     };
-    Stretch<R> part;
+    Interval<R> part;
     if (overFace(core, n, part) && std::min(part.atLow, part.atHigh) <= contact.distance + tolerance) {
         add(core.at(part.low), part.atLow, vertexFeature(false, 0));
         add(core.at(part.high), part.atHigh, vertexFeature(false, 1));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The expanding polytope algorithm: the shortest way out of a Minkowski difference D that holds the origin,
+// The expanding polytope algorithm: the shortest penetration vector of a Minkowski difference D that holds
+// the origin,
 //   depth = min over unit n of h(n),   h(n) = max over w in D of n . w.
 // A polytope of support points grows inside D: its face of least offset n . w_0 gets the support point of D
 // along n, the faces that see the point give way to a cone from their horizon.
@@ -19,15 +20,15 @@
 //    neither grown nor asked for its offset.
 //  - The final normal is computed again from the widest triangle of D's points in the facet.
 // Cost: about as many support points as D has vertices near the facet; O(faces) each. Curved sides converge
-// quadratically in the number of points per direction; kMostVertices ends it and `converged` tells.
+// quadratically in the number of points per direction; kMaxVertices ends it and `converged` tells.
 #include "engine/narrowphase/minkowski.hpp"
 
 namespace rigor::engine {
 namespace {
 
-constexpr int kMostVertices = 128;
-constexpr int kMostFaces = 2 * kMostVertices + 64;  ///< 2 V - 4, and room for those that give way
-constexpr int kMostHorizon = 128;
+constexpr int kMaxVertices = 128;
+constexpr int kMaxFaces = 2 * kMaxVertices + 64;  ///< 2 V - 4, and room for those that give way
+constexpr int kMaxHorizon = 128;
 
 struct Link {
     int face, edge;
@@ -77,8 +78,8 @@ class Polytope {
     int used() const { return used_; }
 
     /// Face i grows no further: `support` is the support of D along its normal.
-    void settle(int i, R support) { at(i).offset = std::max(at(i).offset, support); }
-    bool knows(const Vec3<R>& w) const {
+    void raiseOffset(int i, R support) { at(i).offset = std::max(at(i).offset, support); }
+    bool contains(const Vec3<R>& w) const {
         for (int i = 0; i < count_; ++i)
             if (point(i).w == w) return true;
         return false;
@@ -86,10 +87,10 @@ class Polytope {
 
     /// False when there is no room left, or rounding leaves no proper horizon.
     bool grow(int seed, const DifferencePoint<S>& p) {
-        if (count_ == kMostVertices) return false;
+        if (count_ == kMaxVertices) return false;
         findHorizon(seed, p.w);
         const int n = horizonCount_;
-        if (n < 3 || n == kMostHorizon || !ordered()) return false;
+        if (n < 3 || n == kMaxHorizon || !ordered()) return false;
         for (int i = 0; i < seenCount_; ++i) at(seen_[static_cast<std::size_t>(i)]).alive = false;
         points_[static_cast<std::size_t>(count_)] = p;
         int first = -1, last = -1;
@@ -121,7 +122,7 @@ class Polytope {
     int add(int a, int b, int c) {
         int slot = 0;
         while (slot < used_ && face(slot).alive) ++slot;
-        if (slot == kMostFaces) return -1;
+        if (slot == kMaxFaces) return -1;
         used_ = std::max(used_, slot + 1);
         Face<R>& f = at(slot);
         f.v = {a, b, c};
@@ -163,7 +164,7 @@ class Polytope {
             }
         for (int k = 0; k < seenCount_; ++k)
             for (const Link& l : face(seen_[static_cast<std::size_t>(k)]).next)
-                if (mark_[static_cast<std::size_t>(l.face)] == Mark::Beyond && horizonCount_ < kMostHorizon)
+                if (mark_[static_cast<std::size_t>(l.face)] == Mark::Beyond && horizonCount_ < kMaxHorizon)
                     horizon_[static_cast<std::size_t>(horizonCount_++)] = l;
     }
 
@@ -188,20 +189,20 @@ class Polytope {
 
     R tolerance_;
     Vec3<R> center_;
-    std::array<DifferencePoint<S>, kMostVertices> points_;
-    std::array<Face<R>, kMostFaces> faces_;
-    std::array<Mark, kMostFaces> mark_;
-    std::array<int, kMostFaces> seen_;
-    std::array<Link, kMostHorizon> horizon_;
+    std::array<DifferencePoint<S>, kMaxVertices> points_;
+    std::array<Face<R>, kMaxFaces> faces_;
+    std::array<Mark, kMaxFaces> mark_;
+    std::array<int, kMaxFaces> seen_;
+    std::array<Link, kMaxHorizon> horizon_;
     int count_ = 0, used_ = 0, seenCount_ = 0, horizonCount_ = 0;
 };
 
-/// Four points of D as far apart as supports along a few directions find them; fewer where D is flat.
+/// Finds four support points of D with about the largest distances; returns fewer where D is flat.
 template <class R>
-int widestStart(const Minkowski<Space<R, 3>>& D, std::array<DifferencePoint<Space<R, 3>>, 4>& start, R& size,
-                EpaResult<Space<R, 3>>& result) {
+int initialTetrahedron(const Minkowski<Space<R, 3>>& D, std::array<DifferencePoint<Space<R, 3>>, 4>& start,
+                       R& size, EpaResult<Space<R, 3>>& result) {
     using V = Vec3<R>;
-    const auto ask = [&](const V& d) {
+    const auto supportAlong = [&](const V& d) {
         ++result.iterations;
         DifferencePoint<Space<R, 3>> p = D.point(d);
         size = std::max({size, p.a.norm(), p.b.norm()});
@@ -209,7 +210,7 @@ int widestStart(const Minkowski<Space<R, 3>>& D, std::array<DifferencePoint<Spac
     };
     R widest = -1;
     for (int i = 0; i < 3; ++i) {
-        const auto low = ask(-V::Unit(i)), high = ask(V::Unit(i));
+        const auto low = supportAlong(-V::Unit(i)), high = supportAlong(V::Unit(i));
         if (const R l = (high.w - low.w).norm(); l > widest) {
             widest = l;
             start[0] = low;
@@ -223,7 +224,7 @@ int widestStart(const Minkowski<Space<R, 3>>& D, std::array<DifferencePoint<Spac
     result.normal = u;
     R farthest = -1;
     for (const V& d : {u, V(-u), w, V(-w)}) {
-        const auto p = ask(d);
+        const auto p = supportAlong(d);
         if (const R l = along.cross(p.w - start[0].w).norm(); l > farthest) {
             farthest = l;
             start[2] = p;
@@ -234,7 +235,7 @@ int widestStart(const Minkowski<Space<R, 3>>& D, std::array<DifferencePoint<Spac
     result.normal = n;
     R highest = -1;
     for (const V& d : {n, V(-n)}) {
-        const auto p = ask(d);
+        const auto p = supportAlong(d);
         if (const R l = std::abs(n.dot(p.w - start[0].w)); l > highest) {
             highest = l;
             start[3] = p;
@@ -243,11 +244,11 @@ int widestStart(const Minkowski<Space<R, 3>>& D, std::array<DifferencePoint<Spac
     return highest > R(4) * kRounding<R> * size ? 4 : 3;
 }
 
-/// The normal once more, from the widest triangle of the points that lie in the facet.
+/// Computes the normal again from the largest triangle of the points in the facet.
 template <class R>
-void sharpen(const Minkowski<Space<R, 3>>& D, const Polytope<R>& polytope, R tolerance,
-             EpaResult<Space<R, 3>>& best) {
-    std::array<int, kMostVertices> on;
+void refineNormal(const Minkowski<Space<R, 3>>& D, const Polytope<R>& polytope, R tolerance,
+                  EpaResult<Space<R, 3>>& best) {
+    std::array<int, kMaxVertices> on;
     int n = 0;
     for (int i = 0; i < polytope.count(); ++i)
         if (best.normal.dot(polytope.point(i).w) >= best.depth - R(8) * tolerance)
@@ -296,7 +297,7 @@ EpaResult<Space<R, 3>> epa(const Minkowski<Space<R, 3>>& D) {
     EpaResult<S> best;
     std::array<DifferencePoint<S>, 4> start;
     R size = 0;
-    if (const int rank = widestStart<R>(D, start, size, best); rank < 4) {
+    if (const int rank = initialTetrahedron<R>(D, start, size, best); rank < 4) {
         best.depth = 0;
         best.flat = best.converged = true;
         return best;
@@ -317,12 +318,12 @@ EpaResult<Space<R, 3>> epa(const Minkowski<Space<R, 3>>& D) {
         }
         best.converged = best.depth - f.offset <= tolerance;
         if (best.converged) break;
-        if (polytope.knows(x.w))
-            polytope.settle(i, support);
+        if (polytope.contains(x.w))
+            polytope.raiseOffset(i, support);
         else if (!polytope.grow(i, x))
             break;
     }
-    sharpen<R>(D, polytope, tolerance, best);
+    refineNormal<R>(D, polytope, tolerance, best);
     const Vec3<R> target = best.depth * best.normal;
     R nearest = std::numeric_limits<R>::max();
     for (int i = 0; i < polytope.used(); ++i) {

@@ -29,9 +29,9 @@ namespace {
 template <class R>
 using S3 = Space<R, 3>;
 
-/// What both sides of a contact are, in the frame of A.
+/// Two shapes with their contact normal and witness points, in the frame of A.
 template <class R>
-struct Meeting {
+struct FeaturePair {
     const Shape<S3<R>>& a;
     const Shape<S3<R>>& b;
     Pose<S3<R>> X;  ///< of B
@@ -44,13 +44,13 @@ struct Meeting {
 
 /// s(m) of the file's head.
 template <class R>
-R separationAlong(const Meeting<R>& m, const Vec3<R>& n) {
+R separationAlong(const FeaturePair<R>& m, const Vec3<R>& n) {
     const Vec3<R> onB = support<S3<R>>(m.b, rotateInverse<R>(m.X.q, Vec3<R>(-n)));
     return n.dot(m.X.p) + n.dot(rotate(m.X.q, onB)) - n.dot(support<S3<R>>(m.a, n));
 }
 
 template <class R>
-void featuresAlong(const Meeting<R>& m, SupportFeature<R>& fa, SupportFeature<R>& fb) {
+void featuresAlong(const FeaturePair<R>& m, SupportFeature<R>& fa, SupportFeature<R>& fb) {
     supportingFeature<R>(m.a, m.normal, fa);
     supportingFeature<R>(m.b, rotateInverse<R>(m.X.q, Vec3<R>(-m.normal)), fb);
     for (int i = 0; i < fb.count; ++i) {
@@ -62,7 +62,7 @@ void featuresAlong(const Meeting<R>& m, SupportFeature<R>& fa, SupportFeature<R>
 
 /// Step 2. True when the normal changed.
 template <class R>
-bool preferFaceNormal(Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb) {
+bool preferFaceNormal(FeaturePair<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb) {
     Vec3<R> best = m.normal;
     R most = m.separation - m.tolerance;
     const auto consider = [&](const Vec3<R>& n) {
@@ -151,14 +151,14 @@ R smallerSide(const SupportFeature<R>& a, const SupportFeature<R>& b) {
 /// A disc's points all are as deep where it lies flat. Which of them count as deepest must not hang on the
 /// rocking of a resting body: another choice in every step has no impulses to start from.
 template <class R>
-R selectionNoise(const Meeting<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc) {
+R selectionNoise(const FeaturePair<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc) {
     const bool discs = ref.count == kRimPoints || inc.count == kRimPoints;
     return discs ? std::max(R(2) * kRimNoise<R> * smallerSide(ref, inc), m.tolerance) : m.tolerance;
 }
 
 /// A face against a face or a segment.
 template <class R>
-void clipFeatures(const Meeting<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc,
+void clipFeatures(const FeaturePair<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc,
                   bool refIsA, Manifold<S3<R>>& out) {
     const Vec3<R> outward = refIsA ? m.normal : Vec3<R>(-m.normal);
     ClipPolygon<R> buffers[2];
@@ -205,7 +205,7 @@ inline constexpr R kSideBySide = R(0.05);
 
 /// The ends of the common stretch of two segments; nothing where they cross.
 template <class R>
-void alongSegments(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
+void alongSegments(const FeaturePair<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
                    Manifold<S3<R>>& out) {
     const Vec3<R> d = fa.at[1] - fa.at[0], e = fb.at[1] - fb.at[0];
     const R dd = d.squaredNorm(), de = d.dot(e);
@@ -245,7 +245,7 @@ void keepWayOut(const Shape<S3<R>>& a, const Shape<S3<R>>& b, const Pose<S3<R>>&
 /// What is not in a sequence of steps has the exact depth: the deepest corner of a disc's polygon is
 /// shallower than the rim between two by up to the noise.
 template <class R>
-void deepen(const Meeting<R>& m, R least, Manifold<S3<R>>& out) {
+void deepen(const FeaturePair<R>& m, R least, Manifold<S3<R>>& out) {
     for (int i = 0; i < out.count; ++i) {
         auto& p = out.points[static_cast<std::size_t>(i)];
         if (p.separation != least || !(m.separation < least)) continue;
@@ -258,7 +258,7 @@ void deepen(const Meeting<R>& m, R least, Manifold<S3<R>>& out) {
 
 /// Step 4.
 template <class R>
-void keepDeepest(const Meeting<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
+void keepDeepest(const FeaturePair<R>& m, const SupportFeature<R>& fa, const SupportFeature<R>& fb,
                  Manifold<S3<R>>& out) {
     R least = std::numeric_limits<R>::max();
     for (int i = 0; i < out.count; ++i)
@@ -295,15 +295,15 @@ void collideFeatures(const Shape<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, c
     if (!(closest.distance <= speculative)) return;
     const R size = std::max({closest.pointA.cwiseAbs().maxCoeff(), closest.pointB.cwiseAbs().maxCoeff(),
                              X.p.cwiseAbs().maxCoeff()});
-    Meeting<R> m{a,
-                 b,
-                 X,
-                 closest.normal,
-                 closest.distance,
-                 closest.pointA,
-                 closest.pointB,
-                 axisTolerance(size, closest.distance),
-                 speculative};
+    FeaturePair<R> m{a,
+                     b,
+                     X,
+                     closest.normal,
+                     closest.distance,
+                     closest.pointA,
+                     closest.pointB,
+                     axisTolerance(size, closest.distance),
+                     speculative};
     SupportFeature<R> fa, fb;
     featuresAlong(m, fa, fb);
     if (preferFaceNormal(m, fa, fb)) featuresAlong(m, fa, fb);
@@ -327,7 +327,7 @@ void collideAlong(const Triangle<Space<R, 3>>& piece, bool front, const Shape<Sp
     const Vec3<R> up = (piece.v[1] - piece.v[0]).cross(piece.v[2] - piece.v[0]).normalized();
     const Vec3<R> n = front ? up : Vec3<R>(-up);
     const Shape<S> triangle = piece;
-    const Meeting<R> m{triangle, convex, X, n, R(0), Vec3<R>::Zero(), Vec3<R>::Zero(), R(0), speculative};
+    const FeaturePair<R> m{triangle, convex, X, n, R(0), Vec3<R>::Zero(), Vec3<R>::Zero(), R(0), speculative};
     SupportFeature<R> fa, fb;
     featuresAlong(m, fa, fb);
     out.count = 0;

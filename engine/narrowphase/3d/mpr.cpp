@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Portal discovery and refinement in space [Snethen2008]. With u_i = v_i - from, the ray along d passes
+// Portal discovery and refinement in 3D [Snethen2008]. With u_i = v_i - from, the ray along d passes
 // through the triangle v0 v1 v2 of support points iff
 //   det(u_i, u_i+1, d) >= 0  for all three edges.
 // Discovery turns a plane about the ray until a third support point closes the portal. Refinement asks for
@@ -24,12 +24,12 @@ template <class R>
 bool discover(PortalQuery<Space<R, 3>>& query, const Vec3<R>& from, const Vec3<R>& d,
               std::array<DifferencePoint<Space<R, 3>>, 3>& v) {
     using V = Vec3<R>;
-    v[0] = query.ask(d);
+    v[0] = query.support(d);
     const auto u = [&](std::size_t i) { return V(v[i].w - from); };
     V n = u(0).cross(d);
     if (!(n.norm() > query.tolerance()))
         n = d.unitOrthogonal();  // the ray leaves at the support point itself
-    v[1] = query.ask(n.normalized());
+    v[1] = query.support(n.normalized());
     n = u(0).cross(u(1));
     if (n.dot(d) < 0) {
         std::swap(v[0], v[1]);
@@ -38,7 +38,7 @@ bool discover(PortalQuery<Space<R, 3>>& query, const Vec3<R>& from, const Vec3<R
     for (int i = 0; i < kMostDiscoveries; ++i) {
         const R length = n.norm();
         if (!(length > query.tolerance() * query.tolerance())) return false;
-        v[2] = query.ask(n / length);
+        v[2] = query.support(n / length);
         if (det<R>(u(0), u(2), d) > 0) {
             v[1] = v[2];
             n = u(0).cross(u(1));
@@ -70,7 +70,7 @@ Portal<Space<R, 3>> castPortal(PortalQuery<Space<R, 3>>& query, const Vec3<R>& f
         portal.normal = n / area;
         for (std::size_t i = 0; i < 3; ++i) portal.facet.points[i] = v[i];
         portal.facet.count = 3;
-        const DifferencePoint<S> p = query.ask(portal.normal);
+        const DifferencePoint<S> p = query.support(portal.normal);
         if (!(portal.normal.dot(p.w - v[0].w) > query.tolerance())) return portal;
         std::array<R, 3> side;
         for (std::size_t i = 0; i < 3; ++i) side[i] = det<R>(V(p.w - from), V(v[i].w - from), d);

@@ -23,7 +23,7 @@ void collidePolytopes(const A& a, const Pose<Space<R, 3>>& Xa, const B& b, const
     const Relative<R> X = relative<R>(Xa, Xb);
     PolytopeAxis<R> axis;
     if (!polytopeAxis<R>(pa, pb, X, speculative, axis)) {
-        out.apart = axis.separation;
+        out.separationLowerBound = axis.separation;
         return;
     }
     keepAxis<R>(pa, pb, X, out.memory, axis);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Closed forms of cylinder and cone (axis local y) against ball and half-space, and of a ball against a
+// Closed forms of cylinder and cone (axis local y) against sphere and half-space, and of a sphere against a
 // triangle.
 //
-//   ball: in the half-plane (rho, y) through the axis and the ball's centre the solid is a convex polygon,
-//   the
-//     rectangle 0..r x -h..h or the triangle (0, h), (r, -h), (0, -h); its nearest point, or for a centre
-//     inside the least way out, is the contact.
+//   sphere: in the half-plane (rho, y) through the axis and the sphere's centre the solid is a convex
+//     polygon, the rectangle 0..r x -h..h or the triangle (0, h), (r, -h), (0, -h); its nearest point, or
+//     for a centre inside the least penetration, is the contact.
 //   half-space: the extreme points along -n are on the rims (and the apex). Each rim's lowest point is
 //     r u, u = -n_xz / |n_xz|. A rim that lies nearly flat on the plane gets four points: fixed in the body,
 //     the nearest of them moved to the lowest point once that is lower by more than rounding. A standing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Ball or capsule against hull: a point or segment core with a rounding radius.
+// Sphere or capsule against hull: a point or segment core with a rounding radius.
 //
 //   cores apart: the exact closest pair over all features (core vertices and faces, segment and edges);
 //   cores overlapping: the separating axis of largest separation over the facets of the Minkowski difference:
@@ -221,8 +221,8 @@ void collideCore(const Polytope<R>& hull, const Vec3<R>& p, const Vec3<R>& d, R 
     const R tolerance = kRounding<R> * size;
     CoreHeights<R> heights;
     CoreAxis<R> axis = bestAxis(hull, p, d, tolerance, heights);
-    out.apart = axis.separation - radius;
-    if (out.apart > speculative) return;
+    out.separationLowerBound = axis.separation - radius;
+    if (out.separationLowerBound > speculative) return;
     using Memory = ManifoldMemory<S>;
     if (axis.separation <= tolerance) {
         keepAxis(hull, p, d, out.memory, kKeep<R> * std::min(hull.size, radius + d.norm() / R(2)), axis);

@@ -16,7 +16,7 @@ namespace {
 template <class S>
 class Distance : public testing::Test {
   protected:
-    /// How far a point stands out of a shape: its distance as a ball of no size.
+    /// How far a point stands out of a shape: its distance as a sphere of no size.
     static double outside(const typename S::Vec& x, const Shape<S>& s, const Pose<S>& X) {
         const Shape<S> dot = Sphere<S>{typename S::Real(0)};
         return static_cast<double>(closestPoints<S>(dot, pose<S>(x), s, X).distance);
@@ -163,7 +163,7 @@ TYPED_TEST(Distance, CoresWithoutVolumeStillHaveANormal) {
     EXPECT_NEAR(depth(ball, capsule, turn<S>(0.3), 0), 0.75, eps);
     EXPECT_NEAR(depth(capsule, capsule, turn<S>(0), 0), 0.5, eps);
     EXPECT_NEAR(depth(capsule, capsule, turn<S>(0), 0.7), 0.5, eps);
-    // Crossing at right angles: in the plane the way out is along one of them, in space across both.
+    // Crossing at right angles: in 2D the way out is along one of them, in 3D across both.
     EXPECT_NEAR(depth(capsule, capsule, turn<S>(std::acos(0.0)), 0), S::dim == 2 ? 1 : 0.5, eps);
 }
 

@@ -96,19 +96,19 @@ TYPED_TEST(Flicker, TheNormalMovesWithTheNoiseAndNoFurther) {
                 }
 }
 
-/// Two ways out that are equally deep, and noise that makes now the one and now the other the shorter.
+/// Two axes of equal penetration: noise makes now the one and now the other the smaller.
 template <class S>
-struct Tie {
+struct EqualDepthPair {
     std::string name;
     Shape<S> a, b;
     Pose<S> Xb;
 };
 template <class S>
-std::vector<Tie<S>> ties() {
+std::vector<EqualDepthPair<S>> equalDepthPairs() {
     using R = typename S::Real;
     const Shape<S> box = Box<S>{vec<S>(0.5, 0.5, 0.5)}, hull = boxHull<S>(vec<S>(0.5, 0.5, 0.5));
-    // In space a lean, so that the axes of the tie are not those of the frame.
-    std::vector<Tie<S>> all{
+    // In 3D a lean, so that the two axes are not those of the frame.
+    std::vector<EqualDepthPair<S>> all{
         {"box in the corner of a box", box, box, pose<S>(vec<S>(0.8, 0.8, 0.1))},
         {"hull in the corner of a box", box, hull, pose<S>(vec<S>(0.8, 0.8, 0.1))},
         {"turned box in a box", box, box, pose<S>(vec<S>(0, 0, 0), turn<S>(kEdgeOn))},
@@ -129,9 +129,9 @@ std::vector<Tie<S>> ties() {
     }
     // The other way round the narrow phase turns the pair about, and what it remembers with it.
     for (std::size_t i = 0, n = all.size(); i < n; ++i) {
-        const Tie<S> tie = all[i];
-        const typename S::Vec back = -rotateInverse<R>(tie.Xb.q, tie.Xb.p);
-        all.push_back({tie.name + ", turned about", tie.b, tie.a, pose<S>(back, inverse(tie.Xb.q))});
+        const EqualDepthPair<S> pair = all[i];
+        const typename S::Vec back = -rotateInverse<R>(pair.Xb.q, pair.Xb.p);
+        all.push_back({pair.name + ", turned about", pair.b, pair.a, pose<S>(back, inverse(pair.Xb.q))});
     }
     return all;
 }
@@ -143,17 +143,17 @@ TYPED_TEST_SUITE(Ties, AllSpaces);
 
 /// Largest turn of the normal from frame to frame.
 template <class S>
-double largestTurn(const char* algorithm, const Tie<S>& tie, bool remembers) {
+double largestTurn(const char* algorithm, const EqualDepthPair<S>& pair, bool remembers) {
     using R = typename S::Real;
     Random<S> random{std::mt19937(5)};
     Manifold<S> m;
     typename S::Vec last = S::Vec::Zero();
     double most = 0;
     for (int frame = 0; frame < 200; ++frame) {
-        Pose<S> Xb = tie.Xb;
+        Pose<S> Xb = pair.Xb;
         Xb.p += R(5e-6) * random.direction();
         if (!remembers) m.memory = {};
-        findNarrowPhase<S>(algorithm)(tie.a, pose<S>(vec<S>(0, 0, 0)), tie.b, Xb, R(0), m);
+        findNarrowPhase<S>(algorithm)(pair.a, pose<S>(vec<S>(0, 0, 0)), pair.b, Xb, R(0), m);
         EXPECT_GT(m.count, 0);
         if (frame > 0) most = std::max(most, static_cast<double>((m.normal - last).norm()));
         last = m.normal;
@@ -165,12 +165,12 @@ TYPED_TEST(Ties, OfEquallyDeepWaysOutTheLastStays) {
     using S = TypeParam;
     int jumping = 0;
     for (const NarrowPhaseEntry& algorithm : narrowPhases())
-        for (const Tie<S>& tie : ties<S>()) {
-            SCOPED_TRACE(std::string(algorithm.name) + ", " + tie.name);
-            EXPECT_LE((largestTurn<S>(algorithm.name, tie, true)), 1e-3);
-            jumping += largestTurn<S>(algorithm.name, tie, false) > 0.1;
+        for (const EqualDepthPair<S>& pair : equalDepthPairs<S>()) {
+            SCOPED_TRACE(std::string(algorithm.name) + ", " + pair.name);
+            EXPECT_LE((largestTurn<S>(algorithm.name, pair, true)), 1e-3);
+            jumping += largestTurn<S>(algorithm.name, pair, false) > 0.1;
         }
-    EXPECT_GT(jumping, 12) << "without a memory the ties should show";
+    EXPECT_GT(jumping, 12) << "without a memory the normals should jump";
 }
 
 /// A body that wanders slowly: what the memory keeps is never deeper than the best by more than kKeep of the
@@ -180,11 +180,11 @@ TYPED_TEST(Ties, TheMemoryCostsNoMoreThanItsTolerance) {
     using R = typename S::Real;
     const double sharp = tol<S>(1e-12, 2e-5), size = 0.5;
     for (const NarrowPhaseEntry& algorithm : narrowPhases())
-        for (const Tie<S>& tie : ties<S>()) {
-            SCOPED_TRACE(std::string(algorithm.name) + ", " + tie.name);
+        for (const EqualDepthPair<S>& pair : equalDepthPairs<S>()) {
+            SCOPED_TRACE(std::string(algorithm.name) + ", " + pair.name);
             Random<S> random{std::mt19937(8)};
             Manifold<S> m;
-            Pose<S> Xb = tie.Xb;
+            Pose<S> Xb = pair.Xb;
             const typename S::Vec way = R(1e-4) * random.direction();
             double worst = 0;
             int left = 0;
@@ -193,15 +193,15 @@ TYPED_TEST(Ties, TheMemoryCostsNoMoreThanItsTolerance) {
                 Xb.p += way + R(1e-5) * random.direction();
                 Xb.q = compose(turn<S>(2e-4, 1e-4), Xb.q);
                 Manifold<S> fresh;
-                findNarrowPhase<S>(algorithm.name)(tie.a, pose<S>(vec<S>(0, 0, 0)), tie.b, Xb, R(0), m);
-                findNarrowPhase<S>(algorithm.name)(tie.a, pose<S>(vec<S>(0, 0, 0)), tie.b, Xb, R(0), fresh);
+                findNarrowPhase<S>(algorithm.name)(pair.a, pose<S>(vec<S>(0, 0, 0)), pair.b, Xb, R(0), m);
+                findNarrowPhase<S>(algorithm.name)(pair.a, pose<S>(vec<S>(0, 0, 0)), pair.b, Xb, R(0), fresh);
                 if (fresh.count == 0) break;
                 ASSERT_GT(m.count, 0);
                 worst = std::max(worst, leastSeparation(fresh) - leastSeparation(m));
                 left += frame > 0 && (m.normal - last).norm() > 0.1;
                 last = m.normal;
             }
-            EXPECT_LE(worst, 1e-4 * size + sharp + curvedTolerance<S>(tie.a, tie.b));
+            EXPECT_LE(worst, 1e-4 * size + sharp + curvedTolerance<S>(pair.a, pair.b));
             EXPECT_LE(left, 2);
         }
 }

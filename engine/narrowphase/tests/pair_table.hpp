@@ -159,7 +159,7 @@ bool isRound(const Shape<S>& s) {
     const std::string name = shapeName<S>(s);
     return name == "cylinder" || name == "cone";
 }
-/// What curved sides cost: points of a cap are good to 4e-6 of its radius (kRimNoise); a ball near the axis
+/// What curved sides cost: points of a cap are good to 4e-6 of its radius (kRimNoise); a sphere near the axis
 /// of a cylinder has all directions as ways out, which an iteration over support points meets to 1e-4. 0
 /// without.
 template <class S>

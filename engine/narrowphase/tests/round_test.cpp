@@ -155,7 +155,7 @@ TYPED_TEST(Round, TiltedRimIsExact) {
     }
 }
 
-/// A ball against the solid: the nearest point of a sweep over the surface.
+/// A sphere against the solid: the nearest point of a sweep over the surface.
 TYPED_TEST(Round, BallAgainstASweptSurface) {
     using S = TypeParam;
     Random<S> random{std::mt19937(9)};

@@ -78,7 +78,7 @@ SceneBuilder<S> pyramid(int base, const WorldDef<S>& def = onEarth<S>()) {
     return scene;
 }
 
-/// Balls, boxes and capsules in turn, side by side over a floor between four (2D: two) walls.
+/// Spheres, boxes and capsules in turn, side by side over a floor between four (2D: two) walls.
 template <class S>
 SceneBuilder<S> pile(int count, const WorldDef<S>& def = onEarth<S>()) {
     using R = typename S::Real;

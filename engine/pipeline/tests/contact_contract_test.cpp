@@ -17,7 +17,7 @@ class ContactContract : public testing::Test {};
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(ContactContract, Spaces);
 
-/// A lever that turns lifts a ball at its end: the same whichever of the two is the first of the pair, in
+/// A lever that turns lifts a sphere at its end: the same whichever of the two is the first of the pair, in
 /// every solver, so also where the separation is carried through sub-steps.
 TYPED_TEST(ContactContract, ALeverLiftsABallWhicheverComesFirst) {
     using S = TypeParam;
@@ -41,7 +41,7 @@ TYPED_TEST(ContactContract, ALeverLiftsABallWhicheverComesFirst) {
             if (leverFirst) ball = addBall<S>(world, 2, 0.3, 0.2, 1, smooth);
             for (int i = 0; i < 20; ++i) world.step(R(1.0 / 60));
             ends[leverFirst] = world.pose(ball).p;
-            // The top face at the angle w t: its distance from the ball's centre.
+            // The top face at the angle w t: its distance from the sphere's centre.
             const double angle = 0.5 * 20 / 60.0;
             const double distance = static_cast<double>(ends[leverFirst][1]) * std::cos(angle) -
                                     static_cast<double>(ends[leverFirst][0]) * std::sin(angle);
@@ -102,7 +102,7 @@ TYPED_TEST(ContactContract, ImpulsesAreKeptHoweverFastTheirPointsMove) {
     EXPECT_LT(3 * fast, cold) << fast << " against " << cold;
 }
 
-/// A ball that closes its gap in a step comes to touch, and every position correction leaves it there: the
+/// A sphere that closes its gap in a step comes to touch, and every position correction leaves it there: the
 /// way that its velocity has taken it is no error of position.
 TYPED_TEST(ContactContract, WhatClosesAGapTouchesWithEveryCorrection) {
     using S = TypeParam;
@@ -123,8 +123,8 @@ TYPED_TEST(ContactContract, WhatClosesAGapTouchesWithEveryCorrection) {
     }
 }
 
-/// Contacts push: a ball at rest just above the floor, seen as a contact that is open, is not pulled down to
-/// it.
+/// Contacts push: a sphere at rest just above the floor, seen as a contact that is open, is not pulled down
+/// to it.
 TYPED_TEST(ContactContract, AnOpenContactDoesNotPull) {
     using S = TypeParam;
     using R = typename S::Real;

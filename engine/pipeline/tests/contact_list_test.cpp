@@ -36,13 +36,13 @@ TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
             order.insert(order.begin() + static_cast<std::ptrdiff_t>(place), slot);
             names.insert(names.begin() + static_cast<std::ptrdiff_t>(place), round);
         }
-        if (list.untidy()) list.tidy(tasks), tidied = true;
+        if (list.fragmented()) list.defragment(tasks), tidied = true;
         ASSERT_EQ(list.size(), names.size());
         std::size_t place = 0;
         for (const Contact<S>& contact : list) ASSERT_EQ(contact.shapeA, names[place++]) << round;
     }
     EXPECT_TRUE(tidied);
-    list.tidy(tasks);
+    list.defragment(tasks);
     for (std::uint32_t k = 0; k < names.size(); ++k) EXPECT_EQ(list.order()[k], k);
 }
 

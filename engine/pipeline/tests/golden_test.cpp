@@ -36,9 +36,9 @@ std::string spaceName() {
     return std::to_string(S::dim) + (sizeof(typename S::Real) == 4 ? "f" : "d");
 }
 
-/// A leaning stack that a ball hits, another ball falling from high up, a pendulum of two links with a limit,
-/// a crate that spins on a spring in damping air, a shot at a thin plate: contacts that rest, hit, slide and
-/// roll; joints; forces; what passes through without continuous collision.
+/// A leaning stack that a sphere hits, another sphere falling from high up, a pendulum of two links with a
+/// limit, a crate that spins on a spring in damping air, a shot at a thin plate: contacts that rest, hit,
+/// slide and roll; joints; forces; what passes through without continuous collision.
 template <class S>
 World<S> everything(const WorldDef<S>& def) {
     using R = typename S::Real;

@@ -66,7 +66,7 @@ struct Jointed {
         const BodyId end = body(p, angle, ratio * kMass, 0.4 * ratio * kMass * 0.09);
         ball(last, end, -half, Vec::Zero());
     }
-    /// A flat net of side x side small balls, held along one edge: level in space, upright in the plane.
+    /// A flat net of side x side small spheres, held along one edge: level in 3D, upright in 2D.
     void flatNet(int side) {
         const auto place = [](double i, double j) {
             Vec p = at<S>(kLink * i, S::dim == 3 ? 20 : 20 - kLink * j);
@@ -126,7 +126,7 @@ TYPED_TEST(Chains, AHundredLinksUnderAHundredTimesTheirMassKeepTheirEnergy) {
     for (const bool quick : {false, true})
         for (const auto& [ratio, substeps] : {std::pair{100.0, 2}, std::pair{1000.0, 4}}) {
             WorldDef<S> def = stepped<S>(quick ? substeps : 2 * substeps);
-            def.curvedJoints = !quick;
+            def.relinearizedJoints = !quick;
             def.velocityIterations = quick ? 1 : 0;
             Jointed<S> scene(def);
             scene.chain(100, ratio);

@@ -83,7 +83,7 @@ struct Pair {
         JointRows<S> rows;
         findJoint<S>(def.type).evaluate(made, world.pose(ids[0]), world.pose(ids[1]), rows);
         double worst = 0;
-        for (int i = 0; i < rows.held; ++i)
+        for (int i = 0; i < rows.equalities; ++i)
             worst = std::max(worst, std::abs(double(rows.error[static_cast<std::size_t>(i)])));
         return worst;
     }

@@ -63,7 +63,7 @@ TYPED_TEST(Joints, PendulumKeepsItsEnergyOverTwentySwings) {
 TYPED_TEST(Joints, LinearisedRowsLoseEnergyAsTheySay) {
     using S = TypeParam;
     WorldDef<S> def = earth<S>();
-    def.curvedJoints = false;
+    def.relinearizedJoints = false;
     Pendulum<S> p(def);
     for (int i = 0; i < 600; ++i) p.world.step(typename S::Real(1.0 / 60));
     EXPECT_LT(p.energy(), -0.3) << "or the setting does nothing";

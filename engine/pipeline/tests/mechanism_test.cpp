@@ -103,11 +103,11 @@ TYPED_TEST(Mechanisms, FourBarFollowsItsKinematicsOverFourTurns) {
         EXPECT_NEAR(m.world.jointCoordinate(drive), 8 * 3.141592653589793, tol<S>(1e-5, 2e-3))
             << "four turns";
         // Dead centres: crank and coupler in line, 1.2 and 0.6 from the crank's centre.
-        const auto deadCentre = [](double reach) {
+        const auto deadCenter = [](double reach) {
             return 3.141592653589793 - std::acos((1 + 0.49 - reach * reach) / (2 * 0.7));
         };
-        EXPECT_NEAR(rockerHigh, deadCentre(0.6), 2e-2 * h * 120);
-        EXPECT_NEAR(rockerLow, deadCentre(1.2), 2e-2 * h * 120);
+        EXPECT_NEAR(rockerHigh, deadCenter(0.6), 2e-2 * h * 120);
+        EXPECT_NEAR(rockerLow, deadCenter(1.2), 2e-2 * h * 120);
     }
 }
 

@@ -47,7 +47,7 @@ TEST(Reference, StackReachesTheResidualInEveryStep) {
     EXPECT_LT(record.worst, 1e-10);
 }
 
-/// Thirty boxes and balls thrown together, every other one `ratio` times as heavy: light ones below heavy
+/// Thirty boxes and spheres thrown together, every other one `ratio` times as heavy: light ones below heavy
 /// ones, edges on edges, all of it in motion.
 World<S> heap(double mu, double ratio, unsigned seed) {
     World<S> world(reference());

@@ -38,7 +38,7 @@ TYPED_TEST(Impacts, LawsAgreeWithoutFrictionAndOffMeansOff) {
             // Without a bounce the contact may close the gap in the step of the impact.
             EXPECT_NEAR(after, -kept * before, kept > 0 ? tol<S>(1e-13, 1e-5) : 0.25) << law << e;
         }
-        // Two balls, one dimension.
+        // Two spheres, one dimension.
         for (const char* law : {"newton", "poisson"}) {
             WorldDef<S> def;
             def.restitution = law;
@@ -142,7 +142,7 @@ double obliqueWorld(const Oblique& o, const char* law, double out[3]) {
     World<S> world(def);
     const std::uint32_t m = world.addMaterial(static_cast<R>(o.mu), static_cast<R>(o.e));
     addGround<S>(world, m);
-    // A small ball at the end of a rod: the contact is below its centre, in the body frame's origin.
+    // A small sphere at the end of a rod: the contact is below its centre, in the body frame's origin.
     const double radius = 0.05;
     BodyDef<S> body;
     body.inertia = isotropic<S>(o.I);

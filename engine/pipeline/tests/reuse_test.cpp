@@ -37,7 +37,7 @@ struct Pair {
     ContactSearch<S> search{R(kSpeculative), 0, 0};
 
     Pair(double reuse, double half) {
-        search.reuseDistance = static_cast<R>(reuse);
+        search.cacheTolerance = static_cast<R>(reuse);
         for (const BodyType type : {BodyType::Static, BodyType::Dynamic}) {
             bodies.pose.emplace_back(), bodies.velocity.emplace_back(), bodies.asleep.push_back(0);
             bodies.id.emplace_back();
@@ -106,14 +106,14 @@ TYPED_TEST(Reuse, KeptPointsAreThoseOfAskingAgain) {
         const Pose<S> start = resting(random);
         keeping.bodies.pose[1] = start;
         ASSERT_EQ(keeping.find().size(), 1u);
-        ASSERT_EQ(keeping.set.asked(), 1u);
+        ASSERT_EQ(keeping.set.queries(), 1u);
         for (int motion = 0; motion < 10; ++motion) {
             const Pose<S> moved{start.p + random.vec(4e-4), rotatedBy(start.q, random.ang(5e-4))};
             keeping.bodies.pose[1] = asking.bodies.pose[1] = moved;
             const ContactList<S>&with = keeping.find(), &without = asking.find();
             ASSERT_EQ(with.size(), 1u);
             ASSERT_EQ(without.size(), 1u);
-            if (keeping.set.asked() > 0) break;  // moved too far after all
+            if (keeping.set.queries() > 0) break;  // moved too far after all
             ++kept;
             const Contact<S>&a = with[0], &b = without[0];
             const double rounding = tol<S>(1e-12, 2e-6);
@@ -156,7 +156,7 @@ void expectDepthWithinTheMotion(bool apart) {
             const Pose<S> moved{start.p + random.vec(4e-4), rotatedBy(start.q, random.ang(5e-4))};
             keeping.bodies.pose[1] = asking.bodies.pose[1] = moved;
             const ContactList<S>&with = keeping.find(), &without = asking.find();
-            if (keeping.set.asked() > 0 || keeping.set.proxyPairs().empty()) break;
+            if (keeping.set.queries() > 0 || keeping.set.proxyPairs().empty()) break;
             ++kept;
             if (apart) {
                 EXPECT_TRUE(without.empty());
@@ -204,7 +204,7 @@ TYPED_TEST(Reuse, WhatIsFarApartIsNotAskedAboutUntilItMayBeNear) {
             const bool kept = !keeping.find().empty();
             EXPECT_TRUE(kept || near.find().empty()) << "gap " << gap;
             EXPECT_FALSE(kept && wide.find().empty()) << "gap " << gap;
-            ++steps, asked += static_cast<int>(keeping.set.asked()), found += kept;
+            ++steps, asked += static_cast<int>(keeping.set.queries()), found += kept;
         }
     }
     EXPECT_GT(found, 20);
@@ -218,21 +218,21 @@ TYPED_TEST(Reuse, MovingFurtherAsksAgain) {
     Pair<S> pair(kReuse, 0.3);
     pair.bodies.pose[1] = resting(random);
     pair.find(), pair.find();
-    EXPECT_EQ(pair.set.asked(), 0u);
+    EXPECT_EQ(pair.set.queries(), 0u);
     pair.bodies.pose[1].p[0] += R(1.1 * kReuse);
     pair.find();
-    EXPECT_EQ(pair.set.asked(), 1u);
+    EXPECT_EQ(pair.set.queries(), 1u);
     pair.bodies.pose[1].q =
         rotatedBy(pair.bodies.pose[1].q, spin<S>(1.2 * kReuse / (0.3 * std::sqrt(S::dim))));
     pair.find();
-    EXPECT_EQ(pair.set.asked(), 1u);
+    EXPECT_EQ(pair.set.queries(), 1u);
     pair.bodies.pose[0].p[0] += R(1.1 * kReuse);  // the other one, as a fault may move it
     pair.set.structureChanged(false);
     pair.find();
-    EXPECT_EQ(pair.set.asked(), 1u);
+    EXPECT_EQ(pair.set.queries(), 1u);
     pair.search.speculativeDistance *= 2;
     pair.find();
-    EXPECT_EQ(pair.set.asked(), 1u);
+    EXPECT_EQ(pair.set.queries(), 1u);
     pair.bodies.pose[1].p[1] += R(1);
     EXPECT_TRUE(pair.find().empty());
     pair.bodies.pose[1].p[1] -= R(1);
@@ -254,7 +254,7 @@ TYPED_TEST(Reuse, SmallShapesAreAskedAboutSooner) {
         X.p[0] += static_cast<R>(moved);
         X.q = rotatedBy(X.q, spin<S>(turned));
         EXPECT_EQ(pair.find().size(), 1u);
-        return pair.set.asked();
+        return pair.set.queries();
     };
     EXPECT_EQ(askedAfter(0.9 * slack, 0), 0u);
     EXPECT_EQ(askedAfter(1.1 * slack, 0), 1u);
@@ -263,7 +263,7 @@ TYPED_TEST(Reuse, SmallShapesAreAskedAboutSooner) {
     EXPECT_EQ(askedAfter(0.6 * slack, 0.6 * 0.02), 1u);
 }
 
-/// A pair that parts and comes back while the broad phase goes on listing it, because of enlarged boxes: what
+/// A pair that parts and comes back while the broad phase goes on listing it, because of fat AABBs: what
 /// was known of it is forgotten, and it is found again.
 TYPED_TEST(Reuse, WhatComesBackIsFoundAgain) {
     using S = TypeParam;
@@ -300,11 +300,11 @@ TYPED_TEST(Reuse, WhatTurnsTogetherKeepsItsWayOut) {
             A.q = B.q = rotatedBy(A.q, spin<S>(quarter * 1.5707963267948966));
             B.p = rotate<R>(A.q, from);
             ASSERT_EQ(pair.find().size(), 1u);
-            ASSERT_EQ(pair.set.asked(), 0u);
+            ASSERT_EQ(pair.set.queries(), 0u);
             from = at<S>(1.3 - 0.05, 1.3 - 0.05 + 1e-5);  // by a little y is
             B.p = rotate<R>(A.q, from);
             ASSERT_EQ(pair.find().size(), 1u);
-            ASSERT_EQ(pair.set.asked(), 1u);
+            ASSERT_EQ(pair.set.queries(), 1u);
             const typename S::Vec normal = rotateInverse<R>(A.q, pair.set.contacts()[0].manifold.normal);
             EXPECT_NEAR(normal[0], 1, 1e-3) << narrowPhase << " " << quarter;
         }
@@ -314,7 +314,7 @@ TYPED_TEST(Reuse, WhatTurnsTogetherKeepsItsWayOut) {
 template <class S>
 World<S> stack(double reuse, double boxMargin, int threads = 1, const char* sleeping = "off") {
     WorldDef<S> def = earth<S>();
-    def.reuseDistance = static_cast<typename S::Real>(reuse);
+    def.cacheTolerance = static_cast<typename S::Real>(reuse);
     def.boxMargin = static_cast<typename S::Real>(boxMargin);
     def.threads = threads;
     def.sleeping = sleeping;
@@ -399,7 +399,7 @@ TYPED_TEST(Reuse, WhatMovesTogetherIsNotAskedAbout) {
     using S = TypeParam;
     using R = typename S::Real;
     WorldDef<S> def = earth<S>();
-    def.reuseDistance = static_cast<R>(kReuse);
+    def.cacheTolerance = static_cast<R>(kReuse);
     World<S> world(def);
     const auto wood = world.addMaterial(R(0.8), 0);
     BodyDef<S> platform;
@@ -417,13 +417,13 @@ TYPED_TEST(Reuse, WhatMovesTogetherIsNotAskedAbout) {
 
 TYPED_TEST(Reuse, IsRefusedWithAManifoldThatGrowsByAsking) {
     WorldDef<TypeParam> def;
-    def.reuseDistance = typename TypeParam::Real(kReuse);
+    def.cacheTolerance = typename TypeParam::Real(kReuse);
     def.manifold = "persistent";
     EXPECT_THROW(World<TypeParam>{def}, EngineError);
     def.manifold = "clipped";
-    def.reuseDistance = -1;
+    def.cacheTolerance = -1;
     EXPECT_THROW(World<TypeParam>{def}, EngineError);
-    def.reuseDistance = 0;
+    def.cacheTolerance = 0;
     def.boxMargin = -1;
     EXPECT_THROW(World<TypeParam>{def}, EngineError);
 }

@@ -86,7 +86,7 @@ BodyId addGround(World<S>& world, std::uint32_t material) {
     attach<S>(world, id, HalfSpace<S>{S::Vec::Unit(1), 0}, material);
     return id;
 }
-/// Ball with the inertia of a solid sphere in both dimensions, so that the plane and space agree.
+/// Sphere with the inertia of a solid sphere in both dimensions, so that the plane and space agree.
 template <class S>
 BodyId addBall(World<S>& world, double x, double y, double radius, double mass, std::uint32_t material,
                double vx = 0, double vy = 0, double w = 0) {

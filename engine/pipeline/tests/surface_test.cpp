@@ -224,7 +224,7 @@ TYPED_TEST(OnSurfaces, BoxSlidesOverInnerEdges) {
     }
 }
 
-/// A ball without friction keeps its speed over inner edges to rounding.
+/// A sphere without friction keeps its speed over inner edges to rounding.
 TYPED_TEST(OnSurfaces, BallKeepsItsSpeed) {
     using S = TypeParam;
     using R = typename S::Real;
@@ -243,7 +243,7 @@ TYPED_TEST(OnSurfaces, BallKeepsItsSpeed) {
     }
 }
 
-/// V-shaped hollow with slopes of 45 degrees: a ball comes to rest sqrt(2) r over its bottom.
+/// V-shaped hollow with slopes of 45 degrees: a sphere comes to rest sqrt(2) r over its bottom.
 TYPED_TEST(OnSurfaces, BallRestsInAHollow) {
     using S = TypeParam;
     using R = typename S::Real;
@@ -269,8 +269,8 @@ TYPED_TEST(OnSurfaces, BallRestsInAHollow) {
     }
 }
 
-/// Two boxes and a ball glued off centre: mass properties by the parallel axis theorem make it balance on the
-/// point under its centre of mass, and all its shapes touch.
+/// Two boxes and a sphere glued off centre: mass properties by the parallel axis theorem make it balance on
+/// the point under its centre of mass, and all its shapes touch.
 TYPED_TEST(OnSurfaces, CompoundStandsOnItsParts) {
     using S = TypeParam;
     using R = typename S::Real;

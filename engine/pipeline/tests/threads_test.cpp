@@ -23,7 +23,7 @@ using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(Threads, Spaces);
 
 /// A crowd that collapses: columns of boxes and balls that lean on each other, a chain of joints across them,
-/// and balls thrown in; enough of everything for every loop of a step to be shared.
+/// and spheres thrown in; enough of everything for every loop of a step to be shared.
 template <class S>
 World<S> crowd(const WorldDef<S>& def, int columns, int height) {
     using R = typename S::Real;
@@ -135,7 +135,7 @@ TEST(ThreadsChoices, DoNotChangeABitOfAnyAlgorithm) {
         }
 }
 
-/// Piles that fall asleep one after the other, and are woken by a ball that rolls along and by what is done
+/// Piles that fall asleep one after the other, and are woken by a sphere that rolls along and by what is done
 /// to them from outside.
 TYPED_TEST(Threads, DoNotChangeABitOfWhatFallsAsleepAndWakes) {
     using S = TypeParam;

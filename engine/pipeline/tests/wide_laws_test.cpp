@@ -53,7 +53,7 @@ TYPED_TEST(WideLaws, StaticFrictionHoldsWhatRestsAndKineticWhatSlides) {
     }
 }
 
-/// A ball that bounces down and rolls, alone or with boxes beside it, whose patches of more points stand in
+/// A sphere that bounces down and rolls, alone or with boxes beside it, whose patches of more points stand in
 /// the same block: to the bit the same.
 TYPED_TEST(WideLaws, AContactDoesNotKnowWhoStandsBesideIt) {
     using S = TypeParam;
@@ -133,8 +133,8 @@ TYPED_TEST(WideLaws, BounceAboveTheThresholdAndNotBelow) {
     }
 }
 
-/// Wherever in its way the step ends, also within the distance at which contacts are found ahead, a ball hits
-/// with all of its speed and comes back with its share.
+/// Wherever in its way the step ends, also within the distance at which contacts are found ahead, a sphere
+/// hits with all of its speed and comes back with its share.
 TYPED_TEST(WideLaws, ReboundDoesNotDependOnTheGapBeforeIt) {
     using S = TypeParam;
     using R = typename S::Real;
@@ -150,7 +150,8 @@ TYPED_TEST(WideLaws, ReboundDoesNotDependOnTheGapBeforeIt) {
     }
 }
 
-/// A ball let go within the distance at which contacts are found ahead falls, and rises to e^2 of its height.
+/// A sphere let go within the distance at which contacts are found ahead falls, and rises to e^2 of its
+/// height.
 TYPED_TEST(WideLaws, WhatIsDroppedFromCloseAboveBounces) {
     using S = TypeParam;
     using R = typename S::Real;
@@ -171,8 +172,8 @@ TYPED_TEST(WideLaws, WhatIsDroppedFromCloseAboveBounces) {
     EXPECT_NEAR(top, e * e * height, 0.05 * height);
 }
 
-/// A force drives a ball, which was at rest, through a gap within one step: it bounces with all of the speed
-/// that it has been given. (A gap that may end in a bounce is not closed beforehand.)
+/// A force drives a sphere, which was at rest, through a gap within one step: it bounces with all of the
+/// speed that it has been given. (A gap that may end in a bounce is not closed beforehand.)
 TYPED_TEST(WideLaws, WhatAForceDrivesThroughAGapBouncesWithAllItsSpeed) {
     using S = TypeParam;
     using R = typename S::Real;

@@ -74,7 +74,7 @@ TYPED_TEST(WidePatches, EachCarriesTheWeightOfItsBody) {
     for (const auto& [body, w] : weight) EXPECT_NEAR(carried[body], w, tol<S>(2e-7, 1e-3) * w) << body;
 }
 
-/// A ball that comes to a wall within the distance at which contacts are found ahead: it goes on until it
+/// A sphere that comes to a wall within the distance at which contacts are found ahead: it goes on until it
 /// touches, stops there, and the step in which it is stopped says that the contact begins.
 TYPED_TEST(WidePatches, AGapIsClosedAndNotMore) {
     using S = TypeParam;
@@ -181,12 +181,12 @@ void expectTwistIsReportedAndHolds() {
     std::vector<ContactView<S>> contacts;
     for (int i = 0; i < 10; ++i) {
         const double before = static_cast<double>(world.angularVelocity(cube)[1]);
-        const typename S::Vec centre = world.pose(cube).p;
+        const typename S::Vec center = world.pose(cube).p;
         world.step(R(1.0 / 60));
         world.readContacts(contacts);
         double moment = 0;
         for (const ContactView<S>& c : contacts)
-            moment += static_cast<double>(typename S::Vec(c.pointA - centre).cross(c.frictionImpulse)[1]);
+            moment += static_cast<double>(typename S::Vec(c.pointA - center).cross(c.frictionImpulse)[1]);
         const double change = inertia * (static_cast<double>(world.angularVelocity(cube)[1]) - before);
         EXPECT_LT(change, -0.01);
         EXPECT_NEAR(moment, change, 0.02 * std::abs(change)) << i;
@@ -300,12 +300,12 @@ void expectImpulseTurnsByTheWorldsInertia() {
     std::vector<ContactView<S>> contacts;
     bool hit = false;
     for (int i = 0; i < 4 && !hit; ++i) {
-        const Vec centre = world.pose(body).p;
+        const Vec center = world.pose(body).p;
         world.step(R(1.0 / 2000));
         world.readContacts(contacts);
         Vec moment = Vec::Zero();
         for (const ContactView<S>& c : contacts)
-            moment += Vec(c.pointA - centre).cross(Vec(c.normalImpulse * c.normal));
+            moment += Vec(c.pointA - center).cross(Vec(c.normalImpulse * c.normal));
         hit = moment.norm() > 0.1;
         if (!hit) continue;
         const Vec momentum =

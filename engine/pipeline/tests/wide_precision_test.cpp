@@ -18,7 +18,7 @@ class WidePrecision : public testing::Test {};
 using Spaces = testing::Types<Space2d, Space3d>;
 TYPED_TEST_SUITE(WidePrecision, Spaces);
 
-/// Without gravity, a row of balls and cubes that run into each other off their centres, all of them with
+/// Without gravity, a row of spheres and cubes that run into each other off their centres, all of them with
 /// the velocity `common` besides, and from `x0` on.
 template <class S>
 struct Crowd {

@@ -29,7 +29,7 @@ WorldDef<S> wideEarth() {
     return def;
 }
 
-/// A heap of boxes and balls, some of them bouncing.
+/// A heap of boxes and spheres, some of them bouncing.
 template <class S>
 World<S> heap(int columns, int height) {
     using R = typename S::Real;

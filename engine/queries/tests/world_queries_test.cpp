@@ -201,7 +201,7 @@ TYPED_TEST(Questions, KnownTouches) {
     ASSERT_TRUE(r.touches);
     EXPECT_NEAR(r.fraction, (4 - 0.1005) / (500.0 / 60), eps);
     EXPECT_LE((r.normal - vec<S>(1, 0)).norm(), 1e-6);
-    // A ball on a box's corner (in 3D edge): |x - corner| = r.
+    // A sphere on a box's corner (in 3D edge): |x - corner| = r.
     r = castConvex<S>(ball, pose<S>(vec<S>(-2, 0.56)), vec<S>(4, 0), box, here, R(1));
     ASSERT_TRUE(r.touches);
     EXPECT_NEAR(r.fraction, (1.5 - std::sqrt(0.01 - 0.0036)) / 4, tol<S>(1e-12, 1e-5));

@@ -4,7 +4,7 @@
 // Volume, centroid and inertia tensor of the solid shapes; computed in double.
 //   polyhedron: tetrahedra (o, a, b, c) of signed volume T = a . (b x c) / 6 from a vertex o:
 //     centroid (a + b + c) / 4, integral of x x^T: T / 20 (a a^T + b b^T + c c^T + s s^T), s = a + b + c
-//   capsule: a cylinder and two half balls, whose centroids lie 3r/8 beyond the ends
+//   capsule: a cylinder and two half spheres, whose centroids lie 3r/8 beyond the ends
 //   cone: centroid a quarter of its height over the base; about it 3/10 m r^2 along the axis, 3/20 m r^2 +
 //     3/80 m (2h)^2 across [Goldstein2002, ch. 5].
 #include <numbers>
@@ -43,7 +43,7 @@ Moments moments(const Capsule<Space<R, 3>>& s) {
     const double r = s.radius, h = s.halfLength, pi = std::numbers::pi;
     const double cylinder = 2.0 * pi * r * r * h, ball = 4.0 / 3.0 * pi * r * r * r;
     const double axial = 0.5 * cylinder * r * r + 0.4 * ball * r * r;
-    // The two half balls: 2/5 r^2 about the ball's centre; shifted by h each, centroids 3r/8 further out.
+    // The two half spheres: 2/5 r^2 about the sphere's centre; shifted by h each, centroids 3r/8 further out.
     const double across =
         cylinder * (h * h / 3.0 + 0.25 * r * r) + ball * (0.4 * r * r + h * h + 0.75 * h * r);
     return {cylinder + ball, V::Zero(), diagonal(across, axial, across)};

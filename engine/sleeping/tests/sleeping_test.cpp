@@ -67,7 +67,7 @@ TYPED_TEST_SUITE(Sleeping, Spaces);
 
 constexpr double kStep = 1.0 / 60;
 
-/// A stack of cubes on the ground and a ball apart from it.
+/// A stack of cubes on the ground and a sphere apart from it.
 template <class S>
 struct Scene {
     explicit Scene(const char* sleeping = "islands") : world(defOf(sleeping)) {

@@ -6,8 +6,7 @@
 //     joints    lambda = -K^-1 C                                all of the error, all joints at once by a
 //                                                               direct method (joint_system.hpp); then limits
 //                                                               where C < 0, one by one
-//     contact   lambda = max(0, -beta (C + slop)) / K           a part of it, so that coupled contacts
-//     settle
+//     contact   lambda = max(0, -beta (C + slop)) / K           beta < 1 lets coupled contacts converge
 // Velocities are not touched, so no energy enters through them (potential energy does: bodies are lifted
 // out). Without contacts and limits the iterations end when they improve the joints no more.
 // Cost: iterations * constraints.
@@ -127,7 +126,7 @@ class Ngs final : public PositionCorrection<S> {
     }
 
     std::vector<JointPositions<S>> joints_;
-    std::vector<std::size_t> held_;  ///< joints with rows that hold
+    std::vector<std::size_t> held_;  ///< joints with equality rows
     std::vector<typename JointSystem<S>::Item> items_;
     JointSystem<S> system_;
     bool limited_ = false;  ///< some joint has limits

@@ -33,7 +33,7 @@ class JointGroup {
     /// Applies the impulses that the joints' rows start with to the velocities.
     void warmStart(const ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities) const;
     /// One pass: changes the joints' impulses and the velocities so that J v + bias + softness lambda
-    /// vanishes for rows that hold, and bounded rows keep their bounds. Returns the largest residual that it
+    /// vanishes for equality rows, and bounded rows keep their bounds. Returns the largest residual that it
     /// found [m/s or rad/s]. `constraints` are those of begin().
     Real solve(ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities);
 

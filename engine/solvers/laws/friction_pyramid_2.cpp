@@ -4,9 +4,9 @@
 // Friction along one line: two directions, with and against the slip that there would be at this contact
 // without its friction. With b that slip velocity and d = b / |b|,
 //     lambda = -min(|b| / (d^T K d), mu lambda_n) d
-// the cheapest friction in three dimensions: exact where K is a multiple of the identity (a ball, a point on
-// the axis of a box) and where the slip keeps its line; elsewhere it leaves the slip across the line alone,
-// so that sticking takes several iterations and the sliding direction is wrong by the anisotropy of K.
+// the cheapest friction in three dimensions: exact where K is a multiple of the identity (a sphere, a point
+// on the axis of a box) and where the slip keeps its line; elsewhere it leaves the slip across the line
+// alone, so that sticking takes several iterations and the sliding direction is wrong by the anisotropy of K.
 #include <algorithm>
 
 #include "engine/math/space.hpp"

@@ -10,7 +10,7 @@
 //     0 <= s         _|_  mu lambda_n - sum_k beta_k >= 0       the pyramid
 // D = 4 is the pyramid over the two tangents (inscribed in Coulomb's cone: at most his friction, between the
 // directions as little as 1/sqrt 2 of it), D = 2 the line of the slip that there would be without impulses,
-// larger even D approach the cone. In the plane D is 2 and exact.
+// larger even D approach the cone. In 2D D is 2 and exact.
 //
 // Rows without bounds (joints, springs) are eliminated first, lambda_F = -W_FF^-1 (q_F + W_FC lambda_C), by
 // Cholesky on W_FF + sigma diag(W_FF); rounds of the proximal point method, as in dantzig.cpp, remove sigma

@@ -19,7 +19,7 @@
 namespace rigor::engine {
 
 /// The impulse (n, t1, t2) of one contact. Where `applied` > 0 the limit of friction is mu (r_n + applied),
-/// and an open contact may have friction too. In the plane W(2, 2) is any positive number, the rest zero.
+/// and an open contact may have friction too. In 2D W(2, 2) is any positive number, the rest zero.
 template <class R>
 Eigen::Matrix<R, 3, 1> solveContactAlone(const Eigen::Matrix<R, 3, 3>& W, const Eigen::Matrix<R, 3, 1>& b,
                                          R mu, R muStatic, R applied);

@@ -13,7 +13,7 @@ constexpr double kSigma = 1e-11;
 constexpr int kMostSteps = 60;
 constexpr double kDone = 1e-22;  ///< of the start: in velocities the rounding of the start
 constexpr double kProgress = 0.9;
-constexpr int kPatience = 8;            ///< steps without progress
+constexpr int kMaxStalled = 8;          ///< steps without progress
 constexpr double kStepFraction = 0.99;  ///< to the boundary of the cones
 constexpr double kFar = 0.2;            ///< shorter steps do not pay
 
@@ -78,7 +78,7 @@ bool ContactInterior::solve(const AssembledProblem& problem, double shift, std::
             best = error;
             impulses = lambda_;
         }
-        if (error < kDone * start || slow > kPatience) break;
+        if (error < kDone * start || slow > kMaxStalled) break;
         scaleCones();
         if (!factor(problem)) break;
         direction(0.0, false);
@@ -241,19 +241,19 @@ bool ContactInterior::factor(const AssembledProblem& p) {
     return lu_.factor();
 }
 
-/// Changes of all unknowns towards x o u = centre e; `corrected` with the product of the changes that the
+/// Changes of all unknowns towards x o u = centering e; `corrected` with the product of the changes that the
 /// last direction has left.
-void ContactInterior::direction(double centre, bool corrected) {
+void ContactInterior::direction(double centering, bool corrected) {
     y_.assign(right_.begin(), right_.end());
     for (Bound& bound : bounds_) {
         const double product = corrected ? bound.da * bound.dz : 0.0;
-        y_[bound.row] += bound.sign * (centre - bound.a * bound.z - product) / bound.a;
+        y_[bound.row] += bound.sign * (centering - bound.a * bound.z - product) / bound.a;
     }
     for (Cone& cone : cones_) {
-        // l = T x; h solves l o h = centre e - l o l - (T^-1 du) o (T dx)
+        // l = T x; h solves l o h = centering e - l o l - (T^-1 du) o (T dx)
         double l[kDim], right[kDim], h[kDim], Th[kDim];
         reflect(cone.beta, cone.v, cone.x, l);
-        right[0] = centre - dot(l, l);
+        right[0] = centering - dot(l, l);
         for (int i = 1; i < kDim; ++i) right[i] = -2 * l[0] * l[i];
         if (corrected) {
             const double Jv[kDim] = {cone.v[0], -cone.v[1], -cone.v[2]};
@@ -273,7 +273,7 @@ void ContactInterior::direction(double centre, bool corrected) {
     for (Bound& bound : bounds_) {
         const double product = corrected ? bound.da * bound.dz : 0.0;
         bound.da = bound.sign * y_[bound.row];
-        bound.dz = (centre - bound.a * bound.z - product - bound.z * bound.da) / bound.a;
+        bound.dz = (centering - bound.a * bound.z - product - bound.z * bound.da) / bound.a;
     }
     for (Cone& cone : cones_) {
         for (std::size_t i = 0; i < cone.rows; ++i) cone.dx[i] = y_[cone.first + i] / cone.d[i];

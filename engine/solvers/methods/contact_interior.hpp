@@ -38,7 +38,7 @@ class ContactInterior {
     bool solve(const AssembledProblem& problem, double shift, std::vector<double>& impulses);
 
   private:
-    static constexpr int kDim = 3;  ///< of a cone; in the plane the last component is zero
+    static constexpr int kDim = 3;  ///< of a cone; in 2D the last component is zero
     /// A contact with friction.
     struct Cone {
         std::size_t first = 0, rows = 0;  ///< normal, tangents
@@ -63,7 +63,7 @@ class ContactInterior {
     void evaluate(const AssembledProblem& p);
     void scaleCones();
     bool factor(const AssembledProblem& p);
-    void direction(double centre, bool corrected);
+    void direction(double centering, bool corrected);
     double longestStep() const;
     void advance(double step);
     double gap() const;

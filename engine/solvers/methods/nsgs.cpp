@@ -29,8 +29,8 @@
 // A step of Newton's or the interior-point method costs 2/3 n^3. velocity_iterations, 0 for 1000, is
 // the most; below kFinishEvery there are sweeps alone. Known limits: no proof of convergence; where friction
 // has several solutions the one found depends on the order of the rows, and some problems have none. If the
-// iterations end first, gaveUp() says so and the best impulses stand. Measured on heaps of 30 boxes and balls
-// (pipeline/tests/reference_test.cpp).
+// iterations end first, gaveUp() says so and the best impulses stand. Measured on heaps of 30 boxes and
+// spheres (pipeline/tests/reference_test.cpp).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -87,14 +87,14 @@ class Nsgs final : public Solver<S> {
             }
             stalled = residual < Real(0.5) * best ? 0 : stalled + 1;
             best = std::min(best, residual);
-            if (stalled > kPatience) return;
+            if (stalled > kMaxStalled) return;
         }
     }
 
   private:
     static constexpr int kDepth = 10;        ///< of Anderson's history
     static constexpr int kFinishEvery = 25;  ///< iterations between attempts to finish
-    static constexpr int kPatience = 400;    ///< iterations without halving the residual
+    static constexpr int kMaxStalled = 400;  ///< iterations without halving the residual
 
     void prepare(const SolverInput<S>& input) {
         const ConstraintRows<S>& all = input.constraints;

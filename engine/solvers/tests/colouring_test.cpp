@@ -209,7 +209,7 @@ TEST(Colouring, DoesNotAllocateForWhatItHasHadBefore) {
 }
 
 TEST(Colouring, BodiesOfVeryManyContactsHaveOverflow) {
-    // A plate that carries 150 balls and stands on 100 posts.
+    // A plate that carries 150 spheres and stands on 100 posts.
     std::vector<PatchDescriptor> descriptors;
     for (std::uint32_t i = 1; i <= 150; ++i) descriptors.push_back({0, i, true, true, 1});
     for (std::uint32_t i = 151; i <= 250; ++i) descriptors.push_back({0, i, true, false, 4});

@@ -56,7 +56,7 @@ TEST(Dissections, EveryJointIsOrderedOnce) {
             const auto end = [&] {
                 return random() % 10 == 0 ? kNullIndex : std::uint32_t(random() % bodies);
             };
-            joints.push_back({end(), end()});  // also twice the same body, and nobody at all
+            joints.push_back({end(), end()});  // also twice the same body, and no body at all
         }
         expectPermutation(dissectJoints(joints, bodies), joints.size());
     }

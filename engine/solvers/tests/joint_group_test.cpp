@@ -21,7 +21,7 @@ class JointGroups : public testing::Test {
 
     /// The factors shift pivots by 3.7e-11 (f32: 2.4e-5) of themselves.
     static double tolerance() { return std::is_same_v<Real, double> ? 1e-9 : 3e-4; }
-    /// A chain of balls from the world; the last link moves sideways.
+    /// A chain of spheres from the world; the last link moves sideways.
     void chain(int links) {
         const Vec half = Vec::Unit(0) * Real(0.5);
         for (int i = 0; i < links; ++i) {
@@ -30,7 +30,7 @@ class JointGroups : public testing::Test {
             problem.addBall(body - 1, body, i == 0 ? Vec(Vec::Zero()) : half, -half);
         }
     }
-    /// Largest |J v + bias + softness lambda| of the rows that hold.
+    /// Largest |J v + bias + softness lambda| of the equality rows.
     double residual() const {
         double largest = 0;
         for (const Block<S>& block : problem.rows.blocks) {

@@ -51,7 +51,7 @@ class JointSystems : public testing::Test {
         blocks.push_back(block), rows.push_back(made);
     }
     /// A joint of as many rows as there are dimensions that holds two points together, at `arm` from A and at
-    /// `-arm` from B, with unit masses and the inertia of small balls.
+    /// `-arm` from B, with unit masses and the inertia of small spheres.
     void ball(std::uint32_t a, std::uint32_t b, const typename S::Vec& arm) {
         join(a, b, S::dim);
         Block<S>& block = blocks.back();

@@ -81,7 +81,7 @@ TEST(SweepOrder, LevelsAreAsManyAsTheLongestChain) {
         order.finish();
         EXPECT_EQ(order.levels(), chained ? 100u : 1u);
     }
-    // A group moves the bodies of all its blocks; a wall binds nobody.
+    // A group moves the bodies of all its blocks; a static body couples none.
     order.begin(tasks, 300, 4);
     order.add<S>({blocks.data(), 50});
     order.add<S>({blocks.data() + 60, 1});

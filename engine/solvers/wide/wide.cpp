@@ -11,8 +11,9 @@
 //     colour, then one partition each (colouring.hpp);
 //   - patches are made once per step; in the sub-steps their separations follow the bodies to first order;
 //   - joints are rows as in the other solvers, made again in every sub-step and solved by one factorisation
-//     (joint_group.hpp). Linearised joints (WorldDef::curvedJoints off) are rigid with a Baumgarte factor
-//     of one half: long chains under heavy ends need it, and it damps swings. Otherwise joints are springs.
+//     (joint_group.hpp). Linearised joints (WorldDef::relinearizedJoints off) are rigid with a Baumgarte
+//     factor of one half: long chains under heavy ends need it, and it damps swings. Otherwise they are
+//     springs.
 // Patches are f32 whatever the world's precision (patch.hpp); joints and bodies are not.
 // A contact of one point obeys the same laws as with tgs_soft; so does a patch that slides without spinning
 // or spins without sliding. Contacts given as rows (no patches were made) are solved row by row as there.

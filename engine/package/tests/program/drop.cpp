@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A ball falls on the ground and stays there.
+// A sphere falls on the ground and stays there.
 #include <cstdio>
 #include <engine/engine.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// One step of a box that slides on the ground with a ball on it, stopped after every phase: boxes, pairs,
+// One step of a box that slides on the ground with a sphere on it, stopped after every phase: boxes, pairs,
 // manifolds, impulses and residual of every iteration, contacts, islands.
 #include <cstdio>
 #include <engine/engine.hpp>

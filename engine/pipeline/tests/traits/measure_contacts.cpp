@@ -15,7 +15,7 @@ using Plane = Space2d;
 using S = Space3d;
 constexpr double kRestitution = 0.5;
 
-/// Normal velocity of the touching point of a ball after an impact at 1 m/s, without friction.
+/// Normal velocity of the touching point of a sphere after an impact at 1 m/s, without friction.
 double reboundOfBall(const std::string& law) {
     WorldDef<Plane> def;
     def.restitution = law;

@@ -57,7 +57,7 @@ double contactSpring(const std::string& solver) {
 double jointSpring(const std::string& solver, bool curved) {
     WorldDef<S> def = earthWith(solver);
     def.jointFrequency = kAskedJoint, def.jointDampingRatio = 1;
-    def.curvedJoints = curved;
+    def.relinearizedJoints = curved;
     World<S> world(def);
     const BodyId ball = addBall<S>(world, 0, 0, 0.5, 1, 0);
     JointDef<S> joint;
@@ -67,7 +67,7 @@ double jointSpring(const std::string& solver, bool curved) {
     return frequencyOf(-world.pose(ball).p[1]);
 }
 
-/// Where a ball is, and how fast, that has begun 1 cm deep in the floor.
+/// Where a sphere is, and how fast, that has begun 1 cm deep in the floor.
 Eigen::Vector2d afterOverlap(const std::string& solver, const std::string& correction, double gravity) {
     WorldDef<S> def = earthWith(solver);
     def.gravity[1] = -gravity;
@@ -93,7 +93,7 @@ bool ownsCorrection(const std::string& solver) {
     });
 }
 
-/// Balls one on the other, exactly touching.
+/// Spheres one on the other, exactly touching.
 std::vector<BodyId> addColumn(World<S>& world, int count) {
     addGround<S>(world, 0);
     std::vector<BodyId> balls;
@@ -115,7 +115,7 @@ bool isDirect(const std::string& solver) {
 
 int iterationsOf(WorldDef<S> def, double change, double residual) {
     def.velocityTolerance = change, def.residualTolerance = residual;
-    def.curvedJoints = false;
+    def.relinearizedJoints = false;
     World<S> world(def);
     addColumn(world, 6);
     const BodyId bob = addBall<S>(world, 11, 5, 0.2, 1, 0);

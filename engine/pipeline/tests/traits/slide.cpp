@@ -32,7 +32,7 @@ Vec2 level(const S::Vec& v) {
     return {v[0], v[2]};
 }
 
-/// What friction does to a ball that slides in one direction.
+/// What friction does to a sphere that slides in one direction.
 struct Braking {
     double share;  ///< of mu g
     double askew;  ///< angle to the direction against the slip [rad]

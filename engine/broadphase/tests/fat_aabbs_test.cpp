@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Enlarged boxes: filtered by the boxes themselves their pairs are those of a double loop, over every broad
-// phase; the broad phase is asked only when a box has left its enlarged one; the answer says whether the
+// Fat AABBs: filtered by the boxes themselves their pairs are those of a double loop, over every broad
+// phase; the broad phase runs only when a box has left its fat one; the answer says whether the
 // pairs changed.
-#include "engine/broadphase/enlarged_boxes.hpp"
+#include "engine/broadphase/fat_aabbs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace rigor::engine {
 namespace {
 
 template <class S>
-class EnlargedBoxesOf : public testing::Test {
+class FatAabbsOf : public testing::Test {
   public:
     using R = typename S::Real;
 
@@ -68,32 +68,32 @@ class EnlargedBoxesOf : public testing::Test {
     std::vector<std::uint8_t> movable;
 };
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
-TYPED_TEST_SUITE(EnlargedBoxesOf, Spaces);
+TYPED_TEST_SUITE(FatAabbsOf, Spaces);
 
-TYPED_TEST(EnlargedBoxesOf, HoldThePairsOfTheBoxesAndSayWhenTheyChange) {
+TYPED_TEST(FatAabbsOf, HoldThePairsOfTheBoxesAndSayWhenTheyChange) {
     using S = TypeParam;
     this->fill();
     for (const auto& entry : broadPhaseTable<S>())
         for (const double margin : {0.0, 0.05, 0.7}) {
             auto broadPhase = entry.make();
-            EnlargedBoxes<S> enlarged;
+            FatAabbs<S> fat;
             std::vector<ProxyPair> before;
             std::size_t found = 0, changes = 0;
             for (int round = 0; round < 60; ++round) {
-                const bool changed = enlarged.update(*broadPhase, this->boxes, this->movable,
-                                                     static_cast<typename S::Real>(margin));
-                ASSERT_EQ(enlarged.pairs(), this->oracle(enlarged.boxes())) << entry.name << " " << round;
-                ASSERT_EQ(this->filtered(enlarged.pairs()), this->oracle(this->boxes))
+                const bool changed = fat.update(*broadPhase, this->boxes, this->movable,
+                                                static_cast<typename S::Real>(margin));
+                ASSERT_EQ(fat.pairs(), this->oracle(fat.boxes())) << entry.name << " " << round;
+                ASSERT_EQ(this->filtered(fat.pairs()), this->oracle(this->boxes))
                     << entry.name << " margin " << margin << " round " << round;
                 if (round > 0) {
-                    ASSERT_EQ(changed, enlarged.pairs() != before) << entry.name << " " << round;
+                    ASSERT_EQ(changed, fat.pairs() != before) << entry.name << " " << round;
                 }
-                before = enlarged.pairs();
+                before = fat.pairs();
                 found += before.size(), changes += changed;
                 this->shift(round % 20 == 19 ? 3 : 0.02);
                 if (round == 30) this->movable[4] = !this->movable[4];
                 if (round == 40) this->add(this->box(this->vec(-3, 3)), true);
-                if (round == 45) enlarged.reset(), broadPhase->reset(), before.clear();
+                if (round == 45) fat.reset(), broadPhase->reset(), before.clear();
             }
             EXPECT_GT(found, 1000u);
             if (margin > 0.5) {
@@ -102,28 +102,28 @@ TYPED_TEST(EnlargedBoxesOf, HoldThePairsOfTheBoxesAndSayWhenTheyChange) {
         }
 }
 
-TYPED_TEST(EnlargedBoxesOf, WhileNoBoxLeavesItsEnlargedOneTheBroadPhaseIsNotAsked) {
+TYPED_TEST(FatAabbsOf, TheBroadPhaseRunsOnlyWhenABoxLeavesItsFatOne) {
     using S = TypeParam;
     this->fill();
     auto broadPhase = findAlgorithm(broadPhaseTable<S>(), "broad_phase", "brute_force").make();
-    EnlargedBoxes<S> enlarged;
+    FatAabbs<S> fat;
     const typename S::Real margin{0.1f};
-    EXPECT_TRUE(enlarged.update(*broadPhase, this->boxes, this->movable, margin));
-    EXPECT_EQ(enlarged.made(), this->boxes.size());
+    EXPECT_TRUE(fat.update(*broadPhase, this->boxes, this->movable, margin));
+    EXPECT_EQ(fat.replaced(), this->boxes.size());
     const std::size_t tests = broadPhase->tests();
     const auto start = this->boxes;
     const long allocations = test::allocationCount();
     for (int round = 0; round < 20; ++round) {
         this->boxes = start;
         this->shift(0.03);  // edges of at least 0.4 m: margins of at least 0.04 m
-        EXPECT_FALSE(enlarged.update(*broadPhase, this->boxes, this->movable, margin));
-        EXPECT_EQ(enlarged.made(), 0u);
+        EXPECT_FALSE(fat.update(*broadPhase, this->boxes, this->movable, margin));
+        EXPECT_EQ(fat.replaced(), 0u);
     }
     EXPECT_EQ(broadPhase->tests(), tests);
     EXPECT_EQ(test::allocationCount(), allocations);
     this->boxes[1].min[0] -= 10, this->boxes[1].max[0] -= 10;
-    enlarged.update(*broadPhase, this->boxes, this->movable, margin);
-    EXPECT_EQ(enlarged.made(), 1u);
+    fat.update(*broadPhase, this->boxes, this->movable, margin);
+    EXPECT_EQ(fat.replaced(), 1u);
     EXPECT_GT(broadPhase->tests(), tests);
 }
 
