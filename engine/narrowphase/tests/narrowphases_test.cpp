@@ -93,7 +93,7 @@ TYPED_TEST(NarrowPhases, AgreeWithTheClosestPoints) {
     }
 }
 
-/// What a resting box needs: four points (2D: two) on a box below, whoever finds the normal.
+/// What a resting box needs: four points (2D: two) on a box below, whichever algorithm finds the normal.
 TYPED_TEST(NarrowPhases, FaceOnFaceHasAFullManifold) {
     using S = TypeParam;
     const Shape<S> box = Box<S>{vec<S>(0.5, 0.5, 0.5)}, hull = boxHull<S>(vec<S>(0.5, 0.5, 0.5));

@@ -87,8 +87,8 @@ double energyOf(const World<Space3d>& world, const std::vector<BodyId>& bodies) 
     return energy;
 }
 
-/// Five seconds on a floor, a table, and a cylinder, whoever finds the contacts: nothing moves, nothing gains
-/// energy.
+/// Five seconds on a floor, a table, and a cylinder, whichever algorithm finds the contacts: nothing moves,
+/// nothing gains energy.
 class RoundShapesAtRest : public testing::TestWithParam<const char*> {};
 TEST_P(RoundShapesAtRest, StandAndLieStill) {
     using S = Space3d;

@@ -32,17 +32,17 @@ class DirectRounds : public Solver<S> {
         if (input.constraints.rows.empty()) return;
         problem_.assemble<S>(input.constraints, input.velocities.size());
         begin(input);
-        bool settled = false;
+        bool converged = false;
         for (int round = 0;; ++round) {
             input.monitor.before(input.velocities);
             problem_.readVelocities<S>(input.constraints, input.velocities);
-            settled = round > 0 && residual() <= tolerance(input);
-            if (settled || round == input.iterations || isHopeless()) break;
+            converged = round > 0 && residual() <= tolerance(input);
+            if (converged || round == input.iterations || isHopeless()) break;
             improve(input, round);
             const double change = setImpulses(input, x_);
             input.monitor.after(input.velocities, static_cast<Real>(change));
         }
-        gaveUp_ = gaveUp_ || !settled;
+        gaveUp_ = gaveUp_ || !converged;
     }
 
   protected:

@@ -48,14 +48,14 @@ void Colouring::divide(std::span<const PatchDescriptor> descriptors, std::size_t
     const std::size_t many = std::clamp<std::size_t>(contacts_ / kPartitionContacts, 1, kMaxPartitions);
     const int most = static_cast<int>(std::bit_width(many)) - 1;
     partitionBits_ = std::min(partitionBits_, most);
-    for (bool settled = false; !settled;) {
+    for (bool converged = false; !converged;) {
         makePartitions(bodies);
         tasks.forStages(1, [&](std::size_t, std::size_t chunk) {
             collectMembers(own(chunk), static_cast<std::uint32_t>(start(descriptors.size(), chunk)),
                            results_[chunk]);
         });
         const int better = betterBits(most);
-        settled = better == partitionBits_;
+        converged = better == partitionBits_;
         partitionBits_ = better;
     }
 }
