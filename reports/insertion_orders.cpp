@@ -36,7 +36,7 @@ const MetricRow* widestOf(const CaseRow& row) {
 }
 
 bool endsOtherwise(const CaseRow& row) {
-    return row.orders.run && row.orders.completed != row.orders.run;
+    return row.orders.run && row.orders.completed != row.orders.run && row.orders.completed != 0;
 }
 
 /// "C" or, where orders have other grades, "B … D".

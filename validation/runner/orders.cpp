@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "validation/symmetry/listing.hpp"
@@ -15,6 +16,7 @@ using results::CaseRow;
 using results::Grade;
 using results::MetricRow;
 using results::Outcome;
+using results::Verdict;
 
 const MetricRow* sameMetric(const CaseRow& row, const MetricRow& metric) {
     const auto it = std::find_if(row.metrics.begin(), row.metrics.end(), [&](const MetricRow& m) {
@@ -36,11 +38,31 @@ void addRange(MetricRow& metric, const std::vector<OrderEnd>& others) {
     metric.orderCount = static_cast<std::int64_t>(values.size());
 }
 
-/// What another order adds to the note; "" where it ended as it should.
-std::string noteOf(const OrderEnd& end) {
+/// Metrics that fail in another order and not in the one as written: " position_final (0.2, bound 0.1)".
+std::string failuresOnlyOf(const CaseRow& other, const CaseRow& asWritten) {
+    std::string text;
+    for (const MetricRow& metric : other.metrics) {
+        if (metric.verdict != Verdict::Fail) continue;
+        const MetricRow* same = sameMetric(asWritten, metric);
+        if (same != nullptr && same->verdict == Verdict::Fail) continue;
+        char numbers[80];
+        std::snprintf(numbers, sizeof numbers, " (%.3g, bound %.3g)", metric.value,
+                      metric.bound.value_or(std::nan("")));
+        text += (text.empty() ? " " : ", ") + metric.name +
+                (metric.subject.empty() ? "" : " of " + metric.subject) + (metric.bound ? numbers : "");
+    }
+    return text;
+}
+
+/// What another order adds to the note; "" where it ended as the one as written and fails nothing else.
+std::string noteOf(const OrderEnd& end, const CaseRow& asWritten) {
     const std::string order = "order " + std::to_string(end.number + 1) + ": ";
     if (!end.reference.empty()) return order + end.reference;
-    if (end.row.outcome == Outcome::Completed) return "";
+    if (end.row.outcome == Outcome::Completed) {
+        if (asWritten.outcome != Outcome::Completed) return order + "completes";
+        const std::string failures = failuresOnlyOf(end.row, asWritten);
+        return failures.empty() ? "" : order + "fails" + failures;
+    }
     return order + results::outcomeName(end.row.outcome) +
            (end.row.reason.empty() ? "" : " (" + end.row.reason + ")");
 }
@@ -55,11 +77,16 @@ void addOrders(CaseRow& row, std::vector<OrderEnd> others) {
     std::sort(others.begin(), others.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
     row.orders = {};
     row.orders.run = static_cast<std::int64_t>(others.size()) + 1;
-    row.orders.completed = 1;
-    const bool isGraded = row.accuracy.grade != Grade::None;
-    row.orders.best = row.orders.worst = row.accuracy.grade;
+    const bool ownCompleted = row.outcome == Outcome::Completed;
+    row.orders.completed = ownCompleted ? 1 : 0;
+    const bool isGraded = ownCompleted ? row.accuracy.grade != Grade::None
+                                       : std::any_of(others.begin(), others.end(), [](const OrderEnd& other) {
+                                             return other.row.outcome == Outcome::Completed &&
+                                                    other.row.accuracy.grade != Grade::None;
+                                         });
+    row.orders.best = row.orders.worst = ownCompleted || !isGraded ? row.accuracy.grade : Grade::E;
     for (const OrderEnd& other : others) {
-        if (const std::string note = noteOf(other); !note.empty())
+        if (const std::string note = noteOf(other, row); !note.empty())
             row.orders.note += (row.orders.note.empty() ? "" : "; ") + note;
         if (!other.reference.empty()) continue;
         const bool completed = other.row.outcome == Outcome::Completed;
@@ -70,6 +97,10 @@ void addOrders(CaseRow& row, std::vector<OrderEnd> others) {
         row.orders.worst = std::max(row.orders.worst, grade);
     }
     for (MetricRow& metric : row.metrics) addRange(metric, others);
+}
+
+bool isRunInOrders(const CaseRow& row) {
+    return row.outcome != Outcome::Unsupported;
 }
 
 void addNoOrders(CaseRow& row) {

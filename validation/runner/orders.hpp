@@ -27,6 +27,9 @@ struct OrderEnd {
     std::string reference;  ///< why its reference gave no answer; "" where it did or there is none
 };
 
+/// Other orders are run of whatever the engine can build: one that fails as written may go well in another.
+bool isRunInOrders(const results::CaseRow& row);
+
 /// Writes what the other orders gave beside the row of the order as written.
 void addOrders(results::CaseRow& row, std::vector<OrderEnd> others);
 /// The row of a case that has no other order says so.

@@ -168,7 +168,7 @@ class RunInProgress {
 
     /// A stored case was run in as many orders as are asked for; without `--orders` any number does.
     bool hasOrders(std::size_t index, const CaseRow& stored) const {
-        if (options_.orders < 2 || stored.outcome != Outcome::Completed) return true;
+        if (options_.orders < 2 || !isRunInOrders(stored)) return true;
         const int others = otherOrders(plan_[index].scenario, options_.orders);
         return others == 0 ? !stored.orders.note.empty() : stored.orders.run == others + 1;
     }
@@ -282,7 +282,7 @@ class RunInProgress {
         CaseRow row = rowOf(index, c.id, result);
         row.command = reproduceCommand(c, options_.directory, fromLibrary_[c.scenario.name]);
         removePart(c.id);
-        if (options_.orders < 2 || row.outcome != Outcome::Completed) return store(index, row);
+        if (options_.orders < 2 || !isRunInOrders(row)) return store(index, row);
         const int others = otherOrders(c.scenario, options_.orders);
         if (others == 0) {
             addNoOrders(row);

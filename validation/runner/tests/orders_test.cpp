@@ -177,6 +177,37 @@ TEST(AddOrders, AReferenceThatBrokeDownIsNoGrade) {
     EXPECT_THAT(row.orders.note, HasSubstr("order 2: reference_timeout"));
 }
 
+/// A case that fails as written may go well in another order: the range says so.
+TEST(AddOrders, TheOneAsWrittenMayBeTheOneThatFails) {
+    CaseRow row;
+    row.outcome = Outcome::NonFinite;
+    EXPECT_TRUE(isRunInOrders(row));
+    addOrders(row, {{1, graded(Grade::B, {metric("a", 2.0)}), ""}});
+    EXPECT_EQ(row.orders.run, 2);
+    EXPECT_EQ(row.orders.completed, 1);
+    EXPECT_EQ(row.orders.best, Grade::B);
+    EXPECT_EQ(row.orders.worst, Grade::E);
+    EXPECT_EQ(row.orders.note, "order 2: completes");
+    EXPECT_EQ(row.accuracy.grade, Grade::None) << "of the order as written";
+    row.outcome = Outcome::Unsupported;
+    EXPECT_FALSE(isRunInOrders(row));
+}
+
+TEST(AddOrders, AnOrderThatMissesABoundIsTold) {
+    const auto bounded = [](double value) {
+        MetricRow m = metric("a", value);
+        m.bound = 1.0;
+        m.verdict = value <= 1.0 ? results::Verdict::Pass : results::Verdict::Fail;
+        return m;
+    };
+    CaseRow row = graded(Grade::B, {bounded(0.5)});
+    addOrders(row, {{1, graded(Grade::B, {bounded(0.6)}), ""}, {2, graded(Grade::B, {bounded(2.0)}), ""}});
+    EXPECT_EQ(row.orders.note, "order 3: fails a (2, bound 1)");
+    CaseRow alike = graded(Grade::B, {bounded(3.0)});
+    addOrders(alike, {{1, graded(Grade::B, {bounded(2.0)}), ""}});
+    EXPECT_EQ(alike.orders.note, "") << "the order as written fails it too";
+}
+
 TEST(AddOrders, WithoutAGradeThereIsNone) {
     CaseRow row = graded(Grade::None, {metric("a", 2.0)});
     CaseRow crashed;
