@@ -389,11 +389,9 @@ std::vector<std::string> whereLines(const results::Run& run) {
 std::vector<std::string> boardLines(const ViewModel& view, const Names& names, std::size_t most,
                                     std::size_t width, const Painter& paint) {
     const Layout layout = layoutOf(view, names, width);
+    const std::string cells = layout.values ? "grade and relative error" : "grade";
     std::vector<std::string> lines{paint(
-        cut(std::string("Scoreboard (grade") + (layout.values ? " and the relative error it rests on" : "") +
-                " at the finest step; △ wrong physics, ▼▲ against the record, – unsupported)",
-            width),
-        "1")};
+        cut("Scoreboard: " + cells + "; △ wrong physics, ▼▲ record, ↕ order, – unsupported", width), "1")};
     for (auto& line : headLines(names, layout, width, paint)) lines.push_back(std::move(line));
     if (view.columns().empty() || lines.size() + 2 > most) return {};
     const std::size_t all = view.run().scenarios.size();

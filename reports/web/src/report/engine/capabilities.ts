@@ -16,6 +16,7 @@ function said(value: Capability): Child {
       ? value.map((v) => el('span', { class: 'tag' }, String(v)))
       : el('span', { class: 'muted' }, 'none');
   if (typeof value !== 'object') return String(value);
+  if (Object.keys(value).length === 0) return el('span', { class: 'muted' }, 'nothing');
   return Object.entries(value).map(([name, text]) =>
     el('div', null, el('span', { class: 'tag' }, name), ` ${typeof text === 'string' ? text : JSON.stringify(text)}`),
   );
