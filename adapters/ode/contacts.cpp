@@ -34,6 +34,19 @@ void bringIntoPlane(std::vector<FoundPoint>& points) {
     points.swap(flat);
 }
 
+/// A hull meets both sides of a mesh, and from the side that it is not on ODE gives it normals through the
+/// surface: what pushes the hull's middle towards the surface is dropped.
+void keepHullsOwnSide(dGeomID a, dGeomID b, std::vector<FoundPoint>& points) {
+    const int kindA = dGeomGetClass(a), kindB = dGeomGetClass(b);
+    const bool hullIsA = kindA == dConvexClass && kindB == dTriMeshClass;
+    if (!hullIsA && !(kindB == dConvexClass && kindA == dTriMeshClass)) return;
+    const Vec3 middle = fromOde(dGeomGetPosition(hullIsA ? a : b));
+    std::erase_if(points, [&](const FoundPoint& p) {
+        const double away = dot(p.normal, middle - p.position);
+        return hullIsA ? away > 0.0 : away < 0.0;
+    });
+}
+
 }  // namespace
 
 void collideGeoms(dGeomID a, dGeomID b, bool planar, std::vector<FoundPoint>& points) {
@@ -47,6 +60,7 @@ void collideGeoms(dGeomID a, dGeomID b, bool planar, std::vector<FoundPoint>& po
         if (!(std::abs(norm(normal) - 1.0) < 1e-6)) continue;
         points.push_back({fromOde(c.pos), normal, c.depth});
     }
+    keepHullsOwnSide(a, b, points);
     if (planar) bringIntoPlane(points);
 }
 

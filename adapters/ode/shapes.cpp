@@ -115,7 +115,7 @@ void Geom::createMesh(const scenario::TriangleMesh& mesh) {
 
 bool Geom::meetsBacks(dGeomID geom) {
     const int kind = dGeomGetClass(geom);
-    return kind == dSphereClass || kind == dCapsuleClass || kind == dCylinderClass;
+    return kind == dSphereClass || kind == dCapsuleClass || kind == dCylinderClass || kind == dConvexClass;
 }
 
 /// ODE's height fields are ours: heights along y, centred in x and z, x running fastest, cells split from
