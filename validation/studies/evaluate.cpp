@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 
@@ -144,6 +145,16 @@ bool mayBreak(const scenario::StudyPart& part, const StudyRow& row) {
     });
 }
 
+/// "1e-05 .. 0.02 over 3 orders" where the order of insertion makes a difference that is shown; else "".
+std::string orderRange(const results::MetricRow& m) {
+    if (!m.orderMin || !m.orderMax || !m.orderCount) return "";
+    char least[32], greatest[32];
+    std::snprintf(least, sizeof least, "%.4g", *m.orderMin);
+    std::snprintf(greatest, sizeof greatest, "%.4g", *m.orderMax);
+    if (std::string(least) == greatest) return "";
+    return std::string(least) + " .. " + greatest + " over " + std::to_string(*m.orderCount) + " orders";
+}
+
 }  // namespace
 
 StudyValue studyValue(const CaseRow& row, const std::string& metric) {
@@ -164,7 +175,7 @@ StudyValue studyValue(const CaseRow& row, const std::string& metric) {
     const std::string name = metric.substr(0, colon);
     const std::string subject = colon == std::string::npos ? "" : metric.substr(colon + 1);
     for (const auto& m : row.metrics)
-        if (m.name == name && m.subject == subject) return {m.value, m.unit, ""};
+        if (m.name == name && m.subject == subject) return {m.value, m.unit, orderRange(m)};
     return {};
 }
 

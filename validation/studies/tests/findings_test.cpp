@@ -138,5 +138,19 @@ TEST(Findings, OneThatDoesNotHoldIsRed) {
     EXPECT_FALSE(out.at("green"));
 }
 
+TEST(StudyValues, ShowTheRangeOverOrdersOfInsertion) {
+    results::CaseRow row;
+    results::MetricRow m;
+    m.name = "rest_motion", m.value = 2.0, m.unit = "m";
+    row.metrics = {m};
+    EXPECT_EQ(studyValue(row, "rest_motion").note, "");
+    row.metrics[0].orderMin = 2.0, row.metrics[0].orderMax = 2.0 + 1e-9, row.metrics[0].orderCount = 3;
+    EXPECT_EQ(studyValue(row, "rest_motion").note, "") << "less than the digits shown";
+    row.metrics[0].orderMin = 0.5;
+    row.metrics[0].orderMax = 7.0;
+    EXPECT_EQ(studyValue(row, "rest_motion").note, "0.5 .. 7 over 3 orders");
+    EXPECT_EQ(studyValue(row, "rest_motion").value, 2.0) << "of the order as written";
+}
+
 }  // namespace
 }  // namespace rigor::validation
