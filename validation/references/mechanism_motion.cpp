@@ -163,12 +163,14 @@ std::vector<std::vector<Real>> MechanismMotion::gram(const std::vector<Pose>& po
         scale(row.b, row.vb, row.wb);
     }
     std::vector<std::vector<Real>> m(n, std::vector<Real>(n, 0));
-    const auto share = [](int x, Real3 v, Real3 w, int y, Real3 pv, Real3 pw) {
+    const auto share = [](int x, const Real3& v, const Real3& w, int y, const Real3& pv, const Real3& pw) {
         return x >= 0 && x == y ? dot(v, pv) + dot(w, pw) : Real(0);
     };
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j <= i; ++j) {
             const Row &r = rows[i], &q = inverse[j];
+            // Most rows of a long loop have no body in common.
+            if (r.a != q.a && r.a != q.b && r.b != q.a && r.b != q.b) continue;
             m[i][j] = m[j][i] =
                 share(r.a, r.va, r.wa, q.a, q.va, q.wa) + share(r.a, r.va, r.wa, q.b, q.vb, q.wb) +
                 share(r.b, r.vb, r.wb, q.a, q.va, q.wa) + share(r.b, r.vb, r.wb, q.b, q.vb, q.wb);
