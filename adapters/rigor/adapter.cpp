@@ -39,9 +39,10 @@ const std::map<std::string, std::string> kMatched{{"velocity_iterations", "50"},
                                                   {"restitution_threshold", "0"}};
 
 /// The names that a setting may have: those of its family, and narrow phases of other libraries besides.
-std::vector<std::string> namesOf(const std::string& key) {
+std::vector<std::string> namesOf(const std::string& key,
+                                 const std::vector<engine::AlgorithmFamily>& families) {
     std::vector<std::string> names;
-    for (const engine::AlgorithmFamily& family : engine::algorithmFamilies())
+    for (const engine::AlgorithmFamily& family : families)
         if (family.name == key)
             for (const engine::AlgorithmInfo& algorithm : family.algorithms) names.push_back(algorithm.name);
     if (key == "narrow_phase")
@@ -50,13 +51,14 @@ std::vector<std::string> namesOf(const std::string& key) {
     return names;
 }
 
-Option optionOf(const engine::SettingInfo& setting) {
+Option optionOf(const engine::SettingInfo& setting, const std::vector<engine::AlgorithmFamily>& families) {
     using Kind = engine::SettingKind;
     const auto found = kMatched.find(setting.key);
     const char* byDefault = setting.byDefault.c_str();
     const char* matched = found == kMatched.end() ? byDefault : found->second.c_str();
     const char *key = setting.key.c_str(), *help = setting.help.c_str();
-    if (setting.kind == Kind::Algorithm) return choice(key, namesOf(setting.key), byDefault, matched, help);
+    if (setting.kind == Kind::Algorithm)
+        return choice(key, namesOf(setting.key, families), byDefault, matched, help);
     if (setting.kind == Kind::Switch) return choice(key, {"off", "on"}, byDefault, matched, help);
     if (setting.kind == Kind::Integer)
         return integer(key, setting.min, setting.max, byDefault, matched, help);
@@ -77,7 +79,9 @@ class RigorEngine final : public EngineWithPresets {
     Capabilities capabilities() const override { return rigorCapabilities(); }
     std::vector<Option> options() const override {
         std::vector<Option> options;
-        for (const engine::SettingInfo& setting : engine::settings()) options.push_back(optionOf(setting));
+        const std::vector<engine::AlgorithmFamily> families = engine::algorithmFamilies();
+        for (const engine::SettingInfo& setting : engine::settings())
+            options.push_back(optionOf(setting, families));
         options.push_back(
             choice("precision", {"f32", "f64"}, "f64", "f64", "number type of state and computation"));
         return options;
