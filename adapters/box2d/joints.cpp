@@ -146,9 +146,10 @@ b2Joint* addWheel(b2World& world, const Joint& joint, const Ends& ends, double s
     def.localAxisA = toBox2d(joint.axisA, 1.0);
     def.localAnchorA += static_cast<float>(scale * travel.target) * def.localAxisA;
     def.enableLimit = travel.mode == scenario::AxisMode::Limited;
-    if (def.enableLimit)
-        def.lowerTranslation = toBound(travel.lower - travel.target, scale),
+    if (def.enableLimit) {
+        def.lowerTranslation = toBound(travel.lower - travel.target, scale);
         def.upperTranslation = toBound(travel.upper - travel.target, scale);
+    }
     def.enableMotor = angle.hasMotor();
     def.motorSpeed = static_cast<float>(angle.motorSpeed);
     def.maxMotorTorque = static_cast<float>(scale * scale * angle.motorMaxForce);
@@ -167,7 +168,10 @@ Parts addHinge(b2World& world, const Joint& joint, const Ends& ends, double scal
     auto def = common<b2RevoluteJointDef>(ends);
     def.referenceAngle = ends.referenceAngle;
     def.enableLimit = axis.mode == scenario::AxisMode::Limited;
-    if (def.enableLimit) def.lowerAngle = toBound(axis.lower, 1.0), def.upperAngle = toBound(axis.upper, 1.0);
+    if (def.enableLimit) {
+        def.lowerAngle = toBound(axis.lower, 1.0);
+        def.upperAngle = toBound(axis.upper, 1.0);
+    }
     def.enableMotor = axis.hasMotor();
     def.motorSpeed = static_cast<float>(axis.motorSpeed);
     def.maxMotorTorque = static_cast<float>(scale * scale * axis.motorMaxForce);
@@ -190,8 +194,10 @@ Parts addSlider(b2World& world, const Joint& joint, const Ends& ends, double sca
     def.localAxisA = toBox2d(joint.axisA, 1.0);
     const scenario::JointAxis& axis = joint.axes[0];
     def.enableLimit = axis.mode == scenario::AxisMode::Limited;
-    if (def.enableLimit)
-        def.lowerTranslation = toBound(axis.lower, scale), def.upperTranslation = toBound(axis.upper, scale);
+    if (def.enableLimit) {
+        def.lowerTranslation = toBound(axis.lower, scale);
+        def.upperTranslation = toBound(axis.upper, scale);
+    }
     def.enableMotor = axis.hasMotor();
     def.motorSpeed = static_cast<float>(scale * axis.motorSpeed);
     def.maxMotorForce = static_cast<float>(scale * axis.motorMaxForce);
@@ -234,7 +240,8 @@ Joint reducedSixDof(const Joint& joint) {
     }
     if (held(x)) {
         const adapter::Vec3 up{0.0, 0.0, 1.0};
-        reduced.axisA = cross(up, joint.axisA), reduced.axisB = cross(up, joint.axisB);
+        reduced.axisA = cross(up, joint.axisA);
+        reduced.axisB = cross(up, joint.axisB);
     }
     reduced.axes[0] = chosen(held(x) ? y : x);
     reduced.type = held(angle) ? JointType::Slider : JointType::Wheel;
@@ -250,10 +257,12 @@ Parts addFreeTravels(b2World& world, const Joint& joint, const Ends& ends) {
                     "b2_joint.h, enum b2JointType; b2_motor_joint.h, b2MotorJointDef: one pose to hold");
     if (!held(angle)) return {};
     b2MotorJointDef def;
-    def.bodyA = ends.a.body, def.bodyB = ends.b.body;
+    def.bodyA = ends.a.body;
+    def.bodyB = ends.b.body;
     def.collideConnected = ends.collideConnected;
     def.angularOffset = ends.referenceAngle;
-    def.maxForce = 0.0f, def.maxTorque = 1e9f;
+    def.maxForce = 0.0f;
+    def.maxTorque = 1e9f;
     return {world.CreateJoint(&def)};
 }
 

@@ -365,7 +365,8 @@ void Articulations::update() {
     for (auto& multiBody : multiBodies_) {
         multiBody->forwardKinematics(rotations, origins);
         const auto count = static_cast<std::size_t>(multiBody->getNumLinks()) + 1;
-        turns.resize(count), velocities.resize(count);
+        turns.resize(count);
+        velocities.resize(count);
         multiBody->compTreeLinkVelocities(turns.data(), velocities.data());
         for (Link& link : links_) {
             if (link.multiBody != multiBody.get()) continue;

@@ -300,7 +300,10 @@ void BulletWorld::breakJoints() {
         const Pose pose = fromBullet(body.body->getWorldTransform()) * inverse(body.comFrame);
         const Vec3 arm = pose * joint.anchorB - fromBullet(body.body->getWorldTransform().getOrigin());
         torque = torque - cross(arm, force);
-        if (planar_) force.z = 0.0, torque.x = torque.y = 0.0;
+        if (planar_) {
+            force.z = 0.0;
+            torque.x = torque.y = 0.0;
+        }
         if (norm(force) > joint.breakForce || norm(torque) > joint.breakTorque) release();
     }
 }

@@ -17,8 +17,10 @@ class Joints : public DynamicsTest {
         Joint joint;
         joint.name = "joint";
         joint.type = type;
-        joint.bodyA = a, joint.bodyB = b;
-        joint.anchorA = anchorA, joint.anchorB = anchorB;
+        joint.bodyA = a;
+        joint.bodyB = b;
+        joint.anchorA = anchorA;
+        joint.anchorB = anchorB;
         return joint;
     }
     static Vec3 at(const BodyState& state, const Vec3& local) {
@@ -49,7 +51,8 @@ class Joints : public DynamicsTest {
         s.joints.push_back(jointOf(type, scenario::kNone, b, pivot, {-arm, 0, 0}));
         if (type == JointType::SixDof) {
             Joint& joint = s.joints.back();
-            joint.axisA = joint.axisB = {1, 0, 0}, joint.normalA = {0, 1, 0};
+            joint.axisA = joint.axisB = {1, 0, 0};
+            joint.normalA = {0, 1, 0};
             turnOf(joint).mode = scenario::AxisMode::Free;
         }
         auto world = build(s, kStep);
@@ -94,10 +97,13 @@ TEST_P(Joints, ASixDofTravelActsAtItsAnchor) {
     s.bodies[0].angularVelocity = {0, 0, 3.0};
     s.bodies[0].velocity = Vec3{1.0, 0, 0} + cross(Vec3{0, 0, 3.0}, -anchor);
     Joint joint = jointOf(JointType::SixDof, scenario::kNone, b, {}, anchor);
-    joint.axisA = joint.axisB = {1, 0, 0}, joint.normalA = {0, 1, 0};
+    joint.axisA = joint.axisB = {1, 0, 0};
+    joint.normalA = {0, 1, 0};
     joint.axes[0].mode = scenario::AxisMode::Limited;
-    joint.axes[0].lower = -0.2, joint.axes[0].upper = 0.4;
-    joint.axes[0].motorSpeed = 1.0, joint.axes[0].motorMaxForce = 1000.0;
+    joint.axes[0].lower = -0.2;
+    joint.axes[0].upper = 0.4;
+    joint.axes[0].motorSpeed = 1.0;
+    joint.axes[0].motorMaxForce = 1000.0;
     turnOf(joint).mode = scenario::AxisMode::Free;
     s.joints.push_back(joint);
     std::unique_ptr<adapter::World> world;
@@ -211,7 +217,8 @@ TEST_P(Joints, AHingeStopsAtItsLimits) {
         Joint joint = jointOf(JointType::Hinge, scenario::kNone, b, {1, 1, 0}, {});
         joint.axisA = joint.axisB = Vec3{0, 0, 1};
         joint.axes[0].mode = scenario::AxisMode::Limited;
-        joint.axes[0].lower = -0.4, joint.axes[0].upper = 0.7;
+        joint.axes[0].lower = -0.4;
+        joint.axes[0].upper = 0.7;
         s.joints.push_back(joint);
         auto world = build(s, kStep);
         double furthest = 0.0;
@@ -240,7 +247,8 @@ TEST_P(Joints, AHingeMotorTurnsAtItsSpeedWithItsTorque) {
         const int b = addBody(s, block({0.2, 0.1, 0.1}), {1, 1, 0}, 2.0, {0.5, 0.5, 0.5});
         Joint joint = jointOf(JointType::Hinge, scenario::kNone, b, {1, 1, 0}, {});
         joint.axisA = joint.axisB = Vec3{0, 0, 1};
-        joint.axes[0].motorSpeed = 2.0, joint.axes[0].motorMaxForce = 1.0;
+        joint.axes[0].motorSpeed = 2.0;
+        joint.axes[0].motorMaxForce = 1.0;
         s.joints.push_back(joint);
         auto world = build(s, kStep);
         for (int i = 0; i < 240; ++i) {
@@ -263,8 +271,10 @@ TEST_P(Joints, ASliderStopsAtItsLimitsAndIsDrivenByItsMotor) {
     Joint joint = jointOf(JointType::Slider, scenario::kNone, b, {}, {});
     joint.axisA = joint.axisB = is2d() ? Vec3{0.6, 0.8, 0} : Vec3{2, 3, 6} / 7.0;
     joint.axes[0].mode = scenario::AxisMode::Limited;
-    joint.axes[0].lower = -0.2, joint.axes[0].upper = 0.5;
-    joint.axes[0].motorSpeed = 1.0, joint.axes[0].motorMaxForce = 4.0;
+    joint.axes[0].lower = -0.2;
+    joint.axes[0].upper = 0.5;
+    joint.axes[0].motorSpeed = 1.0;
+    joint.axes[0].motorMaxForce = 4.0;
     s.joints.push_back(joint);
     auto world = build(s, kStep);
     for (int i = 0; i < 120; ++i) world->step();
@@ -289,7 +299,9 @@ TEST_P(Joints, ADistanceSpringSwingsAtItsFrequency) {
     Joint joint = jointOf(JointType::Distance, scenario::kNone, b, {}, {});
     joint.length = 1.5;
     joint.axes[0].mode = scenario::AxisMode::Free;
-    joint.axes[0].frequency = 2.0, joint.axes[0].dampingRatio = 0.1, joint.axes[0].target = 1.2;
+    joint.axes[0].frequency = 2.0;
+    joint.axes[0].dampingRatio = 0.1;
+    joint.axes[0].target = 1.2;
     s.joints.push_back(joint);
     auto world = build(s, kStep);
     double worst = 0.0;
@@ -308,7 +320,9 @@ TEST_P(Joints, AHingeSpringSwingsWhatTurnsAboutTheHinge) {
     Joint joint = jointOf(JointType::Hinge, scenario::kNone, b, {}, {-0.9, 0, 0});
     joint.axisA = joint.axisB = {0, 0, 1};
     joint.axes[0].mode = scenario::AxisMode::Free;
-    joint.axes[0].frequency = 2.0, joint.axes[0].dampingRatio = 0.1, joint.axes[0].target = -0.3;
+    joint.axes[0].frequency = 2.0;
+    joint.axes[0].dampingRatio = 0.1;
+    joint.axes[0].target = -0.3;
     s.joints.push_back(joint);
     auto world = build(s, kStep);
     double worst = 0.0;
@@ -329,7 +343,8 @@ TEST_P(Joints, ASliderSpringSwingsByStiffnessAndDamping) {
     joint.axisA = joint.axisB = axis;
     const double w = 2.0 * kPi * 2.0;
     joint.axes[0].mode = scenario::AxisMode::Free;
-    joint.axes[0].stiffness = 2.0 * w * w, joint.axes[0].damping = 2.0 * 2.0 * 0.1 * w;
+    joint.axes[0].stiffness = 2.0 * w * w;
+    joint.axes[0].damping = 2.0 * 2.0 * 0.1 * w;
     joint.axes[0].target = -0.3;
     s.joints.push_back(joint);
     auto world = build(s, kStep);
@@ -350,7 +365,8 @@ TEST_P(Joints, ARopeIsSlackThenTaut) {
     Joint joint = jointOf(JointType::Distance, scenario::kNone, b, {}, {});
     joint.length = 0.5;
     joint.axes[0].mode = scenario::AxisMode::Limited;
-    joint.axes[0].lower = 0.0, joint.axes[0].upper = 1.2;
+    joint.axes[0].lower = 0.0;
+    joint.axes[0].upper = 1.2;
     s.joints.push_back(joint);
     auto world = build(s, kStep);
     run(*world, 96);  // 0.2 s of free fall; symplectic Euler adds g t dt / 2
@@ -368,8 +384,11 @@ TEST_P(Joints, AWheelHasASpringAlongItsAxisAndAMotorAboutItsPin) {
     joint.axisA = joint.axisB = {0, 1, 0};
     joint.spinAxisB = {0, 0, 1};
     joint.axes[0].mode = joint.axes[1].mode = scenario::AxisMode::Free;
-    joint.axes[0].frequency = 2.0, joint.axes[0].dampingRatio = 0.1, joint.axes[0].target = -0.3;
-    joint.axes[1].motorSpeed = 5.0, joint.axes[1].motorMaxForce = 0.2;
+    joint.axes[0].frequency = 2.0;
+    joint.axes[0].dampingRatio = 0.1;
+    joint.axes[0].target = -0.3;
+    joint.axes[1].motorSpeed = 5.0;
+    joint.axes[1].motorMaxForce = 0.2;
     s.joints.push_back(joint);
     auto world = build(s, kStep);
     double travel = 0.0, aside = 0.0;

@@ -150,8 +150,10 @@ TEST_P(Stages, RowsNameTheirJoint) {
     s.gravity = {0, -9.81, 0};
     addBody(s, block({0.5, 0.1, 0.1}), {0.5, 0, 0}, 1.0, boxMoments(1.0, {0.5, 0.1, 0.1}));
     Joint joint;
-    joint.name = "pivot", joint.type = JointType::Hinge;
-    joint.bodyB = 0, joint.anchorB = {-0.5, 0, 0};
+    joint.name = "pivot";
+    joint.type = JointType::Hinge;
+    joint.bodyB = 0;
+    joint.anchorB = {-0.5, 0, 0};
     s.joints.push_back(joint);
     const auto world = build(s, 1.0 / 120);
     EXPECT_TRUE(world->jointHolds(0));
@@ -194,8 +196,11 @@ TEST_P(Stages, SnapshotsHoldWhatActsOnBodiesAndJoints) {
     Scenario s = slide();
     const int rod = addBody(s, block({0.5, 0.1, 0.1}), {-2.5, 3, 0}, 1.0, boxMoments(1.0, {0.5, 0.1, 0.1}));
     Joint joint;
-    joint.name = "pivot", joint.type = JointType::Hinge;
-    joint.bodyB = rod, joint.anchorA = {-3, 3, 0}, joint.anchorB = {-0.5, 0, 0};
+    joint.name = "pivot";
+    joint.type = JointType::Hinge;
+    joint.bodyB = rod;
+    joint.anchorA = {-3, 3, 0};
+    joint.anchorB = {-0.5, 0, 0};
     s.joints.push_back(joint);
     const auto world = build(s, 1.0 / 120), twin = build(s, 1.0 / 120);
     if (world->snapshots() == nullptr) GTEST_SKIP() << "the state can not be taken back";

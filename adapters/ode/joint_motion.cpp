@@ -64,7 +64,8 @@ JointMotion::JointMotion(const scenario::Joint& joint, const JointEnd& a, const 
         localTurning_ = rotateInverse(a.pose.orientation, rotate(b.pose.orientation, joint.spinAxisB));
     if (joint.type == JointType::SixDof) localTurning_ = localAxes_[2];  // in the plane its one angle
     localTurningNormal_ = anyNormal(localTurning_);
-    axisInB_ = intoB(localAxes_[0]), normalInB_ = intoB(localAxes_[1]);
+    axisInB_ = intoB(localAxes_[0]);
+    normalInB_ = intoB(localAxes_[1]);
     turningNormalInB_ = intoB(localTurningNormal_);
     update();
 }
@@ -77,8 +78,10 @@ void JointMotion::update() {
     axisOfB_ = rotate(B.orientation, axisInB_);
     normalOfB_ = rotate(B.orientation, normalInB_);
     turningNormalOfB_ = rotate(B.orientation, turningNormalInB_);
-    anchorA_ = A * joint_.anchorA, anchorB_ = B * joint_.anchorB;
-    centerA_ = a_.center(), centerB_ = b_.center();
+    anchorA_ = A * joint_.anchorA;
+    anchorB_ = B * joint_.anchorB;
+    centerA_ = a_.center();
+    centerB_ = b_.center();
 }
 
 /// How far B's anchor is from A's along a direction fixed in A.
@@ -208,7 +211,8 @@ SpringTerms springTerms(const scenario::JointAxis& axis, double moved, double dt
     double k = axis.stiffness, c = axis.damping;
     if (axis.frequency > 0.0) {
         const double w = 2.0 * 3.14159265358979323846 * axis.frequency;
-        k = moved * w * w, c = 2.0 * axis.dampingRatio * w * moved;
+        k = moved * w * w;
+        c = 2.0 * axis.dampingRatio * w * moved;
     }
     return {dt * k / (dt * k + c), 1.0 / (dt * k + c)};
 }

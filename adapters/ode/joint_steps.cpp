@@ -133,8 +133,10 @@ void OdeJoint::driveAt(const Coordinate& now, const PointJoint& row, dContact& c
     toOde(along, contact.fdir1);
     SpringTerms terms{dWorldGetERP(world_), dWorldGetCFM(world_)};
     double target = 0.0;
-    if (row.does == PointRow::Springs)
-        terms = springTerms(row.axis, motion_.movedMass(now.rate), dt_), target = row.axis.target;
+    if (row.does == PointRow::Springs) {
+        terms = springTerms(row.axis, motion_.movedMass(now.rate), dt_);
+        target = row.axis.target;
+    }
     const bool drives = row.does == PointRow::Drives;
     const double speed = drives ? row.axis.motorSpeed : terms.erp / dt_ * (target - now.value);
     dSurfaceParameters& surface = contact.surface;

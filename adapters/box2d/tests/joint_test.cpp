@@ -20,8 +20,10 @@ Joint onWorld(JointType type, int body, const Vec3& anchor, const Vec3& inBody =
     Joint joint;
     joint.name = "joint";
     joint.type = type;
-    joint.bodyA = scenario::kNone, joint.bodyB = body;
-    joint.anchorA = anchor, joint.anchorB = inBody;
+    joint.bodyA = scenario::kNone;
+    joint.bodyB = body;
+    joint.anchorA = anchor;
+    joint.anchorB = inBody;
     joint.axisA = joint.axisB = type == JointType::Hinge ? Vec3{0, 0, 1} : Vec3{1, 0, 0};
     return joint;
 }
@@ -66,9 +68,12 @@ TEST(Box2dSprings, ASpringStandsBesideStopAndMotor) {
         s.bodies[0].collides = false;
         Joint joint = onWorld(JointType::Hinge, b, {1, 0, 0});
         joint.axes[0].mode = stopped ? scenario::AxisMode::Limited : scenario::AxisMode::Free;
-        joint.axes[0].lower = -0.2, joint.axes[0].upper = 0.2;
-        joint.axes[0].stiffness = 5.0, joint.axes[0].damping = 4.0;
-        joint.axes[0].motorSpeed = 100.0, joint.axes[0].motorMaxForce = 2.0;
+        joint.axes[0].lower = -0.2;
+        joint.axes[0].upper = 0.2;
+        joint.axes[0].stiffness = 5.0;
+        joint.axes[0].damping = 4.0;
+        joint.axes[0].motorSpeed = 100.0;
+        joint.axes[0].motorMaxForce = 2.0;
         s.joints.push_back(joint);
         Simulation run(s, kStep, "preset=matched");
         run.steps(4800);
@@ -86,7 +91,9 @@ TEST(Box2dSprings, AFrequencyIsThatOfBothBodies) {
     Joint joint = onWorld(JointType::Slider, b, {0.3, 0, 0});
     joint.bodyA = a;
     joint.axes[0].mode = scenario::AxisMode::Free;
-    joint.axes[0].frequency = 2.0, joint.axes[0].dampingRatio = 0.0, joint.axes[0].target = 0.1;
+    joint.axes[0].frequency = 2.0;
+    joint.axes[0].dampingRatio = 0.0;
+    joint.axes[0].target = 0.1;
     s.joints.push_back(joint);
     Simulation run(s, kStep, "preset=matched");
     run.steps(120);  // half a period: from 0.1 short of the target to 0.1 beyond
@@ -134,7 +141,8 @@ TEST(Box2dBreaks, BodiesThatAJointKeptApartTouchAfterwards) {
         addStatic(s, Box{{2, 0.5, 0}}, {0, -0.5, 0});
         const int b = addBody(s, Box{{0.1, 0.1, 0}}, {0, 0.1, 0}, 2.0, {0.1, 0.1, 0.1});
         Joint joint = onWorld(JointType::Fixed, b, {0, 0.1, 0});
-        joint.bodyA = 0, joint.anchorA = {0, 0.6, 0};
+        joint.bodyA = 0;
+        joint.anchorA = {0, 0.6, 0};
         joint.breakForce = breaks ? 1.0 : 1e300;
         s.joints.push_back(joint);
         Simulation run(s, kStep, "preset=matched");
@@ -157,7 +165,8 @@ TEST(Box2dSprings, ADamperAlongADistanceNeedsNoLength) {
     s.bodies[0].velocity = {0.3, 0, 0};
     Joint joint = onWorld(JointType::Distance, b, {1, 0, 0});
     joint.length = 1.0;
-    joint.axes[0].mode = scenario::AxisMode::Free, joint.axes[0].damping = 2.0;
+    joint.axes[0].mode = scenario::AxisMode::Free;
+    joint.axes[0].damping = 2.0;
     s.joints.push_back(joint);
     Simulation run(s, kStep);
     run.steps(480);

@@ -17,8 +17,10 @@ Joint joint(JointType type, int a, int b, Vec3 anchorA, Vec3 anchorB, Vec3 axis 
     Joint j;
     j.name = "joint";
     j.type = type;
-    j.bodyA = a, j.bodyB = b;
-    j.anchorA = anchorA, j.anchorB = anchorB;
+    j.bodyA = a;
+    j.bodyB = b;
+    j.anchorA = anchorA;
+    j.anchorB = anchorB;
     j.axisA = j.axisB = axis;
     return j;
 }
@@ -28,7 +30,8 @@ Scenario rodOnAHinge(bool turned = false) {
     Scenario s = scene();
     const int rod = addBody(s, Box{{0.5, 0.01, 0.01}}, {0.5, 0, 0}, 1.0, {0.001, 1.0 / 12, 1.0 / 12});
     Body post;
-    post.name = "post", post.type = BodyType::Static;
+    post.name = "post";
+    post.type = BodyType::Static;
     s.bodies.push_back(post);
     s.joints.push_back(turned ? joint(JointType::Hinge, rod, 1, {-0.5, 0, 0}, {})
                               : joint(JointType::Hinge, 1, rod, {}, {-0.5, 0, 0}));
@@ -42,7 +45,8 @@ double rodAngle(double t) {
     for (int i = 0; i < steps; ++i) {
         const double w1 = w, a1 = rate(q), w2 = w + h / 2 * a1, a2 = rate(q + h / 2 * w1);
         const double w3 = w + h / 2 * a2, a3 = rate(q + h / 2 * w2), w4 = w + h * a3, a4 = rate(q + h * w3);
-        q += h / 6 * (w1 + 2 * w2 + 2 * w3 + w4), w += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+        q += h / 6 * (w1 + 2 * w2 + 2 * w3 + w4);
+        w += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
     }
     return q;
 }
@@ -80,14 +84,18 @@ TEST(BulletArticulation, AJointRunsBackwardsWhereItsFirstBodyIsTheChild) {
         Scenario s = rodOnAHinge(turned);
         s.gravity = {};
         auto& axis = s.joints[0].axes[0];
-        axis.motorSpeed = 2.0, axis.motorMaxForce = 0.1;
+        axis.motorSpeed = 2.0;
+        axis.motorMaxForce = 0.1;
         Simulation motor(s, 1.0 / 240, kMatched);
         motor.seconds(1);
         const double sign = turned ? -1.0 : 1.0;  // of the rod against the post
         EXPECT_NEAR(motor.state(0).angularVelocity.z, sign * 0.3, tol(1e-6, 1e-4));
         axis.motorMaxForce = 0.0;
-        axis.mode = scenario::AxisMode::Limited, axis.lower = -0.2, axis.upper = 0.6;
-        s.bodies[0].angularVelocity = {0, 0, 2}, s.bodies[0].velocity = {0, 1, 0};
+        axis.mode = scenario::AxisMode::Limited;
+        axis.lower = -0.2;
+        axis.upper = 0.6;
+        s.bodies[0].angularVelocity = {0, 0, 2};
+        s.bodies[0].velocity = {0, 1, 0};
         Simulation stop(s, 1.0 / 240, kMatched);
         double most = 0.0;
         for (int i = 0; i < 240; ++i) most = std::max(most, foundAngle(stop.steps(1).state(0)));
@@ -203,7 +211,10 @@ TEST(BulletArticulation, LinksTouchTheFloor) {
 /// Symplectic Euler of I q'' = -k (q - target) - c q' with the spring's torque of the start of the step.
 double swung(double inertia, double k, double c, double target, double dt, int steps) {
     double q = 0.0, rate = 0.0;
-    for (int i = 0; i < steps; ++i) rate -= dt / inertia * (k * (q - target) + c * rate), q += dt * rate;
+    for (int i = 0; i < steps; ++i) {
+        rate -= dt / inertia * (k * (q - target) + c * rate);
+        q += dt * rate;
+    }
     return q;
 }
 
@@ -212,7 +223,9 @@ TEST(BulletArticulation, SpringsPullWithTheForceOfTheStartOfTheStep) {
         Scenario s = rodOnAHinge(turned);
         s.gravity = {};
         auto& axis = s.joints[0].axes[0];
-        axis.stiffness = 20.0, axis.damping = 0.3, axis.target = turned ? -0.4 : 0.4;
+        axis.stiffness = 20.0;
+        axis.damping = 0.3;
+        axis.target = turned ? -0.4 : 0.4;
         Simulation given(s, 1.0 / 120, kMatched);
         given.steps(100);
         EXPECT_NEAR(foundAngle(given.state(0)), swung(1.0 / 3, 20, 0.3, 0.4, 1.0 / 120, 100),
@@ -221,7 +234,9 @@ TEST(BulletArticulation, SpringsPullWithTheForceOfTheStartOfTheStep) {
 
         // 1 Hz on the rod's moment about its hinge.
         const double omega = 2.0 * std::numbers::pi;
-        axis.stiffness = axis.damping = 0.0, axis.frequency = 1.0, axis.dampingRatio = 0.1;
+        axis.stiffness = axis.damping = 0.0;
+        axis.frequency = 1.0;
+        axis.dampingRatio = 0.1;
         Simulation tuned(s, 1.0 / 120, kMatched);
         tuned.steps(100);
         EXPECT_NEAR(foundAngle(tuned.state(0)), swung(1, omega * omega, 0.2 * omega, 0.4, 1.0 / 120, 100),
@@ -275,7 +290,8 @@ TEST(BulletArticulation, APendulumOfThePlaneIsTheOneInSpace) {
         Scenario flat = inThePlane(rodOnAHinge());
         flat.joints[0].type = type;
         Simulation run(flat, 1.0 / 240, kMatched), space(rodOnAHinge(), 1.0 / 240, kMatched);
-        run.seconds(1), space.seconds(1);
+        run.seconds(1);
+        space.seconds(1);
         EXPECT_NEAR(norm(run.state(0).position - space.state(0).position), 0.0, tol(1e-13, 1e-5));
     }
 }

@@ -18,8 +18,10 @@ Joint joint(JointType type, int a, int b, Vec3 anchorA, Vec3 anchorB, Vec3 axis 
     Joint j;
     j.name = "joint";
     j.type = type;
-    j.bodyA = a, j.bodyB = b;
-    j.anchorA = anchorA, j.anchorB = anchorB;
+    j.bodyA = a;
+    j.bodyB = b;
+    j.anchorA = anchorA;
+    j.anchorB = anchorB;
     j.axisA = j.axisB = axis;
     j.normalA = {0, 1, 0};
     return j;
@@ -31,7 +33,9 @@ Scenario weightless() {
 }
 JointAxis limits(double lower, double upper) {
     JointAxis axis;
-    axis.mode = AxisMode::Limited, axis.lower = lower, axis.upper = upper;
+    axis.mode = AxisMode::Limited;
+    axis.lower = lower;
+    axis.upper = upper;
     return axis;
 }
 
@@ -73,7 +77,9 @@ TEST_P(BulletSixDof, LimitsStopOnTheirOwnSides) {
 TEST_P(BulletSixDof, MotorsPushForwardsWithTheirForce) {
     const int k = GetParam();
     JointAxis axis;
-    axis.mode = AxisMode::Free, axis.motorSpeed = 2.0, axis.motorMaxForce = 0.5;
+    axis.mode = AxisMode::Free;
+    axis.motorSpeed = 2.0;
+    axis.motorMaxForce = 0.5;
     Simulation run(oneCoordinate(k, axis, 0.0), 1.0 / 240);
     run.seconds(1);
     const BodyState state = run.state(0);
@@ -84,7 +90,10 @@ TEST_P(BulletSixDof, MotorsPushForwardsWithTheirForce) {
 TEST_P(BulletSixDof, SpringsRestAtTheirTargets) {
     const int k = GetParam();
     JointAxis axis;
-    axis.mode = AxisMode::Free, axis.target = 0.3, axis.stiffness = 20, axis.damping = 6;
+    axis.mode = AxisMode::Free;
+    axis.target = 0.3;
+    axis.stiffness = 20;
+    axis.damping = 6;
     Simulation run(oneCoordinate(k, axis, 0.0), 1.0 / 240);
     run.seconds(8);
     EXPECT_NEAR(coordinate(run.state(0), k), 0.3, tol(1e-4, 1e-3));
@@ -117,7 +126,8 @@ TEST(BulletSprings, AFrequencyIsThatOfTheReducedMass) {
     const int a = addBody(s, Box{{0.1, 0.1, 0.1}}, {0, 0, 0}, 1.0);
     const int b = addBody(s, Box{{0.1, 0.1, 0.1}}, {1, 0, 0}, 3.0);
     Joint j = joint(JointType::Slider, a, b, {0.5, 0, 0}, {-0.5, 0, 0});
-    j.axes[0].frequency = 2.0, j.axes[0].target = 0.1;
+    j.axes[0].frequency = 2.0;
+    j.axes[0].target = 0.1;
     s.joints.push_back(j);
     const double u = afterHalfAPeriod(s, 2.0, "preset=matched", 1.0 / 1920, [](Simulation& run) {
         return run.state(1).position.x - run.state(0).position.x - 1.0;
@@ -129,7 +139,8 @@ TEST(BulletSprings, AFrequencyIsThatOfTheMomentAboutAnOffsetHinge) {
     Scenario s = weightless();
     const int b = addBody(s, Box{{0.1, 0.1, 0.1}}, {0.7, 0, 0}, 3.0);
     Joint j = joint(JointType::Hinge, scenario::kNone, b, {}, {-0.7, 0, 0}, {0, 0, 1});
-    j.axes[0].frequency = 2.0, j.axes[0].target = 0.1;
+    j.axes[0].frequency = 2.0;
+    j.axes[0].target = 0.1;
     s.joints.push_back(j);
     const double u = afterHalfAPeriod(s, 2.0, "preset=matched", 1.0 / 1920, [](Simulation& run) {
         const Vec3 p = run.state(0).position;
@@ -143,7 +154,9 @@ TEST(BulletSprings, AStiffSpringIsSoftenedByDefaultAlone) {
     Scenario s = weightless();
     const int b = addBody(s, Box{{0.1, 0.1, 0.1}}, {}, 3.0);
     Joint j = joint(JointType::Slider, scenario::kNone, b, {}, {});
-    j.axes[0].stiffness = 3.0 * 900.0, j.axes[0].target = 0.1;  // 30 rad/s = 0.5 per step
+    // 30 rad/s = 0.5 per step
+    j.axes[0].stiffness = 3.0 * 900.0;
+    j.axes[0].target = 0.1;
     s.joints.push_back(j);
     const auto velocityAfterAStep = [&](const char* options) {
         Simulation run(s, 1.0 / 60, options);
@@ -161,8 +174,10 @@ TEST(BulletWheel, SpringsAlongItsStrutAndTurnsWithItsMotor) {
     const int wheel = addBody(s, Sphere{0.3}, {0, 1, 0}, 4.0, even(0.2));
     Joint j = joint(JointType::Wheel, chassis, wheel, {0, -1, 0}, {}, {0, 1, 0});
     j.spinAxisB = {0, 0, 1};
-    j.axes[0].stiffness = 400, j.axes[0].damping = 40;
-    j.axes[1].motorSpeed = 5, j.axes[1].motorMaxForce = 0.4;
+    j.axes[0].stiffness = 400;
+    j.axes[0].damping = 40;
+    j.axes[1].motorSpeed = 5;
+    j.axes[1].motorMaxForce = 0.4;
     s.joints.push_back(j);
     Simulation run(s, 1.0 / 480);
     run.seconds(1);
@@ -181,8 +196,12 @@ TEST(BulletWheel, TurnsAboutASpinAxisThatLeans) {
     s.bodies.back().collides = false;
     Joint j = joint(JointType::Wheel, scenario::kNone, wheel, {0, 1, 0}, {}, {0, 1, 0});
     j.spinAxisB = {0, 0.6, 0.8};
-    j.axes[0].stiffness = 400, j.axes[0].damping = 60, j.axes[0].mode = AxisMode::Free;
-    j.axes[1].motorSpeed = 5, j.axes[1].motorMaxForce = 1, j.axes[1].mode = AxisMode::Free;
+    j.axes[0].stiffness = 400;
+    j.axes[0].damping = 60;
+    j.axes[0].mode = AxisMode::Free;
+    j.axes[1].motorSpeed = 5;
+    j.axes[1].motorMaxForce = 1;
+    j.axes[1].mode = AxisMode::Free;
     s.joints.push_back(j);
     Simulation run(s, 1.0 / 480, "preset=matched");
     run.seconds(4);
@@ -207,8 +226,12 @@ TEST(BulletHinge, StopsBeyondHalfATurnAndOnOneSideAlone) {
             s.bodies.back().collides = false;
             Joint j = joint(JointType::Hinge, scenario::kNone, b, {}, {}, {0, 0, 1});
             j.axes[0] = limits(c.lower, c.upper);
-            j.axes[0].motorSpeed = c.speed, j.axes[0].motorMaxForce = 1.0;
-            if (sprung) j.axes[0].stiffness = 1e-6, j.axes[0].damping = 0.05;
+            j.axes[0].motorSpeed = c.speed;
+            j.axes[0].motorMaxForce = 1.0;
+            if (sprung) {
+                j.axes[0].stiffness = 1e-6;
+                j.axes[0].damping = 0.05;
+            }
             s.joints.push_back(j);
             Simulation run(s, 1.0 / 480, "preset=matched");
             double turned = 0.0;
@@ -235,10 +258,14 @@ TEST(BulletConeTwist, ItsTwistIsDrivenAndSprung) {
         s.bodies.back().collides = false;
         Joint j = joint(JointType::ConeTwist, scenario::kNone, b, {}, {}, {1, 0, 0});
         j.axes[1] = limits(-1e300, 0.5);
-        if (sprung)
-            j.axes[0].stiffness = 20, j.axes[0].damping = 1, j.axes[0].target = 0.4;
-        else
-            j.axes[0].motorSpeed = 2.0, j.axes[0].motorMaxForce = 0.4;
+        if (sprung) {
+            j.axes[0].stiffness = 20;
+            j.axes[0].damping = 1;
+            j.axes[0].target = 0.4;
+        } else {
+            j.axes[0].motorSpeed = 2.0;
+            j.axes[0].motorMaxForce = 0.4;
+        }
         j.axes[0].mode = AxisMode::Free;
         s.joints.push_back(j);
         Simulation run(s, 1.0 / 480, "preset=matched");
@@ -262,7 +289,9 @@ TEST(BulletDampers, StandBesideAMotor) {
     const int b = addBody(s, Sphere{0.1}, {}, 2.0, even(0.1));
     Joint j = joint(JointType::Slider, scenario::kNone, b, {}, {}, {1, 0, 0});
     j.axes[0].mode = AxisMode::Free;
-    j.axes[0].damping = 4.0, j.axes[0].motorSpeed = 10.0, j.axes[0].motorMaxForce = 8.0;
+    j.axes[0].damping = 4.0;
+    j.axes[0].motorSpeed = 10.0;
+    j.axes[0].motorMaxForce = 8.0;
     s.joints.push_back(j);
     Simulation run(s, 1.0 / 480, "preset=matched");
     run.seconds(1);
@@ -285,7 +314,8 @@ TEST(BulletConeTwist, TwistStopsAtBothEndsOfAnUnevenRange) {
             run.steps(1);
             const Quat q = run.state(b).orientation;
             const double twist = 2.0 * std::atan2(q.x, q.w);
-            most = std::max(most, twist), least = std::min(least, twist);
+            most = std::max(most, twist);
+            least = std::min(least, twist);
         }
         EXPECT_NEAR(speed > 0 ? most : least, speed > 0 ? 0.9 : -0.2, 0.02);
     }
@@ -320,7 +350,8 @@ TEST(BulletBreaking, TheForceIsAVectorInMatched) {
     s.joints.push_back(j);
     Simulation matched(s, 0.01), shipped(s, 0.01, "preset=default");
     EXPECT_TRUE(matched.world->jointHolds(0));
-    matched.steps(1), shipped.steps(1);
+    matched.steps(1);
+    shipped.steps(1);
     EXPECT_FALSE(matched.world->jointHolds(0));
     EXPECT_TRUE(shipped.world->jointHolds(0));
     s.joints[0].breakForce = 6.9;
@@ -353,7 +384,9 @@ TEST(BulletBreaking, ATorqueIsThatAboutTheAnchor) {
 TEST(BulletHinge, OnATurningShaftItStaysWithItsOwnAnchors) {
     Scenario s = scene();
     Body shaft;
-    shaft.name = "shaft", shaft.type = BodyType::Kinematic, shaft.angularVelocity = {0, 6, 0};
+    shaft.name = "shaft";
+    shaft.type = BodyType::Kinematic;
+    shaft.angularVelocity = {0, 6, 0};
     s.bodies.push_back(shaft);
     const int rod = addBody(s, Sphere{0.05}, {0.3, -0.4, 0}, 1.0, even(0.001));
     s.bodies[1].velocity = cross(Vec3{0, 6, 0}, Vec3{0.3, -0.4, 0});
@@ -381,7 +414,9 @@ double springForce(double stiffness, double damping, double travel, double speed
     s.bodies[0].velocity = {speed, 0, 0};
     Joint j = joint(JointType::Slider, scenario::kNone, b, {}, {}, {1, 0, 0});
     j.axes[0].mode = scenario::AxisMode::Free;
-    j.axes[0].stiffness = stiffness, j.axes[0].damping = damping, j.axes[0].target = -travel;
+    j.axes[0].stiffness = stiffness;
+    j.axes[0].damping = damping;
+    j.axes[0].target = -travel;
     s.joints.push_back(j);
     Simulation run(s, 0.1);
     run.world->applyForce(b, {other, 0, 0}, {});
@@ -441,7 +476,8 @@ TEST(BulletJointKinds, WhatTheLibraryLacksIsRefused) {
     Joint sprung = joint(JointType::ConeTwist, scenario::kNone, b, {}, {});
     sprung.axes[1].stiffness = 10;
     Joint motored = joint(JointType::Ball, scenario::kNone, b, {}, {});
-    motored.axes[0].motorSpeed = 1, motored.axes[0].motorMaxForce = 1;
+    motored.axes[0].motorSpeed = 1;
+    motored.axes[0].motorMaxForce = 1;
     Joint rod = joint(JointType::Distance, scenario::kNone, b, {0, 1, 0}, {});
     rod.length = 1.0;
     Joint oneSided = joint(JointType::SixDof, scenario::kNone, b, {}, {});

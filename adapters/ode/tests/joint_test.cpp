@@ -20,8 +20,10 @@ Joint jointOf(JointType type, int a, int b, const Vec3& anchorA, const Vec3& anc
     Joint joint;
     joint.name = "joint";
     joint.type = type;
-    joint.bodyA = a, joint.bodyB = b;
-    joint.anchorA = anchorA, joint.anchorB = anchorB;
+    joint.bodyA = a;
+    joint.bodyB = b;
+    joint.anchorA = anchorA;
+    joint.anchorB = anchorB;
     return joint;
 }
 /// A free body at `position` that nothing touches.
@@ -48,7 +50,9 @@ TEST(OdeJoints, ASpringByFrequencySwingsTheReducedMassOfTwoBodies) {
     Joint joint = jointOf(JointType::Distance, a, b, {}, {});
     joint.length = 1.5;
     joint.axes[0].mode = AxisMode::Free;
-    joint.axes[0].frequency = 2.0, joint.axes[0].dampingRatio = 0.1, joint.axes[0].target = 1.2;
+    joint.axes[0].frequency = 2.0;
+    joint.axes[0].dampingRatio = 0.1;
+    joint.axes[0].target = 1.2;
     s.joints.push_back(joint);
     Simulation simulation(s, kStep);
     for (int i = 1; i <= 480; ++i) {
@@ -67,7 +71,9 @@ TEST(OdeJoints, AHingeSpringByFrequencySwingsTheReducedMomentOfTwoBodies) {
     Joint joint = jointOf(JointType::Hinge, a, b, {}, {});
     joint.axisA = joint.axisB = {0, 0, 1};
     joint.axes[0].mode = AxisMode::Free;
-    joint.axes[0].frequency = 2.0, joint.axes[0].dampingRatio = 0.1, joint.axes[0].target = 0.3;
+    joint.axes[0].frequency = 2.0;
+    joint.axes[0].dampingRatio = 0.1;
+    joint.axes[0].target = 0.3;
     s.joints.push_back(joint);
     Simulation simulation(s, kStep);
     const auto turn = [&](int body) {
@@ -88,8 +94,10 @@ TEST(OdeJoints, AHingeStopsBeyondAWholeTurn) {
     Joint joint = jointOf(JointType::Hinge, scenario::kNone, b, {}, {});
     joint.axisA = joint.axisB = {0, 0, 1};
     joint.axes[0].mode = AxisMode::Limited;
-    joint.axes[0].lower = -1.0, joint.axes[0].upper = 8.0;
-    joint.axes[0].motorSpeed = 4.0, joint.axes[0].motorMaxForce = 2.0;
+    joint.axes[0].lower = -1.0;
+    joint.axes[0].upper = 8.0;
+    joint.axes[0].motorSpeed = 4.0;
+    joint.axes[0].motorMaxForce = 2.0;
     s.joints.push_back(joint);
     Simulation simulation(s, kStep);
     double turned = 0.0;
@@ -116,8 +124,11 @@ TEST(OdeJoints, SpringsStandBesideLimitsAndMotors) {
         Joint joint = jointOf(type, scenario::kNone, b, {}, {});
         joint.axisA = joint.axisB = {0, 0, 1};
         joint.axes[0].mode = AxisMode::Limited;
-        joint.axes[0].lower = -1.0, joint.axes[0].upper = 0.25;
-        joint.axes[0].stiffness = 300.0, joint.axes[0].damping = 10.0, joint.axes[0].target = 0.4;
+        joint.axes[0].lower = -1.0;
+        joint.axes[0].upper = 0.25;
+        joint.axes[0].stiffness = 300.0;
+        joint.axes[0].damping = 10.0;
+        joint.axes[0].target = 0.4;
         s.joints.push_back(joint);
         Simulation simulation(s, kStep);
         double furthest = 0.0;
@@ -145,7 +156,8 @@ TEST(OdeJoints, ACompoundOfBallAndUserModeMotorIsACone) {
         Joint joint = jointOf(JointType::ConeTwist, scenario::kNone, b, {}, {-0.5, 0, 0});
         joint.axisA = joint.axisB = {1, 0, 0};
         joint.axes[0].mode = AxisMode::Limited;
-        joint.axes[0].lower = -0.2, joint.axes[0].upper = 0.3;
+        joint.axes[0].lower = -0.2;
+        joint.axes[0].upper = 0.3;
         joint.axes[1].mode = AxisMode::Limited;
         joint.axes[1].upper = 0.6;
         s.joints.push_back(joint);
@@ -172,8 +184,10 @@ TEST(OdeJoints, SixDofTurnsStopAtTheirLimits) {
     joint.axisA = joint.axisB = {1, 0, 0};
     joint.normalA = {0, 1, 0};
     joint.axes[4].mode = joint.axes[5].mode = AxisMode::Limited;
-    joint.axes[4].lower = -0.5, joint.axes[4].upper = 0.3;
-    joint.axes[5].lower = -0.2, joint.axes[5].upper = 0.7;
+    joint.axes[4].lower = -0.5;
+    joint.axes[4].upper = 0.3;
+    joint.axes[5].lower = -0.2;
+    joint.axes[5].upper = 0.7;
     s.joints.push_back(joint);
     Simulation simulation(s, kStep);
     for (int i = 0; i < 1440; ++i) {
@@ -199,8 +213,11 @@ TEST(OdeJoints, ContactRowsHoldSpringAndDrive) {
     joint.axisA = joint.axisB = {1, 0, 0};
     joint.normalA = {0, 1, 0};
     joint.axes[0].mode = joint.axes[2].mode = AxisMode::Free;
-    joint.axes[0].motorSpeed = 1.0, joint.axes[0].motorMaxForce = 4.0;
-    joint.axes[2].frequency = 2.0, joint.axes[2].dampingRatio = 0.1, joint.axes[2].target = -0.3;
+    joint.axes[0].motorSpeed = 1.0;
+    joint.axes[0].motorMaxForce = 4.0;
+    joint.axes[2].frequency = 2.0;
+    joint.axes[2].dampingRatio = 0.1;
+    joint.axes[2].target = -0.3;
     s.joints.push_back(joint);
     Simulation simulation(s, kStep);
     for (int i = 1; i <= 240; ++i) {
@@ -221,12 +238,17 @@ TEST(OdeJoints, ContactRowsPushBothBodiesAtOnePoint) {
         s.bodies[0].angularVelocity = {0, 0, 1.0};
         Joint joint = turned ? jointOf(JointType::SixDof, b, a, {-0.4, 0.3, 0}, {0.6, 0.5, 0})
                              : jointOf(JointType::SixDof, a, b, {0.6, 0.5, 0}, {-0.4, 0.3, 0});
-        joint.axisA = joint.axisB = {1, 0, 0}, joint.normalA = {0, 1, 0};
+        joint.axisA = joint.axisB = {1, 0, 0};
+        joint.normalA = {0, 1, 0};
         joint.axes[0].mode = AxisMode::Limited;
-        joint.axes[0].lower = -0.05, joint.axes[0].upper = 0.1;
-        joint.axes[0].motorSpeed = -0.5, joint.axes[0].motorMaxForce = 2.0;
+        joint.axes[0].lower = -0.05;
+        joint.axes[0].upper = 0.1;
+        joint.axes[0].motorSpeed = -0.5;
+        joint.axes[0].motorMaxForce = 2.0;
         joint.axes[1].mode = joint.axes[5].mode = AxisMode::Free;
-        joint.axes[1].stiffness = 50.0, joint.axes[1].damping = 1.0, joint.axes[1].target = 0.1;
+        joint.axes[1].stiffness = 50.0;
+        joint.axes[1].damping = 1.0;
+        joint.axes[1].target = 0.1;
         s.joints.push_back(joint);
         Simulation simulation(s, kStep);
         double last = 0.0, highest = 0.0;
@@ -240,7 +262,8 @@ TEST(OdeJoints, ContactRowsPushBothBodiesAtOnePoint) {
             const BodyState &first = turned ? B : A, &second = turned ? A : B;
             const Vec3 offset =
                 rotateInverse(first.orientation, at(second, joint.anchorB) - at(first, joint.anchorA));
-            last = offset.x, highest = std::max(highest, offset.y);
+            last = offset.x;
+            highest = std::max(highest, offset.y);
             ASSERT_NEAR(offset.z, 0.0, 1e-6);
             ASSERT_GT(offset.x, -0.06);
         }
@@ -256,8 +279,10 @@ TEST(OdeJoints, AMotorAlongADistanceWindsItIn) {
     Joint joint = jointOf(JointType::Distance, scenario::kNone, b, {}, {});
     joint.length = 1.0;
     joint.axes[0].mode = AxisMode::Limited;
-    joint.axes[0].lower = 0.6, joint.axes[0].upper = 1.0;
-    joint.axes[0].motorSpeed = -0.5, joint.axes[0].motorMaxForce = 2.0 * 9.81 + 1.0;
+    joint.axes[0].lower = 0.6;
+    joint.axes[0].upper = 1.0;
+    joint.axes[0].motorSpeed = -0.5;
+    joint.axes[0].motorMaxForce = 2.0 * 9.81 + 1.0;
     s.joints.push_back(joint);
     Simulation simulation(s, kStep);
     for (int i = 1; i <= 960; ++i) {
@@ -276,10 +301,14 @@ TEST(OdeJoints, ASuspensionIsDrivenToItsStop) {
     Scenario s = scene();
     const int b = addFree(s, {0, 1, 0}, 2.0, even(0.1));
     Joint joint = jointOf(JointType::Wheel, scenario::kNone, b, {0, 1, 0}, {});
-    joint.axisA = joint.axisB = {0, 1, 0}, joint.spinAxisB = {0, 0, 1};
-    joint.axes[0].mode = AxisMode::Limited, joint.axes[1].mode = AxisMode::Free;
-    joint.axes[0].lower = -0.1, joint.axes[0].upper = 0.3;
-    joint.axes[0].motorSpeed = 0.5, joint.axes[0].motorMaxForce = 2.0 * 9.81 + 4.0;
+    joint.axisA = joint.axisB = {0, 1, 0};
+    joint.spinAxisB = {0, 0, 1};
+    joint.axes[0].mode = AxisMode::Limited;
+    joint.axes[1].mode = AxisMode::Free;
+    joint.axes[0].lower = -0.1;
+    joint.axes[0].upper = 0.3;
+    joint.axes[0].motorSpeed = 0.5;
+    joint.axes[0].motorMaxForce = 2.0 * 9.81 + 4.0;
     s.joints.push_back(joint);
     Simulation simulation(s, kStep);
     simulation.steps(60);
@@ -301,7 +330,9 @@ TEST(OdeJoints, AWheelOfAMovingChassisIsNotTurnedByItsSpring) {
     joint.axisA = joint.axisB = {0, 1, 0};
     joint.spinAxisB = {0, 0, 1};
     joint.axes[0].mode = joint.axes[1].mode = AxisMode::Free;
-    joint.axes[0].stiffness = 500.0, joint.axes[0].damping = 20.0, joint.axes[0].target = -0.1;
+    joint.axes[0].stiffness = 500.0;
+    joint.axes[0].damping = 20.0;
+    joint.axes[0].target = -0.1;
     s.joints.push_back(joint);
     Simulation simulation(s, kStep);
     double turned = 0.0;

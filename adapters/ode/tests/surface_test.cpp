@@ -76,8 +76,10 @@ TEST(OdeSurfaces, APolygonLiesOnALoopedChain) {
 TEST(OdeSurfaces, AHeightFieldStandsWhereItsFrameSays) {
     Scenario s = scene(0.5);
     HeightField field;
-    field.columns = 5, field.rows = 4;
-    field.spacingX = 1.0, field.spacingZ = 0.5;
+    field.columns = 5;
+    field.rows = 4;
+    field.spacingX = 1.0;
+    field.spacingZ = 0.5;
     for (int k = 0; k < 4; ++k)
         for (int i = 0; i < 5; ++i) field.heights.push_back(0.3 * i);  // rises along x alone
     addStatic(s, field, {10, 1, 0});
@@ -118,7 +120,8 @@ TEST(OdeSurfaces, AnEdgeHasTheNormalOfItsFace) {
     const Geometry open = scenario::Chain{{{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, false}, disc = Sphere{0.5};
     adapter::CollisionQuery query;
     query.dimension = 2;
-    query.a = {&open, {}}, query.b = {&disc, {{1.3, 0.3, 0}, {}}};
+    query.a = {&open, {}};
+    query.b = {&disc, {{1.3, 0.3, 0}, {}}};
     const auto answer = engine().collision()->collide(query);
     ASSERT_EQ(answer.contacts.size(), 1u);
     EXPECT_NEAR(norm(answer.contacts[0].normal - Vec3{0, 1, 0}), 0.0, 1e-6);

@@ -23,7 +23,8 @@ TEST(PlainBox2d, Rope) {
     b2Body* ground = makeBody(world, b2_staticBody, {0.0f, 0.0f});
     b2Body* bob = makeBob(world, {static_cast<float>(0.8660254037844386), 0.25f}, 1.0f, 0.005f);
     b2DistanceJointDef def;
-    def.bodyA = ground, def.bodyB = bob;
+    def.bodyA = ground;
+    def.bodyB = bob;
     def.length = def.maxLength = 1.0f;
     def.minLength = 0.0f;
     world.CreateJoint(&def);
@@ -41,7 +42,8 @@ TEST(PlainBox2d, DistanceSpring) {
     b2Body* ground = makeBody(world, b2_staticBody, {0.0f, 0.0f});
     b2Body* weight = makeBob(world, {0.0f, -1.4f}, 2.0f, 0.01f);
     b2DistanceJointDef def;
-    def.bodyA = ground, def.bodyB = weight;
+    def.bodyA = ground;
+    def.bodyB = weight;
     def.length = 1.0f;
     def.minLength = 0.0f;
     def.maxLength = b2_maxFloat;

@@ -29,8 +29,10 @@ TEST(PlainOde, ABodyIsMovedBeforeItIsDamped) {
             EXPECT_NEAR(states[0].position.y, y, 1e-13);
             EXPECT_NEAR(states[0].velocity.y, vy, 1e-12);
             vy -= h * 9.81;
-            x += h * vx, y += h * vy;
-            vx *= std::pow(kept, h), vy *= std::pow(kept, h);
+            x += h * vx;
+            y += h * vy;
+            vx *= std::pow(kept, h);
+            vy *= std::pow(kept, h);
         }
         const Trajectory adapter = adapterRun("ode:preset=default", scene, h, 90);
         for (std::size_t i = 0; i < plain.size(); ++i) {
