@@ -64,8 +64,8 @@ struct Cell {
 
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
-/// The relative error that the grade rests on over other engines' at the same time step; of scenarios that nobody
-/// has a grade for the main metric. Errors within grade A count as its limit: what is exact to rounding does not
+/// The relative error that the grade rests on over other engines' at the same time step; where no
+/// engine has a grade, the main metric. Errors within grade A count as its limit: what is exact to rounding does not
 /// make the next one look 1e9 times worse.
 struct Ratios {
     double toBest = kNoNumber;  ///< over the smallest

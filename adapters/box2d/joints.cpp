@@ -121,7 +121,7 @@ b2Joint* addDistance(b2World& world, const Joint& joint, const Ends& ends, doubl
             if (n.Normalize() <= b2_linearSlop)
                 unsupported(joint, "spring between anchors that coincide",
                             "b2_distance_joint.h, m_minLength: at least b2_linearSlop");
-            // Of a damper alone the target says nothing.
+            // A damper without a spring has no use for the target.
             if (sprung) def.length = static_cast<float>(scale * axis.target);
             setSpring(axis, mobilityOf(ends, along(ends, n)), 1.0, def.stiffness, def.damping);
         } else {

@@ -70,7 +70,7 @@ class Articulations {
         btTransform pose = btTransform::getIdentity();
         btVector3 velocity{0, 0, 0}, angularVelocity{0, 0, 0};
     };
-    /// Of a hinge or slider of the tree; q is Bullet's coordinate of the link.
+    /// Spring of a hinge or slider of the tree; q is Bullet's coordinate of the link.
     struct Spring {
         btMultiBody* multiBody = nullptr;
         int index = 0;

@@ -32,7 +32,7 @@ class Islands {
     std::span<const BodyId> bodies(std::size_t k) const {
         return {ids_.data() + starts_[k], starts_[k + 1] - starts_[k]};
     }
-    /// Of a body by dense index; kNullIndex for bodies that are in none.
+    /// Island of the body with this dense index; kNullIndex where it is in none.
     std::uint32_t islandOf(std::uint32_t body) const {
         return body < island_.size() ? island_[body] : kNullIndex;
     }

@@ -138,10 +138,11 @@ class BallOffBall : public Reference {
         Real sign = slips ? (slipOf(y) > 0 ? 1 : -1) : (y[0] >= 0 ? 1 : -1);
         int stops = 0;
         while (t < end) {
-            const Real rubbing = mu_ * sign;
+            const Real sliding = mu_ * sign;
             const auto rhs = [=, this](Real, const OdeState& s, OdeState& d) {
-                const Real rub = rolls ? needOf(s) : rubbing * loadOf(s);
-                d = {s[1], (pull_ * std::sin(s[0]) - rub) / distance_, s[3], rub / (ball_.k * ball_.radius)};
+                const Real friction = rolls ? needOf(s) : sliding * loadOf(s);
+                d = {s[1], (pull_ * std::sin(s[0]) - friction) / distance_, s[3],
+                     friction / (ball_.k * ball_.radius)};
             };
             // In pieces: beyond the separation the equations of the contact soon mean nothing.
             const double until = std::min({end, t + end / 48, t + static_cast<double>(1 / natural)});

@@ -179,7 +179,7 @@ class RunInProgress {
         return static_cast<double>(1 + kConvergedSteps + 2 * options_.pieces.size());
     }
 
-    /// What every child of a case is told. `name`: of its files in the scratch folder.
+    /// Request to every child of a case. `name`: the stem of its files in the scratch folder.
     nlohmann::json requestOf(const CasePlan& c, const ReferenceCheck& reference,
                              const std::string& name) const {
         nlohmann::json asked{{"id", c.id},

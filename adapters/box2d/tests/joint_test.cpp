@@ -157,7 +157,7 @@ TEST(Box2dBreaks, BodiesThatAJointKeptApartTouchAfterwards) {
     }
 }
 
-/// Of a damper alone the target says nothing: a length of zero, which Box2D does not take, is none.
+/// A damper without a spring needs no target: Box2D, which refuses a length of zero, keeps its own.
 TEST(Box2dSprings, ADamperAlongADistanceNeedsNoLength) {
     Scenario s = plane();
     s.gravity = {};

@@ -9,7 +9,7 @@
 namespace rigor::adapter {
 namespace {
 
-/// One particle whose future hangs on a number that nobody can read or set: a push acts on what all earlier
+/// One particle whose future hangs on a number without getter or setter: a push acts on what all earlier
 /// steps have left there.
 class SecretWorld : public World, public StateSetting {
   public:

@@ -21,7 +21,7 @@ class Heights {
 
     template <class S>
     Shape<S> shape(Ground kind) const;
-    /// Of the ground over (x, z) [m]; z is 0 in 2D. Clamped to the border.
+    /// Height of the ground over (x, z) [m], clamped to the border; z is 0 in 2D.
     double at(double x, double z) const {
         double slopeX = 0, slopeZ = 0;
         return at(x, z, slopeX, slopeZ);

@@ -133,7 +133,7 @@ TEST(StaticFriction, EveryForceOnABallThatRollsOffABallIsOneThatItsContactCanGiv
             if (norm(w.com) > 1.1 + 1e-9) break;
             const double load = dot(w.force, n);
             const auto e = r->exact(1, t);
-            const Vec3 rub = w.force - load * n, slip = *e.velocity + cross(*e.angularVelocity, arm);
+            const Vec3 friction = w.force - load * n, slip = *e.velocity + cross(*e.angularVelocity, arm);
             // Differences across a change from rolling to slipping mean nothing.
             const auto slipAt = [&](double at) {
                 const auto x = r->exact(1, at);
@@ -143,9 +143,9 @@ TEST(StaticFriction, EveryForceOnABallThatRollsOffABallIsOneThatItsContactCanGiv
             ++checked;
             EXPECT_GT(load, -1e-6);
             if (norm(slip) < 1e-9)
-                EXPECT_LE(norm(rub), std::max(c.sliding, c.holding) * load + 1e-5) << t;
+                EXPECT_LE(norm(friction), std::max(c.sliding, c.holding) * load + 1e-5) << t;
             else
-                EXPECT_LT(norm(rub + (c.sliding * load / norm(slip)) * slip), 1e-5) << t;
+                EXPECT_LT(norm(friction + (c.sliding * load / norm(slip)) * slip), 1e-5) << t;
         }
         EXPECT_GT(checked, 20);
     }

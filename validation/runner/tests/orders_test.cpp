@@ -109,7 +109,7 @@ TEST_F(Orders, AreNotRunUnlessAskedFor) {
     EXPECT_FALSE(positionFinal(row).orderMin || positionFinal(row).orderMax || positionFinal(row).orderCount);
 }
 
-/// What another order ends as is told, is the worst grade, and takes nothing from the order as written.
+/// The ending of another order is reported and counts as the worst grade; the order as written keeps its own.
 TEST_F(Orders, ThatCrashAreToldAndLeaveTheCaseAlone) {
     RunOptions o = options();
     o.orders = 2;

@@ -202,7 +202,7 @@ TEST(StudyFiles, CsvHasEveryValueWithAllDigits) {
     EXPECT_EQ(stored.at("symptoms").size(), 1u);
 }
 
-/// What is not finite is told, and leaves field and value empty.
+/// A value that is not finite is named in its own column and leaves its field empty.
 TEST(StudyFiles, HaveNoTextAmongNumbers) {
     const double inf = std::numeric_limits<double>::infinity();
     const StudyPlan plan = planOf(symptomOnly());
