@@ -138,7 +138,7 @@ void appendParts(const adapter::Capabilities& capabilities, Json& list) {
         list.push_back(
             partJson("joint", joint.name, joint.summary, "joints[].type of a scenario; World::addJoint"));
     for (const auto& [name, summary, asked] :
-         {std::tuple{"ray_cast", "first or every shape that a ray meets", "engine/queries/ray_cast.hpp"},
+         {std::tuple{"ray_cast", "first or every shape that a ray meets", "engine/shapes/ray_cast.hpp"},
           std::tuple{"shape_cast", "first shape that a moving shape meets", "engine/queries/shape_cast.hpp"},
           std::tuple{"overlap", "shapes that overlap a shape or box", "engine/queries/world_queries.hpp"},
           std::tuple{"closest_points", "nearest points of a shape and the world's",

@@ -37,7 +37,7 @@
 #include "engine/ccd/impact.hpp"
 #include "engine/ccd/time_of_impact.hpp"
 #include "engine/ccd/traits.hpp"
-#include "engine/pipeline/contact_set.hpp"
+#include "engine/contacts/contact_set.hpp"
 #include "engine/state/sleep.hpp"
 
 namespace rigor::engine {

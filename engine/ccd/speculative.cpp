@@ -32,7 +32,7 @@
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/ccd/time_of_impact.hpp"
 #include "engine/ccd/traits.hpp"
-#include "engine/pipeline/contact_set.hpp"
+#include "engine/contacts/contact_set.hpp"
 
 namespace rigor::engine {
 namespace {

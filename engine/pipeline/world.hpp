@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/contacts/contact_set.hpp"
 #include "engine/integrators/motion.hpp"
-#include "engine/pipeline/contact_set.hpp"
 #include "engine/pipeline/events.hpp"
 #include "engine/pipeline/joint_set.hpp"
 #include "engine/pipeline/step_positions.hpp"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "engine/pipeline/world.hpp"
-#include "engine/queries/ray_cast.hpp"
+#include "engine/shapes/ray_cast.hpp"
 #include "engine/shapes/static_tree.hpp"
 
 namespace rigor::engine {

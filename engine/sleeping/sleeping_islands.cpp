@@ -17,7 +17,7 @@
 // Cost: O(bodies + contacts) per step. Limits: the kinetic energy at falling asleep, at most
 // (m linearVelocity^2 + I angularVelocity^2) / 2 per body, is lost; slower creep than the thresholds stops;
 // a body held up at the highest point of its way for longer than timeToSleep, without contact, sleeps there.
-#include "engine/pipeline/contact_set.hpp"
+#include "engine/contacts/contact_set.hpp"
 #include "engine/sleeping/sleeping.hpp"
 
 namespace rigor::engine {

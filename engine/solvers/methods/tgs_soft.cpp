@@ -13,7 +13,7 @@
 //     relax       one more iteration, rigid and without what the errors asked for: the pushing velocity has
 //                 done its work and is taken out again, the impulses keep the load
 // Contacts are found once per step; their separations follow the motion to first order. Restitution is a
-// target of the rows of the sub-step in which an impact occurs (contact_set.cpp), kept by the relaxation,
+// target of the rows of the sub-step in which an impact occurs (contact_rows.cpp), kept by the relaxation,
 // where [Catto2024] applies it after the last sub-step.
 //
 // substeps and velocity_iterations 0 mean 8 and 1 ([Catto2024] has 4). Cost per step: substeps * 2 * rows.

@@ -25,7 +25,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/pipeline/contact_set.hpp"
+#include "engine/contacts/contact_set.hpp"
 
 namespace rigor::engine {
 namespace {

@@ -4,7 +4,7 @@
 // Materials, the broad phase, and the list of contacts. Contacts keep their slot from step to step; only
 // those that begin or end cost more than updating their points (contact_find.cpp). Rows: contact_rows.cpp;
 // events: contact_events.cpp.
-#include "engine/pipeline/contact_set.hpp"
+#include "engine/contacts/contact_set.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Answers of the narrow phase that are kept (pipeline/contact_reuse.cpp): against asking again, and through
+// Answers of the narrow phase that are kept (contacts/contact_reuse.cpp): against asking again, and through
 // everything that happens to a world.
 #include <gtest/gtest.h>
 

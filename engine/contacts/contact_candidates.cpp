@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/contacts/contact_set.hpp"
 #include "engine/narrowphase/surface_contact.hpp"
-#include "engine/pipeline/contact_set.hpp"
 
 namespace rigor::engine {
 

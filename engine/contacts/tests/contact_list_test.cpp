@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/pipeline/slot_list.hpp"
+#include "engine/contacts/slot_list.hpp"
 #include "engine/pipeline/world.hpp"
 
 namespace rigor::engine::test {

@@ -17,7 +17,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/pipeline/contact_set.hpp"
+#include "engine/contacts/contact_set.hpp"
 
 namespace rigor::engine {
 namespace {

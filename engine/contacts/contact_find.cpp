@@ -3,7 +3,7 @@
 //
 // Update of one contact: manifold from the poses of two shapes, and impulses from the points of the last
 // step.
-#include "engine/pipeline/contact_set.hpp"
+#include "engine/contacts/contact_set.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "engine/pipeline/surface_sides.hpp"
+#include "engine/contacts/surface_sides.hpp"
 
-#include "engine/pipeline/contact_set.hpp"
-#include "engine/queries/ray_cast.hpp"
+#include "engine/contacts/contact_set.hpp"
+#include "engine/shapes/ray_cast.hpp"
 
 namespace rigor::engine {
 namespace {

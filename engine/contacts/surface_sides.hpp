@@ -12,7 +12,7 @@
 //
 // The body is moved by as much; its velocity stays: the contacts of the next step see to that. Each way from
 // p is free by construction, so that the side of a shape follows from where it is. Rays hit the surface
-// without gaps between its pieces (queries/ray_cast.cpp). Cost: a ray for each shape whose way in this step
+// without gaps between its pieces (shapes/ray_cast.cpp). Cost: a ray for each shape whose way in this step
 // is near a surface; a box for each other shape and surface.
 #pragma once
 

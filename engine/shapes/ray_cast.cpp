@@ -15,7 +15,7 @@
 // to both, widened by rounding; and d . (a x b) is exactly -d . (b x a), so that both of them agree on which
 // side of theirs a ray passes, as in [Woop2013]: nothing passes between them, slivers or not. Cost: O(1);
 // O(faces) of hulls; O(log n + pieces met) of composites.
-#include "engine/queries/ray_cast.hpp"
+#include "engine/shapes/ray_cast.hpp"
 
 #include <cmath>
 

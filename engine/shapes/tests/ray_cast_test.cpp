@@ -4,7 +4,7 @@
 // Rays against every kind of shape. Oracle: walking along the ray by the distance to the shape (sphere
 // tracing with closestPoints), which shares nothing with the closed forms; for composites, the nearest of all
 // pieces.
-#include "engine/queries/ray_cast.hpp"
+#include "engine/shapes/ray_cast.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/pipeline/contact_set.hpp"
+#include "engine/contacts/contact_set.hpp"
 #include "engine/solvers/wide/patches.hpp"
 
 namespace rigor::engine {
