@@ -37,7 +37,6 @@
 #include "engine/ccd/impact.hpp"
 #include "engine/ccd/time_of_impact.hpp"
 #include "engine/ccd/traits.hpp"
-#include "engine/contacts/contact_set.hpp"
 #include "engine/state/sleep.hpp"
 
 namespace rigor::engine {
@@ -163,7 +162,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
     }
 
     void searchFrom(const MovedWorld<S>& world, std::uint32_t body, Real time, std::uint32_t other) {
-        const auto& shapes = world.contacts.shapes();
+        const ShapeSet<S>& shapes = world.contacts.shapes();
         const auto count = static_cast<std::uint32_t>(shapes.size());
         const Real rest = world.h - time;
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -179,12 +178,12 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
 
     void addCandidate(const MovedWorld<S>& world, std::uint32_t i, std::uint32_t j, Real time) {
         const std::uint32_t bi = bodyOf(world, i), bj = bodyOf(world, j);
-        if (!world.contacts.mayCollide(world.bodies, bi, bj)) return;
+        if (!world.contacts.filter().mayCollide(world.bodies, bi, bj)) return;
         Candidate c{bi < bj ? i : j, bi < bj ? j : i, {}};
         const MovingShape<S> a = moving(world, c.a, time), b = moving(world, c.b, time);
         const Real rest = world.h - time;
         if (!mayPassUnseen<S>(a, b, rest)) return;
-        c.impact = timeOfImpact<S>(a, b, rest, world.contacts.hasRows(c.a, c.b));
+        c.impact = timeOfImpact<S>(a, b, rest, hasRows<S>(world.contacts.list(), c.a, c.b));
         if (!c.impact.hit) return;
         c.impact.time += time;
         c.impact.exact += time;
@@ -194,7 +193,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
     /// False: a body has had its share of impacts and stays behind.
     bool collide(const MovedWorld<S>& world, const Candidate& hit, std::vector<ImpactEvent<S>>& events) {
         BodyArrays<S>& bodies = world.bodies;
-        const auto& shapes = world.contacts.shapes();
+        const ShapeSet<S>& shapes = world.contacts.shapes();
         const std::uint32_t a = shapes[hit.a].body, b = shapes[hit.b].body;
         const Real t = hit.impact.time, rest = world.h - t;
         Manifold<S> manifold;
@@ -205,7 +204,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         for (const std::uint32_t i : {a, b}) wakeBody(bodies, i);
         for (const std::uint32_t i : {a, b}) goTo(world, i, t);
         impactSolver_.begin(bodies, a, b, manifold,
-                            world.contacts.pair(shapes[hit.a].material, shapes[hit.b].material));
+                            world.contacts.materials().pair(shapes[hit.a].material, shapes[hit.b].material));
         const Real impulse = impactSolver_.solve(bodies, world.friction, world.restitutionThreshold, true);
         for (const std::uint32_t i : {a, b}) {
             if (bodies.invMass[i] == 0) continue;

@@ -10,17 +10,14 @@
 #include <vector>
 
 #include "engine/ccd/moving_shape.hpp"
+#include "engine/contacts/contacts.hpp"
+#include "engine/contacts/look_ahead.hpp"
 #include "engine/core/table.hpp"
 #include "engine/integrators/motion.hpp"
 #include "engine/narrowphase/manifold.hpp"
 #include "engine/solvers/solver.hpp"
 
 namespace rigor::engine {
-
-template <class S>
-class ContactSet;
-template <class S>
-struct Contact;
 
 /// A collision inside a step, at its own time.
 template <class S>
@@ -37,7 +34,7 @@ template <class S>
 struct MovedWorld {
     using Real = typename S::Real;
     BodyArrays<S>& bodies;
-    const ContactSet<S>& contacts;
+    const Contacts<S>& contacts;
     Motion<S>& motion;
     const NarrowPhase<S>& narrowPhase;
     FrictionLaw<S> friction;
@@ -47,27 +44,19 @@ struct MovedWorld {
 };
 
 template <class S>
-class ContinuousCollision {
+class ContinuousCollision : public LookAhead<S> {
   public:
     using Real = typename S::Real;
-    virtual ~ContinuousCollision() = default;
     virtual std::unique_ptr<ContinuousCollision> clone() const = 0;
 
     // --- when contacts are found, once per step
-    /// True: boxes are to be grown, and pairs asked about, by the functions below.
-    virtual bool looksAhead() const { return false; }
-    /// Before the others: `h` of the whole step.
-    virtual void predict(const BodyArrays<S>& bodies, const ContactSet<S>& contacts,
+    /// Before the functions of LookAhead: `h` of the whole step.
+    virtual void predict(const BodyArrays<S>& bodies, std::span<const ShapeRecord<S>> shapes,
                          const typename S::Vec& gravity, Real h) {
-        (void)bodies, (void)contacts, (void)gravity, (void)h;
-    }
-    /// The box of a shape that may move, grown by its way ahead.
-    virtual void growBox(std::uint32_t shape, Aabb<S>& box) const { (void)shape, (void)box; }
-    /// The contact of two shapes that the narrow phase has (count > 0) or has not found where they are: sets
-    /// Contact::speculative, and the manifold, separations and arms of a contact further ahead.
-    virtual void findAhead(Contact<S>& contact, const BodyArrays<S>& bodies, const ContactSet<S>& contacts,
-                           const NarrowPhase<S>& narrowPhase) const {
-        (void)contact, (void)bodies, (void)contacts, (void)narrowPhase;
+        (void)bodies;
+        (void)shapes;
+        (void)gravity;
+        (void)h;
     }
 
     // --- around the move, once per sub-step
@@ -78,7 +67,8 @@ class ContinuousCollision {
     /// After the bodies have moved. Events are appended in the order of time; does what it says to poses and
     /// velocities. False: it had to leave a body behind.
     virtual bool resolve(const MovedWorld<S>& world, std::vector<ImpactEvent<S>>& events) {
-        (void)world, (void)events;
+        (void)world;
+        (void)events;
         return true;
     }
 };

@@ -17,7 +17,7 @@
 // corner.
 //
 // Restitution: the body stops at the surface with the step's end, and then gets its rebound
-// e times the approach of before (ContactSet::applySpeculativeRestitution, in the relaxation after the move).
+// e times the approach of before (RowContacts::applySpeculativeRestitution, in the relaxation after the move).
 //
 // An impact off the centre of mass makes the body spin, and the rest of its way in the step carries it round
 // the point that the row holds. So the way of a speculative contact is checked again after the move: where it
@@ -32,7 +32,6 @@
 #include "engine/ccd/continuous_collision.hpp"
 #include "engine/ccd/time_of_impact.hpp"
 #include "engine/ccd/traits.hpp"
-#include "engine/contacts/contact_set.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -48,10 +47,9 @@ class Speculative final : public ContinuousCollision<S> {
     }
     bool looksAhead() const override { return true; }
 
-    void predict(const BodyArrays<S>& bodies, const ContactSet<S>& contacts, const Vec& gravity,
+    void predict(const BodyArrays<S>& bodies, std::span<const ShapeRecord<S>> shapes, const Vec& gravity,
                  Real h) override {
         h_ = h;
-        const auto& shapes = contacts.shapes();
         moving_.resize(shapes.size());
         for (std::size_t i = 0; i < shapes.size(); ++i) {
             const std::uint32_t body = shapes[i].body;
@@ -70,13 +68,12 @@ class Speculative final : public ContinuousCollision<S> {
         box = {box.min.cwiseMin(swept.min), box.max.cwiseMax(swept.max)};
     }
 
-    void findAhead(Contact<S>& contact, const BodyArrays<S>& bodies, const ContactSet<S>& contacts,
+    void findAhead(Contact<S>& contact, std::span<const ShapeRecord<S>> shapes,
                    const NarrowPhase<S>& narrowPhase) const override {
-        (void)bodies;
         MovingShape<S> a = moving_[contact.shapeA], b = moving_[contact.shapeB];
         // The world may have been copied since predict().
-        a.shape = &contacts.shapes()[contact.shapeA].shape;
-        b.shape = &contacts.shapes()[contact.shapeB].shape;
+        a.shape = &shapes[contact.shapeA].shape;
+        b.shape = &shapes[contact.shapeB].shape;
         contact.speculative = mayPassUnseen<S>(a, b, h_);
         if (!contact.speculative || contact.manifold.count > 0) return;
         const TimeOfImpact<S> impact = timeOfImpact<S>(a, b, h_);
@@ -102,7 +99,7 @@ class Speculative final : public ContinuousCollision<S> {
     }
 
     bool resolve(const MovedWorld<S>& world, std::vector<ImpactEvent<S>>&) override {
-        const auto& shapes = world.contacts.shapes();
+        const ShapeSet<S>& shapes = world.contacts.shapes();
         const auto moved = [&](std::uint32_t shape) {
             const ShapeRecord<S>& record = shapes[shape];
             const std::uint32_t i = record.body;
@@ -111,7 +108,7 @@ class Speculative final : public ContinuousCollision<S> {
             return MovingShape<S>{&record.shape,         record.local,          starts_[i], v,
                                   record.boundingRadius, record.inscribedRadius};
         };
-        for (const Contact<S>& contact : world.contacts.contacts()) {
+        for (const Contact<S>& contact : world.contacts.list()) {
             if (!contact.speculative) continue;
             const MovingShape<S> a = moved(contact.shapeA), b = moved(contact.shapeB);
             const TimeOfImpact<S> impact = timeOfImpact<S>(a, b, world.h, true);

@@ -1,32 +1,18 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Records of a world: a shape, and the contact of two shapes.
+// The contact of two shapes: what the narrow phase found, what the solver starts with, and what it did.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
+#include "engine/contacts/slot_list.hpp"
 #include "engine/core/ids.hpp"
-#include "engine/core/prefetch.hpp"
 #include "engine/narrowphase/manifolds.hpp"
 #include "engine/state/world_def.hpp"
 
 namespace rigor::engine {
-
-/// A shape of a body; the dense index is its broad-phase proxy.
-template <class S>
-struct ShapeRecord {
-    Shape<S> shape;
-    Pose<S> local;           ///< in the frame at the body's centre of mass
-    std::uint32_t body = 0;  ///< dense index
-    std::uint32_t material = 0;
-    ShapeId id;
-    /// Bounding radius of the core about the centre of mass, and inscribed radius (ccd/moving_shape.hpp) [m].
-    typename S::Real boundingRadius = 0, inscribedRadius = 0;
-    typename S::Real radius = 0;              ///< bounding radius about the shape's own origin [m]
-    typename S::Vec middle = S::Vec::Zero();  ///< a point well inside, in the frame of the shape [m]
-};
 
 /// Contact of two shapes that touch or nearly do. A is the body of lower index. A large world reads all
 /// contacts three times per step, from memory: the fields that a contact with a cached manifold, solved as a
@@ -84,5 +70,33 @@ typename S::Vec impulsePoint(const ManifoldPoint<S>& where, bool movesA, bool mo
     if (!movesA) return where.pointB;
     return typename S::Real(0.5) * (where.pointA + where.pointB);
 }
+
+/// The contacts of a world, sorted by shape pair and piece.
+template <class S>
+using ContactList = SlotList<Contact<S>>;
+
+/// The same for (a, b) and (b, a); sorts as the pair (lower, higher) does.
+constexpr std::uint64_t pairKey(std::uint32_t a, std::uint32_t b) {
+    return a < b ? (std::uint64_t(a) << 32 | b) : (std::uint64_t(b) << 32 | a);
+}
+
+/// True when neither body takes impulses and neither moves: sleeping, static or resting kinematic bodies.
+template <class S>
+bool isAsleep(const BodyArrays<S>& bodies, const Contact<S>& contact) {
+    if (bodies.invMass[contact.bodyA] > 0 || bodies.invMass[contact.bodyB] > 0) return false;
+    const auto still = [&](std::uint32_t i) {
+        return bodies.asleep[i] || bodies.constants[i].type == BodyType::Static ||
+               (bodies.constants[i].type == BodyType::Kinematic && bodies.velocity[i].v.isZero(0) &&
+                dotAng(bodies.velocity[i].w, bodies.velocity[i].w) == typename S::Real(0));
+    };
+    return still(contact.bodyA) && still(contact.bodyB);
+}
+
+/// Sets the points' arms and separations to those of the manifold.
+template <class S>
+void placePoints(const BodyArrays<S>& bodies, Contact<S>& contact);
+/// True where a contact of two shapes (bodies in order) is in the list and has rows in this step.
+template <class S>
+bool hasRows(const ContactList<S>& contacts, std::uint32_t shapeA, std::uint32_t shapeB);
 
 }  // namespace rigor::engine

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-//
-// Events: contacts that have begun or ended in a step.
-#include "engine/contacts/contact_set.hpp"
+#include "engine/contacts/contact_events.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -11,25 +9,26 @@
 namespace rigor::engine {
 
 template <class S>
-void ContactSet<S>::addEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events,
-                              const Tasks& tasks) {
+void ContactEvents<S>::add(const BodyArrays<S>& bodies, std::span<const ShapeRecord<S>> shapes,
+                           const ContactList<S>& contacts, std::span<const EndedContact> ended,
+                           std::vector<Event<S>>& events, const Tasks& tasks) {
+    using Real = typename S::Real;
     constexpr std::size_t kContactGrain = 64;  // worth a task: some microseconds of work
-    touchChanged_.resize(contacts_.size());
-    tasks.forEach(contacts_.size(), kContactGrain, [this](std::size_t k) {
-        touchChanged_[k] = contacts_[k].touching != contacts_[k].touched;
-    });
+    touchChanged_.resize(contacts.size());
+    tasks.forEach(contacts.size(), kContactGrain,
+                  [&](std::size_t k) { touchChanged_[k] = contacts[k].touching != contacts[k].touched; });
     const auto key = [](const auto& c) { return std::pair(pairKey(c.shapeA, c.shapeB), c.piece); };
-    const auto add = [&](EventKind kind, const auto& c) -> Event<S>& {
+    const auto append = [&](EventKind kind, const auto& c) -> Event<S>& {
         Event<S>& event = events.emplace_back();
         event.kind = kind;
         event.bodyA = bodies.id[c.bodyA];
         event.bodyB = bodies.id[c.bodyB];
-        event.shapeA = shapes_[c.shapeA].id;
-        event.shapeB = shapes_[c.shapeB].id;
+        event.shapeA = shapes[c.shapeA].id;
+        event.shapeB = shapes[c.shapeB].id;
         return event;
     };
     const auto begins = [&](const Contact<S>& contact) {
-        Event<S>& event = add(EventKind::ContactBegins, contact);
+        Event<S>& event = append(EventKind::ContactBegins, contact);
         event.normal = contact.manifold.normal;
         event.depth = -std::numeric_limits<Real>::infinity();
         for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i) {
@@ -37,7 +36,7 @@ void ContactSet<S>::addEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>
             event.impulse += contact.totals[i].normal;
         }
     };
-    auto ended = ended_.begin();
+    auto nextEnded = ended.begin();
     const std::uint8_t* const end = touchChanged_.data() + touchChanged_.size();
     const auto next = [end](const std::uint8_t* from) {
         const void* found =
@@ -46,17 +45,17 @@ void ContactSet<S>::addEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>
     };
     for (const std::uint8_t* changed = next(touchChanged_.data()); changed != end;
          changed = next(changed + 1)) {
-        const Contact<S>& contact = contacts_[static_cast<std::size_t>(changed - touchChanged_.data())];
-        for (; ended != ended_.end() && key(*ended) < key(contact); ++ended)
-            add(EventKind::ContactEnds, *ended);
+        const Contact<S>& contact = contacts[static_cast<std::size_t>(changed - touchChanged_.data())];
+        for (; nextEnded != ended.end() && key(*nextEnded) < key(contact); ++nextEnded)
+            append(EventKind::ContactEnds, *nextEnded);
         if (contact.touching)
             begins(contact);
         else
-            add(EventKind::ContactEnds, contact);
+            append(EventKind::ContactEnds, contact);
     }
-    for (; ended != ended_.end(); ++ended) add(EventKind::ContactEnds, *ended);
+    for (; nextEnded != ended.end(); ++nextEnded) append(EventKind::ContactEnds, *nextEnded);
 }
 
-RIGOR_INSTANTIATE_CLASS(ContactSet)
+RIGOR_INSTANTIATE_CLASS(ContactEvents)
 
 }  // namespace rigor::engine

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-//
-// Converts contacts to the patches of the solver `wide`, and reads their impulses back.
+#include "engine/contacts/contact_patches.hpp"
+
 #include <algorithm>
 #include <array>
+#include <limits>
 
-#include "engine/contacts/contact_set.hpp"
-#include "engine/solvers/wide/patches.hpp"
+#include "engine/core/prefetch.hpp"
+#include "engine/solvers/wide/patch_solver.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -105,65 +106,100 @@ void readLane(const PatchBlock<PatchSpace<S>>& block, const PatchFriction<PatchS
     }
 }
 
+template <class S>
+PatchPass passOf(const ContactStep<S>& step) {
+    using Real = typename S::Real;
+    const auto number = [](Real x) { return static_cast<PatchReal>(x); };
+    const SoftTerms<Real> terms = softTerms(step.bias.contact, Real(1), step.h);  // of K = 1
+    PatchPass pass;
+    pass.invH = number(Real(1) / step.h);
+    pass.biasRate = number(terms.biasRate);
+    pass.massScale = number(Real(1) / (Real(1) + terms.gamma));
+    pass.impulseScale = number(terms.gamma / (Real(1) + terms.gamma));
+    pass.slop = number(step.slop);
+    pass.maxBiasVelocity = softBiasRule<PatchReal>().maxBiasVelocity;
+    pass.threshold = number(step.restitutionThreshold);
+    pass.touching = PatchReal(64) * std::numeric_limits<PatchReal>::epsilon();
+    pass.restingGap = std::max(pass.touching, number(step.restingGap));
+    return pass;
+}
+
 }  // namespace
 
 template <class S>
-void ContactSet<S>::addPatches(const BodyArrays<S>& bodies, const ContactStep<S>& step, Patches<S>& patches,
-                               const Tasks& tasks) {
-    patches.resize(contacts_.size());
-    tasks.forEach(contacts_.size(), kContactGrain, [&](std::size_t k) {
-        Contact<S>& contact = contacts_[k];
-        contact.asleep = isAsleep(bodies, contact);
+void PatchContacts<S>::prepare(ContactList<S>& contacts, const BodyArrays<S>& bodies,
+                               const ContactStep<S>& step, const Tasks& tasks) {
+    patches_.resize(contacts.size());
+    tasks.forEach(contacts.size(), kContactGrain, [&](std::size_t k) {
+        Contact<S>& contact = contacts[k];
+        contact.asleep = isAsleep<S>(bodies, contact);
         const bool movesA = bodies.invMass[contact.bodyA] > 0, movesB = bodies.invMass[contact.bodyB] > 0;
         const bool solved = !contact.asleep && (movesA || movesB);
         contact.block.fill(solved ? Contact<S>::kPatch : kNullIndex);
         if (!solved && !contact.asleep) contact.totals.fill({});
-        patches.setDescriptor(k, {contact.bodyA, contact.bodyB, movesA, movesB,
-                                  static_cast<std::uint8_t>(solved ? contact.manifold.count : 0)});
+        patches_.setDescriptor(k, {contact.bodyA, contact.bodyB, movesA, movesB,
+                                   static_cast<std::uint8_t>(solved ? contact.manifold.count : 0)});
     });
-    patches.assignLanes(bodies, tasks);
-    patches.forBlocks(tasks, [&](std::size_t b) {
-        auto& block = patches.block(b);
+    patches_.assignLanes(bodies, tasks);
+    patches_.forBlocks(tasks, [&](std::size_t b) {
+        auto& block = patches_.block(b);
         PatchFriction<PatchSpace<S>> friction;
         block.movesA = block.movesB = block.bounces = 0;
         block.points = 0;
         std::array<const Contact<S>*, kLanes> from;
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            if (const Contact<S>* next = contactAt(patches, contacts_, b + 1, lane)) {
+            if (const Contact<S>* next = contactAt(patches_, contacts, b + 1, lane)) {
                 prefetch(next, &next->manifold.memory);
                 prefetch(&next->impulses, &next->totals);
             }
-            from[lane] = contactAt(patches, contacts_, b, lane);
+            from[lane] = contactAt(patches_, contacts, b, lane);
             if (from[lane]) block.points = std::max(block.points, from[lane]->manifold.count);
         }
         for (std::size_t lane = 0; lane < kLanes; ++lane)
-            fillLane<S>({block, patches.coldData(b), friction, lane}, bodies, step, from[lane],
+            fillLane<S>({block, patches_.coldData(b), friction, lane}, bodies, step, from[lane],
                         from[0]->bodyA);
-        patches.prepare(b, friction);
+        patches_.prepare(b, friction);
     });
 }
 
 template <class S>
-void ContactSet<S>::storePatches(Patches<S>& patches, const Tasks& tasks) {
-    patches.forBlocks(tasks, [&](std::size_t b) {
+void PatchContacts<S>::beginSubstep(ContactList<S>&, BodyArrays<S>& bodies, const ContactStep<S>& step,
+                                    ConstraintRows<S>&, const Tasks& tasks) {
+    pass_ = passOf<S>(step);
+    patches_.beginSubstep(bodies.velocity, pass_, tasks);
+}
+
+template <class S>
+void PatchContacts<S>::solve(Solver<S>& solver, const SolverInput<S>& input, const Tasks& tasks) {
+    auto* const patchSolver = dynamic_cast<PatchSolver<S>*>(&solver);
+    RIGOR_CHECK(patchSolver != nullptr, "the traits of a solver ask for patches that it cannot solve");
+    patchSolver->solvePatches(input, patches_, pass_, tasks);
+}
+
+template <class S>
+void PatchContacts<S>::advance(ContactList<S>&, std::span<const Velocity<S>> velocities, Real h,
+                               const Tasks& tasks) {
+    patches_.advance(velocities, h, tasks);
+}
+
+template <class S>
+void PatchContacts<S>::store(ContactList<S>& contacts, const ConstraintRows<S>&, bool last,
+                             const Tasks& tasks) {
+    if (!last) return;
+    patches_.forBlocks(tasks, [&](std::size_t b) {
         for (std::size_t lane = 0; lane < kLanes; ++lane)
-            if (const Contact<S>* next = contactAt(patches, contacts_, b + 1, lane)) {
+            if (const Contact<S>* next = contactAt(patches_, contacts, b + 1, lane)) {
                 prefetch(next, &next->manifold.separationLowerBound);
                 prefetch(&next->impulses, &next->shapeA);
             }
         PatchFriction<PatchSpace<S>> friction;
-        patches.distribute(b, friction);
+        patches_.distribute(b, friction);
         for (std::size_t lane = 0; lane < kLanes; ++lane)
-            if (const std::uint32_t source = patches.sourceAt(b, lane); source != kNullIndex)
-                readLane(patches.block(b), friction, lane, contacts_[source]);
+            if (const std::uint32_t source = patches_.sourceAt(b, lane); source != kNullIndex)
+                readLane(patches_.block(b), friction, lane, contacts[source]);
     });
 }
 
-#define RIGOR_INSTANTIATE(S)                                                                          \
-    template void ContactSet<S>::addPatches(const BodyArrays<S>&, const ContactStep<S>&, Patches<S>&, \
-                                            const Tasks&);                                            \
-    template void ContactSet<S>::storePatches(Patches<S>&, const Tasks&);
-RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
-#undef RIGOR_INSTANTIATE
+RIGOR_INSTANTIATE_CLASS(PatchContacts)
 
 }  // namespace rigor::engine

@@ -13,11 +13,11 @@
 // A gap with e > 0 gets no rows where it is closing faster than the threshold, or is wider than gravity alone
 // closes in a step: closing it would take the speed that the impact has to reverse, or pass on a blow that
 // has not reached it. The bodies then meet with an overlap of at most one step's motion.
+#include "engine/contacts/contact_rows.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "engine/contacts/contact_set.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -58,53 +58,13 @@ std::array<typename S::Vec, S::tangents> tangentBasis(const typename S::Vec& n) 
     }
 }
 
-/// Three passes, so that threads can share the work: which points get rows, where the rows go, the rows.
-template <class S>
-void ContactSet<S>::addRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, ConstraintRows<S>& rows,
-                            const Tasks& tasks) {
-    tasks.forEach(contacts_.size(), kContactGrain,
-                  [&](std::size_t k) { prepareRows(bodies, step, contacts_[k]); });
-    std::size_t firstRow = rows.rows.size(), firstBlock = rows.blocks.size();
-    for (Contact<S>& contact : contacts_) {
-        contact.firstRow = static_cast<std::uint32_t>(firstRow);
-        for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i)
-            if (contact.block[i] != kNullIndex) contact.block[i] = static_cast<std::uint32_t>(firstBlock++);
-        firstRow += contact.blocks * rowsPerPoint(contact);
-    }
-    rows.rows.resize(firstRow);
-    rows.blocks.resize(firstBlock);
-    tasks.forEach(contacts_.size(), kContactGrain, [&](std::size_t k) {
-        const Contact<S>& contact = contacts_[k];
-        std::uint32_t row = contact.firstRow;
-        for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i) {
-            if (contact.block[i] == kNullIndex) continue;
-            Block<S>& block = rows.blocks[contact.block[i]];
-            block.first = row;
-            makePointRows(bodies, step, contact, i, block, rows.rows.data() + row);
-            row += block.rows;
-        }
-    });
-}
-
-template <class S>
-void ContactSet<S>::prepareRows(const BodyArrays<S>& bodies, const ContactStep<S>& step,
-                                Contact<S>& contact) {
-    contact.asleep = isAsleep(bodies, contact);
-    contact.blocks = 0;
-    if (!contact.placed) placePoints(bodies, contact);
-    if (step.begins && !contact.asleep) contact.totals.fill({});
-    for (std::size_t i = 0; i < contact.block.size(); ++i) {
-        const bool has = i < static_cast<std::size_t>(contact.manifold.count) && !contact.asleep &&
-                         preparePoint(bodies, step, contact, i);
-        contact.block[i] = has ? 0 : kNullIndex;
-        contact.blocks += has;
-    }
-}
+namespace {
 
 /// What this step makes of a point. False: it is let through, without rows.
 template <class S>
-bool ContactSet<S>::preparePoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
-                                 std::size_t index) {
+bool preparePoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
+                  std::size_t index) {
+    using Real = typename S::Real;
     typename Contact<S>::Point& point = contact.points[index];
     const Row<S> normal = pointRow<S>(point, contact.manifold.normal);
     const Real s = point.separation;
@@ -123,11 +83,45 @@ bool ContactSet<S>::preparePoint(const BodyArrays<S>& bodies, const ContactStep<
     return false;
 }
 
+/// Decides which points get rows.
+template <class S>
+void prepareRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, bool stepBegins,
+                 Contact<S>& contact) {
+    contact.asleep = isAsleep(bodies, contact);
+    contact.blocks = 0;
+    if (!contact.placed) placePoints(bodies, contact);
+    if (stepBegins && !contact.asleep) contact.totals.fill({});
+    for (std::size_t i = 0; i < contact.block.size(); ++i) {
+        const bool has = i < static_cast<std::size_t>(contact.manifold.count) && !contact.asleep &&
+                         preparePoint(bodies, step, contact, i);
+        contact.block[i] = has ? 0 : kNullIndex;
+        contact.blocks += has;
+    }
+}
+
+/// What the bias rule makes of overlap.
+template <class S>
+void setPenetrationBias(const ContactStep<S>& step, const Block<S>& block, typename S::Real s,
+                        Row<S>& normal) {
+    using Real = typename S::Real;
+    const Real overlap = std::min(Real(0), s + step.slop);
+    if (!step.bias.soft) {
+        normal.bias = step.bias.baumgarte * overlap / step.h;
+        return;
+    }
+    if (s > 0) return;
+    const SoftTerms<Real> terms = softTerms(step.bias.contact, rowCoupling<S>(normal, normal, block), step.h);
+    normal.bias = std::max(terms.biasRate * overlap, -step.bias.maxBiasVelocity);
+    normal.softness = terms.gamma;
+    normal.invK = Real(1) / rowK<S>(normal, block);
+}
+
 /// Fills a block, but for its first row, and its rows.
 template <class S>
-void ContactSet<S>::makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step,
-                                  const Contact<S>& contact, std::size_t index, Block<S>& block,
-                                  Row<S>* rows) {
+void makePointRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, const Contact<S>& contact,
+                   std::size_t index, Block<S>& block, Row<S>* rows) {
+    using Real = typename S::Real;
+    using Vec = typename S::Vec;
     const typename Contact<S>::Point& point = contact.points[index];
     const Vec& n = contact.manifold.normal;
     const std::uint32_t a = contact.bodyA, b = contact.bodyB;
@@ -172,26 +166,55 @@ void ContactSet<S>::makePointRows(const BodyArrays<S>& bodies, const ContactStep
     block.k22 = S::tangents > 1 ? rowCoupling<S>(t[S::tangents - 1], t[S::tangents - 1], block) : Real(1);
 }
 
-/// What the bias rule makes of overlap.
+}  // namespace
+
+/// Totals start at zero with the rows of the first sub-step.
 template <class S>
-void ContactSet<S>::setPenetrationBias(const ContactStep<S>& step, const Block<S>& block, Real s,
-                                       Row<S>& normal) {
-    const Real overlap = std::min(Real(0), s + step.slop);
-    if (!step.bias.soft) {
-        normal.bias = step.bias.baumgarte * overlap / step.h;
-        return;
+void RowContacts<S>::prepare(ContactList<S>&, const BodyArrays<S>&, const ContactStep<S>&, const Tasks&) {
+    stepBegins_ = true;
+}
+
+/// Three passes, so that threads can share the work: which points get rows, where the rows go, the rows.
+template <class S>
+void RowContacts<S>::beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodies, const ContactStep<S>& step,
+                                  ConstraintRows<S>& rows, const Tasks& tasks) {
+    tasks.forEach(contacts.size(), kContactGrain,
+                  [&](std::size_t k) { prepareRows<S>(bodies, step, stepBegins_, contacts[k]); });
+    std::size_t firstRow = rows.rows.size(), firstBlock = rows.blocks.size();
+    for (Contact<S>& contact : contacts) {
+        contact.firstRow = static_cast<std::uint32_t>(firstRow);
+        for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i)
+            if (contact.block[i] != kNullIndex) contact.block[i] = static_cast<std::uint32_t>(firstBlock++);
+        firstRow += contact.blocks * rowsPerPoint(contact);
     }
-    if (s > 0) return;
-    const SoftTerms<Real> terms = softTerms(step.bias.contact, rowCoupling<S>(normal, normal, block), step.h);
-    normal.bias = std::max(terms.biasRate * overlap, -step.bias.maxBiasVelocity);
-    normal.softness = terms.gamma;
-    normal.invK = Real(1) / rowK<S>(normal, block);
+    counts_ = {firstBlock - rows.blocks.size(), firstRow - rows.rows.size()};
+    stepBegins_ = false;
+    rows.rows.resize(firstRow);
+    rows.blocks.resize(firstBlock);
+    tasks.forEach(contacts.size(), kContactGrain, [&](std::size_t k) {
+        const Contact<S>& contact = contacts[k];
+        std::uint32_t row = contact.firstRow;
+        for (std::size_t i = 0; contact.blocks > 0 && i < contact.block.size(); ++i) {
+            if (contact.block[i] == kNullIndex) continue;
+            Block<S>& block = rows.blocks[contact.block[i]];
+            block.first = row;
+            makePointRows<S>(bodies, step, contact, i, block, rows.rows.data() + row);
+            row += block.rows;
+        }
+    });
 }
 
 template <class S>
-bool ContactSet<S>::applySpeculativeRestitution(ConstraintRows<S>& rows) const {
+void RowContacts<S>::solve(Solver<S>& solver, const SolverInput<S>& input, const Tasks& tasks) {
+    solver.useThreads(tasks);
+    solver.solve(input);
+}
+
+template <class S>
+bool RowContacts<S>::applySpeculativeRestitution(const ContactList<S>& contacts,
+                                                 ConstraintRows<S>& rows) const {
     bool any = false;
-    for (const Contact<S>& contact : contacts_)
+    for (const Contact<S>& contact : contacts)
         for (int i = 0; contact.speculative && i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (contact.points[k].rebound == 0 || contact.block[k] == kNullIndex) continue;
@@ -204,20 +227,23 @@ bool ContactSet<S>::applySpeculativeRestitution(ConstraintRows<S>& rows) const {
 }
 
 template <class S>
-void ContactSet<S>::advance(std::span<const Velocity<S>> motion) {
-    for (Contact<S>& contact : contacts_) {
-        const Velocity<S>&A = motion[contact.bodyA], &B = motion[contact.bodyB];
+void RowContacts<S>::advance(ContactList<S>& contacts, std::span<const Velocity<S>> velocities, Real h,
+                             const Tasks&) {
+    for (Contact<S>& contact : contacts) {
+        const Velocity<S>&A = velocities[contact.bodyA], &B = velocities[contact.bodyB];
+        const typename S::Vec dA = h * A.v, dB = h * B.v;
+        const typename S::Ang aA = h * A.w, aB = h * B.w;
         for (int i = 0; i < contact.manifold.count; ++i) {
             typename Contact<S>::Point& point = contact.points[static_cast<std::size_t>(i)];
-            const Vec moved = B.v + cross(B.w, point.rB) - A.v - cross(A.w, point.rA);
+            const typename S::Vec moved = dB + cross(aB, point.rB) - dA - cross(aA, point.rA);
             point.separation += contact.manifold.normal.dot(moved);
         }
     }
 }
 
 template <class S>
-void ContactSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
-    for (Contact<S>& contact : contacts_)
+void RowContacts<S>::store(ContactList<S>& contacts, const ConstraintRows<S>& rows, bool, const Tasks&) {
+    for (Contact<S>& contact : contacts)
         for (int i = 0; i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (contact.block[k] == kNullIndex) continue;
@@ -236,6 +262,6 @@ void ContactSet<S>::storeImpulses(const ConstraintRows<S>& rows) {
 #define RIGOR_INSTANTIATE(S) template std::array<S::Vec, S::tangents> tangentBasis<S>(const S::Vec&);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
-RIGOR_INSTANTIATE_CLASS(ContactSet)
+RIGOR_INSTANTIATE_CLASS(RowContacts)
 
 }  // namespace rigor::engine

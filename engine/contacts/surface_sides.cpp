@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "engine/contacts/surface_sides.hpp"
 
-#include "engine/contacts/contact_set.hpp"
 #include "engine/shapes/ray_cast.hpp"
 
 namespace rigor::engine {
@@ -42,64 +41,69 @@ bool stayOnSideOf(const Shape<S>& surface, const typename S::Vec& before, typena
     return true;
 }
 
+namespace {
+
 template <class S>
-typename S::Vec ContactSet<S>::middleNow(const BodyArrays<S>& bodies, std::uint32_t shape) const {
-    const ShapeRecord<S>& record = shapes_[shape];
-    return toWorld<S>(compose<S>(bodies.pose[record.body], record.local), record.middle);
+typename S::Vec middleNow(const ShapeRecord<S>& shape, const BodyArrays<S>& bodies) {
+    return toWorld<S>(compose<S>(bodies.pose[shape.body], shape.local), shape.middle);
 }
 
 /// Takes the middle of a shape, `now`, to its side of all surfaces. False: it is there.
 template <class S>
-bool ContactSet<S>::stayOnSide(const BodyArrays<S>& bodies, std::uint32_t shape, Vec& now) const {
+bool stayOnSide(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter, const BodyArrays<S>& bodies,
+                std::uint32_t shape, typename S::Vec& now) {
+    using Real = typename S::Real;
+    using Vec = typename S::Vec;
     constexpr Real kGap = Real(0.05);  ///< of the inner radius
     constexpr int kMostRounds = 3;     ///< what one surface sends back may pass another
-    const ShapeRecord<S>& record = shapes_[shape];
-    const Vec before = toWorld<S>(shapePoses_[shape], record.middle);
+    const ShapeRecord<S>& record = shapes[shape];
+    const Vec before = toWorld<S>(shapes.pose(shape), record.middle);
     bool any = false;
     for (int round = 0; round < kMostRounds; ++round) {
         bool moved = false;
-        for (const std::uint32_t surface : surfaces_) {
-            if (!Aabb<S>{before.cwiseMin(now), before.cwiseMax(now)}.overlaps(boxes_[surface])) continue;
-            if (!mayCollide(bodies, record.body, shapes_[surface].body)) continue;
-            const Pose<S>& X = shapePoses_[surface];
+        for (const std::uint32_t surface : shapes.surfaces()) {
+            if (!Aabb<S>{before.cwiseMin(now), before.cwiseMax(now)}.overlaps(shapes.box(surface))) continue;
+            if (!filter.mayCollide(bodies, record.body, shapes[surface].body)) continue;
+            const Pose<S>& X = shapes.pose(surface);
             Vec x = toLocal<S>(X, now);
-            if (!stayOnSideOf<S>(shapes_[surface].shape, toLocal<S>(X, before), x,
+            if (!stayOnSideOf<S>(shapes[surface].shape, toLocal<S>(X, before), x,
                                  kGap * record.inscribedRadius))
                 continue;
             now = toWorld<S>(X, x);
             moved = any = true;
         }
-        if (!moved || surfaces_.size() == 1) return any;
+        if (!moved || shapes.surfaces().size() == 1) return any;
     }
     now = before;
     return true;
 }
 
+}  // namespace
+
 template <class S>
-void ContactSet<S>::keepSides(BodyArrays<S>& bodies, const Tasks& tasks) {
-    if (surfaces_.empty()) return;
-    crossed_.resize(shapes_.size());
-    tasks.forEach(shapes_.size(), kShapeGrain, [&](std::size_t i) {
+void SurfaceSides<S>::keep(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter, BodyArrays<S>& bodies,
+                           const Tasks& tasks) {
+    using Vec = typename S::Vec;
+    if (shapes.surfaces().empty()) return;
+    crossed_.resize(shapes.size());
+    tasks.forEach(shapes.size(), kShapeGrain, [&](std::size_t i) {
         const auto shape = static_cast<std::uint32_t>(i);
         crossed_[i] = 0;
-        if (!movable_[i] || bodies.asleep[shapes_[i].body]) return;
-        Vec now = middleNow(bodies, shape);
-        crossed_[i] = stayOnSide(bodies, shape, now);
+        if (!shapes.movable()[i] || bodies.asleep[shapes[i].body]) return;
+        Vec now = middleNow<S>(shapes[i], bodies);
+        crossed_[i] = stayOnSide<S>(shapes, filter, bodies, shape, now);
     });
-    for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
+    for (std::uint32_t i = 0; i < shapes.size(); ++i) {
         if (!crossed_[i]) continue;
-        const Vec there = middleNow(bodies, i);
+        const Vec there = middleNow<S>(shapes[i], bodies);
         Vec now = there;
-        if (stayOnSide(bodies, i, now)) bodies.pose[shapes_[i].body].p += now - there;
+        if (stayOnSide<S>(shapes, filter, bodies, i, now)) bodies.pose[shapes[i].body].p += now - there;
     }
 }
 
-#define RIGOR_INSTANTIATE(S)                                                                     \
-    template bool stayOnSideOf<S>(const Shape<S>&, const S::Vec&, S::Vec&, S::Real);             \
-    template S::Vec ContactSet<S>::middleNow(const BodyArrays<S>&, std::uint32_t) const;         \
-    template bool ContactSet<S>::stayOnSide(const BodyArrays<S>&, std::uint32_t, S::Vec&) const; \
-    template void ContactSet<S>::keepSides(BodyArrays<S>&, const Tasks&);
+#define RIGOR_INSTANTIATE(S) template bool stayOnSideOf<S>(const Shape<S>&, const S::Vec&, S::Vec&, S::Real);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
+RIGOR_INSTANTIATE_CLASS(SurfaceSides)
 
 }  // namespace rigor::engine

@@ -16,7 +16,10 @@
 // is near a surface; a box for each other shape and surface.
 #pragma once
 
-#include "engine/shapes/shape.hpp"
+#include <vector>
+
+#include "engine/contacts/collision_filter.hpp"
+#include "engine/contacts/shape_set.hpp"
 
 namespace rigor::engine {
 
@@ -25,5 +28,17 @@ namespace rigor::engine {
 template <class S>
 bool stayOnSideOf(const Shape<S>& surface, const typename S::Vec& before, typename S::Vec& now,
                   typename S::Real gap);
+
+template <class S>
+class SurfaceSides {
+  public:
+    /// Ends a step that began at the poses of `shapes`: moves bodies that have passed through a chain, mesh or
+    /// height field back to the side that they came from.
+    void keep(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter, BodyArrays<S>& bodies,
+              const Tasks& tasks);
+
+  private:
+    std::vector<std::uint8_t> crossed_;  ///< of each shape: 1 where it has crossed a surface
+};
 
 }  // namespace rigor::engine

@@ -7,28 +7,11 @@
 #include <functional>
 #include <string>
 
-#include "engine/core/ids.hpp"
-#include "engine/math/space.hpp"
+#include "engine/contacts/contact_events.hpp"
 
 namespace rigor::engine {
 
-enum class EventKind : std::uint8_t {
-    ContactBegins,  ///< two shapes that did not touch in the last step touch (overlap, or push each other)
-    ContactEnds,    ///< they touched and do not any more
-};
 const char* eventName(EventKind kind);  ///< "contact_begins", ...
-
-/// Fields that do not belong to the kind keep their defaults.
-template <class S>
-struct Event {
-    using Real = typename S::Real;
-    EventKind kind = EventKind::ContactBegins;
-    BodyId bodyA, bodyB;  ///< A is the body of lower index
-    ShapeId shapeA, shapeB;
-    typename S::Vec normal = S::Vec::Zero();  ///< unit, A to B, world frame
-    Real depth = 0;                           ///< deepest overlap when found [m]; < 0: a gap
-    Real impulse = 0;                         ///< sum of the normal impulses of the step [N s]
-};
 
 template <class S>
 struct ContactView;

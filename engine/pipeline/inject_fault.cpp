@@ -5,21 +5,24 @@
 #include "engine/pipeline/world.hpp"
 
 namespace rigor::engine {
+namespace {
 
 template <class S>
-void ContactSet<S>::injectIntoManifolds(const BodyArrays<S>& bodies, const Fault<S>& fault,
-                                        std::uint64_t step) {
-    for (Contact<S>& contact : contacts_) {
-        fault.manifold(shapes_[contact.shapeA].shape, shapePoses_[contact.shapeA],
-                       shapes_[contact.shapeB].shape, shapePoses_[contact.shapeB], step, contact.manifold);
+void injectIntoManifolds(const BodyArrays<S>& bodies, const Fault<S>& fault, std::uint64_t step,
+                         Contacts<S>& contacts) {
+    const ShapeSet<S>& shapes = contacts.shapes();
+    for (Contact<S>& contact : contacts.list()) {
+        const std::uint32_t a = contact.shapeA, b = contact.shapeB;
+        fault.manifold(shapes[a].shape, shapes.pose(a), shapes[b].shape, shapes.pose(b), step,
+                       contact.manifold);
         placePoints(bodies, contact);
     }
 }
 
 template <class S>
-void ContactSet<S>::injectIntoRows(const BodyArrays<S>& bodies, const Fault<S>& fault,
-                                   ConstraintRows<S>& rows) {
-    for (Contact<S>& contact : contacts_)
+void injectIntoRows(const BodyArrays<S>& bodies, const Fault<S>& fault, const ContactList<S>& contacts,
+                    ConstraintRows<S>& rows) {
+    for (const Contact<S>& contact : contacts)
         for (int i = 0; i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             if (contact.block[k] == kNullIndex) continue;
@@ -34,17 +37,21 @@ void ContactSet<S>::injectIntoRows(const BodyArrays<S>& bodies, const Fault<S>& 
         }
 }
 
+}  // namespace
+
 template <class S>
 void World<S>::injectFault(Phase phase) {
     switch (phase) {
         case Phase::BroadPhase:
-            contacts_.injectIntoPairs(*fault_);
+            contacts_.pairSearch().edit([this](std::vector<ProxyPair>& pairs) {
+                fault_->pairs(contacts_.shapes().movable(), pairs);
+            });
             break;
         case Phase::NarrowPhase:
-            contacts_.injectIntoManifolds(bodies_, *fault_, stepCount_);
+            injectIntoManifolds<S>(bodies_, *fault_, stepCount_, contacts_);
             break;
         case Phase::Velocities:
-            contacts_.injectIntoRows(bodies_, *fault_, rows_);
+            injectIntoRows<S>(bodies_, *fault_, contacts_.list(), rows_);
             break;
         case Phase::Solve:
             fault_->solved(bodies_, rows_);
@@ -58,10 +65,7 @@ void World<S>::injectFault(Phase phase) {
     }
 }
 
-#define RIGOR_INSTANTIATE(S)                                                                                \
-    template void ContactSet<S>::injectIntoManifolds(const BodyArrays<S>&, const Fault<S>&, std::uint64_t); \
-    template void ContactSet<S>::injectIntoRows(const BodyArrays<S>&, const Fault<S>&, ConstraintRows<S>&); \
-    template void World<S>::injectFault(Phase);
+#define RIGOR_INSTANTIATE(S) template void World<S>::injectFault(Phase);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 

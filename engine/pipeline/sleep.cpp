@@ -16,7 +16,7 @@ void World<S>::findIslands() const {
     const auto join = [&](std::uint32_t a, std::uint32_t b) {
         if (dynamic(a) && dynamic(b)) islands_.join(a, b);
     };
-    for (const Contact<S>& contact : contacts_.contacts()) join(contact.bodyA, contact.bodyB);
+    for (const Contact<S>& contact : contacts_.list()) join(contact.bodyA, contact.bodyB);
     for (const auto& record : joints_.records()) join(record.joint.a, record.joint.b);
     islands_.finish(islandMarks_, bodies_.id);
 }
@@ -24,7 +24,7 @@ void World<S>::findIslands() const {
 template <class S>
 SleepStep<S> World<S>::sleepStep() {
     return {bodies_,
-            contacts_,
+            contacts_.list(),
             islands(),
             islandMarks_,
             progress_.size,
@@ -48,7 +48,7 @@ void World<S>::wakeNeighboursOf(std::uint32_t body) {
         if (a == body) wakeIslandOf(b);
         if (b == body) wakeIslandOf(a);
     };
-    for (const Contact<S>& contact : contacts_.contacts()) wakeOther(contact.bodyA, contact.bodyB);
+    for (const Contact<S>& contact : contacts_.list()) wakeOther(contact.bodyA, contact.bodyB);
     for (const auto& record : joints_.records()) wakeOther(record.joint.a, record.joint.b);
 }
 

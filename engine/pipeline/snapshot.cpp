@@ -59,21 +59,19 @@ void visitContact(A& archive, C& contact) {
     }
 }
 
-}  // namespace
-
-template <class S>
+/// The cached manifolds: the part of the state of contacts beside their list.
 template <class A, class C>
-void ContactSet<S>::visitManifoldCache(A& archive, C& set) {
+void visitManifoldCache(A& archive, C& candidates) {
     constexpr bool kReading = !std::is_const_v<C>;
-    visitValue(archive, set.cachedSearch_.speculativeDistance);
-    visitValue(archive, set.cachedSearch_.cacheTolerance);
-    const auto belongs = [](const Candidate& c) { return c.cached || c.contact != kNullIndex; };
+    visitValue(archive, candidates.cachedSearch().speculativeDistance);
+    visitValue(archive, candidates.cachedSearch().cacheTolerance);
+    const auto belongs = [](const auto& c) { return c.cached || c.contact != kNullIndex; };
     std::size_t archived = 0;
-    for (const Candidate& candidate : set.candidates_) archived += belongs(candidate);
+    for (const auto& candidate : candidates.list()) archived += belongs(candidate);
     const std::size_t count = archive.size(archived);
-    if constexpr (kReading) set.candidates_.reset(count);
+    if constexpr (kReading) candidates.list().reset(count);
     std::uint32_t contacts = 0;
-    for (auto& candidate : set.candidates_) {
+    for (auto& candidate : candidates.list()) {
         if (!kReading && !belongs(candidate)) continue;
         bool touches = candidate.contact != kNullIndex;
         visitValue(archive, touches);
@@ -86,6 +84,8 @@ void ContactSet<S>::visitManifoldCache(A& archive, C& set) {
     }
 }
 
+}  // namespace
+
 template <class S>
 template <class A, class W>
 void World<S>::visitState(A& archive, W& world) {
@@ -93,7 +93,7 @@ void World<S>::visitState(A& archive, W& world) {
 #define WORLD_FIELD(member) visitValue(archive, world.member);
 #define BODY_FIELD(member) visitValue(archive, bodies.member);
 #include "engine/state/state_fields.def"
-    for (auto& shape : world.contacts_.shapes()) {
+    for (auto& shape : world.contacts_.shapes().records()) {
 #define SHAPE_FIELD(member) visitValue(archive, shape.member);
 #include "engine/state/state_fields.def"
     }
@@ -102,13 +102,13 @@ void World<S>::visitState(A& archive, W& world) {
 #include "engine/state/state_fields.def"
     }
     ForceSet<S>::visitIds(archive, world.forces_);
-    auto& contacts = world.contacts_.contacts();
+    auto& contacts = world.contacts_.list();
     const std::size_t count = archive.size(contacts.size());
     if constexpr (!std::is_const_v<W>) contacts.reset(count);
     for (auto& contact : contacts) visitContact(archive, contact);
     // Without cached manifolds the candidates follow from the rest of the state.
     if (!std::is_same_v<A, HashArchive> || world.def_.cacheTolerance > 0)
-        ContactSet<S>::visitManifoldCache(archive, world.contacts_);
+        visitManifoldCache(archive, world.contacts_.candidates());
 }
 
 /// Structure of the world as built.
@@ -127,7 +127,7 @@ std::uint64_t World<S>::structureHash() const {
         hash.scalar(body.angularVelocityKept);
     }
     hash.size(contacts_.shapes().size());
-    for (const ShapeRecord<S>& shape : contacts_.shapes()) {
+    for (const ShapeRecord<S>& shape : contacts_.shapes().records()) {
         hash.scalar(shape.body);
         hash.scalar(shape.material);
         visitValue(hash, shape.local);
@@ -229,16 +229,16 @@ void World<S>::checkRestored(std::size_t bodyCount) const {
     for (std::size_t i = 1; i < bodyCount; ++i)
         require(bodyIds_.contains(bodies_.id[i]) && bodyIds_.dense(bodies_.id[i]) == i,
                 "a body without a name");
-    const auto& shapes = contacts_.shapes();
+    const ShapeSet<S>& shapes = contacts_.shapes();
     for (std::size_t i = 0; i < shapes.size(); ++i)
-        require(shapeIds_.contains(shapes[i].id) && shapeIds_.dense(shapes[i].id) == i,
+        require(shapes.ids().contains(shapes[i].id) && shapes.ids().dense(shapes[i].id) == i,
                 "a shape without a name");
     const auto& joints = joints_.records();
     for (std::size_t i = 0; i < joints.size(); ++i)
         require(jointIds_.contains(joints[i].joint.id) && jointIds_.dense(joints[i].joint.id) == i &&
                     joints[i].rows <= joints[i].total.size(),
                 "a joint without a name");
-    for (const Contact<S>& contact : contacts_.contacts())
+    for (const Contact<S>& contact : contacts_.list())
         require(contact.shapeA < shapes.size() && contact.shapeB < shapes.size() &&
                     contact.bodyA == shapes[contact.shapeA].body &&
                     contact.bodyB == shapes[contact.shapeB].body,

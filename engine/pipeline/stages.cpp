@@ -6,7 +6,6 @@
 
 #include "engine/pipeline/world.hpp"
 #include "engine/solvers/natural_map.hpp"
-#include "engine/solvers/wide/patches.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -72,7 +71,7 @@ constexpr double kMostWork = 0.01;
 
 template <class S>
 void World<S>::findPairs() {
-    ccd_->predict(bodies_, contacts_, def_.gravity, progress_.size);
+    ccd_->predict(bodies_, contacts_.shapes().records(), def_.gravity, progress_.size);
     result_.pairTests = broadPhase_->tests();
     contacts_.findPairs(bodies_, *broadPhase_, contactSearch(), *ccd_, tasks_);
     result_.pairTests = broadPhase_->tests() - result_.pairTests;
@@ -129,35 +128,36 @@ Load<S> World<S>::load() const {
 template <class S>
 void World<S>::makeRows() {
     const Real h = progress_.substepSize;
-    // Patches have theirs from the beginning of the step.
+    const bool begins = progress_.substep == 0;
     const bool inertiaHolds =
-        solver_->patches() != nullptr && joints_.records().empty() && motion_.inertiaHolds();
-    if (progress_.substep == 0 || !inertiaHolds) Motion<S>::setInertia(bodies_, tasks_);
+        contactModel_->keepsInertia() && joints_.records().empty() && motion_.inertiaHolds();
+    if (begins || !inertiaHolds) Motion<S>::setInertia(bodies_, tasks_);
     rows_.clear();
-    const Real warmStart = def_.warmStarting && lastStepSize_ > 0 ? h / lastStepSize_ : Real(0);
-    const BiasRule<Real> bias = biasRule();
-    const BiasRule<Real> jointBias = def_.relinearizedJoints ? bias : style_.linearJointBias.value_or(bias);
-    jointStep_ = {h, jointBias, warmStart, def_.relinearizedJoints && motion_.movesWithSolvedVelocity()};
+    const ContactStep<S> step = contactStep();
+    const BiasRule<Real> jointBias =
+        def_.relinearizedJoints ? step.bias : style_.linearJointBias.value_or(step.bias);
+    jointStep_ = {h, jointBias, step.warmStart, def_.relinearizedJoints && motion_.movesWithSolvedVelocity()};
     joints_.addRows(bodies_, jointStep_, rows_);
-    // Twice what gravity adds in a step: a resting contact never approaches that fast.
-    const Real gravityStep = h * def_.gravity.norm();
-    const Real impactSpeed = std::max(def_.restitutionThreshold, Real(2) * gravityStep);
-    const ContactStep<S> contactStep{h,
-                                     def_.restitutionThreshold,
-                                     Real(2) * h * gravityStep,
-                                     impactSpeed,
-                                     bias,
-                                     def_.slop,
-                                     def_.gapSlop,
-                                     warmStart,
-                                     restitution_->bounces(),
-                                     progress_.substep == 0};
-    if (Patches<S>* patches = solver_->patches()) {
-        if (progress_.substep == 0) contacts_.addPatches(bodies_, contactStep, *patches, tasks_);
-        return patches->beginSubstep(bodies_.velocity, patchPass(), tasks_);
-    }
-    contacts_.addRows(bodies_, contactStep, rows_, tasks_);
+    jointRows_ = rows_.rows.size();
+    if (begins) contactModel_->prepare(contacts_.list(), bodies_, step, tasks_);
+    contactModel_->beginSubstep(contacts_.list(), bodies_, step, rows_, tasks_);
     if (restitution_->solvesImpacts()) solveImpacts();
+}
+
+template <class S>
+ContactStep<S> World<S>::contactStep() const {
+    const Real h = progress_.substepSize;
+    // Twice what gravity adds in a sub-step: a resting contact never approaches that fast.
+    const Real gravityStep = h * def_.gravity.norm();
+    return {h,
+            def_.restitutionThreshold,
+            Real(2) * h * gravityStep,
+            std::max(def_.restitutionThreshold, Real(2) * gravityStep),
+            biasRule(),
+            def_.slop,
+            def_.gapSlop,
+            def_.warmStarting && lastStepSize_ > 0 ? h / lastStepSize_ : Real(0),
+            restitution_->bounces()};
 }
 
 /// Impacts by themselves, before the forces of the step.
@@ -175,7 +175,7 @@ void World<S>::solveImpacts() {
     });
     jointStep_.relinearized = relinearized;
     joints_.storeImpulses(bodies_, rows_);
-    contacts_.storeImpulses(rows_);
+    contactModel_->store(contacts_.list(), rows_, false, tasks_);
     for (std::size_t i = 0; i < warmStart_.size(); ++i) rows_.rows[i].impulse = warmStart_[i];
 }
 
@@ -190,32 +190,6 @@ BiasRule<typename S::Real> World<S>::biasRule() const {
 }
 
 template <class S>
-PatchPass World<S>::patchPass() const {
-    const auto number = [](Real x) { return static_cast<PatchReal>(x); };
-    const Real h = progress_.substepSize;
-    const SoftTerms<Real> terms = softTerms(biasRule().contact, Real(1), h);  // of K = 1
-    PatchPass pass;
-    pass.invH = number(Real(1) / h);
-    pass.biasRate = number(terms.biasRate);
-    pass.massScale = number(Real(1) / (Real(1) + terms.gamma));
-    pass.impulseScale = number(terms.gamma / (Real(1) + terms.gamma));
-    pass.slop = number(def_.slop);
-    pass.maxBiasVelocity = softBiasRule<PatchReal>().maxBiasVelocity;
-    pass.threshold = number(def_.restitutionThreshold);
-    pass.touching = PatchReal(64) * std::numeric_limits<PatchReal>::epsilon();
-    pass.restingGap = std::max(pass.touching, number(Real(2) * h * h * def_.gravity.norm()));
-    return pass;
-}
-
-/// At the end of a sub-step.
-template <class S>
-void World<S>::finishPatches(bool lastSubstep) {
-    Patches<S>& patches = *solver_->patches();
-    if (!lastSubstep) return patches.advance(motion_.used(), progress_.substepSize, tasks_);
-    contacts_.storePatches(patches, tasks_);
-}
-
-template <class S>
 void World<S>::solveVelocities(int iterations, bool warmStarted) {
     const Real h = progress_.substepSize;
     const Real converged =
@@ -224,30 +198,37 @@ void World<S>::solveVelocities(int iterations, bool warmStarted) {
             : Real(0);
     StepMonitor<S> monitor(joints_, bodies_, jointStep_, rows_, converged, def_.measureResiduals, observer_,
                            residuals_);
-    const PatchPass pass = patchPass();
-    const bool relinearizes = jointStep_.relinearized && solver_->patches() == nullptr;
-    if (relinearizes) joints_.remember(rows_, bodies_.velocity);
-    solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted,
-                    def_.residualTolerance, def_.pyramidDirections, tasks_, &pass});
+    SolverInput<S> input{rows_,
+                         bodies_.velocity,
+                         friction_,
+                         monitor,
+                         iterations,
+                         h,
+                         warmStarted,
+                         def_.residualTolerance,
+                         def_.pyramidDirections};
+    const bool mayRestart = jointStep_.relinearized && contactModel_->canRestart();
+    if (mayRestart) joints_.remember(rows_, bodies_.velocity);
+    contactModel_->solve(*solver_, input, tasks_);
     result_.solverGaveUp = result_.solverGaveUp || solver_->gaveUp();
     if (!jointStep_.relinearized) return;
     // The joint biases are re-linearised in every iteration. That diverges where light links rotate far in a
     // step, or where the joints hardly allow the motion, as in a flat net: then the step is solved again with
     // the linearisation at its start.
     const bool ideal = !jointStep_.bias.soft && jointStep_.bias.baumgarte == 0;  // else joints may do work
-    const bool diverges = relinearizes && ideal && joints_.work(rows_, bodies_.velocity) > Real(kMostWork);
+    const bool diverges = mayRestart && ideal && joints_.work(rows_, bodies_.velocity) > Real(kMostWork);
     if (!diverges && monitor.biasConverged()) return;
     jointStep_.curvature = 0;
     if (diverges) joints_.restart(rows_, bodies_.velocity);
-    solver_->solve({rows_, bodies_.velocity, friction_, monitor, iterations, h, warmStarted || !diverges,
-                    def_.residualTolerance, def_.pyramidDirections, tasks_, &pass});
+    input.warmStarted = warmStarted || !diverges;
+    contactModel_->solve(*solver_, input, tasks_);
 }
 
 template <class S>
 void World<S>::relax() {
     int iterations =
         style_.bias ? style_.relaxIterations : std::min(correction_->relaxIterations(), velocityIterations());
-    if (solver_->patches() == nullptr && contacts_.applySpeculativeRestitution(rows_))
+    if (contactModel_->applySpeculativeRestitution(contacts_.list(), rows_))
         iterations = std::max(iterations, velocityIterations());
     if (iterations == 0) return;
     rows_.relax();
@@ -280,24 +261,25 @@ void World<S>::solvePositions() {
 
 template <class S>
 void World<S>::correct() {
-    joints_.storeImpulses(bodies_, rows_);
-    const bool patches = solver_->patches() != nullptr;
-    if (!patches) contacts_.storeImpulses(rows_);
     const Real h = progress_.substepSize;
-    const bool more = progress_.substep + 1 < substeps();
+    const bool last = progress_.substep + 1 == substeps();
+    joints_.storeImpulses(bodies_, rows_);
+    contactModel_->store(contacts_.list(), rows_, last, tasks_);
     if (!style_.ownsCorrection) {
         // Slower than this a contact is as good as resting, and its overlap is corrected.
         const Real separating = std::max(def_.restitutionThreshold, Real(0.01));
         StepPositions<S> positions(bodies_, joints_, rows_, motion_.used(), h, separating, positionScratch_);
         correction_->correct(positions, def_.positionIterations, def_.slop);
-    } else if (!style_.positions && !patches) {
-        StepPositions<S>(bodies_, joints_, rows_, motion_.used(), h, Real(0), positionScratch_);
     }
     motion_.finish(bodies_, h, tasks_);
-    if (patches)
-        finishPatches(!more);
-    else if (more)
-        contacts_.advance(positionScratch_.motion);
+    if (!last) {
+        // Where nothing but velocities moves bodies, these say where they are.
+        const bool corrected = !style_.ownsCorrection || style_.positions;
+        if (corrected)
+            contactModel_->advance(contacts_.list(), positionScratch_.motion, Real(1), tasks_);
+        else
+            contactModel_->advance(contacts_.list(), motion_.used(), h, tasks_);
+    }
     lastStepSize_ = h;
 }
 

@@ -17,7 +17,6 @@
 #include <chrono>
 
 #include "engine/pipeline/world.hpp"
-#include "engine/solvers/wide/patches.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -137,15 +136,10 @@ void World<S>::endStep() {
     checkFinite();
     time_ += static_cast<double>(progress_.size);
     ++stepCount_;
-    result_.pairs = contacts_.pairCount();
-    result_.contacts = static_cast<std::size_t>(
-        std::count_if(rows_.blocks.begin(), rows_.blocks.end(),
-                      [](const Block<S>& block) { return block.kind == BlockKind::Contact; }));
-    result_.rows = rows_.rows.size();
-    if (const Patches<S>* patches = solver_->patches()) {
-        result_.contacts += patches->points();
-        result_.rows += patches->rows();
-    }
+    result_.pairs = contacts_.pairSearch().count();
+    const ContactCounts contacts = contactModel_->counts();
+    result_.contacts = contacts.points;
+    result_.rows = jointRows_ + contacts.rows;
     result_.narrowPhaseCalls = contacts_.queries();
     result_.iterations = static_cast<int>(residuals_.size());
     result_.measure = def_.measureResiduals ? ResidualMeasure::NaturalMap : ResidualMeasure::Change;

@@ -149,12 +149,14 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
         findAlgorithm(continuousCollisionTable<S>(), "continuous_collision", def.continuousCollision).make();
     sleeping_ = findAlgorithm(sleepingTable<S>(), "sleeping", def.sleeping).make();
     restitution_ = findAlgorithm(restitutionTable<S>(), "restitution", def.restitution).make();
-    contacts_.setCombineRules(
+    contacts_.materials().setCombineRules(
         findAlgorithm(combineTable<Real>(), "friction_combine", def.frictionCombine).make,
         findAlgorithm(combineTable<Real>(), "restitution_combine", def.restitutionCombine).make);
     style_ = solver_->style();
+    const ContactForm form = solverTraits(def.solver).contacts;
+    contactModel_ = makeContactModel<S>(form);
     fault_ = findAlgorithm(faultTable<S>(), "fault", def.fault).make();
-    if (solver_->patches() != nullptr) {
+    if (form == ContactForm::Patches) {
         require(fault_ == nullptr, "fault_solver",
                 "faults change rows of contacts, which this solver does not have");
         require(frictionShape(def.friction) == solverTraits(def.solver).friction, "friction_solver",
@@ -169,7 +171,7 @@ World<S>::World(const WorldDef<S>& def) : def_(def) {
     friction_ = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;
     narrowPhase_ = def.customNarrowPhase ? def.customNarrowPhase : makeNarrowPhase<S>(def.narrowPhase);
     makeManifold_ = findAlgorithm(manifoldTable<S>(), "manifold", def.manifold).make;
-    if (solver_->patches() != nullptr && integratorTraits(def.integrator).inBlocks &&
+    if (form == ContactForm::Patches && integratorTraits(def.integrator).inBlocks &&
         orientationTraits(def.orientationUpdate).inBlocks && rotationTraits(def.rotation).inBlocks &&
         !continuousCollisionTraits(def.continuousCollision).acts)
         motion_.moveInBlocks(rotation.gyroscopic);
@@ -227,7 +229,7 @@ ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
     require(validPose<S>(def.pose), "shape_pose", "position must be finite, orientation a unit rotation");
     require(validShape<S>(def.shape), "shape_size",
             "sizes must be positive and finite, normals unit vectors");
-    require(def.material < contacts_.materialCount(), "shape_material", "unknown material");
+    require(def.material < contacts_.materials().size(), "shape_material", "unknown material");
     const bool isStatic = bodies_.constants[dense].type == BodyType::Static;
     require(!std::holds_alternative<HalfSpace<S>>(def.shape) || isStatic, "half_space_body",
             "a half-space needs a static body");
@@ -243,37 +245,36 @@ ShapeId World<S>::addShape(BodyId body, const ShapeDef<S>& def) {
     const Aabb<S> box = boundingBox<S>(record.shape, {});
     record.middle = middleOf<S>(record.shape);
     record.radius = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).norm();
-    record.id = shapeIds_.add(static_cast<std::uint32_t>(contacts_.shapes().size()));
-    contacts_.shapes().push_back(record);
+    const ShapeId id = contacts_.shapes().add(record);
     if (sleeping_.wake && bodies_.constants[dense].type != BodyType::Dynamic)
         // It may stand in the way of any of them.
         for (std::uint32_t i = 0; i < bodies_.size(); ++i) wakeBody(bodies_, i);
     wakeIslandOf(dense);
     contacts_.structureChanged(false);
-    return record.id;
+    return id;
 }
 
 template <class S>
 std::uint32_t World<S>::addMaterial(Real friction, Real restitution, Real staticFriction) {
     const PairCoefficients<S> own{friction, restitution, staticFriction};
     checkCoefficients<S>(own);
-    return contacts_.addMaterial(own);
+    return contacts_.materials().add(own);
 }
 
 template <class S>
 void World<S>::setPair(std::uint32_t materialA, std::uint32_t materialB,
                        const PairCoefficients<S>& coefficients) {
-    require(materialA < contacts_.materialCount() && materialB < contacts_.materialCount(), "pair_material",
-            "unknown material");
+    require(materialA < contacts_.materials().size() && materialB < contacts_.materials().size(),
+            "pair_material", "unknown material");
     checkCoefficients<S>(coefficients);
-    contacts_.setPair(materialA, materialB, coefficients);
+    contacts_.materials().setPair(materialA, materialB, coefficients);
 }
 
 template <class S>
 const PairCoefficients<S>& World<S>::pairCoefficients(std::uint32_t a, std::uint32_t b) const {
-    require(a < contacts_.materialCount() && b < contacts_.materialCount(), "pair_material",
+    require(a < contacts_.materials().size() && b < contacts_.materials().size(), "pair_material",
             "unknown material");
-    return contacts_.pair(a, b);
+    return contacts_.materials().pair(a, b);
 }
 
 /// The last body takes the place of the removed one; likewise its shapes and joints.
@@ -299,22 +300,10 @@ void World<S>::removeBody(BodyId body) {
     bodyIds_.remove(body);
     if (gone != last) bodyIds_.move(bodies_.id[gone], gone);
 
-    std::vector<ShapeRecord<S>>& shapes = contacts_.shapes();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-        if (shapes[i].body == gone) {
-            shapeIds_.remove(shapes[i].id);
-            continue;
-        }
-        if (shapes[i].body == last) shapes[i].body = gone;
-        shapeIds_.move(shapes[i].id, static_cast<std::uint32_t>(kept));
-        if (kept != i) shapes[kept] = shapes[i];
-        ++kept;
-    }
-    shapes.resize(kept);
+    contacts_.shapes().bodyRemoved(gone, last);
 
     auto& joints = joints_.records();
-    kept = 0;
+    std::size_t kept = 0;
     for (std::size_t i = 0; i < joints.size(); ++i) {
         Joint<S>& joint = joints[i].joint;
         if (joint.a == gone || joint.b == gone) {
@@ -391,7 +380,7 @@ Pose<S> World<S>::pose(BodyId body) const {
 template <class S>
 void World<S>::readContacts(std::vector<ContactView<S>>& out) const {
     out.clear();
-    for (const Contact<S>& contact : contacts_.contacts())
+    for (const Contact<S>& contact : contacts_.list())
         for (int i = 0; i < contact.manifold.count; ++i) {
             const auto k = static_cast<std::size_t>(i);
             const ManifoldPoint<S>& where = contact.manifold.points[k];

@@ -12,7 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "engine/contacts/contact_set.hpp"
+#include "engine/ccd/continuous_collision.hpp"
+#include "engine/contacts/contact_model.hpp"
+#include "engine/contacts/contacts.hpp"
+#include "engine/core/clone_ptr.hpp"
+#include "engine/faults/fault.hpp"
 #include "engine/integrators/motion.hpp"
 #include "engine/pipeline/events.hpp"
 #include "engine/pipeline/joint_set.hpp"
@@ -106,7 +110,7 @@ class World {
     void removeForce(ForceId force);
 
     /// All shapes, in the order of their dense indices; those of removed bodies are gone.
-    std::span<const ShapeRecord<S>> shapes() const { return contacts_.shapes(); }
+    std::span<const ShapeRecord<S>> shapes() const { return contacts_.shapes().records(); }
     Pose<S> shapePose(const ShapeRecord<S>& shape) const {
         return compose<S>(bodies_.pose[shape.body], shape.local);
     }  ///< now, world frame
@@ -167,12 +171,12 @@ class World {
     /// The boxes that the broad phase has compared in the last step, in the order of shapes() [m], world
     /// frame; those of dynamic bodies are grown by the speculative distance. Empty before the first broad
     /// phase.
-    std::span<const Aabb<S>> boxes() const { return contacts_.boxes(); }
+    std::span<const Aabb<S>> boxes() const { return contacts_.shapes().boxes(); }
     /// Shapes whose boxes overlapped then, as indices of shapes(), the lower one first.
-    std::span<const ProxyPair> pairs() const { return contacts_.proxyPairs(); }
+    std::span<const ProxyPair> pairs() const { return contacts_.pairs(); }
     /// What the last narrow phase found of them, sorted by shapes: normal, points with their separations and
     /// features, and the impulses they start with. Also points that the solver has no need of.
-    const ContactList<S>& manifolds() const { return contacts_.contacts(); }
+    const ContactList<S>& manifolds() const { return contacts_.list(); }
     /// Replaces `out` by the contacts of the last step: the points that got rows.
     void readContacts(std::vector<ContactView<S>>& out) const;
     /// The rows of the last sub-step, solved or not yet.
@@ -227,9 +231,8 @@ class World {
     void endStep();
     BiasRule<Real> biasRule() const;
     Load<S> load() const;
+    ContactStep<S> contactStep() const;
     void makeRows();
-    PatchPass patchPass() const;
-    void finishPatches(bool lastSubstep);
     void solveVelocities(int iterations, bool warmStarted);
     void resolveImpacts();
     void relax();
@@ -270,9 +273,9 @@ class World {
 
     BodyArrays<S> bodies_;
     IdTable<BodyTag> bodyIds_;
-    IdTable<ShapeTag> shapeIds_;
     IdTable<JointTag> jointIds_;
-    ContactSet<S> contacts_;
+    Contacts<S> contacts_;
+    ClonePtr<ContactModel<S>> contactModel_;
     JointSet<S> joints_;
     ForceSet<S> forces_;
     double time_ = 0;  ///< [s]
@@ -283,6 +286,7 @@ class World {
     Progress progress_;
     JointStep<S> jointStep_{};
     ConstraintRows<S> rows_;
+    std::size_t jointRows_ = 0;  ///< of rows_, which come first
     PositionScratch<S> positionScratch_;
     mutable Islands islands_;
     mutable std::vector<std::uint8_t> islandMarks_;

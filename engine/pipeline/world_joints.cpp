@@ -56,12 +56,11 @@ void World<S>::removeJoint(JointId joint) {
 
 template <class S>
 void World<S>::rebuildExclusions() {
-    std::vector<std::uint64_t>& excluded = contacts_.excluded();
-    excluded.clear();
+    std::vector<std::uint64_t> excluded;
     for (const typename JointSet<S>::Record& record : joints_.records())
-        if (!record.joint.collideConnected)
-            excluded.push_back(ContactSet<S>::pairKey(record.joint.a, record.joint.b));
+        if (!record.joint.collideConnected) excluded.push_back(pairKey(record.joint.a, record.joint.b));
     std::sort(excluded.begin(), excluded.end());
+    contacts_.setExcluded(std::move(excluded));
 }
 
 /// Removes the joints whose mean force or torque over the step was too large for them.

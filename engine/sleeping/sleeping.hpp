@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/contacts/contact.hpp"
 #include "engine/core/table.hpp"
 #include "engine/sleeping/islands.hpp"
 #include "engine/state/sleep.hpp"
@@ -17,13 +18,10 @@
 namespace rigor::engine {
 
 template <class S>
-class ContactSet;
-
-template <class S>
 struct SleepStep {
     using Real = typename S::Real;
     BodyArrays<S>& bodies;
-    const ContactSet<S>& contacts;
+    const ContactList<S>& contacts;
     const Islands& islands;             ///< of the contacts and joints of this step
     std::vector<std::uint8_t>& marked;  ///< scratch, by island
     Real h;                             ///< of the whole step [s]

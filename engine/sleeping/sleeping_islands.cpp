@@ -17,7 +17,6 @@
 // Cost: O(bodies + contacts) per step. Limits: the kinetic energy at falling asleep, at most
 // (m linearVelocity^2 + I angularVelocity^2) / 2 per body, is lost; slower creep than the thresholds stops;
 // a body held up at the highest point of its way for longer than timeToSleep, without contact, sleeps there.
-#include "engine/contacts/contact_set.hpp"
 #include "engine/sleeping/sleeping.hpp"
 
 namespace rigor::engine {
@@ -39,7 +38,7 @@ void markPushed(const SleepStep<S>& step) {
         return step.bodies.constants[i].type == BodyType::Kinematic &&
                (velocity.v.squaredNorm() > 0 || dotAng(velocity.w, velocity.w) > 0);
     };
-    for (const Contact<S>& contact : step.contacts.contacts()) {
+    for (const Contact<S>& contact : step.contacts) {
         const std::uint32_t a = step.islands.islandOf(contact.bodyA),
                             b = step.islands.islandOf(contact.bodyB);
         if (b != kNullIndex && moving(contact.bodyA)) step.marked[b] = 1;

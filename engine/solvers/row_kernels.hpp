@@ -130,6 +130,8 @@ class BlockSweeps {
   public:
     using Real = typename S::Real;
 
+    /// Threads of the sweeps from the next begin() on.
+    void useThreads(const Tasks& tasks) { tasks_ = &tasks; }
     void begin(const SolverInput<S>& input) {
         const std::vector<Block<S>>& blocks = input.constraints.blocks;
         starts_.clear();
@@ -138,7 +140,7 @@ class BlockSweeps {
                 starts_.push_back(k);
         starts_.push_back(static_cast<std::uint32_t>(blocks.size()));
         constexpr std::size_t kGrain = 32;  // a unit takes some 0.3 us, handing out a part as much
-        order_.begin(input.tasks, input.velocities.size(), kGrain);
+        order_.begin(*tasks_, input.velocities.size(), kGrain);
         for (std::size_t u = 0; u + 1 < starts_.size(); ++u)
             order_.add<S>({blocks.data() + starts_[u], starts_[u + 1] - starts_[u]});
         order_.finish();
@@ -155,6 +157,7 @@ class BlockSweeps {
     }
 
   private:
+    const Tasks* tasks_ = &Tasks::one();
     SweepOrder order_;
     std::vector<std::uint32_t> starts_;  ///< of the units
 };
@@ -195,6 +198,7 @@ class RowByRow final : public Solver<S> {
     explicit RowByRow(ContactOrder order, const SolverStyle<S>& style = {}) : order_(order), style_(style) {}
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<RowByRow>(*this); }
     SolverStyle<S> style() const override { return style_; }
+    void useThreads(const Tasks& tasks) override { sweeps_.useThreads(tasks); }
     void solve(const SolverInput<S>& input) override { solveRowByRow(input, order_, sweeps_); }
 
   private:

@@ -19,10 +19,6 @@
 
 namespace rigor::engine {
 
-template <class S>
-class Patches;     // solvers/wide/patches.hpp
-struct PatchPass;  // solvers/wide/patch.hpp
-
 /// Friction of one contact with two tangents: given K of the tangent rows, the accumulated impulse, the
 /// tangential velocity it has led to and the largest magnitude allowed, the new accumulated impulse. With one
 /// tangent (2D) K is diag(k, 1) and the second components are zero.
@@ -58,14 +54,12 @@ struct SolverInput {
     ConstraintRows<S>& constraints;     ///< impulses hold the warm start, and the answer afterwards
     std::span<Velocity<S>> velocities;  ///< by dense body index; changed in place
     FrictionLaw<S> friction;
-    IterationMonitor<S>& monitor;       ///< called around each iteration
-    int iterations = 8;                 ///< at most
-    Real h = 0;                         ///< of this (sub-)step [s]
-    bool warmStarted = false;           ///< the velocities already contain the rows' impulses (relaxation)
-    Real residualTolerance = 0;         ///< natural map at which solvers that iterate on it may stop [m/s]
-    int pyramidDirections = 4;          ///< generators of the polyhedral friction cone, even (lemke)
-    const Tasks& tasks = Tasks::one();  ///< threads; the result does not depend on them
-    const PatchPass* pass = nullptr;    ///< for a solver of patches: what they need to know
+    IterationMonitor<S>& monitor;  ///< called around each iteration
+    int iterations = 8;            ///< at most
+    Real h = 0;                    ///< of this (sub-)step [s]
+    bool warmStarted = false;      ///< the velocities already contain the rows' impulses (relaxation)
+    Real residualTolerance = 0;    ///< natural map at which solvers that iterate on it may stop [m/s]
+    int pyramidDirections = 4;     ///< generators of the polyhedral friction cone, even (lemke)
 };
 
 /// What a solver asks of the step around it.
@@ -94,15 +88,17 @@ class Solver {
     virtual ~Solver() = default;
     virtual std::unique_ptr<Solver> clone() const = 0;
     virtual SolverStyle<S> style() const { return {}; }
-    /// Where contacts go in place of rows; null: there, contacts are rows.
-    virtual Patches<S>* patches() { return nullptr; }
+    /// For solvers that share their sweeps among threads: those of the next solve(). The result does not
+    /// depend on them.
+    virtual void useThreads(const Tasks& tasks) { (void)tasks; }
     /// Changes impulses and velocities. No allocation in a steady state.
     virtual void solve(const SolverInput<S>& input) = 0;
     /// The last solve() did not reach what it promises and left the best it had.
     virtual bool gaveUp() const { return false; }
     /// Only with style().positions: changes poses through `problem`.
     virtual void solvePositions(PositionProblem<S>& problem, const SolverInput<S>& input) {
-        (void)problem, (void)input;
+        (void)problem;
+        (void)input;
     }
 };
 

@@ -44,6 +44,12 @@ enum class StopRule : std::uint8_t {
     Residual,  ///< the problem is solved to WorldDef::residualTolerance
 };
 
+/// What contacts are made for a solver (contacts/contact_model.hpp).
+enum class ContactForm : std::uint8_t {
+    Rows,
+    Patches,  ///< it is a PatchSolver (solvers/wide/patch_solver.hpp)
+};
+
 struct SolverTraits {
     int substeps = 1;                    ///< where WorldDef::substeps is 0
     std::optional<int> iterations = {};  ///< of a sub-step, where velocityIterations is 0; empty: 50
@@ -53,6 +59,7 @@ struct SolverTraits {
     /// this fraction of their error in each sub-step.
     std::optional<double> linearJointBaumgarte = {};
     std::optional<FrictionShape> friction = {};  ///< a law of its own; empty: that of WorldDef::friction
+    ContactForm contacts = ContactForm::Rows;
     /// The contacts of two shapes have friction as one, at their center of pressure, which is the law of the
     /// points only where they slide without turning or turn without sliding.
     bool frictionOfPatches = false;

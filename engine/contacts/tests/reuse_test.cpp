@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Answers of the narrow phase that are kept (contacts/contact_reuse.cpp): against asking again, and through
+// Answers of the narrow phase that are kept (contacts/contact_cache.hpp): against asking again, and through
 // everything that happens to a world.
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ struct Pair {
     using R = typename S::Real;
     using Vec = typename S::Vec;
     BodyArrays<S> bodies;
-    ContactSet<S> set;
+    Contacts<S> set;
     std::unique_ptr<BroadPhase<S>> broadPhase =
         findAlgorithm(broadPhaseTable<S>(), "broad_phase", "brute_force").make();
     std::shared_ptr<const NarrowPhase<S>> narrowPhase = makeNarrowPhase<S>("sat");
@@ -47,13 +47,13 @@ struct Pair {
             record.shape = Box<S>{Vec::Constant(static_cast<R>(type == BodyType::Dynamic ? half : 1.0))};
             record.body = static_cast<std::uint32_t>(bodies.pose.size() - 1);
             record.radius = Vec::Constant(static_cast<R>(type == BodyType::Dynamic ? half : 1.0)).norm();
-            set.shapes().push_back(record);
+            set.shapes().records().push_back(record);
         }
     }
     const ContactList<S>& find() {
         set.findPairs(bodies, *broadPhase, search, *ccd, Tasks::one());
         set.findManifolds(bodies, *narrowPhase, &manifoldClipped<S>, *ccd, Tasks::one());
-        return set.contacts();
+        return set.list();
     }
 };
 
@@ -156,7 +156,7 @@ void expectDepthWithinTheMotion(bool apart) {
             const Pose<S> moved{start.p + random.vec(4e-4), rotatedBy(start.q, random.ang(5e-4))};
             keeping.bodies.pose[1] = asking.bodies.pose[1] = moved;
             const ContactList<S>&with = keeping.find(), &without = asking.find();
-            if (keeping.set.queries() > 0 || keeping.set.proxyPairs().empty()) break;
+            if (keeping.set.queries() > 0 || keeping.set.pairs().empty()) break;
             ++kept;
             if (apart) {
                 EXPECT_TRUE(without.empty());
@@ -295,7 +295,7 @@ TYPED_TEST(Reuse, WhatTurnsTogetherKeepsItsWayOut) {
             Pose<S>&A = pair.bodies.pose[0], &B = pair.bodies.pose[1];
             B.p = from;
             ASSERT_EQ(pair.find().size(), 1u);
-            const auto& contact = pair.set.contacts()[0];
+            const auto& contact = pair.set.list()[0];
             ASSERT_NEAR(contact.manifold.normal[0], 1, 1e-3);
             A.q = B.q = rotatedBy(A.q, spin<S>(quarter * 1.5707963267948966));
             B.p = rotate<R>(A.q, from);
@@ -305,7 +305,7 @@ TYPED_TEST(Reuse, WhatTurnsTogetherKeepsItsWayOut) {
             B.p = rotate<R>(A.q, from);
             ASSERT_EQ(pair.find().size(), 1u);
             ASSERT_EQ(pair.set.queries(), 1u);
-            const typename S::Vec normal = rotateInverse<R>(A.q, pair.set.contacts()[0].manifold.normal);
+            const typename S::Vec normal = rotateInverse<R>(A.q, pair.set.list()[0].manifold.normal);
             EXPECT_NEAR(normal[0], 1, 1e-3) << narrowPhase << " " << quarter;
         }
 }

@@ -76,7 +76,7 @@ TYPED_TEST(Threads, DoNotChangeABitOfTheDefaults) {
     expectSameBits<TypeParam>(earth<TypeParam>(), 60, "default");
 }
 
-/// Enough pairs for their parts to be merged and ordered side by side (contact_candidates.cpp), while pairs
+/// Enough pairs for their parts to be merged and ordered side by side (contacts/candidates.cpp), while pairs
 /// and contacts come and go: in the middle, every third contact is torn apart within a step.
 TYPED_TEST(Threads, DoNotChangeABitOfManyPairs) {
     using S = TypeParam;

@@ -32,6 +32,8 @@ class BlockGaussSeidel final : public Solver<S> {
 
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<BlockGaussSeidel>(*this); }
 
+    void useThreads(const Tasks& tasks) override { tasks_ = &tasks; }
+
     void solve(const SolverInput<S>& input) override {
         applyWarmStart<S>(input);
         findGroups(input.constraints.blocks);
@@ -78,7 +80,7 @@ class BlockGaussSeidel final : public Solver<S> {
 
     void orderGroups(const SolverInput<S>& input) {
         constexpr std::size_t kGrain = 8;  // a group takes some 2 us, handing out a part 0.3 us
-        sweeps_.begin(input.tasks, input.velocities.size(), kGrain);
+        sweeps_.begin(*tasks_, input.velocities.size(), kGrain);
         for (std::size_t k = 0; k + 1 < groups_.size(); ++k)
             sweeps_.add<S>({input.constraints.blocks.data() + groups_[k], groups_[k + 1] - groups_[k]});
         sweeps_.finish();
@@ -110,6 +112,7 @@ class BlockGaussSeidel final : public Solver<S> {
     static constexpr int kFinishIterations = 30;         ///< fewer than that are too few to sort contacts by
     static constexpr int kInnerSweeps = 10;              ///< at most, per solve of a group
     static constexpr Real kInnerTolerance = Real(0.01);  ///< of the first sweep's residual
+    const Tasks* tasks_ = &Tasks::one();
     std::vector<std::uint32_t> groups_;
     SweepOrder sweeps_;
     JointGroup<S> joints_;

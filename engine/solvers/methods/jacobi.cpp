@@ -30,14 +30,15 @@ class Jacobi final : public Solver<S> {
 
     std::unique_ptr<Solver<S>> clone() const override { return std::make_unique<Jacobi>(*this); }
 
+    void useThreads(const Tasks& tasks) override { tasks_ = &tasks; }
+
     void solve(const SolverInput<S>& input) override {
         applyWarmStart<S>(input);
         findUnits(input.constraints.blocks, input.velocities.size());
         splitMasses(input);
         const SolverInput<S> split{split_,        input.velocities,        input.friction,
                                    input.monitor, input.iterations,        input.h,
-                                   true,          input.residualTolerance, input.pyramidDirections,
-                                   input.tasks};
+                                   true,          input.residualTolerance, input.pyramidDirections};
         for (int i = 0; i < input.iterations; ++i) {
             input.monitor.before(input.velocities);
             for (std::size_t r = 0; r < split_.rows.size(); ++r)
@@ -68,7 +69,7 @@ class Jacobi final : public Solver<S> {
         const ConstraintRows<S>& whole = input.constraints;
         split_.rows.assign(whole.rows.begin(), whole.rows.end());
         split_.blocks.assign(whole.blocks.begin(), whole.blocks.end());
-        input.tasks.forEach(split_.blocks.size(), kBlockGrain, [this](std::size_t k) {
+        tasks_->forEach(split_.blocks.size(), kBlockGrain, [this](std::size_t k) {
             Block<S>& block = split_.blocks[k];
             const Real nA = partners_[block.a], nB = partners_[block.b];
             block.invMassA *= nA;
@@ -94,7 +95,7 @@ class Jacobi final : public Solver<S> {
 
     Real iterate(const SolverInput<S>& split) {
         results_.resize(units_.size() - 1);
-        split.tasks.forEach(results_.size(), kUnitGrain, [&](std::size_t u) {
+        tasks_->forEach(results_.size(), kUnitGrain, [&](std::size_t u) {
             const Block<S>& block = split_.blocks[units_[u]];
             Result& result = results_[u];
             result.a = split.velocities[block.a];
@@ -152,6 +153,7 @@ class Jacobi final : public Solver<S> {
         Velocity<S> a, b;  ///< of the parts of its bodies
         Real change = 0;
     };
+    const Tasks* tasks_ = &Tasks::one();
     ConstraintRows<S> split_;
     std::vector<std::uint32_t> units_;
     std::vector<Real> partners_;

@@ -44,6 +44,8 @@ class SinglePass final : public Solver<S> {
 
     SolverStyle<S> style() const override { return styleOf<S>(makeSinglePassTraits()); }
 
+    void useThreads(const Tasks& tasks) override { sweeps_.useThreads(tasks); }
+
     void solve(const SolverInput<S>& input) override {
         if (!input.warmStarted)
             for (Row<S>& row : input.constraints.rows) row.impulse = 0;

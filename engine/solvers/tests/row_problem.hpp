@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "engine/contacts/contact_set.hpp"
+#include "engine/contacts/contact_rows.hpp"
 #include "engine/solvers/natural_map.hpp"
 #include "engine/solvers/solver.hpp"
 

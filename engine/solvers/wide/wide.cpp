@@ -16,14 +16,14 @@
 //     springs.
 // Patches are f32 whatever the world's precision (patch.hpp); joints and bodies are not.
 // A contact of one point obeys the same laws as with tgs_soft; so does a patch that slides without spinning
-// or spins without sliding. Contacts given as rows (no patches were made) are solved row by row as there.
+// or spins without sliding. Contacts given as rows are solved row by row as there.
 //
 // substeps and velocity_iterations 0 mean 4 and 1. Cost per step: substeps * 2 passes over all patches.
 // Known limits: those of soft contacts, tgs_soft.cpp.
 #include "engine/solvers/joints/joint_group.hpp"
 #include "engine/solvers/row_kernels.hpp"
 #include "engine/solvers/traits.hpp"
-#include "engine/solvers/wide/patches.hpp"
+#include "engine/solvers/wide/patch_solver.hpp"
 
 namespace rigor::engine {
 
@@ -36,6 +36,7 @@ SolverTraits makeWideTraits() {
             // the velocity of that removed by the relaxation. Joints are springs otherwise.
             .linearJointBaumgarte = 0.5,
             .friction = FrictionShape::Cone,
+            .contacts = ContactForm::Patches,
             .frictionOfPatches = true,
             .contactsInSingle = true,
             .stops = StopRule::Never};
@@ -44,7 +45,7 @@ SolverTraits makeWideTraits() {
 namespace {
 
 template <class S>
-class Wide final : public Solver<S> {
+class Wide final : public PatchSolver<S> {
   public:
     using Real = typename S::Real;
 
@@ -52,23 +53,27 @@ class Wide final : public Solver<S> {
 
     SolverStyle<S> style() const override { return styleOf<S>(makeWideTraits()); }
 
-    Patches<S>* patches() override { return &patches_; }
+    void useThreads(const Tasks& tasks) override { sweeps_.useThreads(tasks); }
 
     void solve(const SolverInput<S>& input) override {
-        if (!input.pass) return solveRowByRow(input, ContactOrder::FrictionLast, sweeps_);
+        solveRowByRow(input, ContactOrder::FrictionLast, sweeps_);
+    }
+
+    void solvePatches(const SolverInput<S>& input, Patches<S>& patches, const PatchPass& parameters,
+                      const Tasks& tasks) override {
         ConstraintRows<S>& rows = input.constraints;
         if (!input.warmStarted) {
             joints_.begin(rows);
             joints_.warmStart(rows, input.velocities);
         }
-        PatchPass pass = *input.pass;
+        PatchPass pass = parameters;
         pass.soft = !input.warmStarted;
         for (int i = 0; i < input.iterations; ++i) {
             input.monitor.before(input.velocities);
             pass.last = input.warmStarted && i + 1 == input.iterations;
             Real change = 0;
-            if (!patches_.empty())
-                change = patches_.solvePass(input.velocities, pass, pass.soft && i == 0, input.tasks);
+            if (!patches.empty())
+                change = patches.solvePass(input.velocities, pass, pass.soft && i == 0, tasks);
             if (!joints_.empty()) change = std::max(change, joints_.solve(rows, input.velocities));
             input.monitor.after(input.velocities, change);
         }
@@ -77,7 +82,6 @@ class Wide final : public Solver<S> {
   private:
     BlockSweeps<S> sweeps_;
     JointGroup<S> joints_;
-    Patches<S> patches_;
 };
 
 }  // namespace

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What the contacts of a step become for the solver. A solver's traits say which model it takes
+// (solvers/traits.hpp, ContactForm):
+//     contact_rows.hpp      rows like those of joints, made anew in every sub-step
+//     contact_patches.hpp   patches, made once per step and solved in SIMD (solvers/wide)
+//
+//     prepare                          the first sub-step
+//     for each sub-step
+//         beginSubstep                 before forces act: which points bounce, which are let through
+//         solve                        impulses, once or several times
+//         store, advance               impulses back to the contacts; separations follow the bodies
+//
+// Each call is for all contacts, so that no choice is made per contact.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "engine/constraints/soft.hpp"
+#include "engine/contacts/contact.hpp"
+#include "engine/core/tasks.hpp"
+#include "engine/solvers/traits.hpp"
+
+namespace rigor::engine {
+
+/// Parameters of a sub-step for contacts.
+template <class S>
+struct ContactStep {
+    typename S::Real h;                     ///< size of the sub-step [s]
+    typename S::Real restitutionThreshold;  ///< [m/s]
+    typename S::Real restingGap;            ///< upper bound of what gravity closes in this sub-step [m]
+    typename S::Real impactSpeed;           ///< faster approaches are impacts and not warm started from [m/s]
+    BiasRule<typename S::Real> bias;        ///< bias of the rows from penetration
+    typename S::Real slop;                  ///< [m]
+    typename S::Real gapSlop;               ///< gaps up to this count as closed [m]
+    typename S::Real warmStart;             ///< factor on the last impulses; 0: none
+    bool bounces = true;                    ///< false: restitution is off
+};
+
+/// What a model has given the solver in the last sub-step.
+struct ContactCounts {
+    std::size_t points = 0, rows = 0;
+};
+
+template <class S>
+class ContactModel {
+  public:
+    using Real = typename S::Real;
+
+    virtual ~ContactModel() = default;
+    virtual std::unique_ptr<ContactModel> clone() const = 0;
+
+    /// Once per step, before the first beginSubstep().
+    virtual void prepare(ContactList<S>& contacts, const BodyArrays<S>& bodies, const ContactStep<S>& step,
+                         const Tasks& tasks) = 0;
+    /// The bodies' velocities are those before the forces of the sub-step. Contacts that are rows are appended
+    /// to `rows`, which have the joints' already.
+    virtual void beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodies, const ContactStep<S>& step,
+                              ConstraintRows<S>& rows, const Tasks& tasks) = 0;
+    /// Solves the joints' rows of `input` and all contacts.
+    virtual void solve(Solver<S>& solver, const SolverInput<S>& input, const Tasks& tasks) = 0;
+    /// Between two solves: points of speculative contacts that the impact has reached get their rebound.
+    /// Returns whether there are any.
+    virtual bool applySpeculativeRestitution(const ContactList<S>& contacts, ConstraintRows<S>& rows) const {
+        (void)contacts;
+        (void)rows;
+        return false;
+    }
+    /// Reads the impulses of the sub-step that ends; `last`: it is the last of its step.
+    virtual void store(ContactList<S>& contacts, const ConstraintRows<S>& rows, bool last,
+                       const Tasks& tasks) = 0;
+    /// Updates the separations after the bodies have moved for h [s] with the given velocities, to first
+    /// order: C += n . (dB + aB x rB - dA - aA x rA), with d = h v and a = h w; exact for translation and for
+    /// rolling spheres.
+    virtual void advance(ContactList<S>& contacts, std::span<const Velocity<S>> velocities, Real h,
+                         const Tasks& tasks) = 0;
+
+    virtual ContactCounts counts() const = 0;
+    /// Later sub-steps need the bodies' world inertia of the first.
+    virtual bool keepsInertia() const { return false; }
+    /// A solve can be done again from the velocities and impulses before it.
+    virtual bool canRestart() const { return true; }
+};
+
+template <class S>
+std::unique_ptr<ContactModel<S>> makeContactModel(ContactForm form);
+
+}  // namespace rigor::engine

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Contacts as rows, in every sub-step anew. What a point becomes, and when it gets no rows: contact_rows.cpp.
+//
+// Invariant: Contact::block[i] is the row block of point i in the last sub-step, kNullIndex where it has none.
+#pragma once
+
+#include <array>
+
+#include "engine/contacts/contact_model.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+class RowContacts final : public ContactModel<S> {
+  public:
+    using Real = typename S::Real;
+
+    std::unique_ptr<ContactModel<S>> clone() const override { return std::make_unique<RowContacts>(*this); }
+    void prepare(ContactList<S>& contacts, const BodyArrays<S>& bodies, const ContactStep<S>& step,
+                 const Tasks& tasks) override;
+    void beginSubstep(ContactList<S>& contacts, BodyArrays<S>& bodies, const ContactStep<S>& step,
+                      ConstraintRows<S>& rows, const Tasks& tasks) override;
+    void solve(Solver<S>& solver, const SolverInput<S>& input, const Tasks& tasks) override;
+    bool applySpeculativeRestitution(const ContactList<S>& contacts, ConstraintRows<S>& rows) const override;
+    void store(ContactList<S>& contacts, const ConstraintRows<S>& rows, bool last,
+               const Tasks& tasks) override;
+    void advance(ContactList<S>& contacts, std::span<const Velocity<S>> velocities, Real h,
+                 const Tasks& tasks) override;
+    ContactCounts counts() const override { return counts_; }
+
+  private:
+    ContactCounts counts_;
+    bool stepBegins_ = false;  ///< the next sub-step is the first of its step
+};
+
+/// Unit tangents that with n form a right-handed orthonormal frame; a function of n alone.
+template <class S>
+std::array<typename S::Vec, S::tangents> tangentBasis(const typename S::Vec& n);
+
+}  // namespace rigor::engine

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/contacts/contact_update.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "engine/narrowphase/surface_contact.hpp"
+
+namespace rigor::engine {
+namespace {
+
+/// Points of the last step's manifold, for matching with those of this step.
+template <class S>
+struct OldPoints {
+    std::size_t count;
+    std::array<std::uint32_t, S::maxManifoldPoints> feature;
+    std::array<typename S::Vec, S::maxManifoldPoints> pointB;
+};
+
+/// Resets the results of the last step. Impulses stay as the warm start, but for those of an impact.
+template <class S>
+void clearStep(Contact<S>& contact) {
+    contact.block.fill(kNullIndex);
+    for (std::size_t i = 0; contact.impacts && i < contact.points.size(); ++i)
+        if (std::exchange(contact.points[i].impact, false)) contact.impulses[i] = {};
+    contact.impacts = false;
+}
+
+/// Matches points by feature. A point with a new feature (the reference face has changed to the other body)
+/// takes the impulses of the nearest unmatched point, if that is near compared with its arm.
+template <class S>
+void matchPoints(const BodyArrays<S>& bodies, const OldPoints<S>& old, Contact<S>& contact) {
+    using Real = typename S::Real;
+    const auto impulses = contact.impulses;
+    std::array<bool, S::maxManifoldPoints> used{}, done{};
+    const auto take = [&](std::size_t from, std::size_t to) {
+        used[from] = done[to] = true;
+        contact.impulses[to] = impulses[from];
+    };
+    const auto n = static_cast<std::size_t>(contact.manifold.count);
+    for (std::size_t i = 0; i < n; ++i) {
+        contact.impulses[i] = {};
+        for (std::size_t j = 0; j < old.count && !done[i]; ++j)
+            if (!used[j] && contact.manifold.points[i].feature == old.feature[j]) take(j, i);
+    }
+    const std::uint32_t arm = bodies.invMass[contact.bodyB] > 0 ? contact.bodyB : contact.bodyA;
+    for (std::size_t i = 0; i < n; ++i) {
+        if (done[i]) continue;
+        const typename S::Vec& at = contact.manifold.points[i].pointB;
+        Real nearest = Real(0.04) * (at - bodies.pose[arm].p).squaredNorm();
+        std::size_t best = old.count;
+        for (std::size_t j = 0; j < old.count; ++j) {
+            const Real distance = (old.pointB[j] - at).squaredNorm();
+            if (!used[j] && distance < nearest) {
+                nearest = distance;
+                best = j;
+            }
+        }
+        if (best < old.count) take(best, i);
+    }
+}
+
+/// Transfers the impulses of the last step to the points of this step.
+template <class S>
+void transferImpulses(const BodyArrays<S>& bodies, const OldPoints<S>& old, Contact<S>& contact) {
+    clearStep(contact);
+    const auto n = static_cast<std::size_t>(contact.manifold.count);
+    bool same = n == old.count;
+    for (std::size_t i = 0; i < n && same; ++i) same = contact.manifold.points[i].feature == old.feature[i];
+    if (!same) matchPoints(bodies, old, contact);
+}
+
+}  // namespace
+
+template <class S>
+bool ContactUpdate<S>::update(Candidate<S>& candidate, Contact<S>& contact) const {
+    contact.touched = contact.touching;
+    if (isAsleep<S>(bodies, contact)) return true;
+    if (cache.isValid(candidate)) {
+        cache.moveManifold(candidate, contact);
+        clearStep(contact);
+        return complete(candidate, contact);
+    }
+    OldPoints<S> old;
+    old.count = static_cast<std::size_t>(contact.manifold.count);
+    for (std::size_t i = 0; i < old.count; ++i) {
+        old.feature[i] = contact.manifold.points[i].feature;
+        old.pointB[i] = contact.manifold.points[i].pointB;
+    }
+    if (candidate.cached)
+        contact.manifold.memory.normal = contact.manifold.normal;  // turned with its body since
+    contact.manifold.normal.setZero();
+    contact.manifold.count = 0;
+    query(candidate, contact.manifold);
+    if (contact.manifold.count == 0) contact.cache.count = 0;
+    makePoints(candidate, contact);
+    if (!complete(candidate, contact)) return false;
+    transferImpulses<S>(bodies, old, contact);
+    return true;
+}
+
+template <class S>
+std::optional<Contact<S>> ContactUpdate<S>::find(Candidate<S>& candidate) const {
+    Manifold<S> manifold;
+    if (!cache.isValid(candidate)) {
+        query(candidate, manifold);
+    }
+    if (manifold.count == 0 && !ahead.looksAhead()) return std::nullopt;
+    std::optional<Contact<S>> found(std::in_place);
+    Contact<S>& contact = *found;
+    contact.manifold = manifold;
+    contact.shapeA = candidate.a;
+    contact.shapeB = candidate.b;
+    contact.piece = candidate.piece;
+    contact.bodyA = shapes[candidate.a].body;
+    contact.bodyB = shapes[candidate.b].body;
+    if (manifold.count > 0) makePoints(candidate, contact);
+    if (!complete(candidate, contact)) found.reset();
+    return found;
+}
+
+/// Reduces the points to the manifold that the solver gets, and caches it.
+template <class S>
+void ContactUpdate<S>::makePoints(Candidate<S>& candidate, Contact<S>& contact) const {
+    const std::uint32_t a = candidate.a, b = candidate.b;
+    if (contact.manifold.count > 0 && makeManifold != nullptr) {
+        const Real size = std::min((shapes.box(a).max - shapes.box(a).min).norm(),
+                                   (shapes.box(b).max - shapes.box(b).min).norm());
+        makeManifold({shapes.pose(a), shapes.pose(b), size, cache.queryDistance(candidate)}, contact.cache,
+                     contact.manifold);
+    }
+    cache.storeManifold(candidate, contact);
+}
+
+/// Completes a contact for the solver: speculative points, coefficients, touching. False: it has no points.
+template <class S>
+bool ContactUpdate<S>::complete(Candidate<S>& candidate, Contact<S>& contact) const {
+    contact.asleep = contact.speculative = contact.placed = false;
+    // Continuous collision does not predict contacts with pieces of a chain, mesh or height field.
+    if (candidate.piece == kNullIndex && ahead.looksAhead()) {
+        placePoints<S>(bodies, contact);
+        const bool here = contact.manifold.count > 0;
+        ahead.findAhead(contact, shapes.records(), narrowPhase);
+        if (!here && contact.manifold.count > 0) candidate.cached = false;
+    }
+    if (!(candidate.contact != kNullIndex && coefficientsHold))
+        contact.coefficients = materials.pair(shapes[candidate.a].material, shapes[candidate.b].material);
+    contact.touching = false;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.manifold.count); ++i)
+        contact.touching = contact.touching || contact.manifold.points[i].separation < 0;
+    return contact.manifold.count > 0;
+}
+
+template <class S>
+void ContactUpdate<S>::query(Candidate<S>& candidate, Manifold<S>& manifold) const {
+    candidate.queried = true;
+    const std::uint32_t a = candidate.a, b = candidate.b;
+    const Real distance = cache.queryDistance(candidate);
+    manifold.separationLowerBound = 0;
+    if (candidate.piece == kNullIndex) {
+        narrowPhase.collide(shapes[a].shape, shapes.pose(a), shapes[b].shape, shapes.pose(b), distance,
+                            manifold);
+        candidate.separationBound = manifold.separationLowerBound;
+    } else {
+        const bool surfaceA = isComposite<S>(shapes[a].shape);
+        const std::uint32_t surface = surfaceA ? a : b, other = surfaceA ? b : a;
+        if (!surfaceA) flipManifold(manifold);  // its memory
+        collidePiece<S>(narrowPhase, shapes[surface].shape, candidate.piece, candidate.ridge,
+                        shapes.pose(surface), shapes[other].shape, shapes.pose(other), distance, manifold);
+        if (!surfaceA) flipManifold(manifold);
+        candidate.separationBound = 0;  // a bound for this piece only
+    }
+    cache.storeResult(candidate);
+}
+
+RIGOR_INSTANTIATE_CLASS(ContactUpdate)
+
+}  // namespace rigor::engine

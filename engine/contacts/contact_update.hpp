@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Update of one contact: manifold from the poses of two shapes, and impulses from the points of the last
+// step.
+//
+//     cached manifold valid   moved with the bodies; impulses stay
+//     else                    narrow phase -> points reduced to the manifold of the solver -> cache;
+//                             impulses by feature, from the points before
+//     both                    speculative points of continuous collision, coefficients, touching
+//
+// Different contacts may be updated by different threads: nothing but the candidate and the contact is
+// written to.
+#pragma once
+
+#include <optional>
+
+#include "engine/contacts/contact_cache.hpp"
+#include "engine/contacts/look_ahead.hpp"
+#include "engine/contacts/material_table.hpp"
+
+namespace rigor::engine {
+
+/// What contacts are made from in one step.
+template <class S>
+struct ContactUpdate {
+    const BodyArrays<S>& bodies;
+    const ShapeSet<S>& shapes;
+    const MaterialTable<S>& materials;
+    const NarrowPhase<S>& narrowPhase;
+    ManifoldFunction<S> makeManifold;  ///< null: all points of the narrow phase are used
+    const LookAhead<S>& ahead;
+    ContactCache<S> cache;
+    bool coefficientsHold;  ///< coefficients of persisting contacts are those of their materials
+
+    /// Updates a contact of the last step. False: it has ended.
+    bool update(Candidate<S>& candidate, Contact<S>& contact) const;
+    /// The new contact of a candidate that had none in the last step, if there is one.
+    std::optional<Contact<S>> find(Candidate<S>& candidate) const;
+
+  private:
+    using Real = typename S::Real;
+
+    void query(Candidate<S>& candidate, Manifold<S>& manifold) const;
+    void makePoints(Candidate<S>& candidate, Contact<S>& contact) const;
+    bool complete(Candidate<S>& candidate, Contact<S>& contact) const;
+};
+
+}  // namespace rigor::engine

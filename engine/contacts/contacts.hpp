@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The contacts of a world: its parts, and the order in which a step uses them.
+//
+//     shapes, materials, filter      what may collide, and how; changed by building
+//       |
+//     shapes.update -> pairs.update                  findPairs: boxes, broad phase
+//       |
+//     candidates.update -> finder.run -> list        findManifolds: narrow phase, contacts that begin and end
+//       |
+//     sides, events                                  at the end of the step
+//
+// What becomes of the list in a step is a contact model's (contact_model.hpp).
+//
+// Invariant between the parts: candidates and list have the same order, and Candidate::contact is the slot of
+// a candidate's contact. Dense indices of shapes and bodies are those of the bodies' arrays; structureChanged()
+// says that they are others.
+#pragma once
+
+#include <vector>
+
+#include "engine/contacts/candidates.hpp"
+#include "engine/contacts/collision_filter.hpp"
+#include "engine/contacts/contact_events.hpp"
+#include "engine/contacts/contact_finder.hpp"
+#include "engine/contacts/material_table.hpp"
+#include "engine/contacts/pair_search.hpp"
+#include "engine/contacts/shape_set.hpp"
+#include "engine/contacts/surface_sides.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+class Contacts {
+  public:
+    MaterialTable<S>& materials() { return materials_; }
+    const MaterialTable<S>& materials() const { return materials_; }
+    ShapeSet<S>& shapes() { return shapes_; }
+    const ShapeSet<S>& shapes() const { return shapes_; }
+    const CollisionFilter<S>& filter() const { return filter_; }
+    PairSearch<S>& pairSearch() { return pairs_; }
+    const PairSearch<S>& pairSearch() const { return pairs_; }
+    Candidates<S>& candidates() { return candidates_; }
+    const Candidates<S>& candidates() const { return candidates_; }
+    /// Sorted by shape pair and piece.
+    ContactList<S>& list() { return list_; }
+    const ContactList<S>& list() const { return list_; }
+
+    /// Bodies that a joint keeps from colliding: sorted keys (pairKey).
+    void setExcluded(std::vector<std::uint64_t> pairs);
+    /// Must be called after shapes or bodies were added, removed or, being static, moved; removes all contacts
+    /// if dense indices changed.
+    void structureChanged(bool indicesChanged);
+
+    /// Broad phase at the bodies' poses, and along their way ahead where `ahead` looks there.
+    void findPairs(const BodyArrays<S>& bodies, BroadPhase<S>& broadPhase, const ContactSearch<S>& search,
+                   const LookAhead<S>& ahead, const Tasks& tasks);
+    /// Narrow phase of the pairs; contacts that persist keep the impulses of the last step.
+    void findManifolds(const BodyArrays<S>& bodies, const NarrowPhase<S>& narrowPhase,
+                       ManifoldFunction<S> makeManifold, const LookAhead<S>& ahead, const Tasks& tasks);
+    /// Narrow-phase queries of the last findManifolds.
+    std::size_t queries() const { return finder_.queries(); }
+    /// Pairs of boxes that overlap.
+    const std::vector<ProxyPair>& pairs() const { return pairs_.overlapping(shapes_); }
+
+    /// Ends a step: moves bodies that have passed through a surface back (surface_sides.hpp).
+    void keepSides(BodyArrays<S>& bodies, const Tasks& tasks) {
+        sides_.keep(shapes_, filter_, bodies, tasks);
+    }
+    /// Appends an event for every contact that has begun or ended.
+    void addEvents(const BodyArrays<S>& bodies, std::vector<Event<S>>& events, const Tasks& tasks) {
+        events_.add(bodies, shapes_.records(), list_, finder_.ended(), events, tasks);
+    }
+    /// Completes a restored state. False: contacts and cached manifolds are inconsistent, or a shape is
+    /// missing.
+    bool completeRestored();
+
+  private:
+    MaterialTable<S> materials_;
+    ShapeSet<S> shapes_;
+    CollisionFilter<S> filter_;
+    PairSearch<S> pairs_;
+    Candidates<S> candidates_;
+    ContactList<S> list_;
+    ContactFinder<S> finder_;
+    SurfaceSides<S> sides_;
+    ContactEvents<S> events_;
+    ContactSearch<S> search_;  ///< of the step
+    /// Revision of the materials that the coefficients of the list are from; 0: some may be from none.
+    std::uint64_t coefficientsOf_ = 0;
+};
+
+}  // namespace rigor::engine

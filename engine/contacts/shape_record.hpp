@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A shape of a body.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/core/ids.hpp"
+#include "engine/shapes/shape.hpp"
+
+namespace rigor::engine {
+
+/// The dense index of a shape is its broad-phase proxy.
+template <class S>
+struct ShapeRecord {
+    Shape<S> shape;
+    Pose<S> local;           ///< in the frame at the body's centre of mass
+    std::uint32_t body = 0;  ///< dense index
+    std::uint32_t material = 0;
+    ShapeId id;
+    /// Bounding radius of the core about the centre of mass, and inscribed radius (ccd/moving_shape.hpp) [m].
+    typename S::Real boundingRadius = 0, inscribedRadius = 0;
+    typename S::Real radius = 0;              ///< bounding radius about the shape's own origin [m]
+    typename S::Vec middle = S::Vec::Zero();  ///< a point well inside, in the frame of the shape [m]
+};
+
+}  // namespace rigor::engine

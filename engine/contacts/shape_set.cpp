@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/contacts/shape_set.hpp"
+
+#include "engine/shapes/surface.hpp"
+
+namespace rigor::engine {
+namespace {
+
+constexpr std::size_t kShapeGrain = 64;  ///< worth a task: some microseconds of work
+
+}  // namespace
+
+template <class S>
+ShapeId ShapeSet<S>::add(const ShapeRecord<S>& record) {
+    const ShapeId id = ids_.add(static_cast<std::uint32_t>(records_.size()));
+    records_.push_back(record);
+    records_.back().id = id;
+    return id;
+}
+
+template <class S>
+void ShapeSet<S>::bodyRemoved(std::uint32_t gone, std::uint32_t last) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        if (records_[i].body == gone) {
+            ids_.remove(records_[i].id);
+            continue;
+        }
+        if (records_[i].body == last) records_[i].body = gone;
+        ids_.move(records_[i].id, static_cast<std::uint32_t>(kept));
+        if (kept != i) records_[kept] = records_[i];
+        ++kept;
+    }
+    records_.resize(kept);
+}
+
+template <class S>
+void ShapeSet<S>::changed() {
+    staticsValid_ = false;
+    surfaces_.clear();
+    for (std::uint32_t i = 0; i < records_.size(); ++i)
+        if (isComposite<S>(records_[i].shape)) surfaces_.push_back(i);
+}
+
+template <class S>
+void ShapeSet<S>::update(const BodyArrays<S>& bodies, Real margin, const LookAhead<S>& ahead,
+                         const Tasks& tasks) {
+    const std::size_t n = records_.size();
+    poses_.resize(n);
+    boxes_.resize(n);
+    movable_.resize(n);
+    const typename S::Vec grown = S::Vec::Constant(margin);
+    tasks.forEach(n, kShapeGrain, [&](std::size_t i) {
+        const ShapeRecord<S>& record = records_[i];
+        const bool isStatic = bodies.constants[record.body].type == BodyType::Static;
+        if (isStatic && staticsValid_) return;
+        poses_[i] = compose<S>(bodies.pose[record.body], record.local);
+        boxes_[i] = boundingBox<S>(record.shape, poses_[i]);
+        movable_[i] = bodies.constants[record.body].type == BodyType::Dynamic;
+        if (movable_[i]) {
+            boxes_[i].min -= grown;
+            boxes_[i].max += grown;
+        }
+        if (!isStatic && ahead.looksAhead()) ahead.growBox(static_cast<std::uint32_t>(i), boxes_[i]);
+    });
+    staticsValid_ = true;
+}
+
+RIGOR_INSTANTIATE_CLASS(ShapeSet)
+
+}  // namespace rigor::engine

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The shapes of a world, and where they are in this step.
+//
+//     records   [ s0 | s1 | s2 ]     as built; by dense index, which is the broad-phase proxy
+//     poses     [ X0 | X1 | X2 ]     world frame, at the poses that contacts were searched at
+//     boxes     [ b0 | b1 | b2 ]     at those poses; of dynamic bodies grown by a margin
+//     movable   [  0 |  1 |  1 ]     1: the body is dynamic
+//
+// Invariant: after update() the arrays have one element per record. Those of static bodies are computed once
+// and stay until changed().
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/contacts/look_ahead.hpp"
+#include "engine/contacts/shape_record.hpp"
+#include "engine/core/tasks.hpp"
+#include "engine/state/body_arrays.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+class ShapeSet {
+  public:
+    using Real = typename S::Real;
+
+    std::vector<ShapeRecord<S>>& records() { return records_; }
+    const std::vector<ShapeRecord<S>>& records() const { return records_; }
+    const ShapeRecord<S>& operator[](std::size_t i) const { return records_[i]; }
+    std::size_t size() const { return records_.size(); }
+    IdTable<ShapeTag>& ids() { return ids_; }
+    const IdTable<ShapeTag>& ids() const { return ids_; }
+
+    ShapeId add(const ShapeRecord<S>& record);
+    /// Removes the shapes of body `gone`, whose dense index body `last` takes.
+    void bodyRemoved(std::uint32_t gone, std::uint32_t last);
+    /// Must be called after records or static bodies have changed.
+    void changed();
+
+    /// Poses and boxes where the bodies are. `margin` [m]: by how much boxes of dynamic bodies are grown.
+    void update(const BodyArrays<S>& bodies, Real margin, const LookAhead<S>& ahead, const Tasks& tasks);
+
+    const Pose<S>& pose(std::size_t i) const { return poses_[i]; }
+    const std::vector<Aabb<S>>& boxes() const { return boxes_; }
+    const Aabb<S>& box(std::size_t i) const { return boxes_[i]; }
+    const std::vector<std::uint8_t>& movable() const { return movable_; }
+    /// Those that are chains, meshes or height fields.
+    const std::vector<std::uint32_t>& surfaces() const { return surfaces_; }
+
+  private:
+    std::vector<ShapeRecord<S>> records_;
+    IdTable<ShapeTag> ids_;
+    std::vector<std::uint32_t> surfaces_;
+    std::vector<Pose<S>> poses_;
+    std::vector<Aabb<S>> boxes_;
+    std::vector<std::uint8_t> movable_;
+    bool staticsValid_ = false;  ///< poses and boxes of static bodies are computed
+};
+
+}  // namespace rigor::engine
