@@ -15,6 +15,7 @@
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
 #include "scenarios/loader/loader.hpp"
+#include "validation/results/insertion_orders.hpp"
 #include "validation/results/judgement.hpp"
 #include "validation/results/store.hpp"
 #include "validation/runner/describe.hpp"
@@ -132,6 +133,7 @@ nlohmann::ordered_json caseJson(const results::CaseRow& c) {
         if (m.relative) metrics.back()["relative"] = *m.relative;
         if (m.ideal) metrics.back()["ideal"] = *m.ideal;
         if (m.recorded) metrics.back()["recorded"] = *m.recorded;
+        if (!m.note.empty()) metrics.back()["note"] = m.note;
         if (m.orderCount)
             metrics.back()["orders"] = {{"min", *m.orderMin}, {"max", *m.orderMax}, {"count", *m.orderCount}};
     }
@@ -139,6 +141,8 @@ nlohmann::ordered_json caseJson(const results::CaseRow& c) {
     if (c.orders.run)
         orders = {{"run", *c.orders.run},
                   {"completed", *c.orders.completed},
+                  {"dependent", results::orderDependenceName(results::orderDependence(c))},
+                  {"verdicts", c.orders.verdicts},
                   {"grade_best", results::gradeName(c.orders.best)},
                   {"grade_worst", results::gradeName(c.orders.worst)},
                   {"note", c.orders.note}};

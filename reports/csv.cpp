@@ -2,15 +2,16 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "reports/text.hpp"
 #include "reports/writers.hpp"
+#include "validation/results/insertion_orders.hpp"
 
 namespace rigor::report {
 namespace {
 
-constexpr std::size_t kColumns = 30;
+constexpr std::size_t kColumns = 33;
 constexpr const char* kHeader =
     "scenario,engine,spec,preset,precision,dt,outcome,verdict,metric,subject,kind,value,unit,at,bound,"
     "metric_verdict,note,expectation,exact,scheme_exact,grade,regression,scale,relative,ideal,recorded,"
-    "order_min,order_max,order_count,command,non_finite\n";
+    "order_min,order_max,order_count,orders,orders_failed,order_dependent,command,non_finite\n";
 
 /// The numbers of a line; those that are not finite leave their cell empty and are named at its end.
 class Numbers {
@@ -26,6 +27,10 @@ class Numbers {
   private:
     std::string reason_;
 };
+
+std::string countText(const std::optional<std::int64_t>& count) {
+    return count ? std::to_string(*count) : "";
+}
 
 void appendLine(std::string& out, const std::vector<std::string>& fields) {
     for (std::size_t i = 0; i < fields.size(); ++i) {
@@ -48,6 +53,7 @@ std::string csvReport(const results::Run& run) {
                                             fullNumber(row.dt),
                                             results::outcomeName(row.outcome),
                                             results::verdictName(row.verdict)};
+        const std::string dependence = results::orderDependenceName(results::orderDependence(row));
         const auto line = [&](const std::vector<std::string>& rest, const std::string& nonFinite) {
             auto fields = head;
             fields.insert(fields.end(), rest.begin(), rest.end());
@@ -85,7 +91,10 @@ std::string csvReport(const results::Run& run) {
                   recorded,
                   orderMin,
                   orderMax,
-                  m.orderCount ? std::to_string(*m.orderCount) : ""},
+                  countText(m.orderCount),
+                  countText(row.orders.run),
+                  countText(row.orders.failed),
+                  dependence},
                  number.reason());
         }
         for (const auto& q : row.quantities) {
@@ -94,7 +103,8 @@ std::string csvReport(const results::Run& run) {
                               scheme = number("scheme_exact", q.schemeExact);
             line({q.name, "", "quantity", value, q.unit, "", "", "", "", "", exact, scheme}, number.reason());
         }
-        if (row.metrics.empty() && row.quantities.empty())  // every case is in the file
+        const bool hasNumbers = !row.metrics.empty() || !row.quantities.empty();
+        if (!hasNumbers || row.outcome != results::Outcome::Completed)  // every case is in the file
             line({"", "", "", "", "", "", "", "", row.reason, "", "", ""}, "");
     }
     return out;

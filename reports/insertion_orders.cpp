@@ -5,11 +5,14 @@
 // (`rigor validate --orders N`): the value as written, and both ends of the range.
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "reports/page_json.hpp"
 #include "reports/text.hpp"
 #include "reports/view_model.hpp"
 #include "reports/writers.hpp"
+#include "validation/results/insertion_orders.hpp"
 
 namespace rigor::report {
 namespace {
@@ -17,27 +20,7 @@ namespace {
 using results::CaseRow;
 using results::Grade;
 using results::MetricRow;
-
-/// Width of the range over the scale of the metric; one unit where it has none.
-double relativeWidth(const MetricRow& m) {
-    if (!m.orderMin || !m.orderMax) return 0.0;
-    const double width = (*m.orderMax - *m.orderMin) / m.scale.value_or(1.0);
-    return std::isnan(width) ? 0.0 : width;  // infinite at both ends
-}
-
-/// The metric of the whole scene that varies most; null where none does. Counters of work are no result.
-const MetricRow* widestOf(const CaseRow& row) {
-    const MetricRow* widest = nullptr;
-    for (const MetricRow& m : row.metrics)
-        if (m.subject.empty() && m.kind != "cost" && dependsOnOrder(m) &&
-            (widest == nullptr || relativeWidth(m) > relativeWidth(*widest)))
-            widest = &m;
-    return widest;
-}
-
-bool endsOtherwise(const CaseRow& row) {
-    return row.orders.run && row.orders.completed != row.orders.run && row.orders.completed != 0;
-}
+using results::OrderDependence;
 
 /// "C" or, where orders have other grades, "B … D".
 std::string gradesText(const CaseRow& row) {
@@ -50,15 +33,47 @@ std::size_t casesInOrders(const results::Run& run) {
         std::count_if(run.cases.begin(), run.cases.end(), [](const CaseRow& c) { return c.orders.run; }));
 }
 
-}  // namespace
-
-bool dependsOnOrder(const MetricRow& metric) {
-    return relativeWidth(metric) > results::gradeLimit(Grade::A);
+bool isOrderDependent(const CaseRow& row) {
+    return results::orderDependence(row) > OrderDependence::None;
 }
 
-bool dependsOnOrder(const CaseRow& row) {
-    return row.orders.run &&
-           (row.orders.best != row.orders.worst || endsOtherwise(row) || widestOf(row) != nullptr);
+/// The metric to show of a case: what varies most, or what others have a value of where the order as written
+/// does not complete. Null where no order has a number.
+const MetricRow* shownMetric(const CaseRow& row) {
+    if (const MetricRow* widest = results::widestOverOrders(row)) return widest;
+    if (row.outcome == results::Outcome::Completed) return nullptr;
+    for (const MetricRow& m : row.metrics)
+        if (m.subject.empty() && m.orderCount && m.kind != "cost") return &m;
+    return nullptr;
+}
+
+/// "0.0031 as written", or "no value as written".
+std::string asWrittenText(const MetricRow& m) {
+    return (std::isnan(m.value) ? "no value" : shortNumber(m.value)) + std::string(" as written");
+}
+
+/// "2 of 5 orders fail (pass 3, fail 2)"; "" where all have one verdict.
+std::string verdictsText(const CaseRow& row) {
+    if (row.orders.verdicts.find(", ") == std::string::npos) return "";
+    const std::int64_t failed = row.orders.failed.value_or(0);
+    return std::to_string(failed) + " of " + std::to_string(row.orders.run.value_or(0)) +
+           (failed == 1 ? " orders fails (" : " orders fail (") + row.orders.verdicts + ")";
+}
+
+}  // namespace
+
+const char* orderMark(const CaseRow& row) {
+    switch (results::orderDependence(row)) {
+        case OrderDependence::Unknown:
+        case OrderDependence::None:
+            return "";
+        case OrderDependence::Value:
+        case OrderDependence::Grade:
+            return "↕";
+        case OrderDependence::Verdict:
+            return "⇅";
+    }
+    return "";
 }
 
 std::string orderRangeText(const MetricRow& metric) {
@@ -71,14 +86,34 @@ std::string orderRangeText(const MetricRow& metric) {
 std::vector<OrderDependent> orderDependents(const results::Run& run) {
     std::vector<OrderDependent> list;
     for (const CaseRow& row : run.cases)
-        if (dependsOnOrder(row)) list.push_back({&row, widestOf(row)});
-    const auto width = [](const OrderDependent& d) {
-        if (endsOtherwise(*d.row)) return std::numeric_limits<double>::infinity();
-        return d.metric == nullptr ? 0.0 : relativeWidth(*d.metric);
+        if (isOrderDependent(row)) list.push_back({&row, shownMetric(row)});
+    const auto gravity = [](const OrderDependent& d) {
+        const bool isVerdict = results::orderDependence(*d.row) == OrderDependence::Verdict;
+        return std::pair(isVerdict, d.metric == nullptr ? 0.0 : results::orderWidth(*d.metric));
     };
     std::stable_sort(list.begin(), list.end(),
-                     [&](const auto& a, const auto& b) { return width(a) > width(b); });
+                     [&](const auto& a, const auto& b) { return gravity(a) > gravity(b); });
     return list;
+}
+
+std::string orderCountsText(const results::Run& run) {
+    std::map<OrderDependence, int> counts;
+    for (const CaseRow& row : run.cases) ++counts[results::orderDependence(row)];
+    std::string text;
+    for (const OrderDependence d : {OrderDependence::Verdict, OrderDependence::Grade, OrderDependence::Value})
+        if (const int count = counts[d]; count > 0)
+            text += (text.empty() ? "" : ", ") + std::string(d == OrderDependence::Verdict ? "⇅ " : "↕ ") +
+                    std::to_string(count) + " in " + results::orderDependenceName(d);
+    return text;
+}
+
+std::string ordersTotalText(const results::Run& run) {
+    const std::size_t all = casesInOrders(run);
+    if (all == 0) return "";
+    const auto dependent = std::count_if(run.cases.begin(), run.cases.end(), isOrderDependent);
+    const std::string counts = orderCountsText(run);
+    return std::to_string(dependent) + " of " + std::to_string(all) + " cases order-dependent" +
+           (counts.empty() ? "" : " (" + counts + ")");
 }
 
 std::string ordersHeading(const results::Run& run, std::size_t dependent) {
@@ -86,15 +121,16 @@ std::string ordersHeading(const results::Run& run, std::size_t dependent) {
     if (all == 0) return "";
     const std::string of = std::to_string(all) + (all == 1 ? " case" : " cases") + " run in several orders";
     if (dependent == 0) return "No result depends on the order of insertion (" + of + ")";
-    return "Depends on the order of insertion ↕ (" + std::to_string(dependent) + " of " + of + ")";
+    return "Depends on the order of insertion (" + std::to_string(dependent) + " of " + of + ": " +
+           orderCountsText(run) + ")";
 }
 
 std::string orderText(const OrderDependent& dependent) {
     const CaseRow& row = *dependent.row;
-    std::string text;
+    std::string text = verdictsText(row);
     if (dependent.metric != nullptr)
-        text = dependent.metric->name + " " + shortNumber(dependent.metric->value) + " as written, " +
-               orderRangeText(*dependent.metric);
+        text += (text.empty() ? "" : "; ") + dependent.metric->name + " " + asWrittenText(*dependent.metric) +
+                ", " + orderRangeText(*dependent.metric);
     if (row.accuracy.grade != Grade::None && row.orders.best != row.orders.worst)
         text += (text.empty() ? "" : "; ") + std::string("grade ") + results::gradeName(row.accuracy.grade) +
                 " as written, " + gradesText(row);
@@ -106,17 +142,17 @@ std::string orderSentence(const CaseRow& row) {
     if (!row.orders.run)
         return row.orders.note.empty() ? "" : "One order of insertion: " + row.orders.note + ".";
     const std::string over = std::to_string(*row.orders.run) + " orders";
-    if (!dependsOnOrder(row)) return "Does not depend on the order of insertion (" + over + ").";
-    const MetricRow* widest = widestOf(row);
+    if (!isOrderDependent(row)) return "Does not depend on the order of insertion (" + over + ").";
+    const MetricRow* shown = shownMetric(row);
     std::string text = "Depends on the order of insertion: over " + over + " ";
-    if (widest != nullptr)
-        text += widest->name + " is " + shortNumber(*widest->orderMin) + " … " +
-                shortNumber(*widest->orderMax) +
-                (widest->unit.empty() || widest->unit == "1" ? "" : " " + widest->unit) + " (" +
-                shortNumber(widest->value) + " as written)";
+    if (shown != nullptr)
+        text += shown->name + " is " + shortNumber(*shown->orderMin) + " … " + shortNumber(*shown->orderMax) +
+                (shown->unit.empty() || shown->unit == "1" ? "" : " " + shown->unit) + " (" +
+                asWrittenText(*shown) + ")";
     else
         text += std::to_string(row.orders.completed.value_or(0)) + " completed";
     if (row.orders.best != row.orders.worst) text += ", its grade " + gradesText(row);
+    if (const std::string verdicts = verdictsText(row); !verdicts.empty()) text += "; " + verdicts;
     if (!row.orders.note.empty()) text += "; " + row.orders.note;
     return text + ".";
 }
@@ -139,6 +175,8 @@ Json insertionOrdersJson(const ViewModel& view) {
                         {"greatest", m ? number(m->orderMax) : Json(nullptr)},
                         {"run", row.orders.run.value_or(0)},
                         {"completed", row.orders.completed.value_or(0)},
+                        {"dependence", results::orderDependenceName(results::orderDependence(row))},
+                        {"verdicts", verdictsText(row)},
                         {"grade", results::gradeName(row.accuracy.grade)},
                         {"best", results::gradeName(row.orders.best)},
                         {"worst", results::gradeName(row.orders.worst)},
@@ -155,25 +193,32 @@ std::string insertionOrdersMarkdown(const ViewModel& view) {
     std::string out = "\n### " + heading + "\n";
     if (dependents.empty()) return out;
     out +=
-        "\n| scenario | engine | time step | metric | as written | over the orders | grade | |\n"
-        "|---|---|---|---|---:|---|---|---|\n";
+        "\n| scenario | engine | time step | depends | metric | as written | over the orders | grade | |\n"
+        "|---|---|---|---|---|---:|---|---|---|\n";
     for (std::size_t i = 0; i < std::min(dependents.size(), kMost); ++i) {
         const CaseRow& row = *dependents[i].row;
         const MetricRow* m = dependents[i].metric;
         out += "| " + markdownCell(row.scenario) + " | " + markdownCell(row.spec) + " | " +
-               timeStepLabel(row.dt) + " | " + (m ? markdownCell(m->name) : "") + " | " +
-               (m ? shortNumber(m->value) : "") + " | " + (m ? markdownCell(orderRangeText(*m)) : "") +
-               " | " + results::gradeName(row.accuracy.grade) +
+               timeStepLabel(row.dt) + " | " + orderMark(row) + " " +
+               results::orderDependenceName(results::orderDependence(row)) + " | " +
+               (m ? markdownCell(m->name) : "") + " | " +
+               (m == nullptr           ? ""
+                : std::isnan(m->value) ? "no value"
+                                       : shortNumber(m->value)) +
+               " | " + (m ? markdownCell(orderRangeText(*m)) : "") + " | " +
+               results::gradeName(row.accuracy.grade) +
                (row.orders.best != row.orders.worst ? ", " + gradesText(row) : "") + " | " +
+               markdownCell(verdictsText(row)) +
+               (verdictsText(row).empty() || row.orders.note.empty() ? "" : "; ") +
                markdownCell(row.orders.note.substr(0, 200)) + " |\n";
     }
     if (dependents.size() > kMost)
         out +=
             "\nand " + std::to_string(dependents.size() - kMost) + " more in `tables/insertion_orders.md`\n";
     return out +
-           "\nValue, grade, bound and record of a case are those of the order as written in the scenario; "
-           "the same "
-           "orders are run for every engine.\n";
+           "\nValue, grade, verdict and record of a case are those of the order as written in the scenario; "
+           "the same orders are run for every engine. ⇅: orders disagree about the verdict or about how the "
+           "run ends.\n";
 }
 
 }  // namespace rigor::report

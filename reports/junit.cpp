@@ -86,6 +86,7 @@ std::string testcase(const CaseRow& row) {
     note += metricLines(row, Verdict::KnownDeviation);
     note += accuracySentence(row) + "\n";
     if (const std::string change = regressionSentence(row); !change.empty()) note += change + "\n";
+    if (const std::string orders = orderSentence(row); !orders.empty()) note += orders + "\n";
     if (!row.command.empty()) note += "reproduce: " + row.command + "\n";
     return out + "      <system-out>" + body(note) + "</system-out>\n    </testcase>\n";
 }

@@ -12,6 +12,7 @@
 #include "reports/page_json.hpp"
 #include "reports/text.hpp"
 #include "reports/writers.hpp"
+#include "validation/results/insertion_orders.hpp"
 #include "validation/results/judgement.hpp"
 #include "validation/results/spec_labels.hpp"
 #include "validation/results/values.hpp"
@@ -49,7 +50,7 @@ Json metricsJson(const CaseRow& row) {
                         {"orderMin", number(m.orderMin)},
                         {"orderMax", number(m.orderMax)},
                         {"orderCount", m.orderCount ? Json(*m.orderCount) : Json(nullptr)},
-                        {"dependsOnOrder", dependsOnOrder(m)},
+                        {"dependsOnOrder", results::dependsOnOrder(m)},
                         {"grade", m.relative ? results::gradeName(results::gradeOf(*m.relative)) : ""}});
     return list;
 }
@@ -155,7 +156,8 @@ Json ordersOfCaseJson(const CaseRow& row) {
             {"completed", row.orders.completed.value_or(0)},
             {"best", results::gradeName(row.orders.best)},
             {"worst", results::gradeName(row.orders.worst)},
-            {"depends", dependsOnOrder(row)},
+            {"depends", results::orderDependenceName(results::orderDependence(row))},
+            {"mark", orderMark(row)},
             {"says", orderSentence(row)}};
 }
 
@@ -190,7 +192,7 @@ Json briefCase(const ViewModel& view, std::size_t scenario, const CaseRow& row) 
     const auto* main = findMetric(row, view.mainMetric(scenario).name);
     brief["value"] = main ? number(main->value) : Json(nullptr);
     brief["bound"] = main ? number(main->bound) : Json(nullptr);
-    brief["range"] = main && dependsOnOrder(*main) ? Json(orderRangeText(*main)) : Json(nullptr);
+    brief["range"] = main && results::dependsOnOrder(*main) ? Json(orderRangeText(*main)) : Json(nullptr);
     const auto* timing = stepTiming(row);
     brief["step"] = timing ? stepJson(row, *timing) : Json(nullptr);
     brief["inRun"] = inRunJson(row);

@@ -7,6 +7,7 @@
 
 #include "reports/text.hpp"
 #include "reports/view_model.hpp"
+#include "validation/results/insertion_orders.hpp"
 #include "validation/results/judgement.hpp"
 
 namespace rigor::report {
@@ -122,7 +123,11 @@ std::vector<std::pair<std::string, std::string>> totalsText(const ViewModel& vie
         append(endings, std::string(shownText(shown).symbol) + " " + std::to_string(count) + " " +
                             shownText(shown).word + (detail.empty() ? "" : " (" + detail + ")"));
     }
-    return {{"accuracy", accuracy}, {"against the record", regression}, {"endings", endings}};
+    std::vector<std::pair<std::string, std::string>> lines{
+        {"accuracy", accuracy}, {"against the record", regression}, {"endings", endings}};
+    if (const std::string orders = ordersTotalText(view.run()); !orders.empty())
+        lines.emplace_back("order of insertion", orders);
+    return lines;
 }
 
 std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t column, bool withNumber) {
@@ -140,7 +145,10 @@ std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t co
             text += c->regression == Regression::Worse ? "▼" : "▲";
             break;
         }
-    if (dependsOnOrder(row)) text += "↕";
+    const CaseRow* ordered = &row;
+    for (const CaseRow* c : cell.cases)
+        if (results::orderDependence(*c) > results::orderDependence(*ordered)) ordered = c;
+    text += orderMark(*ordered);
     if (!withNumber || isLost) return text;
     const MetricRow* m = findMetric(row, view.mainMetric(scenario).name);
     if (row.accuracy.relative)

@@ -9,6 +9,7 @@
 #include "reports/bench.hpp"
 #include "reports/table.hpp"
 #include "reports/text.hpp"
+#include "validation/results/insertion_orders.hpp"
 
 namespace rigor::report {
 namespace {
@@ -194,7 +195,8 @@ std::vector<Table> insertionOrders(const ViewModel& view) {
     for (const char* title : {"metric", "unit"}) table.columns.push_back({title});
     for (const char* title : {"value", "least", "greatest", "orders with a value", "orders", "completed"})
         table.columns.push_back({title, ColumnKind::Number});
-    for (const char* title : {"depends on the order", "grade", "best grade", "worst grade", "note"})
+    for (const char* title : {"depends on the order", "grade", "best grade", "worst grade", "verdict",
+                              "verdicts", "order-dependent", "note"})
         table.columns.push_back({title});
     forEachCase(view, [&](std::size_t, const SpecColumn& column, const CaseRow& row) {
         if (!row.orders.run) return;
@@ -207,9 +209,12 @@ std::vector<Table> insertionOrders(const ViewModel& view) {
             cells.emplace_back(m.orderMax);
             for (const std::int64_t n : {*m.orderCount, *row.orders.run, row.orders.completed.value_or(0)})
                 cells.emplace_back(n);
-            cells.emplace_back(dependsOnOrder(m) ? "yes" : "no");
+            cells.emplace_back(results::dependsOnOrder(m) ? "yes" : "no");
             for (const auto grade : {row.accuracy.grade, row.orders.best, row.orders.worst})
                 cells.emplace_back(results::gradeName(grade));
+            cells.emplace_back(results::verdictName(row.verdict));
+            cells.emplace_back(row.orders.verdicts);
+            cells.emplace_back(results::orderDependenceName(results::orderDependence(row)));
             cells.emplace_back(row.orders.note);
             table.rows.push_back(cells);
         }

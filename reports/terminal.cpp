@@ -391,7 +391,9 @@ std::vector<std::string> boardLines(const ViewModel& view, const Names& names, s
     const Layout layout = layoutOf(view, names, width);
     const std::string cells = layout.values ? "grade and relative error" : "grade";
     std::vector<std::string> lines{paint(
-        cut("Scoreboard: " + cells + "; △ wrong physics, ▼▲ record, ↕ order, – unsupported", width), "1")};
+        cut("Scoreboard: " + cells + "; △ wrong physics, ▼▲ record, ↕ order (⇅ its verdict), – unsupported",
+            width),
+        "1")};
     for (auto& line : headLines(names, layout, width, paint)) lines.push_back(std::move(line));
     if (view.columns().empty() || lines.size() + 2 > most) return {};
     const std::size_t all = view.run().scenarios.size();

@@ -197,22 +197,27 @@ std::vector<StepCost> stepCosts(const ViewModel& view);
 std::vector<std::size_t> byCost(const std::vector<StepCost>& costs);
 /// The ratios of every case of the run.
 std::map<const results::CaseRow*, Ratios> ratiosOf(const ViewModel& view);
-/// Least and greatest value over the orders of insertion differ by more than rounding: by more than 1e-6 of
-/// the metric's scale, the limit of grade A, or of one unit where it has none.
-bool dependsOnOrder(const results::MetricRow& metric);
-/// A metric of the whole scene does, or orders differ in grade, or one did not complete.
-bool dependsOnOrder(const results::CaseRow& row);
+/// Mark of a case that depends on the order of insertion: "⇅" where its orders disagree about the verdict or
+/// about how the run ends, "↕" where about the grade or a value alone, "" otherwise.
+const char* orderMark(const results::CaseRow& row);
 /// "0.0027 … 0.053 m over 5 orders"; "" where the metric has no range.
 std::string orderRangeText(const results::MetricRow& metric);
 struct OrderDependent {
     const results::CaseRow* row = nullptr;
     const results::MetricRow* metric = nullptr;  ///< that varies most; null where endings alone do
 };
-/// Cases that depend on the order of insertion, the widest range over its scale first.
+/// Cases that depend on the order of insertion: those that do so in their verdict, then the widest range over
+/// its scale first.
 std::vector<OrderDependent> orderDependents(const results::Run& run);
-/// "Depends on the order of insertion ↕ (3 of 12 cases run in several orders)"; "" where none was run so.
+/// "⇅ 1 in verdict, ↕ 2 in grade, ↕ 3 in value": cases by the gravest thing that depends on the order.
+std::string orderCountsText(const results::Run& run);
+/// "6 of 12 cases order-dependent (⇅ 1 in verdict, ...)"; "" where no case was run in several orders.
+std::string ordersTotalText(const results::Run& run);
+/// "Depends on the order of insertion (6 of 12 cases run in several orders: ⇅ 1 in verdict, ...)"; "" where
+/// none was run so.
 std::string ordersHeading(const results::Run& run, std::size_t dependent);
-/// "rest_creep 0.0031 as written, 0.0027 … 0.053 m over 5 orders; grade C as written, C … D; order 3: crashed".
+/// "2 of 5 orders fail (pass 3, fail 2); rest_creep 0.0031 as written, 0.0027 … 0.053 m over 5 orders; grade C
+/// as written, C … D; order 3: crashed".
 std::string orderText(const OrderDependent& dependent);
 /// One sentence on what the order of insertion makes of a case; "" where it was run in one order.
 std::string orderSentence(const results::CaseRow& row);

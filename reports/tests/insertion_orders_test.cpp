@@ -12,6 +12,7 @@
 #include "reports/tests/csv_reader.hpp"
 #include "reports/tests/synthetic_run.hpp"
 #include "reports/text.hpp"
+#include "validation/results/insertion_orders.hpp"
 
 namespace rigor::report {
 namespace {
@@ -53,14 +54,14 @@ CaseRow& orderedCase(results::Run& run, double least, double greatest) {
 }
 
 TEST(DependsOnOrder, WhereTheRangeIsWiderThanRounding) {
-    EXPECT_FALSE(dependsOnOrder(ranged(1.0, 1.0 + 1.9e-6, 2.0)));
-    EXPECT_TRUE(dependsOnOrder(ranged(1.0, 1.0 + 2.1e-6, 2.0)));
-    EXPECT_FALSE(dependsOnOrder(ranged(1e-12, 9e-7, {}))) << "of one unit";
-    EXPECT_TRUE(dependsOnOrder(ranged(1e-12, 2e-6, {})));
+    EXPECT_FALSE(results::dependsOnOrder(ranged(1.0, 1.0 + 1.9e-6, 2.0)));
+    EXPECT_TRUE(results::dependsOnOrder(ranged(1.0, 1.0 + 2.1e-6, 2.0)));
+    EXPECT_FALSE(results::dependsOnOrder(ranged(1e-12, 9e-7, {}))) << "of one unit";
+    EXPECT_TRUE(results::dependsOnOrder(ranged(1e-12, 2e-6, {})));
     const double infinite = std::numeric_limits<double>::infinity();
-    EXPECT_TRUE(dependsOnOrder(ranged(1.0, infinite, 1.0)));
-    EXPECT_FALSE(dependsOnOrder(ranged(infinite, infinite, 1.0)));
-    EXPECT_FALSE(dependsOnOrder(MetricRow{}));
+    EXPECT_TRUE(results::dependsOnOrder(ranged(1.0, infinite, 1.0)));
+    EXPECT_FALSE(results::dependsOnOrder(ranged(infinite, infinite, 1.0)));
+    EXPECT_FALSE(results::dependsOnOrder(MetricRow{}));
 }
 
 TEST(InsertionOrders, ARangeIsShownByEveryFormat) {
@@ -71,8 +72,10 @@ TEST(InsertionOrders, ARangeIsShownByEveryFormat) {
     EXPECT_EQ(orderRangeText(c.metrics.back()), range);
 
     const std::string terminal = terminalSummary(run, 60, 200, false);
-    EXPECT_THAT(terminal,
-                HasSubstr("Depends on the order of insertion ↕ (1 of 1 case run in several orders)"));
+    EXPECT_THAT(
+        terminal,
+        HasSubstr("Depends on the order of insertion (1 of 1 case run in several orders: ↕ 1 in grade)"));
+    EXPECT_THAT(terminal, HasSubstr("order of insertion: 1 of 1 cases order-dependent (↕ 1 in grade)"));
     EXPECT_THAT(terminal,
                 HasSubstr("rest_creep 0.0031 as written, " + range + "; grade C as written, C … D"));
 
@@ -149,6 +152,50 @@ TEST(InsertionOrders, AnOrderThatCrashesIsTold) {
     EXPECT_THAT(terminalSummary(run, 60, 200, false),
                 HasSubstr("grade C as written, C … E; order 3: crashed (SIGABRT)"));
     EXPECT_THAT(orderSentence(c), HasSubstr("order 3: crashed (SIGABRT)"));
+}
+
+/// The case passes as written, and two of its five orders miss a bound.
+TEST(InsertionOrders, OrdersThatDisagreeAboutTheVerdictAreCountedByEveryFormat) {
+    results::Run run = plainRun();
+    CaseRow& c = orderedCase(run, 0.0031, 0.0031);
+    c.orders.failed = 2, c.orders.verdicts = "pass 3, fail 2";
+    c.orders.note = "order 3: fails rest_creep (0.4, bound 0.1); order 5: fails rest_creep (0.2, bound 0.1)";
+    const ViewModel view(run);
+    const std::string counts = "1 of 1 cases order-dependent (⇅ 1 in verdict)";
+    EXPECT_THAT(terminalSummary(run, 60, 200, false), HasSubstr("order of insertion: " + counts));
+    EXPECT_THAT(terminalSummary(run, 60, 200, false), HasSubstr("2 of 5 orders fail (pass 3, fail 2)"));
+    EXPECT_THAT(markdownSummary(view), HasSubstr("- order of insertion: " + counts));
+    EXPECT_THAT(markdownSummary(view), HasSubstr("⇅ verdict"));
+    EXPECT_STREQ(orderMark(c), "⇅");
+    const auto csv = parseCsv(csvReport(run));
+    const auto column = [&](const std::string& name) {
+        return static_cast<std::size_t>(std::find(csv[0].begin(), csv[0].end(), name) - csv[0].begin());
+    };
+    int found = 0;
+    for (const auto& line : csv) {
+        if (line[column("order_dependent")] != "verdict") continue;
+        EXPECT_EQ(line[column("orders_failed")], "2");
+        EXPECT_EQ(line[column("orders")], "5");
+        ++found;
+    }
+    EXPECT_EQ(found, static_cast<int>(c.metrics.size()));
+    const auto overview = nlohmann::json::parse(overviewJson(view));
+    EXPECT_EQ(overview.at("insertionOrders").at("rows").at(0).at("dependence"), "verdict");
+    EXPECT_EQ(overview.at("insertionOrders").at("rows").at(0).at("verdicts"),
+              "2 of 5 orders fail (pass 3, fail 2)");
+}
+
+/// Another order has numbers where the order as written has none.
+TEST(InsertionOrders, TheRangeOfACaseThatDoesNotCompleteIsShown) {
+    results::Run run = plainRun();
+    CaseRow& c = orderedCase(run, 0.0031, 0.0053);
+    c.outcome = results::Outcome::Crashed, c.verdict = results::Verdict::Crashed;
+    c.metrics.back().value = std::nan("");
+    c.metrics = {c.metrics.back()};
+    c.orders.completed = 4, c.orders.failed = 1, c.orders.verdicts = "pass 4, crashed 1";
+    EXPECT_THAT(orderSentence(c), HasSubstr("rest_creep is 0.0031 … 0.0053 m (no value as written)"));
+    EXPECT_THAT(orderSentence(c), HasSubstr("1 of 5 orders fails (pass 4, crashed 1)"));
+    EXPECT_THAT(markdownSummary(ViewModel(run)), HasSubstr("| no value | 0.0031 … 0.0053 m over 5 orders |"));
 }
 
 TEST(InsertionOrders, NothingIsSaidWhereOneOrderWasRun) {

@@ -3,6 +3,7 @@
 #include "validation/comparison/recorded.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <stdexcept>
@@ -106,7 +107,8 @@ RecordedCase recordOf(const results::ScenarioRow& scenario, const CaseRow& row) 
     recorded.scenarioHash = recordedHash(scenario.text);
     recorded.outcome = row.outcome, recorded.verdict = row.verdict;
     for (const MetricRow& m : row.metrics)
-        if (isNamed(scenario, m)) metricIn(recorded, m.name, m.unit).values = {m.value};
+        if (isNamed(scenario, m) && !std::isnan(m.value))
+            metricIn(recorded, m.name, m.unit).values = {m.value};
     return recorded;
 }
 

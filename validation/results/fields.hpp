@@ -139,6 +139,9 @@ void eachField(Row& c, Use&& use) {
     use("grade_best", c.orders.best, 9);
     use("grade_worst", c.orders.worst, 9);
     use("insertion_note", c.orders.note, 9);
+    use("insertion_orders_failed", c.orders.failed, 10);
+    use("insertion_verdicts", c.orders.verdicts, 10);
+    use("order_dependent", c.orders.dependence, 10);
 }
 
 /// The tables of a case: use(table, list of records).
@@ -164,6 +167,12 @@ inline const char* textOf(Regression regression) {
 }
 inline const char* textOf(Grade grade) {
     return gradeName(grade);
+}
+inline const char* textOf(OrderDependence dependence) {
+    return orderDependenceName(dependence);
+}
+inline void fromText(const std::string& text, OrderDependence& dependence) {
+    dependence = parseOrderDependence(text);
 }
 inline void fromText(const std::string& text, Outcome& outcome) {
     outcome = parseOutcome(text);

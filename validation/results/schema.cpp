@@ -36,7 +36,8 @@ CREATE TABLE cases (
     verdict TEXT, reason TEXT, wall_seconds, cpu_seconds, steps INTEGER, peak_memory_kib INTEGER, state_hash TEXT,
     trajectory_file TEXT, command TEXT, refusal TEXT, grade TEXT, graded_by TEXT, relative_error, ideal_error, grade_note TEXT,
     regression TEXT, regression_reason TEXT, insertion_orders INTEGER, insertion_orders_completed INTEGER,
-    grade_best TEXT, grade_worst TEXT, insertion_note TEXT) WITHOUT ROWID;
+    grade_best TEXT, grade_worst TEXT, insertion_note TEXT, insertion_orders_failed INTEGER, insertion_verdicts TEXT,
+    order_dependent TEXT) WITHOUT ROWID;
 CREATE TABLE settings (
     case_id TEXT REFERENCES cases ON DELETE CASCADE, ordinal INTEGER, key TEXT, value TEXT,
     PRIMARY KEY (case_id, ordinal)) WITHOUT ROWID;
@@ -126,6 +127,12 @@ ALTER TABLE metrics ADD COLUMN order_max;
 ALTER TABLE metrics ADD COLUMN order_count INTEGER;
 )sql";
 
+constexpr const char* kColumnsOfSchema10 = R"sql(
+ALTER TABLE cases ADD COLUMN insertion_orders_failed INTEGER;
+ALTER TABLE cases ADD COLUMN insertion_verdicts TEXT DEFAULT '';
+ALTER TABLE cases ADD COLUMN order_dependent TEXT DEFAULT '';
+)sql";
+
 /// Tables with measured numbers: since schema 8 each says which of a row are not finite. A table that an
 /// older file gets whole has the column already.
 constexpr const char* kTablesWithNumbers[] = {
@@ -174,6 +181,7 @@ void upgrade(SQLite::Database& database) {
         addNonFinite(database);
     }
     if (version < 9) database.exec(kColumnsOfSchema9);
+    if (version < 10) database.exec(kColumnsOfSchema10);
     database.exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
     transaction.commit();
 }

@@ -33,6 +33,13 @@ constexpr std::array<std::pair<Regression, const char*>, 4> kRegressions{
      {Regression::Better, "better"},
      {Regression::Worse, "worse"}}};
 
+constexpr std::array<std::pair<OrderDependence, const char*>, 5> kDependences{
+    {{OrderDependence::Unknown, ""},
+     {OrderDependence::None, "no"},
+     {OrderDependence::Value, "value"},
+     {OrderDependence::Grade, "grade"},
+     {OrderDependence::Verdict, "verdict"}}};
+
 template <class Table, class Value>
 const char* nameIn(const Table& table, Value value) {
     for (const auto& [entry, name] : table)
@@ -60,6 +67,12 @@ const char* verdictName(Verdict verdict) {
 }
 const char* regressionName(Regression regression) {
     return nameIn(kRegressions, regression);
+}
+const char* orderDependenceName(OrderDependence d) {
+    return nameIn(kDependences, d);
+}
+OrderDependence parseOrderDependence(const std::string& name) {
+    return valueIn(kDependences, name, "dependence on the order of insertion");
 }
 Outcome parseOutcome(const std::string& name) {
     return valueIn(kOutcomes, name, "outcome");

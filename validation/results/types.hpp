@@ -64,13 +64,24 @@ struct AccuracyRow {
     std::string note;                ///< why there is no grade
 };
 
+/// What of a case depends on the order of insertion, the gravest alone: the verdict (or how it ends), the
+/// grade, the value of a metric beyond rounding. Unknown: run in one order.
+enum class OrderDependence { Unknown, None, Value, Grade, Verdict };
+const char* orderDependenceName(OrderDependence d);  ///< "", "no", "value", "grade", "verdict"
+OrderDependence parseOrderDependence(const std::string& name);
+
 /// A case run once more for other orders in which bodies, shapes, joints and forces are handed to the engine.
+/// An order whose reference broke down counts in `run` alone.
 struct InsertionOrders {
     std::optional<std::int64_t> run;        ///< orders, the one as written included; none: that one alone
     std::optional<std::int64_t> completed;  ///< of them, those that ended as a completed case
     /// Of the orders; one that does not complete counts as E. None: the case is not graded, or run.
     Grade best = Grade::None, worst = Grade::None;
     std::string note;  ///< why there is no other order, or how others ended; "" also where none was asked for
+    /// Of them, those with the verdict fail, crashed, timeout or non-finite; none in runs before schema 10.
+    std::optional<std::int64_t> failed = std::nullopt;
+    std::string verdicts = {};  ///< of the orders, counted: "pass 3, fail 2"; "" in runs before schema 10
+    OrderDependence dependence = OrderDependence::Unknown;
 };
 
 /// A number of the exact solution beside the engine's.

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <utility>
 
+#include "validation/results/insertion_orders.hpp"
 #include "validation/symmetry/listing.hpp"
 
 namespace rigor::validation {
@@ -34,8 +36,31 @@ void addRange(MetricRow& metric, const std::vector<OrderEnd>& others) {
     if (values.empty()) return;
     if (!std::isnan(metric.value)) values.push_back(metric.value);
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-    metric.orderMin = *least, metric.orderMax = *greatest;
+    metric.orderMin = *least;
+    metric.orderMax = *greatest;
     metric.orderCount = static_cast<std::int64_t>(values.size());
+}
+
+/// Metrics of the whole scene that another order has a value of and the one as written does not, be it that
+/// it did not complete or that an event did not happen: without a value of their own, for the range.
+void addMetricsOfOthers(CaseRow& row, const std::vector<OrderEnd>& others) {
+    const std::string why = row.outcome == Outcome::Completed
+                                ? "no value in the order as written"
+                                : std::string("the order as written: ") + results::outcomeName(row.outcome);
+    for (const OrderEnd& other : others)
+        for (const MetricRow& metric : other.row.metrics) {
+            if (!metric.subject.empty() || std::isnan(metric.value)) continue;
+            if (sameMetric(row, metric) != nullptr) continue;
+            MetricRow absent;
+            absent.name = metric.name;
+            absent.unit = metric.unit;
+            absent.kind = metric.kind;
+            absent.value = std::nan("");
+            absent.bound = metric.bound;
+            absent.scale = metric.scale;
+            absent.note = why;
+            row.metrics.push_back(absent);
+        }
 }
 
 /// Metrics that fail in another order and not in the one as written: " position_final (0.2, bound 0.1)".
@@ -59,12 +84,34 @@ std::string noteOf(const OrderEnd& end, const CaseRow& asWritten) {
     const std::string order = "order " + std::to_string(end.number + 1) + ": ";
     if (!end.reference.empty()) return order + end.reference;
     if (end.row.outcome == Outcome::Completed) {
-        if (asWritten.outcome != Outcome::Completed) return order + "completes";
         const std::string failures = failuresOnlyOf(end.row, asWritten);
-        return failures.empty() ? "" : order + "fails" + failures;
+        if (asWritten.outcome != Outcome::Completed)
+            return order + "completes" + (failures.empty() ? "" : " and fails" + failures);
+        if (!failures.empty()) return order + "fails" + failures;
+        return end.row.verdict == asWritten.verdict ? "" : order + results::verdictName(end.row.verdict);
     }
     return order + results::outcomeName(end.row.outcome) +
            (end.row.reason.empty() ? "" : " (" + end.row.reason + ")");
+}
+
+bool isFailure(Verdict verdict) {
+    return verdict == Verdict::Fail || verdict == Verdict::Crashed || verdict == Verdict::Timeout ||
+           verdict == Verdict::NonFinite;
+}
+
+/// Counts the verdicts of all orders whose reference held: "pass 3, fail 2".
+void addVerdicts(CaseRow& row, const std::vector<OrderEnd>& others) {
+    std::map<Verdict, int> counts;
+    if (row.verdict != Verdict::NoReference) ++counts[row.verdict];
+    for (const OrderEnd& other : others)
+        if (other.reference.empty() && other.row.verdict != Verdict::NoReference) ++counts[other.row.verdict];
+    std::int64_t failed = 0;
+    for (const auto& [verdict, count] : counts) {
+        failed += isFailure(verdict) ? count : 0;
+        row.orders.verdicts += (row.orders.verdicts.empty() ? "" : ", ") +
+                               std::string(results::verdictName(verdict)) + " " + std::to_string(count);
+    }
+    row.orders.failed = failed;
 }
 
 }  // namespace
@@ -96,7 +143,10 @@ void addOrders(CaseRow& row, std::vector<OrderEnd> others) {
         row.orders.best = std::min(row.orders.best, grade);
         row.orders.worst = std::max(row.orders.worst, grade);
     }
+    addVerdicts(row, others);
+    addMetricsOfOthers(row, others);
     for (MetricRow& metric : row.metrics) addRange(metric, others);
+    row.orders.dependence = results::orderDependence(row);
 }
 
 bool isRunInOrders(const CaseRow& row) {

@@ -60,7 +60,14 @@ inline CaseRow caseRow(const std::string& id, std::int64_t position) {
                  {"energy_drift", "block", "1", "invariant", kNanValue, -1.0, {}, {}, Verdict::Pass, ""},
                  {"sink", "", "m", "rest", kInf, -0.0, -kInf, kDenormal, Verdict::Fail, ""}};
     c.metrics[0].orderMin = 0.1, c.metrics[0].orderMax = kInf, c.metrics[0].orderCount = 5;
-    c.orders = {5, 4, Grade::C, Grade::E, "order 3: crashed (SIGSEGV)"};
+    c.orders = {5,
+                4,
+                Grade::C,
+                Grade::E,
+                "order 3: crashed (SIGSEGV)",
+                1,
+                "pass 4, crashed 1",
+                OrderDependence::Verdict};
     c.quantities = {{"stop_distance", "m", 1.63, 1.64, {}}, {"t", "s", 1.0, {}, kNanValue}};
     c.ledger = {{"friction_law", "cone", "pyramid", "approximate", "the library has no other"}};
     c.readBack = {{"mass", "block", 2.0, std::nextafter(2.0, 3.0), 4.4e-16, true},

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "validation/results/insertion_orders.hpp"
 #include "validation/results/tests/sample_run.hpp"
 
 namespace rigor::results {
@@ -111,8 +112,10 @@ void expectSame(const CaseRow& a, const CaseRow& b) {
     EXPECT_EQ(std::tie(x.grade, x.metric, x.relative, x.ideal, x.note),
               std::tie(y.grade, y.metric, y.relative, y.ideal, y.note));
     EXPECT_EQ(std::tie(a.regression, a.regressionReason), std::tie(b.regression, b.regressionReason));
-    EXPECT_EQ(std::tie(a.orders.run, a.orders.completed, a.orders.best, a.orders.worst, a.orders.note),
-              std::tie(b.orders.run, b.orders.completed, b.orders.best, b.orders.worst, b.orders.note));
+    EXPECT_EQ(std::tie(a.orders.run, a.orders.completed, a.orders.best, a.orders.worst, a.orders.note,
+                       a.orders.failed, a.orders.verdicts, a.orders.dependence),
+              std::tie(b.orders.run, b.orders.completed, b.orders.best, b.orders.worst, b.orders.note,
+                       b.orders.failed, b.orders.verdicts, b.orders.dependence));
     expectSameMeasured(a, b);
     expectSameParity(a, b);
 }
@@ -258,7 +261,13 @@ TEST(Store, AnalysisIsReplacedAsAWhole) {
     expectAnalysed(readRun(folder.path()));
 }
 
+void takeBackVerdictsOfOrders(SQLite::Database& database) {
+    for (const char* column : {"insertion_orders_failed", "insertion_verdicts", "order_dependent"})
+        database.exec(std::string("ALTER TABLE cases DROP COLUMN ") + column);
+}
+
 void takeBackInsertionOrders(SQLite::Database& database) {
+    takeBackVerdictsOfOrders(database);
     for (const char* column :
          {"insertion_orders", "insertion_orders_completed", "grade_best", "grade_worst", "insertion_note"})
         database.exec(std::string("ALTER TABLE cases DROP COLUMN ") + column);
@@ -437,6 +446,30 @@ TEST(Store, OfSchema8HasEverythingButOrdersOfInsertion) {
     EXPECT_EQ(run.schemaVersion, kSchemaVersion);
     expectSame(expected, run.cases.at(0));
     expectSame(caseRow("b", 1), run.cases.at(1));
+}
+
+TEST(Store, OfSchema9HasEverythingButVerdictsOfOrders) {
+    const TemporaryFolder folder;
+    {
+        RunWriter writer(folder.path(), false);
+        writer.writeHeader(header());
+        writer.writeCase(caseRow("a", 0));
+    }
+    {
+        SQLite::Database database((folder.path() / "results.sqlite").string(), SQLite::OPEN_READWRITE);
+        takeBackVerdictsOfOrders(database);
+        database.exec("PRAGMA user_version = 9");
+    }
+    CaseRow expected = caseRow("a", 0);
+    expected.orders.failed = {};
+    expected.orders.verdicts = "";
+    expected.orders.dependence = OrderDependence::Unknown;
+    expectSame(expected, readRun(folder.path()).cases.at(0));
+    EXPECT_EQ(orderDependence(readRun(folder.path()).cases.at(0)), OrderDependence::Verdict)
+        << "one of its orders did not complete";
+    { RunWriter(folder.path(), true).writeCase(caseRow("b", 1)); }
+    expectSame(expected, readRun(folder.path()).cases.at(0));
+    expectSame(caseRow("b", 1), readRun(folder.path()).cases.at(1));
 }
 
 TEST(Store, OneWriterAtATime) {

@@ -22,6 +22,7 @@ using Orders = fixtures::RunnerTest;
 using results::CaseRow;
 using results::Grade;
 using results::MetricRow;
+using results::OrderDependence;
 using results::Outcome;
 using testing::HasSubstr;
 
@@ -181,6 +182,7 @@ TEST(AddOrders, AReferenceThatBrokeDownIsNoGrade) {
 TEST(AddOrders, TheOneAsWrittenMayBeTheOneThatFails) {
     CaseRow row;
     row.outcome = Outcome::NonFinite;
+    row.verdict = results::Verdict::NonFinite;
     EXPECT_TRUE(isRunInOrders(row));
     addOrders(row, {{1, graded(Grade::B, {metric("a", 2.0)}), ""}});
     EXPECT_EQ(row.orders.run, 2);
@@ -189,6 +191,15 @@ TEST(AddOrders, TheOneAsWrittenMayBeTheOneThatFails) {
     EXPECT_EQ(row.orders.worst, Grade::E);
     EXPECT_EQ(row.orders.note, "order 2: completes");
     EXPECT_EQ(row.accuracy.grade, Grade::None) << "of the order as written";
+    EXPECT_EQ(row.orders.verdicts, "pass 1, non-finite 1");
+    EXPECT_EQ(row.orders.failed, 1);
+    EXPECT_EQ(row.orders.dependence, OrderDependence::Verdict);
+    ASSERT_EQ(row.metrics.size(), 1u) << "the range of the orders that completed";
+    EXPECT_TRUE(std::isnan(row.metrics[0].value));
+    EXPECT_EQ(row.metrics[0].orderMin, 2.0);
+    EXPECT_EQ(row.metrics[0].orderMax, 2.0);
+    EXPECT_EQ(row.metrics[0].orderCount, 1);
+    EXPECT_EQ(row.metrics[0].note, "the order as written: non_finite");
     row.outcome = Outcome::Unsupported;
     EXPECT_FALSE(isRunInOrders(row));
 }
@@ -200,12 +211,51 @@ TEST(AddOrders, AnOrderThatMissesABoundIsTold) {
         m.verdict = value <= 1.0 ? results::Verdict::Pass : results::Verdict::Fail;
         return m;
     };
-    CaseRow row = graded(Grade::B, {bounded(0.5)});
-    addOrders(row, {{1, graded(Grade::B, {bounded(0.6)}), ""}, {2, graded(Grade::B, {bounded(2.0)}), ""}});
+    const auto judged = [&](double value) {
+        CaseRow row = graded(Grade::B, {bounded(value)});
+        row.verdict = row.metrics[0].verdict;
+        return row;
+    };
+    CaseRow row = judged(0.5);
+    addOrders(row, {{1, judged(0.6), ""}, {2, judged(2.0), ""}});
     EXPECT_EQ(row.orders.note, "order 3: fails a (2, bound 1)");
-    CaseRow alike = graded(Grade::B, {bounded(3.0)});
-    addOrders(alike, {{1, graded(Grade::B, {bounded(2.0)}), ""}});
+    EXPECT_EQ(row.orders.verdicts, "pass 2, fail 1");
+    EXPECT_EQ(row.orders.failed, 1);
+    EXPECT_EQ(row.orders.dependence, OrderDependence::Verdict);
+    EXPECT_EQ(row.verdict, results::Verdict::Pass) << "of the order as written";
+    CaseRow alike = judged(3.0);
+    addOrders(alike, {{1, judged(2.0), ""}});
     EXPECT_EQ(alike.orders.note, "") << "the order as written fails it too";
+    EXPECT_EQ(alike.orders.verdicts, "fail 2");
+    EXPECT_EQ(alike.orders.failed, 2);
+    EXPECT_EQ(alike.orders.dependence, OrderDependence::Value);
+    CaseRow better = judged(3.0);
+    addOrders(better, {{1, judged(0.5), ""}});
+    EXPECT_EQ(better.orders.note, "order 2: pass");
+    EXPECT_EQ(better.orders.dependence, OrderDependence::Verdict);
+}
+
+/// An event that does not happen in the order as written has the range of those in which it does.
+TEST(AddOrders, AMetricThatOthersAloneHaveIsShownWithoutAValue) {
+    CaseRow row = graded(Grade::C, {metric("a", 1.0)});
+    addOrders(row, {{1, graded(Grade::C, {metric("a", 1.0), metric("event", 4.0)}), ""},
+                    {2, graded(Grade::C, {metric("a", 1.0), metric("event", 7.0)}), ""}});
+    ASSERT_EQ(row.metrics.size(), 2u);
+    EXPECT_TRUE(std::isnan(row.metrics[1].value));
+    EXPECT_EQ(row.metrics[1].note, "no value in the order as written");
+    EXPECT_EQ(row.metrics[1].orderMin, 4.0);
+    EXPECT_EQ(row.metrics[1].orderMax, 7.0);
+    EXPECT_EQ(row.metrics[1].orderCount, 2);
+    EXPECT_EQ(row.orders.dependence, OrderDependence::Value);
+}
+
+TEST(AddOrders, GradesThatDifferAreTheDependence) {
+    CaseRow row = graded(Grade::C, {metric("a", 1.0)});
+    addOrders(row, {{1, graded(Grade::D, {metric("a", 1.5)}), ""}});
+    EXPECT_EQ(row.orders.dependence, OrderDependence::Grade);
+    CaseRow same = graded(Grade::C, {metric("a", 1.0)});
+    addOrders(same, {{1, graded(Grade::C, {metric("a", 1.0)}), ""}});
+    EXPECT_EQ(same.orders.dependence, OrderDependence::None);
 }
 
 TEST(AddOrders, WithoutAGradeThereIsNone) {

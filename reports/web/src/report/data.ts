@@ -135,7 +135,8 @@ export interface Orders {
   completed: number;
   best: string; // grades; "" where the case is not graded
   worst: string;
-  depends: boolean;
+  depends: 'no' | 'value' | 'grade' | 'verdict'; // the gravest thing that depends on the order
+  mark: string; // '⇅' for a verdict, '↕' for a grade or a value, ''
   says: string; // a sentence
 }
 
@@ -151,6 +152,8 @@ export interface OrderDependent {
   greatest: Maybe;
   run: number; // orders
   completed: number;
+  dependence: 'value' | 'grade' | 'verdict'; // the gravest thing that depends on the order
+  verdicts: string; // "2 of 5 orders fail (pass 3, fail 2)"; '' where all have one
   grade: string; // in the order as written
   best: string; // grades over the orders
   worst: string;

@@ -39,7 +39,14 @@ function row(d: OrderDependent): HTMLElement {
       strip(d),
     ),
     el('td', null, grades),
-    el('td', { class: 'small' }, d.completed < d.run ? `${d.completed} of ${d.run} orders completed. ` : '', d.note),
+    el('td', null, `${d.dependence === 'verdict' ? '⇅' : '↕'} ${d.dependence}`),
+    el(
+      'td',
+      { class: 'small' },
+      d.completed < d.run ? `${d.completed} of ${d.run} orders completed. ` : '',
+      d.verdicts ? `${d.verdicts}. ` : '',
+      d.note,
+    ),
   );
 }
 
@@ -47,7 +54,7 @@ export function insertionOrders(): HTMLElement | null {
   const found = run.insertionOrders;
   if (!found) return null;
   const heads = headRow(
-    ['Scenario', 'Engine', 'Time step', 'What varies most', 'As written', 'Over the orders', 'Grade', ''],
+    ['Scenario', 'Engine', 'Time step', 'What varies most', 'As written', 'Over the orders', 'Grade', 'Depends', ''],
     (i) => i === 2 || i === 4 || i === 5,
   );
   return panel(

@@ -62,6 +62,12 @@ function said(cell: Cell, number: Filters['number'], digits: number): string {
   return cell.at.value === null ? verdictText(shown).word : format(cell.at.value, digits);
 }
 
+/** ⇅ where the orders of any time step disagree about the verdict, else what the time step shown has. */
+function orderMark(cell: Cell): string {
+  const marks = cell.cases.map((c) => c.judged.orders?.mark ?? '');
+  return marks.includes('⇅') ? '⇅' : (marks.find(Boolean) ?? '');
+}
+
 const manyColumns = 10; // from here on cells are narrow
 
 const meter = (kind: string, place: number): HTMLElement | null =>
@@ -78,7 +84,7 @@ function cellNode(s: Scenario, column: Column, scale: RowScale, f: Filters, digi
     grade || verdictText(shown).symbol,
     grade && shown !== 'pass' && shown !== 'no_bound' ? verdictText(shown).symbol : '',
     cell.cases.map((c) => changeMark(c.judged.regression)).find(Boolean) ?? '',
-    cell.at.judged.orders?.depends ? '↕' : '',
+    orderMark(cell),
   ].join('');
   return el(
     'a',
@@ -236,7 +242,7 @@ function legend(): HTMLElement {
       'The letter is the grade of accuracy at the finest time step: the worst error over the metrics that the scenario names, each over the scenario’s own scale. ',
       'The number is that relative error; the best of a row is underlined. A scene without an exact answer has no letter: its cells are grey, with how the run ended and its main metric. ▼ ▲: worse or better than on record. ',
       run.scenarios.some((s) => s.cases.some((c) => c.judged.orders))
-        ? '↕: depends on the order in which bodies, shapes, joints and forces are handed over; number and grade are of the order as written. '
+        ? '↕: depends on the order in which bodies, shapes, joints and forces are handed over; number and grade are of the order as written. ⇅: so does the verdict, or how the run ends. '
         : '',
       el('b', null, 'Upper bar: that relative error'),
       ', empty at 1e-6, full at 1. ',
