@@ -38,53 +38,6 @@ Def common(const Ends& ends) {
 /// Too little to be felt, enough for Box2D to take a damper for a spring.
 constexpr float kLeastStiffness = 1e-20f;
 
-/// The velocity of B against A along one direction of a joint, as a row of its Jacobian: n (vB - vA) +
-/// turnB wB - turnA wA, with the velocities of the centres of mass.
-struct Row {
-    b2Vec2 n{0.0f, 0.0f};
-    double turnA = 0.0, turnB = 0.0;
-};
-const Row kAngle{{0.0f, 0.0f}, 1.0, 1.0};
-
-/// Of the anchors along the unit vector n in the world.
-Row along(const Ends& ends, b2Vec2 n) {
-    const auto arm = [&](const b2Body& body, b2Vec2 anchor) {
-        return static_cast<double>(b2Cross(body.GetWorldPoint(anchor) - body.GetWorldCenter(), n));
-    };
-    return {n, arm(*ends.a.body, ends.anchorA), arm(*ends.b.body, ends.anchorB)};
-}
-
-/// How much an impulse along row r changes the velocity along row s [1/kg]; Box2D lengths.
-double coupling(const Ends& ends, const Row& r, const Row& s) {
-    double sum = 0.0;
-    const auto add = [&](const b2Body& body, double turnR, double turnS) {
-        if (body.GetType() != b2_dynamicBody) return;
-        const double central =
-            body.GetInertia() - body.GetMass() * b2Dot(body.GetLocalCenter(), body.GetLocalCenter());
-        sum += b2Dot(r.n, s.n) / body.GetMass() + turnR * turnS / central;
-    };
-    add(*ends.a.body, r.turnA, s.turnA);
-    add(*ends.b.body, r.turnB, s.turnB);
-    return sum;
-}
-
-/// One over the effective mass of a coordinate while the joint holds up to two others: what is left of its
-/// coupling with itself after theirs is eliminated.
-double mobilityOf(const Ends& ends, const Row& row) {
-    return coupling(ends, row, row);
-}
-double mobilityOf(const Ends& ends, const Row& row, const Row& held) {
-    const double k = coupling(ends, row, held);
-    return coupling(ends, row, row) - k * k / coupling(ends, held, held);
-}
-double mobilityOf(const Ends& ends, const Row& row, const Row& held, const Row& heldToo) {
-    const double k = coupling(ends, row, held), kToo = coupling(ends, row, heldToo);
-    const double a = coupling(ends, held, held), b = coupling(ends, held, heldToo),
-                 c = coupling(ends, heldToo, heldToo);
-    const double eliminated = (c * k * k - 2.0 * b * k * kToo + a * kToo * kToo) / (a * c - b * b);
-    return coupling(ends, row, row) - eliminated;
-}
-
 /// A bound in Box2D's units; what is no bound in the format is far away.
 float toBound(double x, double scale) {
     return static_cast<float>(std::clamp(scale * x, -1e6, 1e6));
@@ -94,16 +47,11 @@ float toBound(double x, double scale) {
     throw adapter::notInLibrary("box2d", what, documentation, "joint '" + joint.name + "'");
 }
 
-/// Stiffness and damping of a spring on this coordinate, Box2D's units for a length that is scaled by
-/// `scale`; 1 for lengths of Box2D. Box2D takes no notice of the damping of a spring without stiffness.
-void setSpring(const scenario::JointAxis& axis, double mobility, double scale, float& stiffness,
-               float& damping) {
-    const double w = 2.0 * 3.14159265358979323846 * axis.frequency;
-    const bool tuned = axis.frequency > 0.0;
-    const double k = tuned ? w * w / mobility : scale * scale * axis.stiffness;
-    const double c = tuned ? 2.0 * axis.dampingRatio * w / mobility : scale * scale * axis.damping;
-    stiffness = std::max(static_cast<float>(k), kLeastStiffness);
-    damping = static_cast<float>(c);
+/// Stiffness and damping of a spring in Box2D's units; `unit` is 1 for a travel and the scale squared for an
+/// angle. Box2D takes no notice of the damping of a spring without stiffness.
+void setSpring(const scenario::JointAxis& axis, double unit, float& stiffness, float& damping) {
+    stiffness = std::max(static_cast<float>(unit * axis.stiffness), kLeastStiffness);
+    damping = static_cast<float>(unit * axis.damping);
 }
 
 /// Rod, rope, spring, or spring between stops.
@@ -116,14 +64,14 @@ b2Joint* addDistance(b2World& world, const Joint& joint, const Ends& ends, doubl
         def.minLength = limited ? std::max(0.0f, toBound(axis.lower, scale)) : 0.0f;
         def.maxLength = limited ? toBound(axis.upper, scale) : 1e6f;
         if (axis.hasSpring()) {
-            const bool sprung = axis.stiffness > 0.0 || axis.frequency > 0.0;
+            const bool sprung = axis.stiffness > 0.0;
             b2Vec2 n = ends.b.body->GetWorldPoint(ends.anchorB) - ends.a.body->GetWorldPoint(ends.anchorA);
             if (n.Normalize() <= b2_linearSlop)
                 unsupported(joint, "spring between anchors that coincide",
                             "b2_distance_joint.h, m_minLength: at least b2_linearSlop");
             // A damper without a spring has no use for the target.
             if (sprung) def.length = static_cast<float>(scale * axis.target);
-            setSpring(axis, mobilityOf(ends, along(ends, n)), 1.0, def.stiffness, def.damping);
+            setSpring(axis, 1.0, def.stiffness, def.damping);
         } else {
             def.length = std::max(def.length, 2.0f * b2_linearSlop);
         }
@@ -153,11 +101,7 @@ b2Joint* addWheel(b2World& world, const Joint& joint, const Ends& ends, double s
     def.enableMotor = angle.hasMotor();
     def.motorSpeed = static_cast<float>(angle.motorSpeed);
     def.maxMotorTorque = static_cast<float>(scale * scale * angle.motorMaxForce);
-    if (travel.hasSpring()) {
-        const b2Vec2 n = ends.a.body->GetWorldVector(def.localAxisA);
-        const double mobility = mobilityOf(ends, along(ends, n), along(ends, b2Cross(1.0f, n)));
-        setSpring(travel, mobility, 1.0, def.stiffness, def.damping);
-    }
+    if (travel.hasSpring()) setSpring(travel, 1.0, def.stiffness, def.damping);
     return world.CreateJoint(&def);
 }
 
@@ -179,9 +123,7 @@ Parts addHinge(b2World& world, const Joint& joint, const Ends& ends, double scal
     if (axis.hasSpring()) {
         auto spring = common<b2WeldJointDef>(ends);
         spring.referenceAngle = ends.referenceAngle + static_cast<float>(axis.target);
-        const double mobility =
-            mobilityOf(ends, kAngle, along(ends, {1.0f, 0.0f}), along(ends, {0.0f, 1.0f}));
-        setSpring(axis, mobility, scale, spring.stiffness, spring.damping);
+        setSpring(axis, scale * scale, spring.stiffness, spring.damping);
         parts.push_back(world.CreateJoint(&spring));
     }
     return parts;
@@ -206,9 +148,7 @@ Parts addSlider(b2World& world, const Joint& joint, const Ends& ends, double sca
         auto spring = common<b2WheelJointDef>(ends);
         spring.localAxisA = def.localAxisA;
         spring.localAnchorA += static_cast<float>(scale * axis.target) * def.localAxisA;
-        const b2Vec2 n = ends.a.body->GetWorldVector(def.localAxisA);
-        const double mobility = mobilityOf(ends, along(ends, n), along(ends, b2Cross(1.0f, n)), kAngle);
-        setSpring(axis, mobility, 1.0, spring.stiffness, spring.damping);
+        setSpring(axis, 1.0, spring.stiffness, spring.damping);
         parts.push_back(world.CreateJoint(&spring));
     }
     return parts;

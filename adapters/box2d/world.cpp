@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "adapters/box2d/joints.hpp"
+#include "adapters/interface/joint_springs.hpp"
 #include "adapters/interface/reach.hpp"
 
 namespace rigor::box2d {
@@ -36,7 +37,7 @@ void refuseFar(const Vec3& position, const std::string& what) {
 }  // namespace
 
 Box2dWorld::Box2dWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings)
-    : scenario_(scenario), settings_(settings), dt_(dt), pairs_(scenario_) {
+    : scenario_(adapter::withStiffness(scenario)), settings_(settings), dt_(dt), pairs_(scenario_) {
     scale_ = adapter::numberSetting(settings_, "scale");
     velocityIterations_ = adapter::integerSetting(settings_, "velocity_iterations");
     positionIterations_ = adapter::integerSetting(settings_, "position_iterations");

@@ -49,7 +49,7 @@ class BulletEngine final : public adapter::Engine, public adapter::DynamicsEngin
         c.planar = true;
         c.shapes = {"sphere", "box",     "capsule",    "cylinder",      "cone",         "hull",  "half_space",
                     "circle", "polygon", "half_plane", "triangle_mesh", "height_field", "chain", "segment"};
-        c.joints = {"ball", "ball.limit", "fixed"};
+        c.joints = {"ball", "ball.limit", "ball.spring", "fixed"};
         for (const char* type : {"cone_twist", "hinge", "slider", "six_dof", "wheel"}) {
             c.joints.push_back(type);
             for (const char* feature : {".limit", ".motor", ".spring"})

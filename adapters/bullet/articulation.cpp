@@ -278,13 +278,7 @@ void Articulations::addDrives(btMultiBody& multiBody, int index, const Edge& edg
         addConstraint(std::make_unique<btMultiBodyJointMotor>(
             &multiBody, index, scalar(sign * axis.motorSpeed), scalar(axis.motorMaxForce * settings_.dt)));
     if (!axis.hasSpring()) return;
-    const auto endOf = [&](int body) {
-        if (body == scenario::kNone) return JointEnd{};
-        const auto i = static_cast<std::size_t>(body);
-        return JointEnd{nullptr, sources_[i].comFrame, scenario_.bodies[i].pose, &scenario_.bodies[i]};
-    };
-    const SpringLaw law = springLawOf(*edge.joint, endOf(edge.joint->bodyA), endOf(edge.joint->bodyB));
-    springs_.push_back({&multiBody, index, law.stiffness, law.damping, sign * axis.target});
+    springs_.push_back({&multiBody, index, axis.stiffness, axis.damping, sign * axis.target});
 }
 
 void Articulations::pullSprings() {

@@ -116,27 +116,34 @@ std::unique_ptr<btTypedConstraint> buildConeTwist(const Joint& joint, const Join
     return coneTwist;
 }
 
-/// Twist has its motor and spring from another constraint.
-void refuseMissing(const Joint& joint) {
-    const bool ball = joint.type == JointType::Ball, coneTwist = joint.type == JointType::ConeTwist;
-    if (!ball && !coneTwist) return;
-    if (joint.axes[ball ? 0 : 1].hasSpring())
-        throw adapter::notInAdapter("bullet", "spring of a swing", "joint '" + joint.name + "'");
+/// A spherical joint, with a cone where its swing is limited, and what another constraint does for it: motor
+/// and spring of a twist, spring of a swing.
+BuiltJoint buildSpherical(const Joint& joint, const JointEnd& a, const JointEnd& b,
+                          const JointSettings& settings) {
+    const bool hasTwist = joint.type == JointType::ConeTwist;
+    const scenario::JointAxis& swing = joint.axes[hasTwist ? 1 : 0];
+    BuiltJoint built;
+    if (hasTwist || swing.mode == scenario::AxisMode::Limited)
+        built.parts.push_back(buildConeTwist(joint, a, b));
+    else
+        built.parts.push_back(std::make_unique<btPoint2PointConstraint>(
+            *a.body, *b.body, toBullet(inverse(a.comFrame) * joint.anchorA),
+            toBullet(inverse(b.comFrame) * joint.anchorB)));
+    if (hasTwist && joint.axes[0].hasMotor()) addTurnMotor(joint, a, b, built);
+    if (hasTwist && joint.axes[0].hasSpring()) addTurnSpring(joint, a, b, settings, built);
+    if (swing.hasSpring()) addSwingSpring(joint, a, b, settings, built);
+    return built;
 }
 
 }  // namespace
 
 BuiltJoint buildJoint(const Joint& joint, const JointEnd& a, const JointEnd& b,
                       const JointSettings& settings) {
-    refuseMissing(joint);
-    const btVector3 anchorA = toBullet(inverse(a.comFrame) * joint.anchorA);
-    const btVector3 anchorB = toBullet(inverse(b.comFrame) * joint.anchorB);
     const bool sprung = joint.axes[0].hasSpring();
     switch (joint.type) {
         case JointType::Ball:
-            if (joint.axes[0].mode == scenario::AxisMode::Limited)
-                return BuiltJoint(buildConeTwist(joint, a, b));
-            return BuiltJoint(std::make_unique<btPoint2PointConstraint>(*a.body, *b.body, anchorA, anchorB));
+        case JointType::ConeTwist:
+            return buildSpherical(joint, a, b, settings);
         case JointType::Hinge: {
             if (sprung && !beyondHalfTurn(joint.axes[0])) return buildSixDof(joint, a, b, settings);
             BuiltJoint built = buildHinge(joint, a, b, settings);
@@ -154,12 +161,6 @@ BuiltJoint buildJoint(const Joint& joint, const JointEnd& a, const JointEnd& b,
         case JointType::Fixed: {
             const Frames frames = framesOf(joint, fromXTo(joint.axisA), a, b);
             return BuiltJoint(std::make_unique<btFixedConstraint>(*a.body, *b.body, frames.inA, frames.inB));
-        }
-        case JointType::ConeTwist: {
-            BuiltJoint built(buildConeTwist(joint, a, b));
-            if (joint.axes[0].hasMotor()) addTurnMotor(joint, a, b, built);
-            if (sprung) addTurnSpring(joint, a, b, settings, built);
-            return built;
         }
         case JointType::SixDof:
         case JointType::Wheel:

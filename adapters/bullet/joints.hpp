@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adapters/bullet/damper.hpp"
+#include "adapters/bullet/swing_spring.hpp"
 #include "adapters/bullet/turn_limit.hpp"
 #include "adapters/interface/types.hpp"
 
@@ -47,6 +48,7 @@ struct BuiltJoint {
     std::vector<std::unique_ptr<btTypedConstraint>> parts;
     std::vector<Damper> dampers;
     std::vector<TurnLimit> turnLimits;
+    std::vector<SwingSpring> swingSprings;
 };
 
 /// The joint as Bullet constraints; axes and signs follow the format (B relative to A). Throws Unsupported

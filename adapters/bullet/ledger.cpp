@@ -82,7 +82,7 @@ void BulletWorld::appendJointLedger(std::vector<LedgerEntry>& lines) const {
     for (const scenario::Joint& joint : scenario_.joints) {
         const auto limited = [&](std::size_t k) { return joint.axes[k].mode == scenario::AxisMode::Limited; };
         for (const auto& axis : joint.axes) {
-            const bool damper = axis.frequency == 0.0 && axis.stiffness == 0.0 && axis.hasSpring();
+            const bool damper = axis.stiffness == 0.0 && axis.hasSpring();
             sprung = sprung || (axis.hasSpring() && !damper);
             dampers = dampers || damper;
         }

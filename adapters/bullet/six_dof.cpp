@@ -12,10 +12,8 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "adapters/bullet/convert.hpp"
-#include "adapters/bullet/effective_mass.hpp"
 
 namespace rigor::bullet {
 namespace {
@@ -82,27 +80,6 @@ RotateOrder rotationOrder(const Layout& layout) {
     return RO_XYZ;
 }
 
-SpringLaw springLaw(const Layout& layout, std::size_t k, const Joint& joint, const JointEnd& a,
-                    const JointEnd& b) {
-    const JointAxis& axis = *layout.axis[k];
-    if (axis.frequency <= 0.0) return {axis.stiffness, axis.damping};
-    const Vec3 anchor = b.bodyPose * joint.anchorB;
-    const auto centerOf = [](const JointEnd& end) { return end.bodyPose * end.comFrame.position; };
-    const auto row = [&](std::size_t i) {
-        const Vec3 world = rotate(a.bodyPose.orientation, layout.direction(i));
-        return i < 3 ? travelRow(world, anchor, centerOf(a), centerOf(b)) : turnRow(world);
-    };
-    std::vector<CoordinateRow> held;
-    for (std::size_t i = 0; i < 6; ++i)
-        if (layout.axis[i] == nullptr) held.push_back(row(i));
-    const auto inverseOf = [](const JointEnd& end) {
-        return end.scenarioBody == nullptr ? InverseInertia() : InverseInertia(*end.scenarioBody);
-    };
-    const double mass = effectiveMass(row(k), held, inverseOf(a), inverseOf(b));
-    const double omega = 2.0 * std::numbers::pi * axis.frequency;
-    return {mass * omega * omega, 2.0 * axis.dampingRatio * mass * omega};
-}
-
 /// The joint frame in A's body frame: its x axis along the layout's, then its y axis turned about that.
 Quat frameOf(const Layout& layout) {
     const Quat swing = fromXTo(layout.x);
@@ -131,14 +108,6 @@ Range rangeOf(const JointAxis* axis, bool turn, const Joint& joint) {
     return {bound(axis->lower), bound(axis->upper)};
 }
 
-}  // namespace
-
-SpringLaw springLawOf(const Joint& joint, const JointEnd& a, const JointEnd& b) {
-    return springLaw(layoutOf(joint, a, b), joint.type == JointType::Slider ? 0 : 3, joint, a, b);
-}
-
-namespace {
-
 using SixDof = btGeneric6DofSpring2Constraint;
 
 /// A constraint in the layout's frame that leaves everything free.
@@ -164,18 +133,18 @@ void setMotor(SixDof& part, std::size_t k, const JointAxis& axis) {
 }
 
 /// A damper takes the coordinate's motor.
-void setSpring(SixDof& part, std::size_t k, const JointAxis& axis, const SpringLaw& law,
-               const JointSettings& settings, std::vector<Damper>& dampers) {
+void setSpring(SixDof& part, std::size_t k, const JointAxis& axis, const JointSettings& settings,
+               std::vector<Damper>& dampers) {
     const int index = static_cast<int>(k);
-    if (law.stiffness == 0.0) {
+    if (axis.stiffness == 0.0) {
         part.enableMotor(index, true);
         part.setTargetVelocity(index, btScalar(0.0));
-        dampers.push_back({&part, index, law.damping});
+        dampers.push_back({&part, index, axis.damping});
         return;
     }
     part.enableSpring(index, true);
-    part.setStiffness(index, scalar(law.stiffness), settings.limitSprings);
-    part.setDamping(index, scalar(law.damping), settings.limitSprings);
+    part.setStiffness(index, scalar(axis.stiffness), settings.limitSprings);
+    part.setDamping(index, scalar(axis.damping), settings.limitSprings);
     part.setEquilibriumPoint(index, scalar(k >= 3 ? -axis.target : axis.target));
 }
 
@@ -191,12 +160,12 @@ void addLeaningSpin(const Joint& joint, const JointEnd& a, const JointEnd& b, co
     for (const std::size_t k : {4, 5}) setRange(*part, k, {0.0, 0.0});
     setRange(*part, 3, rangeOf(&angle, true, joint));
     if (angle.hasMotor()) setMotor(*part, 3, angle);
-    if (angle.hasSpring()) {
-        const SpringLaw law = springLaw(layout, 3, joint, a, b);
-        if (law.stiffness == 0.0 && angle.hasMotor())
-            throw adapter::notInAdapter("bullet", "damper and motor of a wheel whose spin axis leans",
-                                        "joint '" + joint.name + "'");
-        setSpring(*part, 3, angle, law, settings, built.dampers);
+    if (angle.hasSpring() && angle.stiffness == 0.0 && angle.hasMotor()) {
+        auto damper = freeJoint(layout, joint, a, b);
+        setSpring(*damper, 3, angle, settings, built.dampers);
+        built.parts.push_back(std::move(damper));
+    } else if (angle.hasSpring()) {
+        setSpring(*part, 3, angle, settings, built.dampers);
     }
     built.parts.push_back(std::move(part));
 }
@@ -211,9 +180,24 @@ void addTurnMotor(const Joint& joint, const JointEnd& a, const JointEnd& b, Buil
 
 void addTurnSpring(const Joint& joint, const JointEnd& a, const JointEnd& b, const JointSettings& settings,
                    BuiltJoint& built) {
-    const Layout layout = layoutOf(joint, a, b);
+    auto part = freeJoint(layoutOf(joint, a, b), joint, a, b);
+    setSpring(*part, 3, joint.axes[0], settings, built.dampers);
+    built.parts.push_back(std::move(part));
+}
+
+void addSwingSpring(const Joint& joint, const JointEnd& a, const JointEnd& b, const JointSettings& settings,
+                    BuiltJoint& built) {
+    Layout layout;
+    layout.x = anyNormalOf(joint.axisA);
+    layout.y = joint.axisA;
     auto part = freeJoint(layout, joint, a, b);
-    setSpring(*part, 3, joint.axes[0], springLaw(layout, 3, joint, a, b), settings, built.dampers);
+    const scenario::JointAxis& swing = joint.axes[joint.type == JointType::Ball ? 0 : 1];
+    setSpring(*part, 3, swing, settings, built.dampers);
+    const auto inBullet = [](const JointEnd& end, const Vec3& v) {
+        return toBullet(rotateInverse(end.comFrame.orientation, v));
+    };
+    built.swingSprings.push_back(
+        {part.get(), inBullet(a, joint.axisA), inBullet(b, joint.axisB), inBullet(a, layout.x)});
     built.parts.push_back(std::move(part));
 }
 
@@ -234,13 +218,12 @@ BuiltJoint buildSixDof(const Joint& joint, const JointEnd& a, const JointEnd& b,
         if (axis == nullptr) continue;
         if (axis->hasMotor()) setMotor(*sixDof, k, *axis);
         if (!axis->hasSpring()) continue;
-        const SpringLaw law = springLaw(layout, k, joint, a, b);
-        if (law.stiffness == 0.0 && axis->hasMotor()) {
+        if (axis->stiffness == 0.0 && axis->hasMotor()) {
             auto damper = freeJoint(layout, joint, a, b);
-            setSpring(*damper, k, *axis, law, settings, built.dampers);
+            setSpring(*damper, k, *axis, settings, built.dampers);
             built.parts.push_back(std::move(damper));
         } else {
-            setSpring(*sixDof, k, *axis, law, settings, built.dampers);
+            setSpring(*sixDof, k, *axis, settings, built.dampers);
         }
     }
     built.parts.insert(built.parts.begin(), std::move(sixDof));

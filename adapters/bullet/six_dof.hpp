@@ -6,17 +6,14 @@
 
 namespace rigor::bullet {
 
-/// Of the coordinate of a hinge or slider.
-struct SpringLaw {
-    double stiffness = 0.0, damping = 0.0;  ///< [N/m, N s/m] or [N m/rad, N m s/rad]
-};
-/// A frequency is that of the coordinate's effective mass at the initial poses, the locked coordinates held.
-SpringLaw springLawOf(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b);
-
 /// Adds to a hinge or cone_twist a constraint that leaves all free and drives its turn, or springs it.
 void addTurnMotor(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b, BuiltJoint& built);
 void addTurnSpring(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
                    const JointSettings& settings, BuiltJoint& built);
+
+/// Adds to a ball or cone_twist a constraint that leaves all free and springs its swing.
+void addSwingSpring(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
+                    const JointSettings& settings, BuiltJoint& built);
 
 /// six_dof, wheel, and hinges and sliders with a spring as btGeneric6DofSpring2Constraint, several where one
 /// does not do. Throws Unsupported.

@@ -17,6 +17,7 @@
 #include "adapters/bullet/convert.hpp"
 #include "adapters/bullet/joints.hpp"
 #include "adapters/bullet/principal_axes.hpp"
+#include "adapters/interface/joint_springs.hpp"
 #include "adapters/interface/planar.hpp"
 #include "adapters/interface/reach.hpp"
 
@@ -57,7 +58,7 @@ int gyroscopicFlags(const std::string& treatment) {
 
 BulletWorld::BulletWorld(const Scenario& scenario, double dt, const Settings& settings)
     : original_(scenario),
-      scenario_(scenario.dimension == 2 ? adapter::planarLift(scenario) : scenario),
+      scenario_(adapter::withStiffness(scenario.dimension == 2 ? adapter::planarLift(scenario) : scenario)),
       settings_(settings),
       dt_(dt),
       planar_(scenario.dimension == 2),
@@ -384,6 +385,7 @@ void BulletWorld::beforeStep(btDynamicsWorld* world, btScalar) {
         record->body->setAngularVelocity(record->angularVelocity);
     }
     for (const auto& joint : self.joints_) {
+        for (const SwingSpring& spring : joint->built.swingSprings) spring.update();
         for (const Damper& damper : joint->built.dampers) damper.update();
         for (TurnLimit& limit : joint->built.turnLimits) limit.update();
     }

@@ -64,15 +64,22 @@ JointMotion::JointMotion(const scenario::Joint& joint, const JointEnd& a, const 
         localTurning_ = rotateInverse(a.pose.orientation, rotate(b.pose.orientation, joint.spinAxisB));
     if (joint.type == JointType::SixDof) localTurning_ = localAxes_[2];  // in the plane its one angle
     localTurningNormal_ = anyNormal(localTurning_);
-    axisInB_ = intoB(localAxes_[0]);
-    normalInB_ = intoB(localAxes_[1]);
+    const bool turnsAboutPin = joint.type == JointType::Wheel;
+    localTurnAxes_[0] = turnsAboutPin ? localTurning_ : localAxes_[0];
+    localTurnAxes_[1] = turnsAboutPin ? localTurningNormal_ : localAxes_[1];
+    localTurnAxes_[2] = cross(localTurnAxes_[0], localTurnAxes_[1]);
+    axisInB_ = intoB(localTurnAxes_[0]);
+    normalInB_ = intoB(localTurnAxes_[1]);
     turningNormalInB_ = intoB(localTurningNormal_);
     update();
 }
 
 void JointMotion::update() {
     const Pose A = a_.now(), B = b_.now();
-    for (int k = 0; k < 3; ++k) axes_[k] = rotate(A.orientation, localAxes_[k]);
+    for (int k = 0; k < 3; ++k) {
+        axes_[k] = rotate(A.orientation, localAxes_[k]);
+        turnAxes_[k] = rotate(A.orientation, localTurnAxes_[k]);
+    }
     turning_ = rotate(A.orientation, localTurning_);
     turningNormal_ = rotate(A.orientation, localTurningNormal_);
     axisOfB_ = rotate(B.orientation, axisInB_);
@@ -107,113 +114,26 @@ Coordinate JointMotion::angle(Angle kind) const {
         return {std::atan2(dot(side, turningNormalOfB_), dot(turningNormal_, turningNormalOfB_)),
                 turning(turning_)};
     }
-    const Vec3 &x = axes_[0], &b = axisOfB_;
+    const Vec3 &x = turnAxes_[0], &b = axisOfB_;
     const Vec3 normal = cross(x, b);
     const double cosine = dot(x, b), sine = norm(normal), phi = std::atan2(sine, cosine);
-    const Vec3 n = sine > kSmallSwing ? normal / sine : axes_[1];
+    const Vec3 n = sine > kSmallSwing ? normal / sine : turnAxes_[1];
     if (kind == Angle::Cone) return {phi, turning(n)};
     if (kind == Angle::Twist) {
         const Vec3& v = normalOfB_;  // rotated back by the swing
         const Vec3 back = cosine * v - sine * cross(n, v) + (1.0 - cosine) * dot(n, v) * n;
-        return {std::atan2(dot(back, axes_[2]), dot(back, axes_[1])),
+        return {std::atan2(dot(back, turnAxes_[2]), dot(back, turnAxes_[1])),
                 turning((x + b) / std::max(1.0 + cosine, 1e-12))};
     }
-    const Vec3& t = axes_[kind == Angle::SwingY ? 1 : 2];
+    const Vec3& t = turnAxes_[kind == Angle::SwingY ? 1 : 2];
     if (sine <= kSmallSwing) return {dot(t, normal), turning(t)};
     const Vec3 s = phi * n, e = cross(n, x);
     const double bent = phi * cosine / sine - 1.0;
     return {dot(t, s), turning(t + bent * dot(t, e) * e - dot(t, cross(s, x)) * x)};
 }
 
-std::vector<Rate> JointMotion::held() const {
-    std::vector<Rate> rows;
-    const auto holdAnchor = [&](std::initializer_list<int> axes) {
-        for (const int k : axes) rows.push_back(travel(k).rate);
-    };
-    const auto holdTurns = [&](const Vec3& free) {
-        const Vec3 n = anyNormal(free);
-        for (const Vec3& t : {n, cross(free, n)}) rows.push_back(turning(t));
-    };
-    switch (joint_.type) {
-        case JointType::Distance:
-            break;
-        case JointType::Ball:
-        case JointType::ConeTwist:
-            holdAnchor({0, 1, 2});
-            break;
-        case JointType::Hinge:
-            holdAnchor({0, 1, 2});
-            holdTurns(turning_);
-            break;
-        case JointType::Fixed:
-            holdAnchor({0, 1, 2});
-            for (const Vec3& t : axes_) rows.push_back(turning(t));
-            break;
-        case JointType::Slider:
-            holdAnchor({1, 2});
-            for (const Vec3& t : axes_) rows.push_back(turning(t));
-            break;
-        case JointType::Wheel:
-            holdAnchor({1, 2});
-            holdTurns(turning_);
-            break;
-        case JointType::SixDof: {
-            constexpr Angle kinds[] = {Angle::Twist, Angle::SwingY, Angle::SwingZ};
-            for (int k = 0; k < 6; ++k) {
-                const AxisMode mode = joint_.axes[static_cast<std::size_t>(k)].mode;
-                if (mode == AxisMode::Locked)
-                    rows.push_back(k < 3 ? travel(k).rate : angle(kinds[k - 3]).rate);
-            }
-            break;
-        }
-    }
-    return rows;
-}
-
-double JointMotion::coupling(const Rate& r, const Rate& s) const {
-    double sum = 0.0;
-    const auto add = [&](const JointEnd& end, const Vec3& angR, const Vec3& angS) {
-        if (!end.hasMass()) return;
-        dMass mass;
-        dBodyGetMass(end.body, &mass);
-        Mat3 I;
-        for (int i = 0; i < 3; ++i)
-            for (int k = 0; k < 3; ++k) I(i, k) = mass.I[4 * i + k];
-        const Quat q = quatFromOde(dBodyGetQuaternion(end.body));
-        sum += dot(r.lin, s.lin) / mass.mass +
-               dot(rotateInverse(q, angR), inverseOf(I) * rotateInverse(q, angS));
-    };
-    add(a_, r.angA, s.angA);
-    add(b_, r.angB, s.angB);
-    return sum;
-}
-
-/// Gaussian elimination of the held rows out of the bordered matrix; its last pivot is what is left of K.
-double JointMotion::movedMass(const Rate& coordinate) const {
-    std::vector<Rate> rows = held();
-    rows.push_back(coordinate);
-    const std::size_t n = rows.size();
-    std::vector<std::vector<double>> K(n, std::vector<double>(n));
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) K[i][j] = coupling(rows[i], rows[j]);
-    const double whole = K[n - 1][n - 1];
-    for (std::size_t p = 0; p + 1 < n; ++p) {
-        if (!(K[p][p] > 1e-14 * whole)) continue;  // held by another row already
-        for (std::size_t i = p + 1; i < n; ++i) {
-            const double factor = K[i][p] / K[p][p];
-            for (std::size_t j = p; j < n; ++j) K[i][j] -= factor * K[p][j];
-        }
-    }
-    return K[n - 1][n - 1] > 1e-14 * whole ? 1.0 / K[n - 1][n - 1] : 0.0;
-}
-
-SpringTerms springTerms(const scenario::JointAxis& axis, double moved, double dt) {
-    double k = axis.stiffness, c = axis.damping;
-    if (axis.frequency > 0.0) {
-        const double w = 2.0 * 3.14159265358979323846 * axis.frequency;
-        k = moved * w * w;
-        c = 2.0 * axis.dampingRatio * w * moved;
-    }
+SpringTerms springTerms(const scenario::JointAxis& axis, double dt) {
+    const double k = axis.stiffness, c = axis.damping;
     return {dt * k / (dt * k + c), 1.0 / (dt * k + c)};
 }
 

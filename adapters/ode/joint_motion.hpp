@@ -36,7 +36,7 @@ struct Coordinate {
 
 enum class Angle {
     Turn,   ///< about the joint's turning axis: hinge, wheel, six_dof in the plane
-    Twist,  ///< about A's axis after the swing is taken back, see scenarios/README.md
+    Twist,  ///< about A's axis, of a wheel its pin, after the swing is taken back, see scenarios/README.md
     Cone,   ///< between the axes of A and B, >= 0
     SwingY,
     SwingZ  ///< components of the swing vector along A's normals
@@ -58,21 +58,15 @@ class JointMotion {
     adapter::Vec3 centerA() const { return centerA_; }  ///< centre of mass, world [m]
     adapter::Vec3 centerB() const { return centerB_; }
 
-    /// The mass or moment that moves with a coordinate while the joint holds what it holds: 1 / (K - c Kh^-1
-    /// c^T) with K = J M^-1 J^T, c = J M^-1 Jh^T and Kh that of the held rows Jh. 0 where nothing moves.
-    double movedMass(const Rate& coordinate) const;
-
   private:
     Coordinate point(const adapter::Vec3& direction) const;
     static Rate turning(const adapter::Vec3& about) { return {{}, -about, about}; }
-    std::vector<Rate> held() const;
-    double coupling(const Rate& r, const Rate& s) const;
 
     scenario::Joint joint_;
     JointEnd a_, b_;
-    adapter::Vec3 localAxes_[3], localTurning_, localTurningNormal_;  ///< in A
-    adapter::Vec3 axisInB_, normalInB_, turningNormalInB_;            ///< the same at the start, in B
-    adapter::Vec3 axes_[3], turning_, turningNormal_, axisOfB_, normalOfB_, turningNormalOfB_;
+    adapter::Vec3 localAxes_[3], localTurnAxes_[3], localTurning_, localTurningNormal_;  ///< in A
+    adapter::Vec3 axisInB_, normalInB_, turningNormalInB_;  ///< the same at the start, in B
+    adapter::Vec3 axes_[3], turnAxes_[3], turning_, turningNormal_, axisOfB_, normalOfB_, turningNormalOfB_;
     adapter::Vec3 anchorA_, anchorB_, centerA_, centerB_;
 };
 
@@ -81,7 +75,6 @@ class JointMotion {
 struct SpringTerms {
     double erp = 0.0, cfm = 0.0;
 };
-/// `moved`: mass or moment that swings where the spring is given by its frequency.
-SpringTerms springTerms(const scenario::JointAxis& axis, double moved, double dt);
+SpringTerms springTerms(const scenario::JointAxis& axis, double dt);
 
 }  // namespace rigor::ode

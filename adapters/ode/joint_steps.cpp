@@ -51,22 +51,17 @@ void OdeJoint::setMotor(const JointAxis& axis, dJointID id, SetParam set) {
 }
 
 /// A spring is two stops in one place that give way.
-void OdeJoint::setSpring(const JointAxis& axis, dJointID id, SetParam set, Current coordinate) {
+void OdeJoint::setSpring(const JointAxis& axis, dJointID id, SetParam set) {
     set(id, dParamLoStop, axis.target);
     set(id, dParamHiStop, axis.target);
     set(id, dParamLoStop, axis.target);
-    softenSpring(axis, id, set, dParamStopERP, dParamStopCFM, std::move(coordinate));
+    softenSpring(axis, id, set, dParamStopERP, dParamStopCFM);
 }
 
-/// What a spring by frequency swings depends on the pose where both ends move, or where a rod is turned to.
-void OdeJoint::softenSpring(const JointAxis& axis, dJointID id, SetParam set, int erp, int cfm,
-                            Current coordinate) {
-    const SpringTerms terms = springTerms(axis, motion_.movedMass(coordinate(motion_).rate), dt_);
+void OdeJoint::softenSpring(const JointAxis& axis, dJointID id, SetParam set, int erp, int cfm) {
+    const SpringTerms terms = springTerms(axis, dt_);
     set(id, erp, terms.erp);
     set(id, cfm, terms.cfm);
-    const bool bothMove = a_.hasMass() && b_.hasMass();
-    if (axis.frequency > 0.0 && (bothMove || joint_.type == scenario::JointType::Distance))
-        springs_.push_back({id, set, erp, cfm, axis, std::move(coordinate)});
 }
 
 /// What is asked of an angle: held, or stops and a motor in one AMotor, a spring in another.
@@ -100,7 +95,7 @@ void OdeJoint::update(AngleMotor& motor) {
     dJointSetAMotorAngle(motor.id, 0, motor.seen / s);
     JointAxis axis = motor.axis;
     if (motor.spring) {
-        const SpringTerms terms = springTerms(axis, motion_.movedMass(now.rate), dt_);
+        const SpringTerms terms = springTerms(axis, dt_);
         dJointSetAMotorParam(motor.id, dParamStopERP, terms.erp);
         dJointSetAMotorParam(motor.id, dParamStopCFM, terms.cfm / (s * s));
         axis.lower = axis.upper = axis.target;
@@ -134,7 +129,7 @@ void OdeJoint::driveAt(const Coordinate& now, const PointJoint& row, dContact& c
     SpringTerms terms{dWorldGetERP(world_), dWorldGetCFM(world_)};
     double target = 0.0;
     if (row.does == PointRow::Springs) {
-        terms = springTerms(row.axis, motion_.movedMass(now.rate), dt_);
+        terms = springTerms(row.axis, dt_);
         target = row.axis.target;
     }
     const bool drives = row.does == PointRow::Drives;
@@ -164,17 +159,11 @@ void OdeJoint::update(const PointJoint& row) {
 }
 
 void OdeJoint::beforeStep() {
-    const bool passive = angleMotors_.empty() && pointRows_.empty() && springs_.empty();
+    const bool passive = angleMotors_.empty() && pointRows_.empty();
     if (!holds_ || (passive && !breaks_)) return;
     motion_.update();
     for (AngleMotor& motor : angleMotors_) update(motor);
     for (const PointJoint& row : pointRows_) update(row);
-    for (const PosedSpring& spring : springs_) {
-        const SpringTerms terms =
-            springTerms(spring.axis, motion_.movedMass(spring.coordinate(motion_).rate), dt_);
-        spring.set(spring.id, spring.erp, terms.erp);
-        spring.set(spring.id, spring.cfm, terms.cfm);
-    }
 }
 
 /// The wrench on B about its anchor, of all parts; where B does not move, minus that on A. The levers are

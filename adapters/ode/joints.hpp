@@ -5,7 +5,6 @@
 #include <ode/ode.h>
 
 #include <deque>
-#include <functional>
 #include <vector>
 
 #include "adapters/ode/joint_motion.hpp"
@@ -61,21 +60,13 @@ class OdeJoint {
     };
     static constexpr int kAlongLine = -1;  ///< from A's anchor to B's
     using SetParam = void (*)(dJointID, int, dReal);
-    using Current = std::function<Coordinate(const JointMotion&)>;
-    /// A spring whose stiffness and damping follow from its frequency and what it moves at the moment.
-    struct PosedSpring {
-        dJointID id = nullptr;
-        SetParam set = nullptr;
-        int erp = 0, cfm = 0;  ///< ODE's parameter numbers
-        scenario::JointAxis axis;
-        Current coordinate;
-    };
 
     void build();
     void buildDistance();
     void buildHinge();
     void buildSlider();
     void buildWheel();
+    void buildLeaningWheel();
     void buildSixDof();
     bool buildSixDofTravels();
     void add(dJointID id, bool firstForce = true);
@@ -86,9 +77,8 @@ class OdeJoint {
     void addPointRow(const scenario::JointAxis& axis, int along, PointRow does);
     void setStops(const scenario::JointAxis& axis, dJointID id, SetParam set);
     void setMotor(const scenario::JointAxis& axis, dJointID id, SetParam set);
-    void setSpring(const scenario::JointAxis& axis, dJointID id, SetParam set, Current coordinate);
-    void softenSpring(const scenario::JointAxis& axis, dJointID id, SetParam set, int erp, int cfm,
-                      Current coordinate);
+    void setSpring(const scenario::JointAxis& axis, dJointID id, SetParam set);
+    void softenSpring(const scenario::JointAxis& axis, dJointID id, SetParam set, int erp, int cfm);
     void update(AngleMotor& motor);
     void update(const PointJoint& row);
     bool stopAt(const Coordinate& now, const scenario::JointAxis& axis, dContact& contact) const;
@@ -104,7 +94,6 @@ class OdeJoint {
     std::deque<Part> parts_;  ///< addresses are stable: ODE writes forces into them
     std::vector<AngleMotor> angleMotors_;
     std::vector<PointJoint> pointRows_;
-    std::vector<PosedSpring> springs_;
     bool breaks_ = false, holds_ = true;
 };
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapters/interface/joint_springs.hpp"
 #include "adapters/interface/planar.hpp"
 #include "adapters/interface/reach.hpp"
 #include "adapters/interface/surface_points.hpp"
@@ -23,7 +24,7 @@ using scenario::BodyType;
 
 OdeWorld::OdeWorld(const Scenario& scenario, double dt, const Settings& settings)
     : original_(scenario),
-      scenario_(scenario.dimension == 2 ? adapter::planarLift(scenario) : scenario),
+      scenario_(adapter::withStiffness(scenario.dimension == 2 ? adapter::planarLift(scenario) : scenario)),
       settings_(settings),
       dt_(dt),
       planar_(scenario.dimension == 2),

@@ -60,8 +60,6 @@ engine::JointAxis<R> toEngineAxis(const scenario::JointAxis& axis) {
     result.motorSpeed = static_cast<R>(axis.motorSpeed);
     result.motorMaxForce = static_cast<R>(axis.motorMaxForce);
     result.target = static_cast<R>(axis.target);
-    result.frequency = static_cast<R>(axis.frequency);
-    result.dampingRatio = static_cast<R>(axis.dampingRatio);
     result.stiffness = static_cast<R>(axis.stiffness);
     result.damping = static_cast<R>(axis.damping);
     return result;

@@ -52,7 +52,6 @@ class Ledger {
         addContacts();
         addErrors();
         if (!scenario_.joints.empty()) addJoints();
-        addJointSprings();
         addRest();
         return std::move(lines_);
     }
@@ -238,18 +237,6 @@ class Ledger {
         else
             add("joints", "rigid", "rigid, linearised at the start",
                 "a joint that turns leaves its constraint by the second order of the step");
-    }
-
-    /// The format means the effective mass of the initial poses; the engine takes that of each step.
-    void addJointSprings() {
-        for (const scenario::Joint& joint : scenario_.joints)
-            for (const scenario::JointAxis& axis : joint.axes)
-                if (axis.frequency > 0) {
-                    add("joint_springs", "stiffness from the effective mass at the start",
-                        "stiffness from the effective mass of each step",
-                        "where the effective mass of the coordinate changes, so does the stiffness");
-                    return;
-                }
     }
 
     void addRest() {

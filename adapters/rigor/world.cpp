@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "adapters/interface/input_check.hpp"
+#include "adapters/interface/joint_springs.hpp"
 #include "adapters/interface/pair_table.hpp"
 #include "adapters/interface/state_setting.hpp"
 #include "adapters/rigor/convert_joint.hpp"
@@ -90,7 +91,7 @@ class RigorWorld final : public World, public StateSetting {
     using R = typename S::Real;
 
     RigorWorld(const Scenario& scenario, double dt, const Settings& settings)
-        : scenario_(scenario),
+        : scenario_(withStiffness(scenario)),
           settings_(settings),
           pairs_(scenario),
           dt_(static_cast<R>(dt)),
