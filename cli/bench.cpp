@@ -140,7 +140,8 @@ std::vector<BenchWork> planParts(const Arguments& a, validation::BenchRequest re
         return std::ranges::none_of(work, [&](const auto& w) { return w.planned.name == name; });
     });
     if (missing == a.only.end() || request.only.empty()) return work;
-    request.only.clear(), request.full = true;
+    request.only.clear();
+    request.full = true;
     std::string known;
     for (const auto& w : planParts(a, request))
         if (known.find("'" + w.planned.name + "'") == std::string::npos)
@@ -153,7 +154,8 @@ std::vector<BenchWork> planAll(const Arguments& a) {
     validation::SceneRequest request;
     for (const auto& name : sceneNames(a)) addScenes(name, a, request);
     request.specs = chooseSpecs(a);
-    request.preset = a.preset, request.threads = a.threads;
+    request.preset = a.preset;
+    request.threads = a.threads;
     if (!a.dt.empty()) request.dt = parseTimeStep(a.dt);
     const auto engines = describe(request.specs);
     for (const auto& spec : request.specs)
@@ -164,8 +166,12 @@ std::vector<BenchWork> planAll(const Arguments& a) {
     if (!a.engines.empty())
         for (const auto& spec : request.specs) parts.engines.push_back(spec.text());
     parts.sizes.assign(a.sizes.begin(), a.sizes.end());
-    parts.only = a.only, parts.full = a.full, parts.preset = a.preset;
-    parts.threads = a.threads, parts.seed = a.target.seed, parts.binary = ownBinary().string();
+    parts.only = a.only;
+    parts.full = a.full;
+    parts.preset = a.preset;
+    parts.threads = a.threads;
+    parts.seed = a.target.seed;
+    parts.binary = ownBinary().string();
     for (auto& part : planParts(a, parts)) work.push_back(std::move(part));
     if (work.empty()) throw std::invalid_argument("bench: no engine can run any of this");
     return work;
@@ -277,9 +283,12 @@ int bench(const Arguments& a) {
     options.directory = chooseRunFolder(a.out, a.resume, "bench");
     prepareRunFolder(options.directory, a.resume);
     if (a.resume) checkSameBench(options.directory, work);
-    options.binary = ownBinary(), options.resume = a.resume, options.target = a.target;
+    options.binary = ownBinary();
+    options.resume = a.resume;
+    options.target = a.target;
     options.target.budget = budgetOf(a);
-    options.base = a.base, options.command = ownCommandLine();
+    options.base = a.base;
+    options.command = ownCommandLine();
     for (const auto& name : a.what) options.suite += (options.suite.empty() ? "" : " ") + name;
     if (options.suite.empty()) options.suite = kDefaultSuite;
 

@@ -64,7 +64,8 @@ std::vector<adapter::EngineSpec> chooseSpecs(const Arguments& a, int jobs) {
 int collide(const Arguments& a) {
     const auto files = loadFiles(a);
     validation::CollideOptions options;
-    options.binary = ownBinary(), options.tolerance = a.tolerance;
+    options.binary = ownBinary();
+    options.tolerance = a.tolerance;
     options.jobs = a.jobs > 0 ? a.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     const auto specs = chooseSpecs(a, options.jobs);
     std::signal(SIGINT, onInterruptCollide);

@@ -93,7 +93,8 @@ fs::path recordedFolder() {
 
 bool becameWorseThan(const std::string& baseline, const fs::path& run) {
     Arguments a;
-    a.before = baseline, a.after = run.string();
+    a.before = baseline;
+    a.after = run.string();
     const auto comparison = comparisonOf(a);
     std::fprintf(stderr, "Against %s:\n%s", baseline.c_str(),
                  validation::comparisonText(comparison, a.options, a.most).c_str());

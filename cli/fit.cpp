@@ -48,7 +48,9 @@ int runFit(const Arguments& a) {
     validation::FitOptions options;
     options.directory = chooseRunFolder(a.out, a.resume, "fit-" + task.name);
     prepareFolder(options.directory, a.resume);
-    options.binary = ownBinary(), options.resume = a.resume, options.runs = !a.noRuns;
+    options.binary = ownBinary();
+    options.resume = a.resume;
+    options.runs = !a.noRuns;
     options.jobs = a.jobs > 0 ? a.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     options.command = ownCommandLine();
     std::signal(SIGINT, onInterruptFit);
@@ -59,7 +61,9 @@ int runFit(const Arguments& a) {
         task, options,
         [&](const validation::FitProgress& p) {
             validation::Progress shown;
-            shown.done = p.done, shown.total = p.total, shown.etaSeconds = p.etaSeconds,
+            shown.done = p.done;
+            shown.total = p.total;
+            shown.etaSeconds = p.etaSeconds;
             shown.current = p.current;
             line.update(shown);
             if (!a.quiet && !isTerminal(2) && p.current != said)

@@ -25,7 +25,8 @@ struct Arguments {
 int freeze(const Arguments& a) {
     const auto loaded = loadWithReference(a.scenario, a.overrides, {});
     validation::FreezeRequest request;
-    request.scenarioText = loaded.text, request.scenarioName = loaded.scenario.name;
+    request.scenarioText = loaded.text;
+    request.scenarioName = loaded.scenario.name;
     request.spec = validation::withScenarioSettings(adapter::parseSpec(a.engine), loaded.text);
     request.dt = a.dt.empty() ? loaded.scenario.timeSteps.front() : parseTimeStep(a.dt);
     request.step = validation::stepCount(loaded.scenario, request.dt);

@@ -314,7 +314,10 @@ void addList(CLI::App& app, Action& action) {
                     std::printf("%s\n", list.dump(2).c_str());
                 } else {
                     printTable(list, listing.columns);
-                    if (std::string_view(listing.name) == "engines") printLacks(list), printOptions(list);
+                    if (std::string_view(listing.name) == "engines") {
+                        printLacks(list);
+                        printOptions(list);
+                    }
                 }
                 return static_cast<int>(kOk);
             };

@@ -82,8 +82,11 @@ int pieces(const Arguments& a) {
     validation::checkPlan(plan, ownBinary());
     options.directory = chooseRunFolder(a.out, false, "pieces");
     prepareRunFolder(options.directory, false);
-    options.binary = ownBinary(), options.jobs = a.jobs, options.audit = false;
-    options.pieces = a.every, options.command = ownCommandLine();
+    options.binary = ownBinary();
+    options.jobs = a.jobs;
+    options.audit = false;
+    options.pieces = a.every;
+    options.command = ownCommandLine();
     std::signal(SIGINT, onInterruptPieces);
     std::signal(SIGTERM, onInterruptPieces);
     ProgressLine line(a.quiet);

@@ -159,8 +159,11 @@ validation::LiveCase runEngine(const scenario::Scenario& s, const adapter::Engin
         throw;
     } catch (const std::exception& error) {
         validation::LiveCase failed;
-        failed.row.scenario = s.name, failed.row.spec = spec.text(), failed.row.dt = dt;
-        failed.row.outcome = results::Outcome::Error, failed.row.verdict = results::Verdict::Fail;
+        failed.row.scenario = s.name;
+        failed.row.spec = spec.text();
+        failed.row.dt = dt;
+        failed.row.outcome = results::Outcome::Error;
+        failed.row.verdict = results::Verdict::Fail;
         failed.row.reason = error.what();
         return failed;
     }

@@ -62,9 +62,13 @@ int runStudy(const Arguments& a) {
 
     options.directory = chooseRunFolder(a.out, a.resume, study.name);
     prepareRunFolder(options.directory, a.resume);
-    options.binary = ownBinary(), options.jobs = a.jobs, options.resume = a.resume;
-    options.audit = a.audit || validation::asksForAudit(study), options.suite = study.name;
-    options.command = ownCommandLine(), options.orders = a.orders;
+    options.binary = ownBinary();
+    options.jobs = a.jobs;
+    options.resume = a.resume;
+    options.audit = a.audit || validation::asksForAudit(study);
+    options.suite = study.name;
+    options.command = ownCommandLine();
+    options.orders = a.orders;
     if (options.resume) {
         validation::extendFromFolder(plan, options.directory);
         checkResumed(options.directory, plan.cases);

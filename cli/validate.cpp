@@ -209,7 +209,8 @@ int validate(const Arguments& given) {
     options.suite = selection.title;
     options.pieces = arguments.pieces;
     options.orders = arguments.orders > 0 ? arguments.orders : selection.orders;
-    options.referenceLimits = arguments.referenceLimits, options.references = selection.references;
+    options.referenceLimits = arguments.referenceLimits;
+    options.references = selection.references;
     options.command = ownCommandLine();
 
     if (options.resume) checkResumed(options.directory, plan);

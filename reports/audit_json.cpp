@@ -70,11 +70,19 @@ std::vector<GatheredAudit> gatherAudit(const results::Run& run) {
                 if (it == rows.end()) {
                     rows.push_back({});
                     it = rows.end() - 1;
-                    it->auditor = a.auditor, it->outcome = a.outcome;
+                    it->auditor = a.auditor;
+                    it->outcome = a.outcome;
                 }
-                if (a.outcome != "completed") it->outcome = a.outcome, it->note = a.note;
-                it->frames += a.frames, it->queries += a.queries, it->overlapping += a.overlapping;
-                it->missed += a.missed, it->spurious += a.spurious, it->undecided += a.undecided;
+                if (a.outcome != "completed") {
+                    it->outcome = a.outcome;
+                    it->note = a.note;
+                }
+                it->frames += a.frames;
+                it->queries += a.queries;
+                it->overlapping += a.overlapping;
+                it->missed += a.missed;
+                it->spurious += a.spurious;
+                it->undecided += a.undecided;
                 if (a.normalErrorMax && (!it->normalErrorMax || *a.normalErrorMax > *it->normalErrorMax))
                     it->worst = a.worst + " (" + row.spec + ") (dt=" + results::exactText(row.dt) + ")";
                 worst(it->normalErrorMax, a.normalErrorMax);

@@ -17,7 +17,10 @@ using results::BenchSummary;
 
 struct Mean {
     double sum = 0.0, told = 0.0;
-    void add(double value) { sum += value, told += 1.0; }
+    void add(double value) {
+        sum += value;
+        told += 1.0;
+    }
     double value() const { return sum / told; }
 };
 

@@ -115,7 +115,10 @@ struct Counts {
 std::string junitReport(const results::Run& run) {
     Counts counts;
     std::string cases;
-    for (const auto& row : run.cases) counts.add(row), cases += testcase(row);
+    for (const auto& row : run.cases) {
+        counts.add(row);
+        cases += testcase(row);
+    }
     const std::string name = "rigor." + (run.suite.empty() ? std::string("run") : run.suite);
     std::string suite = "  <testsuite" + attribute("name", name) + counts.attributes();
     if (!run.started.empty()) suite += attribute("timestamp", run.started);

@@ -59,7 +59,8 @@ Plot ladderPlot(const ViewModel& view, const Ladder& ladder, bool overCost) {
             const auto* m = results::wholeScene(*c, ladder.metric);
             const auto cost = results::steppingTime(*c);
             if (!m || (overCost && !cost)) continue;
-            line.x.push_back(overCost ? *cost : c->dt), line.y.push_back(m->value);
+            line.x.push_back(overCost ? *cost : c->dt);
+            line.y.push_back(m->value);
         }
         if (line.x.size() > 1) plot.lines.push_back(line);
     }

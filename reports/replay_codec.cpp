@@ -39,7 +39,9 @@ void appendSeries(Bytes& out, std::span<const double> values, std::size_t column
             }
             const std::int64_t predicted = known >= 2 ? 2 * last - before : last;
             appendCode(out, 1 + zigzag(value - predicted));
-            before = last, last = value, ++known;
+            before = last;
+            last = value;
+            ++known;
         }
     }
 }

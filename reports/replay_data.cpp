@@ -51,7 +51,10 @@ Json eventJson(const ReplayEvent& e) {
     Json json{{"time", number(e.time)}, {"kind", e.kind}};
     if (!e.what.empty()) json["what"] = e.what;
     if (!e.subject.empty()) json["subject"] = e.subject;
-    if (!std::isnan(e.value)) json["value"] = number(e.value), json["unit"] = e.unit;
+    if (!std::isnan(e.value)) {
+        json["value"] = number(e.value);
+        json["unit"] = e.unit;
+    }
     if (e.threshold > 0.0) json["threshold"] = number(e.threshold);
     if (!e.text.empty()) json["text"] = e.text;
     if (e.contact >= 0) json["contact"] = e.contact;

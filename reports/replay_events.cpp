@@ -43,7 +43,10 @@ double reachOf(const BodyChannels& body, std::size_t frames) {
 
 ReplayEvent eventAt(const TrajectoryFile& file, std::size_t frame, std::string kind) {
     ReplayEvent event;
-    event.frame = frame, event.time = file.times[frame], event.kind = std::move(kind), event.value = kNone;
+    event.frame = frame;
+    event.time = file.times[frame];
+    event.kind = std::move(kind);
+    event.value = kNone;
     return event;
 }
 
@@ -51,7 +54,9 @@ void addLargest(const TrajectoryFile& file, const results::CaseRow& row, std::ve
     for (const auto& metric : row.metrics) {
         if (!(metric.at >= 0.0)) continue;
         ReplayEvent event = eventAt(file, nearestFrame(file.times, metric.at), "largest");
-        event.what = metric.name, event.subject = metric.subject, event.value = metric.value;
+        event.what = metric.name;
+        event.subject = metric.subject;
+        event.value = metric.value;
         event.unit = metric.unit;
         out.push_back(std::move(event));
     }
@@ -84,8 +89,11 @@ void addAudit(const TrajectoryFile& file, const results::CaseRow& row, std::vect
             audit.missed + audit.spurious > 0 || audit.normalErrorMax.value_or(0.0) >= kAngleWorthAMark;
         if (at == std::string::npos || !wrong) continue;
         ReplayEvent event = eventAt(file, frameOf(file, audit.worst, at + 6), "audit");
-        event.what = audit.auditor, event.subject = audit.worst.substr(0, at);
-        event.value = audit.normalErrorMax.value_or(kNone), event.unit = "rad", event.text = audit.worst;
+        event.what = audit.auditor;
+        event.subject = audit.worst.substr(0, at);
+        event.value = audit.normalErrorMax.value_or(kNone);
+        event.unit = "rad";
+        event.text = audit.worst;
         event.contact = contactOf(audit.worst);
         out.push_back(std::move(event));
     }
@@ -101,7 +109,9 @@ void addDivergence(const TrajectoryFile& file, double threshold, std::vector<Rep
             const double* here = positionAt(*body, f);
             if (here == nullptr || distance(here, there) <= threshold) continue;
             ReplayEvent event = eventAt(file, f, "divergence");
-            event.subject = exact.name, event.value = distance(here, there), event.unit = "m";
+            event.subject = exact.name;
+            event.value = distance(here, there);
+            event.unit = "m";
             event.threshold = threshold;
             out.push_back(std::move(event));
             return;
@@ -175,7 +185,10 @@ double sceneLength(const TrajectoryFile& file) {
         reaches.push_back(reach);
         const double* p = positionAt(body, 0);
         for (int k = 0; k < 3; ++k)
-            if (std::isfinite(p[k])) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+            if (std::isfinite(p[k])) {
+                low[k] = std::min(low[k], p[k]);
+                high[k] = std::max(high[k], p[k]);
+            }
     }
     const double spread = reaches.empty() || !(high[0] >= low[0]) ? 0.0 : distance(low, high);
     return std::max(1e-6, spread + (reaches.empty() ? 0.0 : validation::median(reaches)));
@@ -206,8 +219,11 @@ ReplayEvent partingOf(const TrajectoryFile& file, const TrajectoryFile& other, d
             const double *p = positionAt(file.bodies[b], f), *q = positionAt(other.bodies[b], g);
             if (p == nullptr || q == nullptr || distance(p, q) <= threshold) continue;
             ReplayEvent event = eventAt(file, f, "parting");
-            event.subject = file.bodies[b].name, event.value = distance(p, q), event.unit = "m";
-            event.threshold = threshold, event.what = other.spec;
+            event.subject = file.bodies[b].name;
+            event.value = distance(p, q);
+            event.unit = "m";
+            event.threshold = threshold;
+            event.what = other.spec;
             return event;
         }
     }

@@ -26,7 +26,10 @@ using results::Outcome;
 class GeometricMean {
   public:
     void add(double value) {
-        if (value > 0.0 && std::isfinite(value)) sum_ += std::log(value), ++count_;
+        if (value > 0.0 && std::isfinite(value)) {
+            sum_ += std::log(value);
+            ++count_;
+        }
     }
     double value() const { return count_ > 0 ? std::exp(sum_ / count_) : kNoNumber; }
 
@@ -104,8 +107,10 @@ void count(const ViewModel& view, const Cell& cell, const CaseRow* at, double ch
     standing.red +=
         std::any_of(cell.cases.begin(), cell.cases.end(), [](const CaseRow* row) { return isRed(*row); });
     if (at == nullptr || at->outcome != Outcome::Completed) return;
-    if (const double cost = costOf(at); cost > 0.0)
-        sums.costs.push_back(cost), sums.costRatio.add(cost / cheapest);
+    if (const double cost = costOf(at); cost > 0.0) {
+        sums.costs.push_back(cost);
+        sums.costRatio.add(cost / cheapest);
+    }
     standing.known += at->verdict == results::Verdict::KnownDeviation;
     const auto& accuracy = at->accuracy;
     if (accuracy.grade == Grade::None) {
@@ -115,7 +120,8 @@ void count(const ViewModel& view, const Cell& cell, const CaseRow* at, double ch
     ++standing.grades.at(static_cast<std::size_t>(accuracy.grade) - 1);
     standing.farther +=
         results::againstScheme(accuracy.relative, accuracy.ideal) == results::AgainstScheme::Farther;
-    sums.toBest.add(view.ratios(*at).toBest), sums.toOurs.add(view.ratios(*at).toOurs);
+    sums.toBest.add(view.ratios(*at).toBest);
+    sums.toOurs.add(view.ratios(*at).toOurs);
 }
 
 /// Whoever ran less than half of what somebody ran, or has no error to show, can not be the best.
@@ -179,7 +185,8 @@ Mechanism standingsOver(const ViewModel& view, const std::vector<std::size_t>& s
             count(view, view.cell(s, c), caseAt(view.cell(s, c), finest), cheapest, m.standings[c], sums[c]);
     }
     for (std::size_t c = 0; c < sums.size(); ++c) {
-        m.standings[c].toBest = sums[c].toBest.value(), m.standings[c].toOurs = sums[c].toOurs.value();
+        m.standings[c].toBest = sums[c].toBest.value();
+        m.standings[c].toOurs = sums[c].toOurs.value();
         m.standings[c].cost = sums[c].costs.empty() ? kNoNumber : validation::median(sums[c].costs);
         m.standings[c].costRatio = sums[c].costRatio.value();
     }
@@ -245,7 +252,8 @@ std::vector<StepCost> stepCosts(const ViewModel& view) {
     for (std::size_t c = 0; c < costs.size(); ++c) {
         for (std::size_t f = 0; f < std::size(kCostFields); ++f)
             if (!values[c][f].empty()) costs[c].*kCostFields[f].to = validation::median(values[c][f]);
-        costs[c].medianRatio = medianRatios[c].value(), costs[c].meanRatio = meanRatios[c].value();
+        costs[c].medianRatio = medianRatios[c].value();
+        costs[c].meanRatio = meanRatios[c].value();
     }
     return costs;
 }

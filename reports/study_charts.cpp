@@ -55,7 +55,10 @@ std::optional<Way> axisOf(const Json& rows, const std::vector<Way>& ways) {
         if (!std::all_of(rows.begin(), rows.end(), [&](const Json& r) { return asNumber(way.of(r)); }))
             continue;
         const std::size_t places = differentValues(rows, way);
-        if (places > most) chosen = way, most = places;
+        if (places > most) {
+            chosen = way;
+            most = places;
+        }
     }
     return chosen;
 }
@@ -89,14 +92,20 @@ bool spansDecades(const std::vector<StudyPoint>& points) {
     for (const auto& p : points) {
         if (!p.value || !std::isfinite(*p.value)) continue;
         if (*p.value < 0.0) return false;
-        if (*p.value > 0.0) least = std::min(least, *p.value), greatest = std::max(greatest, *p.value);
+        if (*p.value > 0.0) {
+            least = std::min(least, *p.value);
+            greatest = std::max(greatest, *p.value);
+        }
     }
     return greatest > 100.0 * least;
 }
 
 bool evenlyByFactor(const std::vector<StudyPoint>& points) {
     double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
-    for (const auto& p : points) least = std::min(least, *p.x), greatest = std::max(greatest, *p.x);
+    for (const auto& p : points) {
+        least = std::min(least, *p.x);
+        greatest = std::max(greatest, *p.x);
+    }
     return least > 0.0 && greatest >= 8.0 * least;
 }
 
@@ -105,7 +114,9 @@ StudyChart chartOf(const Json& part, const Json& rows, const std::string& scenar
     const auto ways = waysOf(rows);
     const auto axis = axisOf(rows, ways);
     StudyChart chart;
-    chart.part = part.at("name"), chart.scenario = scenario, chart.metric = metric;
+    chart.part = part.at("name");
+    chart.scenario = scenario;
+    chart.metric = metric;
     chart.axis = axis ? axis->axis : "";
     for (const auto& row : rows) {
         const Json& cell = row.at("metrics").at(metric);
@@ -137,12 +148,15 @@ StudyChart chartOf(const Json& part, const Json& rows, const std::string& scenar
 std::optional<StudyChart> overCost(const StudyChart& chart, const StudyChart& cost) {
     if (chart.axis.empty() || chart.metric.starts_with("time.")) return std::nullopt;
     StudyChart over = chart;
-    over.axis = cost.metric + " [s]", over.metric = chart.metric + " against " + cost.metric;
+    over.axis = cost.metric + " [s]";
+    over.metric = chart.metric + " against " + cost.metric;
     over.logarithmicX = true;
     for (std::size_t i = 0; i < over.points.size(); ++i) {
         over.points[i].x = cost.points[i].value;
-        if (!over.points[i].x || !(*over.points[i].x > 0.0))
-            over.points[i].value.reset(), over.points[i].x = 0.0;
+        if (!over.points[i].x || !(*over.points[i].x > 0.0)) {
+            over.points[i].value.reset();
+            over.points[i].x = 0.0;
+        }
     }
     return over;
 }

@@ -24,8 +24,12 @@ std::string withUnit(const StudyChart& chart) {
 
 Plot linesOf(const StudyChart& chart) {
     Plot plot;
-    plot.title = titleOf(chart), plot.xLabel = chart.axis, plot.yLabel = withUnit(chart);
-    plot.logarithmic = chart.logarithmic, plot.logarithmicX = chart.logarithmicX, plot.marked = true;
+    plot.title = titleOf(chart);
+    plot.xLabel = chart.axis;
+    plot.yLabel = withUnit(chart);
+    plot.logarithmic = chart.logarithmic;
+    plot.logarithmicX = chart.logarithmicX;
+    plot.marked = true;
     for (const auto& p : chart.points) {
         if (plot.lines.empty() || plot.lines.back().label != p.label) {
             const std::size_t n = plot.lines.size();

@@ -48,7 +48,10 @@ std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
                       std::to_string(view.columns().size()) + " engine settings</summary>\n\n";
     std::string rule = "|---|---|";
     out += "| scenario | number |";
-    for (const auto& column : view.columns()) out += " " + markdownCell(column.label) + " |", rule += "---|";
+    for (const auto& column : view.columns()) {
+        out += " " + markdownCell(column.label) + " |";
+        rule += "---|";
+    }
     out += "\n" + rule + "\n";
     const std::string end =
         "\nA cell: grade of accuracy (A to 1e-6, B to 1e-4, C to 1e-2, D to 1e-1 of the scenario's own "
@@ -63,7 +66,8 @@ std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
     for (const std::size_t s : byTrouble(view)) {
         std::string row = scoreboardRow(view, s);
         if (used + row.size() > budget) continue;
-        used += row.size(), ++shown;
+        used += row.size();
+        ++shown;
         rows[s] = std::move(row);
     }
     if (shown == 0) return "";

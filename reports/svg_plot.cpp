@@ -31,11 +31,20 @@ struct Range {
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
 
     void add(double v) {
-        if (std::isfinite(v)) least = std::min(least, v), greatest = std::max(greatest, v);
+        if (std::isfinite(v)) {
+            least = std::min(least, v);
+            greatest = std::max(greatest, v);
+        }
     }
     void settle(double pad) {
-        if (!(least <= greatest)) least = 0.0, greatest = 1.0;
-        if (least == greatest) least -= pad, greatest += pad;
+        if (!(least <= greatest)) {
+            least = 0.0;
+            greatest = 1.0;
+        }
+        if (least == greatest) {
+            least -= pad;
+            greatest += pad;
+        }
     }
 };
 
@@ -250,8 +259,10 @@ std::vector<NamedPlot> scenarioPlots(const ViewModel& view, const TrajectoryLoad
             if (!series) continue;
             const auto& column = view.columns()[c];
             PlotLine line{column.label, colourOf(view, column), column.dash, {}, {}};
-            for (const std::size_t i : outlineIndices(series->channel.values, 4 * kCurvePoints))
-                line.x.push_back(file->times[i]), line.y.push_back(series->channel.values[i]);
+            for (const std::size_t i : outlineIndices(series->channel.values, 4 * kCurvePoints)) {
+                line.x.push_back(file->times[i]);
+                line.y.push_back(series->channel.values[i]);
+            }
             plot.lines.push_back(line);
             plot.yLabel = name + (series->channel.unit.empty() ? "" : " [" + series->channel.unit + "]");
         }

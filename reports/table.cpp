@@ -98,8 +98,10 @@ std::string tableCsv(const Table& table) {
     for (const auto& column : table.columns) {
         head.push_back(column.unit.empty() || column.unit == "1" ? column.title
                                                                  : column.title + " [" + column.unit + "]");
-        if (column.kind == ColumnKind::Judged)
-            head.push_back(column.title + " verdict"), head.push_back(column.title + " bound");
+        if (column.kind == ColumnKind::Judged) {
+            head.push_back(column.title + " verdict");
+            head.push_back(column.title + " bound");
+        }
     }
     head.push_back("non_finite");
     std::string out;

@@ -29,8 +29,10 @@ TableCell judged(const CaseRow& row, const results::MetricRow* metric, Shown ver
     TableCell cell;
     cell.verdict = verdict;
     const bool lost = verdict == Shown::Crashed || verdict == Shown::Timeout || verdict == Shown::NonFinite;
-    if (metric != nullptr && !lost && row.outcome == results::Outcome::Completed)
-        cell.number = metric->value, cell.bound = metric->bound;
+    if (metric != nullptr && !lost && row.outcome == results::Outcome::Completed) {
+        cell.number = metric->value;
+        cell.bound = metric->bound;
+    }
     return cell;
 }
 

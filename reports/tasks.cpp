@@ -91,7 +91,9 @@ std::vector<Mechanism> ViewModel::tasks() const {
             if (belongs(task, run_.scenarios[s])) scenarios.push_back(s);
         if (scenarios.empty()) continue;
         Mechanism& m = all.emplace_back(standingsOver(*this, scenarios));
-        m.name = task.key, m.title = task.title, m.about = task.about;
+        m.name = task.key;
+        m.title = task.title;
+        m.about = task.about;
     }
     return all;
 }

@@ -168,12 +168,15 @@ Layout layoutOf(const ViewModel& view, const Names& names, std::size_t columns) 
             number = std::max(number, displayWidth(cellText(view, s, c, true)));
     const std::size_t room = columns > layout.nameWidth ? columns - layout.nameWidth : 0;
     const std::size_t each = room / std::max<std::size_t>(1, view.columns().size());
-    if (each >= std::max(widest, number) + 1)
-        layout.cellWidth = std::max(widest, number) + 1, layout.values = true;
-    else if (each >= widest + 1)
+    if (each >= std::max(widest, number) + 1) {
+        layout.cellWidth = std::max(widest, number) + 1;
+        layout.values = true;
+    } else if (each >= widest + 1)
         layout.cellWidth = widest + 1;
-    else
-        layout.cellWidth = 3, layout.letters = true;
+    else {
+        layout.cellWidth = 3;
+        layout.letters = true;
+    }
     return layout;
 }
 
@@ -195,8 +198,10 @@ std::vector<std::string> headLines(const Names& names, const Layout& layout, std
         for (std::size_t c = 0; c < names.columns.size(); ++c) {
             head += " " + pad(letter(c), layout.cellWidth - 1);
             const std::string entry = letter(c) + " " + plain(names.columns[c].label);
-            if (!key.empty() && displayWidth(key) + displayWidth(entry) + 2 > width)
-                lines.push_back(key + ","), key.clear();
+            if (!key.empty() && displayWidth(key) + displayWidth(entry) + 2 > width) {
+                lines.push_back(key + ",");
+                key.clear();
+            }
             key += (key.empty() ? "" : ", ") + entry;
         }
         lines.push_back(key);
@@ -283,7 +288,8 @@ std::vector<std::string> trustLines(const ViewModel& view, const Names& names, s
                                 timesText(s.toBest);
             if (std::isfinite(s.toOurs)) entry += " " + timesText(s.toOurs);
             if (!first && displayWidth(line) + displayWidth(entry) > width) break;
-            line += entry, first = false;
+            line += entry;
+            first = false;
         }
         lines.push_back(cut(line, width));
     }

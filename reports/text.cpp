@@ -154,7 +154,8 @@ std::string markdownCell(std::string_view text) {
             case '[':
             case ']':
             case '\\':
-                out += '\\', out += c;
+                out += '\\';
+                out += c;
                 break;
             case '<':
                 out += "&lt;";

@@ -109,7 +109,11 @@ Offender offenderOf(const CaseRow& row) {
         const double limit = m.bound ? *m.bound : m.expectation.value_or(0.0);
         const double excess =
             std::isnan(m.value) || limit <= 0.0 ? std::numeric_limits<double>::infinity() : m.value / limit;
-        if (excess > worst) worst = excess, offender.metric = &m, offender.excess = excess;
+        if (excess > worst) {
+            worst = excess;
+            offender.metric = &m;
+            offender.excess = excess;
+        }
     }
     if (offender.metric) {
         const auto& m = *offender.metric;

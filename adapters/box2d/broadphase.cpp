@@ -79,7 +79,10 @@ class Box2dBroadPhase final : public adapter::TimedBroadPhase {
 
     void rebuild(std::span<const Aabb> boxes) {
         tree_ = std::make_unique<b2BroadPhase>();
-        proxies_.clear(), moves_.clear(), reported_.clear(), kept_.clear();
+        proxies_.clear();
+        moves_.clear();
+        reported_.clear();
+        kept_.clear();
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             moves_.push_back({toBox2d(boxes[i]), b2Vec2(0.0f, 0.0f)});
             proxies_.push_back(

@@ -169,7 +169,8 @@ void appendManifold(const b2Manifold& manifold, const Side& a, const Side& b, bo
         const Vec3 onB = frame.world(placed.points[i] + 0.5f * separation * placed.normal);
         ContactPoint contact;
         contact.bodyB = 1;
-        contact.pointA = swapped ? onB : onA, contact.pointB = swapped ? onA : onB;
+        contact.pointA = swapped ? onB : onA;
+        contact.pointB = swapped ? onA : onB;
         contact.normal = (swapped ? -1.0 : 1.0) * fromBox2d(placed.normal, 1.0);
         contact.depth = -static_cast<double>(separation) / frame.scale;
         contacts.push_back(contact);
@@ -277,7 +278,8 @@ void ask(const Side& a, const Side& b, const Frame& frame, CollisionAnswer& answ
         if (closest.distance <= 0.0) {
             ContactPoint contact;
             contact.bodyB = 1;
-            contact.pointA = closest.onA, contact.pointB = closest.onB;
+            contact.pointA = closest.onA;
+            contact.pointB = closest.onB;
             contact.normal = closest.normal;
             contact.depth = -closest.distance;
             answer.contacts.push_back(contact);
@@ -288,7 +290,8 @@ void ask(const Side& a, const Side& b, const Frame& frame, CollisionAnswer& answ
     }
     if (closest.coresApart && !(answer.signedDistance && *answer.signedDistance <= closest.distance)) {
         answer.signedDistance = closest.distance;
-        answer.witnessA = closest.onA, answer.witnessB = closest.onB;
+        answer.witnessA = closest.onA;
+        answer.witnessB = closest.onB;
     }
 }
 
@@ -317,7 +320,8 @@ CollisionAnswer Box2dCollisionEngine::collide(const CollisionQuery& query) const
     if (answer.overlap) {
         const ContactPoint& deepest = answer.contacts.front();
         answer.signedDistance = -deepest.depth;
-        answer.witnessA = deepest.pointA, answer.witnessB = deepest.pointB;
+        answer.witnessA = deepest.pointA;
+        answer.witnessB = deepest.pointB;
     }
     if (static_cast<int>(answer.contacts.size()) > query.maxContacts)
         answer.contacts.resize(static_cast<std::size_t>(std::max(query.maxContacts, 0)));

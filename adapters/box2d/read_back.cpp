@@ -50,9 +50,12 @@ void Box2dWorld::appendContact(const b2Contact& contact, std::vector<ContactPoin
         const Vec3 onB = fromBox2d(placed.points[i] + (half + skinB) * normal, scale_);
         const double sign = ordered ? 1.0 : -1.0;
         ContactPoint point;
-        point.bodyA = std::min(tagA.body, tagB.body), point.bodyB = std::max(tagA.body, tagB.body);
-        point.shapeA = ordered ? tagA.shape : tagB.shape, point.shapeB = ordered ? tagB.shape : tagA.shape;
-        point.pointA = ordered ? onA : onB, point.pointB = ordered ? onB : onA;
+        point.bodyA = std::min(tagA.body, tagB.body);
+        point.bodyB = std::max(tagA.body, tagB.body);
+        point.shapeA = ordered ? tagA.shape : tagB.shape;
+        point.shapeB = ordered ? tagB.shape : tagA.shape;
+        point.pointA = ordered ? onA : onB;
+        point.pointB = ordered ? onB : onA;
         point.normal = sign * fromBox2d(normal, 1.0);
         point.depth = -static_cast<double>(placed.separations[i] + skinA + skinB) / scale_;
         point.hasImpulse = solved;

@@ -102,7 +102,8 @@ ContactPoint toContact(const btManifoldPoint& point, bool ordered) {
     const Vec3 on1 = fromBullet(point.getPositionWorldOnB());
     ContactPoint contact;
     contact.bodyB = 1;
-    contact.pointA = ordered ? on0 : on1, contact.pointB = ordered ? on1 : on0;
+    contact.pointA = ordered ? on0 : on1;
+    contact.pointB = ordered ? on1 : on0;
     contact.normal = (ordered ? -1.0 : 1.0) * fromBullet(point.m_normalWorldOnB);
     contact.depth = -static_cast<double>(point.getDistance());
     return contact;
@@ -333,11 +334,13 @@ CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) cons
     if (answer.overlap) {
         const ContactPoint& deepest = contacts.front();
         answer.signedDistance = -deepest.depth;
-        answer.witnessA = deepest.pointA, answer.witnessB = deepest.pointB;
+        answer.witnessA = deepest.pointA;
+        answer.witnessB = deepest.pointB;
     } else if (auto closest = closestPoints(a, b)) {
         if (query.dimension == 2) closest->onA.z = closest->onB.z = 0.0;
         answer.signedDistance = closest->distance;
-        answer.witnessA = closest->onA, answer.witnessB = closest->onB;
+        answer.witnessA = closest->onA;
+        answer.witnessB = closest->onB;
     }
     if (static_cast<int>(contacts.size()) > query.maxContacts)
         contacts.resize(static_cast<std::size_t>(std::max(query.maxContacts, 0)));

@@ -37,7 +37,11 @@ class BulletSolve final : public adapter::ContactSolve {
           dimension_(p.dimension),
           n_(static_cast<int>(p.size())),
           mu_(p.mu) {
-        A_.resize(n_, n_), b_.resize(n_), x_.resize(n_), lo_.resize(n_), hi_.resize(n_);
+        A_.resize(n_, n_);
+        b_.resize(n_);
+        x_.resize(n_);
+        lo_.resize(n_);
+        hi_.resize(n_);
         limits_.resize(n_);
         for (int i = 0; i < n_; ++i) {
             const auto row = static_cast<std::size_t>(i) * p.size();

@@ -93,9 +93,12 @@ void BulletWorld::appendManifold(const btPersistentManifold& manifold,
         const Vec3 on0 = fromBullet(point.getPositionWorldOnA());
         const Vec3 on1 = fromBullet(point.getPositionWorldOnB());
         ContactPoint contact;
-        contact.bodyA = std::min(body0, body1), contact.bodyB = std::max(body0, body1);
-        contact.shapeA = ordered ? shape0 : shape1, contact.shapeB = ordered ? shape1 : shape0;
-        contact.pointA = ordered ? on0 : on1, contact.pointB = ordered ? on1 : on0;
+        contact.bodyA = std::min(body0, body1);
+        contact.bodyB = std::max(body0, body1);
+        contact.shapeA = ordered ? shape0 : shape1;
+        contact.shapeB = ordered ? shape1 : shape0;
+        contact.pointA = ordered ? on0 : on1;
+        contact.pointB = ordered ? on1 : on0;
         contact.normal = towardsB * fromBullet(point.m_normalWorldOnB);
         contact.depth = -static_cast<double>(point.getDistance());
         if (solved) readImpulses(point, towardsB, contact);

@@ -124,7 +124,10 @@ TEST_P(Collision, PairsAnswerWithTheClosedForm) {
                     query.a = {&m.a, stage * Pose{{}, m.turnA}};
                     query.b = {&m.b, stage * Pose{{m.touching + gap, 0, 0}, m.turnB}};
                     Vec3 normal = rotate(stage.orientation, {1, 0, 0});
-                    if (swapped) std::swap(query.a, query.b), normal = -normal;
+                    if (swapped) {
+                        std::swap(query.a, query.b);
+                        normal = -normal;
+                    }
                     adapter::CollisionAnswer answer;
                     try {
                         answer = engine().collision()->collide(query);

@@ -255,8 +255,10 @@ TEST_P(Contact, JointedBodiesCollideOnlyWhenTheJointSaysSo) {
         Joint joint;
         joint.name = "pin";
         joint.type = JointType::Hinge;
-        joint.bodyA = a, joint.bodyB = b;
-        joint.anchorA = {0.4, 0, 0}, joint.anchorB = {-0.4, 0, 0};
+        joint.bodyA = a;
+        joint.bodyB = b;
+        joint.anchorA = {0.4, 0, 0};
+        joint.anchorB = {-0.4, 0, 0};
         joint.collideConnected = collide;
         s.joints.push_back(joint);
         auto world = build(s, 0.01);

@@ -82,7 +82,8 @@ TEST_P(StateSettingTest, SettingTheStateOfNowChangesNothing) {
     if (setter == nullptr) GTEST_SKIP() << "this world cannot be put somewhere else";
     for (int n = 0; n < 50; ++n) {
         setter->setStates(statesOf(*set, s));
-        run(*plain, 1), run(*set, 1);
+        run(*plain, 1);
+        run(*set, 1);
     }
     expectSame(stateOf(*set, s, b), stateOf(*plain, s, b), tol(1e-11, 1e-4));
 }
@@ -98,9 +99,11 @@ TEST_P(StateSettingTest, AContactGoesOnUpToWarmStarting) {
     auto plain = build(s, 1.0 / 240.0), set = build(s, 1.0 / 240.0);
     auto* setter = setterOf(*set);
     if (setter == nullptr) GTEST_SKIP() << "this world cannot be put somewhere else";
-    run(*plain, 60), run(*set, 60);
+    run(*plain, 60);
+    run(*set, 60);
     setter->setStates(statesOf(*set, s));
-    run(*plain, 60), run(*set, 60);
+    run(*plain, 60);
+    run(*set, 60);
     const BodyState a = stateOf(*plain, s, b), c = stateOf(*set, s, b);
     within("set_state_contact", norm(a.position - c.position), 2e-3);
     within("set_state_contact_speed", norm(a.velocity - c.velocity), 2e-2);

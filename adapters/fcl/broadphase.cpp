@@ -43,7 +43,8 @@ std::unique_ptr<Manager> spatialHash(std::span<const Aabb> boxes) {
         extent += std::max({size.x, size.y, size.z}) / static_cast<double>(boxes.size());
     }
     const fcl::Vector3d room = 0.5 * (high - low);
-    low -= room, high += room;
+    low -= room;
+    high += room;
     const double cell = std::max(2.0 * extent, 1e-3 * (high - low).maxCoeff());
     const auto buckets = static_cast<unsigned>(std::max<std::size_t>(1000, boxes.size()));
     return std::make_unique<fcl::SpatialHashingCollisionManagerd<>>(cell, low, high, buckets);

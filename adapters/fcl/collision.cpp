@@ -107,7 +107,8 @@ std::vector<ContactPoint> contactsOf(const fcl::CollisionResultd& result, const 
         if (!(std::abs(length - 1.0) < 1e-3) || !std::isfinite(contact.depth)) continue;
         contact.normal = contact.normal / length;
         const auto points = adapter::surfacePoints(a, b, fromFcl(found.pos), contact.normal, contact.depth);
-        contact.pointA = points.onA, contact.pointB = points.onB;
+        contact.pointA = points.onA;
+        contact.pointB = points.onB;
         contacts.push_back(contact);
     }
     std::stable_sort(contacts.begin(), contacts.end(),
@@ -142,7 +143,10 @@ void answerDistance(const FclShape& a, const FclShape& b, bool unbounded, bool e
         found->distance = std::max(found->distance, 0.0);
     }
     answer.signedDistance = found->distance;
-    if (pointsAgree(*found)) answer.witnessA = found->onA, answer.witnessB = found->onB;
+    if (pointsAgree(*found)) {
+        answer.witnessA = found->onA;
+        answer.witnessB = found->onB;
+    }
 }
 
 /// The two edges of a prism are one corner of a polygon: one contact in the plane z = 0.

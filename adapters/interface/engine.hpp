@@ -36,7 +36,9 @@ class World {
     /// Changes linear [N s] and angular [N m s] momentum of a dynamic body at once. False: the engine leaves
     /// that to a force during the next step.
     virtual bool applyImpulse(int body, const Vec3& impulse, const Vec3& angularImpulse) {
-        (void)body, (void)impulse, (void)angularImpulse;
+        (void)body;
+        (void)impulse;
+        (void)angularImpulse;
         return false;
     }
 

@@ -50,7 +50,10 @@ double spanOf(const std::vector<Vec3>& points, int dimension) {
         double best = 0.0;
         Vec3 which = origin;
         for (const Vec3& p : points)
-            if (const double m = measure(p - origin); m > best) best = m, which = p;
+            if (const double m = measure(p - origin); m > best) {
+                best = m;
+                which = p;
+            }
         return std::pair(best, which - origin);
     };
     const auto [length, along] = farthest([](Vec3 d) { return norm(d); });
@@ -72,7 +75,10 @@ struct CheckGeometry {
         if (dimension == 3) checkPositive(where + ".half_extents.z", b.halfExtents.z);
     }
     template <class Round>
-    requires requires(Round r) { r.radius, r.halfLength; }
+    requires requires(Round r) {
+        r.radius;
+        r.halfLength;
+    }
     void operator()(const Round& r) const {
         checkPositive(where + ".radius", r.radius);
         checkPositive(where + ".half_length", r.halfLength);

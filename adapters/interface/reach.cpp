@@ -11,7 +11,10 @@ Reach reachOf(const Scenario& scenario, double least, double most) {
     Reach reach;
     int count = 0;
     for (const auto& body : scenario.bodies)
-        if (body.type != scenario::BodyType::Static) reach.middle += body.pose.position, ++count;
+        if (body.type != scenario::BodyType::Static) {
+            reach.middle += body.pose.position;
+            ++count;
+        }
     if (count > 0) reach.middle = reach.middle / count;
     double spread = 0.0, speed = 0.0, gravity = 0.0;
     for (const auto& body : scenario.bodies) {

@@ -69,7 +69,10 @@ SurfacePoints surfacePoints(const PosedShape& a, const PosedShape& b, const Vec3
         const SurfacePoints points{onA, onA - depth * normal};
         const double error = std::abs(distanceTo(a, points.onA).value_or(0.0)) +
                              std::abs(distanceTo(b, points.onB).value_or(0.0));
-        if (error < least - 1e-12) least = error, best = points;
+        if (error < least - 1e-12) {
+            least = error;
+            best = points;
+        }
     };
     for (const double s : {0.5, 0.0, 1.0}) consider(reported + s * depth * normal);
     // The normal leads out of A and into B: one step along it reaches a surface that is not too curved.

@@ -25,9 +25,12 @@ struct Proxy {
 
 void boxOf(dGeomID geom, dReal bounds[6]) {
     const Aabb& box = static_cast<const Proxy*>(dGeomGetClassData(geom))->box;
-    bounds[0] = box.min.x, bounds[1] = box.max.x;
-    bounds[2] = box.min.y, bounds[3] = box.max.y;
-    bounds[4] = box.min.z, bounds[5] = box.max.z;
+    bounds[0] = box.min.x;
+    bounds[1] = box.max.x;
+    bounds[2] = box.min.y;
+    bounds[3] = box.max.y;
+    bounds[4] = box.min.z;
+    bounds[5] = box.max.z;
 }
 dColliderFn* noCollider(int) {
     return nullptr;

@@ -101,8 +101,10 @@ adapter::CollisionAnswer OdeCollisionEngine::collide(const adapter::CollisionQue
         const auto [onA, onB] = adapter::surfacePoints({&solidA, query.a.pose}, {&solidB, query.b.pose},
                                                        point.position, point.normal, point.depth);
         adapter::ContactPoint contact;
-        contact.bodyA = 0, contact.bodyB = 1;
-        contact.pointA = onA, contact.pointB = onB;
+        contact.bodyA = 0;
+        contact.bodyB = 1;
+        contact.pointA = onA;
+        contact.pointB = onB;
         contact.normal = point.normal;
         contact.depth = point.depth;
         answer.contacts.push_back(contact);

@@ -22,10 +22,15 @@ inline Quat quatFromOde(const dReal* q) {
     return {q[0], q[1], q[2], q[3]};
 }
 inline void toOde(const Vec3& v, dReal* out) {
-    out[0] = v.x, out[1] = v.y, out[2] = v.z;
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
 }
 inline void toOde(const Quat& q, dReal* out) {
-    out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
+    out[0] = q.w;
+    out[1] = q.x;
+    out[2] = q.y;
+    out[3] = q.z;
 }
 
 /// Inverse of a symmetric positive definite tensor by cofactors.

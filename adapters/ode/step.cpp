@@ -212,9 +212,10 @@ void OdeWorld::advance() {
         if (!record.dynamic) continue;
         if (planar_) keepInPlane(record);
         if (!externalGyro_) continue;
-        if (held[i])
-            record.turnPending = true, record.turnFrom = before[i];
-        else
+        if (held[i]) {
+            record.turnPending = true;
+            record.turnFrom = before[i];
+        } else
             turnAngularMomentum(record, before[i]);
     }
 }

@@ -196,9 +196,12 @@ void OdeWorld::readContacts(std::vector<adapter::ContactPoint>& contacts) const 
         const double sign = c.feedbackOnA ? -dt_ : dt_;
         const Vec3 impulse = sign * fromOde(c.feedback.f1);
         adapter::ContactPoint out;
-        out.bodyA = c.a.body, out.bodyB = c.b.body;
-        out.shapeA = c.a.shape, out.shapeB = c.b.shape;
-        out.pointA = onA, out.pointB = onB;
+        out.bodyA = c.a.body;
+        out.bodyB = c.b.body;
+        out.shapeA = c.a.shape;
+        out.shapeB = c.b.shape;
+        out.pointA = onA;
+        out.pointB = onB;
         out.normal = c.point.normal;
         out.depth = c.point.depth;
         out.hasImpulse = true;

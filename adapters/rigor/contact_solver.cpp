@@ -75,7 +75,8 @@ class Frozen : public ContactSolve {
             {rows_, velocities_, friction_, monitor, iterations, 1.0, false, tolerance, directions_});
         ContactSolution found;
         for (const Row<S>& row : rows_.rows) found.r.push_back(row.impulse);
-        found.iterations = monitor.iterations, found.gaveUp = solver_->gaveUp();
+        found.iterations = monitor.iterations;
+        found.gaveUp = solver_->gaveUp();
         return found;
     }
     FrictionModel friction() const final { return frictionModel(shape_, S::dim == 2 ? 2 : directions_); }
@@ -169,7 +170,8 @@ class OnBodies final : public Frozen<S> {
     void addRow(const FrozenContact& contact, const FrozenContact::Row& given, double bias) {
         Row<S> row;
         for (int i = 0; i < S::dim; ++i) row.lin[i] = given.lin[static_cast<std::size_t>(i)];
-        row.angA = angular(given.angA.data()), row.angB = angular(given.angB.data());
+        row.angA = angular(given.angA.data());
+        row.angB = angular(given.angB.data());
         if (contact.a >= 0) row.invIAngA = invInertia_[static_cast<std::size_t>(contact.a)] * row.angA;
         row.invIAngB = invInertia_[static_cast<std::size_t>(contact.b)] * row.angB;
         row.bias = row.relaxedBias = bias;

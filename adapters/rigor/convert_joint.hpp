@@ -56,7 +56,8 @@ template <class R>
 engine::JointAxis<R> toEngineAxis(const scenario::JointAxis& axis) {
     engine::JointAxis<R> result;
     result.mode = toEngineMode(axis.mode);
-    result.lower = toEngineBound<R>(axis.lower), result.upper = toEngineBound<R>(axis.upper);
+    result.lower = toEngineBound<R>(axis.lower);
+    result.upper = toEngineBound<R>(axis.upper);
     result.motorSpeed = static_cast<R>(axis.motorSpeed);
     result.motorMaxForce = static_cast<R>(axis.motorMaxForce);
     result.target = static_cast<R>(axis.target);

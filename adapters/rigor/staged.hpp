@@ -62,7 +62,8 @@ class RigorStaged final : public StagedWorld {
         std::vector<StagedManifold> result;
         for (const engine::Contact<S>& contact : world_.manifolds()) {
             StagedManifold& m = result.emplace_back();
-            m.a = shape(contact.shapeA), m.b = shape(contact.shapeB);
+            m.a = shape(contact.shapeA);
+            m.b = shape(contact.shapeB);
             m.normal = fromEngineVec(contact.manifold.normal);
             for (int i = 0; i < contact.manifold.count; ++i) {
                 const auto k = static_cast<std::size_t>(i);
@@ -109,7 +110,8 @@ class RigorStaged final : public StagedWorld {
         world_.observeIterations(
             [this](int, const engine::ConstraintRows<S>& rows, typename S::Real residual) {
                 StagedIteration& it = iterations_.emplace_back();
-                it.substep = substep(), it.residual = static_cast<double>(residual);
+                it.substep = substep();
+                it.residual = static_cast<double>(residual);
                 for (const engine::Row<S>& row : rows.rows)
                     it.impulses.push_back(static_cast<double>(row.impulse));
             });
@@ -128,9 +130,12 @@ class RigorStaged final : public StagedWorld {
             out.kind = place == 0 ? Kind::Normal : Kind::Friction;
         else
             out.kind = block.kind == engine::BlockKind::Joint ? Kind::Joint : Kind::Limit;
-        out.bodyA = ScenarioIndices::body(block.a), out.bodyB = ScenarioIndices::body(block.b);
-        out.impulse = static_cast<double>(row.impulse), out.bias = static_cast<double>(row.bias);
-        out.softness = static_cast<double>(row.softness), out.error = static_cast<double>(row.error);
+        out.bodyA = ScenarioIndices::body(block.a);
+        out.bodyB = ScenarioIndices::body(block.b);
+        out.impulse = static_cast<double>(row.impulse);
+        out.bias = static_cast<double>(row.bias);
+        out.softness = static_cast<double>(row.softness);
+        out.error = static_cast<double>(row.error);
         out.effectiveMass = static_cast<double>(row.invK);
     }
 

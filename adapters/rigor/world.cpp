@@ -127,7 +127,8 @@ class RigorWorld final : public World, public StateSetting {
             if (body.type == scenario::BodyType::Static) continue;
             const BodyState now = isDynamic(static_cast<int>(i)) ? states[i] : state(static_cast<int>(i));
             body.pose = {now.position, now.orientation};
-            body.velocity = now.velocity, body.angularVelocity = now.angularVelocity;
+            body.velocity = now.velocity;
+            body.angularVelocity = now.angularVelocity;
         }
         elapsed_ += world_.time();
         world_ = engine::World<S>(toWorldDef<S>(scenario_, settings_));
@@ -313,11 +314,15 @@ class RigorWorld final : public World, public StateSetting {
     void addJoint(const scenario::Joint& joint) {
         engine::JointDef<S> def;
         def.type = toEngineJoint(joint.type);
-        def.bodyA = id(joint.bodyA), def.bodyB = id(joint.bodyB);
-        def.anchorA = toEngineVec<S>(joint.anchorA), def.anchorB = toEngineVec<S>(joint.anchorB);
-        def.axisA = toEngineVec<S>(joint.axisA), def.axisB = toEngineVec<S>(joint.axisB);
+        def.bodyA = id(joint.bodyA);
+        def.bodyB = id(joint.bodyB);
+        def.anchorA = toEngineVec<S>(joint.anchorA);
+        def.anchorB = toEngineVec<S>(joint.anchorB);
+        def.axisA = toEngineVec<S>(joint.axisA);
+        def.axisB = toEngineVec<S>(joint.axisB);
         def.length = static_cast<R>(joint.length);
-        def.normalA = toEngineVec<S>(joint.normalA), def.spinAxisB = toEngineVec<S>(joint.spinAxisB);
+        def.normalA = toEngineVec<S>(joint.normalA);
+        def.spinAxisB = toEngineVec<S>(joint.spinAxisB);
         def.collideConnected = joint.collideConnected;
         for (std::size_t k = 0; k < joint.axes.size(); ++k) def.axes[k] = toEngineAxis<R>(joint.axes[k]);
         def.breakForce = toEngineBound<R>(joint.breakForce);
@@ -330,16 +335,21 @@ class RigorWorld final : public World, public StateSetting {
         if (!isDynamic(f.body) || f.end <= elapsed_) return;
         engine::ConstantForce<S> def;
         def.body = id(f.body);
-        def.force = toEngineVec<S>(f.force), def.torque = toEngineAng<S>(f.torque);
-        def.start = std::max(0.0, f.start - elapsed_), def.end = f.end - elapsed_;
+        def.force = toEngineVec<S>(f.force);
+        def.torque = toEngineAng<S>(f.torque);
+        def.start = std::max(0.0, f.start - elapsed_);
+        def.end = f.end - elapsed_;
         world_.addForce(def);
     }
     void addForce(const scenario::SpringForce& f) {
         if (!isDynamic(f.bodyA) && !isDynamic(f.bodyB)) return;
         engine::LinearSpring<S> def;
-        def.bodyA = id(f.bodyA), def.bodyB = id(f.bodyB);
-        def.anchorA = toEngineVec<S>(f.anchorA), def.anchorB = toEngineVec<S>(f.anchorB);
-        def.stiffness = static_cast<R>(f.stiffness), def.damping = static_cast<R>(f.damping);
+        def.bodyA = id(f.bodyA);
+        def.bodyB = id(f.bodyB);
+        def.anchorA = toEngineVec<S>(f.anchorA);
+        def.anchorB = toEngineVec<S>(f.anchorB);
+        def.stiffness = static_cast<R>(f.stiffness);
+        def.damping = static_cast<R>(f.damping);
         def.restLength = static_cast<R>(f.restLength);
         world_.addForce(def);
     }

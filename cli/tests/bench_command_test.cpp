@@ -108,7 +108,8 @@ void scaleTimes(const fs::path& run, double factor) {
     results::RunWriter writer(run, true);
     for (const auto& c : stored.bench.cases)
         for (auto r : c.repetitions) {
-            r.wall *= factor, r.cpu *= factor;
+            r.wall *= factor;
+            r.cpu *= factor;
             writer.writeBenchRepetition(c.id, r);
         }
 }

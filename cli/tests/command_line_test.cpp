@@ -100,7 +100,10 @@ TEST(CommandLine, CsvHoldsTheTrajectory) {
         std::getline(lines, line);
         EXPECT_EQ(line, "t,body,px,py,pz,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
         int rows = 0;
-        while (std::getline(lines, line)) last = line, ++rows;
+        while (std::getline(lines, line)) {
+            last = line;
+            ++rows;
+        }
         EXPECT_EQ(rows, 51) << engine << ": the initial state and 50 steps";
         std::vector<std::string> cells;
         std::istringstream row(last);

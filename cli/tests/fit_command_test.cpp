@@ -26,7 +26,8 @@ fs::path recordings(const std::string& name, int count) {
     const fs::path folder = freshFolder(name) / "data";
     for (int k = 0; k < count; ++k) {
         Flight flight;
-        flight.p0.x = 0.1 * k, flight.p0.z = 0.15 + 0.002 * k;
+        flight.p0.x = 0.1 * k;
+        flight.p0.z = 0.15 + 0.002 * k;
         auto lines = flight.lines(40);
         for (std::size_t i = 22; i < lines.size(); ++i) lines[i] = lines[21];
         writeText(folder / ("toss_" + std::to_string(k) + ".csv"), tossText(lines));
@@ -96,7 +97,8 @@ TEST(FitCommand, RunsResumesAndKeepsAFolder) {
     const auto again = rigor(fit + " --resume --out " + out, false);
     ASSERT_EQ(again.code, 0);
     json resumed = json::parse(again.out), whole = result;
-    resumed.erase("command"), whole.erase("command");
+    resumed.erase("command");
+    whole.erase("command");
     EXPECT_EQ(resumed, whole);
     EXPECT_EQ(rigor("fit nowhere.json").code, 2);
     EXPECT_EQ(rigor("fit " + (in / "train.json").string()).code, 2);

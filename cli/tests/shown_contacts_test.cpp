@@ -74,7 +74,8 @@ class ShownContacts : public testing::Test {
     void SetUp() override {
         setenv("RIGOR_ADAPTER_PATH", (fs::path(RIGOR_BINARY_DIR) / "bin/adapters").c_str(), 1);
         auto& about = run_.scenarios.emplace_back();
-        about.name = scenario_.name, about.timeSteps = {kStep};
+        about.name = scenario_.name;
+        about.timeSteps = {kStep};
         for (const char* spec : {"rigor:preset=default", "bullet:preset=default", "ode:preset=default"}) {
             const adapter::EngineSpec engine = adapter::parseSpec(spec);
             auto whole = validation::runWholeCase(scenario_, engine, kStep, {});

@@ -35,7 +35,8 @@ bool hasTerminals() {
 /// The program with a terminal of kColumns columns as its input, output and error.
 Result atTerminal(const std::string& arguments, const std::string& environment) {
     winsize size{};
-    size.ws_row = 50, size.ws_col = kColumns;
+    size.ws_row = 50;
+    size.ws_col = kColumns;
     int terminal = -1;
     const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
     if (child == 0) {
@@ -129,7 +130,8 @@ TEST(Terminal, APipeGetsALineForEachCase) {
     std::istringstream in(result.out);
     for (std::string line; std::getline(in, line);) {
         if (!line.starts_with("[")) continue;
-        ++cases, withEta += line.find("  ETA 0:") != std::string::npos;
+        ++cases;
+        withEta += line.find("  ETA 0:") != std::string::npos;
     }
     EXPECT_GE(cases, 8u) << result.out;
     EXPECT_EQ(withEta, cases - 1) << "the last has nothing to wait for";

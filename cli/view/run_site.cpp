@@ -65,19 +65,26 @@ void addContacts(ArrayBundle& bundle, const TrajectoryFile& t, std::size_t from,
         const auto frame = static_cast<std::size_t>(it - t.times.begin());
         if (frame < from || frame >= from + count) continue;
         frames.push_back(static_cast<std::int32_t>(frame));
-        bodyA.push_back(c.bodyA), bodyB.push_back(c.bodyB);
-        shapeA.push_back(c.shapeA), shapeB.push_back(c.shapeB);
+        bodyA.push_back(c.bodyA);
+        bodyB.push_back(c.bodyB);
+        shapeA.push_back(c.shapeA);
+        shapeB.push_back(c.shapeB);
         pointA.insert(pointA.end(), c.pointA, c.pointA + 3);
         pointB.insert(pointB.end(), c.pointB, c.pointB + 3);
         normal.insert(normal.end(), c.normal, c.normal + 3);
         friction.insert(friction.end(), c.frictionImpulse, c.frictionImpulse + 3);
-        depth.push_back(c.depth), impulse.push_back(c.normalImpulse);
+        depth.push_back(c.depth);
+        impulse.push_back(c.normalImpulse);
     }
     bundle.add("contacts/frame", std::span(frames));
-    bundle.add("contacts/body_a", std::span(bodyA)), bundle.add("contacts/body_b", std::span(bodyB));
-    bundle.add("contacts/shape_a", std::span(shapeA)), bundle.add("contacts/shape_b", std::span(shapeB));
-    bundle.add("contacts/point_a", std::span(pointA)), bundle.add("contacts/point_b", std::span(pointB));
-    bundle.add("contacts/normal", std::span(normal)), bundle.add("contacts/depth", std::span(depth));
+    bundle.add("contacts/body_a", std::span(bodyA));
+    bundle.add("contacts/body_b", std::span(bodyB));
+    bundle.add("contacts/shape_a", std::span(shapeA));
+    bundle.add("contacts/shape_b", std::span(shapeB));
+    bundle.add("contacts/point_a", std::span(pointA));
+    bundle.add("contacts/point_b", std::span(pointB));
+    bundle.add("contacts/normal", std::span(normal));
+    bundle.add("contacts/depth", std::span(depth));
     bundle.add("contacts/normal_impulse", std::span(impulse));
     bundle.add("contacts/friction_impulse", std::span(friction));
 }

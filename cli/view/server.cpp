@@ -20,8 +20,10 @@ constexpr const char* kAddress = "127.0.0.1";
 
 Knock knockOf(const httplib::Request& request) {
     Knock knock;
-    knock.method = request.method, knock.path = request.path;
-    knock.host = request.get_header_value("Host"), knock.origin = request.get_header_value("Origin");
+    knock.method = request.method;
+    knock.path = request.path;
+    knock.host = request.get_header_value("Host");
+    knock.origin = request.get_header_value("Origin");
     knock.cookie = request.get_header_value("Cookie");
     knock.contentType = request.get_header_value("Content-Type");
     knock.fetchSite = request.get_header_value("Sec-Fetch-Site");

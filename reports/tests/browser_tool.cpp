@@ -67,7 +67,8 @@ nlohmann::ordered_json study() {
 
 int synthesise(const fs::path& folder) {
     auto run = synthetic::makeRun();
-    run.finished.clear(), run.plannedCases += 7;  // broken off
+    run.finished.clear();
+    run.plannedCases += 7;  // broken off
     const ViewModel view(run);
     const auto load = synthetic::makeLoader(run);
     fs::create_directories(folder / "data");

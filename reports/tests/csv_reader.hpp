@@ -22,9 +22,10 @@ inline std::vector<std::vector<std::string>> parseCsv(const std::string& text) {
         if (quoted) {
             if (c != '"')
                 rows.back().back() += c;
-            else if (i + 1 < text.size() && text[i + 1] == '"')
-                rows.back().back() += '"', ++i;
-            else
+            else if (i + 1 < text.size() && text[i + 1] == '"') {
+                rows.back().back() += '"';
+                ++i;
+            } else
                 quoted = false;
         } else if (c == '"') {
             quoted = true;

@@ -26,7 +26,11 @@ class Page : public ::testing::Test {
         view_ = new ViewModel(*run_);
         html_ = new std::string(htmlReport(*view_));
     }
-    static void TearDownTestSuite() { delete html_, delete view_, delete run_; }
+    static void TearDownTestSuite() {
+        delete html_;
+        delete view_;
+        delete run_;
+    }
     /// Content of the data element, as a browser would hand it to JSON.parse.
     static json data(const std::string& id) {
         const std::string open = "<script type=\"application/json\" id=\"" + id + "\">";
@@ -135,7 +139,10 @@ TEST_F(Page, OverviewTellsEveryVerdict) {
     std::map<std::string, int> shown;
     std::size_t cases = 0;
     for (const auto& s : overview["scenarios"])
-        for (const auto& c : s["cases"]) ++shown[c["shown"].get<std::string>()], ++cases;
+        for (const auto& c : s["cases"]) {
+            ++shown[c["shown"].get<std::string>()];
+            ++cases;
+        }
     EXPECT_EQ(cases, run_->cases.size());
     EXPECT_EQ(shown.size(), 8u) << "the made-up run has every verdict";
     for (const auto& [key, count] : shown) EXPECT_EQ(overview["symbols"][key]["count"], count) << key;
@@ -246,7 +253,8 @@ TEST(PageOfNothing, IsAPage) {
 TEST(Curves, OutlineKeepsASpikeOfOneSample) {
     std::vector<double> values(10000);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(0.001 * static_cast<double>(i));
-    values[7321] = 9.0, values[1234] = -9.0;
+    values[7321] = 9.0;
+    values[1234] = -9.0;
     values[5000] = std::nan("");
     const auto kept = outlineIndices(values, 200);
     EXPECT_LE(kept.size(), 200u);

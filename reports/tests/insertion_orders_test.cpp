@@ -26,8 +26,13 @@ using testing::Not;
 
 MetricRow ranged(double least, double greatest, std::optional<double> scale) {
     MetricRow m;
-    m.name = "rest_creep", m.unit = "m", m.value = least;
-    m.orderMin = least, m.orderMax = greatest, m.orderCount = 5, m.scale = scale;
+    m.name = "rest_creep";
+    m.unit = "m";
+    m.value = least;
+    m.orderMin = least;
+    m.orderMax = greatest;
+    m.orderCount = 5;
+    m.scale = scale;
     return m;
 }
 
@@ -148,7 +153,9 @@ TEST(InsertionOrders, WhatIsTheSameInAllOfThemIsSaidToBe) {
 TEST(InsertionOrders, AnOrderThatCrashesIsTold) {
     results::Run run = plainRun();
     CaseRow& c = orderedCase(run, 0.0031, 0.0031);
-    c.orders.completed = 4, c.orders.worst = Grade::E, c.orders.note = "order 3: crashed (SIGABRT)";
+    c.orders.completed = 4;
+    c.orders.worst = Grade::E;
+    c.orders.note = "order 3: crashed (SIGABRT)";
     EXPECT_THAT(terminalSummary(run, 60, 200, false),
                 HasSubstr("grade C as written, C … E; order 3: crashed (SIGABRT)"));
     EXPECT_THAT(orderSentence(c), HasSubstr("order 3: crashed (SIGABRT)"));
@@ -213,8 +220,13 @@ TEST(StepCosts, MedianAndMeanStandSideBySide) {
         for (auto& t : c.timings) {
             if (t.phase != "step") continue;
             const double factor = c.engine == "ode" ? 2.0 : 1.0;
-            t.median = 1e-5 * factor, t.mean = 3e-5 * factor * factor;
-            t.first = 4e-3, t.p95 = 5e-5, t.p99 = 6e-5, t.worst = 7e-5, t.realTimeFactor = 500.0;
+            t.median = 1e-5 * factor;
+            t.mean = 3e-5 * factor * factor;
+            t.first = 4e-3;
+            t.p95 = 5e-5;
+            t.p99 = 6e-5;
+            t.worst = 7e-5;
+            t.realTimeFactor = 500.0;
         }
     const ViewModel view(run);
     const auto costs = stepCosts(view);

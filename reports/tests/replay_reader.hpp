@@ -31,7 +31,9 @@ class Codes {
                 continue;
             }
             const double value = difference + (known >= 2 ? 2 * last - before : last);
-            before = last, last = value, ++known;
+            before = last;
+            last = value;
+            ++known;
             out.push_back(value * quantum);
         }
         return out;
@@ -131,8 +133,10 @@ inline std::map<long, std::vector<ShownContact>> shownContacts(Bundle& bundle, s
     for (std::size_t i = 0; i < total; ++i) {
         ShownContact contact{static_cast<int>(id[0][i]), static_cast<int>(id[1][i]),
                              static_cast<int>(id[2][i]), static_cast<int>(id[3][i])};
-        for (std::size_t k = 0; k < 3; ++k)
-            contact.pointA[k] = columns[k][i], contact.normal[k] = columns[6 + k][i];
+        for (std::size_t k = 0; k < 3; ++k) {
+            contact.pointA[k] = columns[k][i];
+            contact.normal[k] = columns[6 + k][i];
+        }
         contact.depth = columns[9][i];
         shown[stepOf[i]].push_back(contact);
     }

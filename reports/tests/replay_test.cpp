@@ -34,7 +34,11 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// `bodies` swinging bodies above a floor; contacts with the floor every tenth frame.
 TrajectoryFile makeFile(const CaseRow& row, std::size_t bodies, std::size_t frames, double shift = 0.0) {
     TrajectoryFile f;
-    f.scenario = row.scenario, f.spec = row.spec, f.caseId = row.id, f.dt = row.dt, f.contactStride = 2;
+    f.scenario = row.scenario;
+    f.spec = row.spec;
+    f.caseId = row.id;
+    f.dt = row.dt;
+    f.contactStride = 2;
     f.bodies.resize(bodies + 1);
     f.bodies[0].name = "floor";
     for (std::size_t b = 1; b <= bodies; ++b) f.bodies[b].name = "b" + std::to_string(b);
@@ -57,9 +61,16 @@ TrajectoryFile makeFile(const CaseRow& row, std::size_t bodies, std::size_t fram
         if (i % 20 != 10) continue;
         for (int b = 1; b <= static_cast<int>(bodies); ++b) {
             results::ContactSample c;
-            c.time = t, c.bodyA = 0, c.bodyB = b, c.depth = 1e-4 * std::sin(t + b), c.normal[1] = 1.0;
-            c.pointA[0] = std::cos(t + b), c.pointB[0] = c.pointA[0], c.pointB[1] = -c.depth;
-            c.normalImpulse = b % 2 ? kNaN : 0.02 * b, c.frictionImpulse[2] = 1e-3;
+            c.time = t;
+            c.bodyA = 0;
+            c.bodyB = b;
+            c.depth = 1e-4 * std::sin(t + b);
+            c.normal[1] = 1.0;
+            c.pointA[0] = std::cos(t + b);
+            c.pointB[0] = c.pointA[0];
+            c.pointB[1] = -c.depth;
+            c.normalImpulse = b % 2 ? kNaN : 0.02 * b;
+            c.frictionImpulse[2] = 1e-3;
             f.contacts.push_back(c);
         }
     }
@@ -70,11 +81,16 @@ class ReplayFiles : public testing::Test {
   protected:
     ReplayFiles() {
         run_.scenarios.push_back({});
-        run_.scenarios[0].name = "swing", run_.scenarios[0].timeSteps = {0.01};
+        run_.scenarios[0].name = "swing";
+        run_.scenarios[0].timeSteps = {0.01};
         for (const char* spec : {"rigor:preset=matched", "ode:preset=matched"}) {
             CaseRow row;
-            row.id = std::string("id_") + spec, row.scenario = "swing", row.spec = spec, row.dt = 0.01;
-            row.engine = std::string(spec).substr(0, std::string(spec).find(':')), row.preset = "matched";
+            row.id = std::string("id_") + spec;
+            row.scenario = "swing";
+            row.spec = spec;
+            row.dt = 0.01;
+            row.engine = std::string(spec).substr(0, std::string(spec).find(':'));
+            row.preset = "matched";
             run_.cases.push_back(row);
             files_.emplace_back(makeFile(row, 3, 401));
         }
@@ -129,7 +145,10 @@ TEST(ReplayCodec, ReadsBackWithinHalfAQuantumAndKeepsWhatIsNotFinite) {
 
 TEST(ReplayCodec, StraightLinesCostOneByteAValue) {
     std::vector<double> values;
-    for (int i = 0; i < 500; ++i) values.push_back(0.125 * i), values.push_back(7.0 - 3.0 * i);
+    for (int i = 0; i < 500; ++i) {
+        values.push_back(0.125 * i);
+        values.push_back(7.0 - 3.0 * i);
+    }
     Bytes bytes;
     appendSeries(bytes, values, 2, 0x1.0p-20);
     EXPECT_LT(bytes.size(), 1020u);
@@ -180,7 +199,9 @@ TEST_F(ReplayFiles, HasTheFramesOfAllEvents) {
     auto& row = run_.cases[0];
     row.metrics.push_back({"position_max", "b1", "m", "exact", 0.5, 1.2345, {}, {}, {}, ""});
     results::AuditRow audit;
-    audit.auditor = "ode", audit.normalErrorMax = 0.7, audit.worst = "b1|floor at t=2.77 (normal)";
+    audit.auditor = "ode";
+    audit.normalErrorMax = 0.7;
+    audit.worst = "b1|floor at t=2.77 (normal)";
     row.audit.push_back(audit);
     files_[1] = makeFile(run_.cases[1], 3, 401, 0.05);  // drifts away from the first
     Bundle bundle = write();
@@ -205,7 +226,8 @@ TEST_F(ReplayFiles, HasTheFramesOfAllEvents) {
 /// A time of six digits ends before the frame: the step decides.
 TEST_F(ReplayFiles, TheFrameOfAnAuditIsThatOfItsStep) {
     results::AuditRow audit;
-    audit.auditor = "in_run", audit.normalErrorMax = 0.7;
+    audit.auditor = "in_run";
+    audit.normalErrorMax = 0.7;
     for (auto& row : run_.cases) row.dt = 1.0 / 60.0;
     run_.scenarios[0].timeSteps = {1.0 / 60.0};
     for (std::size_t i = 0; i < files_.size(); ++i) files_[i] = makeFile(run_.cases[i], 3, 401);
@@ -324,7 +346,8 @@ TEST_F(ReplayFiles, SmallCasesLeaveTheirRestToLargeOnes) {
 
 TEST_F(ReplayFiles, CasesWithoutFramesSayWhy) {
     files_[0].reset();
-    run_.cases[0].outcome = results::Outcome::Crashed, run_.cases[0].reason = "SIGSEGV";
+    run_.cases[0].outcome = results::Outcome::Crashed;
+    run_.cases[0].reason = "SIGSEGV";
     Bundle bundle = write();
     const auto c = caseOf(bundle, run_.cases[0].spec);
     EXPECT_EQ(bundle.meta["cases"][c]["frames"], 0);
@@ -356,10 +379,12 @@ TEST_F(ReplayFiles, TimeStepsAreThoseThatWereRun) {
 }
 
 TEST_F(ReplayFiles, NothingToShowIsNoFile) {
-    files_[0].reset(), files_[1].reset();
+    files_[0].reset();
+    files_[1].reset();
     const ViewModel view(run_);
     EXPECT_EQ(replayBundle(view, 0, 0, loader(), budget_), "");
-    files_[0] = TrajectoryFile{}, files_[1] = TrajectoryFile{};
+    files_[0] = TrajectoryFile{};
+    files_[1] = TrajectoryFile{};
     EXPECT_EQ(replayBundle(view, 0, 0, loader(), budget_), "");
 }
 

@@ -83,8 +83,10 @@ TEST(StudyCharts, ARunThatBrokeIsNoPointButIsTold) {
     Json rows = Json::array();
     for (const char* variant : {"good", "bad", "none"})
         rows.push_back(studyRow("stack", variant, 0.01, {}, {{"rest_sink", 0.5}}));
-    rows[1]["outcome"] = "non_finite", rows[1]["metrics"]["rest_sink"]["value"] = nullptr;
-    rows[2]["ran"] = false, rows[2]["metrics"]["rest_sink"]["value"] = nullptr;
+    rows[1]["outcome"] = "non_finite";
+    rows[1]["metrics"]["rest_sink"]["value"] = nullptr;
+    rows[2]["ran"] = false;
+    rows[2]["metrics"]["rest_sink"]["value"] = nullptr;
     const Json study{{"parts", {studyPart("broken", rows)}}};
     const auto charts = studyCharts(study);
     EXPECT_FALSE(only(charts).points[1].value.has_value());
@@ -121,7 +123,8 @@ TEST(StudyCharts, ATableHasNoTextInAColumnOfNumbers) {
     Json rows = Json::array();
     for (const char* variant : {"good", "bad"})
         rows.push_back(studyRow("stack", variant, 0.01, {}, {{"rest_sink", 0.5}}));
-    rows[1]["metrics"]["rest_sink"]["low"] = 0.25, rows[1]["metrics"]["rest_sink"]["high"] = "inf";
+    rows[1]["metrics"]["rest_sink"]["low"] = 0.25;
+    rows[1]["metrics"]["rest_sink"]["high"] = "inf";
     const auto plots = studyPlots({{"parts", {studyPart("wide", rows)}}});
     ASSERT_EQ(plots.size(), 1u);
     const auto lines = parseCsv(plots[0].csv);
@@ -136,7 +139,8 @@ TEST(StudyCharts, ATableHasNoTextInAColumnOfNumbers) {
 TEST(StudyCharts, ThePageHasEveryDigit) {
     const double value = 0.1 + 0.2;
     Json rows = Json::array({studyRow("stack", "a", 0.01, {}, {{"rest_sink", value}})});
-    rows[0]["metrics"]["rest_sink"]["low"] = 0.25, rows[0]["metrics"]["rest_sink"]["high"] = 0.75;
+    rows[0]["metrics"]["rest_sink"]["low"] = 0.25;
+    rows[0]["metrics"]["rest_sink"]["high"] = 0.75;
     const Json page = Json::parse(studyPageJson({{"name", "s"}, {"parts", {studyPart("p", rows)}}}));
     const Json& point = page.at("charts").at(0).at("points").at(0);
     EXPECT_EQ(point.at("value").get<double>(), value);

@@ -17,13 +17,23 @@ inline results::BenchCase benchCase(const std::string& engine, double size, std:
                                     double seconds) {
     results::BenchCase c;
     c.id = engine + "-" + std::to_string(static_cast<int>(size)) + "-" + std::to_string(threads);
-    c.part = "scene", c.name = "pyramid", c.engine = engine + ":preset=matched", c.sizeUnit = "bodies";
-    c.size = size, c.threads = threads, c.operation = "step";
+    c.part = "scene";
+    c.name = "pyramid";
+    c.engine = engine + ":preset=matched";
+    c.sizeUnit = "bodies";
+    c.size = size;
+    c.threads = threads;
+    c.operation = "step";
     c.command = "./rigor bench pyramid --engines " + engine;
     for (std::int64_t round = 0; round < 7; ++round) {
         results::BenchRepetition r;
-        r.round = round, r.order = round, r.wall = 1.5 * seconds, r.cpu = seconds, r.samples = 100;
-        r.ownMemoryKiB = 2048, r.peakMemoryKiB = 40960;
+        r.round = round;
+        r.order = round;
+        r.wall = 1.5 * seconds;
+        r.cpu = seconds;
+        r.samples = 100;
+        r.ownMemoryKiB = 2048;
+        r.peakMemoryKiB = 40960;
         if (round == 0) r.allocations = 3.0;
         r.counts = {{"contacts", 4.0 * size}, {"touching_pairs", size}};
         r.phases = {{"solve", 0.5 * seconds}};
@@ -31,16 +41,21 @@ inline results::BenchCase benchCase(const std::string& engine, double size, std:
         c.repetitions.push_back(r);
     }
     auto& s = c.summary;
-    s.repetitions = 6, s.clock = threads > 1 ? "wall" : "cpu", s.wall = 1.5 * seconds, s.cpu = seconds;
-    s.low = 0.98 * (threads > 1 ? s.wall : s.cpu), s.high = 1.03 * (threads > 1 ? s.wall : s.cpu);
-    s.converged = true, s.valid = true;
+    s.repetitions = 6;
+    s.clock = threads > 1 ? "wall" : "cpu";
+    s.wall = 1.5 * seconds;
+    s.cpu = seconds;
+    s.low = 0.98 * (threads > 1 ? s.wall : s.cpu);
+    s.high = 1.03 * (threads > 1 ? s.wall : s.cpu);
+    s.converged = true;
+    s.valid = true;
     return c;
 }
 
 inline results::Run makeBench() {
     results::Run run;
-    run.suite = "bench",
-    run.command = std::string("./rigor bench pyramid --engines ode,rigor,") + kLengthySpec,
+    run.suite = "bench";
+    run.command = std::string("./rigor bench pyramid --engines ode,rigor,") + kLengthySpec;
     run.started = "2026-01-01T00:00:00Z";
     run.finished = "2026-01-01T01:00:00Z";
     run.environment = {
@@ -52,13 +67,18 @@ inline results::Run makeBench() {
         auto ode = benchCase("ode", size, 1, 2e-6 * size), rigor = benchCase("rigor", size, 1, 1e-6 * size);
         auto two = benchCase("rigor", size, 2, 1.1e-6 * size / 2.0);
         ode.summary.base = rigor.summary.base = two.summary.base = ode.id;
-        ode.summary.ratio = 1.0, rigor.summary.ratio = 0.5, two.summary.ratio = 0.275;
-        rigor.summary.ratioLow = 0.48, rigor.summary.ratioHigh = 0.53;
+        ode.summary.ratio = 1.0;
+        rigor.summary.ratio = 0.5;
+        two.summary.ratio = 0.275;
+        rigor.summary.ratioLow = 0.48;
+        rigor.summary.ratioHigh = 0.53;
         for (const auto& c : {ode, rigor, two}) run.bench.cases.push_back(c);
     }
     auto bad = benchCase("bullet", 1240.0, 1, 1e-3);
-    bad.summary.valid = false, bad.summary.reason = "max_penetration 0.02 m > 0.005";
-    bad.repetitions[2].quality[0].value = 0.02, bad.repetitions[2].quality[0].ok = false;
+    bad.summary.valid = false;
+    bad.summary.reason = "max_penetration 0.02 m > 0.005";
+    bad.repetitions[2].quality[0].value = 0.02;
+    bad.repetitions[2].quality[0].ok = false;
     run.bench.cases.push_back(bad);
     auto dead = benchCase("<b>dead</b>", 55.0, 1, 1e-3);
     dead.summary = {};
@@ -67,22 +87,34 @@ inline results::Run makeBench() {
     dead.repetitions[0].outcome = "crashed";
     run.bench.cases.push_back(dead);
     auto lengthy = benchCase("rigor", 55.0, 1, 2e-5);
-    lengthy.id = "lengthy", lengthy.engine = kLengthySpec;
+    lengthy.id = "lengthy";
+    lengthy.engine = kLengthySpec;
     for (auto& r : lengthy.repetitions) r.counts.push_back({"asleep", 55.0});
     run.bench.cases.push_back(lengthy);
     auto part = benchCase("fcl", 1000.0, 1, 5e-5);
-    part.id = "part", part.part = "broad_phase", part.name = "moving boxes", part.operation = "update";
+    part.id = "part";
+    part.part = "broad_phase";
+    part.name = "moving boxes";
+    part.operation = "update";
     part.sizeUnit = "boxes";
     for (auto& r : part.repetitions) {
         r.counts = {{"boxes", 1000.0}, {"pairs", 480.0}, {"pairs_held", 500.0}};
         r.quality = {{"missed_pairs", "1", 0.0, std::nullopt, 0.0, true}};
     }
     auto quick = part, wrong = part;
-    quick.id = "quick", quick.engine = "rigor:broad_phase=tree", quick.summary.cpu = 1e-7;
-    quick.summary.low = 0.9e-7, quick.summary.high = 1.1e-7;
-    wrong.id = "wrong", wrong.engine = "rigor:broad_phase=hash";
-    wrong.summary.valid = false, wrong.summary.reason = "missed_pairs 3 > 0";
-    for (auto& r : wrong.repetitions) r.quality[0].value = 3.0, r.quality[0].ok = false;
+    quick.id = "quick";
+    quick.engine = "rigor:broad_phase=tree";
+    quick.summary.cpu = 1e-7;
+    quick.summary.low = 0.9e-7;
+    quick.summary.high = 1.1e-7;
+    wrong.id = "wrong";
+    wrong.engine = "rigor:broad_phase=hash";
+    wrong.summary.valid = false;
+    wrong.summary.reason = "missed_pairs 3 > 0";
+    for (auto& r : wrong.repetitions) {
+        r.quality[0].value = 3.0;
+        r.quality[0].ok = false;
+    }
     for (const auto& c : {part, wrong, quick}) run.bench.cases.push_back(c);
     for (std::size_t i = 0; i < run.bench.cases.size(); ++i)
         run.bench.cases[i].position = static_cast<std::int64_t>(i);

@@ -18,7 +18,9 @@ class Dice {
   public:
     explicit Dice(std::uint64_t seed) : state_(seed * 2862933555777941757ull + 3037000493ull) {}
     double operator()() {
-        state_ ^= state_ << 13, state_ ^= state_ >> 7, state_ ^= state_ << 17;
+        state_ ^= state_ << 13;
+        state_ ^= state_ >> 7;
+        state_ ^= state_ << 17;
         return static_cast<double>(state_ >> 11) * 0x1.0p-53;
     }
 
@@ -137,9 +139,16 @@ void fillContext(CaseRow& c, Dice& dice) {
                    1e-5,
                    "block|floor at t=0.25",
                    ""};
-        if (std::string(auditor) == "fcl" && dice() < 0.3) a.missed = 2, a.normalErrorMax = 0.7;
-        if (std::string(auditor) == "ode" && dice() < 0.1)
-            a.outcome = "unsupported", a.queries = 0, a.normalErrorMax = {}, a.note = "hull against hull";
+        if (std::string(auditor) == "fcl" && dice() < 0.3) {
+            a.missed = 2;
+            a.normalErrorMax = 0.7;
+        }
+        if (std::string(auditor) == "ode" && dice() < 0.1) {
+            a.outcome = "unsupported";
+            a.queries = 0;
+            a.normalErrorMax = {};
+            a.note = "hull against hull";
+        }
         c.audit.push_back(a);
     }
     const double step = 4e-6 * (1 + 20 * dice());
@@ -150,15 +159,23 @@ void fillContext(CaseRow& c, Dice& dice) {
             c.timings.push_back({phase, 0.3 * step, 0.2 * step, 0.5 * step, step * 120, 400, 4.0, 0.29 * step,
                                  0.31 * step, 2});
     c.settings = {{"iterations", "20"}, {"solver", "sequential impulses"}, {"sleeping", "off"}};
-    c.steps = static_cast<std::int64_t>(2.0 / c.dt), c.peakMemoryKiB = 14336;
-    c.wallSeconds = 0.12, c.cpuSeconds = 0.11, c.stateHash = "9f86d081884c7d65";
+    c.steps = static_cast<std::int64_t>(2.0 / c.dt);
+    c.peakMemoryKiB = 14336;
+    c.wallSeconds = 0.12;
+    c.cpuSeconds = 0.11;
+    c.stateHash = "9f86d081884c7d65";
     c.trajectoryFile = "trajectories/" + c.id + ".h5";
 }
 
 /// Ends a case early: nothing but a reason is left.
 void spoil(CaseRow& c, Outcome outcome, Verdict verdict, const char* reason) {
-    c.outcome = outcome, c.verdict = verdict, c.reason = reason;
-    c.metrics.clear(), c.quantities.clear(), c.audit.clear(), c.timings.clear();
+    c.outcome = outcome;
+    c.verdict = verdict;
+    c.reason = reason;
+    c.metrics.clear();
+    c.quantities.clear();
+    c.audit.clear();
+    c.timings.clear();
     c.trajectoryFile.clear();
 }
 
@@ -180,7 +197,11 @@ void grade(CaseRow& c, double dice) {
         return;
     }
     for (MetricRow& m : c.metrics)
-        if (m.kind == "exact") m.scale = 2.0, m.relative = m.value / 2.0, m.recorded = 0.5 * m.value;
+        if (m.kind == "exact") {
+            m.scale = 2.0;
+            m.relative = m.value / 2.0;
+            m.recorded = 0.5 * m.value;
+        }
     c.metrics[0].ideal = 0.3 * *c.metrics[0].relative;
     c.accuracy = {gradeOf(*c.metrics[0].relative), c.metrics[0].name, c.metrics[0].relative,
                   c.metrics[0].ideal, ""};
@@ -189,8 +210,11 @@ void grade(CaseRow& c, double dice) {
 CaseRow makeCase(const ScenarioRow& s, const Kind& kind, const std::string& spec, double dt, int number) {
     Dice dice(static_cast<std::uint64_t>(number) + 17);
     CaseRow c;
-    c.id = "case" + std::to_string(number), c.position = number;
-    c.scenario = s.name, c.spec = spec, c.dt = dt;
+    c.id = "case" + std::to_string(number);
+    c.position = number;
+    c.scenario = s.name;
+    c.spec = spec;
+    c.dt = dt;
     c.engine = spec.substr(0, spec.find(':'));
     c.preset = spec.find("=default") != std::string::npos ? "default" : "matched";
     c.command = "./rigor run " + s.name + " --engine " + spec + " --dt " + std::to_string(dt);
@@ -207,9 +231,11 @@ CaseRow makeCase(const ScenarioRow& s, const Kind& kind, const std::string& spec
     else if (fate < 0.02)
         spoil(c, Outcome::OutOfMemory, Verdict::Crashed, "more than 4096 MiB");
     else if (fate < 0.03) {
-        c.outcome = Outcome::NonFinite, c.verdict = Verdict::NonFinite,
+        c.outcome = Outcome::NonFinite;
+        c.verdict = Verdict::NonFinite;
         c.reason = "position of block at t=0.5";
-        c.metrics[0].value = std::numeric_limits<double>::quiet_NaN(), c.metrics[0].verdict = Verdict::Fail;
+        c.metrics[0].value = std::numeric_limits<double>::quiet_NaN();
+        c.metrics[0].verdict = Verdict::Fail;
         c.metrics[1].value = std::numeric_limits<double>::infinity();
     }
     grade(c, dice());
@@ -225,10 +251,15 @@ ScenarioRow makeScenario(int i) {
     s.description =
         std::string("What the engine does with ") + kind.isolates + " alone, everything else at rest.";
     s.source = "Goldstein 2002, ch. 1";
-    s.isolates = {kind.isolates}, s.tags = {kind.dimension == 2 ? "planar" : "spatial", "catalogue"};
-    s.observed = {"block", "other"}, s.metrics = {kind.metric, "energy_drift"};
-    s.dimension = kind.dimension, s.duration = 2.0, s.timeSteps = {1.0 / 60.0, 1.0 / 240.0};
-    s.reference = kind.reference, s.referenceTitle = *kind.reference ? kind.title : "";
+    s.isolates = {kind.isolates};
+    s.tags = {kind.dimension == 2 ? "planar" : "spatial", "catalogue"};
+    s.observed = {"block", "other"};
+    s.metrics = {kind.metric, "energy_drift"};
+    s.dimension = kind.dimension;
+    s.duration = 2.0;
+    s.timeSteps = {1.0 / 60.0, 1.0 / 240.0};
+    s.reference = kind.reference;
+    s.referenceTitle = *kind.reference ? kind.title : "";
     s.referenceFormula = kind.formula;
     s.referenceTex = *kind.reference ? "\\begin{aligned} x &= \\tfrac12 g t^2 \\end{aligned}" : "";
     s.text = "{\"rigor\": 1, \"name\": \"<b>x</b>\"}";
@@ -241,7 +272,10 @@ Channel oneColumn(const char* unit, std::size_t rows) {
 
 TrajectoryFile makeTrajectory(const Run& run, const CaseRow& c) {
     TrajectoryFile f;
-    f.scenario = c.scenario, f.spec = c.spec, f.caseId = c.id, f.dt = c.dt;
+    f.scenario = c.scenario;
+    f.spec = c.spec;
+    f.caseId = c.id;
+    f.dt = c.dt;
     const auto rows = static_cast<std::size_t>(c.steps) + 1;
     Dice dice(static_cast<std::uint64_t>(c.position) + 5);
     const double error = std::isfinite(c.metrics.at(0).value) ? c.metrics[0].value : 0.1, shift = dice();
@@ -267,7 +301,8 @@ TrajectoryFile makeTrajectory(const Run& run, const CaseRow& c) {
         energy.values[i] = 10.0 - t + error * std::sin(20 * t);
         depth.values[i] = i % 97 == 50 ? 4e-4 : 1e-6 * dice();
     }
-    f.bodies = measured, f.reference = exact;
+    f.bodies = measured;
+    f.reference = exact;
     f.series = {{"position_error", "", errorSeries},
                 {"energy", "", energy},
                 {"penetration", "", depth},
@@ -279,9 +314,12 @@ TrajectoryFile makeTrajectory(const Run& run, const CaseRow& c) {
 
 Run makeRun(int scenarios) {
     Run run;
-    run.directory = "runs/standard-20260101-000000", run.schemaVersion = 1;
-    run.suite = "standard", run.command = "./rigor validate standard";
-    run.started = "2026-01-01T00:00:00Z", run.finished = "2026-01-01T00:04:31Z";
+    run.directory = "runs/standard-20260101-000000";
+    run.schemaVersion = 1;
+    run.suite = "standard";
+    run.command = "./rigor validate standard";
+    run.started = "2026-01-01T00:00:00Z";
+    run.finished = "2026-01-01T00:04:31Z";
     run.environment = {{"cpu", "Some CPU at 3.0 GHz, 8 cores"},
                        {"kernel", "Linux 6.1"},
                        {"compiler", "g++ 12.2.0"},
@@ -326,11 +364,27 @@ Run makeHardRun() {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
                      kInf = std::numeric_limits<double>::infinity();
     CaseRow& wild = run.cases.back();
-    wild.outcome = Outcome::NonFinite, wild.verdict = Verdict::NonFinite;
-    for (auto& m : wild.metrics) m.value = kNan, m.bound = kInf, m.at = kNan;
-    for (auto& q : wild.quantities) q.exact = -kInf, q.measured = kNan;
-    for (auto& t : wild.timings) t.median = t.p10 = t.p90 = t.total = kNan, t.low = kNan, t.high = kInf;
-    for (auto& a : wild.audit) a.normalErrorMax = kNan, a.depthErrorMax = kInf, a.worst = "";
+    wild.outcome = Outcome::NonFinite;
+    wild.verdict = Verdict::NonFinite;
+    for (auto& m : wild.metrics) {
+        m.value = kNan;
+        m.bound = kInf;
+        m.at = kNan;
+    }
+    for (auto& q : wild.quantities) {
+        q.exact = -kInf;
+        q.measured = kNan;
+    }
+    for (auto& t : wild.timings) {
+        t.median = t.p10 = t.p90 = t.total = kNan;
+        t.low = kNan;
+        t.high = kInf;
+    }
+    for (auto& a : wild.audit) {
+        a.normalErrorMax = kNan;
+        a.depthErrorMax = kInf;
+        a.worst = "";
+    }
     return run;
 }
 

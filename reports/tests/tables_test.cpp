@@ -77,7 +77,8 @@ Table sample() {
                      {"dt", ColumnKind::TimeStep, "s"},
                      {"ode matched", ColumnKind::Judged}};
     TableCell good(0.1 + 0.2), lost;
-    good.verdict = Shown::Fail, good.bound = 0.25;
+    good.verdict = Shown::Fail;
+    good.bound = 0.25;
     lost.verdict = Shown::Crashed;
     table.rows = {{"x_1 | <b> \"q\", 5 %", 1.25e-7, 4.2e-6, 1.0 / 240.0, good},
                   {"θ̈ → ∞ 中", std::numeric_limits<double>::quiet_NaN(), {}, 0.0033, lost},

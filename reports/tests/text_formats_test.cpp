@@ -104,7 +104,8 @@ struct Xml {
                     {"&lt;", "<"},  {"&gt;", ">"},   {"&amp;", "&"},  {"&quot;", "\""},
                     {"&#39;", "'"}, {"&#10;", "\n"}, {"&#13;", "\r"}, {"&#9;", "\t"}};
                 if (!known.count(entity)) fail("reference " + entity);
-                out += known.at(entity), at = end + 1;
+                out += known.at(entity);
+                at = end + 1;
                 continue;
             }
             out += text[at++];
@@ -234,7 +235,9 @@ TEST(Svg, IsWellFormedWithCurvesInsideTheFrame) {
 /// What the picture shows, with all digits.
 TEST(Svg, ComesWithItsData) {
     Plot plot;
-    plot.title = "x", plot.xLabel = "t [s]", plot.yLabel = "a, b";
+    plot.title = "x";
+    plot.xLabel = "t [s]";
+    plot.yLabel = "a, b";
     const double inf = std::numeric_limits<double>::infinity();
     plot.lines = {{"one", "#000", {}, {0.0, 0.1}, {1.0 / 3.0, std::nan("")}},
                   {"two", "#000", {6, 4}, {2.0, inf}, {1e-300, -inf}}};
@@ -337,8 +340,10 @@ TEST(Terminal, LongSpecsAreNumbered) {
 
 TEST(Terminal, AGreenRunSaysSo) {
     auto run = synthetic::makeRun(3);
-    for (auto& c : run.cases)
-        c.verdict = results::Verdict::Pass, c.regression = results::Regression::Unchanged;
+    for (auto& c : run.cases) {
+        c.verdict = results::Verdict::Pass;
+        c.regression = results::Regression::Unchanged;
+    }
     run.finished.clear();
     const auto text = terminalSummary(run, 40, 160, false);
     EXPECT_EQ(text.find("standard: no case is red, unfinished"), 0u) << text;

@@ -22,7 +22,10 @@ CaseRow makeCase(const std::string& scenario, const std::string& engine, double 
                  std::optional<double> bound = {}) {
     CaseRow c;
     c.id = scenario + engine + std::to_string(dt);
-    c.scenario = scenario, c.engine = engine, c.preset = "matched", c.dt = dt;
+    c.scenario = scenario;
+    c.engine = engine;
+    c.preset = "matched";
+    c.dt = dt;
     c.spec = engine + ":preset=matched";
     c.verdict = bound && error > *bound ? Verdict::Fail : Verdict::Pass;
     c.metrics = {{"error", "", "m", "exact", error, -1.0, bound, {}, c.verdict, "", 10.0, error / 10.0}};
@@ -34,7 +37,9 @@ Run twoScenarios() {
     Run run;
     for (const char* name : {"a", "b"}) {
         ScenarioRow s;
-        s.name = name, s.isolates = {"friction"}, s.metrics = {"absent", "error"};
+        s.name = name;
+        s.isolates = {"friction"};
+        s.metrics = {"absent", "error"};
         s.reference = "sliding_stop";
         run.scenarios.push_back(s);
     }
@@ -56,7 +61,9 @@ TEST(ViewModel, StandsBesideTheInHouseEngineInTheSamePresetElseItsDefault) {
     results::Run run = twoScenarios();
     const auto ours = [](const std::string& preset, double error) {
         CaseRow c = makeCase("a", results::kInHouseEngine, 0.01, error);
-        c.preset = preset, c.spec = c.engine + ":preset=" + preset, c.id += preset;
+        c.preset = preset;
+        c.spec = c.engine + ":preset=" + preset;
+        c.id += preset;
         return c;
     };
     run.cases = {ours("default", 2.0), ours("matched", 4.0), ours("fast", 8.0),
@@ -75,7 +82,8 @@ TEST(ViewModel, NoTwoColumnsOfAnEngineHaveTheSameDashes) {
     for (const char* spec : {"one:preset=default", "one:preset=matched", "one:preset=fast",
                              "one:preset=matched,x=1", "one:preset=default,x=1", "two:preset=default"}) {
         CaseRow c = makeCase("a", std::string(spec).substr(0, 3), 0.01, 1.0);
-        c.spec = spec, c.preset = std::string(spec).substr(11, std::string(spec).find(',') - 11);
+        c.spec = spec;
+        c.preset = std::string(spec).substr(11, std::string(spec).find(',') - 11);
         run.cases.push_back(c);
     }
     const ViewModel view(run);
@@ -141,7 +149,8 @@ TEST(ViewModel, SentencesSayWhatWasComparedWithWhat) {
     EXPECT_EQ(accuracySentence(c), "Not graded: no exact answer.");
     c.outcome = Outcome::Timeout;
     EXPECT_EQ(accuracySentence(c), "Not graded: timeout.");
-    c.regression = Regression::Worse, c.regressionReason = "error 0.1 -> 0.2 m";
+    c.regression = Regression::Worse;
+    c.regressionReason = "error 0.1 -> 0.2 m";
     EXPECT_EQ(regressionSentence(c), "Worse than on record: error 0.1 -> 0.2 m.");
 }
 
@@ -149,7 +158,8 @@ TEST(ViewModel, AChangeAgainstTheRecordIsNoMatterOfAccuracy) {
     results::Run run = twoScenarios();
     run.cases = {makeCase("a", results::kInHouseEngine, 0.01, 1e-9),
                  makeCase("b", results::kInHouseEngine, 0.01, 9.0)};
-    run.cases[0].regression = Regression::Worse, run.cases[0].regressionReason = "error 1e-10 -> 1e-09 m";
+    run.cases[0].regression = Regression::Worse;
+    run.cases[0].regressionReason = "error 1e-10 -> 1e-09 m";
     run.cases[1].regression = Regression::Unchanged;
     const ViewModel view(run);
     ASSERT_EQ(view.offenders().size(), 1u);
@@ -217,7 +227,9 @@ TEST(ViewModel, WhoNeverFinishesIsNotRanked) {
     run.cases = {makeCase("a", "one", 0.01, 1.0), makeCase("b", "one", 0.01, 1.0)};
     for (const char* s : {"a", "b"}) {
         auto c = makeCase(s, "two", 0.01, 0.0);
-        c.outcome = Outcome::Crashed, c.verdict = Verdict::Crashed, c.metrics.clear();
+        c.outcome = Outcome::Crashed;
+        c.verdict = Verdict::Crashed;
+        c.metrics.clear();
         run.cases.push_back(c);
     }
     EXPECT_EQ(ViewModel(run).mechanisms()[0].best, 0);

@@ -146,12 +146,14 @@ CollisionCase readCollisionLine(const Node& node) {
 
 CollisionFile readCollisionLines(const std::string& text, const std::filesystem::path& file) {
     CollisionFile result;
-    result.file = file, result.name = file.stem().string();
+    result.file = file;
+    result.name = file.stem().string();
     int number = 0;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         const std::string line = text.substr(begin, end - begin);
-        begin = end + 1, ++number;
+        begin = end + 1;
+        ++number;
         if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
         ReadContext context{file.string(), nullptr, {}, 3};
         CollisionCase c;
@@ -163,7 +165,8 @@ CollisionFile readCollisionLines(const std::string& text, const std::filesystem:
         }
         for (Problem& problem : context.problems) problem.line = number;
         if (!context.problems.empty()) throw LoadError(std::move(context.problems));
-        c.line = number, c.text = line;
+        c.line = number;
+        c.text = line;
         if (c.name.empty()) c.name = "line-" + std::to_string(number);
         result.cases.push_back(std::move(c));
     }

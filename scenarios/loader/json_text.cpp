@@ -36,7 +36,10 @@ int depthOf(const std::string& text, std::size_t& where) {
         } else if (c == '"') {
             inString = true;
         } else if (c == '[' || c == '{') {
-            if (++depth > deepest) deepest = depth, where = i;
+            if (++depth > deepest) {
+                deepest = depth;
+                where = i;
+            }
         } else if (c == ']' || c == '}') {
             --depth;
         }
@@ -83,7 +86,10 @@ class Locator {
         std::set<std::string> keys;
         ++at_;
         for (skipSpace(); text_[at_] != '}'; skipSpace()) {
-            if (text_[at_] == ',') ++at_, skipSpace();
+            if (text_[at_] == ',') {
+                ++at_;
+                skipSpace();
+            }
             const int line = line_;
             const std::string key = string();
             const std::string child = pointer + "/" + escapeToken(key);

@@ -48,7 +48,8 @@ std::string furthest(const Json& document, const std::string& path) {
                            : at->is_object() && at->contains(token) ? &(*at)[token]
                                                                     : nullptr;
         if (next == nullptr) break;
-        at = next, where += (where.empty() ? "" : ".") + token;
+        at = next;
+        where += (where.empty() ? "" : ".") + token;
         begin = dot + 1;
     }
     std::string known;

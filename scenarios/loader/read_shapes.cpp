@@ -126,7 +126,8 @@ Geometry readHeightField(const Node& node) {
     HeightField field;
     if (const auto spacing = node.require("spacing")) {
         const std::vector<double> s = spacing->numbers(2);
-        field.spacingX = s[0], field.spacingZ = s[1];
+        field.spacingX = s[0];
+        field.spacingZ = s[1];
     }
     if (const auto list = node.require("heights"))
         for (const Node& row : list->items()) {

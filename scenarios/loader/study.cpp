@@ -88,7 +88,8 @@ StudySymptom readSymptom(const Node& node, const StudyPart& part) {
     StudySymptom symptom;
     if (!node.isObject({"fault", "cure", "metric", "growth", "fault_at_least", "cure_at_most"}))
         return symptom;
-    symptom.fault = readVariantName(node, "fault", part), symptom.cure = readVariantName(node, "cure", part);
+    symptom.fault = readVariantName(node, "fault", part);
+    symptom.cure = readVariantName(node, "cure", part);
     if (const auto n = node.require("metric")) symptom.metric = n->text();
     if (const auto n = node.find("growth")) symptom.growth = n->boolean();
     if (const auto n = node.require("fault_at_least")) symptom.faultAtLeast = n->number(-1e15, 1e15);

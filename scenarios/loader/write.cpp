@@ -108,7 +108,8 @@ class Writer {
         Json out = Json::array();
         for (const MaterialPair& p : s_.pairs) {
             Json one = coefficients(p);
-            one["a"] = materialName(p.a), one["b"] = materialName(p.b);
+            one["a"] = materialName(p.a);
+            one["b"] = materialName(p.b);
             out.push_back(std::move(one));
         }
         return out;
@@ -154,16 +155,20 @@ class Writer {
     Json body(const Body& b) const {
         Json out{{"name", b.name}, {"type", typeName(b.type)}};
         pose(out, b.pose);
-        if (b.type != BodyType::Static)
-            out["velocity"] = vector(b.velocity), out["angular_velocity"] = angular(b.angularVelocity);
+        if (b.type != BodyType::Static) {
+            out["velocity"] = vector(b.velocity);
+            out["angular_velocity"] = angular(b.angularVelocity);
+        }
         if (b.type == BodyType::Dynamic) {
             const MassProperties& m = b.massProperties;
-            out["mass"] = m.mass, out["center_of_mass"] = vector(m.centerOfMass);
+            out["mass"] = m.mass;
+            out["center_of_mass"] = vector(m.centerOfMass);
             out["inertia"] = solid_ ? Json(m.inertia.m) : Json(m.inertia(2, 2));
         }
         out["shapes"] = Json::array();
         for (const Shape& s : b.shapes) out["shapes"].push_back(shape(s));
-        out["collides"] = b.collides, out["gravity_scale"] = b.gravityScale;
+        out["collides"] = b.collides;
+        out["gravity_scale"] = b.gravityScale;
         out["damping"] = {{"linear_kept_per_second", b.linearVelocityKept},
                           {"angular_kept_per_second", b.angularVelocityKept}};
         return out;

@@ -143,9 +143,15 @@ constexpr Mat3 transpose(const Mat3& a) {
 constexpr Mat3 toMatrix(Quat q) {
     Mat3 r;
     const Vec3 ex = rotate(q, {1, 0, 0}), ey = rotate(q, {0, 1, 0}), ez = rotate(q, {0, 0, 1});
-    r(0, 0) = ex.x, r(1, 0) = ex.y, r(2, 0) = ex.z;
-    r(0, 1) = ey.x, r(1, 1) = ey.y, r(2, 1) = ey.z;
-    r(0, 2) = ez.x, r(1, 2) = ez.y, r(2, 2) = ez.z;
+    r(0, 0) = ex.x;
+    r(1, 0) = ex.y;
+    r(2, 0) = ex.z;
+    r(0, 1) = ey.x;
+    r(1, 1) = ey.y;
+    r(2, 1) = ey.z;
+    r(0, 2) = ez.x;
+    r(1, 2) = ez.y;
+    r(2, 2) = ez.z;
     return r;
 }
 

@@ -44,8 +44,11 @@ std::string whyNotGraded(const Scenario& scenario, const Reference* reference) {
 IdealRun idealRun(const MetricInput& input) {
     IdealRun ideal;
     const Trajectory& like = input.trajectory;
-    ideal.run.dt = like.dt, ideal.run.stride = like.stride, ideal.run.bodyCount = like.bodyCount;
-    ideal.run.times = like.times, ideal.run.states = like.states;
+    ideal.run.dt = like.dt;
+    ideal.run.stride = like.stride;
+    ideal.run.bodyCount = like.bodyCount;
+    ideal.run.times = like.times;
+    ideal.run.states = like.states;
     if (input.reference == nullptr || like.frames() < 2) return ideal;
     const std::size_t frames = validFrames(input);
     const auto bodies = comparedBodies(input);
@@ -130,8 +133,10 @@ void RelativeErrors::setRelative(ScaleKind kind, const MetricInput& of, std::vec
         if (!row.subject.empty() && row.relative && (worst == nullptr || *row.relative > *worst->relative))
             worst = &row;
     }
-    if (scene != nullptr && worst != nullptr && (!scene->relative || *worst->relative > *scene->relative))
-        scene->scale = worst->scale, scene->relative = worst->relative;
+    if (scene != nullptr && worst != nullptr && (!scene->relative || *worst->relative > *scene->relative)) {
+        scene->scale = worst->scale;
+        scene->relative = worst->relative;
+    }
 }
 
 std::optional<double> RelativeErrors::idealOfQuantities(ScaleKind kind) {
@@ -173,7 +178,8 @@ std::optional<double> RelativeErrors::ideal(const MetricEntry& entry, const Scal
     std::vector<MetricRow> rows;
     for (const MetricValue& value : entry.evaluate(input)) {
         MetricRow& row = rows.emplace_back();
-        row.subject = value.subject, row.value = value.value;
+        row.subject = value.subject;
+        row.value = value.value;
     }
     setRelative(scale.scale, input, rows);
     return rows.empty() ? std::nullopt : rows.front().relative;
@@ -195,7 +201,9 @@ results::AccuracyRow RelativeErrors::accuracyOf(const std::vector<MetricRow>& ro
     for (const MetricRow& row : rows) {
         if (!row.subject.empty() || !row.relative || !isNamed(input_.scenario, row.name)) continue;
         if (accuracy.relative && !(*row.relative > *accuracy.relative)) continue;
-        accuracy.metric = row.name, accuracy.relative = row.relative, accuracy.ideal = row.ideal;
+        accuracy.metric = row.name;
+        accuracy.relative = row.relative;
+        accuracy.ideal = row.ideal;
         accuracy.grade = results::gradeOf(*row.relative);
     }
     if (accuracy.grade == results::Grade::None)

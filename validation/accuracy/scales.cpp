@@ -83,7 +83,8 @@ double heightOf(const Scenario& scenario) {
     for (const Body& body : scenario.bodies) {
         if (body.type == BodyType::Dynamic) reach = std::max(reach, reachOf(body));
         const double height = g > 0.0 ? -dot(scenario.gravity, body.pose.position) / g : 0.0;
-        lowest = std::min(lowest, height), highest = std::max(highest, height);
+        lowest = std::min(lowest, height);
+        highest = std::max(highest, height);
     }
     return std::max(reach, highest - lowest);
 }

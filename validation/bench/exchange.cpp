@@ -67,10 +67,14 @@ json repetitionToJson(const BenchRepetition& r) {
 
 BenchRepetition repetitionFromJson(const json& j) {
     BenchRepetition r;
-    r.outcome = j.at("outcome"), r.reason = j.at("reason");
-    r.wall = numberFromJson(j.at("wall")), r.cpu = numberFromJson(j.at("cpu"));
-    r.samples = j.at("samples"), r.stateHash = j.at("state_hash");
-    r.peakMemoryKiB = j.at("peak_memory"), r.ownMemoryKiB = j.at("own_memory");
+    r.outcome = j.at("outcome");
+    r.reason = j.at("reason");
+    r.wall = numberFromJson(j.at("wall"));
+    r.cpu = numberFromJson(j.at("cpu"));
+    r.samples = j.at("samples");
+    r.stateHash = j.at("state_hash");
+    r.peakMemoryKiB = j.at("peak_memory");
+    r.ownMemoryKiB = j.at("own_memory");
     r.allocations = optionalFrom(j.at("allocations"));
     r.allocatedBytes = optionalFrom(j.at("allocated_bytes"));
     for (const json& c : j.at("counts")) r.counts.push_back({c.at(0), numberFromJson(c.at(1))});
@@ -96,9 +100,15 @@ json plannedToJson(const PlannedBench& p) {
 
 PlannedBench plannedFromJson(const json& j) {
     PlannedBench p;
-    p.part = j.at("part"), p.name = j.at("name"), p.engine = j.at("engine");
-    p.sizeUnit = j.at("size_unit"), p.size = numberFromJson(j.at("size")), p.threads = j.at("threads");
-    p.operation = j.at("operation"), p.parameters = j.at("parameters"), p.command = j.at("command");
+    p.part = j.at("part");
+    p.name = j.at("name");
+    p.engine = j.at("engine");
+    p.sizeUnit = j.at("size_unit");
+    p.size = numberFromJson(j.at("size"));
+    p.threads = j.at("threads");
+    p.operation = j.at("operation");
+    p.parameters = j.at("parameters");
+    p.command = j.at("command");
     p.timeLimit = numberFromJson(j.at("time_limit"));
     return p;
 }
@@ -110,9 +120,11 @@ int benchChild(const std::filesystem::path& requestFile) {
     try {
         done = repeat(*request);
     } catch (const adapter::Unsupported& error) {
-        done.outcome = "unsupported", done.reason = error.what();
+        done.outcome = "unsupported";
+        done.reason = error.what();
     } catch (const std::exception& error) {
-        done.outcome = "error", done.reason = error.what();
+        done.outcome = "error";
+        done.reason = error.what();
     }
     writeJsonFile(request->at("answer").get<std::string>(), repetitionToJson(done));
     return 0;

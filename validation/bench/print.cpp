@@ -108,7 +108,8 @@ double worstOf(const BenchCase& c, const std::string& quality) {
 
 Columns columnsOf(const std::vector<const BenchCase*>& group) {
     Columns columns;
-    columns.scene = group.front()->part == "scene", columns.operation = group.front()->operation;
+    columns.scene = group.front()->part == "scene";
+    columns.operation = group.front()->operation;
     const auto any = [&](auto&& has) {
         return std::any_of(group.begin(), group.end(), [&](const BenchCase* c) { return has(*c); });
     };
@@ -225,7 +226,10 @@ std::string groupText(const std::vector<const BenchCase*>& group, const Labels& 
     double logarithms = 0.0, timed = 0.0;
     std::string base;
     for (const BenchCase* c : group) {
-        if (clockTime(c->summary) > 0.0) logarithms += std::log(clockTime(c->summary)), timed += 1.0;
+        if (clockTime(c->summary) > 0.0) {
+            logarithms += std::log(clockTime(c->summary));
+            timed += 1.0;
+        }
         if (!c->summary.base.empty()) base = c->summary.base;
     }
     const Unit unit = unitFor(timed > 0.0 ? std::exp(logarithms / timed) : 0.0);
@@ -267,7 +271,10 @@ double countOf(const BenchCase& c, const std::string& name) {
     double sum = 0.0, told = 0.0;
     for (const BenchRepetition& r : c.repetitions)
         for (const auto& count : r.counts)
-            if (count.name == name) sum += count.value, told += 1.0;
+            if (count.name == name) {
+                sum += count.value;
+                told += 1.0;
+            }
     return told > 0.0 ? sum / told : -1.0;
 }
 

@@ -60,7 +60,8 @@ double QualityMeter::jointGap(std::span<const BodyState> states) const {
     if (scenario_.joints.empty()) return 0.0;
     static const MetricEntry* drift = findMetric("joint_drift");
     Trajectory frames;
-    frames.dt = 1.0, frames.bodyCount = states.size();
+    frames.dt = 1.0;
+    frames.bodyCount = states.size();
     for (const double t : {0.0, 1.0}) {  // a metric asks for two frames at least
         frames.times.push_back(t);
         frames.states.insert(frames.states.end(), states.begin(), states.end());
@@ -81,11 +82,15 @@ void QualityMeter::finish(std::span<const BodyState> states, const std::vector<C
     std::size_t overlapping = 0;
     for (const ContactPoint& c : contacts) {
         maxPenetration_ = worse(maxPenetration_, c.depth);
-        if (c.depth > 0.0) sum += c.depth, ++overlapping;
+        if (c.depth > 0.0) {
+            sum += c.depth;
+            ++overlapping;
+        }
     }
     meanPenetration_ = overlapping > 0 ? sum / static_cast<double>(overlapping) : 0.0;
     pairs_ = touchingPairs(contacts);
-    top_ = -std::numeric_limits<double>::infinity(), lowest_ = -top_;
+    top_ = -std::numeric_limits<double>::infinity();
+    lowest_ = -top_;
     for (std::size_t i = 0; i < states.size(); ++i) {
         if (scenario_.bodies[i].type != scenario::BodyType::Dynamic) continue;
         top_ = worse(top_, heightOf(i, states[i]));

@@ -39,9 +39,17 @@ double loadNow() {
 
 BenchCase caseOf(const PlannedBench& p, std::int64_t position) {
     BenchCase c;
-    c.id = benchId(p), c.position = position, c.part = p.part, c.name = p.name, c.engine = p.engine;
-    c.sizeUnit = p.sizeUnit, c.size = p.size, c.threads = p.threads, c.operation = p.operation;
-    c.command = p.command, c.parameters = p.parameters;
+    c.id = benchId(p);
+    c.position = position;
+    c.part = p.part;
+    c.name = p.name;
+    c.engine = p.engine;
+    c.sizeUnit = p.sizeUnit;
+    c.size = p.size;
+    c.threads = p.threads;
+    c.operation = p.operation;
+    c.command = p.command;
+    c.parameters = p.parameters;
     return c;
 }
 
@@ -52,9 +60,11 @@ BenchRepetition failed(const ProcessResult& result, const PlannedBench& planned)
         r.outcome = "timeout";
         r.reason = "no end within " + std::to_string(static_cast<int>(planned.timeLimit)) + " s";
     } else if (result.exitedWith(kExitOutOfMemory)) {
-        r.outcome = "out_of_memory", r.reason = "the memory limit was reached";
+        r.outcome = "out_of_memory";
+        r.reason = "the memory limit was reached";
     } else {
-        r.outcome = "crashed", r.reason = result.ending();
+        r.outcome = "crashed";
+        r.reason = result.ending();
     }
     if (const std::string said = lastLine(result.outputTail); !said.empty()) r.reason += "; it said: " + said;
     return r;
@@ -119,8 +129,11 @@ class BenchInProgress {
                 engines.push_back(name);
         }
         RunOptions as;
-        as.directory = directory_, as.binary = options_.binary, as.jobs = 1;
-        as.suite = options_.suite, as.command = options_.command;
+        as.directory = directory_;
+        as.binary = options_.binary;
+        as.jobs = 1;
+        as.suite = options_.suite;
+        as.command = options_.command;
         const auto plan = scenariosOf(work_);
         results::Run run =
             runHeader(plan, as, describeEngines(engines, options_.binary, 1), plannedReferences(plan, as));
@@ -179,7 +192,10 @@ class BenchInProgress {
     void ended(const NextRepetition& next, const fs::path& answer, double load, const ProcessResult& result) {
         const auto json = result.exitedWith(0) ? readJsonFile(answer) : std::nullopt;
         BenchRepetition r = json ? repetitionFromJson(*json) : failed(result, work_[next.index].planned);
-        r.round = next.round, r.order = order_++, r.load = load, r.processSeconds = result.wallSeconds;
+        r.round = next.round;
+        r.order = order_++;
+        r.load = load;
+        r.processSeconds = result.wallSeconds;
         BenchCase& c = bench_.cases[next.index];
         writer_.writeBenchRepetition(c.id, r);
         c.repetitions.push_back(std::move(r));
@@ -192,8 +208,10 @@ class BenchInProgress {
         for (const BenchCase& c : bench_.cases)
             progress.done += static_cast<std::int64_t>(c.repetitions.size());
         const BenchForecast coming = forecast(bench_, options_.target);
-        progress.coming = coming.repetitions, progress.etaSeconds = coming.seconds;
-        progress.current = current, progress.finished = finished;
+        progress.coming = coming.repetitions;
+        progress.etaSeconds = coming.seconds;
+        progress.current = current;
+        progress.finished = finished;
         onProgress_(progress);
     }
 
@@ -234,8 +252,10 @@ BenchTarget targetOf(const Bench& bench) {
         return it == bench.settings.end() ? byDefault : std::stod(it->second);
     };
     BenchTarget t;
-    t.width = number("width", t.width), t.budget = number("budget", t.budget);
-    t.least = static_cast<int>(number("least", t.least)), t.most = static_cast<int>(number("most", t.most));
+    t.width = number("width", t.width);
+    t.budget = number("budget", t.budget);
+    t.least = static_cast<int>(number("least", t.least));
+    t.most = static_cast<int>(number("most", t.most));
     if (const auto it = bench.settings.find("seed"); it != bench.settings.end())
         t.seed = std::stoull(it->second);
     if (const auto it = bench.settings.find("clock"); it != bench.settings.end()) t.clock = it->second;

@@ -31,8 +31,10 @@ constexpr std::size_t kReadEvery = 10;
 class WorkMeter {
   public:
     void count(const adapter::StepCounters& c) {
-        add("broad_phase_pairs", c.pairs), add("box_tests", c.pairTests);
-        add("solver_iterations", c.solverIterations), add("islands", c.islands);
+        add("broad_phase_pairs", c.pairs);
+        add("box_tests", c.pairTests);
+        add("solver_iterations", c.solverIterations);
+        add("islands", c.islands);
         for (const auto& [phase, seconds] : c.phaseSeconds) phases_[phase].push_back(seconds);
     }
     void look(const adapter::World& world, std::size_t bodies,
@@ -51,7 +53,10 @@ class WorkMeter {
   private:
     struct Mean {
         double sum = 0.0, samples = 0.0;
-        void add(double value) { sum += value, samples += 1.0; }
+        void add(double value) {
+            sum += value;
+            samples += 1.0;
+        }
     };
     void add(const char* name, std::int64_t value) {
         if (value >= 0) sums_[name].add(static_cast<double>(value));
@@ -110,14 +115,17 @@ class SceneCase final : public BenchCase {
         quality.finish(stepper.states(), contacts);
 
         const ClockSamples& times = watch.samples();
-        done.wall = median(times.wall), done.cpu = median(times.cpu);
+        done.wall = median(times.wall);
+        done.cpu = median(times.cpu);
         done.samples = static_cast<std::int64_t>(times.wall.size());
         watch.writeAllocations(done);
         work.write(done);
         done.quality = quality.rows();
         done.stateHash = stepper.stateHash();
-        if (const std::string problem = stepper.nonFinite(); !problem.empty())
-            done.outcome = "non_finite", done.reason = problem;
+        if (const std::string problem = stepper.nonFinite(); !problem.empty()) {
+            done.outcome = "non_finite";
+            done.reason = problem;
+        }
         return done;
     }
 

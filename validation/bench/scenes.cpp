@@ -92,10 +92,14 @@ std::vector<BenchWork> planScenes(const SceneRequest& request,
             if (engine->problem.empty()) checkSettings(spec, *engine);
             for (const auto& threaded : threadedSpecs(spec, request.preset, request.threads, *engine)) {
                 PlannedBench planned;
-                planned.part = kScenePart, planned.name = scene.scenario.name;
-                planned.engine = threaded.name, planned.threads = threaded.threads;
-                planned.size = movingBodies(scene.scenario), planned.sizeUnit = "bodies";
-                planned.operation = "step", planned.timeLimit = scene.scenario.timeLimit;
+                planned.part = kScenePart;
+                planned.name = scene.scenario.name;
+                planned.engine = threaded.name;
+                planned.threads = threaded.threads;
+                planned.size = movingBodies(scene.scenario);
+                planned.sizeUnit = "bodies";
+                planned.operation = "step";
+                planned.timeLimit = scene.scenario.timeLimit;
                 planned.parameters =
                     nlohmann::json{
                         {"spec", threaded.given}, {"dt", numberToJson(dt)}, {"scene", identityOf(scene.text)}}

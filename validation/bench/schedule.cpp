@@ -148,7 +148,10 @@ BenchForecast forecast(const Bench& bench, const BenchTarget& target) {
     double spent = 0.0, coming = 0.0;
     std::int64_t done = 0, left = 0;
     for (const BenchCase& c : bench.cases)
-        for (const BenchRepetition& r : c.repetitions) spent += r.processSeconds, ++done;
+        for (const BenchRepetition& r : c.repetitions) {
+            spent += r.processSeconds;
+            ++done;
+        }
     if (done == 0) return {};
     const double usual = spent / static_cast<double>(done);
     for (const Group& group : groupsOf(bench)) {
@@ -163,7 +166,8 @@ BenchForecast forecast(const Bench& bench, const BenchTarget& target) {
             for (const BenchRepetition& r : c.repetitions) own += r.processSeconds;
             const double each =
                 c.repetitions.empty() ? usual : own / static_cast<double>(c.repetitions.size());
-            left += missing, coming += static_cast<double>(missing) * each;
+            left += missing;
+            coming += static_cast<double>(missing) * each;
         }
     }
     if (spent + coming > target.budget && coming > 0.0) {

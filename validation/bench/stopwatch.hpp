@@ -26,7 +26,10 @@ class Stopwatch {
         samples_.wall.push_back((wallEnd - wall) / operations);
         samples_.cpu.push_back((cpuEnd - cpu) / operations);
     }
-    void reserve(std::size_t count) { samples_.wall.reserve(count), samples_.cpu.reserve(count); }
+    void reserve(std::size_t count) {
+        samples_.wall.reserve(count);
+        samples_.cpu.reserve(count);
+    }
     const ClockSamples& samples() const { return samples_; }
 
   private:

@@ -54,9 +54,12 @@ void summariseAlone(BenchCase& c, const BenchTarget& target) {
     const auto wall = timesOf(c, "wall"), cpu = timesOf(c, "cpu");
     s.repetitions = static_cast<std::int64_t>(wall.size());
     if (wall.empty()) return;
-    s.wall = median(wall), s.cpu = median(cpu);
-    if (const auto interval = medianInterval(s.clock == "wall" ? wall : cpu))
-        s.low = interval->low, s.high = interval->high;
+    s.wall = median(wall);
+    s.cpu = median(cpu);
+    if (const auto interval = medianInterval(s.clock == "wall" ? wall : cpu)) {
+        s.low = interval->low;
+        s.high = interval->high;
+    }
     s.converged = isConverged(c, target);
 }
 
@@ -91,13 +94,17 @@ void compareWith(const BenchCase& base, BenchCase& c) {
         for (const BenchRepetition& b : base.repetitions) {
             if (r.round != b.round || r.round == 0) continue;
             const bool wall = c.summary.clock == "wall";
-            own.push_back(wall ? r.wall : r.cpu), others.push_back(wall ? b.wall : b.cpu);
+            own.push_back(wall ? r.wall : r.cpu);
+            others.push_back(wall ? b.wall : b.cpu);
         }
     c.summary.base = base.id;
     if (own.empty() || !c.summary.valid || !base.summary.valid) return;
     const PairedRatio found = pairedRatio(others, own);
     c.summary.ratio = found.ratio;
-    if (found.interval) c.summary.ratioLow = found.interval->low, c.summary.ratioHigh = found.interval->high;
+    if (found.interval) {
+        c.summary.ratioLow = found.interval->low;
+        c.summary.ratioHigh = found.interval->high;
+    }
 }
 
 const BenchCase* find(const Bench& bench, const std::string& id) {
@@ -119,9 +126,12 @@ BenchChange changeOf(const BenchCase& before, const BenchCase& after) {
         change.verdict = "not compared";
         return change;
     }
-    change.before = median(one), change.after = median(other);
+    change.before = median(one);
+    change.after = median(other);
     const RatioOfMedians found = ratioOfMedians(one, other, 1);
-    change.ratio = found.ratio, change.low = found.interval.low, change.high = found.interval.high;
+    change.ratio = found.ratio;
+    change.low = found.interval.low;
+    change.high = found.interval.high;
     change.p = mannWhitney(one, other);
     return change;
 }

@@ -63,7 +63,8 @@ std::optional<ContactSplit> firstSplit(const Trajectory& a, const Trajectory& b,
     std::vector<Pairs> inA, inB;
     for (std::size_t f = 0; f + 1 < frames; f += stride) {  // no step begins at the last frame
         times.push_back(a.times[f]);
-        inA.push_back(touching(a, f)), inB.push_back(touching(b, f));
+        inA.push_back(touching(a, f));
+        inB.push_back(touching(b, f));
     }
     // The last frame has no later one to excuse it.
     for (std::size_t k = 0; k + 1 < times.size(); ++k) {
@@ -89,19 +90,28 @@ std::optional<Growth> growthOf(const std::vector<double>& times, const std::vect
     if (n < 3 || values.size() != n) return std::nullopt;
     const double count = static_cast<double>(n);
     double meanX = 0.0, meanY = 0.0;
-    for (std::size_t i = 0; i < n; ++i) meanX += times[i] / count, meanY += std::log(values[i]) / count;
+    for (std::size_t i = 0; i < n; ++i) {
+        meanX += times[i] / count;
+        meanY += std::log(values[i]) / count;
+    }
     double sxx = 0.0, sxy = 0.0, syy = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         const double x = times[i] - meanX, y = std::log(values[i]) - meanY;
-        sxx += x * x, sxy += x * y, syy += y * y;
+        sxx += x * x;
+        sxy += x * y;
+        syy += y * y;
     }
     if (!(sxx > 0.0) || !std::isfinite(sxy)) return std::nullopt;
     Growth g;
-    g.rate = sxy / sxx, g.from = times.front(), g.until = times.back(), g.points = n;
+    g.rate = sxy / sxx;
+    g.from = times.front();
+    g.until = times.back();
+    g.points = n;
     const double left = std::max(0.0, syy - g.rate * sxy) / (count - 2.0);
     const boost::math::students_t distribution(count - 2.0);
     const double half = boost::math::quantile(distribution, 0.975) * std::sqrt(left / sxx);
-    g.low = g.rate - half, g.high = g.rate + half;
+    g.low = g.rate - half;
+    g.high = g.rate + half;
     return g;
 }
 
@@ -121,11 +131,20 @@ Divergence divergenceOf(const Scenario& scenario, const Trajectory& a, const Tra
             if (scenario.bodies[static_cast<std::size_t>(i)].type != BodyType::Dynamic) continue;
             const double distance = norm(a.state(f, i).position - b.state(f, i).position);
             sum += distance * distance;
-            if (distance > largest) largest = distance, farthest = i;
+            if (distance > largest) {
+                largest = distance;
+                farthest = i;
+            }
         }
         d.largest = std::max(d.largest, largest);
-        if (!d.onset && sum > 0.0) times.push_back(a.times[f]), distances.push_back(std::sqrt(sum));
-        if (!d.onset && largest > options.threshold * d.length) d.onset = a.times[f], d.body = farthest;
+        if (!d.onset && sum > 0.0) {
+            times.push_back(a.times[f]);
+            distances.push_back(std::sqrt(sum));
+        }
+        if (!d.onset && largest > options.threshold * d.length) {
+            d.onset = a.times[f];
+            d.body = farthest;
+        }
     }
     constexpr std::size_t kFewest = 10;
     if (times.size() >= kFewest && distances.back() >= 10.0 * distances.front())

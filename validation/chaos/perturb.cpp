@@ -121,7 +121,8 @@ Scenario perturbed(const Scenario& scenario, const Perturbation& size, std::uint
                    std::uint32_t member) {
     Scenario s = scenario;
     s.reference.reset();
-    s.accept.clear(), s.knownDeviations.clear();
+    s.accept.clear();
+    s.knownDeviations.clear();
     const std::vector<int> group = groupsOf(s);
     bool any = false;
     for (int i = 0; i < static_cast<int>(group.size()); ++i) {

@@ -20,7 +20,8 @@ constexpr PhiloxBlock philox(PhiloxBlock counter, std::array<std::uint32_t, 2> k
         const std::uint64_t a = kMultiply[0] * counter[0], b = kMultiply[1] * counter[2];
         counter = {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(b),
                    static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(a)};
-        key[0] += kWeyl[0], key[1] += kWeyl[1];
+        key[0] += kWeyl[0];
+        key[1] += kWeyl[1];
     }
     return counter;
 }

@@ -31,9 +31,11 @@ std::optional<Vec3> directionBetween(const CollisionAnswer& found) {
 
 CollideAnswer fromEngine(const CollisionAnswer& found) {
     CollideAnswer answer;
-    answer.answered = true, answer.overlap = found.overlap;
+    answer.answered = true;
+    answer.overlap = found.overlap;
     answer.signedDistance = found.signedDistance;
-    answer.witnessA = found.witnessA, answer.witnessB = found.witnessB;
+    answer.witnessA = found.witnessA;
+    answer.witnessB = found.witnessB;
     answer.contacts = static_cast<int>(found.contacts.size());
     answer.normal = directionBetween(found);
     if (found.contacts.empty()) return answer;
@@ -41,7 +43,8 @@ CollideAnswer fromEngine(const CollisionAnswer& found) {
     for (const ContactPoint& c : found.contacts)
         if (c.depth > deepest->depth) deepest = &c;
     answer.normal = deepest->normal;
-    answer.witnessA = deepest->pointA, answer.witnessB = deepest->pointB;
+    answer.witnessA = deepest->pointA;
+    answer.witnessB = deepest->pointB;
     if (!answer.signedDistance) answer.signedDistance = -deepest->depth;
     return answer;
 }
@@ -66,7 +69,8 @@ CollideAnswer ask(const adapter::CollisionEngine& engine, const adapter::Setting
     query.dimension = c.dimension;
     CollideAnswer answer;
     if (!c.unsupported.empty()) {
-        answer.verdict = CollideVerdict::Unsupported, answer.message = c.unsupported;
+        answer.verdict = CollideVerdict::Unsupported;
+        answer.message = c.unsupported;
         return answer;
     }
     try {
@@ -77,9 +81,11 @@ CollideAnswer ask(const adapter::CollisionEngine& engine, const adapter::Setting
         answer = fromEngine(found);
         answer.seconds = std::chrono::duration<double>(end - start).count();
     } catch (const adapter::Unsupported& error) {
-        answer.verdict = CollideVerdict::Unsupported, answer.message = error.what();
+        answer.verdict = CollideVerdict::Unsupported;
+        answer.message = error.what();
     } catch (const std::exception& error) {
-        answer.verdict = CollideVerdict::Error, answer.message = error.what();
+        answer.verdict = CollideVerdict::Error;
+        answer.message = error.what();
     }
     return answer;
 }
@@ -116,10 +122,15 @@ json answerToJson(const CollideAnswer& a) {
 
 CollideAnswer answerFromJson(const json& j) {
     CollideAnswer a;
-    a.answered = j.at(0), a.overlap = j.at(1);
-    a.signedDistance = optionalNumber(j.at(2)), a.normal = optionalVector(j.at(3));
-    a.witnessA = optionalVector(j.at(4)), a.witnessB = optionalVector(j.at(5));
-    a.contacts = j.at(6), a.seconds = numberFromJson(j.at(7)), a.message = j.at(8);
+    a.answered = j.at(0);
+    a.overlap = j.at(1);
+    a.signedDistance = optionalNumber(j.at(2));
+    a.normal = optionalVector(j.at(3));
+    a.witnessA = optionalVector(j.at(4));
+    a.witnessB = optionalVector(j.at(5));
+    a.contacts = j.at(6);
+    a.seconds = numberFromJson(j.at(7));
+    a.message = j.at(8);
     a.verdict = static_cast<CollideVerdict>(j.at(9).get<int>());
     return a;
 }

@@ -104,8 +104,10 @@ CollideTruth truthOf(const CollisionCase& c, const CollideTolerance& tolerance) 
     if (const auto exact = exactContact(c.a.geometry, c.a.pose, c.b.geometry, c.b.pose, c.dimension)) {
         truth.source = "oracle";
         truth.signedDistance = exact->signedDistance;
-        truth.normals = exact->normals, truth.continuum = exact->continuum;
-        truth.witnessA = exact->witnessA, truth.witnessB = exact->witnessB;
+        truth.normals = exact->normals;
+        truth.continuum = exact->continuum;
+        truth.witnessA = exact->witnessA;
+        truth.witnessB = exact->witnessB;
         if (expected.signedDistance) {
             const double off = std::abs(*expected.signedDistance - exact->signedDistance);
             if (off > std::max(tolerance.touch, tolerance.relative * std::abs(exact->signedDistance)) +
@@ -116,7 +118,8 @@ CollideTruth truthOf(const CollisionCase& c, const CollideTolerance& tolerance) 
         truth.source = "file";
         truth.signedDistance = *expected.signedDistance;
         truth.normals = expected.normals;
-        truth.accuracy = expected.accuracy, truth.normalTolerance = expected.normalTolerance;
+        truth.accuracy = expected.accuracy;
+        truth.normalTolerance = expected.normalTolerance;
     }
     return truth;
 }
@@ -208,15 +211,21 @@ CollideSummary summarise(const CollideRun& run, std::size_t spec) {
         if (sd < -run.tolerance.touch) {
             depth.add(answer.distanceError);
             if (answer.distanceError) relative.add(*answer.distanceError / -sd);
-            angle.add(answer.normalAngle), excess.add(answer.normalExcess), points.add(answer.pointError);
+            angle.add(answer.normalAngle);
+            excess.add(answer.normalExcess);
+            points.add(answer.pointError);
         } else {
             distance.add(answer.distanceError);
         }
     }
-    s.depthErrorMax = depth.max(), s.depthErrorMedian = depth.median(), s.depthRelativeMax = relative.max();
+    s.depthErrorMax = depth.max();
+    s.depthErrorMedian = depth.median();
+    s.depthRelativeMax = relative.max();
     s.distanceErrorMax = distance.max();
-    s.normalAngleMax = angle.max(), s.normalExcessMax = excess.max();
-    s.pointErrorMax = points.max(), s.pointErrorMedian = points.median();
+    s.normalAngleMax = angle.max();
+    s.normalExcessMax = excess.max();
+    s.pointErrorMax = points.max();
+    s.pointErrorMedian = points.median();
     s.microsecondsMedian = 1e6 * time.median().value_or(0.0);
     return s;
 }

@@ -31,12 +31,15 @@ class Maker {
     CollisionCase make(const std::string& kind, int number) {
         const auto& pair = pairs_[below(pairs_.size())];
         scale_ = kind == "tiny" ? 1e-3 : (kind == "huge" ? 1e3 : 1.0);
-        a_ = shape(pair[0], kind == "thin"), b_ = shape(pair[1], kind == "thin" && below(2) == 0);
+        a_ = shape(pair[0], kind == "thin");
+        b_ = shape(pair[1], kind == "thin" && below(2) == 0);
         if (kind == "identical") b_ = a_;
-        Xa_ = {{}, rotation()}, Xb_ = {{}, rotation()};
+        Xa_ = {{}, rotation()};
+        Xb_ = {{}, rotation()};
         arrange(kind);
         const Vec3 place = (kind == "far" ? 1e4 : random_.unit() * 2 * scale_) * direction();
-        Xa_.position = Xa_.position + place, Xb_.position = Xb_.position + place;
+        Xa_.position = Xa_.position + place;
+        Xb_.position = Xb_.position + place;
         return written(kind + "_" + std::to_string(number), {kind, name(a_), name(b_)});
     }
 

@@ -180,7 +180,8 @@ CollideRun runCollide(const std::vector<scenario::CollisionFile>& files,
                       const std::function<void(std::int64_t, std::int64_t)>& onProgress,
                       const std::atomic<bool>& interrupted) {
     CollideRun run;
-    run.specs = specs, run.tolerance = options.tolerance;
+    run.specs = specs;
+    run.tolerance = options.tolerance;
     for (const auto& file : files)
         for (const auto& c : file.cases)
             run.cases.push_back({c, file.file.string(), {}, std::vector<CollideAnswer>(specs.size())});

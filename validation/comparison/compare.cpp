@@ -220,7 +220,8 @@ RunComparison compareRuns(const std::vector<Run>& before, const std::vector<Run>
                           const CompareOptions& options) {
     RunComparison all;
     all.pairBy = options.pairBy;
-    all.runsBefore = static_cast<int>(before.size()), all.runsAfter = static_cast<int>(after.size());
+    all.runsBefore = static_cast<int>(before.size());
+    all.runsAfter = static_cast<int>(after.size());
     compareEnvironments(before.front(), after.front(), all);
     all.changedScenarios = changedScenarios(before.front(), after.front());
     const auto pairs = pairCases(before.front(), after.front(), options.pairBy);

@@ -56,10 +56,17 @@ void markBest(std::vector<WorkPoint>& points) {
 results::FairnessRow rowOf(const std::string& mode, const std::string& metric, const std::string& unit,
                            const WorkPoint& point, std::optional<double> limit) {
     results::FairnessRow row;
-    row.mode = mode, row.scenario = point.row->scenario, row.metric = metric, row.unit = unit;
-    row.competitor = point.competitor, row.caseId = point.row->id;
-    row.spec = point.row->spec, row.dt = point.row->dt;
-    row.error = point.error, row.cost = point.cost, row.limit = limit;
+    row.mode = mode;
+    row.scenario = point.row->scenario;
+    row.metric = metric;
+    row.unit = unit;
+    row.competitor = point.competitor;
+    row.caseId = point.row->id;
+    row.spec = point.row->spec;
+    row.dt = point.row->dt;
+    row.error = point.error;
+    row.cost = point.cost;
+    row.limit = limit;
     return row;
 }
 
@@ -75,9 +82,12 @@ void addChosen(const std::string& metric, const std::string& unit, const Competi
         if (points.size() < kLeastLadder) continue;
         ladders[who] = points;
         double cheapest = kInfinity, nearest = kInfinity;
-        for (const auto* p : points)
-            cheapest = std::min(cheapest, p->cost), nearest = std::min(nearest, p->error);
-        budget = std::max(budget, cheapest), target = std::max(target, nearest);
+        for (const auto* p : points) {
+            cheapest = std::min(cheapest, p->cost);
+            nearest = std::min(nearest, p->error);
+        }
+        budget = std::max(budget, cheapest);
+        target = std::max(target, nearest);
     }
     if (ladders.size() < 2) return;
     for (const auto& [who, points] : ladders) {
@@ -135,7 +145,8 @@ std::vector<results::OrderRow> observedOrders(const Run& run) {
                 if (c.scenario != scenario.name || c.outcome != Outcome::Completed) continue;
                 const MetricRow* m = wholeScene(c, metric);
                 if (m == nullptr) continue;
-                ladders[c.spec].push_back({c.dt, m->value}), unit = m->unit;
+                ladders[c.spec].push_back({c.dt, m->value});
+                unit = m->unit;
                 position.emplace(c.spec, c.position);
             }
             std::vector<std::string> specs;
@@ -145,10 +156,17 @@ std::vector<results::OrderRow> observedOrders(const Run& run) {
                       [&](const auto& a, const auto& b) { return position.at(a) < position.at(b); });
             for (const auto& spec : specs) {
                 results::OrderRow row;
-                row.scenario = scenario.name, row.spec = spec, row.metric = metric, row.unit = unit;
+                row.scenario = scenario.name;
+                row.spec = spec;
+                row.metric = metric;
+                row.unit = unit;
                 if (const auto fit = observedOrder(ladders.at(spec))) {
-                    row.order = fit->order, row.low = fit->low, row.high = fit->high;
-                    row.points = fit->points, row.finest = fit->finest, row.coarsest = fit->coarsest;
+                    row.order = fit->order;
+                    row.low = fit->low;
+                    row.high = fit->high;
+                    row.points = fit->points;
+                    row.finest = fit->finest;
+                    row.coarsest = fit->coarsest;
                     row.note = fit->note;
                 } else {
                     row.note = "round-off at every time step but one or none";

@@ -50,19 +50,23 @@ std::optional<ObservedOrder> observedOrder(std::vector<LadderPoint> ladder, doub
     const auto n = kept.points.size();
     if (n < 2) return std::nullopt;
     double meanX = 0.0, meanY = 0.0;
-    for (const auto& p : kept.points)
-        meanX += std::log(p.dt) / static_cast<double>(n), meanY += std::log(p.error) / static_cast<double>(n);
+    for (const auto& p : kept.points) {
+        meanX += std::log(p.dt) / static_cast<double>(n);
+        meanY += std::log(p.error) / static_cast<double>(n);
+    }
     double sxx = 0.0, sxy = 0.0;
     for (const auto& p : kept.points) {
         const double x = std::log(p.dt) - meanX;
-        sxx += x * x, sxy += x * (std::log(p.error) - meanY);
+        sxx += x * x;
+        sxy += x * (std::log(p.error) - meanY);
     }
     if (sxx <= 0.0) return std::nullopt;  // one time step, several times
 
     ObservedOrder fit;
     fit.order = sxy / sxx;
     fit.points = static_cast<int>(n);
-    fit.finest = kept.points.front().dt, fit.coarsest = kept.points.back().dt;
+    fit.finest = kept.points.front().dt;
+    fit.coarsest = kept.points.back().dt;
     fit.note = noteOf(kept);
     if (n < 3) return fit;
     double squares = 0.0;
@@ -73,7 +77,8 @@ std::optional<ObservedOrder> observedOrder(std::vector<LadderPoint> ladder, doub
     const auto freedom = static_cast<double>(n - 2);
     const boost::math::students_t distribution(freedom);
     const double half = boost::math::quantile(distribution, 0.975) * std::sqrt(squares / freedom / sxx);
-    fit.low = fit.order - half, fit.high = fit.order + half;
+    fit.low = fit.order - half;
+    fit.high = fit.order + half;
     return fit;
 }
 

@@ -81,7 +81,8 @@ void readFile(const fs::path& file, Cases& cases) {
         if (f.size() != kColumns) damaged(file, line, std::to_string(kColumns) + " fields");
         RecordedCase& c = cases[{f[0], f[2], numberIn(f[3], file, line)}];
         c.scenarioHash = f[1];
-        c.outcome = results::parseOutcome(f[4]), c.verdict = results::parseVerdict(f[5]);
+        c.outcome = results::parseOutcome(f[4]);
+        c.verdict = results::parseVerdict(f[5]);
         if (!f[6].empty()) metricIn(c, f[6], f[7]).values.push_back(numberIn(f[8], file, line));
     }
 }
@@ -105,7 +106,8 @@ void writeFile(const fs::path& file, const Cases& cases) {
 RecordedCase recordOf(const results::ScenarioRow& scenario, const CaseRow& row) {
     RecordedCase recorded;
     recorded.scenarioHash = recordedHash(scenario.text);
-    recorded.outcome = row.outcome, recorded.verdict = row.verdict;
+    recorded.outcome = row.outcome;
+    recorded.verdict = row.verdict;
     for (const MetricRow& m : row.metrics)
         if (isNamed(scenario, m) && !std::isnan(m.value))
             metricIn(recorded, m.name, m.unit).values = {m.value};
@@ -189,11 +191,16 @@ Run readRecorded(const fs::path& folder, const Run& run, std::vector<std::string
         const RecordedCase* old = record.find(row.scenario, row.spec, row.dt);
         if (old == nullptr) continue;
         CaseRow& c = recorded.cases.emplace_back();
-        c.scenario = row.scenario, c.spec = row.spec, c.dt = row.dt;
-        c.outcome = old->outcome, c.verdict = old->verdict;
+        c.scenario = row.scenario;
+        c.spec = row.spec;
+        c.dt = row.dt;
+        c.outcome = old->outcome;
+        c.verdict = old->verdict;
         for (const RecordedMetric& m : old->metrics) {
             MetricRow& metric = c.metrics.emplace_back();
-            metric.name = m.name, metric.unit = m.unit, metric.value = m.values.front();
+            metric.name = m.name;
+            metric.unit = m.unit;
+            metric.value = m.values.front();
         }
         const auto* now = scenarioOf(run, row.scenario);
         if (now == nullptr || !known.insert(row.scenario).second) continue;

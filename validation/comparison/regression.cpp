@@ -84,7 +84,8 @@ Change worstChange(const CaseRow& row, const RecordedCase& old, bool isChaotic) 
 }  // namespace
 
 void compareWithRecord(const Record& record, const results::ScenarioRow& scenario, CaseRow& row) {
-    row.regression = Regression::NoRecord, row.regressionReason.clear();
+    row.regression = Regression::NoRecord;
+    row.regressionReason.clear();
     for (MetricRow& m : row.metrics) m.recorded.reset();
     if (row.verdict == results::Verdict::NoReference) {
         row.regressionReason = "its reference could not be computed";
@@ -114,7 +115,8 @@ void compareWithRecord(const Record& record, const results::ScenarioRow& scenari
     }
     const bool isChaotic = scenario.reference.empty();
     const Change change = worstChange(row, *old, isChaotic);
-    row.regression = change.state, row.regressionReason = change.text;
+    row.regression = change.state;
+    row.regressionReason = change.text;
     if (change.state == Regression::Unchanged && isChaotic)
         row.regressionReason = "no exact answer: how it ends is compared, not its numbers";
 }

@@ -70,11 +70,15 @@ class Dynamics {
         };
         for (const Triplet& e : A)
             if (e.value != 0.0) root[find(place(e.row))] = find(place(e.column));
-        group_.assign(size_, size_), within_.assign(size_, 0);
+        group_.assign(size_, size_);
+        within_.assign(size_, 0);
         std::vector<std::size_t> groupOfRoot(size_, size_);
         for (std::size_t i = 0; i < size_; ++i) {
             const std::size_t r = find(i);
-            if (groupOfRoot[r] == size_) groupOfRoot[r] = members_.size(), members_.emplace_back();
+            if (groupOfRoot[r] == size_) {
+                groupOfRoot[r] = members_.size();
+                members_.emplace_back();
+            }
             group_[i] = groupOfRoot[r];
             within_[i] = members_[group_[i]].size();
             members_[group_[i]].push_back(static_cast<int>(i));
@@ -193,7 +197,8 @@ void complete(FrozenProblem& frozen, const std::string& what) {
     }
     expectSize(what, "q", p.q.size(), n);
     expectSize(what, "W", p.W.size(), n * n);
-    expectFinite(what, "q", p.q), expectFinite(what, "W", p.W);
+    expectFinite(what, "q", p.q);
+    expectFinite(what, "W", p.W);
     for (const auto& [part, values, size] :
          {std::tuple{"the stored r", &frozen.storedR, n}, {"the stored u", &frozen.storedU, n}}) {
         if (values->empty()) continue;

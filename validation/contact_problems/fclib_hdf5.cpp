@@ -97,8 +97,10 @@ void readLocal(const Hdf5File& file, FrozenProblem& frozen) {
 void readGlobal(const Hdf5File& file, FrozenProblem& frozen) {
     const std::string root = "/fclib_global";
     ContactProblem& p = frozen.problem;
-    p.M = readMatrix(file, root + "/M"), p.H = readMatrix(file, root + "/H");
-    p.f = doublesAt(file, root + "/vectors/f"), p.w = doublesAt(file, root + "/vectors/w");
+    p.M = readMatrix(file, root + "/M");
+    p.H = readMatrix(file, root + "/H");
+    p.f = doublesAt(file, root + "/vectors/f");
+    p.w = doublesAt(file, root + "/vectors/w");
     if (!file.exists(root + "/G")) return;
     frozen.G = readMatrix(file, root + "/G");
     frozen.b = doublesAt(file, root + "/vectors/b");
@@ -122,7 +124,8 @@ void writeMatrix(Hdf5File& file, const std::string& group, const SparseMatrix& A
     std::vector<int> p, i;
     std::vector<double> x;
     for (const Triplet& e : entries) {
-        i.push_back(byRows ? e.column : e.row), x.push_back(e.value);
+        i.push_back(byRows ? e.column : e.row);
+        x.push_back(e.value);
         if (layout == SparseLayout::Triplets) p.push_back(e.column);
     }
     if (layout != SparseLayout::Triplets) {
@@ -135,7 +138,10 @@ void writeMatrix(Hdf5File& file, const std::string& group, const SparseMatrix& A
     const auto number = [&](const char* name, int value) {
         file.writeIntegers(group + "/" + name, {value}, 1, "");
     };
-    number("nzmax", count), number("m", A.rows), number("n", A.columns), number("nz", nz);
+    number("nzmax", count);
+    number("m", A.rows);
+    number("n", A.columns);
+    number("nz", nz);
     file.writeIntegers(group + "/p", p, 1, "");
     file.writeIntegers(group + "/i", i, 1, "");
     file.writeDoubles(group + "/x", x, 1, "");
@@ -175,7 +181,8 @@ FrozenProblem readFclib(const std::filesystem::path& path) {
             readGlobal(file, frozen);
         else
             readLocal(file, frozen);
-        frozen.storedV = solution(file, "v"), frozen.storedU = solution(file, "u");
+        frozen.storedV = solution(file, "v");
+        frozen.storedU = solution(file, "u");
         frozen.storedR = solution(file, "r");
     } catch (const std::runtime_error& error) {
         throw BadInput(name + ": " + error.what());
@@ -191,7 +198,8 @@ void writeFclib(const FrozenProblem& frozen, const std::filesystem::path& path, 
     file.createGroup(root);
     file.writeIntegers(root + "/spacedim", {p.dimension}, 1, "");
     if (frozen.isGlobal) {
-        writeMatrix(file, root + "/M", p.M, layout), writeMatrix(file, root + "/H", p.H, layout);
+        writeMatrix(file, root + "/M", p.M, layout);
+        writeMatrix(file, root + "/H", p.H, layout);
         if (!frozen.b.empty()) writeMatrix(file, root + "/G", frozen.G, layout);
         writeVectors(file, root + "/vectors", {{"f", &p.f}, {"w", &p.w}, {"mu", &p.mu}, {"b", &frozen.b}});
     } else {

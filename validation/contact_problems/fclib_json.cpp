@@ -31,7 +31,8 @@ std::vector<double> numbers(const json& j, const char* key) {
 FrozenProblem fromJson(const json& j) {
     FrozenProblem frozen;
     ContactProblem& p = frozen.problem;
-    frozen.title = j.value("name", ""), frozen.description = j.value("source", "");
+    frozen.title = j.value("name", "");
+    frozen.description = j.value("source", "");
     p.dimension = j.at("dim");
     p.mu = numbers(j, "mu");
     const std::string form = j.at("form");
@@ -39,8 +40,10 @@ FrozenProblem fromJson(const json& j) {
         throw adapter::BadInput("/form: found \"" + form + "\", expected \"local\" or \"global\"");
     frozen.isGlobal = form == "global";
     if (frozen.isGlobal) {
-        p.f = numbers(j, "f"), p.w = numbers(j, "w");
-        p.M = matrixFrom(j.at("M")), p.H = matrixFrom(j.at("H"));
+        p.f = numbers(j, "f");
+        p.w = numbers(j, "w");
+        p.M = matrixFrom(j.at("M"));
+        p.H = matrixFrom(j.at("H"));
     } else {
         p.q = numbers(j, "q");
         const SparseMatrix W = matrixFrom(j.at("W"));

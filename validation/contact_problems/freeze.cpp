@@ -29,7 +29,8 @@ class Scale final : public adapter::World {
   public:
     explicit Scale(std::size_t bodies) : loads(bodies) {}
     void applyForce(int body, const Vec3& force, const Vec3& torque) override {
-        loads[place(body)].force += force, loads[place(body)].torque += torque;
+        loads[place(body)].force += force;
+        loads[place(body)].torque += torque;
     }
     void step() override {}
     void readStates(std::span<BodyState>) const override {}

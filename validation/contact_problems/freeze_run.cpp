@@ -50,7 +50,8 @@ ToldStep runToStep(const scenario::Scenario& s, const FreezeRequest& request) {
         engine->dynamics()->build(s, request.dt, adapter::resolveSettings(request.spec, *engine));
     ToldStep told;
     told.dt = request.dt;
-    told.before.resize(s.bodies.size()), told.after.resize(s.bodies.size());
+    told.before.resize(s.bodies.size());
+    told.after.resize(s.bodies.size());
     world->readStates(told.after);
     for (std::size_t k = 0; k < request.step; ++k) {
         std::swap(told.before, told.after);

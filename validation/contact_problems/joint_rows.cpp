@@ -25,9 +25,11 @@ class Rows {
   public:
     Rows(const Scenario& s, const Joint& joint, std::span<const BodyState> states) : flat_(s.dimension == 2) {
         const Pose a = poseOf(states, joint.bodyA), b = poseOf(states, joint.bodyB);
-        onA_ = a * joint.anchorA, onB_ = b * joint.anchorB;
+        onA_ = a * joint.anchorA;
+        onB_ = b * joint.anchorB;
         axis_ = rotate(a.orientation, joint.axisA);
-        centreA_ = centreOf(s, states, joint.bodyA), centreB_ = centreOf(s, states, joint.bodyB);
+        centreA_ = centreOf(s, states, joint.bodyA);
+        centreB_ = centreOf(s, states, joint.bodyB);
     }
     /// The anchors stay together along d.
     void hold(const Vec3& d) { rows_.push_back({d, {}, onA_ - centreA_, onB_ - centreB_}); }

@@ -29,7 +29,8 @@ double coneDefect(double n, const Vec2& t, double uN, const Vec2& uT, double mu)
     double pN = x;
     Vec2 pT = y;
     if (mu * length <= -x) {
-        pN = 0.0, pT = {0.0, 0.0};
+        pN = 0.0;
+        pT = {0.0, 0.0};
     } else if (length > mu * x) {
         pN = (mu * length + x) / (1.0 + mu * mu);
         pT = {mu * pN * y[0] / length, mu * pN * y[1] / length};
@@ -58,7 +59,10 @@ Vec2 onPolygon(const Vec2& y, double radius, int corners, int dimension) {
             length2 > 0.0 ? std::clamp((from[0] * edge[0] + from[1] * edge[1]) / length2, 0.0, 1.0) : 0.0;
         const Vec2 p{a[0] + s * edge[0], a[1] + s * edge[1]};
         const double distance = std::hypot(y[0] - p[0], y[1] - p[1]);
-        if (distance < nearest) nearest = distance, best = p;
+        if (distance < nearest) {
+            nearest = distance;
+            best = p;
+        }
     }
     return inside ? y : best;
 }

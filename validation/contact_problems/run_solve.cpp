@@ -43,8 +43,11 @@ SolveStep judge(const json& line, const FrozenProblem& frozen, const adapter::Fr
     std::vector<double> r;
     for (const json& x : line.at("r")) r.push_back(numberFromJson(x));
     SolveStep step;
-    step.allowed = line.at("allowed"), step.done = line.at("done"), step.gaveUp = line.at("gave_up");
-    step.seconds = numberFromJson(line.at("seconds")), step.runs = line.at("runs");
+    step.allowed = line.at("allowed");
+    step.done = line.at("done");
+    step.gaveUp = line.at("gave_up");
+    step.seconds = numberFromJson(line.at("seconds"));
+    step.runs = line.at("runs");
     step.residual = contactResidual(frozen.problem, r, model);
     step.velocityError = velocityError(frozen, r);
     return step;
@@ -57,9 +60,11 @@ void readAnswer(const std::filesystem::path& file, const FrozenProblem& frozen, 
         const json line = json::parse(text, nullptr, false);
         if (line.is_discarded()) return;
         if (line.contains("unsupported")) {
-            answer.outcome = "unsupported", answer.message = line.at("unsupported");
+            answer.outcome = "unsupported";
+            answer.message = line.at("unsupported");
         } else if (line.contains("problem")) {
-            answer.outcome = "error", answer.message = line.at("problem");
+            answer.outcome = "error";
+            answer.message = line.at("problem");
         } else if (line.contains("model")) {
             answer.model.kind = static_cast<adapter::FrictionModel::Kind>(line.at("model").get<int>());
             answer.model.corners = line.at("corners");
@@ -74,7 +79,8 @@ SolvedProblem describe(const std::filesystem::path& file, const FrozenProblem& f
     problem.file = file;
     problem.name = frozen.title.empty() ? file.stem().string() : frozen.title;
     problem.description = frozen.description;
-    problem.dimension = frozen.problem.dimension, problem.contacts = frozen.problem.contacts();
+    problem.dimension = frozen.problem.dimension;
+    problem.contacts = frozen.problem.contacts();
     problem.unknowns = frozen.problem.f.size();
     if (frozen.storedR.empty()) return problem;
     SolveAnswer stored;
@@ -157,8 +163,10 @@ std::vector<SolvedProblem> solveFiles(const std::vector<std::filesystem::path>& 
                 readAnswer(reply, problem, answer);
                 if (result.timedOut)
                     answer.outcome = "timeout";
-                else if (!result.exitedWith(0))
-                    answer.outcome = "crashed", answer.message = result.ending();
+                else if (!result.exitedWith(0)) {
+                    answer.outcome = "crashed";
+                    answer.message = result.ending();
+                }
             };
             pool.add(std::move(task));
         }

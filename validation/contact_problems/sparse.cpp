@@ -31,7 +31,8 @@ SparseMatrix fromTriplets(int rows, int columns, std::vector<Triplet> entries) {
             continue;
         }
         ++A.start[place(e.column) + 1];
-        A.row.push_back(e.row), A.value.push_back(e.value);
+        A.row.push_back(e.row);
+        A.value.push_back(e.value);
     }
     for (std::size_t j = 0; j < place(columns); ++j) A.start[j + 1] += A.start[j];
     return A;

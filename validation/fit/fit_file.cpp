@@ -24,7 +24,10 @@ FitParameter readParameter(const Node& node) {
     if (const auto n = node.require("key")) p.key = n->text();
     if (const auto n = node.require("range")) {
         const auto range = n->numbers(2);
-        if (range.size() == 2) p.low = range[0], p.high = range[1];
+        if (range.size() == 2) {
+            p.low = range[0];
+            p.high = range[1];
+        }
         if (!(p.low < p.high)) n->problem("fit.range", "a lower and a higher value");
     }
     p.start = 0.5 * (p.low + p.high);
@@ -140,7 +143,8 @@ FitTask loadFit(const fs::path& file, const std::vector<adapter::EngineSpec>& en
     readValues(root, task, specs);
     const auto train = root.require("train"), test = root.require("test");
     throwProblems();
-    task.train = readPart(*train, file.parent_path()), task.test = readPart(*test, file.parent_path());
+    task.train = readPart(*train, file.parent_path());
+    task.test = readPart(*test, file.parent_path());
     throwProblems();
     requireApart(root, task);
     requireKeys(root, task);

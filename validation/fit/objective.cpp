@@ -87,15 +87,18 @@ class Batch {
         for (const json& line : readJsonLines(file)) {
             if (first == last) break;
             answers_[first++] = fromJson(line, metrics_);
-            ++finished, any = true;
+            ++finished;
+            any = true;
         }
         if (first < last) {
             // A child that never got to its first answer will not do better for the others.
             const bool neverStarted = !any && result.exitedWith(1);
             const std::string said =
                 neverStarted ? result.outputTail.substr(0, result.outputTail.find('\n')) : endingOf(result);
-            do answers_[first++] = broken(metrics_, said), ++finished;
-            while (neverStarted && first < last);
+            do {
+                answers_[first++] = broken(metrics_, said);
+                ++finished;
+            } while (neverStarted && first < last);
             queue(first, last);
         }
         tell_(finished);

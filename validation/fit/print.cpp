@@ -34,13 +34,17 @@ const ScoreSummary* find(const std::vector<FitScore>& scores, const char* part, 
 
 std::vector<Row> parameterRows(const FitResult& r) {
     std::vector<Row> rows{{"engine"}};
-    for (const FitParameter& p : r.parameters)
-        rows[0].push_back(p.name + " (was " + brief(p.start) + ")"), rows[0].push_back("95 %");
+    for (const FitParameter& p : r.parameters) {
+        rows[0].push_back(p.name + " (was " + brief(p.start) + ")");
+        rows[0].push_back("95 %");
+    }
     rows[0].push_back("points");
     for (const EngineFit& e : r.engines) {
         Row row{e.spec};
-        for (const FittedParameter& p : e.parameters)
-            row.push_back(brief(p.value)), row.push_back(brief(p.interval));
+        for (const FittedParameter& p : e.parameters) {
+            row.push_back(brief(p.value));
+            row.push_back(brief(p.interval));
+        }
         row.push_back(std::to_string(e.evaluations));
         rows.push_back(std::move(row));
     }

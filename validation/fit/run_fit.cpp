@@ -44,11 +44,17 @@ class Fitting {
     FitOutcome run() {
         FitOutcome outcome;
         FitResult& r = outcome.result;
-        r.name = task_.name, r.title = task_.title, r.command = options_.command, r.metric = task_.metric;
-        r.summary = task_.summary, r.metrics = task_.metrics, r.parameters = task_.parameters,
+        r.name = task_.name;
+        r.title = task_.title;
+        r.command = options_.command;
+        r.metric = task_.metric;
+        r.summary = task_.summary;
+        r.metrics = task_.metrics;
+        r.parameters = task_.parameters;
         r.seed = task_.seed;
         for (const std::string& name : task_.metrics) r.units.push_back(findMetric(name)->unit);
-        r.train = static_cast<int>(task_.train.size()), r.test = static_cast<int>(task_.test.size());
+        r.train = static_cast<int>(task_.train.size());
+        r.test = static_cast<int>(task_.test.size());
         r.yardsticks = yardsticks(task_);
         for (std::size_t k = 0; k < task_.specs.size(); ++k) {
             auto fitted = fitEngine(task_.specs[k], outcome.runFolders);
@@ -63,7 +69,8 @@ class Fitting {
 
   private:
     void advance(int cases) {
-        progress_.done += cases, ran_ += cases;
+        progress_.done += cases;
+        ran_ += cases;
         const double seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - started_).count();
         if (ran_ > 0)
@@ -85,7 +92,8 @@ class Fitting {
         const auto search = searchMinimum(task_.parameters, task_.summary, task_.budget, task_.seed, losses);
         if (!search) return std::nullopt;
         EngineFit fit;
-        fit.spec = spec.text(), fit.evaluations = static_cast<int>(search->all.size());
+        fit.spec = spec.text();
+        fit.evaluations = static_cast<int>(search->all.size());
         const FitPoint best = search->all[search->best].point;
         const auto intervals = minimiserIntervals(*search, task_.parameters, task_.summary, task_.seed);
         for (std::size_t i = 0; i < best.size(); ++i) fit.parameters.push_back({best[i], intervals[i]});
@@ -130,9 +138,13 @@ class Fitting {
         const auto plan = planCases(scenarios, {spec},
                                     task_.dt > 0.0 ? std::vector<double>{task_.dt} : std::vector<double>{});
         RunOptions options;
-        options.directory = folder, options.binary = options_.binary, options.jobs = options_.jobs;
+        options.directory = folder;
+        options.binary = options_.binary;
+        options.jobs = options_.jobs;
         options.resume = options_.resume && fs::exists(folder / "results.sqlite");
-        options.audit = false, options.suite = task_.name, options.command = options_.command;
+        options.audit = false;
+        options.suite = task_.name;
+        options.command = options_.command;
         fs::create_directories(folder);
         std::int64_t before = 0;
         runCases(

@@ -38,7 +38,10 @@ class Grid {
         for (const auto& axis : axes) {
             std::vector<FitPoint> longer;
             for (const FitPoint& p : points)
-                for (const double v : axis) longer.push_back(p), longer.back().push_back(v);
+                for (const double v : axis) {
+                    longer.push_back(p);
+                    longer.back().push_back(v);
+                }
             points = std::move(longer);
         }
         return points;
@@ -171,7 +174,8 @@ double summarise(const Losses& losses, Summary summary) {
 
 ScoreSummary scoreOf(const Losses& losses, std::uint64_t seed) {
     ScoreSummary s;
-    s.mean = summarise(losses, Summary::Mean), s.median = summarise(losses, Summary::Median);
+    s.mean = summarise(losses, Summary::Mean);
+    s.median = summarise(losses, Summary::Median);
     s.meanInterval = meanInterval(losses, seed);
     s.medianInterval = medianInterval(losses).value_or(Interval{
         *std::min_element(losses.begin(), losses.end()), *std::max_element(losses.begin(), losses.end())});
@@ -207,7 +211,10 @@ std::vector<Interval> minimiserIntervals(const SearchResult& search,
         const FitPoint* best = &search.all[search.best].point;
         for (const Evaluated& e : search.all) {
             for (std::size_t i = 0; i < recordings; ++i) drawn[i] = e.losses[picks[0][i]];
-            if (const double value = summarise(drawn, summary); value < least) least = value, best = &e.point;
+            if (const double value = summarise(drawn, summary); value < least) {
+                least = value;
+                best = &e.point;
+            }
         }
         return *best;
     };

@@ -18,7 +18,8 @@ using namespace scenario;
 /// A run in which `body` moves as told and all others stay.
 Trajectory told(const Scenario& s, double dt, int body, const std::function<BodyState(double)>& motion) {
     Trajectory run;
-    run.dt = dt, run.bodyCount = s.bodies.size();
+    run.dt = dt;
+    run.bodyCount = s.bodies.size();
     for (std::size_t k = 0; k <= stepCount(s, dt); ++k) {
         run.times.push_back(static_cast<double>(k) * dt);
         run.contacts.emplace_back();

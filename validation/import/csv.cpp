@@ -44,7 +44,8 @@ CsvTable::CsvTable(const std::filesystem::path& file, const std::vector<std::str
         const std::size_t end = std::min(text.find('\n', begin), text.size());
         std::string_view line = std::string_view(text).substr(begin, end - begin);
         if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-        begin = end + 1, ++number;
+        begin = end + 1;
+        ++number;
         if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
         std::vector<std::string> values = split(line);
         if (columns_.empty()) {

@@ -73,8 +73,10 @@ Recording readToss(const fs::path& file) {
 }
 
 void scaleLengths(Recording& recording, double factor) {
-    for (RecordedFrame& f : recording.frames)
-        f.position = factor * f.position, f.velocity = factor * f.velocity;
+    for (RecordedFrame& f : recording.frames) {
+        f.position = factor * f.position;
+        f.velocity = factor * f.velocity;
+    }
 }
 
 ordered_json recordedMotion(const Recording& recording, std::size_t first) {

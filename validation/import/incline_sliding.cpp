@@ -59,7 +59,10 @@ std::vector<std::pair<std::string, double>> readTimes(const fs::path& file) {
         const std::string& body = table.text(row, "mass");
         std::size_t i = 0;
         while (i < sums.size() && sums[i].first != body) ++i;
-        if (i == sums.size()) sums.emplace_back(body, 0.0), counts.push_back(0.0);
+        if (i == sums.size()) {
+            sums.emplace_back(body, 0.0);
+            counts.push_back(0.0);
+        }
         sums[i].second += lab::positive(table, row, "t");
         counts[i] += 1.0;
     }

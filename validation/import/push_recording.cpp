@@ -105,7 +105,13 @@ PushPoint fitPushPoint(const std::vector<Push>& pushes, double halfWidth) {
             const RecordedPose& hand = push.hand[k];
             const double y = rotate(hand.orientation, {0, 1, 0}).x, z = rotate(hand.orientation, {0, 0, 1}).x;
             const double b = push.cube[k].position.x - halfWidth - hand.position.x;
-            yy += y * y, yz += y * z, zz += z * z, yb += y * b, zb += z * b, bb += b * b, count += 1.0;
+            yy += y * y;
+            yz += y * z;
+            zz += z * z;
+            yb += y * b;
+            zb += z * b;
+            bb += b * b;
+            count += 1.0;
         }
     const double determinant = yy * zz - yz * yz;
     if (!(determinant > 1e-9 * count * count))  // the hand does not turn: any point at this distance does

@@ -33,10 +33,14 @@ template <class Value>
 Line fitLine(std::size_t count, double dt, Value y) {
     const auto n = static_cast<double>(count);
     double meanT = 0.0, meanY = 0.0, tt = 0.0, ty = 0.0;
-    for (std::size_t k = 0; k < count; ++k) meanT += static_cast<double>(k) * dt / n, meanY += y(k) / n;
+    for (std::size_t k = 0; k < count; ++k) {
+        meanT += static_cast<double>(k) * dt / n;
+        meanY += y(k) / n;
+    }
     for (std::size_t k = 0; k < count; ++k) {
         const double t = static_cast<double>(k) * dt - meanT;
-        tt += t * t, ty += t * (y(k) - meanY);
+        tt += t * t;
+        ty += t * (y(k) - meanY);
     }
     return {meanY - ty / tt * meanT, ty / tt};
 }

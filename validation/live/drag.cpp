@@ -38,7 +38,10 @@ DragPull dragForce(const Scenario& scenario, const Drag& drag, std::span<const a
     const double k = std::min(asked, 0.25 * m / (dt * dt));
     Vec3 force = k * (drag.target - x) - 2.0 * std::sqrt(k * m) * v;
     Vec3 torque = cross(arm, force);
-    if (scenario.dimension == 2) force.z = 0.0, torque = {0.0, 0.0, torque.z};
+    if (scenario.dimension == 2) {
+        force.z = 0.0;
+        torque = {0.0, 0.0, torque.z};
+    }
     return {force, torque};
 }
 

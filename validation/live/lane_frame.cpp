@@ -51,8 +51,10 @@ void addStates(Packet& packet, std::span<const BodyState> states) {
         velocity << s.velocity;
         angularVelocity << s.angularVelocity;
     }
-    position.into(packet, "position"), orientation.into(packet, "orientation");
-    velocity.into(packet, "velocity"), angularVelocity.into(packet, "angular_velocity");
+    position.into(packet, "position");
+    orientation.into(packet, "orientation");
+    velocity.into(packet, "velocity");
+    angularVelocity.into(packet, "angular_velocity");
 }
 
 /// A point of a body's surface, carried along from one state of the body to another.
@@ -70,16 +72,27 @@ void addContacts(Packet& packet, const std::vector<ContactPoint>& contacts, std:
         const auto a = static_cast<std::size_t>(c.bodyA), b = static_cast<std::size_t>(c.bodyB);
         carriedA << carried(c.pointA, before[a], now[a]);
         carriedB << carried(c.pointB, before[b], now[b]);
-        bodyA << c.bodyA, bodyB << c.bodyB, shapeA << c.shapeA, shapeB << c.shapeB;
-        pointA << c.pointA, pointB << c.pointB, normal << c.normal, depth << c.depth;
+        bodyA << c.bodyA;
+        bodyB << c.bodyB;
+        shapeA << c.shapeA;
+        shapeB << c.shapeB;
+        pointA << c.pointA;
+        pointB << c.pointB;
+        normal << c.normal;
+        depth << c.depth;
         normalImpulse << (c.hasImpulse ? c.normalImpulse : std::numeric_limits<double>::quiet_NaN());
         frictionImpulse << c.frictionImpulse;
     }
-    bodyA.into(packet, "contacts/body_a"), bodyB.into(packet, "contacts/body_b");
-    shapeA.into(packet, "contacts/shape_a"), shapeB.into(packet, "contacts/shape_b");
-    pointA.into(packet, "contacts/point_a"), pointB.into(packet, "contacts/point_b");
-    carriedA.into(packet, "contacts/carried_a"), carriedB.into(packet, "contacts/carried_b");
-    normal.into(packet, "contacts/normal"), depth.into(packet, "contacts/depth");
+    bodyA.into(packet, "contacts/body_a");
+    bodyB.into(packet, "contacts/body_b");
+    shapeA.into(packet, "contacts/shape_a");
+    shapeB.into(packet, "contacts/shape_b");
+    pointA.into(packet, "contacts/point_a");
+    pointB.into(packet, "contacts/point_b");
+    carriedA.into(packet, "contacts/carried_a");
+    carriedB.into(packet, "contacts/carried_b");
+    normal.into(packet, "contacts/normal");
+    depth.into(packet, "contacts/depth");
     normalImpulse.into(packet, "contacts/normal_impulse");
     frictionImpulse.into(packet, "contacts/friction_impulse");
 }
@@ -89,8 +102,11 @@ json counters(const adapter::StepCounters& c) {
     const auto put = [&](const char* key, std::int64_t value) {
         if (value >= 0) out[key] = value;
     };
-    put("pair_tests", c.pairTests), put("pairs", c.pairs), put("contacts", c.contacts);
-    put("islands", c.islands), put("iterations", c.solverIterations);
+    put("pair_tests", c.pairTests);
+    put("pairs", c.pairs);
+    put("contacts", c.contacts);
+    put("islands", c.islands);
+    put("iterations", c.solverIterations);
     if (c.residual >= 0.0 && std::isfinite(c.residual)) out["residual"] = c.residual;
     if (!c.phaseSeconds.empty()) out["phase_seconds"] = c.phaseSeconds;
     return out;
@@ -103,14 +119,22 @@ void addManifolds(Packet& packet, const std::vector<adapter::StagedManifold>& ma
         between << m.a << m.b << m.points.size();
         normals << m.normal;
         for (const auto& p : m.points) {
-            features << static_cast<int>(p.feature), rows << p.row;
-            pointA << p.pointA, pointB << p.pointB, depth << p.depth, impulse << p.normalImpulse;
+            features << static_cast<int>(p.feature);
+            rows << p.row;
+            pointA << p.pointA;
+            pointB << p.pointB;
+            depth << p.depth;
+            impulse << p.normalImpulse;
         }
     }
-    between.into(packet, "manifolds/between"), normals.into(packet, "manifolds/normal");
-    features.into(packet, "manifolds/feature"), rows.into(packet, "manifolds/row");
-    pointA.into(packet, "manifolds/point_a"), pointB.into(packet, "manifolds/point_b");
-    depth.into(packet, "manifolds/depth"), impulse.into(packet, "manifolds/impulse");
+    between.into(packet, "manifolds/between");
+    normals.into(packet, "manifolds/normal");
+    features.into(packet, "manifolds/feature");
+    rows.into(packet, "manifolds/row");
+    pointA.into(packet, "manifolds/point_a");
+    pointB.into(packet, "manifolds/point_b");
+    depth.into(packet, "manifolds/depth");
+    impulse.into(packet, "manifolds/impulse");
 }
 
 void addRows(Packet& packet, const std::vector<adapter::StagedRow>& rows) {
@@ -118,12 +142,18 @@ void addRows(Packet& packet, const std::vector<adapter::StagedRow>& rows) {
     Numbers impulse, bias, softness, error, effectiveMass;
     for (const auto& r : rows) {
         names << static_cast<int>(r.kind) << r.bodyA << r.bodyB << r.joint;
-        impulse << r.impulse, bias << r.bias, softness << r.softness, error << r.error;
+        impulse << r.impulse;
+        bias << r.bias;
+        softness << r.softness;
+        error << r.error;
         effectiveMass << r.effectiveMass;
     }
-    names.into(packet, "rows/names"), impulse.into(packet, "rows/impulse");
-    bias.into(packet, "rows/bias"), softness.into(packet, "rows/softness");
-    error.into(packet, "rows/error"), effectiveMass.into(packet, "rows/effective_mass");
+    names.into(packet, "rows/names");
+    impulse.into(packet, "rows/impulse");
+    bias.into(packet, "rows/bias");
+    softness.into(packet, "rows/softness");
+    error.into(packet, "rows/error");
+    effectiveMass.into(packet, "rows/effective_mass");
 }
 
 void addIterations(Packet& packet, const std::vector<adapter::StagedIteration>& iterations) {
@@ -134,21 +164,27 @@ void addIterations(Packet& packet, const std::vector<adapter::StagedIteration>& 
         residuals << i.residual;
         for (const double v : i.impulses) impulses << v;
     }
-    sizes.into(packet, "iterations/sizes"), residuals.into(packet, "iterations/residual");
+    sizes.into(packet, "iterations/sizes");
+    residuals.into(packet, "iterations/residual");
     impulses.into(packet, "iterations/impulses");
 }
 
 void addStages(Packet& packet, const adapter::StagedWorld& staged) {
     Indices boxesOf, pairs, islands;
     Numbers boxes;
-    for (const auto& box : staged.boxes()) boxesOf << box.of, boxes << box.box.min << box.box.max;
+    for (const auto& box : staged.boxes()) {
+        boxesOf << box.of;
+        boxes << box.box.min << box.box.max;
+    }
     for (const auto& pair : staged.pairs()) pairs << pair.a << pair.b;
     for (const auto& island : staged.islands()) {
         islands << island.size();
         for (const int body : island) islands << body;
     }
-    boxesOf.into(packet, "boxes/of"), boxes.into(packet, "boxes/sides");
-    pairs.into(packet, "pairs"), islands.into(packet, "islands");
+    boxesOf.into(packet, "boxes/of");
+    boxes.into(packet, "boxes/sides");
+    pairs.into(packet, "pairs");
+    islands.into(packet, "islands");
     addManifolds(packet, staged.manifolds());
     addRows(packet, staged.rows());
     addIterations(packet, staged.iterations());

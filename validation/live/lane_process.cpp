@@ -32,10 +32,13 @@ LaneProcess::LaneProcess(const std::filesystem::path& binary, std::size_t memory
         pid_ = startProgram({binary.string(), "__lane", std::to_string(childEnd)}, ends[1], memoryLimitMiB,
                             childEnd);
     } catch (...) {
-        close(childEnd), close(ends[0]), close(ends[1]);
+        close(childEnd);
+        close(ends[0]);
+        close(ends[1]);
         throw;
     }
-    close(childEnd), close(ends[1]);
+    close(childEnd);
+    close(ends[1]);
     channel_ = std::make_unique<Channel>(std::move(channel));
 }
 
@@ -58,7 +61,10 @@ std::string LaneProcess::collect(bool killed) {
         const pid_t ended = waitpid(pid_, &status, WNOHANG);
         if (ended == pid_ || (ended < 0 && errno != EINTR)) break;
         // It may have closed its socket and go on for itself.
-        if (!killed && std::chrono::steady_clock::now() > deadline) kill(), killed = true;
+        if (!killed && std::chrono::steady_clock::now() > deadline) {
+            kill();
+            killed = true;
+        }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     {

@@ -55,7 +55,10 @@ class Rewriter {
             note("the reference '" + s.reference->name + "' is that of the scenario's own start");
         if (!s.accept.empty() || !s.knownDeviations.empty())
             note("bounds were set for the scenario's own start");
-        s.reference.reset(), s.accept.clear(), s.knownDeviations.clear(), s.metrics.clear();
+        s.reference.reset();
+        s.accept.clear();
+        s.knownDeviations.clear();
+        s.metrics.clear();
         const double left = s.duration - now();
         if (left >= moment_.dt)
             s.duration = left;
@@ -73,7 +76,8 @@ class Rewriter {
         if (body.type == BodyType::Static) return;
         const BodyState& state = moment_.states[static_cast<std::size_t>(index)];
         body.pose = poseNow(moment_.states, index);
-        body.velocity = state.velocity, body.angularVelocity = state.angularVelocity;
+        body.velocity = state.velocity;
+        body.angularVelocity = state.angularVelocity;
     }
 
     void rewriteJoints() {

@@ -68,7 +68,9 @@ void Session::open(const std::string& text, const std::vector<adapter::EngineSpe
         old.swap(lanes_);
         opened_ = {loaded.text, std::move(loaded.scenario)};
         dt_ = options_.dt > 0.0 ? options_.dt : opened_.scenario.timeSteps.front();
-        playing_ = false, clock_.target = 0.0, reached_ = 0.0;
+        playing_ = false;
+        clock_.target = 0.0;
+        reached_ = 0.0;
         for (const adapter::EngineSpec& spec : specs) {
             if (lanes_.size() == kMostLanes) break;
             lanes_.push_back(makeLane({nextId_++, spec.text(), opened_.text, opened_.text, spec,
@@ -185,7 +187,8 @@ json Session::scene(int id) {
         const std::lock_guard lock(clock_.mutex);
         const LaneSlot* lane = find(id);
         if (lane == nullptr) return nullptr;
-        text = lane->plan.text, description = lane->description();
+        text = lane->plan.text;
+        description = lane->description();
     }
     const scenario::Scenario s = scenario::loadScenarioText(text, "scenario").scenario;
     return {{"scenario", json::parse(scenario::scenarioText(s))}, {"description", std::move(description)}};

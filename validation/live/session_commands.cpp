@@ -266,7 +266,8 @@ json Session::branch(const json& request) {
     plan.spec = changedSpec(plan.spec, request, plan.original);
     const auto overrides = request.value("set", std::vector<std::string>{});
     plan.text = scenario::loadScenarioText(now.text, "scenario", overrides).text;
-    plan.startStep = now.step, plan.branchOf = id;
+    plan.startStep = now.step;
+    plan.branchOf = id;
     plan.title = plan.spec.text();
     for (const std::string& change : overrides) plan.title += " " + change;
     json answer = insert(std::move(plan));

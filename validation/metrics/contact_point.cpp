@@ -21,7 +21,11 @@ Mat3 inverseOf(const Mat3& m) {
     Mat3 r;
     if (!(det > 0.0)) return r;
     const Vec3 columns[3] = {cross(b, c) / det, cross(c, a) / det, cross(a, b) / det};
-    for (int j = 0; j < 3; ++j) r(0, j) = columns[j].x, r(1, j) = columns[j].y, r(2, j) = columns[j].z;
+    for (int j = 0; j < 3; ++j) {
+        r(0, j) = columns[j].x;
+        r(1, j) = columns[j].y;
+        r(2, j) = columns[j].z;
+    }
     return r;
 }
 

@@ -100,7 +100,10 @@ std::vector<Vec> orthogonalDirections(const std::vector<Vec>& span, int dimensio
     else
         one = {cross(span[0], span[1])};
     std::vector<Vec> both;
-    for (const Vec& n : one) both.push_back(n), both.push_back(-1 * n);
+    for (const Vec& n : one) {
+        both.push_back(n);
+        both.push_back(-1 * n);
+    }
     return both;
 }
 
@@ -197,7 +200,10 @@ OracleAnswer planeContact(const Core& c, const Plane& plane, bool coreIsA, scena
     Vec deepest;
     Real count = 0;
     for (const Vec& v : c.vertices)
-        if (dot(plane.normal, v) <= low + 1e-12L * c.size) deepest = deepest + v, count += 1;
+        if (dot(plane.normal, v) <= low + 1e-12L * c.size) {
+            deepest = deepest + v;
+            count += 1;
+        }
     return planeAnswer(low - plane.offset - c.radius, (1 / count) * deepest - c.radius * plane.normal, plane,
                        coreIsA, origin);
 }

@@ -61,8 +61,10 @@ std::vector<Face> findFaces(const std::vector<Vec>& v, Real size) {
                                                 [&](const Found& f) { return f.face.vertices == on; });
                 if (known == faces.end())
                     faces.push_back({{on, {}, unit}, area});
-                else if (area > known->area)
-                    known->face.normal = unit, known->area = area;
+                else if (area > known->area) {
+                    known->face.normal = unit;
+                    known->area = area;
+                }
             }
     std::vector<Face> result;
     for (Found& f : faces) result.push_back(std::move(f.face));

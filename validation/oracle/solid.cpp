@@ -34,9 +34,12 @@ Solid cone(const scenario::Cone& g) {
 Solid fromCore(const Core& core) {
     Solid s;
     s.points = core.vertices;
-    s.radius = core.radius, s.size = core.size;
-    for (const Face& f : core.faces)
-        s.faceNormals.push_back(f.normal), s.faceNormals.push_back(-1 * f.normal);
+    s.radius = core.radius;
+    s.size = core.size;
+    for (const Face& f : core.faces) {
+        s.faceNormals.push_back(f.normal);
+        s.faceNormals.push_back(-1 * f.normal);
+    }
     for (const auto& e : core.edges) {
         const Vec along = edgeVector(core, e);
         const Real length = norm(along);
@@ -63,8 +66,14 @@ std::optional<Solid> makeSolid(const scenario::Geometry& geometry, const scenari
     const Vec shift = widen(pose.position) - widen(origin);
     const auto turn = [&](Vec v) { return rotate(pose.orientation, v); };
     for (Vec& p : s.points) p = shift + turn(p);
-    for (Disc& d : s.discs) d.centre = shift + turn(d.centre), d.axis = turn(d.axis);
-    for (DirectionCircle& c : s.circles) c.anchor = shift + turn(c.anchor), c.axis = turn(c.axis);
+    for (Disc& d : s.discs) {
+        d.centre = shift + turn(d.centre);
+        d.axis = turn(d.axis);
+    }
+    for (DirectionCircle& c : s.circles) {
+        c.anchor = shift + turn(c.anchor);
+        c.axis = turn(c.axis);
+    }
     for (Vec& n : s.faceNormals) n = turn(n);
     return s;
 }
@@ -73,7 +82,10 @@ Solid mirrored(const Solid& solid) {
     Solid s = solid;
     for (Vec& p : s.points) p = -1 * p;
     for (Disc& d : s.discs) d.centre = -1 * d.centre;
-    for (DirectionCircle& c : s.circles) c.axis = -1 * c.axis, c.anchor = -1 * c.anchor;
+    for (DirectionCircle& c : s.circles) {
+        c.axis = -1 * c.axis;
+        c.anchor = -1 * c.anchor;
+    }
     for (Vec& n : s.faceNormals) n = -1 * n;
     return s;
 }

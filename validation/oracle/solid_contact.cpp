@@ -77,8 +77,10 @@ class Directions {
     }
 
     void both(Vec v) {
-        if (const Real length = norm(v); length > 0)
-            all_.push_back((1 / length) * v), all_.push_back((-1 / length) * v);
+        if (const Real length = norm(v); length > 0) {
+            all_.push_back((1 / length) * v);
+            all_.push_back((-1 / length) * v);
+        }
     }
 
     void circles(const DirectionCircle& c, const DirectionCircle& d) {
@@ -192,8 +194,10 @@ Patch patchAlong(const Solid& s, Vec n) {
         if (dot(d.centre, n) + reach < level) continue;
         if (2 * reach <= kOnFace * s.size)
             patch.disc = d;
-        else
-            patch.rim = d, patch.points.push_back(d.centre + d.radius * unitAcross(n, d.axis));
+        else {
+            patch.rim = d;
+            patch.points.push_back(d.centre + d.radius * unitAcross(n, d.axis));
+        }
     }
     return patch;
 }
@@ -213,7 +217,8 @@ Core coreOf(const std::vector<Vec>& points, const Core* whole) {
             });
         };
         if (!std::all_of(points.begin(), points.end(), has)) continue;
-        core.faces = {f}, core.edges = f.edges;
+        core.faces = {f};
+        core.edges = f.edges;
         return core;
     }
     return *whole;

@@ -156,8 +156,10 @@ std::vector<ContactSample> readContacts(Hdf5File& file) {
     std::vector<ContactSample> contacts(indices.size() / 4);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         ContactSample& c = contacts[i];
-        c.bodyA = indices[4 * i], c.bodyB = indices[4 * i + 1];
-        c.shapeA = indices[4 * i + 2], c.shapeB = indices[4 * i + 3];
+        c.bodyA = indices[4 * i];
+        c.bodyB = indices[4 * i + 1];
+        c.shapeA = indices[4 * i + 2];
+        c.shapeB = indices[4 * i + 3];
     }
     for (const ContactField& field : kContactFields) {
         const auto values = file.readDoubles(std::string("/contacts/") + field.name, columns);

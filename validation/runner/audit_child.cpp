@@ -49,9 +49,14 @@ AuditQuery queryFromJson(const json& j) {
     AuditQuery q;
     q.time = j.at(0);
     const json& ids = j.at(1);
-    q.bodyA = ids.at(0), q.bodyB = ids.at(1), q.shapeA = ids.at(2), q.shapeB = ids.at(3);
-    q.poseA = poseFromJson(j.at(2)), q.poseB = poseFromJson(j.at(3));
-    q.decided = j.at(4), q.signedDistance = numberFromJson(j.at(5));
+    q.bodyA = ids.at(0);
+    q.bodyB = ids.at(1);
+    q.shapeA = ids.at(2);
+    q.shapeB = ids.at(3);
+    q.poseA = poseFromJson(j.at(2));
+    q.poseB = poseFromJson(j.at(3));
+    q.decided = j.at(4);
+    q.signedDistance = numberFromJson(j.at(5));
     for (const json& n : j.at(6)) q.normals.push_back(vectorFromJson(n));
     q.step = j.at(7);
     return q;
@@ -115,7 +120,8 @@ json ask(const json& request) {
     json rows = json::object();
     for (const json& entry : questions->at("cases")) {
         AuditCase asked;
-        asked.id = entry.at("id"), asked.frames = entry.at("frames");
+        asked.id = entry.at("id");
+        asked.frames = entry.at("frames");
         if (!only.empty() && asked.id != only) continue;
         for (const json& q : entry.at("queries")) asked.queries.push_back(queryFromJson(q));
         const AuditAnswers said = askAuditor(s, asked, *engine->collision(), auditor);

@@ -40,10 +40,13 @@ const ContactPoint& deepestOf(const std::vector<ContactPoint>& contacts) {
 AuditAnswer brief(const AuditQuery& q, const CollisionAnswer& answer) {
     constexpr double kSame = 1e-6;  // [rad]
     AuditAnswer said;
-    said.answered = true, said.overlap = answer.overlap, said.hasContact = !answer.contacts.empty();
+    said.answered = true;
+    said.overlap = answer.overlap;
+    said.hasContact = !answer.contacts.empty();
     if (!said.hasContact) return said;
     const ContactPoint& deepest = deepestOf(answer.contacts);
-    said.depth = deepest.depth, said.normal = deepest.normal;
+    said.depth = deepest.depth;
+    said.normal = deepest.normal;
     said.minimising = q.decided && nearestAngle(deepest.normal, q.normals) < kSame;
     return said;
 }
@@ -75,13 +78,16 @@ class Comparison {
     void addStray(const ContactPoint& contact) {
         ++row_.spurious;
         AuditQuery q;
-        q.bodyA = contact.bodyA, q.bodyB = contact.bodyB;
+        q.bodyA = contact.bodyA;
+        q.bodyB = contact.bodyB;
         name(q, "spurious, far apart", 2);
     }
 
     void finish() {
-        row_.normalErrorMax = normal_.max(), row_.normalErrorMedian = normal_.median();
-        row_.depthErrorMax = depth_.max(), row_.depthErrorMedian = depth_.median();
+        row_.normalErrorMax = normal_.max();
+        row_.normalErrorMedian = normal_.median();
+        row_.depthErrorMax = depth_.max();
+        row_.depthErrorMedian = depth_.median();
         row_.pointErrorMax = point_.max();
     }
 
@@ -124,7 +130,9 @@ AuditAnswers askAuditor(const Scenario& scenario, const AuditCase& questions,
                         const adapter::CollisionEngine& engine, const std::string& auditor) {
     AuditAnswers said;
     results::AuditRow& row = said.row;
-    row.auditor = auditor, row.outcome = "completed", row.frames = questions.frames;
+    row.auditor = auditor;
+    row.outcome = "completed";
+    row.frames = questions.frames;
     Comparison comparison(scenario, row);
     std::string refusal;
     std::int64_t refused = 0;
@@ -158,13 +166,17 @@ AuditAnswers askAuditor(const Scenario& scenario, const AuditCase& questions,
 
 results::AuditRow inRunRow(const Scenario& scenario, const AuditCase& questions) {
     results::AuditRow row;
-    row.auditor = kInRun, row.outcome = "completed";
+    row.auditor = kInRun;
+    row.outcome = "completed";
     Comparison comparison(scenario, row);
     double last = -1.0;
     for (const AuditQuery& q : questions.queries) {
         if (!q.actedUpon) continue;
         ++row.queries;
-        if (q.time != last) ++row.frames, last = q.time;
+        if (q.time != last) {
+            ++row.frames;
+            last = q.time;
+        }
         CollisionAnswer answer;
         answer.contacts = q.own;
         const bool overlaps = q.decided && q.signedDistance < -kTouchTolerance;

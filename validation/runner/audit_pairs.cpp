@@ -14,7 +14,8 @@ namespace rigor::validation {
 results::AuditRow pairRow(const std::string& a, const std::vector<AuditAnswer>& ofA, const std::string& b,
                           const std::vector<AuditAnswer>& ofB) {
     results::AuditRow row;
-    row.auditor = a + "|" + b, row.outcome = "completed";
+    row.auditor = a + "|" + b;
+    row.outcome = "completed";
     Spread normal, depth;
     for (std::size_t i = 0; i < std::min(ofA.size(), ofB.size()); ++i) {
         const AuditAnswer &x = ofA[i], &y = ofB[i];
@@ -28,8 +29,10 @@ results::AuditRow pairRow(const std::string& a, const std::vector<AuditAnswer>& 
         normal.add(equallyGood ? 0.0 : angleBetween(x.normal, y.normal));
         depth.add(std::abs(x.depth - y.depth));
     }
-    row.normalErrorMax = normal.max(), row.normalErrorMedian = normal.median();
-    row.depthErrorMax = depth.max(), row.depthErrorMedian = depth.median();
+    row.normalErrorMax = normal.max();
+    row.normalErrorMedian = normal.median();
+    row.depthErrorMax = depth.max();
+    row.depthErrorMedian = depth.median();
     return row;
 }
 

@@ -145,9 +145,14 @@ std::vector<AuditQuery> frameQueries(const Scenario& s, const std::vector<Candid
         const ShapeAt b = place(s, c.bodyB, c.shapeB, bodyPose(file, frame, c.bodyB));
         if (!isFinite(a.pose.position) || !isFinite(b.pose.position) || gap(a, b) > kNearby) continue;
         AuditQuery q;
-        q.time = file.times[frame], q.step = static_cast<std::int64_t>(frame) * file.stride;
-        q.bodyA = c.bodyA, q.bodyB = c.bodyB, q.shapeA = c.shapeA, q.shapeB = c.shapeB;
-        q.poseA = a.pose, q.poseB = b.pose;
+        q.time = file.times[frame];
+        q.step = static_cast<std::int64_t>(frame) * file.stride;
+        q.bodyA = c.bodyA;
+        q.bodyB = c.bodyB;
+        q.shapeA = c.shapeA;
+        q.shapeB = c.shapeB;
+        q.poseA = a.pose;
+        q.poseB = b.pose;
         queries.push_back(std::move(q));
     }
     return queries;
@@ -156,8 +161,14 @@ std::vector<AuditQuery> frameQueries(const Scenario& s, const std::vector<Candid
 adapter::ContactPoint contactOf(const results::ContactSample& c) {
     const auto vec = [](const double* v) { return Vec3{v[0], v[1], v[2]}; };
     adapter::ContactPoint out;
-    out.bodyA = c.bodyA, out.bodyB = c.bodyB, out.shapeA = c.shapeA, out.shapeB = c.shapeB;
-    out.pointA = vec(c.pointA), out.pointB = vec(c.pointB), out.normal = vec(c.normal), out.depth = c.depth;
+    out.bodyA = c.bodyA;
+    out.bodyB = c.bodyB;
+    out.shapeA = c.shapeA;
+    out.shapeB = c.shapeB;
+    out.pointA = vec(c.pointA);
+    out.pointB = vec(c.pointB);
+    out.normal = vec(c.normal);
+    out.depth = c.depth;
     return out;
 }
 
@@ -225,7 +236,8 @@ AuditCase findQueries(const Scenario& s, const std::string& caseId, const std::f
 
 results::AuditRow oracleRow(const AuditCase& questions) {
     results::AuditRow row;
-    row.auditor = "oracle", row.outcome = "completed";
+    row.auditor = "oracle";
+    row.outcome = "completed";
     row.frames = questions.frames;
     row.queries = static_cast<std::int64_t>(questions.queries.size());
     for (const AuditQuery& q : questions.queries) {

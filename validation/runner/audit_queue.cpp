@@ -17,8 +17,12 @@ constexpr ProcessLimits kAskLimits{30.0, 4096};
 
 AuditAnswer answerFromJson(const json& j) {
     AuditAnswer a;
-    a.answered = j.at(0), a.overlap = j.at(1), a.hasContact = j.at(2), a.minimising = j.at(3);
-    a.depth = numberFromJson(j.at(4)), a.normal = {j.at(5).at(0), j.at(5).at(1), j.at(5).at(2)};
+    a.answered = j.at(0);
+    a.overlap = j.at(1);
+    a.hasContact = j.at(2);
+    a.minimising = j.at(3);
+    a.depth = numberFromJson(j.at(4));
+    a.normal = {j.at(5).at(0), j.at(5).at(1), j.at(5).at(2)};
     return a;
 }
 
@@ -49,7 +53,9 @@ void AuditQueue::add(const std::string& scenario, const std::string& scenarioTex
                      const std::map<std::string, std::string>& cases) {
     if (cases.empty()) return;
     auto batch = std::make_shared<Batch>();
-    batch->scenario = scenario, batch->text = scenarioText, batch->cases = cases;
+    batch->scenario = scenario;
+    batch->text = scenarioText;
+    batch->cases = cases;
     const std::string stem = "audit-" + std::to_string(next_++);
     batch->questions = files_.scratch / (stem + ".questions.json");
     json absolute = json::object();

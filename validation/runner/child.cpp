@@ -37,9 +37,13 @@ using results::Outcome;
 CaseRow refusedRow(const json& request, const adapter::EngineSpec& spec, Outcome outcome,
                    const char* reason) {
     CaseRow row;
-    row.scenario = request.at("scenario"), row.spec = spec.text(), row.engine = spec.engine;
-    row.preset = spec.preset(), row.dt = numberFromJson(request.at("dt"));
-    row.outcome = outcome, row.reason = reason;
+    row.scenario = request.at("scenario");
+    row.spec = spec.text();
+    row.engine = spec.engine;
+    row.preset = spec.preset();
+    row.dt = numberFromJson(request.at("dt"));
+    row.outcome = outcome;
+    row.reason = reason;
     return row;
 }
 

@@ -22,7 +22,10 @@ void CostMeter::add(const adapter::StepCounters& counters) {
     sums_.resize(kCosts.size());
     for (std::size_t i = 0; i < kCosts.size(); ++i) {
         const std::int64_t count = counters.*kCosts[i].counter;
-        if (count >= 0) sums_[i].total += static_cast<double>(count), ++sums_[i].samples;
+        if (count >= 0) {
+            sums_[i].total += static_cast<double>(count);
+            ++sums_[i].samples;
+        }
     }
 }
 
@@ -31,7 +34,9 @@ std::vector<results::MetricRow> CostMeter::rows() const {
     for (std::size_t i = 0; i < sums_.size(); ++i) {
         if (sums_[i].samples == 0) continue;
         results::MetricRow row;
-        row.name = kCosts[i].name, row.unit = "1", row.kind = "cost";
+        row.name = kCosts[i].name;
+        row.unit = "1";
+        row.kind = "cost";
         row.value = sums_[i].total / static_cast<double>(sums_[i].samples);
         rows.push_back(row);
     }

@@ -38,9 +38,12 @@ adapter::Option optionFromJson(const json& j) {
     adapter::Option o;
     o.key = j.at("key");
     o.values = j.at("values").get<std::vector<std::string>>();
-    o.min = numberFromJson(j.at("min")), o.max = numberFromJson(j.at("max"));
+    o.min = numberFromJson(j.at("min"));
+    o.max = numberFromJson(j.at("max"));
     o.integer = j.at("integer");
-    o.defaultValue = j.at("default"), o.matchedValue = j.at("matched"), o.help = j.at("help");
+    o.defaultValue = j.at("default");
+    o.matchedValue = j.at("matched");
+    o.help = j.at("help");
     return o;
 }
 

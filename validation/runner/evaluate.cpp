@@ -34,9 +34,12 @@ std::vector<const MetricEntry*> orderedMetrics(const Scenario& scenario) {
 
 MetricRow metricRow(const MetricEntry& entry, const MetricValue& value) {
     MetricRow row;
-    row.name = entry.name, row.subject = value.subject, row.unit = entry.unit;
+    row.name = entry.name;
+    row.subject = value.subject;
+    row.unit = entry.unit;
     row.kind = metricKindName(entry.kind);
-    row.value = value.value, row.at = value.at;
+    row.value = value.value;
+    row.at = value.at;
     return row;
 }
 
@@ -98,11 +101,16 @@ results::BodyChannels emptyBody(const std::string& name, std::size_t frames) {
 
 void set(results::Channel& c, std::size_t frame, const scenario::Vec3& v) {
     double* to = c.values.data() + 3 * frame;
-    to[0] = v.x, to[1] = v.y, to[2] = v.z;
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
 }
 void set(results::Channel& c, std::size_t frame, const scenario::Quat& q) {
     double* to = c.values.data() + 4 * frame;
-    to[0] = q.w, to[1] = q.x, to[2] = q.y, to[3] = q.z;
+    to[0] = q.w;
+    to[1] = q.x;
+    to[2] = q.y;
+    to[3] = q.z;
 }
 
 results::BodyChannels recordedBody(const Scenario& scenario, const Trajectory& t, int body) {
@@ -124,10 +132,22 @@ results::BodyChannels referenceBody(const Scenario& scenario, const Trajectory& 
     for (std::size_t f = 0; f < t.frames() && t.times[f] <= reference.validUntil(); ++f) {
         const PartialState s =
             reference.measured(body, t.times[f]).value_or(reference.exact(body, t.times[f]));
-        if (s.position) set(channels.position, f, *s.position), known[0] = true;
-        if (s.orientation) set(channels.orientation, f, *s.orientation), known[1] = true;
-        if (s.velocity) set(channels.velocity, f, *s.velocity), known[2] = true;
-        if (s.angularVelocity) set(channels.angularVelocity, f, *s.angularVelocity), known[3] = true;
+        if (s.position) {
+            set(channels.position, f, *s.position);
+            known[0] = true;
+        }
+        if (s.orientation) {
+            set(channels.orientation, f, *s.orientation);
+            known[1] = true;
+        }
+        if (s.velocity) {
+            set(channels.velocity, f, *s.velocity);
+            known[2] = true;
+        }
+        if (s.angularVelocity) {
+            set(channels.angularVelocity, f, *s.angularVelocity);
+            known[3] = true;
+        }
     }
     results::Channel* all[4] = {&channels.position, &channels.orientation, &channels.velocity,
                                 &channels.angularVelocity};
@@ -139,9 +159,18 @@ results::BodyChannels referenceBody(const Scenario& scenario, const Trajectory& 
 results::ContactSample sample(double time, const ContactPoint& c) {
     results::ContactSample s;
     s.time = time;
-    s.bodyA = c.bodyA, s.bodyB = c.bodyB, s.shapeA = c.shapeA, s.shapeB = c.shapeB;
-    const auto copy = [](double* to, const scenario::Vec3& v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; };
-    copy(s.pointA, c.pointA), copy(s.pointB, c.pointB), copy(s.normal, c.normal);
+    s.bodyA = c.bodyA;
+    s.bodyB = c.bodyB;
+    s.shapeA = c.shapeA;
+    s.shapeB = c.shapeB;
+    const auto copy = [](double* to, const scenario::Vec3& v) {
+        to[0] = v.x;
+        to[1] = v.y;
+        to[2] = v.z;
+    };
+    copy(s.pointA, c.pointA);
+    copy(s.pointB, c.pointB);
+    copy(s.normal, c.normal);
     s.depth = c.depth;
     s.normalImpulse = c.hasImpulse ? c.normalImpulse : kNaN;
     if (c.hasImpulse) copy(s.frictionImpulse, c.frictionImpulse);
@@ -191,8 +220,12 @@ void evaluateCase(const MetricInput& input, CaseRow& row) {
 results::TrajectoryFile trajectoryFile(const MetricInput& input, const CaseRow& row) {
     const Trajectory& t = input.trajectory;
     results::TrajectoryFile file;
-    file.scenario = row.scenario, file.spec = row.spec, file.caseId = row.id;
-    file.dt = t.dt, file.stride = t.stride, file.times = t.times;
+    file.scenario = row.scenario;
+    file.spec = row.spec;
+    file.caseId = row.id;
+    file.dt = t.dt;
+    file.stride = t.stride;
+    file.times = t.times;
     for (int body = 0; body < static_cast<int>(input.scenario.bodies.size()); ++body)
         file.bodies.push_back(recordedBody(input.scenario, t, body));
     if (input.reference != nullptr)

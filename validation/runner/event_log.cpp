@@ -75,7 +75,8 @@ void EventLog::contactEvents(const std::map<Pair, Manifold>& manifolds) {
         const auto [it, begins] = touching_.try_emplace(pair);
         Touch& touch = it->second;
         if (begins) touch.since = beforeTime_;
-        touch.seen = step_, ++touch.steps;
+        touch.seen = step_;
+        ++touch.steps;
         touch.impulseSum += m.normalImpulse;
         touch.hasImpulses = touch.hasImpulses && m.hasImpulses;
         if (!begins && what_ == LogWhat::Events) continue;

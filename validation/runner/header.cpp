@@ -24,17 +24,27 @@ fs::path storedScenario(const std::string& name, const fs::path& run) {
 results::ScenarioRow scenarioRow(const CasePlan& plan, const ReferenceCheck& reference) {
     const scenario::Scenario& s = plan.scenario;
     results::ScenarioRow row;
-    row.name = s.name, row.title = s.title, row.description = s.description, row.source = s.source;
-    row.isolates = s.isolates, row.tags = s.tags, row.metrics = s.metrics;
+    row.name = s.name;
+    row.title = s.title;
+    row.description = s.description;
+    row.source = s.source;
+    row.isolates = s.isolates;
+    row.tags = s.tags;
+    row.metrics = s.metrics;
     for (const int body : s.observed) row.observed.push_back(s.bodies[static_cast<std::size_t>(body)].name);
-    row.dimension = s.dimension, row.duration = s.duration, row.timeSteps = s.timeSteps;
+    row.dimension = s.dimension;
+    row.duration = s.duration;
+    row.timeSteps = s.timeSteps;
     row.text = plan.scenarioText;
     row.referenceOutcome = referenceOutcomeName(reference.outcome);
     if (!s.reference) return row;
     row.reference = s.reference->name;
-    if (const ReferenceEntry* entry = findReference(s.reference->name); entry != nullptr)
-        row.referenceTitle = entry->title, row.referenceFormula = entry->formula,
-        row.referenceTex = entry->tex, row.referenceSource = entry->source;
+    if (const ReferenceEntry* entry = findReference(s.reference->name); entry != nullptr) {
+        row.referenceTitle = entry->title;
+        row.referenceFormula = entry->formula;
+        row.referenceTex = entry->tex;
+        row.referenceSource = entry->source;
+    }
     row.referenceProblem = reference.problem;
     return row;
 }
@@ -91,7 +101,9 @@ results::Run runHeader(const std::vector<CasePlan>& plan, const RunOptions& opti
                        const std::vector<EngineDescription>& engines,
                        const std::map<std::string, ReferenceCheck>& references) {
     results::Run run;
-    run.suite = options.suite, run.command = options.command, run.started = isoTime();
+    run.suite = options.suite;
+    run.command = options.command;
+    run.started = isoTime();
     run.environment = describeEnvironment();
     run.environment["jobs"] = std::to_string(options.jobs);
     for (const EngineDescription& d : engines) {

@@ -31,7 +31,10 @@ const Entry* entryFor(const std::vector<Entry>& entries, const std::string& engi
         if (e.metric != metric || (!named && e.engine != "*") || (!e.preset.empty() && e.preset != preset))
             continue;
         const int rank = (named ? 2 : 0) + (e.preset.empty() ? 0 : 1);
-        if (rank > bestRank) best = &e, bestRank = rank;
+        if (rank > bestRank) {
+            best = &e;
+            bestRank = rank;
+        }
     }
     return best;
 }
@@ -47,8 +50,10 @@ bool isJudgedByScenario(const std::string& preset) {
 const scenario::Bound* boundEverywhere(const std::string& metric) {
     static const std::vector<scenario::Bound> bounds = [] {
         std::vector<scenario::Bound> all(2);
-        all[0].metric = "normal_error_median", all[0].max = std::numbers::pi / 4;
-        all[1].metric = "contact_inconsistency", all[1].max = 0.5;
+        all[0].metric = "normal_error_median";
+        all[0].max = std::numbers::pi / 4;
+        all[1].metric = "contact_inconsistency";
+        all[1].max = 0.5;
         return all;
     }();
     const auto it =

@@ -46,8 +46,11 @@ std::int64_t movingBodies(const Scenario& scenario) {
 
 CaseRow startRow(const Scenario& scenario, const adapter::EngineSpec& spec, double dt) {
     CaseRow row;
-    row.scenario = scenario.name, row.spec = spec.text(), row.engine = spec.engine;
-    row.preset = spec.preset(), row.dt = dt;
+    row.scenario = scenario.name;
+    row.spec = spec.text();
+    row.engine = spec.engine;
+    row.preset = spec.preset();
+    row.dt = dt;
     return row;
 }
 

@@ -116,8 +116,13 @@ Misses missesOf(const Scenario& s, double dt, std::size_t every, adapter::World&
 MetricRow rowOf(const std::string& name, int every, const char* unit, double value, double at,
                 const std::string& note) {
     MetricRow row;
-    row.name = name, row.subject = "every " + std::to_string(every) + (every == 1 ? " step" : " steps");
-    row.unit = unit, row.kind = "pieces", row.value = value, row.at = at, row.note = note;
+    row.name = name;
+    row.subject = "every " + std::to_string(every) + (every == 1 ? " step" : " steps");
+    row.unit = unit;
+    row.kind = "pieces";
+    row.value = value;
+    row.at = at;
+    row.note = note;
     return row;
 }
 

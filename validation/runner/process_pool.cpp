@@ -49,7 +49,8 @@ void ProcessPool::start(ProcessTask task) {
     try {
         pid = startProgram(task.arguments, ends[1], task.limits.memoryMiB);
     } catch (...) {
-        close(ends[0]), close(ends[1]);
+        close(ends[0]);
+        close(ends[1]);
         throw;
     }
     close(ends[1]);
@@ -57,8 +58,10 @@ void ProcessPool::start(ProcessTask task) {
     const auto limit = std::chrono::duration<double>(task.limits.seconds * timeLimitFactor());
     Running& child = running_.emplace_back();
     child.task = std::move(task);
-    child.pid = pid, child.output = ends[0];
-    child.started = now, child.deadline = now + std::chrono::duration_cast<Clock::duration>(limit);
+    child.pid = pid;
+    child.output = ends[0];
+    child.started = now;
+    child.deadline = now + std::chrono::duration_cast<Clock::duration>(limit);
 }
 
 void ProcessPool::waitForEvents() {

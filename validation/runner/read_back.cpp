@@ -56,8 +56,11 @@ ReadBackRow inertia(const Body& body, const BodyReadBack& found, int dimension, 
         for (int j = dimension == 2 ? 2 : 0; j < 3; ++j) {
             scale = std::max(scale, std::abs(e(i, j)));
             const double error = std::abs(found.inertia(i, j) - e(i, j));
-            if (error >= worst || std::isnan(error))
-                worst = error, expectedAt = e(i, j), foundAt = found.inertia(i, j);
+            if (error >= worst || std::isnan(error)) {
+                worst = error;
+                expectedAt = e(i, j);
+                foundAt = found.inertia(i, j);
+            }
         }
     // Relative to the largest component alone: small bodies have small inertias.
     const bool ok = std::isfinite(worst) && worst <= tolerance * scale;

@@ -45,9 +45,13 @@ std::string readable(const std::string& output) {
 
 CaseRow plannedRow(const CasePlan& plan, std::int64_t position) {
     CaseRow row;
-    row.id = plan.id, row.position = position;
-    row.scenario = plan.scenario.name, row.spec = plan.spec.text(), row.engine = plan.spec.engine;
-    row.preset = plan.spec.preset(), row.dt = plan.dt;
+    row.id = plan.id;
+    row.position = position;
+    row.scenario = plan.scenario.name;
+    row.spec = plan.spec.text();
+    row.engine = plan.spec.engine;
+    row.preset = plan.spec.preset();
+    row.dt = plan.dt;
     return row;
 }
 
@@ -266,8 +270,10 @@ class RunInProgress {
         const CasePlan& c = plan_[index];
         const auto json = result.exitedWith(0) ? readJsonFile(answerOf(name)) : std::nullopt;
         CaseRow row = json ? caseFromJson(*json) : failedRow(c, static_cast<std::int64_t>(index), result);
-        row.id = c.id, row.position = static_cast<std::int64_t>(index);
-        row.wallSeconds = result.wallSeconds, row.cpuSeconds = result.cpuSeconds;
+        row.id = c.id;
+        row.position = static_cast<std::int64_t>(index);
+        row.wallSeconds = result.wallSeconds;
+        row.cpuSeconds = result.cpuSeconds;
         if (!json) row.peakMemoryKiB = result.peakMemoryKiB;
         std::error_code ignored;
         if (json && fs::exists(directory_ / trajectoryName(c.id), ignored))

@@ -36,14 +36,19 @@ void describeAfterFirst(const std::vector<double>& samples, results::TimingRow& 
 /// one run resemble their neighbours, and another run may find the machine in another mood.
 results::TimingRow timingRow(const std::string& phase, std::vector<double> samples, double meanContacts) {
     results::TimingRow row;
-    row.phase = phase, row.meanContacts = meanContacts;
+    row.phase = phase;
+    row.meanContacts = meanContacts;
     row.samples = static_cast<std::int64_t>(samples.size());
     if (samples.empty()) return row;
     for (const double s : samples) row.total += s;
-    if (const auto interval = medianInterval(samples)) row.low = interval->low, row.high = interval->high;
+    if (const auto interval = medianInterval(samples)) {
+        row.low = interval->low;
+        row.high = interval->high;
+    }
     describeAfterFirst(samples, row);
     std::sort(samples.begin(), samples.end());
-    row.median = quantileOfSorted(samples, 0.5), row.p10 = quantileOfSorted(samples, 0.1),
+    row.median = quantileOfSorted(samples, 0.5);
+    row.p10 = quantileOfSorted(samples, 0.1);
     row.p90 = quantileOfSorted(samples, 0.9);
     return row;
 }
@@ -59,7 +64,10 @@ class Stopwatch {
         const adapter::StepCounters counters = world.counters();
         costs_.add(counters);
         for (const auto& [phase, seconds] : counters.phaseSeconds) phases_[phase].push_back(seconds);
-        if (counters.contacts >= 0) contacts_ += static_cast<double>(counters.contacts), ++counted_;
+        if (counters.contacts >= 0) {
+            contacts_ += static_cast<double>(counters.contacts);
+            ++counted_;
+        }
     }
     std::vector<results::TimingRow> rows(const Trajectory& trajectory) const {
         const double contacts =
@@ -108,7 +116,8 @@ Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, 
     const std::size_t bodies = scenario.bodies.size(), total = stepCount(scenario, dt);
     Simulation run;
     Trajectory& t = run.trajectory;
-    t.dt = dt, t.bodyCount = bodies;
+    t.dt = dt;
+    t.bodyCount = bodies;
     t.stride = options.stride > 0 ? options.stride : recordingStride(total, bodies);
     const auto stride = static_cast<std::size_t>(t.stride);
 

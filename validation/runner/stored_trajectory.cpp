@@ -22,11 +22,18 @@ BodyState stateAt(const results::BodyChannels& body, std::size_t frame) {
 
 ContactPoint contactOf(const results::ContactSample& c) {
     ContactPoint out;
-    out.bodyA = c.bodyA, out.bodyB = c.bodyB, out.shapeA = c.shapeA, out.shapeB = c.shapeB;
-    out.pointA = vec(c.pointA), out.pointB = vec(c.pointB), out.normal = vec(c.normal);
-    out.depth = c.depth, out.hasImpulse = !std::isnan(c.normalImpulse);
+    out.bodyA = c.bodyA;
+    out.bodyB = c.bodyB;
+    out.shapeA = c.shapeA;
+    out.shapeB = c.shapeB;
+    out.pointA = vec(c.pointA);
+    out.pointB = vec(c.pointB);
+    out.normal = vec(c.normal);
+    out.depth = c.depth;
+    out.hasImpulse = !std::isnan(c.normalImpulse);
     if (!out.hasImpulse) return out;
-    out.normalImpulse = c.normalImpulse, out.frictionImpulse = vec(c.frictionImpulse);
+    out.normalImpulse = c.normalImpulse;
+    out.frictionImpulse = vec(c.frictionImpulse);
     return out;
 }
 
@@ -34,7 +41,10 @@ ContactPoint contactOf(const results::ContactSample& c) {
 
 Trajectory trajectoryOf(const results::TrajectoryFile& file) {
     Trajectory t;
-    t.dt = file.dt, t.stride = file.stride, t.bodyCount = file.bodies.size(), t.times = file.times;
+    t.dt = file.dt;
+    t.stride = file.stride;
+    t.bodyCount = file.bodies.size();
+    t.times = file.times;
     t.contacts.resize(t.frames());
     t.states.reserve(t.frames() * t.bodyCount);
     for (std::size_t f = 0; f < t.frames(); ++f)

@@ -85,12 +85,15 @@ Column columnOf(const std::string& text) {
     Column column{Column::Kind::OfCase, text, "", ""};
     const auto rest = [&](const std::string& prefix) { return text.substr(prefix.size()); };
     if (text.starts_with(kOrderPrefix)) {
-        column.kind = Column::Kind::Order, column.name = rest(kOrderPrefix);
+        column.kind = Column::Kind::Order;
+        column.name = rest(kOrderPrefix);
     } else if (text.starts_with("symmetry.")) {
-        column.kind = Column::Kind::Symmetry, column.name = rest("symmetry.");
+        column.kind = Column::Kind::Symmetry;
+        column.name = rest("symmetry.");
         column.aspect = cutAspect(column.name, {"angle", "frames", "from", "onset"});
     } else if (text.starts_with("ensemble.")) {
-        column.kind = Column::Kind::Ensemble, column.name = rest("ensemble.");
+        column.kind = Column::Kind::Ensemble;
+        column.name = rest("ensemble.");
         const auto p = column.name.find(".p:");
         column.variant = cutVariant(column.name, p == std::string::npos ? p : p + 2);
         column.aspect = cutAspect(column.name, {"low", "high", "p"});

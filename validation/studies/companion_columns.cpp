@@ -40,8 +40,11 @@ StudyValue medianOf(const std::vector<double>& values, const std::string& unit, 
     v.unit = unit;
     if (values.empty()) return v;
     v.value = median(values);
-    if (const auto interval = medianInterval(values))
-        v.note = intervalText(*interval), v.low = interval->low, v.high = interval->high;
+    if (const auto interval = medianInterval(values)) {
+        v.note = intervalText(*interval);
+        v.low = interval->low;
+        v.high = interval->high;
+    }
     if (values.size() < asked)
         v.note += (v.note.empty() ? "" : " ") + std::string("of ") + std::to_string(values.size()) + "/" +
                   std::to_string(asked);
@@ -58,7 +61,9 @@ class Filler {
 
     void fill(StudyResultRow& row) {
         const auto& part = result_.study.parts[row.row.part];
-        partings_.clear(), differences_.clear(), recent_.clear();
+        partings_.clear();
+        differences_.clear();
+        recent_.clear();
         for (std::size_t i = 0; i < part.metrics.size(); ++i) {
             const Column column = columnOf(part.metrics[i]);
             if (column.kind == Column::Kind::Symmetry) row.values[i] = symmetry(row, part, column);
@@ -240,7 +245,8 @@ class Filler {
         StudyValue v = medianOf(values, unit, row.row.members.size());
         if (column.aspect.empty()) return v;
         const auto interval = medianInterval(values);
-        v.value.reset(), v.note.clear();
+        v.value.reset();
+        v.note.clear();
         if (interval) v.value = column.aspect == "low" ? interval->low : interval->high;
         return v;
     }

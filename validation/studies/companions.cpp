@@ -25,7 +25,8 @@ scenario::LoadedScenario asFile(scenario::Scenario s, const std::string& base, c
     s.name = companionName(base, tail);
     s.title += " (" + title + ")";
     s.reference.reset();
-    s.accept.clear(), s.knownDeviations.clear();
+    s.accept.clear();
+    s.knownDeviations.clear();
     s.tags.push_back("companion");  // reports give it no page of its own
     const std::string text = scenario::scenarioText(s);
     return scenario::loadScenarioText(text, s.name);
@@ -84,7 +85,8 @@ const CompanionPlanner::Made& CompanionPlanner::symmetric(const CasePlan& own, c
     made.problem = entry.obstacle(own.scenario);
     if (!made.problem.empty() || entry.rerun == Rerun::Reversed) return made;
     Transformed other = entry.apply(own.scenario, nullptr);
-    made.timeFactor = other.timeFactor, made.back = std::move(other.back);
+    made.timeFactor = other.timeFactor;
+    made.back = std::move(other.back);
     made.loaded = asFile(std::move(other.scenario), own.scenario.name, symmetry, entry.title);
     return made;
 }
@@ -168,7 +170,10 @@ bool extendPlan(StudyPlan& plan, const results::Run& stored) {
     for (const CasePlan& c : plan.cases) known.insert(c.id);
     bool added = false;
     for (CasePlan& c : more)
-        if (known.insert(c.id).second) plan.cases.push_back(std::move(c)), added = true;
+        if (known.insert(c.id).second) {
+            plan.cases.push_back(std::move(c));
+            added = true;
+        }
     return added;
 }
 

@@ -38,7 +38,11 @@ double growthExponent(const std::vector<std::pair<int, double>>& points) {
     for (const auto& [bodies, value] : points) {
         if (!(value > 0.0) || bodies < 1) return kNaN;
         const double x = std::log(bodies), y = std::log(value);
-        n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+        n += 1;
+        sx += x;
+        sy += y;
+        sxx += x * x;
+        sxy += x * y;
     }
     const double spread = n * sxx - sx * sx;
     return spread > 0.0 ? (n * sxy - sx * sy) / spread : kNaN;
@@ -122,7 +126,9 @@ FindingVerdict judgeFinding(const StudyResult& result, std::size_t part, std::si
     const auto metric =
         static_cast<std::size_t>(std::find(metrics.begin(), metrics.end(), finding.metric) - metrics.begin());
     FindingVerdict verdict;
-    verdict.part = part, verdict.finding = index, verdict.holds = true;
+    verdict.part = part;
+    verdict.finding = index;
+    verdict.holds = true;
     for (const StudyResultRow& row : result.rows) {
         if (row.row.part != part || !isAbout(finding, row.row)) continue;
         const double value = judged(row, metric);
@@ -190,7 +196,9 @@ StudyResult evaluateStudy(const StudyPlan& plan, const results::Run& run) {
         const auto& metrics = plan.study.parts[row.part].metrics;
         shown.values.resize(metrics.size());
         if (const auto it = cases.find(row.caseId); it != cases.end()) {
-            shown.ran = true, shown.outcome = it->second->outcome, shown.reason = it->second->reason;
+            shown.ran = true;
+            shown.outcome = it->second->outcome;
+            shown.reason = it->second->reason;
             for (std::size_t i = 0; i < metrics.size(); ++i)
                 if (columnOf(metrics[i]).kind == Column::Kind::OfCase)
                     shown.values[i] = studyValue(*it->second, metrics[i]);

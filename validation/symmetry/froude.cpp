@@ -23,7 +23,8 @@ struct Scale {
     explicit Scale(int dimension) {
         mass = dimension == 3 ? kLength * kLength * kLength : kLength * kLength;
         force = mass * kLength / (kTime * kTime);
-        torque = force * kLength, impulse = force * kTime;
+        torque = force * kLength;
+        impulse = force * kTime;
     }
 
     static void points(std::vector<Vec3>& list) {
@@ -33,36 +34,49 @@ struct Scale {
     void operator()(Box& g) const { g.halfExtents = kLength * g.halfExtents; }
     void operator()(ConvexHull& g) const { points(g.vertices); }
     void operator()(HalfSpace& g) const { g.offset *= kLength; }
-    void operator()(Segment& g) const { g.a = kLength * g.a, g.b = kLength * g.b; }
+    void operator()(Segment& g) const {
+        g.a = kLength * g.a;
+        g.b = kLength * g.b;
+    }
     void operator()(Chain& g) const { points(g.vertices); }
     void operator()(TriangleMesh& g) const { points(g.vertices); }
     void operator()(HeightField& g) const {
-        g.spacingX *= kLength, g.spacingZ *= kLength, g.thickness *= kLength;
+        g.spacingX *= kLength;
+        g.spacingZ *= kLength;
+        g.thickness *= kLength;
         for (double& h : g.heights) h *= kLength;
     }
     template <class Round>
     void operator()(Round& g) const {
-        g.radius *= kLength, g.halfLength *= kLength;
+        g.radius *= kLength;
+        g.halfLength *= kLength;
     }
 
     void operator()(ConstantForce& f) const {
-        f.force = force * f.force, f.torque = torque * f.torque;
+        f.force = force * f.force;
+        f.torque = torque * f.torque;
         f.start *= kTime;
         if (f.end < 1e299) f.end *= kTime;
     }
     void operator()(SpringForce& f) const {
-        f.anchorA = kLength * f.anchorA, f.anchorB = kLength * f.anchorB;
-        f.stiffness *= force / kLength, f.damping *= force / kSpeed, f.restLength *= kLength;
+        f.anchorA = kLength * f.anchorA;
+        f.anchorB = kLength * f.anchorB;
+        f.stiffness *= force / kLength;
+        f.damping *= force / kSpeed;
+        f.restLength *= kLength;
     }
     void operator()(DragForce& f) const {
-        f.coefficient *= force / kSpeed, f.quadratic *= force / (kSpeed * kSpeed);
+        f.coefficient *= force / kSpeed;
+        f.quadratic *= force / (kSpeed * kSpeed);
     }
 
     void body(Body& b) const {
         b.pose.position = kLength * b.pose.position;
-        b.velocity = kSpeed * b.velocity, b.angularVelocity = b.angularVelocity / kTime;
+        b.velocity = kSpeed * b.velocity;
+        b.angularVelocity = b.angularVelocity / kTime;
         MassProperties& m = b.massProperties;
-        m.mass *= mass, m.centerOfMass = kLength * m.centerOfMass;
+        m.mass *= mass;
+        m.centerOfMass = kLength * m.centerOfMass;
         for (auto& row : m.inertia.m)
             for (double& value : row) value *= mass * kLength * kLength;
         for (Shape& s : b.shapes) {
@@ -77,11 +91,17 @@ struct Scale {
         const double unit = length ? kLength : 1.0, load = length ? force : torque;
         if (a.lower > -1e299) a.lower *= unit;
         if (a.upper < 1e299) a.upper *= unit;
-        a.motorSpeed *= unit / kTime, a.motorMaxForce *= load, a.target *= unit;
-        a.frequency /= kTime, a.stiffness *= load / unit, a.damping *= load * kTime / unit;
+        a.motorSpeed *= unit / kTime;
+        a.motorMaxForce *= load;
+        a.target *= unit;
+        a.frequency /= kTime;
+        a.stiffness *= load / unit;
+        a.damping *= load * kTime / unit;
     }
     void joint(Joint& j, int dimension) const {
-        j.anchorA = kLength * j.anchorA, j.anchorB = kLength * j.anchorB, j.length *= kLength;
+        j.anchorA = kLength * j.anchorA;
+        j.anchorB = kLength * j.anchorB;
+        j.length *= kLength;
         for (std::size_t k = 0; k < kMaxJointAxes; ++k) {
             const char* name = jointAxisName(j.type, dimension, k);
             if (name == nullptr) break;
@@ -102,8 +122,11 @@ Trajectory shrunk(const Trajectory& trajectory, const Scale& scale) {
                              kTime * b.angularVelocity};
         },
         [&](ContactPoint c, double) {
-            c.pointA = c.pointA / kLength, c.pointB = c.pointB / kLength, c.depth /= kLength;
-            c.normalImpulse /= scale.impulse, c.frictionImpulse = c.frictionImpulse / scale.impulse;
+            c.pointA = c.pointA / kLength;
+            c.pointB = c.pointB / kLength;
+            c.depth /= kLength;
+            c.normalImpulse /= scale.impulse;
+            c.frictionImpulse = c.frictionImpulse / scale.impulse;
             return c;
         });
     t.dt /= kTime;
@@ -122,7 +145,8 @@ Transformed froude(const Scenario& scenario, const Trajectory*) {
     for (Joint& j : s.joints) scale.joint(j, s.dimension);
     for (Force& f : s.forces) std::visit(scale, f);
     for (Event& e : s.events) {
-        e.time *= kTime, e.impulse = scale.impulse * e.impulse;
+        e.time *= kTime;
+        e.impulse = scale.impulse * e.impulse;
         e.angularImpulse = scale.impulse * kLength * e.angularImpulse;
     }
     return {s, kTime, [scale](const Trajectory& t) { return shrunk(t, scale); }};

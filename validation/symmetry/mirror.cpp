@@ -38,7 +38,10 @@ struct Mirror {
         if (!solid) g.vertices = {g.vertices.rbegin(), g.vertices.rend()};  // counter-clockwise again
     }
     void operator()(HalfSpace& g) const { g.normal = polar(g.normal); }
-    void operator()(Segment& g) const { g.a = polar(g.a), g.b = polar(g.b); }
+    void operator()(Segment& g) const {
+        g.a = polar(g.a);
+        g.b = polar(g.b);
+    }
     void operator()(Chain& g) const { points(g.vertices); }
     void operator()(TriangleMesh& g) const { points(g.vertices); }
     template <class Symmetric>
@@ -47,7 +50,8 @@ struct Mirror {
 
 void reflect(Body& b, const Mirror& m) {
     b.pose = m.pose(b.pose);
-    b.velocity = m.polar(b.velocity), b.angularVelocity = m.axial(b.angularVelocity);
+    b.velocity = m.polar(b.velocity);
+    b.angularVelocity = m.axial(b.angularVelocity);
     b.massProperties.centerOfMass = m.polar(b.massProperties.centerOfMass);
     b.massProperties.inertia = m.tensor(b.massProperties.inertia);
     for (Shape& s : b.shapes) {
@@ -58,7 +62,8 @@ void reflect(Body& b, const Mirror& m) {
 
 /// A hinge's axis is axial: its angle stays. In the plane the axis is +z for all, and the angle turns round.
 void reflect(Joint& j, const Mirror& m) {
-    j.anchorA = m.polar(j.anchorA), j.anchorB = m.polar(j.anchorB);
+    j.anchorA = m.polar(j.anchorA);
+    j.anchorB = m.polar(j.anchorB);
     const bool hinge = j.type == JointType::Hinge;
     if (m.solid || !hinge) {
         j.axisA = hinge ? m.axial(j.axisA) : m.polar(j.axisA);
@@ -66,9 +71,11 @@ void reflect(Joint& j, const Mirror& m) {
         return;
     }
     JointAxis& angle = j.axes[0];
-    angle.motorSpeed = -angle.motorSpeed, angle.target = -angle.target;
+    angle.motorSpeed = -angle.motorSpeed;
+    angle.target = -angle.target;
     const double lower = angle.lower;
-    angle.lower = -angle.upper, angle.upper = -lower;
+    angle.lower = -angle.upper;
+    angle.upper = -lower;
 }
 
 }  // namespace
@@ -92,12 +99,19 @@ Transformed mirror(const Scenario& scenario, const Trajectory*) {
     for (Body& b : s.bodies) reflect(b, m);
     for (Joint& j : s.joints) reflect(j, m);
     for (Force& force : s.forces) {
-        if (auto* f = std::get_if<ConstantForce>(&force))
-            f->force = m.polar(f->force), f->torque = m.axial(f->torque);
-        if (auto* f = std::get_if<SpringForce>(&force))
-            f->anchorA = m.polar(f->anchorA), f->anchorB = m.polar(f->anchorB);
+        if (auto* f = std::get_if<ConstantForce>(&force)) {
+            f->force = m.polar(f->force);
+            f->torque = m.axial(f->torque);
+        }
+        if (auto* f = std::get_if<SpringForce>(&force)) {
+            f->anchorA = m.polar(f->anchorA);
+            f->anchorB = m.polar(f->anchorB);
+        }
     }
-    for (Event& e : s.events) e.impulse = m.polar(e.impulse), e.angularImpulse = m.axial(e.angularImpulse);
+    for (Event& e : s.events) {
+        e.impulse = m.polar(e.impulse);
+        e.angularImpulse = m.axial(e.angularImpulse);
+    }
     return {s, 1.0, [m](const Trajectory& t) {
                 return mapped(
                     t,

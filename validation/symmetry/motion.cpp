@@ -64,7 +64,8 @@ void holdToFrame(Scenario& s) {
     Body frame;
     frame.name = "frame";
     while (findBody(s, frame.name) != kNone) frame.name += "_";
-    frame.type = BodyType::Kinematic, frame.collides = false;
+    frame.type = BodyType::Kinematic;
+    frame.collides = false;
     const int index = static_cast<int>(s.bodies.size());
     s.bodies.push_back(frame);
     for (Joint& j : s.joints) {
@@ -82,11 +83,13 @@ Trajectory movedBack(const Trajectory& trajectory, const Vec3& start, const Vec3
     Trajectory t = mapped(
         trajectory,
         [&](BodyState b, double time) {
-            b.position = b.position - offset(time), b.velocity = b.velocity - velocity;
+            b.position = b.position - offset(time);
+            b.velocity = b.velocity - velocity;
             return b;
         },
         [&](ContactPoint c, double time) {
-            c.pointA = c.pointA - offset(time), c.pointB = c.pointB - offset(time);
+            c.pointA = c.pointA - offset(time);
+            c.pointB = c.pointB - offset(time);
             return c;
         });
     for (std::size_t f = 0; f < t.frames(); ++f)

@@ -16,23 +16,32 @@ constexpr double kPi = 3.14159265358979323846;
 
 void turnForces(Scenario& s, const Quat& Q) {
     for (Force& force : s.forces) {
-        if (auto* f = std::get_if<ConstantForce>(&force))
-            f->force = rotate(Q, f->force), f->torque = rotate(Q, f->torque);
+        if (auto* f = std::get_if<ConstantForce>(&force)) {
+            f->force = rotate(Q, f->force);
+            f->torque = rotate(Q, f->torque);
+        }
         if (auto* f = std::get_if<SpringForce>(&force))
             if (f->bodyA == kNone) f->anchorA = rotate(Q, f->anchorA);
     }
-    for (Event& e : s.events)
-        e.impulse = rotate(Q, e.impulse), e.angularImpulse = rotate(Q, e.angularImpulse);
+    for (Event& e : s.events) {
+        e.impulse = rotate(Q, e.impulse);
+        e.angularImpulse = rotate(Q, e.angularImpulse);
+    }
 }
 
 /// The frame of the world is not turned: what joints have in it is.
 void turnJoints(Scenario& s, const Quat& Q) {
     for (Joint& j : s.joints) {
-        if (j.bodyA == kNone)
-            j.anchorA = rotate(Q, j.anchorA), j.axisA = rotate(Q, j.axisA), j.normalA = rotate(Q, j.normalA);
-        if (j.bodyB == kNone)
-            j.anchorB = rotate(Q, j.anchorB), j.axisB = rotate(Q, j.axisB),
+        if (j.bodyA == kNone) {
+            j.anchorA = rotate(Q, j.anchorA);
+            j.axisA = rotate(Q, j.axisA);
+            j.normalA = rotate(Q, j.normalA);
+        }
+        if (j.bodyB == kNone) {
+            j.anchorB = rotate(Q, j.anchorB);
+            j.axisB = rotate(Q, j.axisB);
             j.spinAxisB = rotate(Q, j.spinAxisB);
+        }
     }
 }
 
@@ -41,7 +50,8 @@ Transformed turned(const Scenario& scenario, const Quat& Q) {
     s.gravity = rotate(Q, s.gravity);
     for (Body& b : s.bodies) {
         b.pose = {rotate(Q, b.pose.position), Q * b.pose.orientation};
-        b.velocity = rotate(Q, b.velocity), b.angularVelocity = rotate(Q, b.angularVelocity);
+        b.velocity = rotate(Q, b.velocity);
+        b.angularVelocity = rotate(Q, b.angularVelocity);
     }
     turnJoints(s, Q);
     turnForces(s, Q);

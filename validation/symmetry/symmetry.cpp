@@ -36,7 +36,11 @@ void compareFrames(const scenario::Scenario& s, const Trajectory& a, std::size_t
         const BodyState &x = a.state(frameA, i), &y = b.state(frameB, i);
         same = same && sameBits(x, y);
         const double distance = norm(x.position - y.position);
-        if (!(distance <= d.position)) d.position = distance, d.positionAt = a.times[frameA], d.body = i;
+        if (!(distance <= d.position)) {
+            d.position = distance;
+            d.positionAt = a.times[frameA];
+            d.body = i;
+        }
         const double angle = rotationAngle(x.orientation, y.orientation);
         if (!(angle <= d.angle)) d.angle = angle;
     }
@@ -88,7 +92,9 @@ Difference differenceOf(const scenario::Scenario& scenario, const Trajectory& a,
 scenario::Scenario bare(const scenario::Scenario& scenario) {
     scenario::Scenario s = scenario;
     s.reference.reset();
-    s.accept.clear(), s.knownDeviations.clear(), s.metrics = {"energy_drift"};
+    s.accept.clear();
+    s.knownDeviations.clear();
+    s.metrics = {"energy_drift"};
     return s;
 }
 
@@ -122,8 +128,11 @@ Trajectory reordered(const Trajectory& trajectory, const std::vector<int>& place
             c.bodyA = before[static_cast<std::size_t>(c.bodyA)];
             c.bodyB = before[static_cast<std::size_t>(c.bodyB)];
             if (c.bodyA <= c.bodyB) continue;
-            std::swap(c.bodyA, c.bodyB), std::swap(c.shapeA, c.shapeB), std::swap(c.pointA, c.pointB);
-            c.normal = -c.normal, c.frictionImpulse = -c.frictionImpulse;
+            std::swap(c.bodyA, c.bodyB);
+            std::swap(c.shapeA, c.shapeB);
+            std::swap(c.pointA, c.pointB);
+            c.normal = -c.normal;
+            c.frictionImpulse = -c.frictionImpulse;
         }
         std::erase_if(contacts, [](const ContactPoint& c) { return c.bodyA == scenario::kNone; });
     }

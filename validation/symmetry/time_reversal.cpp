@@ -49,12 +49,17 @@ Trajectory backwards(const Trajectory& trajectory) {
     if (frames % 2 == 0) throw std::invalid_argument("the moment of reversal is not a frame");
     Trajectory t = trajectory;
     const std::size_t half = (frames - 1) / 2, n = trajectory.bodyCount;
-    t.times.resize(half + 1), t.states.clear(), t.contacts.assign(half + 1, {});
+    t.times.resize(half + 1);
+    t.states.clear();
+    t.contacts.assign(half + 1, {});
     for (std::size_t k = 0; k <= half; ++k)
         for (std::size_t i = 0; i < n; ++i) {
             BodyState s = trajectory.state(frames - 1 - k, static_cast<int>(i));
             // At the reversal itself the velocities are still those of the way there.
-            if (k < half) s.velocity = -s.velocity, s.angularVelocity = -s.angularVelocity;
+            if (k < half) {
+                s.velocity = -s.velocity;
+                s.angularVelocity = -s.angularVelocity;
+            }
             t.states.push_back(s);
         }
     return t;

@@ -92,7 +92,8 @@ TEST(Box2dChain, QueriesSeeTheNearestLink) {
     const Geometry chain = scenario::Chain{{{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}}, false}, disc = Sphere{0.3};
     adapter::CollisionQuery query;
     query.dimension = 2;
-    query.a = {&chain, {}}, query.b = {&disc, {{-0.5, 0.4, 0}, {}}};
+    query.a = {&chain, {}};
+    query.b = {&disc, {{-0.5, 0.4, 0}, {}}};
     const auto apart = engine().collision()->collide(query);
     EXPECT_FALSE(apart.overlap);
     EXPECT_NEAR(apart.signedDistance.value(), 0.1, 1e-6);

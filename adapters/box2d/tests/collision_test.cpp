@@ -126,7 +126,8 @@ TEST(Box2dBroadPhase, AgreesWithBruteForceWhileBoxesMove) {
         total += pairs.size();
         for (auto& box : boxes) {
             const Vec3 by{move(random), move(random), 0};
-            box.min += by, box.max += by;
+            box.min += by;
+            box.max += by;
         }
         if (frame == 20) boxes.resize(90);
     }

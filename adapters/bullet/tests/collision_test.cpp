@@ -151,7 +151,8 @@ TEST(BulletBroadPhase, AgreesWithBruteForceWhileBoxesMove) {
                 total += pairs.size();
                 for (auto& box : boxes) {
                     const Vec3 by{move(random), move(random), dimension == 3 ? move(random) : 0.0};
-                    box.min += by, box.max += by;
+                    box.min += by;
+                    box.max += by;
                 }
                 if (frame == 20) boxes.resize(90);
             }

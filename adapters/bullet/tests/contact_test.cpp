@@ -172,7 +172,10 @@ TEST(BulletReadBack, PairsAreWhatBulletWillUse) {
     Simulation run(twoFeet(), 1.0 / 240);
     // A second world with other pairs in the same process: Bullet's callback is shared by both.
     Scenario other = twoFeet();
-    for (auto& pair : other.pairs) pair.friction = 0.9, pair.restitution = 0.1;
+    for (auto& pair : other.pairs) {
+        pair.friction = 0.9;
+        pair.restitution = 0.1;
+    }
     Simulation second(other, 1.0 / 240);
     const auto pairs = run.world->readBack().pairs;
     ASSERT_EQ(pairs.size(), 2u);  // the feet never meet each other

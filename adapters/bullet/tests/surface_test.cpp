@@ -96,9 +96,11 @@ TEST(BulletSurfaces, TrianglesHaveTheMaterialOfTheirShape) {
     s.materials.push_back({"rough", 1.0, 0.0, 1000.0});
     s.pairs.push_back({0, 1, 0.7, 0.0, 0.0});
     Body floor;
-    floor.name = "floor", floor.type = BodyType::Static;
+    floor.name = "floor";
+    floor.type = BodyType::Static;
     scenario::Pose left, right;
-    left.position = {-20, 0, 0}, right.position = {20, 0, 0};
+    left.position = {-20, 0, 0};
+    right.position = {20, 0, 0};
     floor.shapes = {shapeOf(sheet(4, 10.0), 0, left), shapeOf(sheet(4, 10.0), 1, right)};
     s.bodies.push_back(floor);
     const int smooth = addBody(s, Box{{0.5, 0.5, 0.5}}, {-18, 0.5, 1}, 1.0, even(1.0 / 6));

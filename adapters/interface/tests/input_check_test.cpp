@@ -37,7 +37,9 @@ Scenario goodScenario() {
     Joint rod;
     rod.name = "rod";
     rod.type = JointType::Distance;
-    rod.bodyA = 0, rod.bodyB = 1, rod.length = 1.0;
+    rod.bodyA = 0;
+    rod.bodyB = 1;
+    rod.length = 1.0;
     s.joints.push_back(rod);
     s.forces = {ConstantForce{1, {1, 0, 0}, {}, 0.0, 1.0}, SpringForce{kNone, 1, {}, {}, 10.0, 1.0, 0.5},
                 DragForce{1, 0.1}};
@@ -97,7 +99,10 @@ const std::vector<Fault>& faults() {
         {"material out of range", "material", [](Scenario& s) { s.bodies[1].shapes[0].material = 3; }},
         {"negative friction", "friction", [](Scenario& s) { s.materials[0].friction = -0.1; }},
         {"static below kinetic friction", "static_friction",
-         [](Scenario& s) { s.materials[0].friction = 0.5, s.materials[0].staticFriction = 0.4; }},
+         [](Scenario& s) {
+             s.materials[0].friction = 0.5;
+             s.materials[0].staticFriction = 0.4;
+         }},
         {"restitution above one", "restitution", [](Scenario& s) { s.materials[0].restitution = 1.1; }},
         {"joint to a body that is not there", "joint", [](Scenario& s) { s.joints[0].bodyB = 7; }},
         {"joint to itself", "itself", [](Scenario& s) { s.joints[0].bodyA = 1; }},
@@ -207,7 +212,8 @@ TEST(Supported, ARefusalSaysWhoLacksIt) {
     Scenario s = goodScenario();
     s.joints[0].breakForce = 5.0;
     EXPECT_EQ(refusedFor(s).refusal(), Refusal::NotInLibrary);
-    s.joints[0].breakForce = 1e300, s.joints[0].axes[0].stiffness = 3.0;
+    s.joints[0].breakForce = 1e300;
+    s.joints[0].axes[0].stiffness = 3.0;
     EXPECT_EQ(refusedFor(s).refusal(), Refusal::NotInAdapter);
     EXPECT_THROW((void)notInLibrary("toy", "shape", ""), std::logic_error) << "without a document";
 }
@@ -225,7 +231,8 @@ TEST(Missing, IsWhatTheFormatHasAndNobodyClaims) {
                                         "wheel.limit", "wheel.spring", "wheel.break"}));
     c.dynamics = false;
     EXPECT_EQ(notInAdapterYet(c), std::vector<std::string>{"chain"});
-    c.planar = true, c.dimensions = {3};
+    c.planar = true;
+    c.dimensions = {3};
     EXPECT_EQ(notInAdapterYet(c),
               (std::vector<std::string>{"chain", "sphere", "hull", "half_space", "cylinder", "cone",
                                         "triangle_mesh", "height_field"}));
@@ -281,7 +288,8 @@ TEST(Planar, TheAngleOfASixDofIsItsSwingAboutZ) {
     Joint joint;
     joint.type = JointType::SixDof;
     joint.axisA = {0.6, 0.8, 0};
-    joint.axes[0].motorSpeed = 1.0, joint.axes[2].motorSpeed = 3.0;
+    joint.axes[0].motorSpeed = 1.0;
+    joint.axes[2].motorSpeed = 3.0;
     s.joints = {joint};
     const Joint lifted = planarLift(s).joints[0];
     EXPECT_EQ(lifted.axes[0].motorSpeed, 1.0);

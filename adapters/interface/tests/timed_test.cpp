@@ -32,7 +32,8 @@ TEST(BruteForcePairs, AGapAlongAnyAxisParts) {
     const Aabb box{{0, 0, 0}, {1, 1, 1}};
     for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
         Aabb other = box;
-        other.min.*axis = 1.0, other.max.*axis = 2.0;
+        other.min.*axis = 1.0;
+        other.max.*axis = 2.0;
         EXPECT_TRUE(overlap(box, other) && overlap(other, box));
         other.min.*axis = least;
         EXPECT_FALSE(overlap(box, other) || overlap(other, box));

@@ -16,12 +16,16 @@ constexpr double kStep = 1.0 / 480.0;
 
 Joint ropeOf(int a, int b, const Vec3& anchorA, const Vec3& anchorB, double lower, double upper) {
     Joint joint;
-    joint.name = "rope", joint.type = JointType::Distance;
-    joint.bodyA = a, joint.bodyB = b;
-    joint.anchorA = anchorA, joint.anchorB = anchorB;
+    joint.name = "rope";
+    joint.type = JointType::Distance;
+    joint.bodyA = a;
+    joint.bodyB = b;
+    joint.anchorA = anchorA;
+    joint.anchorB = anchorB;
     joint.length = 1.0;
     joint.axes[0].mode = AxisMode::Limited;
-    joint.axes[0].lower = lower, joint.axes[0].upper = upper;
+    joint.axes[0].lower = lower;
+    joint.axes[0].upper = upper;
     return joint;
 }
 int addFree(Scenario& s, const Vec3& position, double mass, const Vec3& moments) {
@@ -38,7 +42,8 @@ TEST(OdeRopes, ATautRopeIsARod) {
         s.gravity = {};
         const int a = addFree(s, {0, 0, 0}, 1.0, {0.1, 0.2, 0.3}),
                   b = addFree(s, {1.5, 0, 0}, 3.0, even(0.4));
-        s.bodies[0].velocity = {0, -3, 0}, s.bodies[1].velocity = {0, 1, 0};
+        s.bodies[0].velocity = {0, -3, 0};
+        s.bodies[1].velocity = {0, 1, 0};
         s.bodies[0].angularVelocity = {0.3, 0.2, 2.5};
         const Vec3 onA{0.25, 0.1, 0}, onB{-0.25, 0.1, 0};
         Joint rope = turned ? ropeOf(b, a, onB, onA, 0.0, 1.0) : ropeOf(a, b, onA, onB, 0.0, 1.0);
@@ -48,7 +53,8 @@ TEST(OdeRopes, ATautRopeIsARod) {
         rod.joints.push_back(rope);
         Simulation tied(s, kStep), held(rod, kStep);
         for (int i = 0; i < 480; ++i) {
-            tied.steps(1), held.steps(1);
+            tied.steps(1);
+            held.steps(1);
             ASSERT_NEAR(norm(tied.state(a).position - held.state(a).position), 0.0, 1e-3) << i;
             ASSERT_NEAR(norm(tied.state(a).velocity + 3.0 * tied.state(b).velocity), 0.0, 1e-11);
         }
@@ -89,7 +95,8 @@ TEST(OdeRopes, ASpringHasBounds) {
     s.gravity = {};
     const int b = addFree(s, {1, 0, 0}, 1.0, even(0.1));
     Joint joint = ropeOf(scenario::kNone, b, {}, {}, 0.7, 1.0);
-    joint.axes[0].stiffness = 4.0, joint.axes[0].target = 0.5;
+    joint.axes[0].stiffness = 4.0;
+    joint.axes[0].target = 0.5;
     s.joints.push_back(joint);
     Simulation simulation(s, kStep);
     simulation.seconds(0.2);

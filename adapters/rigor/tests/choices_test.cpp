@@ -92,8 +92,10 @@ std::vector<Scene> scenes() {
             Joint j;
             j.name = "joint" + std::to_string(i);
             j.type = JointType::Hinge;
-            j.bodyA = i == 0 ? scenario::kNone : b - 1, j.bodyB = b;
-            j.anchorA = {i == 0 ? 0.0 : 0.5, 0, 0}, j.anchorB = {-0.5, 0, 0};
+            j.bodyA = i == 0 ? scenario::kNone : b - 1;
+            j.bodyB = b;
+            j.anchorA = {i == 0 ? 0.0 : 0.5, 0, 0};
+            j.anchorB = {-0.5, 0, 0};
             j.axisA = j.axisB = {0, 0, 1};
             s.joints.push_back(j);
         }

@@ -13,7 +13,9 @@ class GateTest : public testing::Test {
   protected:
     static Knock get(const std::string& path = "/") {
         Knock knock;
-        knock.method = "GET", knock.path = path, knock.host = "127.0.0.1:4711";
+        knock.method = "GET";
+        knock.path = path;
+        knock.host = "127.0.0.1:4711";
         return knock;
     }
     std::string cookie() {
@@ -24,7 +26,9 @@ class GateTest : public testing::Test {
     }
     Knock post(const std::string& cookie) {
         Knock knock = get("/api/command");
-        knock.method = "POST", knock.cookie = cookie, knock.origin = "http://127.0.0.1:4711";
+        knock.method = "POST";
+        knock.cookie = cookie;
+        knock.origin = "http://127.0.0.1:4711";
         knock.contentType = "application/json";
         return knock;
     }
@@ -58,9 +62,11 @@ TEST_F(GateTest, AWrongTokenSpendsNothing) {
         knock.token = token;
         EXPECT_EQ(kind(knock), Kind::Refuse);
     }
-    knock.token = gate_.token(), knock.path = "/api/frames";
+    knock.token = gate_.token();
+    knock.path = "/api/frames";
     EXPECT_EQ(kind(knock), Kind::Refuse) << "the link leads to the page alone";
-    knock.path = "/", knock.method = "POST";
+    knock.path = "/";
+    knock.method = "POST";
     EXPECT_EQ(kind(knock), Kind::Refuse);
     EXPECT_FALSE(cookie().empty());
 }
@@ -95,10 +101,12 @@ TEST_F(GateTest, ForeignNamesAreRefusedWhateverElseIsRight) {
         knock.host = host;
         EXPECT_EQ(kind(knock), Kind::Refuse) << host;
     }
-    knock.host = "127.0.0.1:4711", knock.hosts = 2;
+    knock.host = "127.0.0.1:4711";
+    knock.hosts = 2;
     EXPECT_EQ(kind(knock), Kind::Refuse) << "two of them";
     Knock first = get();
-    first.token = gate_.token(), first.host = "evil.example:4711";
+    first.token = gate_.token();
+    first.host = "evil.example:4711";
     EXPECT_EQ(kind(first), Kind::Refuse);
 }
 

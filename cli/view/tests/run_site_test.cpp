@@ -18,25 +18,36 @@ using validation::Packet;
 
 results::TrajectoryFile trajectory() {
     results::TrajectoryFile t;
-    t.scenario = "drop", t.spec = "ode", t.caseId = "c0ffee", t.dt = 0.1;
+    t.scenario = "drop";
+    t.spec = "ode";
+    t.caseId = "c0ffee";
+    t.dt = 0.1;
     for (int i = 0; i < 50; ++i) t.times.push_back(0.1 * i);
     for (const char* name : {"floor", "ball"}) {
         results::BodyChannels body;
         body.name = name;
-        body.position = {"m", 3, {}}, body.orientation = {"1", 4, {}};
-        body.velocity = {"m/s", 3, {}}, body.angularVelocity = {"rad/s", 3, {}};
+        body.position = {"m", 3, {}};
+        body.orientation = {"1", 4, {}};
+        body.velocity = {"m/s", 3, {}};
+        body.angularVelocity = {"rad/s", 3, {}};
         for (int i = 0; i < 50; ++i) {
             for (int k = 0; k < 3; ++k)
                 body.position.values.push_back(i + 0.25 * k + (name[0] == 'b' ? 100 : 0));
             for (int k = 0; k < 4; ++k) body.orientation.values.push_back(k == 0 ? 1 : 0);
-            for (int k = 0; k < 3; ++k)
-                body.velocity.values.push_back(-i), body.angularVelocity.values.push_back(i);
+            for (int k = 0; k < 3; ++k) {
+                body.velocity.values.push_back(-i);
+                body.angularVelocity.values.push_back(i);
+            }
         }
         t.bodies.push_back(body);
     }
     for (const int frame : {0, 7, 7, 20}) {
         results::ContactSample c;
-        c.time = 0.1 * frame, c.bodyA = 0, c.bodyB = 1, c.normal[1] = 1, c.depth = 1e-3 * frame;
+        c.time = 0.1 * frame;
+        c.bodyA = 0;
+        c.bodyB = 1;
+        c.normal[1] = 1;
+        c.depth = 1e-3 * frame;
         c.normalImpulse = std::nan("");
         t.contacts.push_back(c);
     }
@@ -47,9 +58,12 @@ class RunSites : public testing::Test {
   protected:
     void SetUp() override {
         run_ = scratch_.path() / "run";
-        fs::create_directories(run_ / "plots"), fs::create_directories(run_ / "trajectories");
-        write(run_ / "index.html", "<p>report"), write(run_ / "plots/a.svg", "<svg/>");
-        write(run_ / "results.sqlite", "store"), write(run_ / ".hidden.csv", "hidden");
+        fs::create_directories(run_ / "plots");
+        fs::create_directories(run_ / "trajectories");
+        write(run_ / "index.html", "<p>report");
+        write(run_ / "plots/a.svg", "<svg/>");
+        write(run_ / "results.sqlite", "store");
+        write(run_ / ".hidden.csv", "hidden");
         write(scratch_.path() / "secret.csv", "secret");
         fs::create_symlink(scratch_.path() / "secret.csv", run_ / "leak.csv");
         results::writeTrajectory(run_ / "trajectories/c0ffee.h5", trajectory());

@@ -91,7 +91,8 @@ TEST_F(Servers, ErrorsAreAnswers) {
 TEST_F(Servers, ListensOnLoopbackAlone) {
     const int file = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in other{};
-    other.sin_family = AF_INET, other.sin_port = htons(static_cast<std::uint16_t>(server_.port()));
+    other.sin_family = AF_INET;
+    other.sin_port = htons(static_cast<std::uint16_t>(server_.port()));
     inet_pton(AF_INET, "127.0.0.2", &other.sin_addr);
     EXPECT_NE(connect(file, reinterpret_cast<sockaddr*>(&other), sizeof other), 0);
     close(file);
@@ -104,7 +105,8 @@ TEST_F(Servers, ABrowserThatDoesNotReadIsAlone) {
     Browser browser(server_.url());
     const int file = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in server{};
-    server.sin_family = AF_INET, server.sin_port = htons(static_cast<std::uint16_t>(server_.port()));
+    server.sin_family = AF_INET;
+    server.sin_port = htons(static_cast<std::uint16_t>(server_.port()));
     inet_pton(AF_INET, "127.0.0.1", &server.sin_addr);
     ASSERT_EQ(connect(file, reinterpret_cast<sockaddr*>(&server), sizeof server), 0);
     const std::string request = "GET /large HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server_.port()) +

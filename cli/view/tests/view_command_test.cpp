@@ -31,7 +31,8 @@ class Program {
         pid_ = fork();
         if (pid_ == 0) {
             dup2(ends[1], STDOUT_FILENO);
-            close(ends[0]), close(ends[1]);
+            close(ends[0]);
+            close(ends[1]);
             std::vector<char*> argv;
             arguments.insert(arguments.begin(), RIGOR_BINARY_DIR "/bin/rigor");
             for (auto& a : arguments) argv.push_back(a.data());
@@ -46,7 +47,10 @@ class Program {
         fclose(out);
     }
     ~Program() {
-        if (pid_ > 0) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+        if (pid_ > 0) {
+            kill(pid_, SIGKILL);
+            waitpid(pid_, nullptr, 0);
+        }
     }
     const std::string& url() const { return url_; }
     pid_t pid() const { return pid_; }
@@ -155,10 +159,14 @@ TEST_F(View, WhatIsSavedIsCheckedAndRuns) {
     for (std::string line; std::getline(lines, line);) {
         std::istringstream fields(line);
         std::string t, body, px, py;
-        std::getline(fields, t, ','), std::getline(fields, body, ',');
-        std::getline(fields, px, ','), std::getline(fields, py, ',');
-        if (body == "block" && std::abs(std::strtod(t.c_str(), nullptr) - 0.25) < 1e-9)
-            x = std::stod(px), y = std::stod(py);
+        std::getline(fields, t, ',');
+        std::getline(fields, body, ',');
+        std::getline(fields, px, ',');
+        std::getline(fields, py, ',');
+        if (body == "block" && std::abs(std::strtod(t.c_str(), nullptr) - 0.25) < 1e-9) {
+            x = std::stod(px);
+            y = std::stod(py);
+        }
     }
     EXPECT_NEAR(x, expected[3], 1e-6);
     EXPECT_NEAR(y, expected[4], 1e-6);

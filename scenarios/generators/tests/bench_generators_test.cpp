@@ -154,7 +154,8 @@ TEST(Pile, VariedExtentsStayWithinTheirShare) {
     double least = 1.0, most = 0.0;
     for (const Body& b : s.bodies) {
         if (const auto* ball = std::get_if<Sphere>(&b.shapes[0].geometry)) {
-            least = std::min(least, ball->radius), most = std::max(most, ball->radius);
+            least = std::min(least, ball->radius);
+            most = std::max(most, ball->radius);
             EXPECT_NEAR(b.massProperties.mass, 1000 * 3.14159265358979 * ball->radius * ball->radius, 1e-9);
         } else {
             const Vec3 h = std::get<Box>(b.shapes[0].geometry).halfExtents;

@@ -66,7 +66,9 @@ struct Flight {
         const MetricInput in = input();
         for (const auto& value : findMetric(metric)->evaluate(in)) {
             MetricRow& row = rows.emplace_back();
-            row.name = metric, row.subject = value.subject, row.value = value.value;
+            row.name = metric;
+            row.subject = value.subject;
+            row.value = value.value;
         }
         RelativeErrors(in).fill(*findMetric(metric), rows);
         return rows;
@@ -165,7 +167,10 @@ TEST(RelativeError, EnergiesAreOverTheLargestKineticEnergy) {
 TEST(RelativeError, ScalesDoNotDependOnTheRun) {
     Flight good, wild;
     for (std::size_t k = 1; k < wild.run.states.size(); ++k)  // the first is the scenario's own
-        wild.run.states[k].position.x += 1e3, wild.run.states[k].velocity.y *= 1e3;
+    {
+        wild.run.states[k].position.x += 1e3;
+        wild.run.states[k].velocity.y *= 1e3;
+    }
     for (const char* metric : {"position_final", "velocity_final", "energy_drift"})
         EXPECT_EQ(good.rows(metric)[0].scale.value(), wild.rows(metric)[0].scale.value()) << metric;
 }

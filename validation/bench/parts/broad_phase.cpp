@@ -42,7 +42,8 @@ class BroadPhaseBench final : public BenchCase {
         if (timed_ == nullptr)
             throw adapter::Unsupported(spec_.engine + " has no broad phase that can be timed by itself");
         const json parameters = json::parse(planned.parameters);
-        dimension_ = parameters.at("dimension"), seed_ = parameters.at("seed");
+        dimension_ = parameters.at("dimension");
+        seed_ = parameters.at("seed");
         order_ = parameters.at("order") == kSpatial ? BoxOrder::Spatial : BoxOrder::Random;
         const std::string key = timed_->option();
         algorithm_ = key.empty() ? timed_->algorithms().front() : settings_.at(key);
@@ -88,7 +89,9 @@ class BroadPhaseBench final : public BenchCase {
             std::vector<Pair> held;
             phase.held(held);
             const PairCheck check = checkPairs(scene.boxes(), std::move(held));
-            sum.exact += check.exact, sum.held += check.held, sum.missed += check.missed;
+            sum.exact += check.exact;
+            sum.held += check.held;
+            sum.missed += check.missed;
             ++count;
         }
         double mean(std::size_t total) const { return static_cast<double>(total) / count; }
@@ -114,9 +117,11 @@ class BroadPhaseBench final : public BenchCase {
         const auto phase = create();
         Stopwatch watch;
         watch.time([&] {
-            phase->take(scene.boxes()), phase->run();
+            phase->take(scene.boxes());
+            phase->run();
             scene.advance();
-            phase->take(scene.boxes()), phase->run();
+            phase->take(scene.boxes());
+            phase->run();
         });
         return watch.samples().cpu.front();
     }
@@ -180,8 +185,12 @@ std::vector<PlannedBench> planBroadPhases(const BenchRequest& request) {
                     if (!couldRun(engine.capabilities, dimension)) continue;
                     for (const adapter::EngineSpec& spec : engine.specs) {
                         PlannedBench planned;
-                        planned.part = "broad_phase", planned.name = name, planned.engine = spec.text();
-                        planned.sizeUnit = "boxes", planned.size = size, planned.operation = "update";
+                        planned.part = "broad_phase";
+                        planned.name = name;
+                        planned.engine = spec.text();
+                        planned.sizeUnit = "boxes";
+                        planned.size = size;
+                        planned.operation = "update";
                         planned.parameters =
                             json{{"dimension", dimension}, {"order", order}, {"seed", request.seed}}.dump();
                         planned.command = partCommand(planned, request);

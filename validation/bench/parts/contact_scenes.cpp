@@ -104,7 +104,8 @@ void addFace(const Vec3& low, const Vec3& high, int dimension, int bodyA, int bo
         for (const double z : {low.z, high.z}) {
             if (dimension == 2 && z > low.z) continue;
             adapter::ContactPoint contact;
-            contact.bodyA = bodyA, contact.bodyB = bodyB;
+            contact.bodyA = bodyA;
+            contact.bodyB = bodyB;
             contact.pointA = contact.pointB = {x, low.y, dimension == 2 ? 0.0 : z};
             contact.normal = {0, 1, 0};
             contacts.push_back(contact);
@@ -161,7 +162,9 @@ FrozenProblem makeContactScene(const std::string& name, std::uint64_t seed) {
     step.loads.resize(scene.bodies.size());
     FrozenProblem problem = freezeStep(scene, step);
     problem.title = name;
-    problem.storedR.clear(), problem.storedU.clear(), problem.storedV.clear();
+    problem.storedR.clear();
+    problem.storedU.clear();
+    problem.storedV.clear();
     return problem;
 }
 

@@ -72,7 +72,10 @@ class ContactSolverBench final : public BenchCase {
             adapter::ContactSolution found;
             watch.time([&] { found = solve_->run(iterations, 0.0); });
             const double residual = contactResidual(frozen_.problem, found.r, solve_->friction()).own;
-            if (residual < least) best = iterations, least = residual;
+            if (residual < least) {
+                best = iterations;
+                least = residual;
+            }
             spent += watch.samples().wall.back();
             // Ended by itself: more would be the same.
             if (least <= target_ || spent > kPatience || found.iterations < iterations) break;
@@ -104,7 +107,9 @@ std::vector<PlannedBench> planContactSolvers(const BenchRequest& request) {
             if (!isWanted(request, name, usual) && !isWanted(request, scene, usual)) continue;
             for (const adapter::EngineSpec& spec : specs) {
                 PlannedBench planned;
-                planned.part = "contact_solver", planned.name = name, planned.engine = spec.text();
+                planned.part = "contact_solver";
+                planned.name = name;
+                planned.engine = spec.text();
                 planned.operation = "solution";
                 planned.parameters =
                     json{{"scene", scene}, {"residual", residual}, {"seed", request.seed}}.dump();

@@ -118,7 +118,8 @@ void fillTimes(const CountingStopwatch& watch, bool means, results::BenchRepetit
     done.wall = means ? mean(samples.wall) : middle(samples.wall);
     done.cpu = means ? mean(samples.cpu) : middle(samples.cpu);
     // The clocks tick in nanoseconds; a time of 0 would mean that nothing was measured.
-    done.wall = std::max(done.wall, 1e-9), done.cpu = std::max(done.cpu, 1e-9);
+    done.wall = std::max(done.wall, 1e-9);
+    done.cpu = std::max(done.cpu, 1e-9);
     done.samples = static_cast<std::int64_t>(samples.wall.size());
     watch.writeAllocations(done);
 }

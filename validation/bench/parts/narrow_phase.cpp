@@ -64,7 +64,8 @@ Judgement judgeDepths(adapter::CollisionBatch& batch, const std::vector<double>&
         if (!found || depths[i] <= 0.0) continue;
         const double error = std::abs(*depth - depths[i]);
         judgement.largestError = std::max(judgement.largestError, error);
-        judgement.meanError += error, ++compared;
+        judgement.meanError += error;
+        ++compared;
     }
     if (compared > 0) judgement.meanError /= static_cast<double>(compared);
     judgement.wrongShare =
@@ -155,7 +156,9 @@ std::vector<PlannedBench> planNarrowPhases(const BenchRequest& request) {
         names.push_back(kInterface);  // last: ratios are to the first
         for (const std::string& engine : names) {
             PlannedBench planned;
-            planned.part = "narrow_phase", planned.name = kind.name(), planned.engine = engine;
+            planned.part = "narrow_phase";
+            planned.name = kind.name();
+            planned.engine = engine;
             planned.operation = "pair";
             planned.parameters = json{{"kind", kind.name()}, {"seed", request.seed}}.dump();
             planned.command = partCommand(planned, request);

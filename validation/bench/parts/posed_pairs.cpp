@@ -32,14 +32,17 @@ class PairMaker {
             if (kind_.dimension == 3) Xb.orientation = fromAxisAngle({0, 1, 0}, kTurn * random_.unit());
             Xb.position.y = std::get<Box>(a).halfExtents.y + std::get<Box>(b).halfExtents.y - 0.01;
         } else {
-            Xa.orientation = rotation(), Xb.orientation = rotation();
+            Xa.orientation = rotation();
+            Xb.orientation = rotation();
             const Vec3 d = direction();
             Xb.position = touch(a, Xa, b, Xb, d);
             Xb.position += (kind_.closeness == Closeness::Overlap ? -0.05 : 0.1) * d;
         }
         adapter::CollisionQuery query;
-        query.a = {&a, Xa}, query.b = {&b, Xb};
-        query.dimension = kind_.dimension, query.maxContacts = 4;
+        query.a = {&a, Xa};
+        query.b = {&b, Xb};
+        query.dimension = kind_.dimension;
+        query.maxContacts = 4;
         pairs.queries.push_back(query);
     }
 
@@ -51,7 +54,8 @@ class PairMaker {
         query.a.geometry = &pairs.shapes.back();
         pairs.shapes.push_back(pairs.shapes[2 * i + 1]);
         query.b.geometry = &pairs.shapes.back();
-        query.a.pose = to * query.a.pose, query.b.pose = to * query.b.pose;
+        query.a.pose = to * query.a.pose;
+        query.b.pose = to * query.b.pose;
         pairs.queries.push_back(query);
     }
 
@@ -89,7 +93,8 @@ class PairMaker {
             const double angle = kind_.dimension == 2 ? kTurn * share : 2.399963229728653 * i;
             const auto shift = [this] { return random_.between(-0.1, 0.1); };
             Vec3 v{r * std::cos(angle), r * std::sin(angle), z};
-            v.x += shift(), v.y += shift();
+            v.x += shift();
+            v.y += shift();
             if (kind_.dimension == 3) v.z += shift();
             hull.vertices.push_back(0.55 / norm(v) * v);
         }

@@ -39,19 +39,35 @@ std::size_t occurrences(const std::string& text, const std::string& what) {
 
 BenchCase timed(const std::string& engine, std::int64_t threads = 1) {
     BenchCase c;
-    c.id = engine + std::to_string(threads), c.part = "scene", c.name = "bench_box_pyramid_drop";
-    c.engine = engine, c.threads = threads, c.sizeUnit = "bodies", c.size = 12400, c.operation = "step";
+    c.id = engine + std::to_string(threads);
+    c.part = "scene";
+    c.name = "bench_box_pyramid_drop";
+    c.engine = engine;
+    c.threads = threads;
+    c.sizeUnit = "bodies";
+    c.size = 12400;
+    c.operation = "step";
     for (int round = 0; round < 3; ++round) {
         results::BenchRepetition r;
-        r.round = round, r.wall = r.cpu = 0.1234, r.ownMemoryKiB = 123456;
+        r.round = round;
+        r.wall = r.cpu = 0.1234;
+        r.ownMemoryKiB = 123456;
         if (round == 0) r.allocations = 1234.5;
         r.counts = {{"contacts", 49600.25}, {"asleep", 12400.0}};
         r.quality = {{"max_penetration", "m", 0.001, std::nullopt, 0.005, true}};
         c.repetitions.push_back(r);
     }
     auto& s = c.summary;
-    s.repetitions = 2, s.clock = "cpu", s.cpu = s.wall = 0.1234, s.low = 0.1211, s.high = 0.1277;
-    s.valid = true, s.base = "base", s.ratio = 0.1234, s.ratioLow = 0.1211, s.ratioHigh = 0.1277;
+    s.repetitions = 2;
+    s.clock = "cpu";
+    s.cpu = s.wall = 0.1234;
+    s.low = 0.1211;
+    s.high = 0.1277;
+    s.valid = true;
+    s.base = "base";
+    s.ratio = 0.1234;
+    s.ratioLow = 0.1211;
+    s.ratioHigh = 0.1277;
     return c;
 }
 
@@ -73,7 +89,7 @@ std::vector<std::string> tablesOf(const std::string& text) {
 TEST(Print, RowsFitHoweverLongTheSpecs) {
     results::Run run = scenes();
     auto& bad = run.bench.cases.back().summary;
-    bad.valid = false,
+    bad.valid = false;
     bad.reason = "max_penetration 0.02 m > 0.005, and this goes on for a long while, so that it has";
     bad.reason += " to be broken into lines of which there are two or three";
     const auto lines = tablesOf(benchText(run, false));
@@ -104,7 +120,8 @@ TEST(Print, ChangesAreNamedByLabels) {
     results::Run run = scenes();
     for (const auto& c : run.bench.cases)
         run.bench.changes.push_back({c.id, 1.0, 1.5, 1.5, 1.4, 1.6, 0.01, "slower", ""});
-    run.bench.changes.back().verdict = "not compared", run.bench.changes.back().reason = "before: no timing";
+    run.bench.changes.back().verdict = "not compared";
+    run.bench.changes.back().reason = "before: no timing";
     const std::string text = changesText(run, "runs/before", {"cpu: A -> B"});
     for (const auto& line : tablesOf(text)) EXPECT_LE(line.size(), kTextWidth) << line;
     EXPECT_THAT(text, HasSubstr("slower        1.500  1.400..1.600  p = 0.01  bench_box_pyramid_drop 12400 "
@@ -119,7 +136,9 @@ TEST(Print, WhatAllRowsOfAPartShareStandsInTheTitle) {
     run.bench.cases.resize(3);
     double missed = 0.0;
     for (auto& c : run.bench.cases) {
-        c.part = "broad_phase", c.name = "3D", c.operation = "update";
+        c.part = "broad_phase";
+        c.name = "3D";
+        c.operation = "update";
         for (auto& r : c.repetitions) {
             r.counts = {{"pairs", 480.0}, {"pairs_held", 500.0 + missed}};
             r.quality = {{"missed_pairs", "1", missed, std::nullopt, 0.0, true}};

@@ -38,7 +38,9 @@ std::vector<BodyState> atRest() {
 
 ContactPoint contact(int a, int b, double depth) {
     ContactPoint c;
-    c.bodyA = a, c.bodyB = b, c.depth = depth;
+    c.bodyA = a;
+    c.bodyB = b;
+    c.depth = depth;
     return c;
 }
 

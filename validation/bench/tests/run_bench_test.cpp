@@ -40,7 +40,8 @@ class RunBench : public testing::Test {
         setenv("RIGOR_ADAPTER_PATH", (fs::path(RIGOR_BINARY_DIR) / "tests/doubles").c_str(), 1);
         options_.directory = scratch_.path() / "run";
         options_.binary = fs::path(RIGOR_BINARY_DIR) / "tests/bench_child";
-        options_.target.least = 3, options_.target.most = 3;
+        options_.target.least = 3;
+        options_.target.most = 3;
         options_.suite = options_.command = "test";
     }
 
@@ -190,7 +191,8 @@ TEST(BenchScenes, TheStepsAreThoseOfTheScenario) {
 EngineDescription described(const std::string& name, bool threads) {
     EngineDescription d;
     d.info.name = name;
-    d.capabilities.dynamics = true, d.capabilities.dimensions = {3};
+    d.capabilities.dynamics = true;
+    d.capabilities.dimensions = {3};
     if (threads) d.options.push_back({"threads", {}, 1, 64, true, "1", "1", ""});
     return d;
 }

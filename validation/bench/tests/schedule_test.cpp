@@ -22,7 +22,10 @@ Bench benchOf(const std::vector<std::string>& scenes, const std::vector<std::str
     for (const auto& scene : scenes)
         for (const auto& engine : engines) {
             BenchCase c;
-            c.id = scene + engine, c.part = "scene", c.name = scene, c.engine = engine;
+            c.id = scene + engine;
+            c.part = "scene";
+            c.name = scene;
+            c.engine = engine;
             bench.cases.push_back(c);
         }
     return bench;
@@ -33,7 +36,10 @@ using Clock = std::function<double(const BenchCase&, std::int64_t round)>;
 
 BenchRepetition repetition(double seconds, std::int64_t round) {
     BenchRepetition r;
-    r.round = round, r.wall = r.cpu = seconds, r.samples = 1, r.processSeconds = 1.0;
+    r.round = round;
+    r.wall = r.cpu = seconds;
+    r.samples = 1;
+    r.processSeconds = 1.0;
     return r;
 }
 

@@ -22,14 +22,20 @@ using testing::HasSubstr;
 BenchCase caseOf(const std::string& engine, double seconds, int count, unsigned seed,
                  std::int64_t threads = 1) {
     BenchCase c;
-    c.id = engine + std::to_string(threads), c.part = "scene", c.name = "pyramid", c.engine = engine;
-    c.size = 10.0, c.threads = threads;
+    c.id = engine + std::to_string(threads);
+    c.part = "scene";
+    c.name = "pyramid";
+    c.engine = engine;
+    c.size = 10.0;
+    c.threads = threads;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> noise(0.98, 1.02);
     for (int round = 0; round <= count; ++round) {
         BenchRepetition r;
-        r.round = round, r.samples = 100;
-        r.cpu = (round == 0 ? 100.0 : 1.0) * seconds * noise(random), r.wall = 2.0 * r.cpu;
+        r.round = round;
+        r.samples = 100;
+        r.cpu = (round == 0 ? 100.0 : 1.0) * seconds * noise(random);
+        r.wall = 2.0 * r.cpu;
         r.quality = {{"max_penetration", "m", 0.001, std::nullopt, 0.005, true}};
         c.repetitions.push_back(r);
     }
@@ -65,7 +71,8 @@ TEST(Summary, OneBadRepetitionMakesATimingInvalid) {
         Bench bench;
         bench.cases = {caseOf("a", 1e-3, 9, 1), caseOf("b", 2e-3, 9, 2)};
         auto& quality = bench.cases[1].repetitions[static_cast<std::size_t>(round)].quality[0];
-        quality.value = 0.012, quality.ok = false;
+        quality.value = 0.012;
+        quality.ok = false;
         summarise(bench, {}, "");
         EXPECT_TRUE(bench.cases[0].summary.valid);
         EXPECT_FALSE(bench.cases[1].summary.valid);
@@ -122,7 +129,8 @@ TEST(Summary, RatiosPairTheRounds) {
 TEST(Summary, WhatDidNotEndIsNoTiming) {
     Bench bench;
     bench.cases = {caseOf("a", 1e-3, 3, 1), caseOf("b", 1e-3, 0, 1), {}};
-    bench.cases[0].repetitions[2].outcome = "crashed", bench.cases[0].repetitions[2].reason = "SIGSEGV";
+    bench.cases[0].repetitions[2].outcome = "crashed";
+    bench.cases[0].repetitions[2].reason = "SIGSEGV";
     summarise(bench, {}, "");
     EXPECT_EQ(bench.cases[0].summary.reason, "crashed: SIGSEGV");
     EXPECT_EQ(bench.cases[1].summary.reason, "no timed repetition");
@@ -137,7 +145,8 @@ std::vector<results::BenchChange> changes(const std::vector<double>& factors, do
         before.cases.push_back(caseOf(engine, 1e-3, 10, 2 * seed));
         after.cases.push_back(caseOf(engine, 1e-3 * factors[i], 10, 2 * seed + 1));
     }
-    summarise(before, {}, ""), summarise(after, {}, "");
+    summarise(before, {}, "");
+    summarise(after, {}, "");
     return changesSince(before, after, {threshold, 0.05});
 }
 
@@ -172,7 +181,8 @@ TEST(Changes, RarelyCryWolf) {
             before.cases.push_back(caseOf(engine, 1e-3, 8, 1000 + 10 * trial + i));
             after.cases.push_back(caseOf(engine, 1e-3, 8, 5000 + 10 * trial + i));
         }
-        summarise(before, {}, ""), summarise(after, {}, "");
+        summarise(before, {}, "");
+        summarise(after, {}, "");
         alarms += becameSlower(changesSince(before, after, {0.0, 0.05})) ? 1 : 0;
     }
     EXPECT_LT(alarms, 7);  // in 5 % of the 60 at most, half of those of the other sign
@@ -184,7 +194,8 @@ TEST(Changes, AreOfValidTimingsAlone) {
     after.cases = {caseOf("a", 5e-3, 10, 4), caseOf("b", 5e-3, 10, 5), caseOf("new", 1e-3, 10, 6)};
     after.cases[0].repetitions[1].quality[0].ok = false;
     before.cases[1].repetitions[1].outcome = "timeout";
-    summarise(before, {}, ""), summarise(after, {}, "");
+    summarise(before, {}, "");
+    summarise(after, {}, "");
     const auto found = changesSince(before, after, {});
     EXPECT_THAT(verdicts(found), ElementsAre("not compared", "not compared"));
     EXPECT_THAT(found[1].reason, HasSubstr("timeout"));

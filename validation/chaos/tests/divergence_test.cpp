@@ -24,7 +24,8 @@ struct Pair {
     Pair() {
         addFloor(scenario);
         for (const char* name : {"one", "two", "three"}) addBall(scenario, name, 0.25, 1, 0.4, {});
-        a.dt = kDt, a.bodyCount = scenario.bodies.size();
+        a.dt = kDt;
+        a.bodyCount = scenario.bodies.size();
         for (int k = 0; k <= kFrames; ++k) {
             a.times.push_back(k * kDt);
             a.states.resize(a.states.size() + a.bodyCount);
@@ -37,7 +38,9 @@ struct Pair {
     }
     static void touch(Trajectory& t, int frame, int one, int other) {
         ContactPoint c;
-        c.bodyA = one, c.bodyB = other, c.depth = 0.001;
+        c.bodyA = one;
+        c.bodyB = other;
+        c.depth = 0.001;
         t.contacts[static_cast<std::size_t>(frame)].push_back(c);
     }
 };
@@ -86,7 +89,10 @@ TEST(Divergence, NoiseWidensTheIntervalAroundTheRate) {
 
 TEST(Divergence, OfEqualRunsIsNone) {
     Pair pair;
-    for (int k = 1; k <= kFrames; ++k) Pair::touch(pair.a, k, 0, 1), Pair::touch(pair.b, k, 0, 1);
+    for (int k = 1; k <= kFrames; ++k) {
+        Pair::touch(pair.a, k, 0, 1);
+        Pair::touch(pair.b, k, 0, 1);
+    }
     const Divergence d = divergenceOf(pair.scenario, pair.a, pair.b, {0.01, 1, 1});
     EXPECT_FALSE(d.onset);
     EXPECT_FALSE(d.growth);
@@ -108,7 +114,10 @@ TEST(Divergence, ContactsThatCarryNothingAreNone) {
     Pair pair;
     for (int k = 1; k <= kFrames; ++k) Pair::touch(pair.a, k, 1, 2);
     for (auto& frame : pair.a.contacts)
-        for (auto& c : frame) c.hasImpulse = true, c.normalImpulse = 0.0;
+        for (auto& c : frame) {
+            c.hasImpulse = true;
+            c.normalImpulse = 0.0;
+        }
     EXPECT_FALSE(divergenceOf(pair.scenario, pair.a, pair.b, {0.01, 1, 1}).split);
     pair.a.contacts[100][0].normalImpulse = 1.0;
     const auto split = divergenceOf(pair.scenario, pair.a, pair.b, {0.01, 1, 1}).split;

@@ -21,9 +21,11 @@ constexpr double kFrame = 1.0 / 60.0;
 Trajectory exactMotion(const scenario::Scenario& s) {
     const auto reference = makeReference(s);
     Trajectory t;
-    t.dt = kFrame, t.bodyCount = s.bodies.size();
+    t.dt = kFrame;
+    t.bodyCount = s.bodies.size();
     for (int k = 0; k * kFrame <= s.duration + 1e-9; ++k) {
-        t.times.push_back(k * kFrame), t.contacts.emplace_back();
+        t.times.push_back(k * kFrame);
+        t.contacts.emplace_back();
         for (int i = 0; i < static_cast<int>(t.bodyCount); ++i) {
             const PartialState exact = reference->exact(i, t.times.back());
             t.states.push_back({exact.position.value(), exact.orientation.value(), {}, {}});
@@ -49,7 +51,8 @@ Medians partings(double angle, const std::string& duration) {
         EXPECT_TRUE(d.onset && d.growth) << member;
         if (!d.onset || !d.growth) continue;
         EXPECT_GT(d.growth->low, 1.0);
-        onsets.push_back(*d.onset), rates.push_back(d.growth->rate);
+        onsets.push_back(*d.onset);
+        rates.push_back(d.growth->rate);
     }
     return {median(onsets), median(rates)};
 }

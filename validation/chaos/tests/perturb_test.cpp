@@ -54,7 +54,9 @@ TEST(Perturbed, IsAFunctionOfItsNumber) {
         EXPECT_NE(one.bodies[i].pose, seed.bodies[i].pose);
         for (const double x : {d.x, d.y, d.z}) {
             EXPECT_LE(std::abs(x), 1e-3 * (1.0 + 1e-9));
-            sum += x, squares += x * x, ++count;
+            sum += x;
+            squares += x * x;
+            ++count;
         }
     }
     // Uniform: mean 0, variance a^2/3, each within four standard errors.

@@ -34,8 +34,10 @@ scenario::CollisionCase boxes(Vec3 offset) {
 
 CollideAnswer answer(double signedDistance, std::optional<Vec3> normal) {
     CollideAnswer a;
-    a.answered = true, a.overlap = signedDistance < 0.0;
-    a.signedDistance = signedDistance, a.normal = normal;
+    a.answered = true;
+    a.overlap = signedDistance < 0.0;
+    a.signedDistance = signedDistance;
+    a.normal = normal;
     return a;
 }
 
@@ -77,7 +79,8 @@ TEST(Judge, PointsAreMeasured) {
     const CollideTolerance tolerance;
     const auto error = [&](Vec3 onA, Vec3 onB) {
         CollideAnswer a = answer(-0.25, Vec3{1, 0, 0});
-        a.witnessA = onA, a.witnessB = onB;
+        a.witnessA = onA;
+        a.witnessB = onB;
         judgeAnswer(c, truthOf(c, tolerance), tolerance, a);
         return a.pointError.value();
     };
@@ -94,10 +97,12 @@ TEST(Judge, KindsAreTallied) {
         CollideCase c;
         if (*kind) c.asked.tags = {kind, "box"};
         c.answers = {answer(-1, std::nullopt), answer(-1, std::nullopt)};
-        c.answers[0].verdict = CollideVerdict::Ok, c.answers[1].verdict = CollideVerdict::WrongDepth;
+        c.answers[0].verdict = CollideVerdict::Ok;
+        c.answers[1].verdict = CollideVerdict::WrongDepth;
         run.cases.push_back(c);
     }
-    run.cases[2].answers[1].verdict = CollideVerdict::Unsupported, run.cases[2].answers[1].answered = false;
+    run.cases[2].answers[1].verdict = CollideVerdict::Unsupported;
+    run.cases[2].answers[1].answered = false;
     const auto kinds = tallyKinds(run);
     ASSERT_EQ(kinds.size(), 2u);
     EXPECT_EQ(kinds[0].kind, "deep");
@@ -132,7 +137,9 @@ TEST(Judge, ShapesTheOracleLacksAreJudgedByTheFile) {
     c.b.geometry = scenario::Cylinder{1.0, 1.0};
     c.b.pose.position = {0, 1.75, 0};
     EXPECT_EQ(judged(c, answer(-0.25, Vec3{0, 1, 0})), CollideVerdict::Undecided);
-    c.expected.signedDistance = -0.25, c.expected.normals = {{0, 1, 0}}, c.expected.accuracy = 1e-9;
+    c.expected.signedDistance = -0.25;
+    c.expected.normals = {{0, 1, 0}};
+    c.expected.accuracy = 1e-9;
     EXPECT_EQ(judged(c, answer(-0.25, Vec3{0, 1, 0})), CollideVerdict::Ok);
     EXPECT_EQ(judged(c, answer(-0.26, Vec3{0, 1, 0})), CollideVerdict::WrongDepth);
     EXPECT_EQ(judged(c, answer(-0.25, Vec3{1, 0, 0})), CollideVerdict::WrongNormal);
@@ -168,7 +175,8 @@ CollideRun askDoubles(const std::vector<double>& depths, const char* engine, dou
     setenv("RIGOR_ADAPTER_PATH", (std::string(RIGOR_BINARY_DIR) + "/tests/doubles").c_str(), 1);
     CollideOptions options;
     options.binary = std::string(RIGOR_BINARY_DIR) + "/bin/rigor";
-    options.jobs = 2, options.secondsPerQuery = seconds;
+    options.jobs = 2;
+    options.secondsPerQuery = seconds;
     const std::atomic<bool> never{false};
     return runCollide({fileOfBalls(depths)}, {adapter::parseSpec(engine)}, options, {}, never);
 }

@@ -24,10 +24,15 @@ Stored exampleRun() {
     run.engines = {{"ode", "ODE", "0.16", "f64", "", ""}};
     for (int i = 0; i < 8; ++i) {
         results::ScenarioRow s;
-        s.name = "s" + std::to_string(i), s.text = "{}", s.metrics = {"position_max"};
+        s.name = "s" + std::to_string(i);
+        s.text = "{}";
+        s.metrics = {"position_max"};
         run.scenarios.push_back(s);
         CaseRow c;
-        c.scenario = s.name, c.spec = "ode", c.engine = "ode", c.dt = 0.01;
+        c.scenario = s.name;
+        c.spec = "ode";
+        c.engine = "ode";
+        c.dt = 0.01;
         c.metrics = {{"position_max", "", "m", "exact", 0.1, -1.0, {}, {}, {}, ""},
                      {"position_max", "block", "m", "exact", 0.1, -1.0, {}, {}, {}, ""},
                      {"mean_contacts", "", "1", "cost", 4.0, -1.0, {}, {}, {}, ""}};
@@ -68,7 +73,8 @@ TEST(Compare, ErrorsInBothDirections) {
 
 TEST(Compare, RoundOffIsNoChangeAndLostNumbersAre) {
     Stored before = exampleRun(), after = exampleRun();
-    before.cases[0].metrics[0].value = 1e-15, after.cases[0].metrics[0].value = 5e-12;
+    before.cases[0].metrics[0].value = 1e-15;
+    after.cases[0].metrics[0].value = 5e-12;
     after.cases[1].metrics[0].value = std::numeric_limits<double>::quiet_NaN();
     const auto c = compareRuns({before}, {after});
     ASSERT_EQ(c.metrics.size(), 1u);
@@ -79,7 +85,8 @@ TEST(Compare, RoundOffIsNoChangeAndLostNumbersAre) {
 
 TEST(Compare, Verdicts) {
     Stored after = exampleRun();
-    after.cases[3].verdict = Verdict::Fail, after.cases[3].reason = "why";
+    after.cases[3].verdict = Verdict::Fail;
+    after.cases[3].reason = "why";
     const auto c = compareRuns({exampleRun()}, {after});
     ASSERT_EQ(c.verdicts.size(), 1u);
     EXPECT_TRUE(c.verdicts[0].worse);
@@ -146,8 +153,11 @@ Stored fourWays() {
         for (const char* engine : {"ode", "bullet"})
             for (const char* preset : {"default", "matched"}) {
                 CaseRow c = one;
-                c.engine = engine, c.preset = preset, c.spec = std::string(engine) + ":preset=" + preset;
-                c.dt = dt, c.position = static_cast<std::int64_t>(run.cases.size());
+                c.engine = engine;
+                c.preset = preset;
+                c.spec = std::string(engine) + ":preset=" + preset;
+                c.dt = dt;
+                c.position = static_cast<std::int64_t>(run.cases.size());
                 c.metrics[0].value = (c.engine == "ode" ? 1.0 : 0.5) * dt;
                 run.cases.push_back(c);
             }
@@ -210,7 +220,10 @@ std::string refusalOf(const Stored& before, const Stored& after, PairBy pairBy) 
 
 TEST(Compare, NothingInCommonIsRefusedWithWhatEachHas) {
     Stored after = exampleRun();
-    for (auto& c : after.cases) c.spec = "bullet", c.engine = "bullet";
+    for (auto& c : after.cases) {
+        c.spec = "bullet";
+        c.engine = "bullet";
+    }
     const std::string text = refusalOf(exampleRun(), after, PairBy::Nothing);
     EXPECT_NE(text.find("no case (scenario, spec, dt) in common"), std::string::npos) << text;
     EXPECT_NE(text.find("before: scenarios: s0, s1, s2, s3, s4, s5 and 2 more; engines: ode; dt: 0.01"),
@@ -236,10 +249,12 @@ class Recorded : public ::testing::Test {
 TEST_F(Recorded, ComesBackBitForBit) {
     Stored run = exampleRun();
     run.cases[0].metrics[0].value = 1.0 / 3.0;
-    run.cases[1].outcome = results::Outcome::Crashed, run.cases[1].verdict = Verdict::Crashed;
+    run.cases[1].outcome = results::Outcome::Crashed;
+    run.cases[1].verdict = Verdict::Crashed;
     run.cases[1].metrics.clear();
     run.cases[2].metrics[0].value = std::numeric_limits<double>::infinity();
-    run.cases[3].outcome = results::Outcome::Unsupported, run.cases[3].verdict = Verdict::Unsupported;
+    run.cases[3].outcome = results::Outcome::Unsupported;
+    run.cases[3].verdict = Verdict::Unsupported;
     run.cases[3].metrics.clear();
     const auto files = writeRecorded(run, folder_);
     ASSERT_EQ(files.size(), 1u);

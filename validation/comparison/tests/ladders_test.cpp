@@ -18,8 +18,12 @@ using results::FairnessRow;
 CaseRow caseRow(const std::string& spec, const std::string& preset, double dt, double error,
                 double stepTime) {
     CaseRow c;
-    c.id = spec + "@" + std::to_string(dt), c.scenario = "swing", c.spec = spec, c.dt = dt;
-    c.engine = spec.substr(0, spec.find(':')), c.preset = preset;
+    c.id = spec + "@" + std::to_string(dt);
+    c.scenario = "swing";
+    c.spec = spec;
+    c.dt = dt;
+    c.engine = spec.substr(0, spec.find(':'));
+    c.preset = preset;
     c.steps = std::lround(1.0 / dt);
     c.metrics = {{"position_max", "", "m", "exact", error, -1.0, {}, {}, {}, ""},
                  {"position_max", "bob", "m", "exact", 7.0, -1.0, {}, {}, {}, ""},

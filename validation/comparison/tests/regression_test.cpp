@@ -24,12 +24,21 @@ class AgainstRecord : public ::testing::Test {
         std::filesystem::remove_all(folder_);
         run_.engines = {{"ode", "ODE", "0.16", "f64", "", ""}};
         results::ScenarioRow& s = run_.scenarios.emplace_back();
-        s.name = "slide", s.text = "{}", s.metrics = {"way", "turn"}, s.reference = "sliding_stop";
+        s.name = "slide";
+        s.text = "{}";
+        s.metrics = {"way", "turn"};
+        s.reference = "sliding_stop";
         CaseRow& c = run_.cases.emplace_back();
-        c.scenario = "slide", c.spec = "ode:preset=default", c.engine = "ode", c.dt = 0.01;
+        c.scenario = "slide";
+        c.spec = "ode:preset=default";
+        c.engine = "ode";
+        c.dt = 0.01;
         for (const char* name : {"way", "turn", "unnamed"}) {
             results::MetricRow& m = c.metrics.emplace_back();
-            m.name = name, m.unit = "m", m.value = 0.1, m.scale = 10.0;
+            m.name = name;
+            m.unit = "m";
+            m.value = 0.1;
+            m.scale = 10.0;
         }
         c.settings["precision"] = "f64";
     }
@@ -73,7 +82,8 @@ TEST_F(AgainstRecord, OnePerCentEitherWayIsUnchanged) {
 }
 
 TEST_F(AgainstRecord, RoundingOfThePrecisionIsUnchanged) {
-    value(0) = 1e-15, value(1) = 0.0;
+    value(0) = 1e-15;
+    value(1) = 0.0;
     record();
     value(0) = 9e-9;
     EXPECT_EQ(state(), Regression::Unchanged) << "1e-9 of ten metres";
@@ -129,7 +139,8 @@ TEST_F(AgainstRecord, ChaoticScenesAreComparedByTheirEndingUntilTheirScatterIsKn
 TEST_F(AgainstRecord, RecordingReplacesThatCaseAlone) {
     record();
     const CaseRow first = run_.cases[0];
-    run_.cases[0].dt = 0.02, value(0) = 0.5;
+    run_.cases[0].dt = 0.02;
+    value(0) = 0.5;
     record();
     value(0) = 0.4;
     record();

@@ -77,7 +77,8 @@ TEST(RatioOfMedians, HoldsTheTruthAsOftenAsItSays) {
                                               static_cast<std::uint64_t>(i), 400);
             return found.interval.low <= 1.5 && 1.5 <= found.interval.high ? 1 : 0;
         };
-        few += holds(6), many += holds(25);
+        few += holds(6);
+        many += holds(25);
     }
     EXPECT_GT(few, 0.86 * kTrials);
     EXPECT_GT(many, 0.92 * kTrials);
@@ -99,7 +100,8 @@ TEST(PairedRatio, IsNotMovedByLoadThatBothSee) {
     std::vector<double> one, other;
     for (int i = 0; i < 12; ++i) {
         const double load = 1.0 + 0.5 * i;  // the machine gets slower and slower
-        one.push_back(2.0 * load), other.push_back(3.0 * load * (1.0 + 1e-3 * (i % 3 - 1)));
+        one.push_back(2.0 * load);
+        other.push_back(3.0 * load * (1.0 + 1e-3 * (i % 3 - 1)));
     }
     const PairedRatio found = pairedRatio(one, other);
     EXPECT_NEAR(found.ratio, 1.5, 1e-9);

@@ -122,12 +122,15 @@ TEST(Freeze, RestitutionGapsAndMovingGroundAreInTheProblem) {
     ToldStep step;
     step.dt = 0.01;
     BodyState floor, block;
-    block.position = {0, 0.125, 0}, block.velocity = {1, -3, 0};
+    block.position = {0, 0.125, 0};
+    block.velocity = {1, -3, 0};
     step.before = step.after = {floor, block};
     step.loads.resize(2);
     step.loads[1].force = {7, 0, 0};
     ContactPoint c;
-    c.bodyA = 0, c.bodyB = 1, c.normal = {0, 1, 0};
+    c.bodyA = 0;
+    c.bodyB = 1;
+    c.normal = {0, 1, 0};
     c.pointA = c.pointB = {0, 0, 0};
     step.contacts = {c};
     const auto w = [&](const scenario::Scenario& of) { return freezeStep(of, step).problem.w; };

@@ -42,17 +42,21 @@ Pair joined(JointType type, int dimension, std::mt19937& dice) {
     }
     const Pose a{p.states[0].position, p.states[0].orientation},
         b{p.states[1].position, p.states[1].orientation};
-    p.joint.type = type, p.joint.bodyA = 0, p.joint.bodyB = 1;
+    p.joint.type = type;
+    p.joint.bodyA = 0;
+    p.joint.bodyB = 1;
     const Vec3 anchor = vector(), axis = unit(vector());
     p.joint.anchorA = inverse(a) * anchor;
     p.joint.anchorB = inverse(b) * (type == JointType::Distance ? anchor + vector() : anchor);
-    p.joint.axisA = rotateInverse(a.orientation, axis), p.joint.axisB = rotateInverse(b.orientation, axis);
+    p.joint.axisA = rotateInverse(a.orientation, axis);
+    p.joint.axisB = rotateInverse(b.orientation, axis);
     // A moves anyhow, and B with it.
     const Vec3 v = vector(), w = spin();
     for (std::size_t i = 0; i < 2; ++i) {
         const Vec3 centre = Pose{p.states[i].position, p.states[i].orientation} *
                             p.scenario.bodies[i].massProperties.centerOfMass;
-        p.states[i].velocity = v + cross(w, centre), p.states[i].angularVelocity = w;
+        p.states[i].velocity = v + cross(w, centre);
+        p.states[i].angularVelocity = w;
     }
     return p;
 }

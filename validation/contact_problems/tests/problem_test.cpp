@@ -23,7 +23,10 @@ FrozenProblem randomGlobal(int dimension, int contacts, int m, int p, unsigned s
     std::mt19937 engine(seed);
     const auto draw = [&] { return static_cast<double>(engine()) / 2147483648.0 - 1.0; };
     FrozenProblem frozen;
-    frozen.isGlobal = true, frozen.title = "random", frozen.description = "drawn", frozen.mathInfo = "none";
+    frozen.isGlobal = true;
+    frozen.title = "random";
+    frozen.description = "drawn";
+    frozen.mathInfo = "none";
     ContactProblem& c = frozen.problem;
     c.dimension = dimension;
     for (int i = 0; i < contacts; ++i) c.mu.push_back(0.5 * (draw() + 1.0));
@@ -42,7 +45,8 @@ FrozenProblem randomGlobal(int dimension, int contacts, int m, int p, unsigned s
         frozen.b.push_back(draw());
         for (int i = 0; i < m; ++i) G.push_back({i, j, draw()});
     }
-    c.M = fromTriplets(m, m, M), c.H = fromTriplets(m, contacts * dimension, H),
+    c.M = fromTriplets(m, m, M);
+    c.H = fromTriplets(m, contacts * dimension, H);
     frozen.G = fromTriplets(m, p, G);
     complete(frozen, "random");
     frozen.storedR.assign(c.size(), 0.25);
@@ -92,9 +96,12 @@ TEST(Fclib, ThereAndBackToTheBitInEveryArrangement) {
                     expectSame(plain, again);
                 }
                 FrozenProblem local = global;
-                local.isGlobal = false, local.problem.hasBodies = false;
+                local.isGlobal = false;
+                local.problem.hasBodies = false;
                 local.problem.M = local.problem.H = local.G = {};
-                local.problem.f.clear(), local.problem.w.clear(), local.b.clear();
+                local.problem.f.clear();
+                local.problem.w.clear();
+                local.b.clear();
                 writeFclib(local, file, layout);
                 expectSame(local, readContactProblem(file));
             }

@@ -16,7 +16,9 @@ inline FrozenProblem massPoint(double m, double mu, const std::vector<double>& v
     FrozenProblem frozen;
     frozen.title = "mass point";
     ContactProblem& p = frozen.problem;
-    p.dimension = static_cast<int>(v.size()), p.mu = {mu}, p.q = v;
+    p.dimension = static_cast<int>(v.size());
+    p.mu = {mu};
+    p.q = v;
     p.W.assign(v.size() * v.size(), 0.0);
     for (std::size_t i = 0; i < v.size(); ++i) p.W[i * v.size() + i] = 1.0 / m;
     return frozen;
@@ -25,17 +27,20 @@ inline FrozenProblem massPoint(double m, double mu, const std::vector<double>& v
 /// The same as bodies: mass 2 kg and some inertia, impulses at its centre of mass.
 inline FrozenProblem bodyPoint(double mu, const std::vector<double>& v) {
     FrozenProblem frozen;
-    frozen.title = "body", frozen.isGlobal = true;
+    frozen.title = "body";
+    frozen.isGlobal = true;
     ContactProblem& p = frozen.problem;
     const int d = static_cast<int>(v.size()), dofs = d == 3 ? 6 : 3;
-    p.dimension = d, p.mu = {mu};
+    p.dimension = d;
+    p.mu = {mu};
     std::vector<Triplet> M, H;
     for (int i = 0; i < dofs; ++i) {
         M.push_back({i, i, i < d ? 2.0 : 0.5});
         p.f.push_back(i < d ? 2.0 * v[static_cast<std::size_t>(i)] : 0.25);
     }
     for (int i = 0; i < d; ++i) H.push_back({i, i, 1.0});
-    p.M = fromTriplets(dofs, dofs, M), p.H = fromTriplets(dofs, d, H);
+    p.M = fromTriplets(dofs, dofs, M);
+    p.H = fromTriplets(dofs, d, H);
     p.w.assign(static_cast<std::size_t>(d), 0.0);
     complete(frozen, "body");
     return frozen;

@@ -124,7 +124,8 @@ FrozenProblem twoBlocks() {
                 }
                 p.mu.push_back(layer == 0 ? 0.7 : 0.3);
             }
-    p.M = fromTriplets(12, 12, M), p.H = fromTriplets(12, column, H);
+    p.M = fromTriplets(12, 12, M);
+    p.H = fromTriplets(12, column, H);
     complete(frozen, "two blocks");
     return frozen;
 }

@@ -59,7 +59,10 @@ struct FlatToss {
         bool resting = false;
         const auto slow = [&](double by) {
             const double speed = std::hypot(vx, vy), left = std::max(0.0, speed - by);
-            if (speed > 0.0) vx *= left / speed, vy *= left / speed;
+            if (speed > 0.0) {
+                vx *= left / speed;
+                vy *= left / speed;
+            }
         };
         for (std::size_t k = 0; k < frames; ++k) {
             const double t = static_cast<double>(k) / 148;
@@ -70,8 +73,10 @@ struct FlatToss {
                         (vz + std::sqrt(vz * vz + 2 * kGravity * std::max(0.0, z - kHalf))) / kGravity;
                     const bool lands = landing <= step;
                     step = std::min(step, landing);
-                    x += vx * step, y += vy * step, z += vz * step - 0.5 * kGravity * step * step,
-                        vz -= kGravity * step;
+                    x += vx * step;
+                    y += vy * step;
+                    z += vz * step - 0.5 * kGravity * step * step;
+                    vz -= kGravity * step;
                     if (lands) {
                         z = kHalf;
                         slow(kFriction * (1 + kRestitution) * -vz);
@@ -83,7 +88,10 @@ struct FlatToss {
                     const double speed = std::hypot(vx, vy),
                                  u = std::min(step, speed / (kFriction * kGravity));
                     const double way = speed * u - 0.5 * kFriction * kGravity * u * u;
-                    if (speed > 0.0) x += way * vx / speed, y += way * vy / speed;
+                    if (speed > 0.0) {
+                        x += way * vx / speed;
+                        y += way * vy / speed;
+                    }
                     slow(kFriction * kGravity * step);
                 }
                 now += step;
@@ -116,7 +124,10 @@ FitTask smallTask(const fs::path& scenarios, const std::vector<std::string>& eng
 
 FitOptions optionsFor(const fs::path& folder, bool runs) {
     FitOptions options;
-    options.directory = folder, options.binary = program(), options.jobs = 2, options.runs = runs;
+    options.directory = folder;
+    options.binary = program();
+    options.jobs = 2;
+    options.runs = runs;
     return options;
 }
 
@@ -329,11 +340,14 @@ TEST(RealTosses, EveryEngineIsBetterThanACubeThatStaysWhereItIs) {
 TEST(FitFiles, HaveNoTextAmongNumbers) {
     const double inf = std::numeric_limits<double>::infinity();
     FitResult result;
-    result.metric = "loss", result.metrics = {"loss"}, result.units = {"1"};
+    result.metric = "loss";
+    result.metrics = {"loss"};
+    result.units = {"1"};
     EngineFit fit;
     fit.spec = "ode:preset=matched";
     fit.scores = {{"test", "fitted", "loss", {}}};
-    fit.scores[0].score.mean = inf, fit.scores[0].score.median = 0.25;
+    fit.scores[0].score.mean = inf;
+    fit.scores[0].score.median = 0.25;
     result.engines.push_back(fit);
     const std::string csv = fitCsv(result);
     EXPECT_NE(csv.find(",loss,0,0,,0,0,0.25,0,0,mean is infinite\n"), std::string::npos) << csv;

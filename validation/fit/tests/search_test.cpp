@@ -36,8 +36,10 @@ class Rough {
     /// Where the mean over these recordings has its minimum, without the roughness.
     FitPoint centre() const {
         FitPoint c{0, 0};
-        for (const auto& [a, b] : minima_)
-            c[0] += a / static_cast<double>(minima_.size()), c[1] += b / static_cast<double>(minima_.size());
+        for (const auto& [a, b] : minima_) {
+            c[0] += a / static_cast<double>(minima_.size());
+            c[1] += b / static_cast<double>(minima_.size());
+        }
         return c;
     }
 
@@ -49,7 +51,10 @@ class Rough {
 LossFunction counting(const Rough& rough, int& points) {
     return [&](const std::vector<FitPoint>& asked) -> std::optional<std::vector<Losses>> {
         std::vector<Losses> all;
-        for (const FitPoint& p : asked) all.push_back(rough(p)), ++points;
+        for (const FitPoint& p : asked) {
+            all.push_back(rough(p));
+            ++points;
+        }
         return all;
     };
 }

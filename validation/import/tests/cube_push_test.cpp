@@ -106,7 +106,8 @@ TEST(CubePush, TheFingerIsDrivenAlongTheHandsPath) {
         return 0.0;
     }();
     for (const Event& event : s.events) {
-        place += (event.time - now) * velocity, now = event.time;
+        place += (event.time - now) * velocity;
+        now = event.time;
         velocity += event.impulse / s.bodies[body].massProperties.mass;
         if (begin + now < 2.46) {  // where the path has no kink
             EXPECT_NEAR(place.x + 0.005, MadeUpPush{}.tip(begin + now), 1e-4) << now;

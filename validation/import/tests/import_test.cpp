@@ -46,7 +46,8 @@ TEST(Start, BothRulesFindTheStateOfAFlightOfClosedForm) {
     writeText(folder / "toss_007.csv", tossText(flight.lines(30)));
     writeText(folder / "toss_009.csv", tossText([] {
                   Flight other;
-                  other.p0.x = 0.5, other.p0.z = 0.16;
+                  other.p0.x = 0.5;
+                  other.p0.z = 0.16;
                   return other.lines(30);
               }()));
     for (const char* start : {"rule", "flight"}) {
@@ -211,8 +212,11 @@ TEST(Broken, FoldersAreRefused) {
     // Turned about z by a quarter: the same toss.
     std::vector<TossLine> lines = Flight{}.lines(30), turned = lines;
     const Quat quarter = fromAxisAngle({0, 0, 1}, 1.5707963267948966);
-    for (TossLine& x : turned)
-        x.p = {-x.p.y, x.p.x, x.p.z}, x.q = quarter * x.q, x.v = {-x.v.y, x.v.x, x.v.z};
+    for (TossLine& x : turned) {
+        x.p = {-x.p.y, x.p.x, x.p.z};
+        x.q = quarter * x.q;
+        x.v = {-x.v.y, x.v.x, x.v.z};
+    }
     writeText(folder / "toss_001.csv", tossText(lines));
     writeText(folder / "toss_005.csv", tossText(turned));
     EXPECT_THAT(message(folder),
@@ -231,7 +235,8 @@ TEST(Broken, FoldersAreRefused) {
 double frozenLoss(const Scenario& s) {
     const auto reference = makeReference(s);
     Trajectory run;
-    run.dt = 1 / 148.0, run.bodyCount = s.bodies.size();
+    run.dt = 1 / 148.0;
+    run.bodyCount = s.bodies.size();
     for (double t = 0.0; t < s.duration + 0.5 * run.dt; t = static_cast<double>(run.times.size()) * run.dt) {
         run.times.push_back(t);
         run.contacts.emplace_back();

@@ -127,7 +127,8 @@ TEST(Lane, StagesAreTheStep) {
     }
     EXPECT_EQ(names.front(), "broad_phase");
     EXPECT_EQ(bits(*whole), bits(*staged));
-    staged->stage(), staged->stage();
+    staged->stage();
+    staged->stage();
     EXPECT_TRUE(staged->inStep());
     EXPECT_THROW((void)staged->now(), adapter::BadInput) << "no scene in the middle of a step";
     staged->advance(1, kLong);

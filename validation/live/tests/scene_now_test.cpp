@@ -32,7 +32,8 @@ double partedBy(const std::string& text, const std::string& spec, double dt, std
     LaneWorld again(scenario::loadScenarioText(saved, "saved.json").scenario, adapter::parseSpec(spec), dt);
     double worst = 0.0;
     for (std::size_t i = 0; i < after; ++i) {
-        original.advance(1, 1e9), again.advance(1, 1e9);
+        original.advance(1, 1e9);
+        again.advance(1, 1e9);
         for (std::size_t b = 0; b < s.bodies.size(); ++b) {
             const adapter::BodyState &x = original.states()[b], &y = again.states()[b];
             worst = std::max({worst, norm(x.position - y.position), norm(x.velocity - y.velocity),

@@ -241,7 +241,8 @@ TEST_F(Sessions, ASlowViewerSkipsFrames) {
         viewer_->look();
         EXPECT_GT(viewer_->lane(0)["frames"].get<double>(), before + 3) << "frames were made meanwhile";
         EXPECT_EQ(viewer_->frames_.size(), 2u);
-        least = std::min(least, viewer_->bytes_), most = std::max(most, viewer_->bytes_);
+        least = std::min(least, viewer_->bytes_);
+        most = std::max(most, viewer_->bytes_);
     }
     EXPECT_LT(most, 2 * least);
     EXPECT_LT(session_->keptBytes(), 2 * kept);

@@ -23,12 +23,18 @@ struct OneStep {
         scenario.materials[0].friction = 0.5;
         addFloor(scenario);
         addBall(scenario, "ball", 0.25, 2, 0.4, {0, 0.25, 0});
-        run.dt = kStep, run.bodyCount = 2, run.times = {0.0, kStep};
+        run.dt = kStep;
+        run.bodyCount = 2;
+        run.times = {0.0, kStep};
         BodyState floor, ball;
         ball.position = {0, 0.25, 0};
         run.states = {floor, ball, floor, ball};
         ContactPoint c;
-        c.bodyA = 0, c.bodyB = 1, c.normal = {0, 1, 0}, c.hasImpulse = true, c.normalImpulse = 2;
+        c.bodyA = 0;
+        c.bodyB = 1;
+        c.normal = {0, 1, 0};
+        c.hasImpulse = true;
+        c.normalImpulse = 2;
         run.contacts = {{c}, {}};
     }
     BodyState& before() { return run.states[1]; }
@@ -126,7 +132,8 @@ TEST(Signorini, FramesFartherApartThanStepsSayNothing) {
     EXPECT_EQ(step.signorini(), -1.0);
     EXPECT_EQ(step.dissipation(), -1.0);
     EXPECT_NEAR(step.coulomb(), 0.175, 1e-14);
-    step.run.stride = 1, step.contact().hasImpulse = false;
+    step.run.stride = 1;
+    step.contact().hasImpulse = false;
     for (const char* metric : {"signorini_residual", "coulomb_residual", "dissipation_error"})
         EXPECT_EQ(step.value(metric), -1.0) << metric;
 }
@@ -164,7 +171,8 @@ TEST(Dissipation, FrictionIsOppositeToTheSlipAndAtItsLimit) {
 TEST(Dissipation, TheSlipIsThatOfTheSurfaces) {
     OneStep step;
     // Rolls: v = w r. Then slides on by 0.1 m/s.
-    step.after().velocity = {1, 0, 0}, step.after().angularVelocity = {0, 0, -4};
+    step.after().velocity = {1, 0, 0};
+    step.after().angularVelocity = {0, 0, -4};
     EXPECT_NEAR(step.dissipation(), 0.0, 1e-15);
     step.after().angularVelocity = {0, 0, -3.6};
     EXPECT_NEAR(step.dissipation(), 0.1, 1e-14);
@@ -195,9 +203,11 @@ TEST(PointOfContact, RespondsAsTheBodiesDo) {
             states[i].orientation = fromAxisAngle(axis, 0.7 + static_cast<double>(i));
         }
         ContactPoint c;
-        c.bodyA = 0, c.bodyB = 1;
+        c.bodyA = 0;
+        c.bodyB = 1;
         c.normal = dimension == 3 ? Vec3{2.0 / 3, 1.0 / 3, 2.0 / 3} : Vec3{0.6, 0.8, 0};
-        c.pointA = {0.3, 0.5, dimension == 3 ? 0.1 : 0.0}, c.pointB = c.pointA + 0.02 * c.normal;
+        c.pointA = {0.3, 0.5, dimension == 3 ? 0.1 : 0.0};
+        c.pointB = c.pointA + 0.02 * c.normal;
         const PointOfContact point(s, c, states);
         const Vec3 at = 0.5 * (c.pointA + c.pointB);
         const auto [t1, t2] = tangentsOf(c.normal, dimension);

@@ -26,7 +26,8 @@ struct Scene {
         const Quat turn = fromAxisAngle({0, 0, 1}, 0.3);
         normal = rotate(turn, {0, 1, 0});
         for (Body& body : scenario.bodies) body.pose = Pose{{}, turn} * body.pose;
-        run.dt = 0.01, run.bodyCount = 3;
+        run.dt = 0.01;
+        run.bodyCount = 3;
         run.contacts.resize(3);
         for (int k = 0; k < 3; ++k) {
             run.times.push_back(0.01 * k);
@@ -37,7 +38,10 @@ struct Scene {
     }
     ContactPoint contact(int a, int b, double depth) const {
         ContactPoint c;
-        c.bodyA = a, c.bodyB = b, c.normal = normal, c.depth = depth;
+        c.bodyA = a;
+        c.bodyB = b;
+        c.normal = normal;
+        c.depth = depth;
         return c;
     }
     std::vector<MetricValue> rows() const {

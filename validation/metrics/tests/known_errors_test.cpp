@@ -113,7 +113,8 @@ std::unique_ptr<Case> filmed() {
     c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
     for (std::size_t k = 0; k <= kLast; ++k) {
         const auto pose = *c->reference->measured(0, c->run.times[k]);
-        c->at(k, 0).position = *pose.position, c->at(k, 0).orientation = *pose.orientation;
+        c->at(k, 0).position = *pose.position;
+        c->at(k, 0).orientation = *pose.orientation;
     }
     return c;
 }
@@ -126,7 +127,9 @@ std::unique_ptr<Case> resting() {
     c->reference = std::make_unique<Still>(c->scenario);
     c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
     ContactPoint touch;
-    touch.bodyA = 0, touch.bodyB = 1, touch.normal = {0, 1, 0};
+    touch.bodyA = 0;
+    touch.bodyB = 1;
+    touch.normal = {0, 1, 0};
     for (std::size_t k = 0; k < kLast; ++k) c->run.contacts[k] = {touch};
     return c;
 }
@@ -135,14 +138,18 @@ std::unique_ptr<Case> resting() {
 std::unique_ptr<Case> pressed() {
     auto c = resting();
     c->scenario.materials[0].friction = 0.5;
-    c->run.contacts[10][0].hasImpulse = true, c->run.contacts[10][0].normalImpulse = 2;
+    c->run.contacts[10][0].hasImpulse = true;
+    c->run.contacts[10][0].normalImpulse = 2;
     return c;
 }
 /// The same, its contacts 2 mm deep.
 std::unique_ptr<Case> overlapping() {
     auto c = resting();
     for (auto& contacts : c->run.contacts)
-        for (auto& touch : contacts) touch.depth = 0.002, touch.pointB = {0, -0.002, 0};
+        for (auto& touch : contacts) {
+            touch.depth = 0.002;
+            touch.pointB = {0, -0.002, 0};
+        }
     return c;
 }
 /// A rod on a hinge about z with stops at 0.1 rad.
@@ -152,9 +159,14 @@ std::unique_ptr<Case> hinged() {
     addFloor(c->scenario);
     addBox(c->scenario, "rod", {0.1, 0.5, 0.1}, 1, {0, 5, 0});
     Joint hinge;
-    hinge.name = "hinge", hinge.type = JointType::Hinge, hinge.bodyB = 1;
-    hinge.anchorA = {0, 5.5, 0}, hinge.anchorB = {0, 0.5, 0};
-    hinge.axes[0].mode = AxisMode::Limited, hinge.axes[0].lower = -0.1, hinge.axes[0].upper = 0.1;
+    hinge.name = "hinge";
+    hinge.type = JointType::Hinge;
+    hinge.bodyB = 1;
+    hinge.anchorA = {0, 5.5, 0};
+    hinge.anchorB = {0, 0.5, 0};
+    hinge.axes[0].mode = AxisMode::Limited;
+    hinge.axes[0].lower = -0.1;
+    hinge.axes[0].upper = 0.1;
     c->scenario.joints = {hinge};
     c->reference = std::make_unique<Still>(c->scenario);
     c->run = exactRun(c->scenario, *c->reference, kDt, static_cast<int>(kLast));
@@ -233,7 +245,11 @@ const std::vector<Row>& rows() {
         {"energy_final", "", gliding, [](Case& c) { c.last(0).velocity = 2.0 * kVelocity; }, 75 / kEnergy},
         // It loses 25 J first: what it has gained is counted from there.
         {"energy_gain", "", gliding,
-         [](Case& c) { c.at(30, 0).velocity = {}, c.at(40, 0).velocity = 2.0 * kVelocity; }, 100 / kEnergy},
+         [](Case& c) {
+             c.at(30, 0).velocity = {};
+             c.at(40, 0).velocity = 2.0 * kVelocity;
+         },
+         100 / kEnergy},
         {"scheme_position_final", "first", ideal, [](Case& c) { shiftUp(c.last(0), 0.05); }, 0.05},
         {"scheme_position_max", "second", ideal, [](Case& c) { shiftUp(c.at(40, 1), 0.2); }, 0.2},
         {"scheme_velocity_max", "first", ideal,
@@ -251,7 +267,11 @@ const std::vector<Row>& rows() {
          2.0 / std::sqrt(101.0)},
         {"measured_orientation_max", "plate", filmed, [](Case& c) { turnBy(c.at(40, 0), 2.0); }, 2.0},
         {"measured_loss", "plate", filmed,
-         [](Case& c) { shiftUp(c.at(40, 0), 0.2), turnBy(c.at(60, 0), 2.0); }, (0.04 / 0.1 + 4.0) / 101},
+         [](Case& c) {
+             shiftUp(c.at(40, 0), 0.2);
+             turnBy(c.at(60, 0), 2.0);
+         },
+         (0.04 / 0.1 + 4.0) / 101},
         // 2 kg x 0.6 m/s of 15 kg m/s
         {"linear_momentum_drift", "", gliding,
          [](Case& c) {
@@ -369,13 +389,15 @@ const std::vector<Row>& rows() {
         {"settling_time", "", heaped,
          [](Case& c) {
              for (std::size_t k = 0; k < 70; ++k) c.at(k, 1).velocity = {0.11, 0, 0};
-             c.at(42, 2).velocity = {0, 0, 0.1}, c.at(42, 2).angularVelocity = {0, 0.1, 0};
+             c.at(42, 2).velocity = {0, 0, 0.1};
+             c.at(42, 2).angularVelocity = {0, 0.1, 0};
          },
          0.42},
         // it falls by 0.2 m and keeps 0.5 J
         {"dissipated_energy", "", heaped,
          [](Case& c) {
-             c.last(1).position.y -= 0.2, c.last(1).velocity = {1, 0, 0};
+             c.last(1).position.y -= 0.2;
+             c.last(1).velocity = {1, 0, 0};
          },
          1.5},
     };

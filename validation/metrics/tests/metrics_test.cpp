@@ -249,7 +249,8 @@ TEST(Contacts, NormalsBelongToThePosesOfTheirFrame) {
     const auto c = resting();
     c->state(20, 1).orientation = scenario::fromAxisAngle({0, 0, 1}, 0.1);
     ContactPoint touch;
-    touch.bodyA = 1, touch.bodyB = 2;
+    touch.bodyA = 1;
+    touch.bodyB = 2;
     touch.normal = {-std::sin(0.1), std::cos(0.1), 0};
     c->run.contacts[20] = {touch};
     EXPECT_LT(c->worst("normal_error"), 1e-12);
@@ -268,11 +269,13 @@ TEST(Contacts, DepthOverlapAndNormals) {
     EXPECT_LT(c->worst("overlap_max"), 1e-15);
     EXPECT_TRUE(c->rows("normal_error").empty());
     ContactPoint onFloor;
-    onFloor.bodyA = 0, onFloor.bodyB = 1;
+    onFloor.bodyA = 0;
+    onFloor.bodyB = 1;
     onFloor.normal = {std::sin(0.02), std::cos(0.02), 0};
     onFloor.depth = 1e-3;
     ContactPoint onBox;
-    onBox.bodyA = 1, onBox.bodyB = 2;
+    onBox.bodyA = 1;
+    onBox.bodyB = 2;
     onBox.normal = {0, 1, 0};
     onBox.depth = 4e-3;
     c->run.contacts[10] = {onFloor};
@@ -355,13 +358,17 @@ TEST(Joints, InjectedLimitViolation) {
         const int b = addBall(c.scenario, std::string("b") + jointName(type), 0.1, 1, 0.4,
                               {2.0 * static_cast<double>(c.scenario.bodies.size()), 1, 0});
         Joint j;
-        j.name = jointName(type), j.type = type, j.bodyB = b;
+        j.name = jointName(type);
+        j.type = type;
+        j.bodyB = b;
         j.anchorA = c.scenario.bodies.back().pose.position;
         if (type == JointType::Distance) j.anchorA.y -= 0.5;
         j.axisA = j.axisB = a;
         j.normalA = {0, 1, 0};
         j.spinAxisB = axis;
-        j.axes[k].mode = AxisMode::Limited, j.axes[k].lower = lower, j.axes[k].upper = upper;
+        j.axes[k].mode = AxisMode::Limited;
+        j.axes[k].lower = lower;
+        j.axes[k].upper = upper;
         c.scenario.joints.push_back(j);
     };
     add(JointType::Hinge, 0, -0.4, 8.0, axis);
@@ -414,8 +421,11 @@ TEST(Energy, DoesNotJudgeDrivenJoints) {
     addBall(c.scenario, "ball", 0.1, 1, 0.4, {0, 1, 0});
     c.scenario.bodies[0].collides = false;
     Joint j;
-    j.name = "slider", j.type = JointType::Slider, j.bodyB = 0;
-    j.anchorA = {0, 1, 0}, j.axisA = j.axisB = {0, 1, 0};
+    j.name = "slider";
+    j.type = JointType::Slider;
+    j.bodyB = 0;
+    j.anchorA = {0, 1, 0};
+    j.axisA = j.axisB = {0, 1, 0};
     c.scenario.joints = {j};
     setReference(c.scenario, "joint_coordinate");
     const auto judged = [&](const char* metric) {
@@ -426,7 +436,9 @@ TEST(Energy, DoesNotJudgeDrivenJoints) {
     EXPECT_TRUE(judged("energy_drift"));
     EXPECT_LT(c.worst("energy_drift"), 1e-13) << "a free slider falls";
     JointAxis& axis = c.scenario.joints[0].axes[0];
-    axis.mode = AxisMode::Limited, axis.lower = -2, axis.upper = 1;
+    axis.mode = AxisMode::Limited;
+    axis.lower = -2;
+    axis.upper = 1;
     EXPECT_FALSE(judged("energy_drift")) << "the stop is hit at 0.64 s";
     EXPECT_TRUE(judged("energy_gain"));
     axis.lower = -50;
@@ -434,7 +446,8 @@ TEST(Energy, DoesNotJudgeDrivenJoints) {
     axis.stiffness = 30;
     EXPECT_FALSE(judged("energy_drift"));
     EXPECT_FALSE(judged("energy_gain"));
-    axis.stiffness = 0, axis.motorMaxForce = 5;
+    axis.stiffness = 0;
+    axis.motorMaxForce = 5;
     EXPECT_FALSE(judged("energy_gain"));
 }
 

@@ -53,7 +53,8 @@ TEST(ArrayBundle, IsReadBackAndTakenOver) {
     EXPECT_EQ(meta["steps"], 3);
     EXPECT_EQ(back.doubles("t"), times);
     all.add("b", std::span(bodies).first(1));
-    all.take("0/", back), all.take("1/", back);
+    all.take("0/", back);
+    all.take("1/", back);
     const ArrayBundle twice = ArrayBundle::parse(all.bytes(nullptr), meta);
     EXPECT_EQ(twice.integers("1/b"), bodies);
     EXPECT_EQ(twice.doubles("0/t"), times);

@@ -18,9 +18,18 @@ using sample::TemporaryFolder;
 
 BenchRepetition repetition(std::int64_t round) {
     BenchRepetition r;
-    r.round = round, r.order = 7 + round, r.outcome = "crashed", r.reason = "SIGSEGV ' \"";
-    r.wall = 0.1 + 0.2, r.cpu = kDenormal, r.samples = 1ll << 40, r.stateHash = "00ff";
-    r.peakMemoryKiB = 12345, r.ownMemoryKiB = 678, r.allocations = -0.0, r.processSeconds = 1.0 / 3.0;
+    r.round = round;
+    r.order = 7 + round;
+    r.outcome = "crashed";
+    r.reason = "SIGSEGV ' \"";
+    r.wall = 0.1 + 0.2;
+    r.cpu = kDenormal;
+    r.samples = 1ll << 40;
+    r.stateHash = "00ff";
+    r.peakMemoryKiB = 12345;
+    r.ownMemoryKiB = 678;
+    r.allocations = -0.0;
+    r.processSeconds = 1.0 / 3.0;
     r.load = 0.5;
     r.counts = {{"contacts", 17140.5}, {"pairs", kInf}};
     r.phases = {{"solve", 1e-3}};
@@ -35,12 +44,27 @@ Bench bench() {
     b.settings = {{"seed", "1"}, {"width", "0.05"}};
     for (const char* id : {"a", "b"}) {
         BenchCase c;
-        c.id = id, c.position = static_cast<std::int64_t>(b.cases.size()), c.part = "scene";
-        c.name = "pyramid", c.engine = "ode:preset=matched", c.sizeUnit = "bodies", c.size = 1240.0;
-        c.threads = 2, c.operation = "step", c.command = "./rigor bench pyramid", c.parameters = "{}";
-        c.summary.repetitions = 3, c.summary.clock = "wall", c.summary.wall = 0.3, c.summary.cpu = 0.5;
-        c.summary.low = 0.2, c.summary.converged = true, c.summary.reason = "max_penetration 1 m > 0.005";
-        c.summary.base = "a", c.summary.ratio = 1.25, c.summary.ratioHigh = kInf;
+        c.id = id;
+        c.position = static_cast<std::int64_t>(b.cases.size());
+        c.part = "scene";
+        c.name = "pyramid";
+        c.engine = "ode:preset=matched";
+        c.sizeUnit = "bodies";
+        c.size = 1240.0;
+        c.threads = 2;
+        c.operation = "step";
+        c.command = "./rigor bench pyramid";
+        c.parameters = "{}";
+        c.summary.repetitions = 3;
+        c.summary.clock = "wall";
+        c.summary.wall = 0.3;
+        c.summary.cpu = 0.5;
+        c.summary.low = 0.2;
+        c.summary.converged = true;
+        c.summary.reason = "max_penetration 1 m > 0.005";
+        c.summary.base = "a";
+        c.summary.ratio = 1.25;
+        c.summary.ratioHigh = kInf;
         b.cases.push_back(c);
     }
     b.changes = {{"b", 0.1, 0.2, 2.0, 1.9, 2.1, 1e-9, "slower", ""},
@@ -117,7 +141,8 @@ TEST(BenchStore, RepetitionsStayWithTheirCases) {
     writer.writeBenchRepetition("a", repetition(0));
     writer.writeBenchRepetition("b", repetition(0));
     BenchRepetition again = repetition(0);
-    again.wall = 5.0, again.counts.clear();
+    again.wall = 5.0;
+    again.counts.clear();
     writer.writeBenchRepetition("b", again);
     asked.cases.erase(asked.cases.begin());  // another plan, without "a"
     asked.cases[0].command = "./rigor bench other";

@@ -45,21 +45,32 @@ class TemporaryFolder {
 
 inline CaseRow caseRow(const std::string& id, std::int64_t position) {
     CaseRow c;
-    c.id = id, c.position = position;
-    c.scenario = "slide", c.spec = "ode:preset=matched", c.engine = "ode", c.preset = "matched";
+    c.id = id;
+    c.position = position;
+    c.scenario = "slide";
+    c.spec = "ode:preset=matched";
+    c.engine = "ode";
+    c.preset = "matched";
     c.dt = 1.0 / 240.0;
-    c.outcome = Outcome::Completed, c.verdict = Verdict::KnownDeviation;
+    c.outcome = Outcome::Completed;
+    c.verdict = Verdict::KnownDeviation;
     c.reason = "quote ' and \"line\nbreak\" and \xc3\xa9";
     c.refusal = "library";
-    c.wallSeconds = 0.1, c.cpuSeconds = 1.0 / 3.0;
-    c.steps = 1ll << 40, c.peakMemoryKiB = 12345;
-    c.stateHash = "00ff", c.trajectoryFile = "trajectories/x.h5", c.command = "./rigor run slide";
+    c.wallSeconds = 0.1;
+    c.cpuSeconds = 1.0 / 3.0;
+    c.steps = 1ll << 40;
+    c.peakMemoryKiB = 12345;
+    c.stateHash = "00ff";
+    c.trajectoryFile = "trajectories/x.h5";
+    c.command = "./rigor run slide";
     c.settings = {{"iterations", "20"}, {"solver", "quickstep"}};
     c.metrics = {{"position_final", "", "m", "exact", 0.1 + 0.2, 1.5, 0.02, 0.5, Verdict::KnownDeviation,
                   "skin", 1.0 / 3.0, kInf, kDenormal, -0.0},
                  {"energy_drift", "block", "1", "invariant", kNanValue, -1.0, {}, {}, Verdict::Pass, ""},
                  {"sink", "", "m", "rest", kInf, -0.0, -kInf, kDenormal, Verdict::Fail, ""}};
-    c.metrics[0].orderMin = 0.1, c.metrics[0].orderMax = kInf, c.metrics[0].orderCount = 5;
+    c.metrics[0].orderMin = 0.1;
+    c.metrics[0].orderMax = kInf;
+    c.metrics[0].orderCount = 5;
     c.orders = {5,
                 4,
                 Grade::C,
@@ -78,23 +89,38 @@ inline CaseRow caseRow(const std::string& id, std::int64_t position) {
                   2e-6, kInf, 1e4},
                  {"build", 1e-6, 5e-7, 2e-6, 0.5, 1, 4.0}};
     c.accuracy = {Grade::D, "position_final", 0.1 / 3.0, {}, "why not"};
-    c.regression = Regression::Worse, c.regressionReason = "position_final 0.2 -> 0.3 m";
+    c.regression = Regression::Worse;
+    c.regressionReason = "position_final 0.2 -> 0.3 m";
     return c;
 }
 
 inline Run header() {
     Run run;
-    run.suite = "smoke", run.command = "rigor validate smoke", run.started = "2026-01-01T00:00:00Z";
+    run.suite = "smoke";
+    run.command = "rigor validate smoke";
+    run.started = "2026-01-01T00:00:00Z";
     run.environment = {{"cpu", "some cpu"}, {"kernel", "6.1"}};
     run.engines = {
         {"rigor", "Rigor", "0.1", "f64", "flags", "", R"({"capabilities":{"planar":true}})", "0.1.1"},
         {"gone", "", "", "", "", "not installed"}};
     ScenarioRow s;
-    s.name = "slide", s.title = "A block", s.description = "d", s.source = "Coulomb 1785";
-    s.isolates = {"friction"}, s.tags = {"a", "b"}, s.observed = {"block"}, s.metrics = {"position_final"};
-    s.dimension = 2, s.duration = 1.5, s.timeSteps = {1.0 / 60.0, 1.0 / 240.0};
-    s.reference = "sliding_stop", s.referenceTitle = "rt", s.referenceFormula = "x = v0 t - mu g t^2 / 2";
-    s.referenceTex = "x = v_0 t - \\tfrac12 \\mu g t^2", s.referenceSource = "rs", s.referenceProblem = "",
+    s.name = "slide";
+    s.title = "A block";
+    s.description = "d";
+    s.source = "Coulomb 1785";
+    s.isolates = {"friction"};
+    s.tags = {"a", "b"};
+    s.observed = {"block"};
+    s.metrics = {"position_final"};
+    s.dimension = 2;
+    s.duration = 1.5;
+    s.timeSteps = {1.0 / 60.0, 1.0 / 240.0};
+    s.reference = "sliding_stop";
+    s.referenceTitle = "rt";
+    s.referenceFormula = "x = v0 t - mu g t^2 / 2";
+    s.referenceTex = "x = v_0 t - \\tfrac12 \\mu g t^2";
+    s.referenceSource = "rs";
+    s.referenceProblem = "";
     s.text = "{\"rigor\": 1}";
     s.referenceOutcome = "holds";
     run.scenarios = {s};

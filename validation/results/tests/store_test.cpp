@@ -439,7 +439,10 @@ TEST(Store, OfSchema8HasEverythingButOrdersOfInsertion) {
     }
     CaseRow expected = caseRow("a", 0);
     expected.orders = {};
-    for (MetricRow& m : expected.metrics) m.orderMin = m.orderMax = {}, m.orderCount = {};
+    for (MetricRow& m : expected.metrics) {
+        m.orderMin = m.orderMax = {};
+        m.orderCount = {};
+    }
     expectSame(expected, readRun(folder.path()).cases.at(0));
     { RunWriter(folder.path(), true).writeCase(caseRow("b", 1)); }
     const auto run = readRun(folder.path());

@@ -32,8 +32,12 @@ Channel channel(const char* unit, int columns, std::size_t rows, std::uint64_t s
 
 TrajectoryFile sampleFile(std::size_t frames) {
     TrajectoryFile data;
-    data.scenario = "slide", data.spec = "ode:preset=matched", data.caseId = "0123";
-    data.dt = 1.0 / 240.0, data.stride = 3, data.contactStride = 2;
+    data.scenario = "slide";
+    data.spec = "ode:preset=matched";
+    data.caseId = "0123";
+    data.dt = 1.0 / 240.0;
+    data.stride = 3;
+    data.contactStride = 2;
     data.times = anyDoubles(frames, 1);
     for (const char* name : {"floor", "block", "a/b", ".", "_", "50%"})  // order is not alphabetical
         data.bodies.push_back({name, channel("m", 3, frames, 2), channel("1", 4, frames, 3),
@@ -46,9 +50,16 @@ TrajectoryFile sampleFile(std::size_t frames) {
     for (std::size_t i = 0; i < frames; ++i) {
         ContactSample c;
         c.time = 0.1 * static_cast<double>(i);
-        c.bodyA = static_cast<int>(i), c.bodyB = 7, c.shapeA = 2, c.shapeB = 3;
-        c.pointA[1] = 0.5, c.pointB[2] = -0.25, c.normal[1] = 1.0;
-        c.depth = 1e-4, c.normalImpulse = std::nan(""), c.frictionImpulse[0] = -0.0;
+        c.bodyA = static_cast<int>(i);
+        c.bodyB = 7;
+        c.shapeA = 2;
+        c.shapeB = 3;
+        c.pointA[1] = 0.5;
+        c.pointB[2] = -0.25;
+        c.normal[1] = 1.0;
+        c.depth = 1e-4;
+        c.normalImpulse = std::nan("");
+        c.frictionImpulse[0] = -0.0;
         data.contacts.push_back(c);
     }
     return data;

@@ -24,13 +24,16 @@ constexpr double kStep = 1.0 / 64, kRadius = 0.25;
 constexpr int kFrames = 65;
 
 void set(double (&into)[3], Vec3 v) {
-    into[0] = v.x, into[1] = v.y, into[2] = v.z;
+    into[0] = v.x;
+    into[1] = v.y;
+    into[2] = v.z;
 }
 
 class InRun : public fixtures::RunnerTest {
   protected:
     InRun() : scenario_(fixtures::load(fixtures::crossingBalls()).first) {
-        file_.scenario = scenario_.name, file_.dt = kStep;
+        file_.scenario = scenario_.name;
+        file_.dt = kStep;
         for (const auto& b : scenario_.bodies) {
             file_.bodies.push_back({b.name, {"m", 3, {}}, {"1", 4, {}}, {"m/s", 3, {}}, {"rad/s", 3, {}}});
             for (int k = 0; k < kFrames; ++k) {
@@ -60,7 +63,10 @@ class InRun : public fixtures::RunnerTest {
         if (depth <= 0.0) return;
         const Vec3 n = between / distance;
         ContactSample c;
-        c.time = file_.times[static_cast<std::size_t>(k)], c.bodyA = a, c.bodyB = b, c.depth = depth;
+        c.time = file_.times[static_cast<std::size_t>(k)];
+        c.bodyA = a;
+        c.bodyB = b;
+        c.depth = depth;
         set(c.normal, n);
         set(c.pointA, a == 0 ? Vec3{other.x, 0, other.z} : at(k, a) + kRadius * n);
         set(c.pointB, other - kRadius * n);
@@ -132,7 +138,10 @@ TEST_F(InRun, ForgottenAndInvented) {
     EXPECT_NE(forgotten.worst.find("(missed)"), std::string::npos) << forgotten.worst;
 
     ContactSample invented;
-    invented.bodyA = 1, invented.bodyB = 2, invented.depth = 0.01, invented.normal[0] = 1;
+    invented.bodyA = 1;
+    invented.bodyB = 2;
+    invented.depth = 0.01;
+    invented.normal[0] = 1;
     file_.contacts.clear();
     for (int k = 0; k + 1 < kFrames; ++k) {
         invented.time = k * kStep;

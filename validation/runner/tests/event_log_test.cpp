@@ -32,14 +32,19 @@ scenario::Scenario scene() {
 
 std::vector<BodyState> states(double vy) {
     std::vector<BodyState> s(2);
-    s[1].position = {0, 0.5, 0}, s[1].velocity = {0, vy, 0};
+    s[1].position = {0, 0.5, 0};
+    s[1].velocity = {0, vy, 0};
     return s;
 }
 
 ContactPoint contact(double depth, double jn) {
     ContactPoint c;
-    c.bodyA = 0, c.bodyB = 1;
-    c.normal = {0, 1, 0}, c.depth = depth, c.hasImpulse = true, c.normalImpulse = jn;
+    c.bodyA = 0;
+    c.bodyB = 1;
+    c.normal = {0, 1, 0};
+    c.depth = depth;
+    c.hasImpulse = true;
+    c.normalImpulse = jn;
     c.frictionImpulse = {0.25, 0, 0};
     return c;
 }
@@ -113,7 +118,8 @@ TEST_F(EventLogTest, SleepAndBreakingAreToldOnce) {
     bool asleep = false, holds = true;
     told_ = {[&](int body) { return asleep && body == 1; }, [&](int) { return holds; }};
     EXPECT_TRUE(step(log, 0, {}).empty());
-    asleep = true, holds = false;
+    asleep = true;
+    holds = false;
     EXPECT_EQ(step(log, 0, {}), (std::vector<std::string>{"t=0.01 step=1 sleep body=ball id=1",
                                                           "t=0.01 step=1 break joint=rope a=world b=ball"}));
     EXPECT_TRUE(step(log, 0, {}).empty());

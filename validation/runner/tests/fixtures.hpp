@@ -71,7 +71,8 @@ class RunnerTest : public testing::Test {
         o.directory = scratch_.path() / folder;
         o.binary = buildFolder() / "tests/runner_child";
         o.audit = false;
-        o.suite = "test", o.command = "test";
+        o.suite = "test";
+        o.command = "test";
         return o;
     }
     static results::Run run(const std::vector<CasePlan>& cases, const RunOptions& o) {

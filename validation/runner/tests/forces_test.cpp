@@ -55,7 +55,8 @@ TEST(Forces, ConstantForceGivesItsImpulse) {
         Vec3 impulse, angular;
         for (std::size_t step = 0; step * dt < 1.0; ++step) {
             const auto world = weigh(s, step, dt, std::vector<BodyState>(2));
-            impulse += dt * world.force[1], angular += dt * world.torque[1];
+            impulse += dt * world.force[1];
+            angular += dt * world.torque[1];
             EXPECT_EQ(world.force[0], Vec3{});
         }
         expectNear(impulse, (0.4711 - 0.137) * Vec3{3, 0, -1});
@@ -119,8 +120,8 @@ class OwnForcesWorld final : public ScalesWorld {
     using ScalesWorld::ScalesWorld;
     bool evaluatesForces() const override { return true; }
     bool applyImpulse(int body, const Vec3& impulse, const Vec3& angularImpulse) override {
-        linear[static_cast<std::size_t>(body)] += impulse,
-            angular[static_cast<std::size_t>(body)] += angularImpulse;
+        linear[static_cast<std::size_t>(body)] += impulse;
+        angular[static_cast<std::size_t>(body)] += angularImpulse;
         return true;
     }
     std::vector<Vec3> linear = std::vector<Vec3>(2), angular = std::vector<Vec3>(2);
@@ -156,7 +157,8 @@ TEST(Forces, EventsGiveTheirImpulseOnce) {
                 const auto world = weigh(s, step, dt, std::vector<BodyState>(2));
                 if (norm(world.force[1]) == 0.0) continue;
                 ++times;
-                impulse += dt * world.force[1], angular += dt * world.torque[1];
+                impulse += dt * world.force[1];
+                angular += dt * world.torque[1];
                 EXPECT_GE(step * dt, time - 1e-9 * dt);
                 EXPECT_LT(step * dt, time + dt - 1e-9 * dt);
             }

@@ -37,9 +37,12 @@ class MetricVerdicts : public testing::TestWithParam<Row> {};
 TEST_P(MetricVerdicts, FollowTheTable) {
     const Row& c = GetParam();
     results::MetricRow row;
-    row.name = c.metric, row.value = c.value;
+    row.name = c.metric;
+    row.value = c.value;
     results::CaseRow judgedCase;
-    judgedCase.engine = c.engine, judgedCase.preset = c.preset, judgedCase.dt = c.dt;
+    judgedCase.engine = c.engine;
+    judgedCase.preset = c.preset;
+    judgedCase.dt = c.dt;
     judgeMetric(row, judged(), judgedCase);
     EXPECT_STREQ(results::verdictName(row.verdict), results::verdictName(c.verdict));
     EXPECT_EQ(row.note, c.verdict == Verdict::KnownDeviation ? "a skin" : "");
@@ -68,9 +71,12 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(MetricVerdict, SinglePrecisionIsHeldToEveryonesBound) {
     results::CaseRow c;
-    c.engine = "ode", c.preset = "matched", c.dt = 0.1;
+    c.engine = "ode";
+    c.preset = "matched";
+    c.dt = 0.1;
     results::MetricRow row;
-    row.name = "drift", row.value = 0.9;
+    row.name = "drift";
+    row.value = 0.9;
     c.settings["precision"] = "f64";
     judgeMetric(row, judged(), c);
     EXPECT_EQ(row.bound, 0.5);
@@ -89,10 +95,14 @@ TEST(MetricVerdict, ADeviationWithoutABoundIsOneOfGradeE) {
     s.knownDeviations = {{"ode", "", "way", kInf, "another law of friction"},
                          {"ode", "", "turn", 3.0, "another law of friction"}};
     results::CaseRow c;
-    c.engine = "ode", c.preset = "default", c.dt = 0.1;
+    c.engine = "ode";
+    c.preset = "default";
+    c.dt = 0.1;
     const auto judged = [&](const std::string& metric, double value, std::optional<double> relative) {
         results::MetricRow row;
-        row.name = metric, row.value = value, row.relative = relative;
+        row.name = metric;
+        row.value = value;
+        row.relative = relative;
         judgeMetric(row, s, c);
         return row;
     };
@@ -107,7 +117,9 @@ TEST(MetricVerdict, ADeviationWithoutABoundIsOneOfGradeE) {
 
 results::CaseRow caseWith(const std::string& engine, Outcome outcome) {
     results::CaseRow row;
-    row.engine = engine, row.preset = "default", row.outcome = outcome;
+    row.engine = engine;
+    row.preset = "default";
+    row.outcome = outcome;
     judgeCase(row, judged());
     return row;
 }
@@ -129,12 +141,14 @@ TEST(CaseVerdict, TheWorstMetricDecides) {
     results::CaseRow row;
     row.engine = "ode";
     row.metrics.resize(3);
-    row.metrics[1].name = "depth", row.metrics[1].note = "a skin",
+    row.metrics[1].name = "depth";
+    row.metrics[1].note = "a skin";
     row.metrics[1].verdict = Verdict::KnownDeviation;
     judgeCase(row, judged());
     EXPECT_EQ(row.verdict, Verdict::KnownDeviation);
     EXPECT_EQ(row.reason, "depth: a skin");
-    row.metrics[2].name = "energy", row.metrics[2].verdict = Verdict::Fail;
+    row.metrics[2].name = "energy";
+    row.metrics[2].verdict = Verdict::Fail;
     judgeCase(row, judged());
     EXPECT_EQ(row.verdict, Verdict::Fail);
     EXPECT_EQ(row.reason, "energy misses its bound");
@@ -160,7 +174,8 @@ TEST(Green, IsWhatTheExitCodeSays) {
     const auto green = [](const std::string& engine, Verdict verdict) {
         results::Run run;
         run.cases.resize(2);
-        run.cases[1].engine = engine, run.cases[1].verdict = verdict;
+        run.cases[1].engine = engine;
+        run.cases[1].verdict = verdict;
         return runIsGreen(run);
     };
     for (const std::string engine : {"ode", kInHouseEngine}) {
@@ -179,9 +194,14 @@ TEST(Green, TheInHouseEngineMayNotBecomeWorseAndOthersMayNotLoseAGrade) {
     const auto green = [](const std::string& engine, results::Regression regression, double value) {
         results::Run run;
         results::CaseRow& c = run.cases.emplace_back();
-        c.engine = engine, c.regression = regression;
+        c.engine = engine;
+        c.regression = regression;
         results::MetricRow& m = c.metrics.emplace_back();
-        m.name = "way", m.scale = 2.0, m.value = value, m.recorded = 0.018, m.relative = value / 2.0;
+        m.name = "way";
+        m.scale = 2.0;
+        m.value = value;
+        m.recorded = 0.018;
+        m.relative = value / 2.0;
         c.accuracy.grade = results::gradeOf(value / 2.0);
         return runIsGreen(run);
     };

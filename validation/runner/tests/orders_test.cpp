@@ -129,7 +129,8 @@ TEST_F(Orders, AreMadeUpForWhenARunIsGoneOnWith) {
     const auto cases = plan({threeBodies()}, "double_order_dependent:preset=default");
     RunOptions o = options();
     run(cases, o);
-    o.resume = true, o.orders = 3;
+    o.resume = true;
+    o.orders = 3;
     EXPECT_EQ(run(cases, o).cases.at(0).orders.run, 3);
     const std::atomic<bool> never{false};
     std::int64_t skipped = 0;
@@ -148,7 +149,8 @@ CaseRow graded(Grade grade, std::vector<MetricRow> metrics) {
 }
 MetricRow metric(const std::string& name, double value) {
     MetricRow m;
-    m.name = name, m.value = value;
+    m.name = name;
+    m.value = value;
     return m;
 }
 

@@ -17,7 +17,8 @@ scenario::Scenario oneBlock() {
     scenario::Body b;
     b.name = "block";
     b.pose = {{1, 2, 3}, scenario::fromAxisAngle({0, 0.6, 0.8}, 0.7)};
-    b.velocity = {4, 0, 0}, b.angularVelocity = {0, 5, 0};
+    b.velocity = {4, 0, 0};
+    b.angularVelocity = {0, 5, 0};
     b.gravityScale = 0.5;
     b.massProperties = {2.0, {0, 0.125, 0}, scenario::Mat3::diagonal(1e-4, 2e-4, 3e-4)};
     s.bodies = {b};
@@ -116,8 +117,10 @@ TEST(ReadBack, NaNIsAMismatchAndSoIsAMissingBody) {
 /// A hundred bodies, one wrong: a handful of rows, the wrong one among them.
 TEST(ReadBack, LargeScenesAreCondensed) {
     auto s = oneBlock();
-    for (int i = 1; i < 100; ++i)
-        s.bodies.push_back(s.bodies[0]), s.bodies.back().name = "b" + std::to_string(i);
+    for (int i = 1; i < 100; ++i) {
+        s.bodies.push_back(s.bodies[0]);
+        s.bodies.back().name = "b" + std::to_string(i);
+    }
     auto back = faithful(s);
     back.bodies[57].mass = 3.0;
     const auto rows = compareReadBack(s, back, 1e-9);

@@ -82,7 +82,11 @@ TEST(Statistics, KolmogorovSmirnovIsExact) {
 
 TEST(Statistics, KolmogorovSmirnovTellsDistributionsApart) {
     std::vector<double> a, b, shifted;
-    for (int i = 0; i < 30; ++i) a.push_back(i), b.push_back(i + 0.5), shifted.push_back(i + 14.5);
+    for (int i = 0; i < 30; ++i) {
+        a.push_back(i);
+        b.push_back(i + 0.5);
+        shifted.push_back(i + 14.5);
+    }
     EXPECT_GT(kolmogorovSmirnov(a, b).p, 0.99);
     EXPECT_LT(kolmogorovSmirnov(a, shifted).p, 0.003);
     EXPECT_EQ(kolmogorovSmirnov(a, a).p, 1.0);

@@ -27,20 +27,27 @@ struct Example {
 
     Example() {
         scenario::StudyPart part;
-        part.name = "p", part.metrics = {"position_max", "order.position_max", "quantity.height"};
+        part.name = "p";
+        part.metrics = {"position_max", "order.position_max", "quantity.height"};
         plan.study.parts = {part};
-        add("a", 0.2, 0.4), add("a", 0.1, 0.1), add("b", 0.2, 3.0);
+        add("a", 0.2, 0.4);
+        add("a", 0.1, 0.1);
+        add("b", 0.2, 3.0);
     }
     void add(const std::string& variant, double dt, double error) {
         StudyRow row;
-        row.scenario = row.base = "swing", row.variant = variant, row.dt = dt;
+        row.scenario = row.base = "swing";
+        row.variant = variant;
+        row.dt = dt;
         row.parameters = {{"substeps", dt > 0.15 ? "1" : "2"}};
         row.caseId = variant + std::to_string(dt);
         CaseRow c;
-        c.id = row.caseId, c.dt = dt;
+        c.id = row.caseId;
+        c.dt = dt;
         c.metrics = {{"position_max", "", "m", "exact", error, -1.0, {}, {}, {}, ""}};
         if (variant == "a") c.quantities = {{"height", "m", 1.0, {}, 2.0 * dt}};
-        plan.rows.push_back(row), run.cases.push_back(c);
+        plan.rows.push_back(row);
+        run.cases.push_back(c);
     }
     FindingVerdict judge(const scenario::StudyFinding& finding) {
         plan.study.parts[0].findings = {finding};
@@ -50,21 +57,25 @@ struct Example {
 
 scenario::StudyFinding about(const std::string& variant, const std::string& metric) {
     scenario::StudyFinding finding;
-    finding.statement = "s", finding.variant = variant, finding.metric = metric;
+    finding.statement = "s";
+    finding.variant = variant;
+    finding.metric = metric;
     return finding;
 }
 
 TEST(Findings, HoldWhereEveryRowIsWithin) {
     Example example;
     auto finding = about("a", "position_max");
-    finding.atLeast = 0.1, finding.atMost = 0.4;
+    finding.atLeast = 0.1;
+    finding.atMost = 0.4;
     const auto verdict = example.judge(finding);
     EXPECT_TRUE(verdict.holds);
     EXPECT_EQ(verdict.least, 0.1);
     EXPECT_EQ(verdict.greatest, 0.4);
     finding.atMost = 0.39;
     EXPECT_FALSE(example.judge(finding).holds);
-    finding.atMost = 0.4, finding.atLeast = 0.11;
+    finding.atMost = 0.4;
+    finding.atLeast = 0.11;
     EXPECT_FALSE(example.judge(finding).holds);
 }
 
@@ -90,7 +101,8 @@ TEST(Findings, ARunThatBrokeIsInfinitelyWrongAndOneWithoutValueProvesNothing) {
     EXPECT_TRUE(example.judge(finding).holds);
     EXPECT_EQ(example.judge(finding).greatest, std::numeric_limits<double>::infinity());
     EXPECT_TRUE(studyIsGreen(evaluateStudy(example.plan, example.run))) << "it was said to break";
-    example.run.cases[2].outcome = Outcome::Completed, example.run.cases[2].metrics.clear();
+    example.run.cases[2].outcome = Outcome::Completed;
+    example.run.cases[2].metrics.clear();
     EXPECT_FALSE(example.judge(finding).holds);
     EXPECT_FALSE(studyIsGreen(evaluateStudy(example.plan, example.run)));
 }
@@ -141,10 +153,14 @@ TEST(Findings, OneThatDoesNotHoldIsRed) {
 TEST(StudyValues, ShowTheRangeOverOrdersOfInsertion) {
     results::CaseRow row;
     results::MetricRow m;
-    m.name = "rest_motion", m.value = 2.0, m.unit = "m";
+    m.name = "rest_motion";
+    m.value = 2.0;
+    m.unit = "m";
     row.metrics = {m};
     EXPECT_EQ(studyValue(row, "rest_motion").note, "");
-    row.metrics[0].orderMin = 2.0, row.metrics[0].orderMax = 2.0 + 1e-9, row.metrics[0].orderCount = 3;
+    row.metrics[0].orderMin = 2.0;
+    row.metrics[0].orderMax = 2.0 + 1e-9;
+    row.metrics[0].orderCount = 3;
     EXPECT_EQ(studyValue(row, "rest_motion").note, "") << "less than the digits shown";
     row.metrics[0].orderMin = 0.5;
     row.metrics[0].orderMax = 7.0;

@@ -104,11 +104,16 @@ results::Run runOf(const StudyPlan& plan, const std::map<std::string, double>& j
     results::Run run;
     for (const CasePlan& c : plan.cases) {
         results::CaseRow row;
-        row.id = c.id, row.scenario = c.scenario.name, row.spec = c.spec.text(), row.engine = "rigor";
+        row.id = c.id;
+        row.scenario = c.scenario.name;
+        row.spec = c.spec.text();
+        row.engine = "rigor";
         row.settings = {{"solver", "pgs"}, {"velocity_iterations", "8"}};
         for (const auto& [key, value] : c.spec.options) row.settings[key] = value;
         results::MetricRow metric;
-        metric.name = "rest_jitter", metric.unit = "m/s", metric.value = jitterOfSpec.at(c.spec.text());
+        metric.name = "rest_jitter";
+        metric.unit = "m/s";
+        metric.value = jitterOfSpec.at(c.spec.text());
         row.metrics.push_back(metric);
         run.cases.push_back(row);
     }
@@ -165,7 +170,8 @@ TEST(Symptoms, RunsThatBreak) {
 TEST(Symptoms, GrowthIsAnExponent) {
     StudyPlan plan;
     scenario::StudyPart part;
-    part.name = "growth", part.metrics = {"mean_pairs"};
+    part.name = "growth";
+    part.metrics = {"mean_pairs"};
     part.variants = {{"square", "rigor"}, {"line", "rigor"}};
     part.symptom = {"square", "line", "mean_pairs", true, 1.8, 1.2};
     plan.study.parts = {part};
@@ -173,13 +179,15 @@ TEST(Symptoms, GrowthIsAnExponent) {
     for (const int n : {10, 40, 160})
         for (const bool square : {true, false}) {
             StudyRow row;
-            row.variant = square ? "square" : "line", row.bodies = n;
+            row.variant = square ? "square" : "line";
+            row.bodies = n;
             row.caseId = row.variant + std::to_string(n);
             plan.rows.push_back(row);
             results::CaseRow c;
             c.id = row.caseId;
             results::MetricRow metric;
-            metric.name = "mean_pairs", metric.value = square ? 0.5 * n * n : 3.0 * n;
+            metric.name = "mean_pairs";
+            metric.value = square ? 0.5 * n * n : 3.0 * n;
             c.metrics.push_back(metric);
             run.cases.push_back(c);
         }

@@ -40,7 +40,8 @@ Scenario rods() {
     for (const int body : {2, 3}) {
         scenario::Joint j;
         j.name = body == 2 ? "rod_left" : "rod_right";
-        j.bodyA = 1, j.bodyB = body;
+        j.bodyA = 1;
+        j.bodyB = body;
         s.joints.push_back(j);
         s.forces.emplace_back(scenario::ConstantForce{body, {1.0 * body, 0, 0}, {}});
     }
@@ -126,7 +127,9 @@ TEST(Listing, BringsStatesAndContactsBack) {
         const Transformed other = listed(s, order);
         const auto indexOf = [&](const std::string& name) { return findBody(other.scenario, name); };
         Trajectory t;
-        t.dt = 1.0, t.bodyCount = s.bodies.size(), t.times = {0.0};
+        t.dt = 1.0;
+        t.bodyCount = s.bodies.size();
+        t.times = {0.0};
         for (const Body& b : other.scenario.bodies) {
             BodyState state;
             state.position.x = static_cast<double>(b.name.size());

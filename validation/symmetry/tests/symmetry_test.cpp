@@ -32,10 +32,12 @@ Trajectory exactTrajectory(const Scenario& s, const scenario::ReferenceSpec& spe
     with.reference = spec;
     const auto reference = findReference(spec.name)->make(with, spec);
     Trajectory t;
-    t.dt = s.duration / frames, t.bodyCount = s.bodies.size();
+    t.dt = s.duration / frames;
+    t.bodyCount = s.bodies.size();
     const std::vector<int> known = reference->bodies();
     for (int k = 0; k <= frames && t.dt * k <= reference->validUntil(); ++k) {
-        t.times.push_back(k * t.dt), t.contacts.emplace_back();
+        t.times.push_back(k * t.dt);
+        t.contacts.emplace_back();
         for (std::size_t i = 0; i < t.bodyCount; ++i) {
             const auto& b = s.bodies[i];
             BodyState state{b.pose.position, b.pose.orientation, b.velocity, b.angularVelocity};
@@ -125,7 +127,10 @@ TEST_P(EveryScenario, CanBeTransformedAndStartsAlike) {
             scenario::loadScenarioText(scenario::scenarioText(other.scenario), "t").scenario;
         const auto start = [](const Scenario& of) {
             Trajectory t;
-            t.dt = 1.0, t.bodyCount = of.bodies.size(), t.times = {0.0}, t.contacts = {{}};
+            t.dt = 1.0;
+            t.bodyCount = of.bodies.size();
+            t.times = {0.0};
+            t.contacts = {{}};
             for (const auto& b : of.bodies)
                 t.states.push_back({b.pose.position, b.pose.orientation, b.velocity, b.angularVelocity});
             return t;
@@ -228,9 +233,16 @@ TEST(Orders, BringContactsBack) {
     const Scenario s = libraryScenario("pile_2d");
     const Transformed shuffled = findSymmetry("permutation")->apply(s, nullptr);
     Trajectory t;
-    t.dt = 1.0, t.bodyCount = s.bodies.size(), t.times = {0.0}, t.states.resize(t.bodyCount);
+    t.dt = 1.0;
+    t.bodyCount = s.bodies.size();
+    t.times = {0.0};
+    t.states.resize(t.bodyCount);
     ContactPoint c;
-    c.bodyA = 4, c.bodyB = 9, c.normal = {0, 1, 0}, c.pointA = {1, 0, 0}, c.pointB = {2, 0, 0};
+    c.bodyA = 4;
+    c.bodyB = 9;
+    c.normal = {0, 1, 0};
+    c.pointA = {1, 0, 0};
+    c.pointB = {2, 0, 0};
     t.contacts = {{c}};
     const ContactPoint back = shuffled.back(t).contacts[0][0];
     EXPECT_LT(back.bodyA, back.bodyB);
@@ -254,11 +266,13 @@ TEST(TimeReversal, OfSymplecticEulerIsOffByOneStepOfGravity) {
     const int steps = static_cast<int>(std::lround(s.duration / h));
     const auto fly = [&](const Scenario& of, int count) {
         Trajectory t;
-        t.dt = h, t.bodyCount = of.bodies.size();
+        t.dt = h;
+        t.bodyCount = of.bodies.size();
         std::vector<BodyState> now;
         for (const auto& b : of.bodies) now.push_back({b.pose.position, {}, b.velocity, {}});
         for (int k = 0; k <= count; ++k) {
-            t.times.push_back(k * h), t.contacts.emplace_back();
+            t.times.push_back(k * h);
+            t.contacts.emplace_back();
             t.states.insert(t.states.end(), now.begin(), now.end());
             for (const auto& e : of.events)
                 if (e.time == k * h) {
@@ -289,7 +303,8 @@ TEST(TimeReversal, OfSymplecticEulerIsOffByOneStepOfGravity) {
 TEST(DifferenceOf, IsWhatWasPutIn) {
     const Scenario s = libraryScenario("free_flight");
     Trajectory a;
-    a.dt = 0.5, a.bodyCount = s.bodies.size();
+    a.dt = 0.5;
+    a.bodyCount = s.bodies.size();
     for (int k = 0; k < 5; ++k) {
         a.times.push_back(0.5 * k);
         a.states.resize(a.states.size() + a.bodyCount);

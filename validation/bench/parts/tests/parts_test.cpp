@@ -106,7 +106,8 @@ TEST(BroadPhasePart, EveryChoiceOfEveryEngineFindsAllPairsAndOursNoOthers) {
     BenchRequest r = request({});
     for (const auto& engine : adapter::availableEngines())
         if (!engine.starts_with("double")) r.engines.push_back(engine);
-    r.sizes = {300}, r.only = {"3D, random order", "2D, spatial order"};
+    r.sizes = {300};
+    r.only = {"3D, random order", "2D, spatial order"};
     const auto planned = planBroadPhases(r);
     ASSERT_GE(planned.size(), 20u);
     for (const PlannedBench& p : planned) {
@@ -127,7 +128,8 @@ TEST(BroadPhasePart, EveryChoiceOfEveryEngineFindsAllPairsAndOursNoOthers) {
 
 TEST(BroadPhasePart, AForgottenPairMakesATimingInvalid) {
     BenchRequest r = request({"double_careless"});
-    r.sizes = {100}, r.only = {"3D, random order"};
+    r.sizes = {100};
+    r.only = {"3D, random order"};
     const auto planned = planBroadPhases(r);
     ASSERT_EQ(planned.size(), 3u) << "every choice of the option";
     for (const PlannedBench& p : planned)
@@ -145,7 +147,8 @@ TEST(BroadPhasePart, AForgottenPairMakesATimingInvalid) {
 /// 1e5 boxes, each with every other.
 TEST(BroadPhasePart, WhatWouldTakeTooLongIsRefusedWithAnEstimate) {
     BenchRequest r = request({"double_careless:broad_phase=brute_force"});
-    r.sizes = {1e5}, r.only = {"3D, random order"};
+    r.sizes = {1e5};
+    r.only = {"3D, random order"};
     const auto planned = planBroadPhases(r);
     ASSERT_EQ(planned.size(), 1u);
     EXPECT_THROW(makeBroadPhase(planned[0])->run(0), adapter::Unsupported);
@@ -153,7 +156,8 @@ TEST(BroadPhasePart, WhatWouldTakeTooLongIsRefusedWithAnEstimate) {
 
 TEST(BroadPhasePart, ASpecThatNamesItsChoiceIsTimedAlone) {
     BenchRequest r = request({"rigor:broad_phase=octree,precision=f32"});
-    r.sizes = {1000}, r.only = {"3D, random order"};
+    r.sizes = {1000};
+    r.only = {"3D, random order"};
     const auto planned = planBroadPhases(r);
     ASSERT_EQ(planned.size(), 1u);
     EXPECT_EQ(planned[0].engine, "rigor:broad_phase=octree,precision=f32");
@@ -163,7 +167,8 @@ TEST(BroadPhasePart, ASpecThatNamesItsChoiceIsTimedAlone) {
 TEST(Parts, UsualCasesAreSomeOfAllAndNamesAreTaken) {
     const auto plan = [](bool full, std::vector<std::string> only) {
         BenchRequest r = request({"rigor:precision=f32,broad_phase=wide_tree,solver=nsgs"});
-        r.full = full, r.only = std::move(only);
+        r.full = full;
+        r.only = std::move(only);
         std::set<std::string> cases;
         for (const auto& planOf : {planBroadPhases, planNarrowPhases, planContactSolvers})
             for (const PlannedBench& p : planOf(r))
@@ -225,7 +230,8 @@ TEST(NarrowPhasePart, ABatchSaysWhatSingleQueriesSay) {
             SCOPED_TRACE(spec + ", " + kind.name());
             PosedPairs pairs = makePosedPairs(kind, 10, 0, 5);
             for (auto& query : pairs.queries) {
-                query.settings = &settings, query.maxContacts = 64;
+                query.settings = &settings;
+                query.maxContacts = 64;
                 if (const auto found = settings.find("narrow_phase"); found != settings.end())
                     query.algorithm = found->second;
             }

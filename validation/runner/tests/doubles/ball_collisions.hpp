@@ -21,7 +21,8 @@ class BallCollisions : public CollisionEngine {
         if (b == nullptr || (a == nullptr && plane == nullptr))
             throw Unsupported("only balls and half-spaces");
         ContactPoint c;
-        c.bodyA = 0, c.bodyB = 1;
+        c.bodyA = 0;
+        c.bodyB = 1;
         const Vec3 centre = query.b.pose.position;
         if (plane != nullptr) {
             c.normal = rotate(query.a.pose.orientation, plane->normal);

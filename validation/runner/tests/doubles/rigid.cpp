@@ -166,7 +166,8 @@ struct PointsSwapped : RigidWorld {
     using RigidWorld::RigidWorld;
     ContactPoint reported(const Contact& c) const override {
         ContactPoint p = c.point;
-        p.depth = 2e-3, p.pointA = p.pointB - p.depth * p.normal;
+        p.depth = 2e-3;
+        p.pointA = p.pointB - p.depth * p.normal;
         return p;
     }
 };

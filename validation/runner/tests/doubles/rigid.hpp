@@ -32,7 +32,9 @@ inline Mat3 inverseOf(const Mat3& m) {
     const Vec3 columns[3] = {cross(b, c), cross(c, a), cross(a, b)};
     for (int j = 0; j < 3; ++j) {
         const Vec3 x = columns[j] / dot(a, cross(b, c));
-        r(0, j) = x.x, r(1, j) = x.y, r(2, j) = x.z;
+        r(0, j) = x.x;
+        r(1, j) = x.y;
+        r(2, j) = x.z;
     }
     return r;
 }
@@ -53,7 +55,8 @@ class RigidWorld : public World {
     }
 
     void applyForce(int body, const Vec3& force, const Vec3& torque) override {
-        loads_[index(body)].force += force, loads_[index(body)].torque += torque;
+        loads_[index(body)].force += force;
+        loads_[index(body)].torque += torque;
     }
     void step() override {
         start();
@@ -233,8 +236,12 @@ class RigidWorld : public World {
         constexpr double kTouching = 1e-9;
         if (gap > kTouching) return;
         Contact c;
-        c.point.bodyA = a, c.point.bodyB = b, c.point.normal = n, c.point.depth = -gap;
-        c.point.pointA = onA, c.point.pointB = onB;
+        c.point.bodyA = a;
+        c.point.bodyB = b;
+        c.point.normal = n;
+        c.point.depth = -gap;
+        c.point.pointA = onA;
+        c.point.pointB = onB;
         contacts_.push_back(c);
     }
 
@@ -291,7 +298,8 @@ class RigidWorld : public World {
             }
         for (Contact& c : contacts_) {
             c.point.hasImpulse = true;
-            c.point.normalImpulse = c.normalImpulse, c.point.frictionImpulse = c.friction;
+            c.point.normalImpulse = c.normalImpulse;
+            c.point.frictionImpulse = c.friction;
         }
     }
 

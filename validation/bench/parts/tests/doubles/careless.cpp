@@ -59,7 +59,10 @@ class CarelessBatch final : public CollisionBatch {
         const std::string& how = queries_[i].algorithm;
         auto found = balls_.collide(queries_[i]).contacts;
         if (how == "blind") found.clear();
-        if (how == "excited") found.resize(1), found[0].depth = 0.01;
+        if (how == "excited") {
+            found.resize(1);
+            found[0].depth = 0.01;
+        }
         if (how == "deep")
             for (ContactPoint& c : found) c.depth += 0.01;
         return found;
