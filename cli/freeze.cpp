@@ -7,7 +7,7 @@
 
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
-#include "validation/contact_problems/freeze.hpp"
+#include "validation/contact_problems/export_step.hpp"
 #include "validation/runner/judge.hpp"
 #include "validation/runner/scenario_settings.hpp"
 #include "validation/runner/simulate.hpp"
@@ -22,9 +22,9 @@ struct Arguments {
     double time = -1.0;
 };
 
-int freeze(const Arguments& a) {
+int exportStep(const Arguments& a) {
     const auto loaded = loadWithReference(a.scenario, a.overrides, {});
-    validation::FreezeRequest request;
+    validation::ExportRequest request;
     request.scenarioText = loaded.text;
     request.scenarioName = loaded.scenario.name;
     request.spec = validation::withScenarioSettings(adapter::parseSpec(a.engine), loaded.text);
@@ -33,12 +33,12 @@ int freeze(const Arguments& a) {
     if (a.step > 0) request.step = a.step;
     if (a.time >= 0.0)
         request.step = static_cast<std::size_t>(std::max(1.0, std::round(a.time / request.dt)));
-    const validation::Frozen frozen = validation::freezeToFile(request, ownBinary(), a.out);
+    const validation::ExportSummary summary = validation::exportToFile(request, ownBinary(), a.out);
     std::printf("%s: step %zu of %s by %s, to t = %g s: %zu contacts, %zu bodies", a.out.c_str(),
-                request.step, loaded.scenario.name.c_str(), request.spec.text().c_str(), frozen.time,
-                frozen.contacts, frozen.bodies);
-    if (frozen.storedResidual >= 0.0)
-        std::printf(", natural map of the engine's own answer %.1e", frozen.storedResidual);
+                request.step, loaded.scenario.name.c_str(), request.spec.text().c_str(), summary.time,
+                summary.contacts, summary.bodies);
+    if (summary.storedResidual >= 0.0)
+        std::printf(", natural map of the engine's own answer %.1e", summary.storedResidual);
     std::printf("\n");
     return kOk;
 }
@@ -65,7 +65,7 @@ void addFreeze(CLI::App& app, Action& action) {
         "crashed,\n"
         "            4 the engine lacks what the scenario needs, or the step has what the form has no place "
         "for.");
-    command->callback([a, &action] { action = [a] { return freeze(*a); }; });
+    command->callback([a, &action] { action = [a] { return exportStep(*a); }; });
 }
 
 }  // namespace rigor::cli

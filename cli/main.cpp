@@ -9,10 +9,10 @@
 #include "scenarios/loader/loader.hpp"
 #include "validation/bench/exchange.hpp"
 #include "validation/collide/exchange.hpp"
-#include "validation/contact_problems/freeze.hpp"
+#include "validation/contact_problems/export_step.hpp"
 #include "validation/contact_problems/solve.hpp"
 #include "validation/fit/fit.hpp"
-#include "validation/live/lane_child.hpp"
+#include "validation/live/instance_child.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace {
@@ -75,8 +75,8 @@ int main(int argc, char** argv) {
                                                 {{"__bench", rigor::validation::benchChild},
                                                  {"__collide", rigor::validation::collideChild},
                                                  {"__fit", rigor::validation::fitChild},
-                                                 {"__freeze", rigor::validation::freezeChild},
-                                                 {"__lane", rigor::validation::laneChild},
+                                                 {"__export", rigor::validation::exportChild},
+                                                 {"__instance", rigor::validation::instanceChild},
                                                  {"__solve", rigor::validation::solveChild}});
         return runCommand(argc, argv);
     } catch (const rigor::scenario::LoadError& error) {

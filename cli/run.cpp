@@ -204,7 +204,7 @@ int runHere(const Arguments& a) {
     if (a.order > 1) options.given = otherOrder(s, a.order);
     const scenario::Scenario& given = options.given ? options.given->scenario : s;
     validation::EventLog log(given, dt, logWhat(a.log));
-    validation::EventLog::Told told;
+    validation::EventLog::EngineReports told;
     if (!a.log.empty())
         options.onWorld = [&](const adapter::World& world) {
             told = {[&](int body) { return world.isAsleep(body); },
@@ -287,7 +287,7 @@ int runGuarded(const Arguments& arguments, const std::function<int()>& work) {
         std::fprintf(stderr, "rigor: %s: %s\n", arguments.scenario.c_str(), why.text().c_str());
         return kNoReference;
     }
-    if (signal == SIGPIPE) return 128 + SIGPIPE;  // whoever read the output has seen enough
+    if (signal == SIGPIPE) return 128 + SIGPIPE;  // the reader of the output has closed the pipe
     std::fprintf(stderr, "rigor: %s crashed in %s: %s\n", arguments.engine.c_str(),
                  arguments.scenario.c_str(), strsignal(signal));
     return kCrashed;

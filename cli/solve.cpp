@@ -58,14 +58,14 @@ int solve(Arguments a) {
 void addSolve(CLI::App& app, Action& action) {
     auto a = std::make_shared<Arguments>();
     auto* command = app.add_subcommand(
-        "solve", "Put frozen contact problems to the solvers: residual against iterations and time");
+        "solve", "Put contact problems to the solvers: residual against iterations and time");
     command->add_option("FILE", a->files, "Problems: FCLIB's .hdf5, or .json")->required();
     command->add_option("-s,--solvers", a->solvers,
                         "Specs, e.g. rigor:solver=nsgs,bullet; an engine without a solver means all of its "
                         "solvers (default: of every engine that has some)");
     command
         ->add_option("--iterations", a->options.iterations,
-                     "Ladder of iterations, comma separated (default 1,2,5,...,2000)")
+                     "Numbers of iterations to allow, comma separated (default 1,2,5,...,2000)")
         ->delimiter(',')
         ->check(CLI::Range(1, 100000000));
     command
@@ -74,12 +74,12 @@ void addSolve(CLI::App& app, Action& action) {
         ->check(CLI::Range(0.0, 1.0));
     command
         ->add_option("--seconds", a->options.seconds,
-                     "No further rung of the ladder after this time, per solver and file (default 10)")
+                     "No larger number of iterations after this time, per solver and file (default 10)")
         ->check(CLI::Range(0.0, 1e6));
     command->add_option("-j,--jobs", a->options.jobs, "Children at a time (default 1: times are taken alone)")
         ->check(CLI::Range(1, 1024));
-    command->add_option("--csv", a->csv, "Write every rung of every solver to this file");
-    command->add_flag("--all", a->all, "Print every rung of the ladder, not only the last");
+    command->add_option("--csv", a->csv, "Write every number of iterations of every solver to this file");
+    command->add_flag("--all", a->all, "Print every number of iterations, not only the last");
     command->add_flag("--json", a->json, "Print the full record as JSON");
     command->add_flag("-q,--quiet", a->quiet, "No progress");
     command->footer(

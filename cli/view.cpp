@@ -83,7 +83,7 @@ int viewScenario(const Arguments& a) {
     const auto loaded = loadWithReference(a.what, a.overrides, {});
     const std::vector<adapter::EngineSpec> specs = adapter::parseSpecList(a.engines);
     validation::checkSpecs(specs, ownBinary());
-    if (specs.size() > validation::Session::kMostLanes)
+    if (specs.size() > validation::Session::kMaxInstances)
         throw std::invalid_argument("--engines: no more than 8 at a time");
     validation::SessionOptions options;
     options.binary = ownBinary();
@@ -106,7 +106,7 @@ void addView(CLI::App& app, Action& action) {
         "stage, drag bodies, branch with other algorithms or values, save what is seen as a scenario.");
     command->add_option("SCENARIO|RUN", a->what, "Library name, scenario file, or folder of a run")
         ->required();
-    command->add_option("--engines", a->engines, "Live: engine specs, one lane each (default: rigor)");
+    command->add_option("--engines", a->engines, "Live: engine specs, one instance each (default: rigor)");
     command->add_option("--dt", a->timeStep,
                         "Live: time step in seconds (0.004 or 1/240); default: the scenario's first");
     command

@@ -33,13 +33,13 @@ std::string costMarkdown(const ViewModel& view) {
         "|\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n";
     for (const std::size_t c : order) {
         const StepCost& cost = costs[c];
-        const Standing& standing = overall.standings[c];
+        const Ranking& ranking = overall.rankings[c];
         out += "| " + markdownCell(view.columns()[c].label) + " | " + std::to_string(cost.scenarios) + " |";
         for (const double seconds : {cost.median, cost.mean, cost.first, cost.p95, cost.p99, cost.worst})
             out += " " + time(seconds) + " |";
         out += " " + (std::isnan(cost.realTimeFactor) ? "-" : shortNumber(cost.realTimeFactor)) + " | " +
                factor(cost.medianRatio) + " | " + factor(cost.meanRatio) + " | " +
-               std::to_string(standing.within()) + "/" + std::to_string(standing.graded()) + " |\n";
+               std::to_string(ranking.within()) + "/" + std::to_string(ranking.graded()) + " |\n";
     }
     return out +
            "\nWall time of a step at the finest time step of each scenario, medians over the scenarios. The "

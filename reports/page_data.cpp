@@ -235,7 +235,7 @@ Json scenariosJson(const ViewModel& view) {
     return list;
 }
 
-Json standingJson(const Standing& s) {
+Json rankingJson(const Ranking& s) {
     return {{"scenarios", s.scenarios},   {"lost", s.lost},         {"grades", s.grades},
             {"within", s.within()},       {"ungraded", s.ungraded}, {"known", s.known},
             {"farther", s.farther},       {"red", s.red},           {"toBest", number(s.toBest)},
@@ -260,10 +260,10 @@ Json costsJson(const ViewModel& view) {
 }
 
 Json mechanismJson(const Mechanism& m) {
-    Json standings = Json::array();
-    for (const auto& s : m.standings) standings.push_back(standingJson(s));
-    return {{"name", m.name},   {"title", m.title}, {"about", m.about},      {"scenarios", m.scenarios},
-            {"order", m.order}, {"best", m.best},   {"standings", standings}};
+    Json rankings = Json::array();
+    for (const auto& s : m.rankings) rankings.push_back(rankingJson(s));
+    return {{"name", m.name},   {"title", m.title}, {"about", m.about},    {"scenarios", m.scenarios},
+            {"order", m.order}, {"best", m.best},   {"rankings", rankings}};
 }
 
 Json mechanismsJson(const std::vector<Mechanism>& mechanisms) {

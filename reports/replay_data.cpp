@@ -164,11 +164,11 @@ void addReference(const std::vector<CaseFrames>& cases, const Indices& times, re
     }
 }
 
-void addPartings(std::vector<CaseFrames>& cases) {
+void addEngineDivergences(std::vector<CaseFrames>& cases) {
     for (auto& c : cases)
         for (const auto& other : cases) {
             if (&c == &other || c.file.times.empty()) continue;
-            ReplayEvent event = partingOf(c.file, other.file, kPartingShare * c.length);
+            ReplayEvent event = engineDivergenceOf(c.file, other.file, kDivergenceFraction * c.length);
             if (event.frame < c.file.times.size()) c.events.push_back(std::move(event));
         }
     for (auto& c : cases)
@@ -189,7 +189,7 @@ std::vector<CaseFrames> loadCases(const ViewModel& view, std::size_t scenario, d
             c.events = replayEvents(c.file, *row);
             out.push_back(std::move(c));
         }
-    addPartings(out);
+    addEngineDivergences(out);
     return out;
 }
 

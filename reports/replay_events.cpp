@@ -199,14 +199,14 @@ std::vector<ReplayEvent> replayEvents(const TrajectoryFile& file, const results:
     if (file.times.empty()) return out;
     addLargest(file, row, out);
     addAudit(file, row, out);
-    addDivergence(file, kPartingShare * sceneLength(file), out);
+    addDivergence(file, kDivergenceFraction * sceneLength(file), out);
     addNonFinite(file, out);
     addContactEvents(file, out);
     std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
     return out;
 }
 
-ReplayEvent partingOf(const TrajectoryFile& file, const TrajectoryFile& other, double threshold) {
+ReplayEvent engineDivergenceOf(const TrajectoryFile& file, const TrajectoryFile& other, double threshold) {
     ReplayEvent none;
     none.frame = file.times.size();
     if (file.bodies.size() != other.bodies.size()) return none;
@@ -218,7 +218,7 @@ ReplayEvent partingOf(const TrajectoryFile& file, const TrajectoryFile& other, d
         for (std::size_t b = 0; b < file.bodies.size(); ++b) {
             const double *p = positionAt(file.bodies[b], f), *q = positionAt(other.bodies[b], g);
             if (p == nullptr || q == nullptr || distance(p, q) <= threshold) continue;
-            ReplayEvent event = eventAt(file, f, "parting");
+            ReplayEvent event = eventAt(file, f, "engine_divergence");
             event.subject = file.bodies[b].name;
             event.value = distance(p, q);
             event.unit = "m";

@@ -18,32 +18,32 @@ struct ReplayEvent {
     std::size_t frame = 0;  ///< of the trajectory
     double time = 0.0;      ///< [s] of that frame
     std::string
-        kind;  ///< "divergence", "parting", "largest", "audit", "contact_begin", "contact_end", "nonfinite"
+        kind;  ///< "divergence", "engine_divergence", "largest", "audit", "contact_begin", "contact_end", "nonfinite"
     std::string what;        ///< metric, auditor or other engine's spec; else ""
     std::string subject;     ///< body, "a|b", "" the whole scene
     double value = 0.0;      ///< error, angle or distance; NaN where there is none
     std::string unit;        ///< of the value
-    double threshold = 0.0;  ///< divergence and parting: the distance that was passed [m]
+    double threshold = 0.0;  ///< divergence and engine_divergence: the distance that was passed [m]
     std::string text;        ///< audit: its own words
     long contact = -1;       ///< audit: which of the contacts of the frame, -1: not told
 };
 
 /// More contact events of one case are left out: a pile has thousands.
 inline constexpr std::size_t kMostContactEvents = 60;
-/// Two runs have parted where a body is further from its twin than this part of the length of the scene.
-inline constexpr double kPartingShare = 0.01;
+/// Two runs have diverged where a body is further from its twin than this part of the length of the scene.
+inline constexpr double kDivergenceFraction = 0.01;
 
 /// Length of what moves [m]: the diagonal of the box around the bodies' first positions, plus the median over
 /// the moving bodies of how far they come from there; at least 1e-6.
 double sceneLength(const results::TrajectoryFile& file);
 
-/// All but partings, in time order. `row` gives metrics and audit.
+/// All but divergences from other engines, in time order. `row` gives metrics and audit.
 std::vector<ReplayEvent> replayEvents(const results::TrajectoryFile& file, const results::CaseRow& row);
 
 /// First time at which both have a frame and a body is further than `threshold` from its twin, or one is not
 /// finite; frame == files' size of times where they do not part.
-ReplayEvent partingOf(const results::TrajectoryFile& file, const results::TrajectoryFile& other,
-                      double threshold);
+ReplayEvent engineDivergenceOf(const results::TrajectoryFile& file, const results::TrajectoryFile& other,
+                               double threshold);
 
 /// Frame whose time is nearest to t; 0 without frames.
 std::size_t nearestFrame(const std::vector<double>& times, double t);

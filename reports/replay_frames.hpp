@@ -20,7 +20,7 @@ struct Thinning {
     int orientationBits;  ///< quantum: 1 / 2^this
     bool velocities;      ///< stored or not
     std::size_t
-        contactEvery;  ///< contacts of every so manieth kept frame (of marked ones always); 0: marked alone
+        contactEvery;  ///< contacts of every n-th kept frame, and of marked ones; 0: of marked ones alone
 };
 
 /// Arrays in the order in which they are written, and what the reader must know of them.

@@ -51,7 +51,7 @@ void clearDataFolder(const fs::path& folder) {
 
 std::vector<fs::path> writeReports(const fs::path& runDirectory) {
     const results::Run run = results::readRun(runDirectory);
-    const results::Run shown = withoutCompanions(run);
+    const results::Run shown = withoutDerivedRuns(run);
     const ViewModel view(shown);
     const auto study = readStudy(runDirectory / "study.json");
     const TrajectoryLoader load = [&](const results::CaseRow& row) {
@@ -75,7 +75,7 @@ std::vector<fs::path> writeReports(const fs::path& runDirectory) {
     if (!run.orders.empty()) write("orders.csv", ordersCsv(run));
     if (!run.fairness.empty()) write("fairness.csv", fairnessCsv(run));
     auto plots = scenarioPlots(view, load);
-    for (auto& plot : ladderPlots(view)) plots.push_back(std::move(plot));
+    for (auto& plot : refinementPlots(view)) plots.push_back(std::move(plot));
     if (study)
         for (auto& plot : studyPlots(*study)) plots.push_back(std::move(plot));
     if (!plots.empty()) fs::create_directories(runDirectory / "plots");

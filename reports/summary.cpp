@@ -138,7 +138,7 @@ std::string trustSection(const ViewModel& view) {
         rows += "| " + markdownCell(m.name) + " | " + std::to_string(m.scenarios.size()) + " |";
         int named = 0;
         for (const std::size_t c : m.order) {
-            const Standing& s = m.standings[c];
+            const Ranking& s = m.rankings[c];
             if (named == kMostChoices || !std::isfinite(s.toBest)) break;
             const std::string label = markdownCell(view.columns()[c].label);
             rows += " " + (named == 0 ? "**" + label + "**" : label) + " " + std::to_string(s.within()) +
@@ -158,7 +158,7 @@ std::string trustSection(const ViewModel& view) {
            "took part in, its error over the best engine's and over the in-house one's (geometric means).\n";
 }
 
-/// Scenarios whose reference broke down: the engines ran, and nobody could say how well.
+/// Scenarios whose reference broke down: the engines ran, and their errors are unknown.
 std::string withoutReferences(const ViewModel& view) {
     std::string out;
     for (const auto& line : missingReferences(view.run())) out += "- " + markdownCell(line) + "\n";

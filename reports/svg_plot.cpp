@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kWidth = 760, kHeight = 420, kLeft = 78, kRight = 190, kTop = 40, kBottom = 50;
 
-/// Okabe-Ito: told apart with every common colour vision. The page uses the same, in the same order.
+/// Okabe and Ito's palette: distinguishable with every common colour vision. The page uses the same, in the
+/// same order.
 constexpr std::array<const char*, kPaletteSize> kPalette{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                          "#E69F00", "#56B4E9", "#7A5C00"};
 
@@ -36,7 +37,7 @@ struct Range {
             greatest = std::max(greatest, v);
         }
     }
-    void settle(double pad) {
+    void finish(double pad) {
         if (!(least <= greatest)) {
             least = 0.0;
             greatest = 1.0;
@@ -86,12 +87,12 @@ Frame frameOf(const Plot& plot) {
             frame.x.add(at);
             frame.y.add(v);
         }
-    frame.x.settle(0.5);
+    frame.x.finish(0.5);
     if (plot.logarithmic && std::isfinite(frame.y.least)) {
         frame.y.least = std::floor(frame.y.least);
         frame.y.greatest = std::ceil(frame.y.greatest);
     }
-    frame.y.settle(frame.y.least == 0.0 ? 1.0 : 0.05 * std::abs(frame.y.least));
+    frame.y.finish(frame.y.least == 0.0 ? 1.0 : 0.05 * std::abs(frame.y.least));
     return frame;
 }
 

@@ -40,13 +40,13 @@ struct NamedPlot {
 };
 /// The picture and its data.
 NamedPlot namedPlot(const std::string& name, const Plot& plot);
-/// Colours told apart with every common colour vision; they repeat after kPaletteSize.
+/// Colours that every common colour vision distinguishes; they repeat after kPaletteSize.
 inline constexpr std::size_t kPaletteSize = 7;
 const char* paletteColour(std::size_t index);
 /// The colour of a column's engine: the same in every plot.
 std::string colourOf(const ViewModel& view, const SpecColumn& column);
 /// Error over time step and error over cost of every scenario that was run at three time steps or more.
-std::vector<NamedPlot> ladderPlots(const ViewModel& view);
+std::vector<NamedPlot> refinementPlots(const ViewModel& view);
 /// One plot per scenario: its position error over time at the finest time step, or the first series there is.
 std::vector<NamedPlot> scenarioPlots(const ViewModel& view, const TrajectoryLoader& load);
 

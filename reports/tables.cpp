@@ -50,7 +50,7 @@ void forEachCase(const ViewModel& view, Use use) {
             for (const auto* row : view.cell(s, c).cases) use(s, view.columns()[c], *row);
 }
 
-// ---- who is accurate where ----
+// ---- accuracy by scenario and engine ----
 
 std::vector<Table> scoreboard(const ViewModel& view) {
     Table table{"scoreboard",
@@ -101,7 +101,7 @@ std::vector<Table> trust(const ViewModel& view) {
     for (const auto& m : view.mechanisms())
         for (const std::size_t c : m.order) {
             const auto& column = view.columns()[c];
-            const Standing& s = m.standings[c];
+            const Ranking& s = m.rankings[c];
             const auto count = [](int n) { return TableCell(static_cast<std::int64_t>(n)); };
             const auto times = [](double ratio) {
                 return std::isnan(ratio) ? TableCell() : TableCell(ratio);

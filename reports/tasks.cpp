@@ -90,7 +90,7 @@ std::vector<Mechanism> ViewModel::tasks() const {
         for (std::size_t s = 0; s < run_.scenarios.size(); ++s)
             if (belongs(task, run_.scenarios[s])) scenarios.push_back(s);
         if (scenarios.empty()) continue;
-        Mechanism& m = all.emplace_back(standingsOver(*this, scenarios));
+        Mechanism& m = all.emplace_back(rankingsOver(*this, scenarios));
         m.name = task.key;
         m.title = task.title;
         m.about = task.about;

@@ -281,7 +281,7 @@ std::vector<std::string> trustLines(const ViewModel& view, const Names& names, s
         std::string line = "  " + pad(plain(m.name), nameWidth);
         bool first = true;
         for (const std::size_t c : m.order) {
-            const Standing& s = m.standings[c];
+            const Ranking& s = m.rankings[c];
             if (!std::isfinite(s.toBest)) continue;
             std::string entry = (first ? "  " : ", ") + plain(names.columns[c].label) + " " +
                                 std::to_string(s.within()) + "/" + std::to_string(s.scenarios) + " " +
@@ -337,10 +337,9 @@ std::vector<std::string> costLines(const ViewModel& view, const Names& names, st
     for (const std::size_t c : order) {
         if (lines.size() == most) break;
         const StepCost& cost = costs[c];
-        const Standing& standing = overall.standings[c];
-        std::string line =
-            "  " + pad(plain(names.columns[c].label), nameWidth) + "  " +
-            pad(std::to_string(standing.within()) + "/" + std::to_string(standing.graded()), 7);
+        const Ranking& ranking = overall.rankings[c];
+        std::string line = "  " + pad(plain(names.columns[c].label), nameWidth) + "  " +
+                           pad(std::to_string(ranking.within()) + "/" + std::to_string(ranking.graded()), 7);
         const std::pair<const char*, double> parts[] = {{"median", cost.median}, {"mean", cost.mean},
                                                         {"first", cost.first},   {"p95", cost.p95},
                                                         {"p99", cost.p99},       {"worst", cost.worst}};
@@ -432,7 +431,7 @@ std::string terminalSummary(const results::Run& run, int lines, int columns, boo
     };
     Names names = namesOf(view);
     const auto key = reserve(keyLines(names, width));
-    if (key.empty()) names = {view.columns(), {}};  // nobody would know what a number stands for
+    if (key.empty()) names = {view.columns(), {}};  // a number without its column's name means nothing
     const auto worst = reserve(offenderLines(view, names, std::min<std::size_t>(8, most / 5), width, paint));
     const auto orders = reserve(orderLines(view, names, std::min<std::size_t>(8, most / 5), width, paint));
     const auto trust = reserve(trustLines(view, names, std::min<std::size_t>(12, most / 4), width, paint));

@@ -168,7 +168,7 @@ std::string markdownCell(std::string_view text) {
                 break;
             case '@':
                 out += "@\u200b";
-                break;  // nobody is notified by a pasted summary
+                break;  // a pasted summary must notify no account
             default:
                 out += c;
         }

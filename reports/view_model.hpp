@@ -25,7 +25,7 @@ struct SpecColumn {
     std::vector<double> dash;  ///< of its lines, no two of an engine's first six alike; empty: solid
 };
 
-/// The number shown in the scoreboard: the first metric that the scenario says matters and somebody has.
+/// The number shown in the scoreboard: the first metric that the scenario says matters and any case has.
 struct MainMetric {
     std::string name, unit, kind;  ///< empty name: no case of this scenario has a metric
 };
@@ -65,15 +65,15 @@ struct Cell {
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 /// The relative error that the grade rests on over other engines' at the same time step; where no
-/// engine has a grade, the main metric. Errors within grade A count as its limit: what is exact to rounding does not
-/// make the next one look 1e9 times worse.
+/// engine has a grade, the main metric. Errors within grade A count as its limit: what is exact to rounding
+/// does not make the next one look 1e9 times worse.
 struct Ratios {
     double toBest = kNoNumber;  ///< over the smallest
     double toOurs = kNoNumber;  ///< over the in-house engine's in the same preset, else in its default one
 };
 
-/// How a spec did over some scenarios, each at the finest time step that anybody completed there.
-struct Standing {
+/// How a spec did over some scenarios, each at the finest time step that any engine completed there.
+struct Ranking {
     int scenarios = 0;            ///< that it could take part in
     int lost = 0;                 ///< crashed, timed out, not finite or failed, at any time step
     std::array<int, 5> grades{};  ///< scenarios of grade A to E
@@ -91,8 +91,8 @@ struct Standing {
     int graded() const { return within() + grades[3] + grades[4]; }
 };
 
-/// What a step took on one spec, each scenario at the finest time step that anybody completed there: medians
-/// over the scenarios [s].
+/// What a step took on one spec, each scenario at the finest time step that any engine completed there:
+/// medians over the scenarios [s].
 struct StepCost {
     int scenarios = 0;  ///< timed
     double median = kNoNumber;
@@ -109,9 +109,9 @@ struct Mechanism {
     std::string name;          ///< as scenarios say what they isolate; of a task its key
     std::string title, about;  ///< of a task
     std::vector<std::string> scenarios;
-    std::vector<Standing> standings;  ///< per column
-    std::vector<std::size_t> order;   ///< columns that took part, the most trusted first
-    int best = -1;                    ///< column; -1: nobody
+    std::vector<Ranking> rankings;   ///< per column
+    std::vector<std::size_t> order;  ///< columns that took part, the most trusted first
+    int best = -1;                   ///< column; -1: none
 };
 
 struct Offender {
@@ -183,14 +183,15 @@ std::string runTitle(const results::Run& run);
 std::string verdictSentence(const ViewModel& view);
 /// What was counted, in one line each: accuracy, regression, endings. Every report says the same.
 std::vector<std::pair<std::string, std::string>> totalsText(const ViewModel& view);
-/// "C 0.0023", "E△ 1.2", "C▼ 0.004", "!": grade, known deviation, change against the record, and the relative error
-/// that the grade rests on; "✓ 0.3" where there is no grade: how it ended, and the scenario's main metric.
+/// "C 0.0023", "E△ 1.2", "C▼ 0.004", "!": grade, known deviation, change against the record, and the relative
+/// error that the grade rests on; "✓ 0.3" where there is no grade: how it ended, and the scenario's main
+/// metric.
 std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t column, bool withNumber);
 /// One sentence on the accuracy of a case and one on its record: what is claimed, and nothing more.
 std::string accuracySentence(const results::CaseRow& row);
 std::string regressionSentence(const results::CaseRow& row);
-/// The same over several scenarios: standings, who comes first, from the indices of scenarios.
-Mechanism standingsOver(const ViewModel& view, const std::vector<std::size_t>& scenarios);
+/// The same over several scenarios: rankings, who comes first, from the indices of scenarios.
+Mechanism rankingsOver(const ViewModel& view, const std::vector<std::size_t>& scenarios);
 /// By column.
 std::vector<StepCost> stepCosts(const ViewModel& view);
 /// Columns with a cost, the cheapest by the mean ratio first.

@@ -16,10 +16,10 @@ namespace rigor::report {
 /// Trajectory of a case without its contacts; empty when there is none or it can not be read.
 using TrajectoryLoader = std::function<std::optional<results::TrajectoryFile>(const results::CaseRow& row)>;
 
-/// The run without the scenarios that a study ran beside others (tag "companion": a scene turned, a start
-/// beside a start) and their cases: what pages, plots and the summary show. Their numbers stay in results.csv
-/// and in the columns of the study.
-results::Run withoutCompanions(results::Run run);
+/// The run without the derived scenarios of a study (tag "derived": a transformed or perturbed scene) and
+/// their cases. Pages, plots and the summary show this; the numbers of derived runs stay in results.csv and
+/// in the columns of the study.
+results::Run withoutDerivedRuns(results::Run run);
 /// One row per case x metric and per case x quantity; columns in README.md.
 std::string csvReport(const results::Run& run);
 /// Fits a pull-request comment.

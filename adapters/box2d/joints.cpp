@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Joints of the scenario format as Box2D joints: hinge and ball are a revolute joint in the plane, slider a
+// Joints of the scenario format as Box2D joints: hinge and ball are a revolute joint, slider a
 // prismatic joint, fixed a weld, distance a distance joint (rod, rope or spring), wheel a wheel joint. The
 // spring of a hinge is a weld joint that gives way about its anchor, that of a slider a wheel joint along the
 // same axis. Reference angles are the initial ones.

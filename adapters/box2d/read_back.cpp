@@ -95,7 +95,7 @@ adapter::ReadBack Box2dWorld::readBack() const {
         }
         back.bodies.push_back(entry);
     }
-    for (const auto& m : pairs_.meetings()) {
+    for (const auto& m : pairs_.examples()) {
         const auto used = rules_->probe(m.materialA, m.materialB);
         back.pairs.push_back({m.materialA, m.materialB, used.friction, used.restitution});
     }

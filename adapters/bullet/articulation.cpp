@@ -34,7 +34,7 @@ struct Articulations::Edge {
     int parent = scenario::kNone, child = scenario::kNone;
     bool turned = false;
 };
-/// The links by which a body floats in the plane.
+/// The links by which a body floats in 2D.
 constexpr int kRootLinks = 3;
 
 struct Articulations::Tree {

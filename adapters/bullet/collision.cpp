@@ -32,7 +32,7 @@ using adapter::CollisionQuery;
 using adapter::ContactPoint;
 using adapter::Geometry;
 
-/// Distance from a bounded shape's origin to its farthest point in the plane [m].
+/// Distance from a bounded shape's origin to its farthest point in x and y [m].
 double planarExtent(const Geometry& geometry) {
     if (const auto* sphere = std::get_if<scenario::Sphere>(&geometry)) return sphere->radius;
     if (const auto* capsule = std::get_if<scenario::Capsule>(&geometry))
@@ -54,8 +54,8 @@ Geometry lifted(const Geometry& geometry, double halfDepth) {
     try {
         solid = adapter::planarGeometry(geometry);
     } catch (const std::invalid_argument&) {
-        throw adapter::notInAdapter(
-            "bullet", std::string("shape '") + scenario::geometryName(geometry, 2) + "' in the plane");
+        throw adapter::notInAdapter("bullet",
+                                    std::string("shape '") + scenario::geometryName(geometry, 2) + "' in 2D");
     }
     if (auto* box = std::get_if<scenario::Box>(&solid)) box->halfExtents.z = halfDepth;
     if (auto* hull = std::get_if<scenario::ConvexHull>(&solid))
@@ -308,7 +308,7 @@ std::unique_ptr<adapter::CollisionBatch> BulletCollisionEngine::batch(
 
 CollisionAnswer BulletCollisionEngine::collide(const CollisionQuery& query) const {
     adapter::checkQueryInput(query);
-    // Deeper than any overlap in the plane, so that the least way out is never along z, and no longer than
+    // Deeper than any overlap in 2D, so that the least way out is never along z, and no longer than
     // that: EPA loses digits on slender prisms.
     const double halfDepth =
         query.dimension == 2 ? planarExtent(*query.a.geometry) + planarExtent(*query.b.geometry) : 0.0;

@@ -6,7 +6,7 @@
 
 namespace rigor::bullet {
 
-/// Frozen contact problems for the solvers that Bullet exports with a matrix interface.
+/// Contact problems for the solvers that Bullet exports with a matrix interface.
 class BulletContactSolvers final : public adapter::ContactSolverEngine {
   public:
     std::vector<std::string> solvers() const override;

@@ -40,7 +40,7 @@ void BulletWorld::readStates(std::span<BodyState> states) const {
 
 namespace {
 
-/// In the plane the two ends of a prism's edge are one contact: same bodies, shapes and place.
+/// In 2D the two ends of a prism's edge are one contact: same bodies, shapes and place.
 void addPlanarContact(ContactPoint contact, std::vector<ContactPoint>& contacts, std::size_t first) {
     contact.pointA.z = contact.pointB.z = 0.0;
     contact.frictionImpulse.z = 0.0;
@@ -146,7 +146,7 @@ adapter::ReadBack BulletWorld::readBack() const {
     const auto bodyOf = [&](const adapter::PairTable::ShapeRef& ref) -> const btRigidBody& {
         return *records_[static_cast<std::size_t>(ref.body)]->body;
     };
-    for (const auto& m : pairs_.meetings()) {
+    for (const auto& m : pairs_.examples()) {
         const auto combined = combinedByBullet(bodyOf(m.a), m.a.shape, bodyOf(m.b), m.b.shape);
         back.pairs.push_back({m.materialA, m.materialB, combined.friction, combined.restitution});
     }

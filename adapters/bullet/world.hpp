@@ -21,7 +21,7 @@ class btMLCPSolverInterface;
 namespace rigor::bullet {
 
 /// One scenario in one btDiscreteDynamicsWorld. Two-dimensional scenarios are lifted (adapters/interface/
-/// planar.hpp) and kept in the plane by Bullet's linear and angular factors. With articulation=multibody
+/// planar.hpp) and kept in the x-y plane by Bullet's linear and angular factors. With articulation=multibody
 /// bodies on joints are links of btMultiBody and their rigid bodies are not in the world; those give shapes
 /// and masses.
 class BulletWorld final : public adapter::World, public adapter::StateSetting {

@@ -65,7 +65,7 @@ TEST_P(BroadPhases, MovingBoxesMeetTheSamePartnersAsByBruteForce) {
     compare(frames);
 }
 
-/// As it is timed: nobody asks for pairs in between, and the engine may hold more than those that overlap.
+/// As it is timed: no pairs are read in between, and the engine may hold more than those that overlap.
 TEST_P(BroadPhases, WhatIsHeldAfterManyRunsHasAllPairs) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> place(-5.0, 5.0), move(-0.05, 0.05);

@@ -258,7 +258,7 @@ TEST_P(Build, NothingIsBothThereAndDocumentedToBeLacking) {
 TEST_P(Build, InputThatMustNotReachALibraryIsRefused) {
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = INFINITY;
     using Spoil = std::function<void(Scenario&)>;
-    const std::pair<const char*, Spoil> spoilers[] = {
+    const std::pair<const char*, Spoil> defects[] = {
         {"position NaN", [&](Scenario& s) { s.bodies[0].pose.position.y = nan; }},
         {"velocity infinite", [&](Scenario& s) { s.bodies[0].velocity.x = inf; }},
         {"angular velocity NaN", [&](Scenario& s) { s.bodies[0].angularVelocity.z = nan; }},
@@ -294,7 +294,7 @@ TEST_P(Build, InputThatMustNotReachALibraryIsRefused) {
          }},
         {"material unknown", [&](Scenario& s) { s.bodies[0].shapes[0].material = 7; }},
         {"damping zero", [&](Scenario& s) { s.bodies[0].linearVelocityKept = 0.0; }},
-        {"joint to nobody",
+        {"joint to no body",
          [&](Scenario& s) {
              Joint joint;
              joint.type = JointType::Hinge;
@@ -302,11 +302,11 @@ TEST_P(Build, InputThatMustNotReachALibraryIsRefused) {
              s.joints.push_back(joint);
          }},
     };
-    for (const auto& [what, spoil] : spoilers) {
+    for (const auto& [what, inject] : defects) {
         SCOPED_TRACE(what);
         Scenario s = scene();
         addBody(s, ball(0.5), {});
-        spoil(s);
+        inject(s);
         EXPECT_THROW(build(s, 0.01), adapter::BadInput);
     }
     Scenario s = scene();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Collision queries against closed forms, in both orders and turned in space.
+// Collision queries against closed forms, in both orders and rotated.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +19,7 @@ using scenario::HalfSpace;
 using scenario::Sphere;
 
 /// Two shapes whose distance along +x is `gap` when B stands at x = `touching` + gap.
-struct Meeting {
+struct PosedShapes {
     std::string name;
     std::string shapeA, shapeB;
     Geometry a, b;
@@ -39,7 +39,7 @@ ConvexHull cubeHull(double h, int dimension) {
     return hull;
 }
 
-std::vector<Meeting> meetings(int dimension) {
+std::vector<PosedShapes> posedShapes(int dimension) {
     const bool flat = dimension == 2;
     const double depth = flat ? 0.0 : 0.6;
     const Quat alongX = fromAxisAngle({0, 0, 1}, -kPi / 2);
@@ -87,7 +87,7 @@ class Collision : public testing::TestWithParam<int> {
         if (dimension() == 2) return {{}, {{0.3, -0.7, 0}, fromAxisAngle({0, 0, 1}, 2.1)}};
         return {{}, {{0.3, -0.7, 0.5}, fromAxisAngle(Vec3{1, 2, -2} / 3.0, 2.1)}};
     }
-    void checkContacts(const Meeting& m, const adapter::CollisionAnswer& answer,
+    void checkContacts(const PosedShapes& m, const adapter::CollisionAnswer& answer,
                        const adapter::CollisionQuery& query, const Vec3& normal, double gap) const {
         ASSERT_FALSE(answer.contacts.empty());
         double deepest = 0.0;
@@ -113,7 +113,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Collision);
 
 TEST_P(Collision, PairsAnswerWithTheClosedForm) {
     int answered = 0;
-    for (const Meeting& m : meetings(dimension())) {
+    for (const PosedShapes& m : posedShapes(dimension())) {
         if (!has(m.shapeA) || !has(m.shapeB)) continue;
         for (const double gap : {-0.05, 0.05})
             for (const Pose& stage : stages())

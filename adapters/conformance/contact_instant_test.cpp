@@ -79,7 +79,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(ContactInstant);
 std::vector<Vec3> upOfA(const Pose& a, const Pose&) {
     return {rotate(a.orientation, {0, 1, 0})};
 }
-std::vector<Vec3> alongCentres(const Pose& a, const Pose& b) {
+std::vector<Vec3> alongCenters(const Pose& a, const Pose& b) {
     const Vec3 apart = b.position - a.position;
     return {apart / norm(apart)};
 }
@@ -113,7 +113,7 @@ TEST_P(ContactInstant, NormalsOfABallThatPassesAreThoseOfTheStart) {
         addStatic(s, ball(0.5), {});
         addBody(s, ball(0.25), {ahead, std::sqrt(0.745 * 0.745 - ahead * ahead), 0.0});
         s.bodies[1].velocity = {15, 0, 0};
-        const Seen seen = look(s, 1, alongCentres);
+        const Seen seen = look(s, 1, alongCenters);
         ASSERT_GT(seen.contacts, 0u);
         within("instant_pass_points", seen.surface, 2e-3);
         within("instant_pass_normal", seen.normal, 1e-3);

@@ -59,7 +59,7 @@ TEST_P(Contact, NormalsPointFromTheLowerIndexWhateverWasBuiltFirst) {
         if (!groundFirst) addGround(s);
         const double dt = 1.0 / 120.0;
         auto world = build(s, dt);
-        run(*world, 48);  // shorter than any engine's patience before sleeping
+        run(*world, 48);  // shorter than the time before any engine lets a body sleep
         const auto contacts = contactsOf(*world);
         ASSERT_FALSE(contacts.empty());
         double pushed = 0.0;
@@ -154,19 +154,19 @@ TEST_P(Contact, FrictionIsThatOfThePair) {
 
 TEST_P(Contact, ShapesStandTheWayTheScenarioSays) {
     using namespace scenario;
-    struct Perch {
+    struct SurfaceSample {
         const char* name;
         Geometry geometry;
         Quat orientation;
         double x, height;  ///< a ball of radius 0.1 put at x finds the surface at this height
     };
     const Quat lying = fromAxisAngle({0, 0, 1}, kPi / 2), upsideDown = fromAxisAngle({0, 0, 1}, kPi);
-    std::vector<Perch> perches{{"capsule", Capsule{0.2, 0.6}, {}, 0.0, 0.8},
-                               {"capsule", Capsule{0.2, 0.6}, lying, 0.5, 0.2},
-                               {"box", block({0.2, 0.7, 0.3}), {}, 0.0, 0.7},
-                               {"box", block({0.2, 0.7, 0.3}), lying, 0.5, 0.2}};
+    std::vector<SurfaceSample> samples{{"capsule", Capsule{0.2, 0.6}, {}, 0.0, 0.8},
+                                       {"capsule", Capsule{0.2, 0.6}, lying, 0.5, 0.2},
+                                       {"box", block({0.2, 0.7, 0.3}), {}, 0.0, 0.7},
+                                       {"box", block({0.2, 0.7, 0.3}), lying, 0.5, 0.2}};
     if (is2d()) {
-        perches.push_back({"polygon",
+        samples.push_back({"polygon",
                            ConvexHull{{{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.3, 0}, {-0.5, 0.3, 0}}},
                            {},
                            0.4,
@@ -177,23 +177,24 @@ TEST_P(Contact, ShapesStandTheWayTheScenarioSays) {
             for (const Vec3 v :
                  {Vec3{-0.5, -0.5, 0}, Vec3{0.5, -0.5, 0}, Vec3{0.5, 0.3, 0}, Vec3{-0.5, 0.3, 0}})
                 wedge.vertices.push_back({v.x, v.y, z});
-        perches.push_back({"hull", wedge, {}, 0.4, 0.3});
-        perches.push_back({"cylinder", Cylinder{0.3, 0.6}, {}, 0.2, 0.6});
-        perches.push_back({"cylinder", Cylinder{0.2, 0.6}, lying, 0.5, 0.2});
-        perches.push_back({"cone", Cone{0.4, 0.5}, upsideDown, 0.2, 0.5});
+        samples.push_back({"hull", wedge, {}, 0.4, 0.3});
+        samples.push_back({"cylinder", Cylinder{0.3, 0.6}, {}, 0.2, 0.6});
+        samples.push_back({"cylinder", Cylinder{0.2, 0.6}, lying, 0.5, 0.2});
+        samples.push_back({"cone", Cone{0.4, 0.5}, upsideDown, 0.2, 0.5});
     }
-    for (const Perch& perch : perches) {
-        if (!hasShape(perch.name)) continue;
-        SCOPED_TRACE(std::string(perch.name) + " at height " + std::to_string(perch.height));
+    for (const SurfaceSample& sample : samples) {
+        if (!hasShape(sample.name)) continue;
+        SCOPED_TRACE(std::string(sample.name) + " at height " + std::to_string(sample.height));
         Scenario s = scene(1.0);
         s.gravity = {0, -9.81, 0};
-        addStatic(s, perch.geometry, {}, perch.orientation);
-        const int b = addBody(s, ball(0.1), {perch.x, perch.height + 0.15, 0.0}, 1.0, {0.004, 0.004, 0.004});
+        addStatic(s, sample.geometry, {}, sample.orientation);
+        const int b =
+            addBody(s, ball(0.1), {sample.x, sample.height + 0.15, 0.0}, 1.0, {0.004, 0.004, 0.004});
         auto world = build(s, 1.0 / 240.0);
         run(*world, 96);
         // It falls 0.05 m; falling freely it would be 0.78 m lower.
-        within(std::string("perch_") + perch.name,
-               std::abs(stateOf(*world, s, b).position.y - perch.height - 0.1), 5e-3);
+        within(std::string("perch_") + sample.name,
+               std::abs(stateOf(*world, s, b).position.y - sample.height - 0.1), 5e-3);
     }
 }
 

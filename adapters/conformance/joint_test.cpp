@@ -506,11 +506,11 @@ TEST_P(Joints, TwoFreeBodiesOnAJointKeepTheirMomentum) {
         const int b = addBody(s, block({0.2, 0.1, 0.1}), {0.7, 0, 0}, 3.0, {0.3, 0.3, 0.3});
         // Velocities that agree at the anchor: the pair turns about its common centre and drifts.
         const double spin = 2.0;
-        const Vec3 drift{0.3, 0.2, 0.0}, centre{0.4, 0, 0};
+        const Vec3 drift{0.3, 0.2, 0.0}, center{0.4, 0, 0};
         for (const int i : {a, b}) {
             Body& body = s.bodies[static_cast<std::size_t>(i)];
             body.angularVelocity = {0, 0, spin};
-            body.velocity = drift + cross(Vec3{0, 0, spin}, body.pose.position - centre);
+            body.velocity = drift + cross(Vec3{0, 0, spin}, body.pose.position - center);
         }
         s.joints.push_back(jointOf(type, a, b, {0.5, 0, 0}, {-0.7, 0, 0}));
         auto world = build(s, kStep);

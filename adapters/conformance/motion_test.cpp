@@ -82,7 +82,7 @@ TEST_P(Motion, TorqueMeetsTheInverseInertiaOfTheTurnedBody) {
     EXPECT_LE(norm(state.velocity), tol(1e-14, 1e-6));
 }
 
-TEST_P(Motion, AFreeBodyTurnsAboutItsCentreOfMass) {
+TEST_P(Motion, AFreeBodyTurnsAboutItsCenterOfMass) {
     Scenario s = scene();
     const int b = addBody(s, block({0.3, 0.2, 0.1}), flat({1.0, -2.0, 0.5}), 2.0, {0.3, 0.3, 0.3});
     const Vec3 com = flat({0.4, 0.2, -0.1});
@@ -102,10 +102,10 @@ TEST_P(Motion, AFreeBodyTurnsAboutItsCentreOfMass) {
         world->step();
         const BodyState state = stateOf(*world, s, b);
         // The velocity is that of the centre of mass, which moves on a line; the origin circles around it.
-        const Vec3 centre = start + (n / 240.0) * body.velocity;
-        within("centre_of_mass_line", norm(Pose{state.position, state.orientation} * com - centre),
+        const Vec3 center = start + (n / 240.0) * body.velocity;
+        within("center_of_mass_line", norm(Pose{state.position, state.orientation} * com - center),
                tol(1e-11, 2e-5));
-        within("centre_of_mass_velocity", norm(state.velocity - body.velocity), tol(1e-12, 1e-5));
+        within("center_of_mass_velocity", norm(state.velocity - body.velocity), tol(1e-12, 1e-5));
     }
     const Quat expected = fromAxisAngle(body.angularVelocity / 3.0, 3.0) * body.pose.orientation;
     within("spin_angle_offset", angleBetween(stateOf(*world, s, b).orientation, expected), tol(2e-4, 3e-3));
@@ -177,7 +177,7 @@ TEST_P(Motion, NothingFallsAsleep) {
     EXPECT_FALSE(world->isAsleep(b));
 }
 
-/// Whoever says of a body that it sleeps has stopped it; what moves is awake.
+/// A body that an engine reports as asleep does not move; a body that moves is awake.
 TEST_P(Motion, WhatSleepsIsAtRest) {
     Scenario s = scene();
     const int still = addBody(s, ball(0.2), {});

@@ -59,7 +59,7 @@ bool addPair(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* found) {
     return false;  // go on
 }
 /// Of the hash, which hands over all that share a bucket, and all that left its region, without a look at
-/// their bounds: that is left to whoever is called back.
+/// their bounds: that is left to the callback.
 bool addPairInTouch(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* found) {
     return p->getAABB().overlap(q->getAABB()) && addPair(p, q, found);
 }

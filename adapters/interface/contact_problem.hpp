@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Frozen contact problems: what a solver is asked in one step, without collision detection and integration
+// Contact problems: what a solver is asked in one step, without collision detection and integration
 // around it. Per contact the normal component first, then the tangents (1 in 2D, 2 in 3D):
 //     local    u = W r + q
 //     global   M v = H r + f,   u = H^T v + w                     (W = H^T M^-1 H, q = w + H^T M^-1 f)
@@ -71,7 +71,7 @@ class ContactSolve {
 class ContactSolverEngine {
   public:
     virtual ~ContactSolverEngine() = default;
-    /// Values of the engine's option "solver", those that can take no frozen problem included.
+    /// Values of the engine's option "solver", those that can take no contact problem included.
     virtual std::vector<std::string> solvers() const = 0;
     /// `settings` is complete; its "solver" is meant. The problem has been checked (sizes, finite numbers).
     /// Throws Unsupported with what the solver lacks.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The faces of an engine (dynamics, collision, broad phase, frozen contact problems) and the module that
+// The faces of an engine (dynamics, collision, broad phase, contact problems) and the module that
 // carries them.
 //
 // An adapter is a shared library `rigor_adapter_<name>.so` (another precision of the same engine:
@@ -29,8 +29,8 @@ class World {
     /// the next step only. Calls accumulate.
     virtual void applyForce(int body, const Vec3& force, const Vec3& torque) = 0;
 
-    /// Whether the world evaluates the scenario's force elements itself, so that nobody applies them: only an
-    /// engine that looks at forces more than once in a step needs to.
+    /// Whether the world evaluates the scenario's force elements itself, so that no caller applies them: only
+    /// an engine that looks at forces more than once in a step needs to.
     virtual bool evaluatesForces() const { return false; }
 
     /// Changes linear [N s] and angular [N m s] momentum of a dynamic body at once. False: the engine leaves

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What somebody may have meant who wrote a name that is not known.
+// The known names nearest to a name that is not known, for error messages.
 #pragma once
 
 #include <optional>

@@ -30,26 +30,26 @@ bool PairTable::mayCollide(int bodyA, int bodyB) const {
     return !std::binary_search(connected_.begin(), connected_.end(), key);
 }
 
-std::vector<PairTable::Meeting> PairTable::meetings() const {
-    std::map<std::pair<int, int>, Meeting> found;
+std::vector<PairTable::Example> PairTable::examples() const {
+    std::map<std::pair<int, int>, Example> found;
     const int count = static_cast<int>(materialsOf_.size());
     const auto addShapes = [&](int a, int b) {
         const auto& ofA = materialsOf_[static_cast<std::size_t>(a)];
         const auto& ofB = materialsOf_[static_cast<std::size_t>(b)];
         for (std::size_t i = 0; i < ofA.size(); ++i)
             for (std::size_t j = 0; j < ofB.size(); ++j) {
-                Meeting meeting{ofA[i], ofB[j], {a, static_cast<int>(i)}, {b, static_cast<int>(j)}};
-                if (meeting.materialA > meeting.materialB) {
-                    std::swap(meeting.materialA, meeting.materialB);
-                    std::swap(meeting.a, meeting.b);
+                Example example{ofA[i], ofB[j], {a, static_cast<int>(i)}, {b, static_cast<int>(j)}};
+                if (example.materialA > example.materialB) {
+                    std::swap(example.materialA, example.materialB);
+                    std::swap(example.a, example.b);
                 }
-                found.try_emplace({meeting.materialA, meeting.materialB}, meeting);
+                found.try_emplace({example.materialA, example.materialB}, meeting);
             }
     };
     for (int a = 0; a < count; ++a)
         for (int b = a + 1; b < count; ++b)
             if (mayCollide(a, b)) addShapes(a, b);
-    std::vector<Meeting> all;
+    std::vector<Example> all;
     for (const auto& [materials, meeting] : found) all.push_back(meeting);
     return all;
 }

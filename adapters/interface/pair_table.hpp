@@ -29,12 +29,12 @@ class PairTable {
         int body = 0, shape = 0;
     };
     /// Two shapes that may touch.
-    struct Meeting {
+    struct Example {
         int materialA = 0, materialB = 0;  ///< materialA <= materialB
         ShapeRef a, b;                     ///< of materialA and of materialB
     };
     /// One example for every unordered pair of materials that can meet, sorted by materials.
-    std::vector<Meeting> meetings() const;
+    std::vector<Example> examples() const;
 
     /// True where some shape that may touch `body` has a restitution > 0 with it.
     bool mayBounce(int body) const;

@@ -12,7 +12,7 @@ namespace rigor::adapter {
 
 inline constexpr double kPlanarHalfDepth = 0.5;  ///< [m]
 
-/// The 3D shape that touches others within the plane as the 2D shape does: circle -> sphere, capsule ->
+/// The 3D shape that touches others within the plane z = 0 as the 2D shape does: circle -> sphere, capsule ->
 /// capsule, box -> box, polygon -> prism (hull of 2n points), half-plane -> half-space, segment and chain ->
 /// a triangle mesh of two triangles over each segment. Throws std::invalid_argument for 3D surfaces.
 scenario::Geometry planarGeometry(const scenario::Geometry& geometry);

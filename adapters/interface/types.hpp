@@ -93,7 +93,7 @@ bool isEuler(Scheme s);  ///< one evaluation per step, at its start
 struct Capabilities {
     bool dynamics = false, collision = false, broadPhase = false;
     std::vector<int> dimensions;  ///< native: {2}, {3} or {2,3}
-    bool planar = false;          ///< runs 2D scenarios in the plane of a 3D world
+    bool planar = false;          ///< runs 2D scenarios in the x-y plane of a 3D world
     std::vector<std::string>
         shapes;  ///< geometry names of 3D ("sphere", ...) and 2D ("circle", "polygon", ...)
     /// "ball", "hinge", ...; what they may have besides: "hinge.limit", "slider.motor", "distance.spring",
@@ -104,7 +104,7 @@ struct Capabilities {
     /// Keys of options that collision queries heed, `narrow_phase` apart.
     std::vector<std::string> queryOptions;
     bool kinematicBodies = false, damping = false, gravityScale = false, centerOfMassOffset = false;
-    bool contactSolvers = false;  ///< solves frozen contact problems (contact_problem.hpp)
+    bool contactSolvers = false;  ///< solves contact problems (contact_problem.hpp)
     bool staticFriction = false;  ///< contacts that stick up to a coefficient above that of sliding
     /// What the library itself does not have, and the document of its authors that says so (manual and
     /// chapter, or header and declaration), by name: of `shapes` and `joints` as above, "dynamics", "2D",
@@ -147,7 +147,7 @@ class BadInput : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A shape in space for a collision query.
+/// A shape with a pose, for a collision query.
 struct PosedShape {
     const Geometry* geometry = nullptr;
     Pose pose;  ///< shape to world

@@ -39,7 +39,7 @@ class Unsupported : public std::runtime_error {
 Unsupported notInAdapter(const std::string& engine, const std::string& lacking, const std::string& user = "");
 
 /// "ode: the library has no shape 'cone' for body 'tip' (its documentation: ode/collision.h, geom classes)".
-/// Throws std::logic_error without a documentation: then nobody knows it.
+/// Throws std::logic_error without a documentation: such a statement could not be checked.
 Unsupported notInLibrary(const std::string& engine, const std::string& lacking,
                          const std::string& documentation, const std::string& user = "");
 

@@ -56,7 +56,7 @@ void collideGeoms(dGeomID a, dGeomID b, bool planar, std::vector<FoundPoint>& po
     for (int i = 0; i < count; ++i) {
         const dContactGeom& c = found[static_cast<std::size_t>(i)];
         const Vec3 normal = -fromOde(c.normal);
-        // Centres that coincide leave some pairs without a direction.
+        // Centers that coincide leave some pairs without a direction.
         if (!(std::abs(norm(normal) - 1.0) < 1e-6)) continue;
         points.push_back({fromOde(c.pos), normal, c.depth});
     }

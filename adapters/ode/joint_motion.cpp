@@ -62,7 +62,7 @@ JointMotion::JointMotion(const scenario::Joint& joint, const JointEnd& a, const 
     localTurning_ = joint.axisA;
     if (joint.type == JointType::Wheel)
         localTurning_ = rotateInverse(a.pose.orientation, rotate(b.pose.orientation, joint.spinAxisB));
-    if (joint.type == JointType::SixDof) localTurning_ = localAxes_[2];  // in the plane its one angle
+    if (joint.type == JointType::SixDof) localTurning_ = localAxes_[2];  // in 2D its one angle
     localTurningNormal_ = anyNormal(localTurning_);
     const bool turnsAboutPin = joint.type == JointType::Wheel;
     localTurnAxes_[0] = turnsAboutPin ? localTurning_ : localAxes_[0];

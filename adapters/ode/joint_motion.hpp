@@ -35,7 +35,7 @@ struct Coordinate {
 };
 
 enum class Angle {
-    Turn,   ///< about the joint's turning axis: hinge, wheel, six_dof in the plane
+    Turn,   ///< about the joint's turning axis: hinge, wheel, six_dof in 2D
     Twist,  ///< about A's axis, of a wheel its pin, after the swing is taken back, see scenarios/README.md
     Cone,   ///< between the axes of A and B, >= 0
     SwingY,

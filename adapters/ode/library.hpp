@@ -17,7 +17,7 @@ void useLibrary();
 /// Messages ("LCP internal error" and the like) that ODE has uttered in this thread so far.
 std::int64_t messageCount();
 
-/// QuickStep draws its row order from one generator per process; whoever steps with it holds this.
+/// QuickStep draws its row order from one generator per process; a thread that steps with it holds this.
 std::mutex& randomMutex();
 
 }  // namespace rigor::ode

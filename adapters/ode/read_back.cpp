@@ -35,10 +35,10 @@ adapter::ReadBack OdeWorld::readBack() const {
         all.bodies.push_back(body);
     }
     // Coefficients live in each contact alone; this is the function that every contact gets them from.
-    for (const auto& meeting : pairs_.meetings()) {
+    for (const auto& example : pairs_.examples()) {
         const dSurfaceParameters surface = surfaceFor(
-            pairs_.coefficients(meeting.materialA, meeting.materialB), bounceThreshold_, contactCfm_);
-        all.pairs.push_back({meeting.materialA, meeting.materialB, surface.mu,
+            pairs_.coefficients(example.materialA, example.materialB), bounceThreshold_, contactCfm_);
+        all.pairs.push_back({example.materialA, example.materialB, surface.mu,
                              (surface.mode & dContactBounce) != 0 ? surface.bounce : 0.0});
     }
     return all;

@@ -20,7 +20,7 @@ namespace rigor::ode {
 
 /// One scenario in one ODE world. ODE's body frame has its origin at the centre of mass and the axes of the
 /// scenario's body frame. Static bodies are geoms without a body. Two-dimensional scenarios are lifted
-/// (adapters/interface/planar.hpp) and held in the plane by Plane2D joints.
+/// (adapters/interface/planar.hpp) and held in the x-y plane by Plane2D joints.
 class OdeWorld final : public adapter::World, public adapter::Snapshots, public adapter::StateSetting {
   public:
     OdeWorld(const adapter::Scenario& scenario, double dt, const adapter::Settings& settings);

@@ -38,10 +38,10 @@ std::array<double, 3> solveInertia(const std::array<std::array<double, 3>, 3>& A
     return {x.x, x.y, x.z};
 }
 
-FrozenBody readBody(const Block& block, const double* f, int dimension, int index) {
+ProblemBody readBody(const Block& block, const double* f, int dimension, int index) {
     const std::string name = "block " + std::to_string(index) + " of M";
     const int lin = dimension, dofs = dimension == 3 ? 6 : 3;
-    FrozenBody body;
+    ProblemBody body;
     body.mass = block[0][0];
     if (!(body.mass > 0.0)) refuse(name + " has no mass");
     double largest = 0.0;
@@ -69,7 +69,7 @@ FrozenBody readBody(const Block& block, const double* f, int dimension, int inde
     return body;
 }
 
-void readMasses(const ContactProblem& p, int dofs, FrozenBodies& out) {
+void readMasses(const ContactProblem& p, int dofs, ProblemBodies& out) {
     if (p.M.rows % dofs != 0)
         refuse("M has " + std::to_string(p.M.rows) + " rows, no multiple of " + std::to_string(dofs));
     const int bodies = p.M.rows / dofs;
@@ -85,9 +85,9 @@ void readMasses(const ContactProblem& p, int dofs, FrozenBodies& out) {
         out.bodies.push_back(readBody(blocks[place(b)], p.f.data() + b * dofs, p.dimension, b));
 }
 
-FrozenContact readContact(const ContactProblem& p, int dofs, int contact) {
+ProblemContact readContact(const ContactProblem& p, int dofs, int contact) {
     const std::string name = "contact " + std::to_string(contact);
-    FrozenContact c;
+    ProblemContact c;
     for (int k = 0; k < p.dimension; ++k)
         forEach(p.H, contact * p.dimension + k, [&](int i, double x) {
             const int body = i / dofs;
@@ -99,7 +99,7 @@ FrozenContact readContact(const ContactProblem& p, int dofs, int contact) {
     if (c.a > c.b) std::swap(c.a, c.b);
     if (c.a >= 0 && c.b < 0) std::swap(c.a, c.b);
     for (int k = 0; k < p.dimension; ++k) {
-        FrozenContact::Row& row = c.rows[place(k)];
+        ProblemContact::Row& row = c.rows[place(k)];
         std::array<double, 3> linA{};
         double largest = 0.0;
         forEach(p.H, contact * p.dimension + k, [&](int i, double x) {
@@ -120,10 +120,10 @@ FrozenContact readContact(const ContactProblem& p, int dofs, int contact) {
 
 }  // namespace
 
-FrozenBodies readBodies(const ContactProblem& problem) {
+ProblemBodies readBodies(const ContactProblem& problem) {
     if (!problem.hasBodies) throw Unsupported("needs bodies, and the problem is given by W and q alone");
     const int dofs = problem.dimension == 3 ? 6 : 3;
-    FrozenBodies out;
+    ProblemBodies out;
     readMasses(problem, dofs, out);
     for (std::size_t c = 0; c < problem.contacts(); ++c)
         out.contacts.push_back(readContact(problem, dofs, static_cast<int>(c)));

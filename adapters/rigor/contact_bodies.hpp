@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The bodies behind a frozen contact problem: what M and H say where they are those of rigid bodies.
+// The bodies behind a contact problem: what M and H say where they are those of rigid bodies.
 #pragma once
 
 #include <array>
@@ -14,26 +14,26 @@ namespace rigor::adapter {
 
 /// Three velocities [m/s] and three turning velocities in 3D, two and one in 2D; the axes that those are
 /// along are the problem's own.
-struct FrozenBody {
+struct ProblemBody {
     double mass = 0.0;
     std::array<std::array<double, 3>, 3> inertia{};  ///< in 2D (0,0) alone
     std::array<double, 6> freeVelocity{};            ///< M^-1 f
 };
 /// A contact's rows: row i is lin . (vB - vA) + angA . wA + angB . wB.
-struct FrozenContact {
+struct ProblemContact {
     int a = -1, b = -1;  ///< bodies; a may be none
     struct Row {
         std::array<double, 3> lin{}, angA{}, angB{};
     };
     std::array<Row, 3> rows;
 };
-struct FrozenBodies {
-    std::vector<FrozenBody> bodies;
-    std::vector<FrozenContact> contacts;
+struct ProblemBodies {
+    std::vector<ProblemBody> bodies;
+    std::vector<ProblemContact> contacts;
 };
 
 /// Throws Unsupported saying where M or H are not those of rigid bodies: M consists of blocks of one mass and
 /// one inertia, each contact touches one or two bodies, and pushes them equally and oppositely.
-FrozenBodies readBodies(const ContactProblem& problem);
+ProblemBodies readBodies(const ContactProblem& problem);
 
 }  // namespace rigor::adapter

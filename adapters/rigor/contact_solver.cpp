@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Frozen contact problems for the in-house solvers, through the code that a step runs: rows and bodies made
+// Contact problems for the in-house solvers, through the code that a step runs: rows and bodies made
 // from M and H where these are rigid bodies', else rows on W itself (engine/solvers/matrix_space.hpp) for the
 // solvers that need no bodies.
 #include <algorithm>
@@ -26,12 +26,12 @@ using engine::Space3d;
 using engine::Velocity;
 
 /// What a solver does elsewhere than in one velocity-level problem; null: nothing.
-const char* beyondFrozen(const engine::SolverTraits& traits) {
+const char* whyNotSolvable(const engine::SolverTraits& traits) {
     if (traits.errors == engine::ErrorHandling::Positions)
-        return "solves positions; a frozen problem has none";
+        return "solves positions; a contact problem has none";
     if (traits.errors == engine::ErrorHandling::Correction) return nullptr;
-    return traits.substeps > 1 ? "moves the bodies between its sub-steps; a frozen problem has no positions"
-                               : "softens what position errors ask for; a frozen problem has none";
+    return traits.substeps > 1 ? "moves the bodies between its sub-steps; a contact problem has no positions"
+                               : "softens what position errors ask for; a contact problem has none";
 }
 
 FrictionModel frictionModel(engine::FrictionShape shape, int directions) {
@@ -58,9 +58,9 @@ class Monitor final : public engine::IterationMonitor<S> {
 
 /// Rows, velocities and a solver that has met them.
 template <class S>
-class Frozen : public ContactSolve {
+class EngineSolve : public ContactSolve {
   public:
-    Frozen(const Settings& settings, std::unique_ptr<engine::Solver<S>> solver)
+    EngineSolve(const Settings& settings, std::unique_ptr<engine::Solver<S>> solver)
         : solver_(std::move(solver)),
           friction_(frictionOf(textSetting(settings, "friction"))),
           shape_(engine::solverTraits(textSetting(settings, "solver"))
@@ -119,23 +119,23 @@ void finishContact(Block<S>& block, std::vector<Row<S>>& rows, double mu) {
 }
 
 template <class S>
-class OnBodies final : public Frozen<S> {
+class OnBodies final : public EngineSolve<S> {
   public:
-    OnBodies(const ContactProblem& p, const FrozenBodies& frozen, const Settings& settings)
-        : Frozen<S>(settings,
-                    engine::findAlgorithm(engine::solverTable<S>(), "solver", textSetting(settings, "solver"))
-                        .make()) {
-        const auto none = static_cast<std::uint32_t>(frozen.bodies.size());
-        for (const FrozenBody& body : frozen.bodies) addBody(body);
+    OnBodies(const ContactProblem& p, const ProblemBodies& given, const Settings& settings)
+        : EngineSolve<S>(settings, engine::findAlgorithm(engine::solverTable<S>(), "solver",
+                                                         textSetting(settings, "solver"))
+                                       .make()) {
+        const auto none = static_cast<std::uint32_t>(given.bodies.size());
+        for (const ProblemBody& body : given.bodies) addBody(body);
         this->start_.emplace_back();  // what does not move
-        for (std::size_t c = 0; c < frozen.contacts.size(); ++c) {
-            const FrozenContact& contact = frozen.contacts[c];
+        for (std::size_t c = 0; c < given.contacts.size(); ++c) {
+            const ProblemContact& contact = given.contacts[c];
             Block<S> block;
             block.first = static_cast<std::uint32_t>(this->rows_.rows.size());
             block.a = contact.a < 0 ? none : static_cast<std::uint32_t>(contact.a);
             block.b = static_cast<std::uint32_t>(contact.b);
-            block.invMassA = contact.a < 0 ? 0.0 : 1.0 / frozen.bodies[block.a].mass;
-            block.invMassB = 1.0 / frozen.bodies[block.b].mass;
+            block.invMassA = contact.a < 0 ? 0.0 : 1.0 / given.bodies[block.a].mass;
+            block.invMassB = 1.0 / given.bodies[block.b].mass;
             for (std::size_t i = 0; i < static_cast<std::size_t>(S::dim); ++i)
                 addRow(contact, contact.rows[i], p.w[c * static_cast<std::size_t>(S::dim) + i]);
             finishContact<S>(block, this->rows_.rows, p.mu[c]);
@@ -150,7 +150,7 @@ class OnBodies final : public Frozen<S> {
         else
             return {x[0], x[1], x[2]};
     }
-    void addBody(const FrozenBody& body) {
+    void addBody(const ProblemBody& body) {
         typename S::Inertia inverse;
         if constexpr (S::dim == 2) {
             inverse = 1.0 / body.inertia[0][0];
@@ -167,7 +167,7 @@ class OnBodies final : public Frozen<S> {
         v.w = angular(body.freeVelocity.data() + S::dim);
         this->start_.push_back(v);
     }
-    void addRow(const FrozenContact& contact, const FrozenContact::Row& given, double bias) {
+    void addRow(const ProblemContact& contact, const ProblemContact::Row& given, double bias) {
         Row<S> row;
         for (int i = 0; i < S::dim; ++i) row.lin[i] = given.lin[static_cast<std::size_t>(i)];
         row.angA = angular(given.angA.data());
@@ -181,13 +181,13 @@ class OnBodies final : public Frozen<S> {
 };
 
 template <int D>
-class OnMatrix final : public Frozen<MatrixSpace<D>> {
+class OnMatrix final : public EngineSolve<MatrixSpace<D>> {
   public:
     using S = MatrixSpace<D>;
     OnMatrix(const ContactProblem& p, const Settings& settings)
-        : Frozen<S>(settings, engine::findAlgorithm(engine::matrixSolverTable<S>(), "solver",
-                                                    textSetting(settings, "solver"))
-                                  .make()),
+        : EngineSolve<S>(settings, engine::findAlgorithm(engine::matrixSolverTable<S>(), "solver",
+                                                         textSetting(settings, "solver"))
+                                       .make()),
           columns_(p.W.size()) {
         const std::size_t n = p.size();
         for (std::size_t i = 0; i < n; ++i)
@@ -227,12 +227,12 @@ class RigorContactSolvers final : public ContactSolverEngine {
     }
     std::unique_ptr<ContactSolve> take(const ContactProblem& p, const Settings& settings) const override {
         const std::string& name = textSetting(settings, "solver");
-        if (const char* beyond = beyondFrozen(engine::solverTraits(name)))
+        if (const char* beyond = whyNotSolvable(engine::solverTraits(name)))
             throw Unsupported(name + " " + beyond);
         if (textSetting(settings, "precision") == "f32")
-            throw Unsupported("frozen problems are solved in double precision");
+            throw Unsupported("contact problems are solved in double precision");
         try {
-            const FrozenBodies bodies = readBodies(p);
+            const ProblemBodies bodies = readBodies(p);
             if (p.dimension == 2) return std::make_unique<OnBodies<Space2d>>(p, bodies, settings);
             return std::make_unique<OnBodies<Space3d>>(p, bodies, settings);
         } catch (const Unsupported& error) {

@@ -129,7 +129,8 @@ class Ledger {
             case FrictionShape::Cone:
                 if (solver_.frictionOfPatches && !plane)
                     add("friction_law", asked, "cone, of each patch of contacts as a whole",
-                        "the contacts of two shapes rub as one, at the centre of their pressure: force and "
+                        "the contacts of two shapes have one friction impulse, at the centre of their "
+                        "pressure: force and "
                         "torque are approximate where they slide and turn at once");
                 else
                     add("friction_law", asked, "cone");

@@ -175,10 +175,10 @@ class RigorWorld final : public World, public StateSetting {
             if (moves) b.gravity = fromEngineVec(typename S::Vec(body.gravityScale * world_.def().gravity));
             result.bodies.push_back(b);
         }
-        for (const PairTable::Meeting& meeting : pairs_.meetings()) {
+        for (const PairTable::Example& example : pairs_.examples()) {
             const engine::PairCoefficients<S>& c =
-                world_.pairCoefficients(material(meeting.materialA), material(meeting.materialB));
-            result.pairs.push_back({meeting.materialA, meeting.materialB, static_cast<double>(c.friction),
+                world_.pairCoefficients(material(example.materialA), material(example.materialB));
+            result.pairs.push_back({example.materialA, example.materialB, static_cast<double>(c.friction),
                                     static_cast<double>(c.restitution)});
         }
         return result;
@@ -186,7 +186,7 @@ class RigorWorld final : public World, public StateSetting {
 
     std::vector<LedgerEntry> ledger() const override {
         bool bounces = false;
-        for (const PairTable::Meeting& m : pairs_.meetings())
+        for (const PairTable::Example& m : pairs_.examples())
             bounces = bounces || pairs_.coefficients(m.materialA, m.materialB).restitution > 0;
         return settingsLedger(scenario_, settings_, bounces,
                               static_cast<double>(dt_) / static_cast<double>(world_.substeps()));

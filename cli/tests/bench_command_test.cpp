@@ -158,7 +158,7 @@ TEST_F(BenchCommand, BadCommandLinesAreSaid) {
         EXPECT_THAT(result.out, HasSubstr(words)) << arguments;
         EXPECT_FALSE(fs::exists(folder_ / "none/results.sqlite")) << arguments;
     };
-    said("--engines nobody", "nobody");
+    said("--engines no_engine", "no_engine");
     said("--engines double_free_flight:speed=9", "key 'speed'");
     said("--engines double_free_flight:pause_us=much", "pause_us");
     said("--engines double_free_flight --parts nothing", "expected one of all");

@@ -119,7 +119,7 @@ TEST(CollideCommand, SinglePrecisionIsASpec) {
 TEST(CollideCommand, BadInputIsSaid) {
     EXPECT_EQ(rigor("collide").code, 2);
     EXPECT_EQ(rigor("collide no_such_file --engines rigor").code, 2);
-    EXPECT_EQ(rigor("collide analytic --engines nobody").code, 2);
+    EXPECT_EQ(rigor("collide analytic --engines no_engine").code, 2);
     const auto key = rigor("collide analytic --engines rigor:narrow_phase=magic");
     EXPECT_EQ(key.code, 2) << key.out;
     EXPECT_NE(key.out.find("narrow_phase"), std::string::npos) << key.out;

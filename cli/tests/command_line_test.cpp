@@ -175,8 +175,8 @@ TEST(CommandLine, EventLogTellsOfSleepAndJointsWhereTheEngineDoes) {
     EXPECT_GE(countLines(sleeper.out, " sleep body="), 1) << sleeper.out.substr(0, 3000);
 }
 
-/// The log can be followed: lines are there long before the run has ended, and whoever has seen enough may
-/// go.
+/// The log can be followed: lines are there long before the run has ended, and a reader that has seen enough
+/// may go.
 TEST(CommandLine, EventLogFlowsThroughAPipe) {
     const auto few =
         rigor("run box_stack --log contacts --set duration=2 2>&1 >/dev/null | head -n 3; true", false);

@@ -22,9 +22,9 @@ std::string file(const char* name) {
 
 TEST(FreezeCommand, AStepGoesToAFileAndIsSolved) {
     const std::string stack = file("stack.hdf5"), csv = file("stack.csv");
-    const auto frozen = rigor("freeze stack_forces --engine rigor:solver=nsgs --step 3 --out " + stack);
-    ASSERT_EQ(frozen.code, 0) << frozen.out;
-    EXPECT_THAT(frozen.out, HasSubstr("step 3 of stack_forces"));
+    const auto exported = rigor("freeze stack_forces --engine rigor:solver=nsgs --step 3 --out " + stack);
+    ASSERT_EQ(exported.code, 0) << exported.out;
+    EXPECT_THAT(exported.out, HasSubstr("step 3 of stack_forces"));
     const auto solved =
         rigor("solve " + stack + " --solvers rigor:solver=nsgs,rigor:solver=pgs,rigor:solver=xpbd " +
                   "--iterations 500,1 --seconds 2 --json --csv " + csv,
@@ -41,7 +41,7 @@ TEST(FreezeCommand, AStepGoesToAFileAndIsSolved) {
     EXPECT_EQ(answers[1].at("solver"), "rigor:solver=nsgs");
     EXPECT_LT(answers[1].at("steps").back().at("residual").get<double>(), 1e-10);
     ASSERT_EQ(answers[2].at("steps").size(), 2u);
-    EXPECT_EQ(answers[2].at("steps")[0].at("allowed"), 1) << "the ladder is climbed from below";
+    EXPECT_EQ(answers[2].at("steps")[0].at("allowed"), 1) << "the numbers of iterations rise";
     EXPECT_GT(answers[2].at("steps")[0].at("residual").get<double>(),
               answers[2].at("steps")[1].at("residual").get<double>());
     EXPECT_EQ(answers[3].at("outcome"), "unsupported");
@@ -51,14 +51,14 @@ TEST(FreezeCommand, AStepGoesToAFileAndIsSolved) {
     EXPECT_THAT(head, HasSubstr("solver;friction;outcome;allowed;done"));
 }
 
-TEST(FreezeCommand, WhatCannotBeFrozenIsSaid) {
+TEST(FreezeCommand, WhatCannotBeExportedIsSaid) {
     const std::string out = " --out " + file("none.hdf5");
     auto result = rigor("freeze hinge_limit" + out);
     EXPECT_EQ(result.code, 4);
     EXPECT_THAT(result.out, HasSubstr("a limit is no equation between velocities"));
     result = rigor("freeze free_flight --step 1" + out);
     EXPECT_EQ(result.code, 2);
-    EXPECT_THAT(result.out, HasSubstr("no contacts to freeze"));
+    EXPECT_THAT(result.out, HasSubstr("no contacts to export"));
     EXPECT_EQ(rigor("freeze no_such_scenario" + out).code, 2);
     EXPECT_EQ(rigor("freeze stack_forces").code, 2);
     EXPECT_EQ(rigor("freeze stack_forces --step 1 --time 2" + out).code, 2);
@@ -75,7 +75,7 @@ TEST(SolveCommand, BadInputIsSaid) {
     EXPECT_THAT(result.out, HasSubstr("the dimension has 4, expected 2 or 3"));
     result = rigor("solve " + file("bad.json") + " --solvers ode");
     EXPECT_EQ(result.code, 2);
-    EXPECT_THAT(result.out, HasSubstr("ode has no solvers for frozen contact problems"));
+    EXPECT_THAT(result.out, HasSubstr("ode has no solvers for contact problems"));
 }
 
 }  // namespace

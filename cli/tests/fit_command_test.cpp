@@ -89,7 +89,7 @@ TEST(FitCommand, RunsResumesAndKeepsAFolder) {
     const json& engine = result.at("engines").at(0);
     EXPECT_LE(engine.at("evaluations"), 12);
     EXPECT_EQ(engine.at("parameters").at(0).at("name"), "friction");
-    EXPECT_EQ(result.at("yardsticks").size(), 3U);
+    EXPECT_EQ(result.at("baselines").size(), 3U);
     for (const char* file : {"fit.md", "fit.csv", "fit.json", "evaluations.jsonl"})
         EXPECT_TRUE(fs::exists(fs::path(out) / file)) << file;
     EXPECT_TRUE(fs::exists(fs::path(out) / engine.at("run").get<std::string>() / "index.html"));

@@ -60,7 +60,7 @@ TEST(Readme, EveryCommandRuns) {
         // repo.
         if (std::getenv("RIGOR_DATA") == nullptr && command.find("toss") != std::string::npos) continue;
         command.starts_with("./rigor validate") ? ++validates : ++others;
-        // Servers go on until somebody presses Ctrl-C.
+        // Servers run until they are interrupted.
         const bool serves = command.starts_with("./rigor view");
         const std::string line = "cd '" + folder.string() + "' && " +
                                  (serves ? "timeout --preserve-status -s INT 4 " : "") + "'" +

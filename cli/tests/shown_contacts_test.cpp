@@ -144,7 +144,7 @@ TEST_F(ShownContacts, AreThoseThatTheAuditMeasured) {
         EXPECT_NEAR(linked, audit.normalErrorMax.value(), kAgree) << audit.worst;
         worstOfAll = std::max(worstOfAll, worst);
     }
-    EXPECT_GT(worstOfAll, 1e-3) << "somebody is wrong here, and is seen to be as wrong as measured";
+    EXPECT_GT(worstOfAll, 1e-3) << "an engine is wrong here, and is shown to be as wrong as measured";
 }
 
 }  // namespace

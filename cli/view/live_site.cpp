@@ -52,27 +52,29 @@ std::string LiveSite::contentSecurityPolicy() const {
            "'none'; frame-ancestors 'none'";
 }
 
-Reply LiveSite::answer(const Question& question) {
-    const std::string& path = question.path;
-    if (question.method == "POST") return path == "/api/command" ? command(question) : notFound();
+Reply LiveSite::answer(const Request& request) {
+    const std::string& path = request.path;
+    if (request.method == "POST") return path == "/api/command" ? command(request) : notFound();
     if (path == "/") return {200, "text/html; charset=utf-8", kPage};
     if (path == "/live.js")
         return {200, "text/javascript; charset=utf-8", std::string(report::webAsset("live.js"))};
     if (path == "/live.css")
         return {200, "text/css; charset=utf-8", std::string(report::webAsset("live.css"))};
-    if (path == "/api/frames") return frames(question);
+    if (path == "/api/frames") return frames(request);
     if (path == "/api/engines") return engines();
     if (path == "/api/scenarios") return scenarios();
     if (path == "/api/scene") {
-        const Json scene = session_.scene(static_cast<int>(question.number("lane", -1, -1, 1e9)));
+        // Version 0.1 called an instance a lane.
+        const double oldKey = request.number("lane", -1, -1, 1e9);
+        const Json scene = session_.scene(static_cast<int>(request.number("instance", oldKey, -1, 1e9)));
         return scene.is_null() ? notFound() : json(scene.dump());
     }
     return notFound();
 }
 
-Reply LiveSite::frames(const Question& question) {
-    const auto after = static_cast<std::uint64_t>(question.number("after", 0, 0, 9e15));
-    double wait = question.number("wait", 0, 0, kLongestWait);
+Reply LiveSite::frames(const Request& request) {
+    const auto after = static_cast<std::uint64_t>(request.number("after", 0, 0, 9e15));
+    double wait = request.number("wait", 0, 0, kLongestWait);
     if (++waiting_ > kMostWaiting) wait = 0.0;
     std::string bytes;
     try {
@@ -85,15 +87,15 @@ Reply LiveSite::frames(const Question& question) {
     return {200, "application/octet-stream", std::move(bytes)};
 }
 
-Reply LiveSite::command(const Question& question) {
-    const Json request = Json::parse(question.body, nullptr, false);
-    if (!request.is_object()) return problem(400, "a JSON object is needed");
+Reply LiveSite::command(const Request& request) {
+    const Json body = Json::parse(request.body, nullptr, false);
+    if (!body.is_object()) return problem(400, "a JSON object is needed");
     try {
-        if (request.value("command", Json()) == "open") {
-            session_.open(libraryText(request.at("scenario").get<std::string>()));
+        if (body.value("command", Json()) == "open") {
+            session_.open(libraryText(body.at("scenario").get<std::string>()));
             return json("{}");
         }
-        return json(session_.command(request).dump(-1, ' ', false, Json::error_handler_t::replace));
+        return json(session_.command(body).dump(-1, ' ', false, Json::error_handler_t::replace));
     } catch (const CommandError& error) {
         return problem(422, error.what());
     } catch (const scenario::LoadError& error) {

@@ -16,20 +16,20 @@ namespace rigor::view {
 
 /// GET  /, /live.js, /live.css   the page
 /// GET  /api/frames?after=N&wait=S   validation/live/README.md; waits for news at most S seconds
-/// GET  /api/scene?lane=N        the scenario of a lane, and how its engine was set up
+/// GET  /api/scene?instance=N    the scenario of an instance, and how its engine was set up
 /// GET  /api/engines             engines with all options and their values
 /// GET  /api/scenarios           names and titles of the library
 /// POST /api/command             a command of the session, or {"command": "open", "scenario": NAME}
 class LiveSite final : public Site {
   public:
     LiveSite(validation::Session& session, std::filesystem::path binary);
-    Reply answer(const Question& question) override;
+    Reply answer(const Request& request) override;
     std::string contentSecurityPolicy() const override;
     void close() override { session_.close(); }
 
   private:
-    Reply frames(const Question& question);
-    Reply command(const Question& question);
+    Reply frames(const Request& request);
+    Reply command(const Request& request);
     Reply engines();
 
     validation::Session& session_;

@@ -106,13 +106,13 @@ std::string RunSite::contentSecurityPolicy() const {
            "form-action 'none'; frame-ancestors 'none'";
 }
 
-Reply RunSite::answer(const Question& question) {
-    if (question.method != "GET") return problem(405, "a recorded run can only be read");
+Reply RunSite::answer(const Request& request) {
+    if (request.method != "GET") return problem(405, "a recorded run can only be read");
     constexpr std::string_view kTrajectory = "/trajectory/";
-    if (question.path == "/") return file("/index.html");
-    if (question.path.starts_with(kTrajectory))
-        return trajectory(question.path.substr(kTrajectory.size()), question);
-    return file(question.path);
+    if (request.path == "/") return file("/index.html");
+    if (request.path.starts_with(kTrajectory))
+        return trajectory(request.path.substr(kTrajectory.size()), request);
+    return file(request.path);
 }
 
 Reply RunSite::file(const std::string& path) const {
@@ -148,13 +148,13 @@ std::shared_ptr<const TrajectoryFile> RunSite::read(const std::string& id) {
     return last_;
 }
 
-Reply RunSite::trajectory(const std::string& id, const Question& question) {
+Reply RunSite::trajectory(const std::string& id, const Request& request) {
     const auto t = read(id);
     if (t == nullptr) return notFound();
     const std::size_t frames = t->times.size(), bodies = t->bodies.size();
     const std::size_t most = std::max<std::size_t>(1, kMostNumbers / std::max<std::size_t>(1, 13 * bodies));
-    const auto from = std::min(frames, static_cast<std::size_t>(question.number("from", 0, 0, 1e15)));
-    const auto asked = static_cast<std::size_t>(question.number("count", 1e15, 1, 1e15));
+    const auto from = std::min(frames, static_cast<std::size_t>(request.number("from", 0, 0, 1e15)));
+    const auto asked = static_cast<std::size_t>(request.number("count", 1e15, 1, 1e15));
     const std::size_t count = std::min({asked, most, frames - from});
     ArrayBundle bundle;
     bundle.add("time", std::span(t->times).subspan(from, count));

@@ -21,12 +21,12 @@ class RunSite final : public Site {
   public:
     /// Throws std::invalid_argument when the folder holds no run with a report.
     explicit RunSite(const std::filesystem::path& folder);
-    Reply answer(const Question& question) override;
+    Reply answer(const Request& request) override;
     std::string contentSecurityPolicy() const override;
 
   private:
     Reply file(const std::string& path) const;
-    Reply trajectory(const std::string& id, const Question& question);
+    Reply trajectory(const std::string& id, const Request& request);
     std::shared_ptr<const results::TrajectoryFile> read(const std::string& id);
 
     std::filesystem::path folder_;  ///< canonical

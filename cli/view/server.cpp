@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "cli/view/gate.hpp"
+#include "cli/view/auth_guard.hpp"
 
 namespace rigor::view {
 namespace {
@@ -18,31 +18,31 @@ constexpr std::size_t kThreads = 16;  ///< requests at a time; each that waits f
 constexpr std::size_t kMostBody = 4 << 20;
 constexpr const char* kAddress = "127.0.0.1";
 
-Knock knockOf(const httplib::Request& request) {
-    Knock knock;
-    knock.method = request.method;
-    knock.path = request.path;
-    knock.host = request.get_header_value("Host");
-    knock.origin = request.get_header_value("Origin");
-    knock.cookie = request.get_header_value("Cookie");
-    knock.contentType = request.get_header_value("Content-Type");
-    knock.fetchSite = request.get_header_value("Sec-Fetch-Site");
-    knock.token = request.get_param_value("token");
-    knock.hosts = static_cast<int>(request.get_header_value_count("Host"));
-    return knock;
+Credentials credentialsOf(const httplib::Request& request) {
+    Credentials credentials;
+    credentials.method = request.method;
+    credentials.path = request.path;
+    credentials.host = request.get_header_value("Host");
+    credentials.origin = request.get_header_value("Origin");
+    credentials.cookie = request.get_header_value("Cookie");
+    credentials.contentType = request.get_header_value("Content-Type");
+    credentials.fetchSite = request.get_header_value("Sec-Fetch-Site");
+    credentials.token = request.get_param_value("token");
+    credentials.hosts = static_cast<int>(request.get_header_value_count("Host"));
+    return credentials;
 }
 
-Question questionOf(const httplib::Request& request) {
-    Question question{request.method == "POST" ? "POST" : "GET", request.path, {}, request.body};
-    for (const auto& [key, value] : request.params) question.query.emplace(key, value);
-    return question;
+Request requestOf(const httplib::Request& received) {
+    Request request{received.method == "POST" ? "POST" : "GET", received.path, {}, received.body};
+    for (const auto& [key, value] : received.params) request.query.emplace(key, value);
+    return request;
 }
 
 }  // namespace
 
 struct Server::Impl {
     explicit Impl(Site& s) : site(s) {
-        // Without the library's SO_REUSEPORT: nobody else may listen on our port.
+        // Without the library's SO_REUSEPORT: no other process may listen on our port.
         http.set_socket_options([](auto) {});
         http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
         http.set_payload_max_length(kMostBody);
@@ -65,8 +65,8 @@ struct Server::Impl {
     }
 
     void answer(const httplib::Request& request, httplib::Response& response) {
-        const Decision decision = gate->judge(knockOf(request));
-        if (decision.kind == Decision::Kind::Welcome) {
+        const Decision decision = guard->judge(credentialsOf(request));
+        if (decision.kind == Decision::Kind::StartSession) {
             response.set_header("Set-Cookie", decision.setCookie);
             response.set_redirect("/", 303);
             return;
@@ -75,14 +75,14 @@ struct Server::Impl {
         if (decision.kind == Decision::Kind::Refuse)
             reply = problem(decision.status, decision.reason);
         else
-            reply = asked(questionOf(request));
+            reply = asked(requestOf(request));
         response.status = reply.status;
         response.set_content(std::move(reply.body), reply.type.c_str());
     }
 
-    Reply asked(const Question& question) {
+    Reply asked(const Request& request) {
         try {
-            return site.answer(question);
+            return site.answer(request);
         } catch (const std::invalid_argument& error) {
             return problem(400, error.what());
         } catch (const std::exception& error) {
@@ -92,7 +92,7 @@ struct Server::Impl {
 
     Site& site;
     httplib::Server http;
-    std::optional<Gate> gate;
+    std::optional<AuthGuard> guard;
     int port = 0;
     std::thread listening;
 };
@@ -103,7 +103,7 @@ Server::Server(Site& site, int port) : impl_(std::make_unique<Impl>(site)) {
     if (impl_->port <= 0)
         throw std::runtime_error("cannot listen on " + std::string(kAddress) + " port " +
                                  std::to_string(port));
-    impl_->gate.emplace(impl_->port);
+    impl_->guard.emplace(impl_->port);
     impl_->listening = std::thread([this] { impl_->http.listen_after_bind(); });
     while (!impl_->http.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
@@ -120,7 +120,7 @@ int Server::port() const {
 
 std::string Server::url() const {
     return "http://" + std::string(kAddress) + ":" + std::to_string(impl_->port) +
-           "/?token=" + impl_->gate->token();
+           "/?token=" + impl_->guard->token();
 }
 
 }  // namespace rigor::view

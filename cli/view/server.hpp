@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A site on 127.0.0.1, behind a gate.
+// A site on 127.0.0.1, behind an authorisation guard.
 #pragma once
 
 #include <memory>

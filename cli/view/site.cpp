@@ -8,7 +8,7 @@
 
 namespace rigor::view {
 
-double Question::number(const std::string& key, double otherwise, double min, double max) const {
+double Request::number(const std::string& key, double otherwise, double min, double max) const {
     const auto it = query.find(key);
     if (it == query.end()) return otherwise;
     const std::string& text = it->second;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a server serves: questions to answers, without HTTP.
+// What a server serves: requests to answers, without HTTP.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace rigor::view {
 
-struct Question {
+struct Request {
     std::string method;  ///< "GET" or "POST"
     std::string path;    ///< decoded, begins with '/'
     std::map<std::string, std::string> query;
@@ -32,10 +32,10 @@ class Site {
   public:
     virtual ~Site() = default;
     /// From any thread. What it throws becomes a 400 (std::invalid_argument) or a 500.
-    virtual Reply answer(const Question& question) = 0;
-    /// Of every answer.
+    virtual Reply answer(const Request& request) = 0;
+    /// Sent with every response.
     virtual std::string contentSecurityPolicy() const = 0;
-    /// Lets everybody go who waits for an answer.
+    /// Ends the requests that wait for an answer.
     virtual void close() {}
 };
 

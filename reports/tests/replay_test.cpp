@@ -212,14 +212,14 @@ TEST_F(ReplayFiles, HasTheFramesOfAllEvents) {
     for (const auto& event : bundle.meta["cases"][c]["events"]) {
         ++kinds[event["kind"]];
         EXPECT_TRUE(has(steps, std::round(event["time"].get<double>() / 0.01))) << event;
-        if (event["kind"] == "parting") {
+        if (event["kind"] == "engine_divergence") {
             EXPECT_EQ(event["what"], "ode:preset=matched");
             EXPECT_GT(event["value"], event["threshold"]);
         }
     }
     EXPECT_EQ(kinds["largest"], 1);
     EXPECT_EQ(kinds["audit"], 1);
-    EXPECT_EQ(kinds["parting"], 1);
+    EXPECT_EQ(kinds["engine_divergence"], 1);
     EXPECT_EQ(kinds["contact_begin"] + kinds["contact_end"], static_cast<int>(kMostContactEvents));
 }
 

@@ -23,7 +23,7 @@ const StudyChart& only(const std::vector<StudyChart>& charts) {
 
 /// Sixteen sweeps more, or a step half as long: what takes the most numbers is the axis, the rest makes
 /// lines.
-TEST(StudyCharts, TheLongestLadderIsTheAxis) {
+TEST(StudyCharts, TheLongestRefinementIsTheAxis) {
     Json rows = Json::array();
     for (const char* variant : {"cold", "warm"})
         for (const int sweeps : {16, 1, 4})
@@ -64,7 +64,7 @@ TEST(StudyCharts, NamesAreBarsAndScenariosHaveTheirOwn) {
 }
 
 /// Error against cost: a point per run, at its time.
-TEST(StudyCharts, ColumnsOfALadderStandOverTheirCost) {
+TEST(StudyCharts, ColumnsOfARefinementAreShownOverTheirCost) {
     Json rows = Json::array();
     for (const double sweeps : {1.0, 2.0, 4.0})
         rows.push_back(studyRow("stack", "pgs", 0.01, {{"iterations", std::to_string(int(sweeps))}},

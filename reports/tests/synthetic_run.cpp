@@ -14,9 +14,9 @@ namespace {
 using namespace results;
 
 /// A small generator with the same numbers everywhere.
-class Dice {
+class Rng {
   public:
-    explicit Dice(std::uint64_t seed) : state_(seed * 2862933555777941757ull + 3037000493ull) {}
+    explicit Rng(std::uint64_t seed) : state_(seed * 2862933555777941757ull + 3037000493ull) {}
     double operator()() {
         state_ ^= state_ << 13;
         state_ ^= state_ >> 7;
@@ -52,7 +52,7 @@ constexpr std::array<const char*, 9> kSpecs{
     "bullet:preset=matched", "box2d:preset=default", "box2d:preset=matched",
     "ode:preset=default",    "ode:preset=matched",   "ode:preset=matched,stepper=quickstep"};
 
-void fillNumbers(CaseRow& c, const Kind& kind, double error, Dice& dice) {
+void fillNumbers(CaseRow& c, const Kind& kind, double error, Rng& rng) {
     const bool hasReference = *kind.reference != '\0';
     const double bound = 2e-2 * c.dt * 60;
     const auto judge = [&](double v, std::optional<double> b) {
@@ -75,7 +75,7 @@ void fillNumbers(CaseRow& c, const Kind& kind, double error, Dice& dice) {
                              body,
                              kind.unit,
                              hasReference ? "exact" : "contact",
-                             error * dice(),
+                             error * rng(),
                              0.5,
                              {},
                              {},
@@ -86,7 +86,7 @@ void fillNumbers(CaseRow& c, const Kind& kind, double error, Dice& dice) {
                              "",
                              "m",
                              "scheme_exact",
-                             1e-13 * (1 + 9 * dice()),
+                             1e-13 * (1 + 9 * rng()),
                              1.0,
                              1e-9,
                              {},
@@ -96,7 +96,7 @@ void fillNumbers(CaseRow& c, const Kind& kind, double error, Dice& dice) {
     c.metrics.push_back({"momentum_drift", "", "1", "invariant", 1e-16, -1.0, {}, {}, Verdict::Pass, ""});
     if (kind.metric != std::string_view("penetration_max"))
         c.metrics.push_back(
-            {"penetration_max", "", "m", "contact", 4e-4 * dice(), 0.1, 5e-3, {}, Verdict::Pass, ""});
+            {"penetration_max", "", "m", "contact", 4e-4 * rng(), 0.1, 5e-3, {}, Verdict::Pass, ""});
     if (c.engine == "bullet" && c.preset == "default" && c.metrics[0].verdict == Verdict::Fail) {
         c.metrics[0].expectation = error;
         c.metrics[0].verdict = Verdict::KnownDeviation;
@@ -111,7 +111,7 @@ void fillNumbers(CaseRow& c, const Kind& kind, double error, Dice& dice) {
                         {"second_stop", "s", 2.5, 2.51, {}}};
 }
 
-void fillContext(CaseRow& c, Dice& dice) {
+void fillContext(CaseRow& c, Rng& rng) {
     c.ledger = {{"friction law", "Coulomb cone", "Coulomb cone", "exact", ""},
                 {"sleeping", "off", "off", "exact", ""}};
     if (c.engine != "rigor")
@@ -124,26 +124,14 @@ void fillContext(CaseRow& c, Dice& dice) {
     if (c.spec == "ode:preset=default")
         c.readBack.push_back({"friction", "wood|floor", 0.5, 0.49, 0.01, false});
     for (const char* auditor : {"oracle", "in_run", "rigor", "bullet", "ode", "fcl", "bullet|ode"}) {
-        AuditRow a{auditor,
-                   "completed",
-                   20,
-                   44,
-                   31,
-                   0,
-                   0,
-                   2,
-                   1e-7 * dice(),
-                   1e-9,
-                   3e-6 * dice(),
-                   1e-8,
-                   1e-5,
-                   "block|floor at t=0.25",
+        AuditRow a{auditor, "completed",  20,   44,           31,   0,    0,
+                   2,       1e-7 * rng(), 1e-9, 3e-6 * rng(), 1e-8, 1e-5, "block|floor at t=0.25",
                    ""};
-        if (std::string(auditor) == "fcl" && dice() < 0.3) {
+        if (std::string(auditor) == "fcl" && rng() < 0.3) {
             a.missed = 2;
             a.normalErrorMax = 0.7;
         }
-        if (std::string(auditor) == "ode" && dice() < 0.1) {
+        if (std::string(auditor) == "ode" && rng() < 0.1) {
             a.outcome = "unsupported";
             a.queries = 0;
             a.normalErrorMax = {};
@@ -151,7 +139,7 @@ void fillContext(CaseRow& c, Dice& dice) {
         }
         c.audit.push_back(a);
     }
-    const double step = 4e-6 * (1 + 20 * dice());
+    const double step = 4e-6 * (1 + 20 * rng());
     c.timings = {{"step", step, 0.8 * step, 1.7 * step, step * 400, 400, 4.0, 0.98 * step, 1.03 * step, 2},
                  {"build", 1e-3, 1e-3, 1e-3, 1e-3, 1, 0.0}};
     if (c.engine == "rigor")
@@ -168,7 +156,7 @@ void fillContext(CaseRow& c, Dice& dice) {
 }
 
 /// Ends a case early: nothing but a reason is left.
-void spoil(CaseRow& c, Outcome outcome, Verdict verdict, const char* reason) {
+void setOutcome(CaseRow& c, Outcome outcome, Verdict verdict, const char* reason) {
     c.outcome = outcome;
     c.verdict = verdict;
     c.reason = reason;
@@ -180,18 +168,18 @@ void spoil(CaseRow& c, Outcome outcome, Verdict verdict, const char* reason) {
 }
 
 void refuse(CaseRow& c, const char* refusal) {
-    spoil(c, Outcome::Unsupported, Verdict::Unsupported, "dimension 3");
+    setOutcome(c, Outcome::Unsupported, Verdict::Unsupported, "dimension 3");
     c.refusal = refusal;
     c.ledger = {{"refused", "3D dynamics", "nothing", "unsupported", "its documentation: manual"}};
 }
 
 /// Accuracy by the first metric where it is exact, of a scale of 2; a few cases changed against their record.
-void grade(CaseRow& c, double dice) {
-    c.regression = dice < 0.03   ? Regression::Worse
-                   : dice < 0.05 ? Regression::Better
-                   : dice < 0.1  ? Regression::NoRecord
-                                 : Regression::Unchanged;
-    if (dice < 0.05) c.regressionReason = "position_max 0.01 -> 0.02 m";
+void grade(CaseRow& c, double rng) {
+    c.regression = rng < 0.03   ? Regression::Worse
+                   : rng < 0.05 ? Regression::Better
+                   : rng < 0.1  ? Regression::NoRecord
+                                : Regression::Unchanged;
+    if (rng < 0.05) c.regressionReason = "position_max 0.01 -> 0.02 m";
     if (c.outcome != Outcome::Completed || c.metrics.empty() || c.metrics[0].kind != "exact") {
         c.accuracy.note = "no exact answer";
         return;
@@ -208,7 +196,7 @@ void grade(CaseRow& c, double dice) {
 }
 
 CaseRow makeCase(const ScenarioRow& s, const Kind& kind, const std::string& spec, double dt, int number) {
-    Dice dice(static_cast<std::uint64_t>(number) + 17);
+    Rng rng(static_cast<std::uint64_t>(number) + 17);
     CaseRow c;
     c.id = "case" + std::to_string(number);
     c.position = number;
@@ -218,18 +206,18 @@ CaseRow makeCase(const ScenarioRow& s, const Kind& kind, const std::string& spec
     c.engine = spec.substr(0, spec.find(':'));
     c.preset = spec.find("=default") != std::string::npos ? "default" : "matched";
     c.command = "./rigor run " + s.name + " --engine " + spec + " --dt " + std::to_string(dt);
-    const double error = std::pow(10.0, -6.0 + 5.2 * dice()) * (c.preset == "default" ? 3.0 : 1.0) * dt * 60;
-    fillContext(c, dice);
-    fillNumbers(c, kind, error, dice);
-    const double fate = dice();
+    const double error = std::pow(10.0, -6.0 + 5.2 * rng()) * (c.preset == "default" ? 3.0 : 1.0) * dt * 60;
+    fillContext(c, rng);
+    fillNumbers(c, kind, error, rng);
+    const double fate = rng();
     if (c.engine == "box2d" && s.dimension == 3)
         refuse(c, number % 4 == 0 ? "adapter" : "library");
     else if (fate < 0.01)
-        spoil(c, Outcome::Crashed, Verdict::Crashed, "SIGSEGV after 12 steps <at> 0x0 & more");
+        setOutcome(c, Outcome::Crashed, Verdict::Crashed, "SIGSEGV after 12 steps <at> 0x0 & more");
     else if (fate < 0.015)
-        spoil(c, Outcome::Timeout, Verdict::Timeout, "no answer within 60 s");
+        setOutcome(c, Outcome::Timeout, Verdict::Timeout, "no answer within 60 s");
     else if (fate < 0.02)
-        spoil(c, Outcome::OutOfMemory, Verdict::Crashed, "more than 4096 MiB");
+        setOutcome(c, Outcome::OutOfMemory, Verdict::Crashed, "more than 4096 MiB");
     else if (fate < 0.03) {
         c.outcome = Outcome::NonFinite;
         c.verdict = Verdict::NonFinite;
@@ -238,7 +226,7 @@ CaseRow makeCase(const ScenarioRow& s, const Kind& kind, const std::string& spec
         c.metrics[0].verdict = Verdict::Fail;
         c.metrics[1].value = std::numeric_limits<double>::infinity();
     }
-    grade(c, dice());
+    grade(c, rng());
     return c;
 }
 
@@ -277,8 +265,8 @@ TrajectoryFile makeTrajectory(const Run& run, const CaseRow& c) {
     f.caseId = c.id;
     f.dt = c.dt;
     const auto rows = static_cast<std::size_t>(c.steps) + 1;
-    Dice dice(static_cast<std::uint64_t>(c.position) + 5);
-    const double error = std::isfinite(c.metrics.at(0).value) ? c.metrics[0].value : 0.1, shift = dice();
+    Rng rng(static_cast<std::uint64_t>(c.position) + 5);
+    const double error = std::isfinite(c.metrics.at(0).value) ? c.metrics[0].value : 0.1, shift = rng();
     std::vector<BodyChannels> measured, exact;
     for (const auto& s : run.scenarios)
         if (s.name == c.scenario)
@@ -299,7 +287,7 @@ TrajectoryFile makeTrajectory(const Run& run, const CaseRow& c) {
         }
         errorSeries.values[i] = std::abs(error * t * std::sin(5 * t + shift));
         energy.values[i] = 10.0 - t + error * std::sin(20 * t);
-        depth.values[i] = i % 97 == 50 ? 4e-4 : 1e-6 * dice();
+        depth.values[i] = i % 97 == 50 ? 4e-4 : 1e-6 * rng();
     }
     f.bodies = measured;
     f.reference = exact;
@@ -344,8 +332,8 @@ Run makeRun(int scenarios) {
 Run makeHardRun() {
     Run run = makeRun(10);
     run.finished.clear();
-    // What ended before its time, each once for sure; then a scenario that nobody survives and one that was
-    // not reached.
+    // What ended before its time, each once for sure; then a scenario that no engine survives and one that
+    // was not reached.
     const struct {
         Outcome outcome;
         Verdict verdict;
@@ -356,9 +344,9 @@ Run makeHardRun() {
                 {Outcome::Error, Verdict::Fail, "the module could not be loaded: | & % $ # _ { } ~ ^ \\"},
                 {Outcome::Unsupported, Verdict::Unsupported, ""}};
     for (std::size_t i = 0; i < std::size(ends); ++i)
-        spoil(run.cases[3 * i], ends[i].outcome, ends[i].verdict, ends[i].reason);
+        setOutcome(run.cases[3 * i], ends[i].outcome, ends[i].verdict, ends[i].reason);
     for (auto& c : run.cases)
-        if (c.scenario == run.scenarios[1].name) spoil(c, Outcome::Crashed, Verdict::Crashed, "SIGABRT");
+        if (c.scenario == run.scenarios[1].name) setOutcome(c, Outcome::Crashed, Verdict::Crashed, "SIGABRT");
     std::erase_if(run.cases, [&](const CaseRow& c) { return c.scenario == run.scenarios[9].name; });
     // Numbers gone wild where numbers are.
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),

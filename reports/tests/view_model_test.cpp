@@ -52,9 +52,9 @@ TEST(ViewModel, RatiosAreGeometricMeansOverTheBestOfEachScenario) {
                  makeCase("b", "one", 0.01, 9.0), makeCase("b", "two", 0.01, 1.0)};
     const auto mechanisms = ViewModel(run).mechanisms();
     ASSERT_EQ(mechanisms.size(), 1u);
-    EXPECT_NEAR(mechanisms[0].standings[0].toBest, 3.0, 1e-12) << "sqrt(1 * 9)";
-    EXPECT_NEAR(mechanisms[0].standings[1].toBest, 2.0, 1e-12) << "sqrt(4 * 1)";
-    EXPECT_TRUE(std::isnan(mechanisms[0].standings[1].toOurs)) << "the in-house engine is not here";
+    EXPECT_NEAR(mechanisms[0].rankings[0].toBest, 3.0, 1e-12) << "sqrt(1 * 9)";
+    EXPECT_NEAR(mechanisms[0].rankings[1].toBest, 2.0, 1e-12) << "sqrt(4 * 1)";
+    EXPECT_TRUE(std::isnan(mechanisms[0].rankings[1].toOurs)) << "the in-house engine is not here";
 }
 
 TEST(ViewModel, StandsBesideTheInHouseEngineInTheSamePresetElseItsDefault) {
@@ -93,7 +93,7 @@ TEST(ViewModel, NoTwoColumnsOfAnEngineHaveTheSameDashes) {
     EXPECT_EQ(view.columns()[1].dash, std::vector<double>{}) << "what is compared like for like is solid";
     EXPECT_EQ(view.columns()[5].dash, view.columns()[0].dash) << "as shipped looks the same for all";
     run.cases.erase(run.cases.begin() + 1, run.cases.begin() + 5);
-    EXPECT_TRUE(ViewModel(run).columns()[0].dash.empty()) << "nothing to be told apart from";
+    EXPECT_TRUE(ViewModel(run).columns()[0].dash.empty()) << "nothing to be distinguished from";
 }
 
 TEST(ViewModel, FewestWrongOutcomesThenMostWithinAHundredthThenTheSmallestErrorComeFirst) {
@@ -103,9 +103,9 @@ TEST(ViewModel, FewestWrongOutcomesThenMostWithinAHundredthThenTheSmallestErrorC
                  makeCase("a", "near", 0.01, 0.09),  makeCase("b", "near", 0.01, 0.09)};
     const auto m = ViewModel(run).mechanisms().at(0);
     EXPECT_EQ(m.order, (std::vector<std::size_t>{2, 1, 0}));
-    EXPECT_EQ(m.standings[0].grades, (std::array<int, 5>{1, 0, 0, 0, 1}));
-    EXPECT_EQ(m.standings[1].within(), 1);
-    EXPECT_EQ(m.standings[2].within(), 2);
+    EXPECT_EQ(m.rankings[0].grades, (std::array<int, 5>{1, 0, 0, 0, 1}));
+    EXPECT_EQ(m.rankings[1].within(), 1);
+    EXPECT_EQ(m.rankings[2].within(), 2);
     EXPECT_EQ(m.best, 2);
 }
 
@@ -171,20 +171,22 @@ TEST(ViewModel, AChangeAgainstTheRecordIsNoMatterOfAccuracy) {
     EXPECT_EQ(view.totals().regressions.at(Regression::Unchanged), 1);
 }
 
-TEST(ViewModel, CompanionsHaveNumbersButNoPage) {
-    results::Run run = twoScenarios();
-    run.cases = {makeCase("a", "one", 0.01, 1.0), makeCase("b", "one", 0.01, 9.0)};
-    run.orders = {{"b", "one", "error", "m", 1.0, {}, {}, 3, 0.01, 0.1, ""}};
-    run.plannedCases = 3;
-    run.scenarios[1].tags = {"companion"};
-    const results::Run shown = withoutCompanions(run);
-    ASSERT_EQ(shown.scenarios.size(), 1u);
-    EXPECT_EQ(shown.scenarios[0].name, "a");
-    ASSERT_EQ(shown.cases.size(), 1u);
-    EXPECT_EQ(shown.cases[0].scenario, "a");
-    EXPECT_TRUE(shown.orders.empty());
-    EXPECT_EQ(shown.plannedCases, 2) << "one of a is still to come";
-    EXPECT_NE(csvReport(run).find("b,one"), std::string::npos);
+TEST(ViewModel, DerivedRunsHaveNumbersButNoPage) {
+    for (const char* tag : {"derived", "companion"}) {
+        results::Run run = twoScenarios();
+        run.cases = {makeCase("a", "one", 0.01, 1.0), makeCase("b", "one", 0.01, 9.0)};
+        run.orders = {{"b", "one", "error", "m", 1.0, {}, {}, 3, 0.01, 0.1, ""}};
+        run.plannedCases = 3;
+        run.scenarios[1].tags = {tag};
+        const results::Run shown = withoutDerivedRuns(run);
+        ASSERT_EQ(shown.scenarios.size(), 1u);
+        EXPECT_EQ(shown.scenarios[0].name, "a");
+        ASSERT_EQ(shown.cases.size(), 1u);
+        EXPECT_EQ(shown.cases[0].scenario, "a");
+        EXPECT_TRUE(shown.orders.empty());
+        EXPECT_EQ(shown.plannedCases, 2) << "one of a is still to come";
+        EXPECT_NE(csvReport(run).find("b,one"), std::string::npos);
+    }
 }
 
 TEST(ViewModel, AFailureAtAnyTimeStepWeighsMoreThanASmallError) {
@@ -195,18 +197,18 @@ TEST(ViewModel, AFailureAtAnyTimeStepWeighsMoreThanASmallError) {
     EXPECT_EQ(view.cell(0, 0).worst, Shown::Fail);
     EXPECT_EQ(view.cell(0, 0).cases.front()->dt, 0.01) << "finest first";
     EXPECT_EQ(view.mechanisms()[0].best, 1);
-    EXPECT_EQ(view.mechanisms()[0].standings[0].lost, 1);
+    EXPECT_EQ(view.mechanisms()[0].rankings[0].lost, 1);
 }
 
 TEST(ViewModel, ErrorsAreComparedAtTheSameTimeStepAlone) {
     results::Run run = twoScenarios();
     run.cases = {makeCase("a", "one", 0.001, 1e-6), makeCase("a", "two", 0.1, 1e-9)};
     const auto mechanisms = ViewModel(run).mechanisms();
-    EXPECT_TRUE(std::isnan(mechanisms[0].standings[1].toBest));
+    EXPECT_TRUE(std::isnan(mechanisms[0].rankings[1].toBest));
     EXPECT_EQ(mechanisms[0].best, 0);
 }
 
-TEST(ViewModel, WithoutAReferenceNobodyIsRanked) {
+TEST(ViewModel, WithoutAReferenceNoEngineIsRanked) {
     results::Run run = twoScenarios();
     for (auto& s : run.scenarios) s.reference.clear();
     run.cases = {makeCase("a", "one", 0.01, 1.0), makeCase("a", "two", 0.01, 4.0)};
@@ -218,8 +220,8 @@ TEST(ViewModel, RoundingCountsAsEqual) {
     run.cases = {makeCase("a", "one", 0.01, 1e-16), makeCase("a", "two", 0.01, 9e-6),
                  makeCase("a", "three", 0.01, 2e-5)};
     const auto m = ViewModel(run).mechanisms()[0];
-    EXPECT_DOUBLE_EQ(m.standings[1].toBest, 1.0) << "within 1e-6 of ten metres";
-    EXPECT_DOUBLE_EQ(m.standings[2].toBest, 2.0);
+    EXPECT_DOUBLE_EQ(m.rankings[1].toBest, 1.0) << "within 1e-6 of ten metres";
+    EXPECT_DOUBLE_EQ(m.rankings[2].toBest, 2.0);
 }
 
 TEST(ViewModel, WhoNeverFinishesIsNotRanked) {
@@ -233,7 +235,7 @@ TEST(ViewModel, WhoNeverFinishesIsNotRanked) {
         run.cases.push_back(c);
     }
     EXPECT_EQ(ViewModel(run).mechanisms()[0].best, 0);
-    EXPECT_EQ(ViewModel(run).mechanisms()[0].standings[1].lost, 2);
+    EXPECT_EQ(ViewModel(run).mechanisms()[0].rankings[1].lost, 2);
 }
 
 TEST(ViewModel, NothingDemandedIsNotShownAsAPass) {

@@ -116,7 +116,7 @@ ExpectedContact readLineExpected(const Node& node) {
     if (known(node, "other_normals"))
         for (const Node& normal : node["other_normals"].items())
             expected.normals.push_back(normal.unitVector());
-    // A tie that is not spelled out: the one normal that is given judges nobody.
+    // A tie that is not spelled out: the one normal that is given decides nothing.
     if (const Json* unique = known(node, "normal_unique");
         unique && *unique == false && expected.normals.size() == 1)
         expected.normals.clear();

@@ -240,9 +240,9 @@ void readJoints(const Node& list, Scenario& scenario) {
             if (other.name == joint.name) name->problem("joint.duplicate", "a name that no other joint has");
         joint.type = readJointType(*type);
         if (joint.type == JointType::Ball && node.dimension() == 2)
-            type->problem("joint.type", "hinge: a ball joint in the plane is one");
+            type->problem("joint.type", "hinge: a ball joint in 2D is one");
         if (joint.type == JointType::ConeTwist && node.dimension() == 2)
-            type->problem("joint.type", "hinge: a cone-twist joint in the plane is one");
+            type->problem("joint.type", "hinge: a cone-twist joint in 2D is one");
         joint.bodyA = readBodyName(*a, scenario, true);
         joint.bodyB = readBodyName(*b, scenario, false);
         if (node.context().problems.size() > clean) continue;  // the rest would only repeat it

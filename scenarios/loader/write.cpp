@@ -72,7 +72,7 @@ class Writer {
         if (solid_)
             out["orientation"] = {q.w, q.x, q.y, q.z};
         else
-            out["angle"] = 2.0 * std::atan2(q.z, q.w);  // beyond a turn: q and -q are told apart
+            out["angle"] = 2.0 * std::atan2(q.z, q.w);  // beyond a turn: q and -q are distinguished
     }
 
     template <class Surface>

@@ -333,7 +333,7 @@ std::string changesText(const results::Run& run, const std::string& baseline,
     std::string text =
         "Against " + baseline + " (after / before, 95 % by bootstrap, Mann and Whitney's p):\n";
     const Labels labels = labelsOf(run.bench);
-    Labels named;  // of those, who is named here
+    Labels named;  // those of them that are named here
     std::vector<Row> rows;
     for (const char* verdict : {"slower", "faster", "same", "not compared"})
         for (const BenchChange& c : run.bench.changes) {

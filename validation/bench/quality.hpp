@@ -14,7 +14,7 @@
 
 namespace rigor::validation {
 
-/// Follows one run of a scenario. Time is taken by nobody while it reads.
+/// Follows one run of a scenario. No time is measured while it reads.
 class QualityMeter {
   public:
     /// `start`: the states before the first step.

@@ -45,9 +45,9 @@ struct SceneRequest {
     double dt = 0.0;  ///< [s]; 0: the first of each scenario
 };
 
-/// Engines of another dimension than a scene's are left out of it; whoever lacks something else says so when
-/// it runs. Engines without the option `threads` run on one. Throws BadInput for settings that an engine does
-/// not have.
+/// Engines of another dimension than a scene's are left out of it; an engine that lacks something else says
+/// so when it runs. Engines without the option `threads` run on one. Throws BadInput for settings that an
+/// engine does not have.
 std::vector<BenchWork> planScenes(const SceneRequest& request, const std::vector<EngineDescription>& engines);
 
 /// A spec with `threads` and `preset` in their place: what the case is called, and what its engine is given.

@@ -72,7 +72,7 @@ std::string engineOf(const BenchCase& c) {
 }
 
 /// The case of that spec, or the first one of that engine; of an isolated part, where one engine takes part
-/// with many choices, its fastest valid one. Nobody named: the first engine with a valid case.
+/// with many choices, its fastest valid one. Without a name: the first engine with a valid case.
 const BenchCase* baseOf(const Bench& bench, const BenchCase& c, const std::string& base) {
     const BenchCase* found = nullptr;
     for (const BenchCase& other : bench.cases) {

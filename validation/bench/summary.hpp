@@ -21,7 +21,7 @@ namespace rigor::validation {
 void summarise(results::Bench& bench, const BenchTarget& target, const std::string& base);
 
 struct BaselineOptions {
-    double threshold = 0.05;  ///< slower by a smaller share is not held against anybody
+    double threshold = 0.05;  ///< slower by a smaller share is not held against an engine
     double level = 0.05;      ///< of the tests, all cases together
 };
 

@@ -137,12 +137,12 @@ Divergence divergenceOf(const Scenario& scenario, const Trajectory& a, const Tra
             }
         }
         d.largest = std::max(d.largest, largest);
-        if (!d.onset && sum > 0.0) {
+        if (!d.divergenceTime && sum > 0.0) {
             times.push_back(a.times[f]);
             distances.push_back(std::sqrt(sum));
         }
-        if (!d.onset && largest > options.threshold * d.length) {
-            d.onset = a.times[f];
+        if (!d.divergenceTime && largest > options.threshold * d.length) {
+            d.divergenceTime = a.times[f];
             d.body = farthest;
         }
     }

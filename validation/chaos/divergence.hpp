@@ -35,10 +35,11 @@ struct ContactSplit {
 };
 
 struct Divergence {
-    double length = 0.0;          ///< of the scene [m]
-    std::optional<double> onset;  ///< [s] first frame with a body farther than threshold * length from itself
-    int body = scenario::kNone;   ///< the farthest then
-    double largest = 0.0;         ///< [m] of a body, over the run
+    double length = 0.0;  ///< of the scene [m]
+    std::optional<double>
+        divergenceTime;          ///< [s] first frame with a body farther than threshold * length from itself
+    int body = scenario::kNone;  ///< the farthest then
+    double largest = 0.0;        ///< [m] of a body, over the run
     std::optional<Growth> growth;  ///< none without ten frames and a growth tenfold
     std::optional<ContactSplit> split;
 };

@@ -41,7 +41,7 @@ struct Freedom {
     Vec3 axis;  ///< of a hinge; zero: any
 };
 
-Vec3 centreOf(const Scenario& s, const std::vector<int>& group, int root) {
+Vec3 centerOf(const Scenario& s, const std::vector<int>& group, int root) {
     Vec3 sum;
     double mass = 0.0;
     for (std::size_t i = 0; i < group.size(); ++i) {
@@ -55,7 +55,7 @@ Vec3 centreOf(const Scenario& s, const std::vector<int>& group, int root) {
 
 Freedom freedomOf(const Scenario& s, const std::vector<int>& group, int root) {
     Freedom f;
-    f.pivot = centreOf(s, group, root);
+    f.pivot = centerOf(s, group, root);
     int holds = 0;
     for (const Joint& j : s.joints) {
         const bool a = isDynamicBody(s, j.bodyA), b = isDynamicBody(s, j.bodyB);
@@ -71,9 +71,9 @@ Freedom freedomOf(const Scenario& s, const std::vector<int>& group, int root) {
     return f;
 }
 
-class Dice {
+class Rng {
   public:
-    Dice(std::uint64_t seed, std::uint32_t member, int group)
+    Rng(std::uint64_t seed, std::uint32_t member, int group)
         : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
           counter_{member, static_cast<std::uint32_t>(group), 0, 0} {}
     /// Components within plus and minus `size`; a different `quantity` gives independent ones.
@@ -96,13 +96,13 @@ Vec3 allowedTurn(const Scenario& s, const Freedom& f, Vec3 turn) {
 }
 
 void moveGroup(Scenario& s, const std::vector<int>& group, int root, const Freedom& f,
-               const Perturbation& size, const Dice& dice) {
+               const Perturbation& size, const Rng& rng) {
     enum : std::uint32_t { Shift, Turn, Velocity, Spin };
     const auto planar = [&](Vec3 v) { return s.dimension == 2 ? Vec3{v.x, v.y, 0.0} : v; };
-    const Vec3 shift = f.shifts ? planar(dice.vector(Shift, size.position)) : Vec3{};
-    const Vec3 push = f.shifts ? planar(dice.vector(Velocity, size.velocity)) : Vec3{};
-    const Vec3 turn = allowedTurn(s, f, dice.vector(Turn, size.angle));
-    const Vec3 spin = allowedTurn(s, f, dice.vector(Spin, size.spin));
+    const Vec3 shift = f.shifts ? planar(rng.vector(Shift, size.position)) : Vec3{};
+    const Vec3 push = f.shifts ? planar(rng.vector(Velocity, size.velocity)) : Vec3{};
+    const Vec3 turn = allowedTurn(s, f, rng.vector(Turn, size.angle));
+    const Vec3 spin = allowedTurn(s, f, rng.vector(Spin, size.spin));
     const double angle = norm(turn);
     const Quat Q = angle > 0.0 ? fromAxisAngle(turn / angle, angle) : Quat{};
     for (std::size_t i = 0; i < group.size(); ++i) {
@@ -134,7 +134,7 @@ Scenario perturbed(const Scenario& scenario, const Perturbation& size, std::uint
         any = true;
         Perturbation by = size;
         if (!f.turns) by.angle = by.spin = 0.0;
-        moveGroup(s, group, i, f, by, Dice(seed, member, i));
+        moveGroup(s, group, i, f, by, Rng(seed, member, i));
     }
     if (!any)
         throw std::invalid_argument("scenario " + scenario.name +

@@ -31,7 +31,7 @@ enum class CollideVerdict {
     WrongDepth,    ///< depth or distance off by more than the tolerance
     WrongNormal,   ///< not among the minimising directions
     NoNormal,      ///< an overlap without any contact
-    Undecided,     ///< nobody knows the truth of this pair
+    Undecided,     ///< the truth of this pair is unknown
     Unsupported,   ///< the engine does not have the pair of shapes
     Error,         ///< an exception
     Crashed,
@@ -139,7 +139,7 @@ void judgeAnswer(const scenario::CollisionCase& c, const CollideTruth& truth,
 CollideSummary summarise(const CollideRun& run, std::size_t spec);
 
 /// By first tag, in the order they come up; cases without a tag do not count.
-std::vector<CollideKind> tallyKinds(const CollideRun& run);
+std::vector<CollideKind> countKinds(const CollideRun& run);
 
 /// 0 failures of the in-house engine in double precision; see the README for what counts.
 bool collideIsGreen(const CollideRun& run);

@@ -34,7 +34,7 @@ double roundingOf(const CollisionCase& c) {
     return 1e-14 * std::max({1.0, norm(c.a.pose.position), norm(c.b.pose.position)});
 }
 
-/// The gap along one direction is a lower bound of the signed distance that anybody can check.
+/// The gap along one direction is a lower bound of the signed distance that can be checked by itself.
 std::string conflictWith(double stated, const OracleAnswer& exact) {
     char text[200];
     const Vec3 n = exact.normals.front();
@@ -166,7 +166,7 @@ void judgeAnswer(const CollisionCase& c, const CollideTruth& truth, const Collid
     answer.verdict = verdictOf(truth, tolerance, answer);
 }
 
-std::vector<CollideKind> tallyKinds(const CollideRun& run) {
+std::vector<CollideKind> countKinds(const CollideRun& run) {
     std::vector<CollideKind> kinds;
     for (const CollideCase& c : run.cases) {
         if (c.asked.tags.empty()) continue;

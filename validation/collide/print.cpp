@@ -152,7 +152,7 @@ std::vector<std::vector<std::string>> summaryRows(const CollideRun& run) {
 
 /// Wrong of answered (and lost) answers by kind; nothing where there are too many kinds or only one.
 std::vector<std::vector<std::string>> kindRows(const CollideRun& run) {
-    const std::vector<CollideKind> kinds = tallyKinds(run);
+    const std::vector<CollideKind> kinds = countKinds(run);
     if (kinds.size() < 2 || kinds.size() > 16) return {};
     std::vector<std::vector<std::string>> rows{{"wrong by kind", "cases"}};
     for (const auto& spec : run.specs) rows[0].push_back(spec.text());
@@ -174,7 +174,7 @@ std::string truthLine(const CollideRun& run) {
     }
     std::string line = std::to_string(run.cases.size()) + " cases: " + std::to_string(oracle) +
                        " decided by the oracle, " + std::to_string(file) + " by the file, " +
-                       std::to_string(none) + " by nobody";
+                       std::to_string(none) + " by none";
     if (conflicts > 0)
         line += "; file and oracle disagree on " + std::to_string(conflicts) + " (" + first + ")";
     return line + ".\n";
@@ -250,7 +250,7 @@ Json collideJson(const CollideRun& run) {
              {"kinds", Json::array()},
              {"cases", Json::array()}};
     for (const CollideSummary& s : run.summaries) out["summary"].push_back(summaryJson(s));
-    for (const CollideKind& k : tallyKinds(run))
+    for (const CollideKind& k : countKinds(run))
         for (std::size_t i = 0; i < run.specs.size(); ++i)
             out["kinds"].push_back({{"kind", k.kind},
                                     {"name", run.specs[i].text()},

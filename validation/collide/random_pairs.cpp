@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Pairs at a given signed distance are made from the exact answer of any overlap: moved by t along a
-// minimising normal, B is exactly t nearer to parting, whatever t >= 0 (no other direction gains more).
+// minimising normal, B is exactly t nearer to separation, whatever t >= 0 (no other direction gains more).
 #include "validation/collide/random_pairs.hpp"
 
 #include <algorithm>

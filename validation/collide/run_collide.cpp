@@ -51,10 +51,10 @@ CollideAnswer lostAnswer(const ProcessResult& result) {
     return answer;
 }
 
-class Asking {
+class QueryRunner {
   public:
-    Asking(CollideRun& run, const CollideOptions& options,
-           const std::function<void(std::int64_t, std::int64_t)>& tell)
+    QueryRunner(CollideRun& run, const CollideOptions& options,
+                const std::function<void(std::int64_t, std::int64_t)>& tell)
         : run_(run), options_(options), tell_(tell), pool_(std::max(1, options.jobs)) {
         json questions = json::array();
         for (const CollideCase& c : run_.cases) questions.push_back(c.asked.text);
@@ -62,7 +62,7 @@ class Asking {
         total_ = static_cast<std::int64_t>(run_.cases.size() * run_.specs.size());
     }
 
-    bool askAll(const std::atomic<bool>& interrupted) {
+    bool runAll(const std::atomic<bool>& interrupted) {
         for (std::size_t spec = 0; spec < run_.specs.size(); ++spec)
             for (std::size_t first = 0; first < run_.cases.size(); first += kChunk)
                 queue(spec, first, std::min(first + kChunk, run_.cases.size()));
@@ -185,7 +185,7 @@ CollideRun runCollide(const std::vector<scenario::CollisionFile>& files,
     for (const auto& file : files)
         for (const auto& c : file.cases)
             run.cases.push_back({c, file.file.string(), {}, std::vector<CollideAnswer>(specs.size())});
-    run.complete = Asking(run, options, onProgress).askAll(interrupted);
+    run.complete = QueryRunner(run, options, onProgress).runAll(interrupted);
     judgeAll(run, std::max(1, options.jobs), interrupted);
     run.complete = run.complete && !interrupted;
     for (std::size_t i = 0; i < specs.size(); ++i) run.summaries.push_back(summarise(run, i));

@@ -9,33 +9,34 @@
 namespace rigor::validation {
 namespace {
 
-struct Kept {
-    std::vector<LadderPoint> points;  ///< from fine to coarse
+struct DescendingPoints {
+    std::vector<RefinementPoint> points;  ///< from fine to coarse
     int roundOff = 0, flat = 0;
 };
 
 /// Drops what is no number, round-off, and the fine end where errors grow or stay as dt shrinks.
-Kept keepDescending(std::vector<LadderPoint> ladder, double roundOff) {
-    std::erase_if(ladder, [](const LadderPoint& p) { return !(p.dt > 0.0) || !std::isfinite(p.error); });
-    std::sort(ladder.begin(), ladder.end(),
-              [](const LadderPoint& a, const LadderPoint& b) { return a.dt < b.dt; });
-    Kept kept;
-    const auto isNoise = [&](const LadderPoint& p) { return p.error <= roundOff; };
-    kept.roundOff = static_cast<int>(std::count_if(ladder.begin(), ladder.end(), isNoise));
-    std::erase_if(ladder, isNoise);
+DescendingPoints keepDescending(std::vector<RefinementPoint> refinement, double roundOff) {
+    std::erase_if(refinement,
+                  [](const RefinementPoint& p) { return !(p.dt > 0.0) || !std::isfinite(p.error); });
+    std::sort(refinement.begin(), refinement.end(),
+              [](const RefinementPoint& a, const RefinementPoint& b) { return a.dt < b.dt; });
+    DescendingPoints kept;
+    const auto isNoise = [&](const RefinementPoint& p) { return p.error <= roundOff; };
+    kept.roundOff = static_cast<int>(std::count_if(refinement.begin(), refinement.end(), isNoise));
+    std::erase_if(refinement, isNoise);
     // The least error ends the descent; what lies below it in dt has left the power law.
-    const auto least =
-        std::min_element(ladder.begin(), ladder.end(),
-                         [](const LadderPoint& a, const LadderPoint& b) { return a.error < b.error; });
-    if (ladder.end() - least >= 3) {
-        kept.flat = static_cast<int>(least - ladder.begin());
-        ladder.erase(ladder.begin(), least);
+    const auto least = std::min_element(
+        refinement.begin(), refinement.end(),
+        [](const RefinementPoint& a, const RefinementPoint& b) { return a.error < b.error; });
+    if (refinement.end() - least >= 3) {
+        kept.flat = static_cast<int>(least - refinement.begin());
+        refinement.erase(refinement.begin(), least);
     }
-    kept.points = std::move(ladder);
+    kept.points = std::move(refinement);
     return kept;
 }
 
-std::string noteOf(const Kept& kept) {
+std::string noteOf(const DescendingPoints& kept) {
     std::string note;
     if (kept.roundOff > 0) note = std::to_string(kept.roundOff) + " at round-off";
     if (kept.flat > 0)
@@ -45,8 +46,8 @@ std::string noteOf(const Kept& kept) {
 
 }  // namespace
 
-std::optional<ObservedOrder> observedOrder(std::vector<LadderPoint> ladder, double roundOff) {
-    const Kept kept = keepDescending(std::move(ladder), roundOff);
+std::optional<ObservedOrder> observedOrder(std::vector<RefinementPoint> refinement, double roundOff) {
+    const DescendingPoints kept = keepDescending(std::move(refinement), roundOff);
     const auto n = kept.points.size();
     if (n < 2) return std::nullopt;
     double meanX = 0.0, meanY = 0.0;

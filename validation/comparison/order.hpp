@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Observed order of convergence: p of error ~ C dt^p, from errors at a ladder of time steps.
+// Observed order of convergence: p of error ~ C dt^p, from errors at a time-step refinement.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace rigor::validation {
 
-struct LadderPoint {
+struct RefinementPoint {
     double dt = 0.0;     ///< [s], > 0
     double error = 0.0;  ///< >= 0, any unit
 };
@@ -30,8 +30,9 @@ inline constexpr double kRoundOff = 1e-12;
 
 /// The interval is t(0.975, n - 2) s / sqrt(Sxx) (Draper and Smith, Applied Regression Analysis, 1998, 1.4).
 /// Deviations from the line are systematic (terms of higher order, a floor), not noise: a wide interval says
-/// that one power of dt does not describe this ladder. Left out are round-off and, at the fine end, points
-/// whose errors no longer shrink with dt. Empty when fewer than two points are left.
-std::optional<ObservedOrder> observedOrder(std::vector<LadderPoint> ladder, double roundOff = kRoundOff);
+/// that one power of dt does not describe this refinement. Left out are round-off and, at the fine end,
+/// points whose errors no longer shrink with dt. Empty when fewer than two points are left.
+std::optional<ObservedOrder> observedOrder(std::vector<RefinementPoint> refinement,
+                                           double roundOff = kRoundOff);
 
 }  // namespace rigor::validation

@@ -28,14 +28,14 @@ using Lu = Eigen::PartialPivLU<Eigen::MatrixXd>;
 /// A of the equations above, factored group by group.
 class Dynamics {
   public:
-    explicit Dynamics(const FrozenProblem& frozen) : bodies_(place(frozen.problem.M.rows)) {
-        std::vector<Triplet> A = toTriplets(frozen.problem.M);
-        const int m = frozen.problem.M.rows;
-        for (const Triplet& g : toTriplets(frozen.G)) {
+    explicit Dynamics(const ExportedProblem& exported) : bodies_(place(exported.problem.M.rows)) {
+        std::vector<Triplet> A = toTriplets(exported.problem.M);
+        const int m = exported.problem.M.rows;
+        for (const Triplet& g : toTriplets(exported.G)) {
             A.push_back({g.row, m + g.column, -g.value});
             A.push_back({m + g.column, g.row, g.value});
         }
-        size_ = place(m + frozen.G.columns);
+        size_ = place(m + exported.G.columns);
         findGroups(A);
         factor(A);
     }
@@ -109,17 +109,17 @@ class Dynamics {
 };
 
 /// f, continued by -b.
-std::vector<double> load(const FrozenProblem& frozen) {
-    std::vector<double> x = frozen.problem.f;
-    for (const double b : frozen.b) x.push_back(-b);
+std::vector<double> load(const ExportedProblem& exported) {
+    std::vector<double> x = exported.problem.f;
+    for (const double b : exported.b) x.push_back(-b);
     return x;
 }
 
-void condense(FrozenProblem& frozen) {
-    ContactProblem& p = frozen.problem;
-    const Dynamics dynamics(frozen);
+void condense(ExportedProblem& exported) {
+    ContactProblem& p = exported.problem;
+    const Dynamics dynamics(exported);
     const std::size_t n = p.w.size();
-    std::vector<double> free = load(frozen);
+    std::vector<double> free = load(exported);
     dynamics.solveAll(free);
     p.q = p.w;
     multiplyTransposedAdd(p.H, free, p.q);
@@ -170,8 +170,8 @@ void expectFinite(const std::string& what, const std::string& part, const std::v
 
 }  // namespace
 
-void complete(FrozenProblem& frozen, const std::string& what) {
-    ContactProblem& p = frozen.problem;
+void complete(ExportedProblem& exported, const std::string& what) {
+    ContactProblem& p = exported.problem;
     expect(p.dimension == 2 || p.dimension == 3, what, "the dimension", std::to_string(p.dimension),
            "2 or 3");
     const std::size_t n = p.contacts() * place(p.dimension);
@@ -179,18 +179,19 @@ void complete(FrozenProblem& frozen, const std::string& what) {
     for (std::size_t i = 0; i < p.mu.size(); ++i)
         expect(p.mu[i] >= 0.0, what, "mu[" + std::to_string(i) + "]", std::to_string(p.mu[i]),
                "no less than 0");
-    if (frozen.isGlobal) {
+    if (exported.isGlobal) {
         const std::size_t m = p.f.size();
         expectMatrix(what, "M", p.M, m, m);
         expectMatrix(what, "H", p.H, m, n);
         expectSize(what, "w", p.w.size(), n);
-        if (frozen.G.columns > 0 || !frozen.b.empty()) expectMatrix(what, "G", frozen.G, m, frozen.b.size());
+        if (exported.G.columns > 0 || !exported.b.empty())
+            expectMatrix(what, "G", exported.G, m, exported.b.size());
         for (const auto& [part, values] :
-             {std::pair{"f", &p.f}, {"w", &p.w}, {"M", &p.M.value}, {"H", &p.H.value}, {"b", &frozen.b}})
+             {std::pair{"f", &p.f}, {"w", &p.w}, {"M", &p.M.value}, {"H", &p.H.value}, {"b", &exported.b}})
             expectFinite(what, part, *values);
-        p.hasBodies = frozen.b.empty();
+        p.hasBodies = exported.b.empty();
         try {
-            condense(frozen);
+            condense(exported);
         } catch (const BadInput& error) {
             throw BadInput(what + ": " + error.what());
         }
@@ -200,18 +201,18 @@ void complete(FrozenProblem& frozen, const std::string& what) {
     expectFinite(what, "q", p.q);
     expectFinite(what, "W", p.W);
     for (const auto& [part, values, size] :
-         {std::tuple{"the stored r", &frozen.storedR, n}, {"the stored u", &frozen.storedU, n}}) {
+         {std::tuple{"the stored r", &exported.storedR, n}, {"the stored u", &exported.storedU, n}}) {
         if (values->empty()) continue;
         expectSize(what, part, values->size(), size);
         expectFinite(what, part, *values);
     }
 }
 
-std::vector<double> velocitiesFor(const FrozenProblem& frozen, const std::vector<double>& r) {
-    std::vector<double> x = load(frozen);
-    multiplyAdd(frozen.problem.H, r, x);
-    Dynamics(frozen).solveAll(x);
-    x.resize(frozen.problem.f.size());
+std::vector<double> velocitiesFor(const ExportedProblem& exported, const std::vector<double>& r) {
+    std::vector<double> x = load(exported);
+    multiplyAdd(exported.problem.H, r, x);
+    Dynamics(exported).solveAll(x);
+    x.resize(exported.problem.f.size());
     return x;
 }
 

@@ -78,11 +78,11 @@ SparseMatrix readMatrix(const Hdf5File& file, const std::string& group) {
     }
 }
 
-void readLocal(const Hdf5File& file, FrozenProblem& frozen) {
+void readLocal(const Hdf5File& file, ExportedProblem& exported) {
     const std::string root = "/fclib_local";
     if (file.exists(root + "/V") || file.exists(root + "/R"))
         throw BadInput(root + ": mixed problems with V and R are not read");
-    ContactProblem& p = frozen.problem;
+    ContactProblem& p = exported.problem;
     p.q = doublesAt(file, root + "/vectors/q");
     const SparseMatrix W = readMatrix(file, root + "/W");
     const std::size_t n = p.q.size();
@@ -94,16 +94,16 @@ void readLocal(const Hdf5File& file, FrozenProblem& frozen) {
         p.W[static_cast<std::size_t>(e.row) * n + static_cast<std::size_t>(e.column)] = e.value;
 }
 
-void readGlobal(const Hdf5File& file, FrozenProblem& frozen) {
+void readGlobal(const Hdf5File& file, ExportedProblem& exported) {
     const std::string root = "/fclib_global";
-    ContactProblem& p = frozen.problem;
+    ContactProblem& p = exported.problem;
     p.M = readMatrix(file, root + "/M");
     p.H = readMatrix(file, root + "/H");
     p.f = doublesAt(file, root + "/vectors/f");
     p.w = doublesAt(file, root + "/vectors/w");
     if (!file.exists(root + "/G")) return;
-    frozen.G = readMatrix(file, root + "/G");
-    frozen.b = doublesAt(file, root + "/vectors/b");
+    exported.G = readMatrix(file, root + "/G");
+    exported.b = doublesAt(file, root + "/vectors/b");
 }
 
 /// Files that carry a solution of nothing but zeros have none.
@@ -163,57 +163,57 @@ SparseMatrix sparse(const std::vector<double>& W, std::size_t n) {
 
 }  // namespace
 
-FrozenProblem readFclib(const std::filesystem::path& path) {
+ExportedProblem readFclib(const std::filesystem::path& path) {
     const std::string name = path.string();
-    FrozenProblem frozen;
+    ExportedProblem exported;
     try {
         const Hdf5File file = Hdf5File::open(path);
-        frozen.isGlobal = file.exists("/fclib_global");
-        if (!frozen.isGlobal && !file.exists("/fclib_local"))
+        exported.isGlobal = file.exists("/fclib_global");
+        if (!exported.isGlobal && !file.exists("/fclib_local"))
             throw BadInput("has neither /fclib_local nor /fclib_global");
-        const std::string root = frozen.isGlobal ? "/fclib_global" : "/fclib_local";
-        frozen.problem.dimension = integerAt(file, root + "/spacedim");
-        frozen.problem.mu = doublesAt(file, root + "/vectors/mu");
-        frozen.title = optionalText(file, root + "/info/title");
-        frozen.description = optionalText(file, root + "/info/description");
-        frozen.mathInfo = optionalText(file, root + "/info/math_info");
-        if (frozen.isGlobal)
-            readGlobal(file, frozen);
+        const std::string root = exported.isGlobal ? "/fclib_global" : "/fclib_local";
+        exported.problem.dimension = integerAt(file, root + "/spacedim");
+        exported.problem.mu = doublesAt(file, root + "/vectors/mu");
+        exported.title = optionalText(file, root + "/info/title");
+        exported.description = optionalText(file, root + "/info/description");
+        exported.mathInfo = optionalText(file, root + "/info/math_info");
+        if (exported.isGlobal)
+            readGlobal(file, exported);
         else
-            readLocal(file, frozen);
-        frozen.storedV = solution(file, "v");
-        frozen.storedU = solution(file, "u");
-        frozen.storedR = solution(file, "r");
+            readLocal(file, exported);
+        exported.storedV = solution(file, "v");
+        exported.storedU = solution(file, "u");
+        exported.storedR = solution(file, "r");
     } catch (const std::runtime_error& error) {
         throw BadInput(name + ": " + error.what());
     }
-    complete(frozen, name);
-    return frozen;
+    complete(exported, name);
+    return exported;
 }
 
-void writeFclib(const FrozenProblem& frozen, const std::filesystem::path& path, SparseLayout layout) {
-    const ContactProblem& p = frozen.problem;
+void writeFclib(const ExportedProblem& exported, const std::filesystem::path& path, SparseLayout layout) {
+    const ContactProblem& p = exported.problem;
     Hdf5File file = Hdf5File::create(path);
-    const std::string root = frozen.isGlobal ? "/fclib_global" : "/fclib_local";
+    const std::string root = exported.isGlobal ? "/fclib_global" : "/fclib_local";
     file.createGroup(root);
     file.writeIntegers(root + "/spacedim", {p.dimension}, 1, "");
-    if (frozen.isGlobal) {
+    if (exported.isGlobal) {
         writeMatrix(file, root + "/M", p.M, layout);
         writeMatrix(file, root + "/H", p.H, layout);
-        if (!frozen.b.empty()) writeMatrix(file, root + "/G", frozen.G, layout);
-        writeVectors(file, root + "/vectors", {{"f", &p.f}, {"w", &p.w}, {"mu", &p.mu}, {"b", &frozen.b}});
+        if (!exported.b.empty()) writeMatrix(file, root + "/G", exported.G, layout);
+        writeVectors(file, root + "/vectors", {{"f", &p.f}, {"w", &p.w}, {"mu", &p.mu}, {"b", &exported.b}});
     } else {
         writeMatrix(file, root + "/W", sparse(p.W, p.size()), layout);
         writeVectors(file, root + "/vectors", {{"q", &p.q}, {"mu", &p.mu}});
     }
     file.createGroup(root + "/info");
-    for (const auto& [name, text] : {std::pair{"/title", &frozen.title},
-                                     {"/description", &frozen.description},
-                                     {"/math_info", &frozen.mathInfo}})
+    for (const auto& [name, text] : {std::pair{"/title", &exported.title},
+                                     {"/description", &exported.description},
+                                     {"/math_info", &exported.mathInfo}})
         if (!text->empty()) file.writeText(root + "/info" + name, *text);
-    if (!frozen.storedR.empty() || !frozen.storedU.empty() || !frozen.storedV.empty())
+    if (!exported.storedR.empty() || !exported.storedU.empty() || !exported.storedV.empty())
         writeVectors(file, "/solution",
-                     {{"v", &frozen.storedV}, {"u", &frozen.storedU}, {"r", &frozen.storedR}});
+                     {{"v", &exported.storedV}, {"u", &exported.storedU}, {"r", &exported.storedR}});
     file.close();
 }
 

@@ -28,18 +28,18 @@ std::vector<double> numbers(const json& j, const char* key) {
     return j.at(key).get<std::vector<double>>();
 }
 
-FrozenProblem fromJson(const json& j) {
-    FrozenProblem frozen;
-    ContactProblem& p = frozen.problem;
-    frozen.title = j.value("name", "");
-    frozen.description = j.value("source", "");
+ExportedProblem fromJson(const json& j) {
+    ExportedProblem exported;
+    ContactProblem& p = exported.problem;
+    exported.title = j.value("name", "");
+    exported.description = j.value("source", "");
     p.dimension = j.at("dim");
     p.mu = numbers(j, "mu");
     const std::string form = j.at("form");
     if (form != "local" && form != "global")
         throw adapter::BadInput("/form: found \"" + form + "\", expected \"local\" or \"global\"");
-    frozen.isGlobal = form == "global";
-    if (frozen.isGlobal) {
+    exported.isGlobal = form == "global";
+    if (exported.isGlobal) {
         p.f = numbers(j, "f");
         p.w = numbers(j, "w");
         p.M = matrixFrom(j.at("M"));
@@ -57,31 +57,31 @@ FrozenProblem fromJson(const json& j) {
     }
     if (j.contains("solution")) {
         const json& s = j.at("solution");
-        if (s.contains("r")) frozen.storedR = numbers(s, "r");
-        if (s.contains("v")) frozen.storedV = numbers(s, "v");
+        if (s.contains("r")) exported.storedR = numbers(s, "r");
+        if (s.contains("v")) exported.storedV = numbers(s, "v");
     }
-    return frozen;
+    return exported;
 }
 
 }  // namespace
 
-FrozenProblem readJsonProblem(const std::filesystem::path& file) {
+ExportedProblem readJsonProblem(const std::filesystem::path& file) {
     const std::string name = file.string();
     std::ifstream in(file, std::ios::binary);
     if (!in) throw adapter::BadInput(name + ": cannot be read");
-    FrozenProblem frozen;
+    ExportedProblem exported;
     try {
-        frozen = fromJson(json::parse(in));
+        exported = fromJson(json::parse(in));
     } catch (const json::exception& error) {
         throw adapter::BadInput(name + ": " + error.what());
     } catch (const adapter::BadInput& error) {
         throw adapter::BadInput(name + ": " + error.what());
     }
-    complete(frozen, name);
-    return frozen;
+    complete(exported, name);
+    return exported;
 }
 
-FrozenProblem readContactProblem(const std::filesystem::path& file) {
+ExportedProblem readContactProblem(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) throw adapter::BadInput(file.string() + ": there is no such file");
     const std::string ending = file.extension();
     if (ending == ".json") return readJsonProblem(file);

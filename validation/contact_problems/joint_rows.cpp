@@ -15,7 +15,7 @@ Pose poseOf(std::span<const BodyState> states, int body) {
     const BodyState& s = states[static_cast<std::size_t>(body)];
     return {s.position, s.orientation};
 }
-Vec3 centreOf(const Scenario& s, std::span<const BodyState> states, int body) {
+Vec3 centerOf(const Scenario& s, std::span<const BodyState> states, int body) {
     if (body == kNone) return {};
     return centerOfMassOf(s.bodies[static_cast<std::size_t>(body)], states[static_cast<std::size_t>(body)]);
 }
@@ -28,13 +28,13 @@ class Rows {
         onA_ = a * joint.anchorA;
         onB_ = b * joint.anchorB;
         axis_ = rotate(a.orientation, joint.axisA);
-        centreA_ = centreOf(s, states, joint.bodyA);
-        centreB_ = centreOf(s, states, joint.bodyB);
+        centerA_ = centerOf(s, states, joint.bodyA);
+        centerB_ = centerOf(s, states, joint.bodyB);
     }
     /// The anchors stay together along d.
-    void hold(const Vec3& d) { rows_.push_back({d, {}, onA_ - centreA_, onB_ - centreB_}); }
+    void hold(const Vec3& d) { rows_.push_back({d, {}, onA_ - centerA_, onB_ - centerB_}); }
     /// B's anchor stays where it is in A along d, which turns with A.
-    void guide(const Vec3& d) { rows_.push_back({d, {}, onB_ - centreA_, onB_ - centreB_}); }
+    void guide(const Vec3& d) { rows_.push_back({d, {}, onB_ - centerA_, onB_ - centerB_}); }
     void hold() {
         for (const Vec3& d : axes()) hold(d);
     }
@@ -60,14 +60,14 @@ class Rows {
 
   private:
     bool flat_;
-    Vec3 onA_, onB_, axis_, centreA_, centreB_;
+    Vec3 onA_, onB_, axis_, centerA_, centerB_;
     std::vector<JointRow> rows_;
 };
 
 [[noreturn]] void refuse(const Joint& joint, const std::string& what) {
     throw adapter::Unsupported(
         "joint " + joint.name + ": " + what +
-        " is no equation between velocities; freezing a step needs a scenario without");
+        " is no equation between velocities; exporting a step needs a scenario without");
 }
 
 }  // namespace

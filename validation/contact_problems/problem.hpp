@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A frozen contact problem with all that its file says; see adapters/interface/contact_problem.hpp for the
+// An exported contact problem with all that its file says; see adapters/interface/contact_problem.hpp for the
 // equations. Bilateral constraints come on top:  M v = H r + G l + f,  G^T v + b = 0.
 #pragma once
 
@@ -16,13 +16,13 @@ namespace rigor::validation {
 using adapter::ContactProblem;
 using adapter::SparseMatrix;
 
-struct FrozenProblem {
+struct ExportedProblem {
     std::string title, description, mathInfo;
     ContactProblem problem;
     bool isGlobal = false;  ///< the file gives M, H, f, w; else W and q
     SparseMatrix G;         ///< of m rows; no columns: no bilateral constraints
     std::vector<double> b;
-    /// A solution somebody has stored; each may be empty.
+    /// The solution stored with the problem; each may be empty.
     std::vector<double> storedV, storedU, storedR;
 };
 
@@ -39,10 +39,10 @@ void multiplyTransposedAdd(const SparseMatrix& A, const std::vector<double>& x, 
 
 /// Checks sizes and numbers, and condenses a global problem to W and q by LU (M may be unsymmetric). What is
 /// wrong is a BadInput that names `what`, the offending part, what was found and what was expected.
-void complete(FrozenProblem& frozen, const std::string& what);
+void complete(ExportedProblem& exported, const std::string& what);
 
 /// v of a global problem for the impulses r.
-std::vector<double> velocitiesFor(const FrozenProblem& frozen, const std::vector<double>& r);
+std::vector<double> velocitiesFor(const ExportedProblem& exported, const std::vector<double>& r);
 /// u = W r + q.
 std::vector<double> relativeVelocities(const ContactProblem& problem, const std::vector<double>& r);
 
@@ -50,11 +50,11 @@ std::vector<double> relativeVelocities(const ContactProblem& problem, const std:
 enum class SparseLayout { Columns, Rows, Triplets };
 
 /// FCLIB's HDF5 layout: /fclib_local or /fclib_global, and /solution where there is a stored one.
-void writeFclib(const FrozenProblem& frozen, const std::filesystem::path& file,
+void writeFclib(const ExportedProblem& exported, const std::filesystem::path& file,
                 SparseLayout layout = SparseLayout::Columns);
 /// Reads `.hdf5`/`.h5` in that layout or `.json` (README.md); complete. Throws BadInput.
-FrozenProblem readContactProblem(const std::filesystem::path& file);
-FrozenProblem readFclib(const std::filesystem::path& file);
-FrozenProblem readJsonProblem(const std::filesystem::path& file);
+ExportedProblem readContactProblem(const std::filesystem::path& file);
+ExportedProblem readFclib(const std::filesystem::path& file);
+ExportedProblem readJsonProblem(const std::filesystem::path& file);
 
 }  // namespace rigor::validation

@@ -25,21 +25,21 @@ double largestOf(const std::vector<double>& x) {
 }
 
 /// The relative velocities that a file's stored solution means; empty: it has none.
-std::vector<double> storedVelocities(const FrozenProblem& frozen) {
-    if (!frozen.storedR.empty()) return relativeVelocities(frozen.problem, frozen.storedR);
-    return frozen.storedU;
+std::vector<double> storedVelocities(const ExportedProblem& exported) {
+    if (!exported.storedR.empty()) return relativeVelocities(exported.problem, exported.storedR);
+    return exported.storedU;
 }
 
-double velocityError(const FrozenProblem& frozen, const std::vector<double>& r) {
-    const std::vector<double> stored = storedVelocities(frozen);
+double velocityError(const ExportedProblem& exported, const std::vector<double>& r) {
+    const std::vector<double> stored = storedVelocities(exported);
     if (stored.empty()) return -1.0;
-    std::vector<double> u = relativeVelocities(frozen.problem, r);
+    std::vector<double> u = relativeVelocities(exported.problem, r);
     for (std::size_t i = 0; i < u.size(); ++i) u[i] -= stored[i];
-    const double scale = std::max(largestOf(stored), largestOf(frozen.problem.q));
+    const double scale = std::max(largestOf(stored), largestOf(exported.problem.q));
     return scale > 0.0 ? largestOf(u) / scale : 0.0;
 }
 
-SolveStep judge(const json& line, const FrozenProblem& frozen, const adapter::FrictionModel& model) {
+SolveStep judge(const json& line, const ExportedProblem& exported, const adapter::FrictionModel& model) {
     std::vector<double> r;
     for (const json& x : line.at("r")) r.push_back(numberFromJson(x));
     SolveStep step;
@@ -48,13 +48,13 @@ SolveStep judge(const json& line, const FrozenProblem& frozen, const adapter::Fr
     step.gaveUp = line.at("gave_up");
     step.seconds = numberFromJson(line.at("seconds"));
     step.runs = line.at("runs");
-    step.residual = contactResidual(frozen.problem, r, model);
-    step.velocityError = velocityError(frozen, r);
+    step.residual = contactResidual(exported.problem, r, model);
+    step.velocityError = velocityError(exported, r);
     return step;
 }
 
 /// What the child had written when it ended, whole lines.
-void readAnswer(const std::filesystem::path& file, const FrozenProblem& frozen, SolveAnswer& answer) {
+void readAnswer(const std::filesystem::path& file, const ExportedProblem& exported, SolveAnswer& answer) {
     std::ifstream in(file);
     for (std::string text; std::getline(in, text);) {
         const json line = json::parse(text, nullptr, false);
@@ -69,24 +69,24 @@ void readAnswer(const std::filesystem::path& file, const FrozenProblem& frozen, 
             answer.model.kind = static_cast<adapter::FrictionModel::Kind>(line.at("model").get<int>());
             answer.model.corners = line.at("corners");
         } else {
-            answer.steps.push_back(judge(line, frozen, answer.model));
+            answer.steps.push_back(judge(line, exported, answer.model));
         }
     }
 }
 
-SolvedProblem describe(const std::filesystem::path& file, const FrozenProblem& frozen) {
+SolvedProblem describe(const std::filesystem::path& file, const ExportedProblem& exported) {
     SolvedProblem problem;
     problem.file = file;
-    problem.name = frozen.title.empty() ? file.stem().string() : frozen.title;
-    problem.description = frozen.description;
-    problem.dimension = frozen.problem.dimension;
-    problem.contacts = frozen.problem.contacts();
-    problem.unknowns = frozen.problem.f.size();
-    if (frozen.storedR.empty()) return problem;
+    problem.name = exported.title.empty() ? file.stem().string() : exported.title;
+    problem.description = exported.description;
+    problem.dimension = exported.problem.dimension;
+    problem.contacts = exported.problem.contacts();
+    problem.unknowns = exported.problem.f.size();
+    if (exported.storedR.empty()) return problem;
     SolveAnswer stored;
     stored.solver = "stored";
     SolveStep step;
-    step.residual = contactResidual(frozen.problem, frozen.storedR);
+    step.residual = contactResidual(exported.problem, exported.storedR);
     step.velocityError = 0.0;
     stored.steps = {step};
     problem.answers.push_back(std::move(stored));
@@ -107,7 +107,7 @@ std::vector<adapter::EngineSpec> contactSolverSpecs(const std::vector<adapter::E
         if (!engine.problem.empty() || !engine.capabilities.contactSolvers) {
             if (asked.empty()) continue;
             throw adapter::BadInput(engine.problem.empty()
-                                        ? spec.engine + " has no solvers for frozen contact problems"
+                                        ? spec.engine + " has no solvers for contact problems"
                                         : spec.engine + ": " + engine.problem);
         }
         checkSettings(spec, engine);
@@ -132,10 +132,10 @@ std::vector<SolvedProblem> solveFiles(const std::vector<std::filesystem::path>& 
                                       const std::function<void(const std::string&)>& onStart,
                                       const std::atomic<bool>& interrupted, bool& complete) {
     std::vector<SolvedProblem> problems;
-    std::deque<FrozenProblem> frozen;
+    std::deque<ExportedProblem> exported;
     for (const auto& file : files) {
-        frozen.push_back(readContactProblem(file));
-        problems.push_back(describe(file, frozen.back()));
+        exported.push_back(readContactProblem(file));
+        problems.push_back(describe(file, exported.back()));
         for (const auto& spec : specs) {
             problems.back().answers.emplace_back();
             problems.back().answers.back().solver = spec.text();
@@ -159,7 +159,7 @@ std::vector<SolvedProblem> solveFiles(const std::vector<std::filesystem::path>& 
             task.arguments = {options.binary.string(), "__solve", request.string()};
             task.limits = {(20.0 + 20.0 * options.seconds) * timeLimitFactor(), 4096};
             task.name = problems[k].name + ", " + answer.solver;
-            task.done = [&answer, &problem = frozen[k], reply](const ProcessResult& result) {
+            task.done = [&answer, &problem = exported[k], reply](const ProcessResult& result) {
                 readAnswer(reply, problem, answer);
                 if (result.timedOut)
                     answer.outcome = "timeout";

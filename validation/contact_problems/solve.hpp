@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Frozen contact problems put to the solvers of every engine that has some: residual against iterations and
+// Contact problems put to the solvers of every engine that has some: residual against iterations and
 // time. Each solver meets each problem in a child process of its own.
 #pragma once
 
@@ -21,11 +21,11 @@ struct SolveOptions {
     std::filesystem::path binary;  ///< this program, run again as `rigor __solve ...`
     std::vector<int> iterations{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000};  ///< ascending
     double tolerance = 1e-14;  ///< at which a solver may stop, relative to max |q_i|
-    double seconds = 10.0;     ///< after which no further rung of the ladder is begun
+    double seconds = 10.0;     ///< after which no larger number of iterations is tried
     int jobs = 1;              ///< times are meant for 1
 };
 
-/// One rung of the ladder.
+/// The solution after one number of iterations.
 struct SolveStep {
     int allowed = 0, done = 0;  ///< iterations
     bool gaveUp = false;
@@ -69,7 +69,8 @@ bool solveIsGreen(const std::vector<SolvedProblem>& problems);
 std::string frictionModelName(const adapter::FrictionModel& model);
 std::string solveText(const std::vector<SolvedProblem>& problems, bool allSteps);
 nlohmann::json solveJson(const std::vector<SolvedProblem>& problems);
-/// One line per rung: file;solver;friction;allowed;done;gave_up;... Throws std::runtime_error.
+/// One line per number of iterations: file;solver;friction;allowed;done;gave_up;... Throws
+/// std::runtime_error.
 void writeSolveCsv(const std::vector<SolvedProblem>& problems, const std::filesystem::path& file);
 
 /// The child's side: `__solve <request.json>`.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// One solver on one problem: the ladder of iterations, each rung from r = 0, timed here (the solution alone,
-// not the reading), judged by the parent. Every rung is written before the next, so that a library that ends
-// the process loses one.
+// One solver on one problem: growing numbers of iterations, each from r = 0, timed here (the solution alone,
+// not the reading), judged by the parent. Every result is written before the next, so that a library that
+// ends the process loses one.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -59,16 +59,16 @@ int solveChild(const std::filesystem::path& requestFile) {
     std::ofstream out(request->at("answer").get<std::string>());
     const auto say = [&out](const json& line) { out << line.dump() << std::endl; };
     try {
-        const FrozenProblem frozen = readContactProblem(request->at("file").get<std::string>());
+        const ExportedProblem exported = readContactProblem(request->at("file").get<std::string>());
         const adapter::EngineSpec spec = adapter::parseSpec(request->at("spec"));
         const adapter::LoadedEngine engine = adapter::loadEngine(spec);
         if (engine->contactSolvers() == nullptr)
-            throw adapter::Unsupported(spec.engine + " has no solvers for frozen contact problems");
+            throw adapter::Unsupported(spec.engine + " has no solvers for contact problems");
         const auto solve =
-            engine->contactSolvers()->take(frozen.problem, adapter::resolveSettings(spec, *engine));
+            engine->contactSolvers()->take(exported.problem, adapter::resolveSettings(spec, *engine));
         const adapter::FrictionModel model = solve->friction();
         say({{"model", static_cast<int>(model.kind)}, {"corners", model.corners}});
-        const double tolerance = numberFromJson(request->at("tolerance")) * largest(frozen.problem.q);
+        const double tolerance = numberFromJson(request->at("tolerance")) * largest(exported.problem.q);
         const double limit = numberFromJson(request->at("seconds"));
         const Clock::time_point begin = Clock::now();
         for (const int iterations : request->at("iterations").get<std::vector<int>>()) {

@@ -75,7 +75,7 @@ struct EngineFit {
     std::string run;      ///< run folder of the fitted test scenarios, relative; "" when none was made
 };
 /// A prediction that needs no engine.
-struct Yardstick {
+struct Baseline {
     std::string name, title;
     std::vector<FitScore> scores;
 };
@@ -86,7 +86,7 @@ struct FitResult {
     std::vector<FitParameter> parameters;
     int train = 0, test = 0;
     std::uint64_t seed = 0;
-    std::vector<Yardstick> yardsticks;
+    std::vector<Baseline> baselines;
     std::vector<EngineFit> engines;
 };
 

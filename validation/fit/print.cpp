@@ -72,7 +72,7 @@ std::vector<Row> scoreRows(const FitResult& r, const std::string& metric) {
         row.push_back(train == nullptr ? "" : brief(train->mean));
         rows.push_back(std::move(row));
     }
-    for (const Yardstick& y : r.yardsticks) {
+    for (const Baseline& y : r.baselines) {
         Row row{y.title};
         addScore(row, find(y.scores, "test", "unfitted", metric));
         row.insert(row.end(), {"", "", ""});
@@ -198,12 +198,12 @@ std::string fitCsv(const FitResult& r) {
                     results::finiteText(e.parameters[i].interval.high) + ",,,,\n";
         text += csvLines(e.spec, e.scores);
     }
-    for (const Yardstick& y : r.yardsticks) text += csvLines(y.name, y.scores);
+    for (const Baseline& y : r.baselines) text += csvLines(y.name, y.scores);
     return text;
 }
 
 ordered_json fitToJson(const FitResult& r) {
-    ordered_json engines = ordered_json::array(), sticks = ordered_json::array();
+    ordered_json engines = ordered_json::array(), baselines = ordered_json::array();
     for (const EngineFit& e : r.engines) {
         ordered_json parameters = ordered_json::array();
         for (std::size_t i = 0; i < e.parameters.size(); ++i)
@@ -220,8 +220,8 @@ ordered_json fitToJson(const FitResult& r) {
                            {"change_95", intervalJson(e.changeInterval)},
                            {"run", e.run}});
     }
-    for (const Yardstick& y : r.yardsticks)
-        sticks.push_back({{"name", y.name}, {"title", y.title}, {"scores", scoresJson(y.scores)}});
+    for (const Baseline& y : r.baselines)
+        baselines.push_back({{"name", y.name}, {"title", y.title}, {"scores", scoresJson(y.scores)}});
     return {{"name", r.name},
             {"title", r.title},
             {"command", r.command},
@@ -231,7 +231,7 @@ ordered_json fitToJson(const FitResult& r) {
             {"test", r.test},
             {"seed", r.seed},
             {"engines", engines},
-            {"yardsticks", sticks}};
+            {"baselines", baselines}};
 }
 
 }  // namespace rigor::validation

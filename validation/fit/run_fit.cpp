@@ -9,9 +9,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "validation/fit/baselines.hpp"
 #include "validation/fit/objective.hpp"
 #include "validation/fit/search.hpp"
-#include "validation/fit/yardsticks.hpp"
 #include "validation/metrics/metric.hpp"
 
 namespace rigor::validation {
@@ -55,7 +55,7 @@ class Fitting {
         for (const std::string& name : task_.metrics) r.units.push_back(findMetric(name)->unit);
         r.train = static_cast<int>(task_.train.size());
         r.test = static_cast<int>(task_.test.size());
-        r.yardsticks = yardsticks(task_);
+        r.baselines = baselines(task_);
         for (std::size_t k = 0; k < task_.specs.size(); ++k) {
             auto fitted = fitEngine(task_.specs[k], outcome.runFolders);
             if (!fitted) return outcome;
@@ -169,7 +169,7 @@ class Fitting {
     std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
-/// The yardsticks ask the references in this process: they have to be known to finish.
+/// The baselines ask the references in this process: they have to be known to finish.
 void requireReferences(const FitTask& task, const FitOptions& options) {
     std::vector<ReferenceQuestion> questions;
     for (const auto* part : {&task.train, &task.test})

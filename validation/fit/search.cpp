@@ -52,12 +52,12 @@ class Grid {
             values.push_back(count == 1 ? 0.5 * (low + high) : low + (high - low) * k / (count - 1));
         return values;
     }
-    std::vector<FitPoint> around(const FitPoint& centre, const std::vector<double>& step) const {
+    std::vector<FitPoint> around(const FitPoint& center, const std::vector<double>& step) const {
         std::vector<std::vector<double>> axes;
-        for (std::size_t i = 0; i < centre.size(); ++i) {
+        for (std::size_t i = 0; i < center.size(); ++i) {
             std::vector<double> axis;
             for (const int k : {-1, 0, 1}) {
-                const double v = std::clamp(centre[i] + k * step[i], parameters_[i].low, parameters_[i].high);
+                const double v = std::clamp(center[i] + k * step[i], parameters_[i].low, parameters_[i].high);
                 if (std::find(axis.begin(), axis.end(), v) == axis.end()) axis.push_back(v);
             }
             axes.push_back(std::move(axis));

@@ -41,7 +41,7 @@ std::filesystem::path licenceOf(const std::filesystem::path& from);
 /// A number that has to be above zero. Throws LoadError: "import.value".
 double positive(const CsvTable& table, std::size_t row, const std::string& column);
 
-/// A pendulum in the plane that swings about the origin, seen from its lowest place to its lowest place.
+/// A pendulum in 2D that swings about the origin, seen from its lowest place to its lowest place.
 struct Pendulum {
     std::string name, title, description, source;
     double mass = 1.0;             ///< [kg]

@@ -8,7 +8,7 @@
 
 #include <span>
 
-#include "validation/live/lane_world.hpp"
+#include "validation/live/instance_world.hpp"
 
 namespace rigor::validation {
 

@@ -34,10 +34,10 @@ Session::~Session() {
     ending_ = true;
     clock_.changed.notify_all();
     ticker_.join();
-    Slots lanes;
+    Slots instances;
     {
         const std::lock_guard lock(clock_.mutex);
-        lanes.swap(lanes_);
+        instances.swap(instances_);
     }
 }
 
@@ -53,49 +53,50 @@ void Session::open(const std::string& text) {
     std::vector<adapter::EngineSpec> specs;
     {
         const std::lock_guard lock(clock_.mutex);
-        for (const auto& lane : lanes_)
-            if (!lane->plan.branchOf) specs.push_back(lane->plan.asked);
+        for (const auto& instance : instances_)
+            if (!instance->plan.branchOf) specs.push_back(instance->plan.asked);
     }
     open(text, specs);
 }
 
-/// Replaces the scenario and all lanes.
+/// Replaces the scenario and all instances.
 void Session::open(const std::string& text, const std::vector<adapter::EngineSpec>& specs) {
     auto loaded = scenario::loadScenarioText(text, "scenario");
     Slots old;
     {
         const std::lock_guard lock(clock_.mutex);
-        old.swap(lanes_);
+        old.swap(instances_);
         opened_ = {loaded.text, std::move(loaded.scenario)};
         dt_ = options_.dt > 0.0 ? options_.dt : opened_.scenario.timeSteps.front();
         playing_ = false;
         clock_.target = 0.0;
         reached_ = 0.0;
         for (const adapter::EngineSpec& spec : specs) {
-            if (lanes_.size() == kMostLanes) break;
-            lanes_.push_back(makeLane({nextId_++, spec.text(), opened_.text, opened_.text, spec,
-                                       withScenarioSettings(spec, opened_.text), dt_, 0, std::nullopt}));
+            if (instances_.size() == kMaxInstances) break;
+            instances_.push_back(
+                makeInstance({nextId_++, spec.text(), opened_.text, opened_.text, spec,
+                              withScenarioSettings(spec, opened_.text), dt_, 0, std::nullopt}));
         }
         ++clock_.sequence;
     }
     clock_.changed.notify_all();
 }
 
-std::unique_ptr<LaneSlot> Session::makeLane(LanePlan plan) {
-    return std::make_unique<LaneSlot>(std::move(plan), options_.binary, options_.limits, clock_);
+std::unique_ptr<InstanceSlot> Session::makeInstance(InstancePlan plan) {
+    return std::make_unique<InstanceSlot>(std::move(plan), options_.binary, options_.limits, clock_);
 }
 
-/// Real time times the speed, but no faster than the slowest lane that answers in time.
+/// Real time times the speed, but no faster than the slowest instance that answers in time.
 void Session::advanceClock(double seconds) {
     const double wanted = seconds * speed_ / dt_;
     double slowest = std::numeric_limits<double>::infinity();
-    for (const auto& lane : lanes_)
-        if (lane->setsThePace()) slowest = std::min(slowest, static_cast<double>(lane->step()));
-    const bool anybody = std::any_of(lanes_.begin(), lanes_.end(), [](const auto& lane) {
-        return lane->state() == LaneSlot::State::Ready;
+    for (const auto& instance : instances_)
+        if (instance->setsThePace()) slowest = std::min(slowest, static_cast<double>(instance->step()));
+    const bool any = std::any_of(instances_.begin(), instances_.end(), [](const auto& instance) {
+        return instance->state() == InstanceSlot::State::Ready;
     });
     const double before = clock_.target;
-    if (anybody)
+    if (any)
         clock_.target =
             std::max(clock_.target, std::min(clock_.target + wanted, slowest + std::max(1.0, 4.0 * wanted)));
     const double rate = (clock_.target - before) * dt_ / seconds;
@@ -120,28 +121,28 @@ void Session::tick() {
     }
 }
 
-LaneSlot* Session::find(int id) {
-    const auto it =
-        std::find_if(lanes_.begin(), lanes_.end(), [id](const auto& lane) { return lane->plan.id == id; });
-    return it == lanes_.end() ? nullptr : it->get();
+InstanceSlot* Session::find(int id) {
+    const auto it = std::find_if(instances_.begin(), instances_.end(),
+                                 [id](const auto& instance) { return instance->plan.id == id; });
+    return it == instances_.end() ? nullptr : it->get();
 }
 
 json Session::state() {
-    json lanes = json::array();
-    for (const auto& lane : lanes_) {
-        json one{{"id", lane->plan.id},
-                 {"title", lane->plan.title},
-                 {"spec", lane->plan.spec.text()},
-                 {"engine", lane->plan.spec.engine},
-                 {"options", lane->plan.spec.options},
-                 {"state", laneStateName(lane->state())},
-                 {"message", lane->message()},
-                 {"step", lane->step()},
-                 {"start_step", lane->plan.startStep},
-                 {"has_stages", lane->hasStages()},
-                 {"frames", lane->frames()}};
-        if (lane->plan.branchOf) one["branch_of"] = *lane->plan.branchOf;
-        lanes.push_back(std::move(one));
+    json instances = json::array();
+    for (const auto& instance : instances_) {
+        json one{{"id", instance->plan.id},
+                 {"title", instance->plan.title},
+                 {"spec", instance->plan.spec.text()},
+                 {"engine", instance->plan.spec.engine},
+                 {"options", instance->plan.spec.options},
+                 {"state", instanceStateName(instance->state())},
+                 {"message", instance->message()},
+                 {"step", instance->step()},
+                 {"start_step", instance->plan.startStep},
+                 {"has_stages", instance->hasStages()},
+                 {"frames", instance->frames()}};
+        if (instance->plan.branchOf) one["branch_of"] = *instance->plan.branchOf;
+        instances.push_back(std::move(one));
     }
     return {{"scenario", opened_.scenario.name},
             {"title", opened_.scenario.title},
@@ -153,7 +154,7 @@ json Session::state() {
             {"reached_speed", playing_ ? reached_ : 0.0},
             {"step", std::floor(clock_.target + 1e-9)},
             {"stages", clock_.stages},
-            {"lanes", std::move(lanes)}};
+            {"instances", std::move(instances)}};
 }
 
 std::string Session::frames(std::uint64_t after, double seconds) {
@@ -166,13 +167,13 @@ std::string Session::frames(std::uint64_t after, double seconds) {
         packet.header["sequence"] = clock_.sequence;
         packet.header["session"] = state();
         json frames = json::array();
-        for (const auto& lane : lanes_) {
-            if (lane->sequence() <= after || lane->frames() == 0) continue;
-            json frame = lane->frame().header;
-            packet.arrays.take(std::to_string(lane->plan.id) + "/", lane->frame().arrays);
-            frame["lane"] = lane->plan.id;
-            frame["step"] = lane->step();
-            frame["time"] = static_cast<double>(lane->step()) * lane->plan.dt;
+        for (const auto& instance : instances_) {
+            if (instance->sequence() <= after || instance->frames() == 0) continue;
+            json frame = instance->frame().header;
+            packet.arrays.take(std::to_string(instance->plan.id) + "/", instance->frame().arrays);
+            frame["instance"] = instance->plan.id;
+            frame["step"] = instance->step();
+            frame["time"] = static_cast<double>(instance->step()) * instance->plan.dt;
             frames.push_back(std::move(frame));
         }
         packet.header["frames"] = std::move(frames);
@@ -185,10 +186,10 @@ json Session::scene(int id) {
     json description;
     {
         const std::lock_guard lock(clock_.mutex);
-        const LaneSlot* lane = find(id);
-        if (lane == nullptr) return nullptr;
-        text = lane->plan.text;
-        description = lane->description();
+        const InstanceSlot* instance = find(id);
+        if (instance == nullptr) return nullptr;
+        text = instance->plan.text;
+        description = instance->description();
     }
     const scenario::Scenario s = scenario::loadScenarioText(text, "scenario").scenario;
     return {{"scenario", json::parse(scenario::scenarioText(s))}, {"description", std::move(description)}};
@@ -197,7 +198,7 @@ json Session::scene(int id) {
 std::size_t Session::keptBytes() {
     const std::lock_guard lock(clock_.mutex);
     std::size_t bytes = 0;
-    for (const auto& lane : lanes_) bytes += lane->frame().arrays.size();
+    for (const auto& instance : instances_) bytes += instance->frame().arrays.size();
     return bytes;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A live session: one scenario, several lanes, one clock. Commands and frames are JSON and packets; README.md
-// lists them. All functions may be called from any thread.
+// A live session: one scenario, several instances, one clock. Commands and frames are JSON and packets;
+// README.md lists them. All functions may be called from any thread.
 #pragma once
 
 #include <atomic>
@@ -13,15 +13,15 @@
 #include <thread>
 #include <vector>
 
-#include "validation/live/lane_slot.hpp"
+#include "validation/live/instance_slot.hpp"
 #include "validation/runner/runner.hpp"
 
 namespace rigor::validation {
 
 struct SessionOptions {
-    std::filesystem::path binary;      ///< the program itself, run again as `rigor __lane`
+    std::filesystem::path binary;      ///< the program itself, run again as `rigor __instance`
     std::filesystem::path saveFolder;  ///< where scenarios are saved
-    LaneLimits limits;
+    InstanceLimits limits;
     double dt = 0.0;  ///< [s]; 0: the scenario's first
 };
 
@@ -33,26 +33,27 @@ class CommandError : public std::runtime_error {
 
 class Session {
   public:
-    static constexpr std::size_t kMostLanes = 8;
+    static constexpr std::size_t kMaxInstances = 8;
 
-    /// Opens the scenario (text as LoadedScenario::text) with a lane for every spec. Throws
+    /// Opens the scenario (text as LoadedScenario::text) with an instance for every spec. Throws
     /// scenario::LoadError.
     Session(SessionOptions options, const std::string& text, std::vector<adapter::EngineSpec> specs);
     ~Session();
 
-    /// Another scenario, for the engines that have a lane now (branches apart). Throws scenario::LoadError.
+    /// Another scenario, for the engines that have an instance now (branches apart). Throws
+    /// scenario::LoadError.
     void open(const std::string& text);
 
     /// Does {"command": ..., ...}; returns what it answers. Throws CommandError.
     nlohmann::json command(const nlohmann::json& request);
 
     /// All that is newer than `after`, as an encoded packet: the session's state and the last frame of every
-    /// lane that has a newer one. Waits for it at most `seconds`; then without lanes.
+    /// instance that has a newer one. Waits for it at most `seconds`; then without instances.
     std::string frames(std::uint64_t after, double seconds);
 
-    /// {"scenario": what the lane runs with everything said in full, to draw it from, "description": how its
-    /// engine was set up}; null: no such lane.
-    nlohmann::json scene(int lane);
+    /// {"scenario": what the instance runs with everything said in full, to draw it from, "description": how
+    /// its engine was set up}; null: no such instance.
+    nlohmann::json scene(int instance);
     /// Bytes of frames that are kept.
     std::size_t keptBytes();
 
@@ -64,17 +65,17 @@ class Session {
         std::string text;
         scenario::Scenario scenario;
     };
-    using Slots = std::vector<std::unique_ptr<LaneSlot>>;
+    using Slots = std::vector<std::unique_ptr<InstanceSlot>>;
 
     void open(const std::string& text, const std::vector<adapter::EngineSpec>& specs);
     void tick();
     void advanceClock(double seconds);
     nlohmann::json state();
-    LaneSlot* find(int id);
-    LaneSlot& require(const nlohmann::json& request);
-    std::unique_ptr<LaneSlot> makeLane(LanePlan plan);
-    nlohmann::json insert(LanePlan plan);
-    NowAnswer nowOf(int id);
+    InstanceSlot* find(int id);
+    InstanceSlot& require(const nlohmann::json& request);
+    std::unique_ptr<InstanceSlot> makeInstance(InstancePlan plan);
+    nlohmann::json insert(InstancePlan plan);
+    StateReply nowOf(int id);
 
     void changePace(const nlohmann::json& request);
     void step(long by);
@@ -90,10 +91,10 @@ class Session {
     SessionClock clock_;
     // --- under the clock's lock
     Opened opened_;
-    Slots lanes_;
+    Slots instances_;
     bool playing_ = false, closed_ = false;
     double speed_ = 1.0, dt_ = 0.0;
-    double reached_ = 0.0;  ///< the speed that the lanes allow, smoothed
+    double reached_ = 0.0;  ///< the speed that the instances allow, smoothed
     int nextId_ = 0;
 
     std::atomic<bool> ending_{false};

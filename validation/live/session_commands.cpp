@@ -68,8 +68,10 @@ adapter::EngineSpec changedSpec(const adapter::EngineSpec& from, const json& req
 
 }  // namespace
 
-json Session::command(const json& request) {
-    json answer = json::object();
+json Session::command(const json& given) {
+    json request = given, answer = json::object();
+    // Version 0.1 called an instance a lane.
+    if (request.is_object() && request.contains("lane")) request.emplace("instance", request["lane"]);
     try {
         const std::string name = request.is_object() ? request.value("command", "") : "";
         if (name == "play" || name == "pause" || name == "speed" || name == "stages")
@@ -91,7 +93,7 @@ json Session::command(const json& request) {
         else if (name == "save")
             answer = save(request);
         else if (name == "remove")
-            remove(static_cast<int>(wholeNumber(request, "lane", -1)));
+            remove(static_cast<int>(wholeNumber(request, "instance", -1)));
         else
             throw CommandError("no command '" + name + "'");
     } catch (const json::exception& error) {
@@ -135,97 +137,97 @@ void Session::step(long by) {
         return;
     }
     // Out of a step that has begun, back is its start.
-    const bool inStep =
-        std::any_of(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane->inStep(); });
+    const bool inStep = std::any_of(instances_.begin(), instances_.end(),
+                                    [](const auto& instance) { return instance->inStep(); });
     now = std::max(0.0, now + static_cast<double>(by) + (inStep ? 1.0 : 0.0));
     clock_.target = now;
-    for (const auto& lane : lanes_)
-        if (lane->alive()) lane->wishGoTo(static_cast<std::size_t>(now));
+    for (const auto& instance : instances_)
+        if (instance->alive()) instance->requestStep(static_cast<std::size_t>(now));
 }
 
 void Session::stage() {
     const std::lock_guard lock(clock_.mutex);
     playing_ = false;
     clock_.target = std::floor(clock_.target + 1e-9);
-    bool anybody = false;
-    for (const auto& lane : lanes_) {
-        if (lane->state() != LaneSlot::State::Ready || !lane->hasStages()) continue;
-        lane->wishStage();
-        anybody = true;
+    bool any = false;
+    for (const auto& instance : instances_) {
+        if (instance->state() != InstanceSlot::State::Ready || !instance->hasStages()) continue;
+        instance->requestStage();
+        any = true;
     }
-    if (!anybody) throw CommandError("no engine here shows the stages of its step");
+    if (!any) throw CommandError("no engine here shows the stages of its step");
 }
 
-/// All lanes back to their start; those that have come to an end begin anew.
+/// All instances back to their start; those that have come to an end begin anew.
 void Session::reset() {
     Slots gone;  // end after the lock
     const std::lock_guard lock(clock_.mutex);
     playing_ = false;
     clock_.target = 0.0;
-    for (auto& lane : lanes_) {
-        if (lane->alive() || lane->state() == LaneSlot::State::Loading) {
-            lane->wishGoTo(0);
+    for (auto& instance : instances_) {
+        if (instance->alive() || instance->state() == InstanceSlot::State::Loading) {
+            instance->requestStep(0);
             continue;
         }
-        auto fresh = makeLane(lane->plan);
-        gone.push_back(std::exchange(lane, std::move(fresh)));
+        auto fresh = makeInstance(instance->plan);
+        gone.push_back(std::exchange(instance, std::move(fresh)));
     }
 }
 
 void Session::drag(const json& request, bool release) {
-    json wish = release ? json()
+    json pull = release ? json()
                         : json{{"body", request.at("body")},
                                {"point", request.at("point")},
                                {"target", request.at("target")},
                                {"stiffness", request.value("stiffness", 0.0)}};
     if (!release)
         for (const char* key : {"point", "target"})
-            if (!wish[key].is_array() || wish[key].size() != 3)
+            if (!pull[key].is_array() || pull[key].size() != 3)
                 throw CommandError(std::string(key) + ": three numbers are needed");
     const std::lock_guard lock(clock_.mutex);
-    const long only = wholeNumber(request, "lane", -1);
-    for (const auto& lane : lanes_)
-        if (lane->alive() && (only < 0 || lane->plan.id == only)) lane->wishDrag(wish);
+    const long only = wholeNumber(request, "instance", -1);
+    for (const auto& instance : instances_)
+        if (instance->alive() && (only < 0 || instance->plan.id == only)) instance->requestDrag(pull);
 }
 
 void Session::remove(int id) {
-    std::unique_ptr<LaneSlot> gone;  // ends after the lock: its thread needs it
+    std::unique_ptr<InstanceSlot> gone;  // ends after the lock: its thread needs it
     const std::lock_guard lock(clock_.mutex);
-    const auto it =
-        std::find_if(lanes_.begin(), lanes_.end(), [id](const auto& lane) { return lane->plan.id == id; });
-    if (it == lanes_.end()) throw CommandError("no such lane");
+    const auto it = std::find_if(instances_.begin(), instances_.end(),
+                                 [id](const auto& instance) { return instance->plan.id == id; });
+    if (it == instances_.end()) throw CommandError("no such instance");
     gone = std::move(*it);
-    lanes_.erase(it);
+    instances_.erase(it);
 }
 
-/// A new lane, once it has loaded; what can not be loaded is an error and no lane.
-json Session::insert(LanePlan plan) {
+/// A new instance, once it has loaded; what can not be loaded is an error and no instance.
+json Session::insert(InstancePlan plan) {
     const int id = plan.id;
     {
         const std::lock_guard lock(clock_.mutex);
-        if (lanes_.size() >= kMostLanes) throw CommandError("no more than 8 lanes");
-        lanes_.push_back(makeLane(std::move(plan)));
+        if (instances_.size() >= kMaxInstances) throw CommandError("no more than 8 instances");
+        instances_.push_back(makeInstance(std::move(plan)));
     }
     std::string problem;
     {
         std::unique_lock lock(clock_.mutex);
         clock_.changed.wait(lock, [&] {
-            const LaneSlot* lane = find(id);
-            return closed_ || lane == nullptr || lane->state() != LaneSlot::State::Loading;
+            const InstanceSlot* instance = find(id);
+            return closed_ || instance == nullptr || instance->state() != InstanceSlot::State::Loading;
         });
-        const LaneSlot* lane = find(id);
-        if (lane != nullptr && !lane->alive())
-            problem = std::string(laneStateName(lane->state())) + ": " + lane->message();
+        const InstanceSlot* instance = find(id);
+        if (instance != nullptr && !instance->alive())
+            problem = std::string(instanceStateName(instance->state())) + ": " + instance->message();
     }
     if (!problem.empty()) {
         remove(id);
         throw CommandError(problem);
     }
-    return {{"lane", id}};
+    return {{"instance", id}};
 }
 
 json Session::add(const json& request) {
-    LanePlan plan;
+    InstancePlan plan;
     plan.asked = adapter::parseSpec(request.at("spec").get<std::string>());
     plan.title = plan.asked.text();
     {
@@ -238,28 +240,28 @@ json Session::add(const json& request) {
     return insert(std::move(plan));
 }
 
-NowAnswer Session::nowOf(int id) {
-    std::future<NowAnswer> future;
+StateReply Session::nowOf(int id) {
+    std::future<StateReply> future;
     {
         const std::lock_guard lock(clock_.mutex);
-        LaneSlot* lane = find(id);
-        if (lane == nullptr) throw CommandError("no such lane");
-        future = lane->wishNow();
+        InstanceSlot* instance = find(id);
+        if (instance == nullptr) throw CommandError("no such instance");
+        future = instance->requestState();
     }
     clock_.changed.notify_all();
-    NowAnswer now = future.get();
+    StateReply now = future.get();
     if (!now.error.empty()) throw CommandError(now.error);
     return now;
 }
 
 json Session::branch(const json& request) {
-    const int id = static_cast<int>(wholeNumber(request, "lane", -1));
-    const NowAnswer now = nowOf(id);
-    LanePlan plan;
+    const int id = static_cast<int>(wholeNumber(request, "instance", -1));
+    const StateReply now = nowOf(id);
+    InstancePlan plan;
     {
         const std::lock_guard lock(clock_.mutex);
-        const LaneSlot* from = find(id);
-        if (from == nullptr) throw CommandError("no such lane");
+        const InstanceSlot* from = find(id);
+        if (from == nullptr) throw CommandError("no such instance");
         plan = from->plan;
         plan.id = nextId_++;
     }
@@ -276,17 +278,17 @@ json Session::branch(const json& request) {
 }
 
 json Session::save(const json& request) {
-    const int id = static_cast<int>(wholeNumber(request, "lane", -1));
-    const NowAnswer now = nowOf(id);
+    const int id = static_cast<int>(wholeNumber(request, "instance", -1));
+    const StateReply now = nowOf(id);
     SeenScene seen{now.text, now.notes, {}, 0.0};
     std::string original, name;
     {
         const std::lock_guard lock(clock_.mutex);
-        const LaneSlot* lane = find(id);
-        if (lane == nullptr) throw CommandError("no such lane");
-        seen.spec = lane->plan.spec;
-        seen.time = static_cast<double>(now.step) * lane->plan.dt;
-        original = lane->plan.original;
+        const InstanceSlot* instance = find(id);
+        if (instance == nullptr) throw CommandError("no such instance");
+        seen.spec = instance->plan.spec;
+        seen.time = static_cast<double>(now.step) * instance->plan.dt;
+        original = instance->plan.original;
         name = opened_.scenario.name;
     }
     const std::string text = savedScenario(seen, original);

@@ -8,7 +8,7 @@
 
 namespace rigor::validation {
 
-/// Shortest edge of the bounding box of the shapes along the body's axes, x and y alone in the plane [m]. A
+/// Shortest edge of the bounding box of the shapes along the body's axes, x and y alone in 2D [m]. A
 /// cylinder or cone counts as the box about it. Infinite without shapes.
 double widthOf(const scenario::Body& body, int dimension);
 

@@ -42,7 +42,7 @@ namespace {
 using namespace scenario;
 
 /// What one contact did in one step.
-struct Deed {
+struct ContactStep {
     const Scenario& scenario;
     const ContactPoint& contact;
     PairCoefficients pair;
@@ -54,7 +54,7 @@ struct Deed {
     Vec3 tangential(const Vec3& v) const { return v - dot(v, contact.normal) * contact.normal; }
 };
 
-double gravityAlong(const Deed& d) {
+double gravityAlong(const ContactStep& d) {
     const auto pull = [&](int body) {
         const Body& b = d.scenario.bodies[static_cast<std::size_t>(body)];
         return b.type == BodyType::Dynamic ? b.gravityScale * dot(d.contact.normal, d.scenario.gravity) : 0.0;
@@ -62,7 +62,7 @@ double gravityAlong(const Deed& d) {
     return pull(d.contact.bodyB) - pull(d.contact.bodyA);
 }
 
-double signorini(const Deed& d) {
+double signorini(const ContactStep& d) {
     const double now = dot(d.contact.normal, d.point.velocity(d.after));
     const double then = dot(d.contact.normal, d.point.velocity(d.before));
     const double late = then + d.h * gravityAlong(d);
@@ -74,11 +74,11 @@ double signorini(const Deed& d) {
     return std::max({0.0, low - now, -push, std::min(push, now - high)});
 }
 
-double frictionLimit(const Deed& d, double coefficient) {
+double frictionLimit(const ContactStep& d, double coefficient) {
     return coefficient * std::max(0.0, d.normalImpulse());
 }
 
-double coulomb(const Deed& d) {
+double coulomb(const ContactStep& d) {
     const Vec3 pull = d.tangential(d.contact.frictionImpulse);
     const double size = norm(pull);
     const double excess = size - frictionLimit(d, std::max(d.pair.friction, d.pair.staticFriction));
@@ -91,7 +91,7 @@ Vec3 onDisc(const Vec3& v, double radius) {
     return size > radius ? (radius / size) * v : v;
 }
 
-double dissipation(const Deed& d) {
+double dissipation(const ContactStep& d) {
     const Vec3 slip = d.tangential(d.point.velocity(d.after));
     const double mobility = d.point.tangentialMobility();
     const auto defect = [&](double radius) {
@@ -103,7 +103,8 @@ double dissipation(const Deed& d) {
     return std::min(sliding, norm(slip));  // it may stick within the larger limit
 }
 
-std::vector<MetricValue> largest(const MetricInput& input, double (*defect)(const Deed&), bool needsStates) {
+std::vector<MetricValue> largest(const MetricInput& input, double (*defect)(const ContactStep&),
+                                 bool needsStates) {
     const Trajectory& t = input.trajectory;
     if (needsStates && t.stride != 1) return {};
     std::map<int, Worst> worst;
@@ -112,14 +113,14 @@ std::vector<MetricValue> largest(const MetricInput& input, double (*defect)(cons
         for (const ContactPoint& contact : t.contacts[k]) {
             if (!contact.hasImpulse || !isKnownContact(input.scenario, contact)) continue;
             if (contact.depth < 0.0 && contact.normalImpulse == 0.0) continue;
-            const Deed deed{input.scenario,
-                            contact,
-                            coefficientsOf(input.scenario, contact),
-                            {input.scenario, contact, t.frame(k)},
-                            t.frame(k),
-                            t.frame(k + 1),
-                            t.dt};
-            const double value = defect(deed);
+            const ContactStep step{input.scenario,
+                                   contact,
+                                   coefficientsOf(input.scenario, contact),
+                                   {input.scenario, contact, t.frame(k)},
+                                   t.frame(k),
+                                   t.frame(k + 1),
+                                   t.dt};
+            const double value = defect(step);
             for (const int body : {contact.bodyA, contact.bodyB})
                 if (isDynamic(input.scenario, body)) worst[body].add(value, t.times[k]);
         }

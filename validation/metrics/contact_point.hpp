@@ -3,7 +3,7 @@
 //
 // One point of contact as mechanics sees it: where the impulse acts, how the two surfaces move against each
 // other there, and how an impulse changes that. One implementation for the residuals of the contact law and
-// for frozen contact problems.
+// for contact problems.
 //     u = vB + wB x rB - vA - wA x rA,    du = K dp,    K = sum over the moving bodies of 1/m - [r] I^-1 [r]
 // with the impulse p on B, the arms r from the centres of mass to the middle between the two surface points
 // (one point for both, or equal and opposite impulses would make a couple), or to the moving body's own
@@ -53,7 +53,7 @@ class PointOfContact {
     Mobility ofA_, ofB_;
 };
 
-/// Two unit vectors that make a right-handed frame with the unit normal. In 2D the first lies in the plane.
+/// Two unit vectors that make a right-handed frame with the unit normal. In 2D the first has z = 0.
 std::array<scenario::Vec3, 2> tangentsOf(const scenario::Vec3& normal, int dimension);
 
 /// Whether the contact names two different bodies of the scenario, one of them dynamic, and its shapes.

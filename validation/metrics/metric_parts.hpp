@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What metrics share: rows with the worst first, who is compared, errors between states.
+// What metrics share: rows with the worst first, the bodies that are compared, errors between states.
 #pragma once
 
 #include <functional>

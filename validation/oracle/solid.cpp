@@ -67,7 +67,7 @@ std::optional<Solid> makeSolid(const scenario::Geometry& geometry, const scenari
     const auto turn = [&](Vec v) { return rotate(pose.orientation, v); };
     for (Vec& p : s.points) p = shift + turn(p);
     for (Disc& d : s.discs) {
-        d.centre = shift + turn(d.centre);
+        d.center = shift + turn(d.center);
         d.axis = turn(d.axis);
     }
     for (DirectionCircle& c : s.circles) {
@@ -81,7 +81,7 @@ std::optional<Solid> makeSolid(const scenario::Geometry& geometry, const scenari
 Solid mirrored(const Solid& solid) {
     Solid s = solid;
     for (Vec& p : s.points) p = -1 * p;
-    for (Disc& d : s.discs) d.centre = -1 * d.centre;
+    for (Disc& d : s.discs) d.center = -1 * d.center;
     for (DirectionCircle& c : s.circles) {
         c.axis = -1 * c.axis;
         c.anchor = -1 * c.anchor;
@@ -94,7 +94,7 @@ Real supportOf(const Solid& solid, Vec n) {
     Real best = -std::numeric_limits<Real>::max();
     for (const Vec& p : solid.points) best = std::max(best, dot(p, n));
     for (const Disc& d : solid.discs)
-        best = std::max(best, dot(d.centre, n) + d.radius * norm(cross(n, d.axis)));
+        best = std::max(best, dot(d.center, n) + d.radius * norm(cross(n, d.axis)));
     return best + solid.radius;
 }
 

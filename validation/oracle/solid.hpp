@@ -14,7 +14,7 @@
 namespace rigor::validation::oracle {
 
 struct Disc {
-    Vec centre, axis;  ///< unit axis
+    Vec center, axis;  ///< unit axis
     Real radius = 0;   ///< > 0
 };
 

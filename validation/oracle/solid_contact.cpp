@@ -108,7 +108,7 @@ class Directions {
     }
 
     void circleDisc(const DirectionCircle& c, const Disc& d) {
-        const Vec q = c.anchor + d.centre;
+        const Vec q = c.anchor + d.center;
         const Basis basis(c);
         const auto direction = [&](Real angle) {
             return c.height * c.axis + basis.radius * (std::cos(angle) * basis.x + std::sin(angle) * basis.y);
@@ -125,7 +125,7 @@ class Directions {
 
     /// Rim point nearest to and farthest from the line through the point along the disc's axis.
     void discPoint(const Disc& d, Vec point) {
-        const Vec q = d.centre + point, e = unitAcross(q, d.axis);
+        const Vec q = d.center + point, e = unitAcross(q, d.axis);
         both(q + d.radius * e);
         both(q - d.radius * e);
     }
@@ -137,7 +137,7 @@ class Directions {
         for (const Real side : {-1.0L, 1.0L}) {
             const auto spoke = [&](Real angle) { return std::cos(angle) * across + std::sin(angle) * other; };
             const auto sum = [&](Real angle) {
-                const Vec q = d.centre + d.radius * spoke(angle) + e.centre;
+                const Vec q = d.center + d.radius * spoke(angle) + e.center;
                 return q + side * e.radius * unitAcross(q, e.axis);
             };
             const auto turn = [&](Real angle) { return dot(cross(d.axis, spoke(angle)), sum(angle)); };
@@ -191,12 +191,12 @@ Patch patchAlong(const Solid& s, Vec n) {
         if (dot(p, n) >= level) patch.points.push_back(p);
     for (const Disc& d : s.discs) {
         const Real reach = d.radius * norm(cross(n, d.axis));
-        if (dot(d.centre, n) + reach < level) continue;
+        if (dot(d.center, n) + reach < level) continue;
         if (2 * reach <= kOnFace * s.size)
             patch.disc = d;
         else {
             patch.rim = d;
-            patch.points.push_back(d.centre + d.radius * unitAcross(n, d.axis));
+            patch.points.push_back(d.center + d.radius * unitAcross(n, d.axis));
         }
     }
     return patch;
@@ -226,22 +226,22 @@ Core coreOf(const std::vector<Vec>& points, const Core* whole) {
 
 /// A point of the disc as near as may be to y.
 Vec nearestOnDisc(const Disc& d, Vec y) {
-    const Vec out = without(y - d.centre, d.axis);
+    const Vec out = without(y - d.center, d.axis);
     const Real length = norm(out);
-    return d.centre + (length > d.radius ? d.radius / length : 1) * out;
+    return d.center + (length > d.radius ? d.radius / length : 1) * out;
 }
 
 /// Points of the two cores that meet once B is moved by `shift`.
 Pair meetingPoints(const Patch& a, const Core* coreA, const Patch& b, const Core* coreB, Vec shift) {
     Pair pair;
     if (a.disc && b.disc) {
-        const Vec onB = nearestOnDisc(*b.disc, a.disc->centre - shift);
+        const Vec onB = nearestOnDisc(*b.disc, a.disc->center - shift);
         pair.consider(nearestOnDisc(*a.disc, onB + shift), onB + shift);
     } else if (a.disc) {
-        const Pair near = closestFeatures(coreOf({a.disc->centre}, nullptr), coreOf(b.points, coreB), shift);
+        const Pair near = closestFeatures(coreOf({a.disc->center}, nullptr), coreOf(b.points, coreB), shift);
         pair.consider(nearestOnDisc(*a.disc, near.onB), near.onB);
     } else if (b.disc) {
-        const Pair near = closestFeatures(coreOf(a.points, coreA), coreOf({b.disc->centre}, nullptr), shift);
+        const Pair near = closestFeatures(coreOf(a.points, coreA), coreOf({b.disc->center}, nullptr), shift);
         pair.consider(near.onA, nearestOnDisc(*b.disc, near.onA - shift) + shift);
     } else {
         pair = closestFeatures(coreOf(a.points, coreA), coreOf(b.points, coreB), shift);
@@ -258,7 +258,7 @@ Pair meetingPoints(const Patch& a, const Core* coreA, const Patch& b, const Core
 
 Vec supportPoint(const Solid& solid, Vec n) {
     const Patch patch = patchAlong(solid, n);
-    if (patch.disc) return patch.disc->centre + solid.radius * n;
+    if (patch.disc) return patch.disc->center + solid.radius * n;
     Vec sum;
     for (const Vec& p : patch.points) sum = sum + p;
     return (1 / static_cast<Real>(patch.points.size())) * sum + solid.radius * n;

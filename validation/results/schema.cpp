@@ -147,7 +147,7 @@ void addNonFinite(SQLite::Database& database) {
 }
 
 /// A committed transaction is on the disk: rollback journal, synced. One file, whole at rest, that can be
-/// copied while nobody writes.
+/// copied while no connection writes.
 void prepare(SQLite::Database& database) {
     database.setBusyTimeout(kBusyMilliseconds);
     database.exec("PRAGMA foreign_keys = ON");

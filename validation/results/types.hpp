@@ -174,7 +174,7 @@ struct CaseRow {
     InsertionOrders orders = {};
 };
 
-/// Observed order of convergence of a metric over a ladder of time steps: slope of ln error on ln dt.
+/// Observed order of convergence of a metric over a time-step refinement: slope of ln error on ln dt.
 struct OrderRow {
     std::string scenario, spec, metric, unit;
     std::optional<double> order;          ///< none: round-off at every step

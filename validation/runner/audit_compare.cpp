@@ -74,7 +74,7 @@ class Comparison {
         if (overlaps && answer.overlap && !answer.contacts.empty()) compareContacts(q, answer, places);
     }
 
-    /// A contact that claims an overlap of shapes that nobody needed to ask about.
+    /// A contact that claims an overlap of shapes that no query was needed for.
     void addStray(const ContactPoint& contact) {
         ++row_.spurious;
         AuditQuery q;

@@ -23,7 +23,7 @@ constexpr double kNearby = 0.02;           ///< bounding spheres closer than thi
 
 /// Smallest sphere we know around a shape, shape frame; infinite radius for a half-space.
 struct Ball {
-    Vec3 centre;
+    Vec3 center;
     double radius = 0.0;
 };
 
@@ -35,8 +35,8 @@ struct BallVisitor {
     Ball operator()(const scenario::Cone& s) const { return {{}, std::hypot(s.radius, s.halfLength)}; }
     Ball operator()(const scenario::ConvexHull& s) const {
         Ball ball;
-        for (const Vec3& v : s.vertices) ball.centre += v / static_cast<double>(s.vertices.size());
-        for (const Vec3& v : s.vertices) ball.radius = std::max(ball.radius, norm(v - ball.centre));
+        for (const Vec3& v : s.vertices) ball.center += v / static_cast<double>(s.vertices.size());
+        for (const Vec3& v : s.vertices) ball.radius = std::max(ball.radius, norm(v - ball.center));
         return ball;
     }
     Ball operator()(const scenario::HalfSpace&) const {
@@ -74,7 +74,7 @@ ShapeAt place(const Scenario& s, int body, int shape, const Pose& bodyPose) {
     const scenario::Shape& local = shapeOf(s, body, shape);
     const Pose pose = bodyPose * local.pose;
     const Ball ball = ballAround(local.geometry);
-    return {&local.geometry, pose, {pose * ball.centre, ball.radius}};
+    return {&local.geometry, pose, {pose * ball.center, ball.radius}};
 }
 
 /// Distance of the bounding spheres, or of a sphere from a half-space.
@@ -82,11 +82,11 @@ double gap(const ShapeAt& a, const ShapeAt& b) {
     const auto fromPlane = [](const ShapeAt& plane, const ShapeAt& other) {
         const auto& h = std::get<scenario::HalfSpace>(*plane.geometry);
         const Vec3 n = rotate(plane.pose.orientation, h.normal);
-        return dot(n, other.ball.centre - plane.pose.position) - h.offset - other.ball.radius;
+        return dot(n, other.ball.center - plane.pose.position) - h.offset - other.ball.radius;
     };
     if (std::holds_alternative<scenario::HalfSpace>(*a.geometry)) return fromPlane(a, b);
     if (std::holds_alternative<scenario::HalfSpace>(*b.geometry)) return fromPlane(b, a);
-    return norm(a.ball.centre - b.ball.centre) - a.ball.radius - b.ball.radius;
+    return norm(a.ball.center - b.ball.center) - a.ball.radius - b.ball.radius;
 }
 
 std::vector<Candidate> candidates(const Scenario& s) {

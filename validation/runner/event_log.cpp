@@ -53,7 +53,7 @@ std::map<EventLog::Pair, EventLog::Manifold> EventLog::gathered(const std::vecto
 }
 
 std::string EventLog::step(double time, std::span<const BodyState> states,
-                           const std::vector<ContactPoint>& contacts, const Told& told) {
+                           const std::vector<ContactPoint>& contacts, const EngineReports& told) {
     out_.clear();
     const auto stampOf = [](double t, std::size_t step) {
         return "t=" + results::exactText(t) + " step=" + std::to_string(step) + " ";
@@ -63,7 +63,7 @@ std::string EventLog::step(double time, std::span<const BodyState> states,
     contactEvents(manifolds);
     if (what_ != LogWhat::Contacts) impactEvents(states, manifolds);
     stamp_ = stampOf(time, step_);
-    if (what_ != LogWhat::Contacts) toldEvents(told);
+    if (what_ != LogWhat::Contacts) reportedEvents(told);
     before_.assign(states.begin(), states.end());
     beforeTime_ = time;
     ++step_;
@@ -126,7 +126,7 @@ double EventLog::separationSpeed(const Pair& pair, const ContactPoint& at,
     return dot(velocity(pair[1]) - velocity(pair[0]), at.normal);
 }
 
-void EventLog::toldEvents(const Told& told) {
+void EventLog::reportedEvents(const EngineReports& told) {
     asleep_.resize(scenario_.bodies.size(), 0);
     for (std::size_t i = 0; told.asleep && i < asleep_.size(); ++i) {
         const char now = told.asleep(static_cast<int>(i)) ? 1 : 0;

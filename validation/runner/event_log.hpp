@@ -45,7 +45,7 @@ enum class LogWhat {
 class EventLog {
   public:
     /// What an engine tells of bodies and joints, by scenario index; an empty function: it does not tell.
-    struct Told {
+    struct EngineReports {
         std::function<bool(int body)> asleep;
         std::function<bool(int joint)> holds;
     };
@@ -56,7 +56,7 @@ class EventLog {
     /// The lines of the step that led to `time`, with its contacts and the states after it, each ended by a
     /// line break; "" when nothing happened. The first call is the start, before any step.
     std::string step(double time, std::span<const BodyState> states,
-                     const std::vector<ContactPoint>& contacts, const Told& told);
+                     const std::vector<ContactPoint>& contacts, const EngineReports& told);
 
   private:
     using Pair = std::array<int, 4>;  ///< body A, body B, shape A, shape B
@@ -78,7 +78,7 @@ class EventLog {
     static std::map<Pair, Manifold> gathered(const std::vector<ContactPoint>& contacts);
     void contactEvents(const std::map<Pair, Manifold>& manifolds);
     void impactEvents(std::span<const BodyState> states, const std::map<Pair, Manifold>& manifolds);
-    void toldEvents(const Told& told);
+    void reportedEvents(const EngineReports& told);
     double separationSpeed(const Pair& pair, const ContactPoint& at, std::span<const BodyState> states) const;
     std::string pairText(const Pair& pair) const;
     std::string idText(const Pair& pair) const;

@@ -80,13 +80,13 @@ double angleBetween(const scenario::Quat& a, const scenario::Quat& b) {
 }
 
 /// What the pieces of one length miss the truth by, one value for each piece.
-struct Misses {
+struct PieceErrors {
     std::vector<double> ways, turns, ends;  ///< [m], [rad], when the piece ends [s]
 };
 
-Misses missesOf(const Scenario& s, double dt, std::size_t every, adapter::World& world,
-                adapter::StateSetting& setter, const Truth& truth) {
-    Misses misses;
+PieceErrors pieceErrorsOf(const Scenario& s, double dt, std::size_t every, adapter::World& world,
+                          adapter::StateSetting& setter, const Truth& truth) {
+    PieceErrors errors;
     Stepper stepper(s, dt, world);
     for (std::size_t start = 0; start + every < truth.at.size(); start += every) {
         setter.setStates(truth.at[start]);
@@ -105,12 +105,12 @@ Misses missesOf(const Scenario& s, double dt, std::size_t every, adapter::World&
             turn = std::max(turn, angleBetween(now[i].orientation, wanted[i].orientation));
         }
         const bool lost = !stepper.nonFinite().empty();
-        misses.ways.push_back(lost ? kNaN : way);
-        misses.turns.push_back(lost ? kNaN : turn);
-        misses.ends.push_back(stepper.time());
+        errors.ways.push_back(lost ? kNaN : way);
+        errors.turns.push_back(lost ? kNaN : turn);
+        errors.ends.push_back(stepper.time());
         if (lost) break;
     }
-    return misses;
+    return errors;
 }
 
 MetricRow rowOf(const std::string& name, int every, const char* unit, double value, double at,
@@ -157,13 +157,14 @@ std::vector<MetricRow> measurePieces(const Scenario& scenario, double dt, const 
     for (const int k : every) {
         const auto world = build(dt);
         auto& setter = dynamic_cast<adapter::StateSetting&>(*world);
-        const Misses misses = missesOf(scenario, dt, static_cast<std::size_t>(k), *world, setter, *truth);
-        const std::string note = misses.ways.empty()
+        const PieceErrors errors =
+            pieceErrorsOf(scenario, dt, static_cast<std::size_t>(k), *world, setter, *truth);
+        const std::string note = errors.ways.empty()
                                      ? "the run is shorter than a piece"
-                                     : std::to_string(misses.ways.size()) + " pieces, put back on " +
+                                     : std::to_string(errors.ways.size()) + " pieces, put back on " +
                                            truth->name + "; warm start " + setter.warmStart();
-        addRows(rows, "piece_error", k, "m", misses.ways, misses.ends, note);
-        addRows(rows, "piece_turn", k, "rad", misses.turns, misses.ends, note);
+        addRows(rows, "piece_error", k, "m", errors.ways, errors.ends, note);
+        addRows(rows, "piece_turn", k, "rad", errors.turns, errors.ends, note);
     }
     return rows;
 }

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "validation/comparison/ladders.hpp"
+#include "validation/comparison/refinements.hpp"
 #include "validation/comparison/regression.hpp"
 #include "validation/results/store.hpp"
 #include "validation/runner/answer.hpp"

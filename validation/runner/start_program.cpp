@@ -65,7 +65,7 @@ pid_t startProgram(const std::vector<std::string>& arguments, int output, std::s
     const pid_t pid = fork();
     if (pid == 0) becomeProgram(argv.data(), output, self, memory, keepOpen);
     if (pid < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
-    setpgid(pid, pid);  // whoever comes first
+    setpgid(pid, pid);  // in parent and child, whichever comes first
     return pid;
 }
 

@@ -31,17 +31,17 @@ void Stepper::begin() {
 
 void Stepper::end() {
     ++steps_;
-    fresh_ = false;
+    statesRead_ = false;
 }
 
 void Stepper::jumpTo(std::size_t steps) {
     steps_ = steps;
-    fresh_ = false;
+    statesRead_ = false;
 }
 
 std::span<const BodyState> Stepper::states() {
-    if (!fresh_) world_.readStates(states_);
-    fresh_ = true;
+    if (!statesRead_) world_.readStates(states_);
+    statesRead_ = true;
     return states_;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A world on its way through a scenario, one fixed step after the other: whoever runs a scenario, to its end
-// or live, does it with this.
+// A world on its way through a scenario, one fixed step after the other: every caller that runs a scenario,
+// to its end or live, does it with this.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ class Stepper {
     double dt_;
     adapter::World& world_;
     bool needsStates_;
-    bool fresh_ = false;  ///< states_ are those of now
+    bool statesRead_ = false;  ///< states_ are those of now
     std::size_t steps_ = 0;
     std::vector<adapter::BodyState> states_;
 };

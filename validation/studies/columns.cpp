@@ -30,8 +30,8 @@ std::string cutVariant(std::string& text, std::size_t colon) {
     return variant;
 }
 
-bool isParting(const std::string& name) {
-    return name == "onset" || name == "growth" || name == "split";
+bool isDivergence(const std::string& name) {
+    return name == kDivergenceTime || name == kOldDivergenceTime || name == "growth" || name == "split";
 }
 
 std::string auditFieldNames() {
@@ -64,7 +64,7 @@ std::string columnProblem(const scenario::StudyPart& part, const Column& column)
             return listed(part.symmetries, [&](const auto& s) { return s == column.name; })
                        ? ""
                        : "one of the part's symmetries";
-        case Column::Kind::Parting:
+        case Column::Kind::Divergence:
             return part.ensemble || !column.variant.empty() ? "" : "an ensemble, or a variant behind a colon";
         case Column::Kind::Ensemble:
             if (!part.ensemble) return "an ensemble in this part";
@@ -73,7 +73,7 @@ std::string columnProblem(const scenario::StudyPart& part, const Column& column)
             return isOfCase(column.name) ? ""
                                          : "a name of `rigor list metrics`, " + costMetricNames() +
                                                ", order.METRIC, quantity.NAME, time.PHASE, symmetry.NAME, "
-                                               "onset, growth, split, "
+                                               "divergence_time, growth, split, "
                                                "ensemble.METRIC or audit. and one of " +
                                                auditFieldNames();
     }
@@ -90,16 +90,19 @@ Column columnOf(const std::string& text) {
     } else if (text.starts_with("symmetry.")) {
         column.kind = Column::Kind::Symmetry;
         column.name = rest("symmetry.");
-        column.aspect = cutAspect(column.name, {"angle", "frames", "from", "onset"});
+        column.aspect =
+            cutAspect(column.name, {"angle", "frames", "from", kDivergenceTime, kOldDivergenceTime});
+        if (column.aspect == kOldDivergenceTime) column.aspect = kDivergenceTime;
     } else if (text.starts_with("ensemble.")) {
         column.kind = Column::Kind::Ensemble;
         column.name = rest("ensemble.");
         const auto p = column.name.find(".p:");
         column.variant = cutVariant(column.name, p == std::string::npos ? p : p + 2);
         column.aspect = cutAspect(column.name, {"low", "high", "p"});
-    } else if (isParting(text.substr(0, text.find(':')))) {
-        column.kind = Column::Kind::Parting;
+    } else if (isDivergence(text.substr(0, text.find(':')))) {
+        column.kind = Column::Kind::Divergence;
         column.variant = cutVariant(column.name, column.name.find(':'));
+        if (column.name == kOldDivergenceTime) column.name = kDivergenceTime;
     }
     return column;
 }

@@ -10,16 +10,20 @@
 
 namespace rigor::validation {
 
+/// The column of the time from which two runs differ; version 0.1 called it onset.
+inline constexpr const char* kDivergenceTime = "divergence_time";
+inline constexpr const char* kOldDivergenceTime = "onset";
+
 struct Column {
     enum class Kind {
-        OfCase,    ///< of the row's own case: metric, quantity.NAME, time.PHASE
-        Order,     ///< order.METRIC
-        Symmetry,  ///< symmetry.NAME, symmetry.NAME.angle, .frames, .from, .onset
-        Parting,   ///< onset, growth, split of two runs: of the members, or onset:VARIANT ...
-        Ensemble,  ///< ensemble.METRIC, ensemble.METRIC.low, .high, .p:VARIANT
+        OfCase,      ///< of the row's own case: metric, quantity.NAME, time.PHASE
+        Order,       ///< order.METRIC
+        Symmetry,    ///< symmetry.NAME, symmetry.NAME.angle, .frames, .from, .divergence_time
+        Divergence,  ///< divergence_time, growth, split of two runs: of the members, or growth:VARIANT
+        Ensemble,    ///< ensemble.METRIC, ensemble.METRIC.low, .high, .p:VARIANT
     };
     Kind kind = Kind::OfCase;
-    std::string name;     ///< metric, symmetry, or onset, growth, split
+    std::string name;     ///< metric, symmetry, or divergence_time, growth, split
     std::string aspect;   ///< "angle", "low", "p", ...; "" the value itself
     std::string variant;  ///< compared with; "" none
 };

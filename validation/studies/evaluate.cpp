@@ -9,7 +9,7 @@
 #include "validation/comparison/order.hpp"
 #include "validation/studies/audit_columns.hpp"
 #include "validation/studies/columns.hpp"
-#include "validation/studies/companion_columns.hpp"
+#include "validation/studies/derived_columns.hpp"
 #include "validation/studies/study.hpp"
 
 namespace rigor::validation {
@@ -87,25 +87,25 @@ const CaseRow* caseOf(const std::map<std::string, const CaseRow*>& cases, const 
 }
 
 /// Same place of the grid but for the time step.
-bool sameLadder(const StudyRow& a, const StudyRow& b) {
+bool sameRefinement(const StudyRow& a, const StudyRow& b) {
     return a.part == b.part && a.base == b.base && a.parameters == b.parameters && a.variant == b.variant;
 }
 
-/// Columns "order.METRIC": the observed order of the ladder of time steps that a row belongs to.
+/// Columns "order.METRIC": the observed order of the time-step refinement that a row belongs to.
 void fillOrders(StudyResult& result, const std::map<std::string, const CaseRow*>& cases) {
     for (StudyResultRow& row : result.rows) {
         const auto& metrics = result.study.parts[row.row.part].metrics;
         for (std::size_t i = 0; i < metrics.size(); ++i) {
             if (!metrics[i].starts_with(kOrderPrefix)) continue;
-            std::vector<LadderPoint> ladder;
+            std::vector<RefinementPoint> refinement;
             for (const StudyResultRow& other : result.rows) {
-                if (!sameLadder(row.row, other.row)) continue;
+                if (!sameRefinement(row.row, other.row)) continue;
                 const auto it = cases.find(other.row.caseId);
                 if (it == cases.end() || it->second->outcome != Outcome::Completed) continue;
                 const auto value = studyValue(*it->second, metrics[i].substr(kOrderPrefix.size()));
-                if (value.value) ladder.push_back({other.row.dt, *value.value});
+                if (value.value) refinement.push_back({other.row.dt, *value.value});
             }
-            if (const auto fit = observedOrder(ladder)) row.values[i] = {fit->order, "1", ""};
+            if (const auto fit = observedOrder(refinement)) row.values[i] = {fit->order, "1", ""};
         }
     }
 }
@@ -206,7 +206,7 @@ StudyResult evaluateStudy(const StudyPlan& plan, const results::Run& run) {
         result.rows.push_back(std::move(shown));
     }
     fillOrders(result, cases);
-    fillCompanions(result, plan, run);
+    fillDerivedColumns(result, plan, run);
     for (std::size_t part = 0; part < plan.study.parts.size(); ++part)
         for (std::size_t i = 0; i < plan.study.parts[part].findings.size(); ++i)
             result.findings.push_back(judgeFinding(result, part, i));

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "validation/studies/columns.hpp"
-#include "validation/studies/companions.hpp"
+#include "validation/studies/derived_runs.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -74,7 +74,7 @@ std::vector<Placed> placeScenarios(const scenario::StudyPart& part, const Scenar
 }
 
 void planPart(const scenario::StudyPart& part, std::size_t index, const ScenarioLoader& load, StudyPlan& plan,
-              CompanionPlanner& companions) {
+              DerivedRunPlanner& derived) {
     for (const std::string& metric : part.metrics) checkColumn(part, metric);
     const auto options = combinations(part.options);
     for (const Placed& placed : placeScenarios(part, load)) {
@@ -99,8 +99,8 @@ void planPart(const scenario::StudyPart& part, std::size_t index, const Scenario
                                          "",
                                          {},
                                          {}});
-                    companions.add(cases.front());
-                    companions.addTo(plan.rows.back(), part, cases.front());
+                    derived.add(cases.front());
+                    derived.addTo(plan.rows.back(), part, cases.front());
                 }
     }
 }
@@ -110,10 +110,10 @@ void planPart(const scenario::StudyPart& part, std::size_t index, const Scenario
 StudyPlan planStudy(const scenario::Study& study, const ScenarioLoader& load, const OptionLookup& options) {
     StudyPlan plan;
     plan.study = study;
-    CompanionPlanner companions(plan, options);
+    DerivedRunPlanner derived(plan, options);
     for (std::size_t i = 0; i < study.parts.size(); ++i) {
         nameSymmetries(plan.study.parts[i]);
-        planPart(plan.study.parts[i], i, load, plan, companions);
+        planPart(plan.study.parts[i], i, load, plan, derived);
     }
     // The runner audits a scenario after its last case: cases of one scenario stand together.
     std::map<std::string, std::size_t> place;

@@ -109,7 +109,7 @@ struct StudyResult {
 /// Reads the rows' values from the cases of a run.
 StudyResult evaluateStudy(const StudyPlan& plan, const results::Run& run);
 
-/// A column over several cases: "order.METRIC", the observed order of the ladder of time steps of a row.
+/// A column over several cases: "order.METRIC", the observed order of the time-step refinement of a row.
 inline const std::string kOrderPrefix = "order.";
 
 /// A column of the contact audit: "audit.FIELD", of the contacts that the run acted upon.

@@ -11,7 +11,7 @@ namespace {
 
 using namespace scenario;
 
-/// M: z -> -z in space, x -> -x in the plane.
+/// M: z -> -z in 3D, x -> -x in 2D.
 struct Mirror {
     bool solid;
     Vec3 polar(const Vec3& v) const { return solid ? Vec3{v.x, v.y, -v.z} : Vec3{-v.x, v.y, v.z}; }
@@ -60,7 +60,7 @@ void reflect(Body& b, const Mirror& m) {
     }
 }
 
-/// A hinge's axis is axial: its angle stays. In the plane the axis is +z for all, and the angle turns round.
+/// A hinge's axis is axial: its angle stays. In 2D the axis is +z for all, and the angle turns round.
 void reflect(Joint& j, const Mirror& m) {
     j.anchorA = m.polar(j.anchorA);
     j.anchorB = m.polar(j.anchorB);

@@ -83,7 +83,7 @@ Transformed rotation90(const Scenario& s, const Trajectory*) {
 }
 
 std::string rotationVerticalObstacle(const Scenario& s) {
-    return s.dimension == 2 ? "in the plane nothing turns about the vertical" : "";
+    return s.dimension == 2 ? "in 2D nothing turns about the vertical" : "";
 }
 
 Transformed rotationVertical(const Scenario& s, const Trajectory*) {

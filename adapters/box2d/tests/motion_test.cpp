@@ -45,7 +45,7 @@ TEST(Box2dMotion, FreeFallIsSymplecticEulerWhateverTheScale) {
 }
 
 /// b2MassData's inertia is about the body's origin, the scenario's about the centre of mass.
-TEST(Box2dMotion, CentreOfMassOffset) {
+TEST(Box2dMotion, CenterOfMassOffset) {
     Scenario s = plane();
     s.gravity = {};
     addBody(s, Box{{1, 0.5, 0}}, {1, 0, 0}, 2.0, even(0.6));

@@ -279,7 +279,7 @@ TEST(BulletArticulation, WhatItLacksIsRefused) {
     EXPECT_NO_THROW(Simulation(s, 0.01, kMatched));
 }
 
-/// The scene of `space` in the plane.
+/// The scene of `space` in 2D.
 Scenario inThePlane(Scenario space) {
     space.dimension = 2;
     return space;

@@ -35,7 +35,7 @@ TEST(BulletMotion, FreeFallIsSymplecticEulerStepForStep) {
     }
 }
 
-TEST(BulletMotion, VelocityIsOfTheCentreOfMassAndPositionOfTheBodyFrame) {
+TEST(BulletMotion, VelocityIsOfTheCenterOfMassAndPositionOfTheBodyFrame) {
     Scenario s = scene();
     s.gravity = {};
     addBody(s, Box{{0.5, 0.5, 0.5}}, {1, 0, 0}, 2.0, {0.4, 0.5, 0.6});

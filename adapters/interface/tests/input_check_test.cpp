@@ -218,7 +218,7 @@ TEST(Supported, ARefusalSaysWhoLacksIt) {
     EXPECT_THROW((void)notInLibrary("toy", "shape", ""), std::logic_error) << "without a document";
 }
 
-TEST(Missing, IsWhatTheFormatHasAndNobodyClaims) {
+TEST(Missing, IsWhatTheFormatHasAndNoEngineClaims) {
     Capabilities c;
     c.dynamics = true;
     c.dimensions = {2};

@@ -63,7 +63,7 @@ TEST(PairTable, MeetingsNameShapesOfTheirMaterialsThatMayTouch) {
         const Scenario s = crowd(seed);
         const PairTable table(s);
         std::vector<bool> bounces(8, false);
-        for (const auto& m : table.meetings()) {
+        for (const auto& m : table.examples()) {
             EXPECT_LE(m.materialA, m.materialB);
             EXPECT_TRUE(table.mayCollide(m.a.body, m.b.body));
             const auto materialOf = [&](const PairTable::ShapeRef& r) {

@@ -56,7 +56,7 @@ TEST(OdeSurfaces, AHullLiesOnEitherSideOfAMesh) {
     }
 }
 
-/// The same in the plane: a polygon that falls on the top of a looped chain, whichever way it runs round.
+/// The same in 2D: a polygon that falls on the top of a looped chain, whichever way it runs round.
 TEST(OdeSurfaces, APolygonLiesOnALoopedChain) {
     for (const bool clockwise : {true, false}) {
         Scenario s = scene(0.5, 0.0, 2);

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // No choice in name only: two choices of a stage that gave the same bits in every one of these scenes would
-// be one. Choices that promise the same motion (broad phases, what is only measured) are told apart by what
-// they count.
+// be one. Choices that promise the same motion (broad phases, what is only measured) are distinguished by
+// what they count.
 #include <gtest/gtest.h>
 
 #include <bit>

@@ -20,11 +20,11 @@ using test::Browser;
 /// Says what it was asked.
 class Echo final : public Site {
   public:
-    Reply answer(const Question& question) override {
-        if (question.path == "/bad") throw std::invalid_argument("bad");
-        if (question.path == "/broken") throw std::runtime_error("broken");
-        if (question.path == "/large") return {200, "text/plain", std::string(std::size_t{32} << 20, 'x')};
-        return {200, "text/plain", question.method + " " + question.path + " " + question.body};
+    Reply answer(const Request& request) override {
+        if (request.path == "/bad") throw std::invalid_argument("bad");
+        if (request.path == "/broken") throw std::runtime_error("broken");
+        if (request.path == "/large") return {200, "text/plain", std::string(std::size_t{32} << 20, 'x')};
+        return {200, "text/plain", request.method + " " + request.path + " " + request.body};
     }
     std::string contentSecurityPolicy() const override { return "default-src 'none'"; }
 };
@@ -97,10 +97,10 @@ TEST_F(Servers, ListensOnLoopbackAlone) {
     EXPECT_NE(connect(file, reinterpret_cast<sockaddr*>(&other), sizeof other), 0);
     close(file);
     Echo site;
-    EXPECT_THROW(Server(site, server_.port()), std::runtime_error) << "and nobody shares the port";
+    EXPECT_THROW(Server(site, server_.port()), std::runtime_error) << "and no second server shares the port";
 }
 
-/// Somebody who asks and does not read holds up nobody else.
+/// A client that sends a request and does not read the response holds up no other client.
 TEST_F(Servers, ABrowserThatDoesNotReadIsAlone) {
     Browser browser(server_.url());
     const int file = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);

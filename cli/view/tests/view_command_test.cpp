@@ -81,19 +81,19 @@ std::vector<pid_t> childrenOf(pid_t parent) {
 
 class View : public testing::Test {
   protected:
-    /// Looks until every lane is at `step`.
-    static Packet lanesAt(Browser& browser, std::size_t step) {
+    /// Looks until every instance is at `step`.
+    static Packet instancesAt(Browser& browser, std::size_t step) {
         std::uint64_t after = 0;
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
         while (std::chrono::steady_clock::now() < end) {
             const Packet packet = browser.frames(after, 1.0);
             bool there = true;
-            for (const json& lane : packet.header["session"]["lanes"])
-                there = there && lane["state"] == "ready" && lane["step"] == step;
+            for (const json& instance : packet.header["session"]["instances"])
+                there = there && instance["state"] == "ready" && instance["step"] == step;
             if (there) return browser.frames(0, 0);
             after = packet.header["sequence"];
         }
-        ADD_FAILURE() << "the lanes did not come to step " << step;
+        ADD_FAILURE() << "the instances did not come to step " << step;
         return {};
     }
     validation::ScratchFolder scratch_;
@@ -119,23 +119,23 @@ TEST_F(View, LiveFromTheLinkToCtrlC) {
             EXPECT_EQ(option["presets"].size(), engine["presets"].size()) << engine["name"] << option["key"];
     }
     EXPECT_GT(json::parse(browser.get("/api/scenarios")->body).size(), 10u);
-    const json scene = json::parse(browser.get("/api/scene?lane=0")->body);
+    const json scene = json::parse(browser.get("/api/scene?instance=0")->body);
     EXPECT_EQ(scene["scenario"]["name"], "slide_and_stop");
-    EXPECT_EQ(browser.get("/api/scene?lane=99")->status, 404);
+    EXPECT_EQ(browser.get("/api/scene?instance=99")->status, 404);
     EXPECT_EQ(browser.get("/api/frames?after=x")->status, 400);
     EXPECT_EQ(browser.post("/api/command", "[1]")->status, 400);
     EXPECT_EQ(browser.post("/api/command", R"({"command": "fly"})")->status, 422);
     EXPECT_EQ(browser.post("/api/command", R"({"command": "open", "scenario": "/etc/passwd"})")->status, 422);
 
-    lanesAt(browser, 0);
+    instancesAt(browser, 0);
     browser.command({{"command", "step"}, {"steps", 12}});
-    const Packet frames = lanesAt(browser, 12);
+    const Packet frames = instancesAt(browser, 12);
     EXPECT_EQ(frames.header["frames"].size(), 2u);
     EXPECT_GT(frames.arrays.doubles("0/position")[3], 0.0);
-    const auto lanes = childrenOf(program.pid());
-    EXPECT_EQ(lanes.size(), 2u);
+    const auto instances = childrenOf(program.pid());
+    EXPECT_EQ(instances.size(), 2u);
     EXPECT_EQ(program.end(SIGINT), 0);
-    for (const pid_t pid : lanes) EXPECT_NE(kill(pid, 0), 0) << "a lane outlived the program";
+    for (const pid_t pid : instances) EXPECT_NE(kill(pid, 0), 0) << "an instance outlived the program";
 }
 
 /// What is saved is a scenario for every other command, and its future is that of the live run.
@@ -143,12 +143,12 @@ TEST_F(View, WhatIsSavedIsCheckedAndRuns) {
     Program program({"view", "slide_and_stop", "--engines", "rigor", "--json", "--dt", "1/240", "--save-to",
                      scratch_.path().string()});
     Browser browser(program.url());
-    lanesAt(browser, 0);
+    instancesAt(browser, 0);
     browser.command({{"command", "step"}, {"steps", 60}});
-    lanesAt(browser, 60);
-    const std::string file = browser.command({{"command", "save"}, {"lane", 0}, {"write", true}})["file"];
+    instancesAt(browser, 60);
+    const std::string file = browser.command({{"command", "save"}, {"instance", 0}, {"write", true}})["file"];
     browser.command({{"command", "step"}, {"steps", 60}});
-    const auto expected = lanesAt(browser, 120).arrays.doubles("0/position");
+    const auto expected = instancesAt(browser, 120).arrays.doubles("0/position");
     EXPECT_EQ(program.end(SIGTERM), 0);
 
     EXPECT_EQ(rigor("check '" + file + "'").code, 0);
@@ -194,7 +194,7 @@ TEST_F(View, ARecordedRunIsServedWithItsTrajectories) {
 TEST_F(View, MistakesAreSaidAtOnce) {
     EXPECT_EQ(rigor("view no_such_scenario").code, 2);
     EXPECT_EQ(rigor("view '" + scratch_.path().string() + "'").code, 2);
-    EXPECT_EQ(rigor("view free_flight --engines nobody").code, 2);
+    EXPECT_EQ(rigor("view free_flight --engines no_engine").code, 2);
     EXPECT_EQ(rigor("view free_flight --dt 0").code, 2);
     EXPECT_EQ(rigor("view").code, 2);
     EXPECT_THAT(rigor("view --help").out, testing::HasSubstr("127.0.0.1"));

@@ -45,7 +45,7 @@ export function view(args: string[], environment: Record<string, string> = {}): 
 export interface Watched {
   page: Page;
   context: BrowserContext;
-  faults: string[]; // errors of the console and of the page, and whatever was asked of anybody else
+  faults: string[]; // errors of the console and of the page, and requests to any other host
 }
 
 export const watched = (browser: Browser, program: Program): Promise<Watched> =>

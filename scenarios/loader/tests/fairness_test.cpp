@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// No engine is let off, ours least: the library grades accuracy by one scale and bounds nobody by a result.
-// What is wrong physics says of whom, why, and how that is known.
+// No engine is let off, ours least: the library grades accuracy by one scale and bounds no engine by a
+// result. What is wrong physics says of whom, why, and how that is known.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -163,7 +163,7 @@ void expectSoundBody(const Body& body, const Scenario& s) {
     ASSERT_TRUE(s.dimension == 2 || (inertia(0, 0) > 0.0 && inertia(1, 1) > 0.0));
 }
 
-/// Everything that whoever uses a loaded scenario relies on.
+/// Everything that code relies on that uses a loaded scenario.
 void expectSound(const Scenario& s) {
     ASSERT_TRUE(s.dimension == 2 || s.dimension == 3);
     ASSERT_TRUE(s.duration > 0.0 && std::isfinite(s.duration) && isFinite(s.gravity));

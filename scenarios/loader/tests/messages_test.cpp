@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a bad file gets to read: a good file spoiled in one place each, and the whole first message.
+// What a bad file gets to read: a good file with one defect each, and the whole first message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 const std::string kGood = R"({
   "rigor": 1,
   "name": "base",
-  "title": "A base to spoil",
+  "title": "A base to break",
   "dimension": 3,
   "gravity": [0, -9.81, 0],
   "duration": 1,
@@ -39,14 +39,14 @@ const std::string kGood = R"({
 }
 )";
 
-struct Spoiled {
+struct BrokenFile {
     const char* name;
     const char* from;
     const char* to;
     const char* message;
 };
 
-const Spoiled kSpoiled[] = {
+const BrokenFile kBrokenFiles[] = {
     {"NotJson", R"("duration": 1,)", R"("duration": 1,,)",
      R"(bad.json:7: (document): found line 7, column 17: syntax error while parsing object key - unexpected ','; expected string literal, expected JSON (RFC 8259) [json.syntax])"},
     {"Truncated", R"(  "accept": { "rigor": { "position_final": 0.01 } }
@@ -161,7 +161,7 @@ TEST(GoodFile, Loads) {
     EXPECT_EQ(s.accept[0].metric, "position_final");
 }
 
-class BadFile : public testing::TestWithParam<Spoiled> {};
+class BadFile : public testing::TestWithParam<BrokenFile> {};
 
 TEST_P(BadFile, SaysWhatWhereAndWhy) {
     std::string text = kGood;
@@ -173,17 +173,17 @@ TEST_P(BadFile, SaysWhatWhereAndWhy) {
     EXPECT_EQ(problems.front().text(), GetParam().message);
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, BadFile, testing::ValuesIn(kSpoiled),
+INSTANTIATE_TEST_SUITE_P(Table, BadFile, testing::ValuesIn(kBrokenFiles),
                          [](const auto& each) { return std::string(each.param.name); });
 
 TEST(BadFiles, EveryMistakeOfAFileIsNamed) {
     std::string text = kGood;
-    const auto spoil = [&](const std::string& from, const std::string& to) {
+    const auto breakFile = [&](const std::string& from, const std::string& to) {
         text.replace(text.find(from), from.size(), to);
     };
-    spoil("\"duration\": 1", "\"duration\": -1");
-    spoil("\"friction\": 0.5", "\"friction\": -0.5");
-    spoil("\"gravity\": [0, -9.81, 0]", "\"gravity\": 9.81");
+    breakFile("\"duration\": 1", "\"duration\": -1");
+    breakFile("\"friction\": 0.5", "\"friction\": -0.5");
+    breakFile("\"gravity\": [0, -9.81, 0]", "\"gravity\": 9.81");
     std::vector<std::string> pointers;
     for (const Problem& p : problemsOf(text)) pointers.push_back(p.pointer);
     EXPECT_THAT(pointers, testing::UnorderedElementsAre("/duration", "/gravity", "/materials/wood/friction"));
@@ -235,9 +235,9 @@ TEST(Schema, RefusesByItself) {
          {"UnknownKey", "MissingKey", "WrongType", "NegativeDuration", "ZeroStep", "NoStep", "FutureVersion",
           "FourDimensions", "NegativeRadius", "ZeroMass", "UnknownShape", "UnknownJointType",
           "TwoForcesInOne", "NegativeBound", "TwoReferences", "BadName", "UnknownGenerator"}) {
-        const auto* row = std::find_if(std::begin(kSpoiled), std::end(kSpoiled),
-                                       [&](const Spoiled& s) { return std::string(s.name) == name; });
-        ASSERT_NE(row, std::end(kSpoiled)) << name;
+        const auto* row = std::find_if(std::begin(kBrokenFiles), std::end(kBrokenFiles),
+                                       [&](const BrokenFile& s) { return std::string(s.name) == name; });
+        ASSERT_NE(row, std::end(kBrokenFiles)) << name;
         std::string text = kGood;
         text.replace(text.find(row->from), std::string(row->from).size(), row->to);
         EXPECT_THROW(checkScenarioSchema(parseDocument(text, "bad.json"), "bad.json"), LoadError) << name;

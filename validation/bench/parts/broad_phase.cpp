@@ -4,7 +4,7 @@
 // Broad phases by themselves: every box moves, all pairs are wanted. Timed is BroadPhase::run: the engine is
 // told of each moved box, in its own numbers, and finds its pairs, which it leaves in its own form: a list
 // (in-house), a cache of pairs (Bullet), what its callback was told (ODE, FCL; new pairs alone for Box2D, as
-// its world has it). Not timed, for anybody: moving the boxes, turning them into the engine's numbers,
+// its world has it). Not timed, for any engine: moving the boxes, turning them into the engine's numbers,
 // putting pairs in order, tests against the exact boxes. Times are means over the updates: trees of enlarged
 // boxes do their work in bursts.
 #include <cmath>
@@ -24,7 +24,7 @@ using nlohmann::json;
 constexpr int kWarmUp = 5;
 constexpr std::size_t kLeast = 3;
 /// After so much time of updates no further one is begun [s].
-constexpr double kPatience = 0.3;
+constexpr double kTimeLimit = 0.3;
 /// After so much, not even one of the least [s]: rounds, of which intervals are made, tell more.
 constexpr double kEnough = 1.0;
 constexpr const char *kRandom = "random", *kSpatial = "spatial";
@@ -97,12 +97,12 @@ class BroadPhaseBench final : public BenchCase {
         double mean(std::size_t total) const { return static_cast<double>(total) / count; }
     };
     static bool isEnough(std::size_t updates, std::size_t most, double spent) {
-        return updates >= most || spent > kEnough || (updates >= kLeast && spent > kPatience);
+        return updates >= most || spent > kEnough || (updates >= kLeast && spent > kTimeLimit);
     }
     static void warmUp(adapter::TimedBroadPhase& phase, MovingBoxes& scene) {
         Stopwatch watch;
         double spent = 0.0;
-        for (int k = 0; k < kWarmUp && spent <= kPatience; ++k, scene.advance()) {
+        for (int k = 0; k < kWarmUp && spent <= kTimeLimit; ++k, scene.advance()) {
             phase.take(scene.boxes());
             watch.time([&] { phase.run(); });
             spent += watch.samples().cpu.back();

@@ -9,7 +9,7 @@
 
 #include "scenarios/generators/generator.hpp"
 #include "scenarios/loader/loader.hpp"
-#include "validation/contact_problems/freeze.hpp"
+#include "validation/contact_problems/export_step.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -149,10 +149,10 @@ const std::vector<std::string>& contactScenes() {
     return names;
 }
 
-FrozenProblem makeContactScene(const std::string& name, std::uint64_t seed) {
+ExportedProblem makeContactScene(const std::string& name, std::uint64_t seed) {
     const Blocks blocks = blocksOf(name, seed);
     const scenario::Scenario scene = scenarioOf(blocks, name);
-    ToldStep step;
+    RecordedStep step;
     step.dt = kStep;
     for (const scenario::Body& body : scene.bodies)
         step.before.push_back(
@@ -160,7 +160,7 @@ FrozenProblem makeContactScene(const std::string& name, std::uint64_t seed) {
     step.after = step.before;
     step.contacts = contactsOf(blocks);
     step.loads.resize(scene.bodies.size());
-    FrozenProblem problem = freezeStep(scene, step);
+    ExportedProblem problem = exportStep(scene, step);
     problem.title = name;
     problem.storedR.clear();
     problem.storedU.clear();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Frozen contact problems of boxes on boxes, made without any engine: axis-aligned boxes whose faces touch
+// Contact problems of boxes on boxes, made without any engine: axis-aligned boxes whose faces touch
 // have one contact at each corner of the faces' common part.
 #pragma once
 
@@ -17,6 +17,6 @@ namespace rigor::validation {
 const std::vector<std::string>& contactScenes();
 
 /// Complete. Throws std::invalid_argument for unknown names.
-FrozenProblem makeContactScene(const std::string& name, std::uint64_t seed);
+ExportedProblem makeContactScene(const std::string& name, std::uint64_t seed);
 
 }  // namespace rigor::validation

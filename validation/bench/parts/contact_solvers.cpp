@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Contact solvers on frozen problems: time until the contact law holds to a stated residual. The residual is
+// Contact solvers on contact problems: time until the contact law holds to a stated residual. The residual is
 // the relative natural map of the law that the solver says it solves (contact_problems/residual.hpp: a
 // pyramid where it has one), so that what is timed is its convergence. How many iterations that takes is
-// found first, on a ladder; then solutions with so many are timed, each from r = 0, without setting up.
+// found first, among fixed numbers; then solutions with so many are timed, each from r = 0, without setting
+// up.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -19,10 +20,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kLadder[] = {1,  2,   3,   4,   5,   7,   10,  14,  20,   28,   40,  56,
-                           80, 113, 160, 226, 320, 453, 640, 905, 1280, 1810, 2560};
-constexpr double kPatience = 2.0;  ///< after which no further rung is begun [s]
-constexpr double kEnough = 1.0;    ///< after which no further solution is timed [s]
+constexpr int kIterationCounts[] = {1,  2,   3,   4,   5,   7,   10,  14,  20,   28,   40,  56,
+                                    80, 113, 160, 226, 320, 453, 640, 905, 1280, 1810, 2560};
+constexpr double kTimeLimit = 2.0;  ///< after which no larger number of iterations is tried [s]
+constexpr double kEnough = 1.0;     ///< after which no further solution is timed [s]
 constexpr const char *kTargets[] = {"1e-3", "1e-6", "1e-9"}, *kUsualTarget = kTargets[1];
 
 class ContactSolverBench final : public BenchCase {
@@ -30,13 +31,13 @@ class ContactSolverBench final : public BenchCase {
     explicit ContactSolverBench(const PlannedBench& planned) {
         const json parameters = json::parse(planned.parameters);
         target_ = std::stod(parameters.at("residual").get<std::string>());
-        frozen_ = makeContactScene(parameters.at("scene"), parameters.at("seed"));
+        problem_ = makeContactScene(parameters.at("scene"), parameters.at("seed"));
         const adapter::EngineSpec spec = adapter::parseSpec(planned.engine);
         engine_.emplace(adapter::loadEngine(spec));
         if ((*engine_)->contactSolvers() == nullptr)
-            throw adapter::Unsupported(spec.engine + " has no solvers for frozen contact problems");
+            throw adapter::Unsupported(spec.engine + " has no solvers for contact problems");
         solve_ =
-            (*engine_)->contactSolvers()->take(frozen_.problem, adapter::resolveSettings(spec, **engine_));
+            (*engine_)->contactSolvers()->take(problem_.problem, adapter::resolveSettings(spec, **engine_));
     }
 
     results::BenchRepetition run(int) override {
@@ -52,10 +53,10 @@ class ContactSolverBench final : public BenchCase {
             watch.time([&] { found = solve_->run(iterations, 0.0); });
             spent += watch.samples().cpu.back();
         }
-        const ContactResidual residual = contactResidual(frozen_.problem, found.r, solve_->friction());
+        const ContactResidual residual = contactResidual(problem_.problem, found.r, solve_->friction());
         results::BenchRepetition done;
         fillTimes(watch, false, done);
-        done.counts = {{"contacts", static_cast<double>(frozen_.problem.contacts())},
+        done.counts = {{"contacts", static_cast<double>(problem_.problem.contacts())},
                        {"iterations", static_cast<double>(found.iterations)}};
         done.quality = {judged("residual", "1", residual.own, target_),
                         judged("cone_residual", "1", residual.relative, std::nullopt)};
@@ -63,28 +64,28 @@ class ContactSolverBench final : public BenchCase {
     }
 
   private:
-    /// The first rung that is good enough, or the best there is.
+    /// The first number of iterations that is good enough, or the best there is.
     int climb() {
         Stopwatch watch;
-        int best = kLadder[0];
+        int best = kIterationCounts[0];
         double least = 1e300, spent = 0.0;
-        for (const int iterations : kLadder) {
+        for (const int iterations : kIterationCounts) {
             adapter::ContactSolution found;
             watch.time([&] { found = solve_->run(iterations, 0.0); });
-            const double residual = contactResidual(frozen_.problem, found.r, solve_->friction()).own;
+            const double residual = contactResidual(problem_.problem, found.r, solve_->friction()).own;
             if (residual < least) {
                 best = iterations;
                 least = residual;
             }
             spent += watch.samples().wall.back();
             // Ended by itself: more would be the same.
-            if (least <= target_ || spent > kPatience || found.iterations < iterations) break;
+            if (least <= target_ || spent > kTimeLimit || found.iterations < iterations) break;
         }
         return best;
     }
 
     double target_ = 0.0;
-    FrozenProblem frozen_;
+    ExportedProblem problem_;
     std::optional<adapter::LoadedEngine> engine_;
     std::unique_ptr<adapter::ContactSolve> solve_;
 };

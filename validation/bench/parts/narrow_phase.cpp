@@ -28,9 +28,9 @@ constexpr double kMeanDepthError = 1e-3, kWrongShare = 0.01;
 /// Overlaps below this may be missed by single precision without being wrong [m].
 constexpr double kNoDepth = 1e-4;
 
-class Nobody final : public adapter::CollisionBatch {
+class Baseline final : public adapter::CollisionBatch {
   public:
-    explicit Nobody(std::span<const adapter::CollisionQuery> queries) {
+    explicit Baseline(std::span<const adapter::CollisionQuery> queries) {
         for (const auto& query : queries) pairs_.push_back({query.a.pose, query.b.pose});
     }
     std::size_t run() override {
@@ -80,8 +80,8 @@ class NarrowPhaseBench final : public BenchCase {
         for (const PairKind& kind : pairKinds())
             if (kind.name() == parameters.at("kind")) kind_ = kind;
         seed_ = parameters.at("seed");
-        nobody_ = planned.engine == kInterface;
-        if (nobody_) return;
+        isBaseline_ = planned.engine == kInterface;
+        if (isBaseline_) return;
         const adapter::EngineSpec spec = adapter::parseSpec(planned.engine);
         engine_.emplace(adapter::loadEngine(spec));
         settings_ = adapter::resolveSettings(spec, **engine_);
@@ -105,7 +105,7 @@ class NarrowPhaseBench final : public BenchCase {
         fillTimes(watch, false, done);
         done.counts = {{"pairs", static_cast<double>(kPairs)},
                        {"contacts_per_pair", static_cast<double>(contacts) / static_cast<double>(kPairs)}};
-        if (nobody_) return done;
+        if (isBaseline_) return done;
         const Judgement judgement = judgeDepths(*batch, pairs.depths);
         done.quality = {judged("mean_depth_error", "m", judgement.meanError, kMeanDepthError),
                         judged("largest_depth_error", "m", judgement.largestError, std::nullopt),
@@ -115,7 +115,7 @@ class NarrowPhaseBench final : public BenchCase {
 
   private:
     std::unique_ptr<adapter::CollisionBatch> makeBatch(PosedPairs& pairs) const {
-        if (nobody_) return std::make_unique<Nobody>(pairs.queries);
+        if (isBaseline_) return std::make_unique<Baseline>(pairs.queries);
         const auto algorithm = settings_.find("narrow_phase");
         for (adapter::CollisionQuery& query : pairs.queries) {
             query.settings = &settings_;
@@ -127,7 +127,7 @@ class NarrowPhaseBench final : public BenchCase {
 
     PairKind kind_;
     std::uint64_t seed_ = 1;
-    bool nobody_ = false;
+    bool isBaseline_ = false;
     std::optional<adapter::LoadedEngine> engine_;
     adapter::Settings settings_;
     const adapter::TimedCollisionEngine* timed_ = nullptr;

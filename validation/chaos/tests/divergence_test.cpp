@@ -60,14 +60,14 @@ TEST(Divergence, OfAnExponentialSplitIsRecovered) {
     EXPECT_EQ(d.length, 0.5);
     // d0 exp(r t) = 0.005 m, at the next frame
     const double exact = std::log(0.005 / d0) / rate;
-    ASSERT_TRUE(d.onset);
-    EXPECT_GE(*d.onset, exact);
-    EXPECT_LT(*d.onset, exact + kDt);
+    ASSERT_TRUE(d.divergenceTime);
+    EXPECT_GE(*d.divergenceTime, exact);
+    EXPECT_LT(*d.divergenceTime, exact + kDt);
     EXPECT_EQ(d.body, 2);
     ASSERT_TRUE(d.growth);
     EXPECT_NEAR(d.growth->rate, rate, 1e-9);
     EXPECT_NEAR(d.growth->low, rate, 1e-6);
-    EXPECT_NEAR(d.growth->until, *d.onset, 1e-12);
+    EXPECT_NEAR(d.growth->until, *d.divergenceTime, 1e-12);
     ASSERT_TRUE(d.split);
     EXPECT_NEAR(d.split->time, 2.51 - kDt + kDt, 1e-12) << "frame 250 still has 249 beside it";
     EXPECT_EQ(d.split->bodyA, 0);
@@ -94,7 +94,7 @@ TEST(Divergence, OfEqualRunsIsNone) {
         Pair::touch(pair.b, k, 0, 1);
     }
     const Divergence d = divergenceOf(pair.scenario, pair.a, pair.b, {0.01, 1, 1});
-    EXPECT_FALSE(d.onset);
+    EXPECT_FALSE(d.divergenceTime);
     EXPECT_FALSE(d.growth);
     EXPECT_FALSE(d.split);
     EXPECT_EQ(d.largest, 0.0);
@@ -106,7 +106,7 @@ TEST(Divergence, AConstantDistanceDoesNotGrow) {
     EXPECT_FALSE(divergenceOf(pair.scenario, pair.a, pair.b, {0.01, 1, 1}).growth);
     pair.atB(7, 3).position = {0, 0.006, 0};
     const Divergence d = divergenceOf(pair.scenario, pair.a, pair.b, {0.01, 1, 1});
-    EXPECT_DOUBLE_EQ(d.onset.value(), 0.07);
+    EXPECT_DOUBLE_EQ(d.divergenceTime.value(), 0.07);
     EXPECT_EQ(d.body, 3);
 }
 

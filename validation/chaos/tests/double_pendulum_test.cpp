@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The double pendulum of the study `chaos`, integrated without any engine: what onset and growth are to be.
+// The double pendulum of the study `chaos`, integrated without any engine: what the divergence time and
+// growth are to be.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,37 +36,38 @@ Trajectory exactMotion(const scenario::Scenario& s) {
 }
 
 struct Medians {
-    double onset, rate;
+    double divergenceTime, rate;
 };
 
-Medians partings(double angle, const std::string& duration) {
+Medians divergenceTimes(double angle, const std::string& duration) {
     const auto s = scenario::loadScenario(scenario::findScenario("double_pendulum_2d"),
                                           {"generators.0.chain.direction=[0.6,0.8]", "duration=" + duration})
                        .scenario;
     const Trajectory base = exactMotion(s);
-    std::vector<double> onsets, rates;
+    std::vector<double> times, rates;
     for (std::uint32_t member = 1; member <= 3; ++member) {
         scenario::Scenario other = perturbed(s, {0.0, angle, 0.0, 0.0}, 1, member);
         other.reference = s.reference;
         const Divergence d = divergenceOf(s, base, exactMotion(other), {0.01, 1, 1});
-        EXPECT_TRUE(d.onset && d.growth) << member;
-        if (!d.onset || !d.growth) continue;
+        EXPECT_TRUE(d.divergenceTime && d.growth) << member;
+        if (!d.divergenceTime || !d.growth) continue;
         EXPECT_GT(d.growth->low, 1.0);
-        onsets.push_back(*d.onset);
+        times.push_back(*d.divergenceTime);
         rates.push_back(d.growth->rate);
     }
-    return {median(onsets), median(rates)};
+    return {median(times), median(rates)};
 }
 
 /// The numbers that the findings of the study name: of seven starts 5.10 s, 1.965/s, 8.60 s, 2.141/s.
 TEST(DoublePendulum, PartsLaterFromASmallerStart) {
-    const Medians large = partings(1e-6, "7"), small = partings(1e-9, "10.5");
-    EXPECT_NEAR(large.onset, 5.10, 0.2);
+    const Medians large = divergenceTimes(1e-6, "7"), small = divergenceTimes(1e-9, "10.5");
+    EXPECT_NEAR(large.divergenceTime, 5.10, 0.2);
     EXPECT_NEAR(large.rate, 1.97, 0.06);
-    EXPECT_NEAR(small.onset, 8.60, 0.2);
+    EXPECT_NEAR(small.divergenceTime, 8.60, 0.2);
     EXPECT_NEAR(small.rate, 2.14, 0.06);
     // A thousandth of the difference: ln 1000 / rate later.
-    EXPECT_NEAR((small.onset - large.onset) * small.rate, std::log(1000.0), 0.15 * std::log(1000.0));
+    EXPECT_NEAR((small.divergenceTime - large.divergenceTime) * small.rate, std::log(1000.0),
+                0.15 * std::log(1000.0));
 }
 
 }  // namespace

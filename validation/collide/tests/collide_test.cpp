@@ -103,7 +103,7 @@ TEST(Judge, KindsAreTallied) {
     }
     run.cases[2].answers[1].verdict = CollideVerdict::Unsupported;
     run.cases[2].answers[1].answered = false;
-    const auto kinds = tallyKinds(run);
+    const auto kinds = countKinds(run);
     ASSERT_EQ(kinds.size(), 2u);
     EXPECT_EQ(kinds[0].kind, "deep");
     EXPECT_EQ(kinds[0].asked, 2);

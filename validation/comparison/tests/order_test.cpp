@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::vector<LadderPoint> power(double factor, double order, int points) {
-    std::vector<LadderPoint> ladder;
+std::vector<RefinementPoint> power(double factor, double order, int points) {
+    std::vector<RefinementPoint> refinement;
     for (int i = 0; i < points; ++i) {
         const double dt = std::ldexp(1.0 / 60.0, -i);
-        ladder.push_back({dt, factor * std::pow(dt, order)});
+        refinement.push_back({dt, factor * std::pow(dt, order)});
     }
-    return ladder;
+    return refinement;
 }
 
 TEST(ObservedOrder, IsThatOfAPowerLaw) {
@@ -43,10 +43,10 @@ TEST(ObservedOrder, TwoPointsGiveASlopeAndNoInterval) {
 /// x = 0, 1, 2, 3; y = 0, 1.1, 1.9, 3: slope 0.98, residuals give s^2 = 0.009, Sxx = 5, t(0.975, 2)
 /// = 4.30265.
 TEST(ObservedOrder, IntervalIsThatOfTheRegression) {
-    std::vector<LadderPoint> ladder;
+    std::vector<RefinementPoint> refinement;
     const double y[] = {0.0, 1.1, 1.9, 3.0};
-    for (int i = 0; i < 4; ++i) ladder.push_back({std::exp(double(i)), std::exp(y[i])});
-    const auto fit = observedOrder(ladder);
+    for (int i = 0; i < 4; ++i) refinement.push_back({std::exp(double(i)), std::exp(y[i])});
+    const auto fit = observedOrder(refinement);
     ASSERT_TRUE(fit && fit->low && fit->high);
     EXPECT_NEAR(fit->order, 0.98, 1e-12);
     const double half = 4.302652729911275 * std::sqrt(0.009 / 5.0);
@@ -55,10 +55,10 @@ TEST(ObservedOrder, IntervalIsThatOfTheRegression) {
 }
 
 TEST(ObservedOrder, LeavesOutRoundOffAndSaysSo) {
-    auto ladder = power(1.0, 4.0, 5);
-    ladder.push_back({1e-5, 3e-15});
-    ladder.push_back({1e-6, 0.0});
-    const auto fit = observedOrder(ladder);
+    auto refinement = power(1.0, 4.0, 5);
+    refinement.push_back({1e-5, 3e-15});
+    refinement.push_back({1e-6, 0.0});
+    const auto fit = observedOrder(refinement);
     ASSERT_TRUE(fit);
     EXPECT_NEAR(fit->order, 4.0, 1e-9);
     EXPECT_EQ(fit->points, 5);
@@ -66,11 +66,11 @@ TEST(ObservedOrder, LeavesOutRoundOffAndSaysSo) {
 }
 
 TEST(ObservedOrder, LeavesOutTheFineEndThatNoLongerShrinks) {
-    auto ladder = power(1.0, 2.0, 4);
-    const double least = ladder.back().error;
-    ladder.push_back({1e-4, 2.0 * least});
-    ladder.push_back({1e-5, 9.0 * least});
-    const auto fit = observedOrder(ladder);
+    auto refinement = power(1.0, 2.0, 4);
+    const double least = refinement.back().error;
+    refinement.push_back({1e-4, 2.0 * least});
+    refinement.push_back({1e-5, 9.0 * least});
+    const auto fit = observedOrder(refinement);
     ASSERT_TRUE(fit);
     EXPECT_NEAR(fit->order, 2.0, 1e-9);
     EXPECT_EQ(fit->note, "left out: 2 no longer shrinking");

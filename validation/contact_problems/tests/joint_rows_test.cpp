@@ -26,11 +26,11 @@ Vec3 unit(const Vec3& v) {
 }
 
 /// Two bodies anywhere, their frames off their centres, joined at a point of the world.
-Pair joined(JointType type, int dimension, std::mt19937& dice) {
+Pair joined(JointType type, int dimension, std::mt19937& rng) {
     std::uniform_real_distribution<double> some(-1.0, 1.0);
     const bool flat = dimension == 2;
-    const auto vector = [&] { return Vec3{some(dice), some(dice), flat ? 0.0 : some(dice)}; };
-    const auto spin = [&] { return flat ? Vec3{0, 0, some(dice)} : vector(); };
+    const auto vector = [&] { return Vec3{some(rng), some(rng), flat ? 0.0 : some(rng)}; };
+    const auto spin = [&] { return flat ? Vec3{0, 0, some(rng)} : vector(); };
     Pair p;
     p.scenario.dimension = dimension;
     for (int i = 0; i < 2; ++i) {
@@ -38,7 +38,7 @@ Pair joined(JointType type, int dimension, std::mt19937& dice) {
         body.massProperties.centerOfMass = vector();
         p.scenario.bodies.push_back(body);
         const Vec3 axis = flat ? Vec3{0, 0, 1} : unit(vector());
-        p.states.push_back({vector(), fromAxisAngle(axis, 3.0 * some(dice)), {}, {}});
+        p.states.push_back({vector(), fromAxisAngle(axis, 3.0 * some(rng)), {}, {}});
     }
     const Pose a{p.states[0].position, p.states[0].orientation},
         b{p.states[1].position, p.states[1].orientation};
@@ -53,15 +53,15 @@ Pair joined(JointType type, int dimension, std::mt19937& dice) {
     // A moves anyhow, and B with it.
     const Vec3 v = vector(), w = spin();
     for (std::size_t i = 0; i < 2; ++i) {
-        const Vec3 centre = Pose{p.states[i].position, p.states[i].orientation} *
+        const Vec3 center = Pose{p.states[i].position, p.states[i].orientation} *
                             p.scenario.bodies[i].massProperties.centerOfMass;
-        p.states[i].velocity = v + cross(w, centre);
+        p.states[i].velocity = v + cross(w, center);
         p.states[i].angularVelocity = w;
     }
     return p;
 }
 
-Vec3 centreOfB(const Pair& p) {
+Vec3 centerOfB(const Pair& p) {
     return Pose{p.states[1].position, p.states[1].orientation} *
            p.scenario.bodies[1].massProperties.centerOfMass;
 }
@@ -73,7 +73,7 @@ Vec3 axisOf(const Pair& p) {
 }
 /// B turns about its anchor besides.
 void turnB(Pair& p, const Vec3& w) {
-    p.states[1].velocity += cross(w, centreOfB(p) - anchorOfB(p));
+    p.states[1].velocity += cross(w, centerOfB(p) - anchorOfB(p));
     p.states[1].angularVelocity += w;
 }
 
@@ -117,10 +117,10 @@ const std::vector<Motion>& motions() {
 }
 
 TEST(JointRows, HoldWhatTheJointHoldsAndNothingElse) {
-    std::mt19937 dice(7);
+    std::mt19937 rng(7);
     for (const Motion& motion : motions())
         for (int k = 0; k < 20; ++k) {
-            Pair p = joined(motion.type, motion.dimension, dice);
+            Pair p = joined(motion.type, motion.dimension, rng);
             EXPECT_LT(largest(p), 1e-12) << "moving as one body";
             motion.add(p);
             if (motion.permitted)
@@ -131,9 +131,9 @@ TEST(JointRows, HoldWhatTheJointHoldsAndNothingElse) {
 }
 
 TEST(JointRows, AreAsManyAsTheFreedomsTheyTake) {
-    std::mt19937 dice(8);
+    std::mt19937 rng(8);
     const auto count = [&](JointType type, int dimension) {
-        const Pair p = joined(type, dimension, dice);
+        const Pair p = joined(type, dimension, rng);
         return jointRows(p.scenario, p.joint, p.states).size();
     };
     EXPECT_EQ(count(JointType::Ball, 3), 3u);

@@ -19,15 +19,15 @@ namespace {
 using ::testing::HasSubstr;
 
 /// Random and unsymmetric: m velocities in two groups, `contacts` contacts, p bilateral rows.
-FrozenProblem randomGlobal(int dimension, int contacts, int m, int p, unsigned seed) {
+ExportedProblem randomGlobal(int dimension, int contacts, int m, int p, unsigned seed) {
     std::mt19937 engine(seed);
     const auto draw = [&] { return static_cast<double>(engine()) / 2147483648.0 - 1.0; };
-    FrozenProblem frozen;
-    frozen.isGlobal = true;
-    frozen.title = "random";
-    frozen.description = "drawn";
-    frozen.mathInfo = "none";
-    ContactProblem& c = frozen.problem;
+    ExportedProblem exported;
+    exported.isGlobal = true;
+    exported.title = "random";
+    exported.description = "drawn";
+    exported.mathInfo = "none";
+    ContactProblem& c = exported.problem;
     c.dimension = dimension;
     for (int i = 0; i < contacts; ++i) c.mu.push_back(0.5 * (draw() + 1.0));
     std::vector<Triplet> M, H, G;
@@ -42,19 +42,19 @@ FrozenProblem randomGlobal(int dimension, int contacts, int m, int p, unsigned s
             if ((i + j) % 3 != 0) H.push_back({i, j, draw()});
     }
     for (int j = 0; j < p; ++j) {
-        frozen.b.push_back(draw());
+        exported.b.push_back(draw());
         for (int i = 0; i < m; ++i) G.push_back({i, j, draw()});
     }
     c.M = fromTriplets(m, m, M);
     c.H = fromTriplets(m, contacts * dimension, H);
-    frozen.G = fromTriplets(m, p, G);
-    complete(frozen, "random");
-    frozen.storedR.assign(c.size(), 0.25);
-    frozen.storedV = velocitiesFor(frozen, frozen.storedR);
-    return frozen;
+    exported.G = fromTriplets(m, p, G);
+    complete(exported, "random");
+    exported.storedR.assign(c.size(), 0.25);
+    exported.storedV = velocitiesFor(exported, exported.storedR);
+    return exported;
 }
 
-void expectSame(const FrozenProblem& a, const FrozenProblem& b) {
+void expectSame(const ExportedProblem& a, const ExportedProblem& b) {
     EXPECT_EQ(a.isGlobal, b.isGlobal);
     EXPECT_EQ(a.title, b.title);
     EXPECT_EQ(a.description, b.description);
@@ -84,18 +84,18 @@ TEST(Fclib, ThereAndBackToTheBitInEveryArrangement) {
     for (const int dimension : {2, 3})
         for (const SparseLayout layout : {SparseLayout::Columns, SparseLayout::Rows, SparseLayout::Triplets})
             for (const int bilateral : {0, 2}) {
-                const FrozenProblem global = randomGlobal(dimension, 4, 9, bilateral, 7);
+                const ExportedProblem global = randomGlobal(dimension, 4, 9, bilateral, 7);
                 writeFclib(global, file, layout);
-                const FrozenProblem again = readContactProblem(file);
+                const ExportedProblem again = readContactProblem(file);
                 if (bilateral > 0) {
                     expectSame(global, again);
                 } else {
                     EXPECT_TRUE(again.problem.hasBodies);
-                    FrozenProblem plain = global;
+                    ExportedProblem plain = global;
                     plain.G = again.G;  // without columns, or without anything
                     expectSame(plain, again);
                 }
-                FrozenProblem local = global;
+                ExportedProblem local = global;
                 local.isGlobal = false;
                 local.problem.hasBodies = false;
                 local.problem.M = local.problem.H = local.G = {};
@@ -111,7 +111,7 @@ TEST(Fclib, ThereAndBackToTheBitInEveryArrangement) {
 TEST(Fclib, LayoutIsThatOfTheFormat) {
     const ScratchFolder scratch;
     const auto path = scratch.path() / "problem.hdf5";
-    FrozenProblem global = randomGlobal(3, 1, 6, 0, 3);
+    ExportedProblem global = randomGlobal(3, 1, 6, 0, 3);
     writeFclib(global, path, SparseLayout::Triplets);
     const auto file = results::Hdf5File::open(path);
     int columns = 0;
@@ -134,17 +134,17 @@ TEST(Fclib, LayoutIsThatOfTheFormat) {
 /// the equation of motion along G's complement tells.
 TEST(Condensation, AgreesWithTheEquationsItComesFrom) {
     for (const int bilateral : {0, 1, 3}) {
-        const FrozenProblem frozen = randomGlobal(3, 3, 8, bilateral, 11);
-        const ContactProblem& p = frozen.problem;
+        const ExportedProblem exported = randomGlobal(3, 3, 8, bilateral, 11);
+        const ContactProblem& p = exported.problem;
         std::vector<double> r(p.size());
         for (std::size_t i = 0; i < r.size(); ++i) r[i] = std::sin(1.0 + static_cast<double>(i));
-        const std::vector<double> v = velocitiesFor(frozen, r);
+        const std::vector<double> v = velocitiesFor(exported, r);
         std::vector<double> u = p.w;
         multiplyTransposedAdd(p.H, v, u);
         const std::vector<double> condensed = relativeVelocities(p, r);
         for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(u[i], condensed[i], 1e-12);
-        std::vector<double> held = frozen.b;
-        multiplyTransposedAdd(frozen.G, v, held);
+        std::vector<double> held = exported.b;
+        multiplyTransposedAdd(exported.G, v, held);
         for (const double x : held) EXPECT_NEAR(x, 0.0, 1e-12);
         // M v - H r - f is a combination of G's columns: orthogonal to what is orthogonal to them.
         std::vector<double> left(v.size(), 0.0);
@@ -156,7 +156,7 @@ TEST(Condensation, AgreesWithTheEquationsItComesFrom) {
         for (int j = 0; j < bilateral; ++j) {
             std::vector<double> g(v.size(), 0.0), unit(static_cast<std::size_t>(bilateral), 0.0);
             unit[static_cast<std::size_t>(j)] = 1.0;
-            multiplyAdd(frozen.G, unit, g);
+            multiplyAdd(exported.G, unit, g);
             basis.push_back(g);
             for (int pass = 0; pass < 2; ++pass)
                 for (std::size_t k = 0; k + 1 < basis.size(); ++k) {

@@ -66,9 +66,9 @@ TEST(Residual, ProjectsOntoTheConesNearestPoint) {
         const double mu = 0.1 + 0.03 * k, n = std::sin(1.7 * k), t1 = std::cos(2.3 * k),
                      t2 = std::sin(3.1 * k);
         // With W = 0 and q = 0 the map is r - P(r).
-        FrozenProblem frozen = massPoint(1, mu, {0, 0, 0});
-        frozen.problem.W.assign(9, 0.0);
-        const double defect = contactResidual(frozen.problem, {n, t1, t2}).absolute;
+        ExportedProblem exported = massPoint(1, mu, {0, 0, 0});
+        exported.problem.W.assign(9, 0.0);
+        const double defect = contactResidual(exported.problem, {n, t1, t2}).absolute;
         const double t = std::hypot(t1, t2);
         double nearest = std::hypot(n, t);
         if (t <= mu * n) nearest = 0.0;

@@ -12,24 +12,24 @@
 namespace rigor::validation::testing {
 
 /// A point of mass m over a floor with free velocity v: W = 1/m, q = v (normal first).
-inline FrozenProblem massPoint(double m, double mu, const std::vector<double>& v) {
-    FrozenProblem frozen;
-    frozen.title = "mass point";
-    ContactProblem& p = frozen.problem;
+inline ExportedProblem massPoint(double m, double mu, const std::vector<double>& v) {
+    ExportedProblem exported;
+    exported.title = "mass point";
+    ContactProblem& p = exported.problem;
     p.dimension = static_cast<int>(v.size());
     p.mu = {mu};
     p.q = v;
     p.W.assign(v.size() * v.size(), 0.0);
     for (std::size_t i = 0; i < v.size(); ++i) p.W[i * v.size() + i] = 1.0 / m;
-    return frozen;
+    return exported;
 }
 
 /// The same as bodies: mass 2 kg and some inertia, impulses at its centre of mass.
-inline FrozenProblem bodyPoint(double mu, const std::vector<double>& v) {
-    FrozenProblem frozen;
-    frozen.title = "body";
-    frozen.isGlobal = true;
-    ContactProblem& p = frozen.problem;
+inline ExportedProblem bodyPoint(double mu, const std::vector<double>& v) {
+    ExportedProblem exported;
+    exported.title = "body";
+    exported.isGlobal = true;
+    ContactProblem& p = exported.problem;
     const int d = static_cast<int>(v.size()), dofs = d == 3 ? 6 : 3;
     p.dimension = d;
     p.mu = {mu};
@@ -42,8 +42,8 @@ inline FrozenProblem bodyPoint(double mu, const std::vector<double>& v) {
     p.M = fromTriplets(dofs, dofs, M);
     p.H = fromTriplets(dofs, d, H);
     p.w.assign(static_cast<std::size_t>(d), 0.0);
-    complete(frozen, "body");
-    return frozen;
+    complete(exported, "body");
+    return exported;
 }
 
 inline adapter::LoadedEngine loadEngineOfBuild(const std::string& spec) {

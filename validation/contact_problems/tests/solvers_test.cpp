@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The solvers on frozen problems: one contact by hand, with bodies and without; agreement between the two
+// The solvers on contact problems: one contact by hand, with bodies and without; agreement between the two
 // ways into the same solver; the published problems of RIGOR_DATA.
 #include <gmock/gmock.h>
 
@@ -25,9 +25,9 @@ struct OneContact {
 };
 const std::vector<OneContact>& oneContacts() {
     static const std::vector<OneContact> table{
-        {"leaves", {1, 3, -4}, {0, 0, 0}},           {"sticks", {-2, 0.3, 0.4}, {4, -0.6, -0.8}},
-        {"slides", {-2, 3, -4}, {4, -1.2, 1.6}},     {"leaves in the plane", {1, 3}, {0, 0}},
-        {"sticks in the plane", {-2, -0.5}, {4, 1}}, {"slides in the plane", {-2, 5}, {4, -2}}};
+        {"leaves", {1, 3, -4}, {0, 0, 0}},       {"sticks", {-2, 0.3, 0.4}, {4, -0.6, -0.8}},
+        {"slides", {-2, 3, -4}, {4, -1.2, 1.6}}, {"leaves in 2D", {1, 3}, {0, 0}},
+        {"sticks in 2D", {-2, -0.5}, {4, 1}},    {"slides in 2D", {-2, 5}, {4, -2}}};
     return table;
 }
 
@@ -48,7 +48,7 @@ TEST(OneContact, EveryConeSolverFindsIt) {
     const auto engine = loadEngineOfBuild("rigor");
     for (const OneContact& c : oneContacts()) {
         SCOPED_TRACE(c.name);
-        const FrozenProblem onMatrix = massPoint(2, 0.5, c.v), onBodies = bodyPoint(0.5, c.v);
+        const ExportedProblem onMatrix = massPoint(2, 0.5, c.v), onBodies = bodyPoint(0.5, c.v);
         for (const char* solver : {"nsgs", "pgs", "single_pass"})
             expectAnswer(engine, std::string("rigor:solver=") + solver, onMatrix.problem, c.r, 1e-12);
         for (const char* solver : {"block", "jacobi", "nsgs", "pgs", "single_pass"})
@@ -56,7 +56,7 @@ TEST(OneContact, EveryConeSolverFindsIt) {
     }
 }
 
-/// In the plane a pyramid is the cone; in space each finds its own law's answer.
+/// In 2D a pyramid is the cone; in 3D each finds its own law's answer.
 TEST(OneContact, PyramidSolversFindTheirOwn) {
     const auto rigorEngine = loadEngineOfBuild("rigor");
     std::vector<std::pair<const adapter::LoadedEngine*, std::string>> solvers{
@@ -74,11 +74,11 @@ TEST(OneContact, PyramidSolversFindTheirOwn) {
         SCOPED_TRACE(spec);
         for (const OneContact& c : oneContacts()) {
             SCOPED_TRACE(c.name);
-            const FrozenProblem frozen = massPoint(2, 0.5, c.v);
-            const auto solve = take(*engine, spec, frozen.problem);
+            const ExportedProblem exported = massPoint(2, 0.5, c.v);
+            const auto solve = take(*engine, spec, exported.problem);
             EXPECT_NE(solve->friction().kind, adapter::FrictionModel::Kind::Cone);
             const auto found = solve->run(100, 1e-14);
-            const ContactResidual residual = contactResidual(frozen.problem, found.r, solve->friction());
+            const ContactResidual residual = contactResidual(exported.problem, found.r, solve->friction());
             // A known fault of the library: its Lemke answers with an impulse where nothing has to be done.
             if (spec == "bullet:solver=mlcp_lemke" && c.r[0] == 0.0) {
                 EXPECT_GT(residual.own, 0.1);
@@ -93,10 +93,10 @@ TEST(OneContact, PyramidSolversFindTheirOwn) {
 }
 
 /// A block on four corners with another one on top, pushed sideways: redundant, sticking and sliding.
-FrozenProblem twoBlocks() {
-    FrozenProblem frozen;
-    frozen.isGlobal = true;
-    ContactProblem& p = frozen.problem;
+ExportedProblem twoBlocks() {
+    ExportedProblem exported;
+    exported.isGlobal = true;
+    ContactProblem& p = exported.problem;
     std::vector<Triplet> M, H;
     for (int b = 0; b < 2; ++b)
         for (int i = 0; i < 6; ++i) {
@@ -126,30 +126,30 @@ FrozenProblem twoBlocks() {
             }
     p.M = fromTriplets(12, 12, M);
     p.H = fromTriplets(12, column, H);
-    complete(frozen, "two blocks");
-    return frozen;
+    complete(exported, "two blocks");
+    return exported;
 }
 
 /// Rows on bodies and rows on W are two ways into one solver: iterate by iterate the same impulses.
 TEST(TwoWays, OnBodiesAndOnTheMatrixAreTheSameSolver) {
     const auto engine = loadEngineOfBuild("rigor");
-    const FrozenProblem frozen = twoBlocks();
-    FrozenProblem matrix = frozen;
+    const ExportedProblem exported = twoBlocks();
+    ExportedProblem matrix = exported;
     matrix.problem.hasBodies = false;
     for (const char* solver : {"nsgs", "pgs", "single_pass", "dantzig", "lemke"})
         for (const int iterations : {1, 7, 60}) {
             SCOPED_TRACE(std::string(solver) + " " + std::to_string(iterations));
             const std::string spec = std::string("rigor:solver=") + solver;
-            const auto a = take(engine, spec, frozen.problem)->run(iterations, 1e-13);
+            const auto a = take(engine, spec, exported.problem)->run(iterations, 1e-13);
             const auto b = take(engine, spec, matrix.problem)->run(iterations, 1e-13);
-            const auto u = relativeVelocities(frozen.problem, a.r),
-                       v = relativeVelocities(frozen.problem, b.r);
+            const auto u = relativeVelocities(exported.problem, a.r),
+                       v = relativeVelocities(exported.problem, b.r);
             for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(u[i], v[i], 1e-9) << i;
         }
-    EXPECT_LT(
-        contactResidual(frozen.problem, take(engine, "rigor:solver=nsgs", frozen.problem)->run(500, 1e-13).r)
-            .relative,
-        1e-12);
+    EXPECT_LT(contactResidual(exported.problem,
+                              take(engine, "rigor:solver=nsgs", exported.problem)->run(500, 1e-13).r)
+                  .relative,
+              1e-12);
 }
 
 TEST(Refusals, SayWhatIsMissing) {
@@ -162,16 +162,17 @@ TEST(Refusals, SayWhatIsMissing) {
         }
         return "";
     };
-    const FrozenProblem local = massPoint(2, 0.5, {1, 2, 3}), global = bodyPoint(0.5, {1, 2, 3});
+    const ExportedProblem local = massPoint(2, 0.5, {1, 2, 3}), global = bodyPoint(0.5, {1, 2, 3});
     for (const char* solver : {"block", "jacobi"}) {
         EXPECT_THAT(reason(solver, local.problem), ::testing::HasSubstr("needs bodies")) << solver;
         EXPECT_EQ(reason(solver, global.problem), "") << solver;
     }
     for (const char* solver : {"pgs_soft", "tgs_soft", "xpbd"})
-        EXPECT_THAT(reason(solver, global.problem), ::testing::HasSubstr("a frozen problem has no"))
+        EXPECT_THAT(reason(solver, global.problem),
+                    ::testing::HasSubstr("an exported contact problem has no"))
             << solver;
     // Not the masses of rigid bodies.
-    FrozenProblem odd = global;
+    ExportedProblem odd = global;
     odd.problem.M.value[0] *= 2;
     EXPECT_THAT(reason("block", odd.problem), ::testing::HasSubstr("is not one mass and one inertia"));
     EXPECT_EQ(reason("pgs", odd.problem), "");
@@ -204,11 +205,11 @@ TEST_F(Published, AreReadWithTheSolutionsTheyClaim) {
     for (const auto& entry : std::filesystem::directory_iterator(folder_ / "problems")) {
         SCOPED_TRACE(entry.path().stem());
         ++files;
-        const FrozenProblem frozen = readContactProblem(entry.path());
+        const ExportedProblem exported = readContactProblem(entry.path());
         ASSERT_EQ(reached_.count(entry.path()), 1u);
-        ASSERT_EQ(frozen.storedR.size(), frozen.problem.size());
+        ASSERT_EQ(exported.storedR.size(), exported.problem.size());
         // The index was computed by another program; 1e-13: rounding of a condensation done anew.
-        EXPECT_LT(contactResidual(frozen.problem, frozen.storedR).relative,
+        EXPECT_LT(contactResidual(exported.problem, exported.storedR).relative,
                   2.0 * reached_.at(entry.path()) + 1e-13);
     }
     EXPECT_GE(files, 10u);
@@ -220,16 +221,16 @@ const char* const kOtherSolution = "OneObject-i1028-138";
 TEST_F(Published, NsgsSolvesThemAll) {
     const auto engine = loadEngineOfBuild("rigor");
     for (const auto& [file, reached] : reached_) {
-        if (reached > 1e-8) continue;  // nobody has solved it
+        if (reached > 1e-8) continue;  // no solver has solved it
         SCOPED_TRACE(file.stem());
-        const FrozenProblem frozen = readContactProblem(file);
-        const auto found = take(engine, "rigor:solver=nsgs", frozen.problem)->run(500, 1e-12);
-        EXPECT_LT(contactResidual(frozen.problem, found.r).relative, 1e-8);
-        const auto u = relativeVelocities(frozen.problem, found.r);
-        const auto stored = relativeVelocities(frozen.problem, frozen.storedR);
+        const ExportedProblem exported = readContactProblem(file);
+        const auto found = take(engine, "rigor:solver=nsgs", exported.problem)->run(500, 1e-12);
+        EXPECT_LT(contactResidual(exported.problem, found.r).relative, 1e-8);
+        const auto u = relativeVelocities(exported.problem, found.r);
+        const auto stored = relativeVelocities(exported.problem, exported.storedR);
         double scale = 0.0, difference = 0.0;
         for (std::size_t i = 0; i < u.size(); ++i) {
-            scale = std::max({scale, std::abs(stored[i]), std::abs(frozen.problem.q[i])});
+            scale = std::max({scale, std::abs(stored[i]), std::abs(exported.problem.q[i])});
             difference = std::max(difference, std::abs(u[i] - stored[i]));
         }
         const bool other = file.stem() == kOtherSolution;

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "scenarios/loader/overrides.hpp"
+#include "validation/fit/baselines.hpp"
 #include "validation/fit/fit.hpp"
-#include "validation/fit/yardsticks.hpp"
 #include "validation/import/importer.hpp"
 #include "validation/import/tests/toss_folder.hpp"
 #include "validation/references/reference.hpp"
@@ -193,20 +193,20 @@ std::vector<TossLine> glidingToss() {
     return all;
 }
 
-TEST(Fit, YardsticksAreWhatTheySay) {
-    const fs::path folder = freshFolder("sticks") / "data";
+TEST(Fit, BaselinesAreWhatTheySay) {
+    const fs::path folder = freshFolder("baselines") / "data";
     writeText(folder / "toss_0.csv", tossText(FlatToss{{0, 0, 0.14}, {0.5, 0, 0}}.lines(60)));
     writeText(folder / "toss_1.csv", tossText(glidingToss()));
-    const fs::path scenarios = importFolder(folder, "sticks-in", "all", {{"start", "flight"}});
+    const fs::path scenarios = importFolder(folder, "baselines-in", "all", {{"start", "flight"}});
     FitTask task = smallTask(scenarios, {"rigor"}, 90);
     ASSERT_EQ(task.train[0].scenario.name, "toss_001");
-    const auto sticks = yardsticks(task);
-    ASSERT_EQ(sticks.size(), 3U);
-    const double frozen = sticks[0].scores.at(0).score.mean, slide = sticks[1].scores.at(0).score.mean;
-    EXPECT_EQ(sticks[0].name, "frozen");
+    const auto baselines = baselines(task);
+    ASSERT_EQ(baselines.size(), 3U);
+    const double frozen = baselines[0].scores.at(0).score.mean, slide = baselines[1].scores.at(0).score.mean;
+    EXPECT_EQ(baselines[0].name, "frozen");
     // Left: between samples the recording is a polygon, g dt^2/8 = 55 um off in flight, more where it lands.
     EXPECT_LT(slide, 1e-4 * frozen);
-    EXPECT_NEAR(sticks[2].scores.at(0).score.mean, slide, 1e-9) << "it never turned";
+    EXPECT_NEAR(baselines[2].scores.at(0).score.mean, slide, 1e-9) << "it never turned";
     // Frozen: the mean square distance from the start over the half width, by hand.
     const Scenario& s = task.train[0].scenario;
     const auto reference = makeReference(s);
@@ -218,7 +218,7 @@ TEST(Fit, YardsticksAreWhatTheySay) {
     }
     FitTask one = task;
     one.train.resize(1);
-    EXPECT_NEAR(yardsticks(one)[0].scores.at(0).score.mean, squares / count / kHalf, 1e-9);
+    EXPECT_NEAR(baselines(one)[0].scores.at(0).score.mean, squares / count / kHalf, 1e-9);
 }
 
 TEST(Fit, ACrashOfAnEngineCostsItsCaseAlone) {
@@ -265,10 +265,10 @@ TEST(Fit, GoesOnWhereItWasInterrupted) {
 }
 
 // ---------------------------------------- fit files
-std::string refusal(const std::function<void(nlohmann::json&)>& spoil) {
+std::string refusal(const std::function<void(nlohmann::json&)>& edit) {
     static const fs::path scenarios = importFolder(flatTosses("files", 2), "files-in");
     nlohmann::json fit = nlohmann::json::parse(readTextFile(scenarios / "fit.json"));
-    spoil(fit);
+    edit(fit);
     writeText(scenarios / "mine.json", fit.dump(1));
     try {
         loadFit(scenarios / "mine.json");
@@ -316,7 +316,7 @@ TEST(RealTosses, EveryEngineIsBetterThanACubeThatStaysWhereItIs) {
                              10);
     const FitOutcome outcome = runFit(task, optionsFor(freshFolder("real-out") / "fit", false), {}, kGoOn);
     ASSERT_TRUE(outcome.complete);
-    const auto& stays = outcome.result.yardsticks.at(0).scores;
+    const auto& stays = outcome.result.baselines.at(0).scores;
     std::vector<double> apart;
     for (const EngineFit& e : outcome.result.engines) {
         SCOPED_TRACE(e.spec);

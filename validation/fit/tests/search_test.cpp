@@ -34,7 +34,7 @@ class Rough {
         return losses;
     }
     /// Where the mean over these recordings has its minimum, without the roughness.
-    FitPoint centre() const {
+    FitPoint center() const {
         FitPoint c{0, 0};
         for (const auto& [a, b] : minima_) {
             c[0] += a / static_cast<double>(minima_.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Nobody asks for an algorithm's name to know what it does, that is what its traits are for; and nobody
+// No code compares an algorithm's name to know what it does, that is what its traits are for; and no code
 // outside of the in-house engine and its adapter spells its name, to treat it otherwise than the others.
 #include <gtest/gtest.h>
 

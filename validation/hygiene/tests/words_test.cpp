@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The engine is written in the words of its field. Private words that once stood for a thing with a name may
-// not come back, neither as identifiers nor in comments. A failure prints the word to use.
+// Rigor is written in the words of its field. Private words that once stood for a thing with a name may not
+// come back, neither as identifiers nor in comments and documentation. A failure prints the word to use.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "validation/hygiene/tests/source_tree.hpp"
@@ -20,6 +22,7 @@ struct Word {
     std::string fieldWord;
 };
 
+/// Words of the whole tree.
 const std::vector<Word> kWords{
     {{"rub", "rubs", "rubK", "rubInvK", "rubImpulse", "rubTotal", "PatchRubs"},
      "friction impulse, tangent mass"},
@@ -57,6 +60,30 @@ const std::vector<Word> kWords{
     {{"in the plane", "In the plane", "in space"}, "in 2D, in 3D"},
 };
 
+/// Words of the folders around the engine. In the engine some of them have another meaning: a lane is one of
+/// the lanes of a SIMD register.
+const std::vector<Word> kWordsOutsideTheEngine{
+    {{"lane", "lanes", "Lane", "LanePlan", "LaneProcess", "LaneSlot", "LaneWorld", "LaneSource"},
+     "engine instance"},
+    {{"wish", "wishes", "wished", "wishGoTo", "wishStage", "wishDrag", "wishNow"}, "request"},
+    {{"Ladder", "Ladders", "LadderPoint", "ladders", "rung", "rungs"},
+     "time-step refinement, iteration count"},
+    {{"yardstick", "yardsticks", "Yardstick"}, "baseline"},
+    {{"companion", "companions", "CompanionPlanner"}, "derived run"},
+    {{"FrozenProblem", "FreezeRequest", "freezeStep", "frozen problem", "frozen contact problem"},
+     "exported contact problem"},
+    {{"parting", "partings", "Parting", "Parted", "onset", "onsets"}, "divergence, divergence time"},
+    {{"Standing", "standings", "standingsOver"}, "ranking"},
+    {{"veil", "veilingBodies"}, "occluder fade"},
+    {{"Knock", "knock", "knockOf", "Welcome"}, "credentials, redirect"},
+    {{"told apart", "tell apart"}, "distinguished"},
+    {{"anybody", "Anybody"}, "which object, which user, which engine"},
+    {{"spoilers", "Spoiled", "manieth"}, "injected fault, defect, n-th"}};
+
+/// What a phrase of geometry may go on with: "in the plane z = 0" names a plane, "in the plane" alone a
+/// dimension.
+const std::vector<std::string> kNamesAPlane{" z", " of ", " through ", " across "};
+
 bool isWordCharacter(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
@@ -66,13 +93,18 @@ bool hasWord(const std::string& line, const std::string& word) {
         const std::size_t end = at + word.size();
         const bool begins = at == 0 || !isWordCharacter(line[at - 1]);
         const bool ends = end == line.size() || !isWordCharacter(line[end]);
-        if (begins && ends) return true;
+        const bool namesAPlane =
+            word == "in the plane" &&
+            std::any_of(kNamesAPlane.begin(), kNamesAPlane.end(),
+                        [&](const std::string& next) { return line.compare(end, next.size(), next) == 0; });
+        if (begins && ends && !namesAPlane) return true;
     }
     return false;
 }
 
-/// A message for each private word in `text`.
-std::vector<std::string> privateWords(const std::string& file, const std::string& text) {
+/// A message for each word of `words` in `text`.
+std::vector<std::string> privateWords(const std::vector<Word>& words, const std::string& file,
+                                      const std::string& text) {
     std::vector<std::string> found;
     std::size_t number = 0;
     for (std::size_t at = 0; at < text.size();) {
@@ -80,7 +112,7 @@ std::vector<std::string> privateWords(const std::string& file, const std::string
         const std::string line = text.substr(at, end - at);
         at = end + 1;
         ++number;
-        for (const Word& entry : kWords)
+        for (const Word& entry : words)
             for (const std::string& word : entry.privateWords)
                 if (hasWord(line, word))
                     found.push_back(file + ":" + std::to_string(number) + ": \"" + word + "\", use \"" +
@@ -89,21 +121,52 @@ std::vector<std::string> privateWords(const std::string& file, const std::string
     return found;
 }
 
-TEST(Words, OfTheEngineAreThoseOfTheField) {
-    std::size_t read = 0;
-    for (const std::string& file : sourceFiles({".cpp", ".hpp", ".def"})) {
-        if (!file.starts_with("engine/")) continue;
+/// Old names of stored data and options, which go on being understood.
+const std::set<std::pair<std::string, std::string>> kOldNames{
+    {"cli/view/live_site.cpp", "lane"},
+    {"validation/live/session_commands.cpp", "lane"},
+    {"validation/studies/columns.hpp", "onset"},
+    {"reports/derived_runs.cpp", "companion"},
+    {"reports/tests/view_model_test.cpp", "companion"}};
+
+bool isOldName(const std::string& file, const std::string& message) {
+    return std::any_of(kOldNames.begin(), kOldNames.end(), [&](const auto& known) {
+        return known.first == file && message.find("\"" + known.second + "\"") != std::string::npos;
+    });
+}
+
+/// Private words left in the references: the number may fall, not rise.
+constexpr std::size_t kMostLeft = 45;
+
+TEST(Words, OfTheTreeAreThoseOfTheField) {
+    std::size_t read = 0, left = 0;
+    for (const std::string& file :
+         sourceFiles({".cpp", ".hpp", ".def", ".ts", ".css", ".md", "CMakeLists.txt"})) {
+        const bool engine = file.starts_with("engine/");
+        if (file.starts_with("validation/hygiene/")) continue;
         ++read;
-        for (const std::string& found : privateWords(file, readFile(file))) ADD_FAILURE() << found;
+        const std::string text = readFile(file);
+        std::vector<std::string> found = privateWords(kWords, file, text);
+        if (!engine)
+            for (std::string& message : privateWords(kWordsOutsideTheEngine, file, text))
+                found.push_back(std::move(message));
+        for (const std::string& message : found)
+            if (file.starts_with("validation/references/"))
+                ++left;
+            else if (!isOldName(file, message))
+                ADD_FAILURE() << message;
     }
-    EXPECT_GT(read, 300u);
+    EXPECT_GT(read, 1400u);
+    EXPECT_LE(left, kMostLeft);
 }
 
 TEST(Words, TheRuleFindsWholeWords) {
-    EXPECT_EQ(privateWords("a", "int patience;\n// Nobody waits.\nout.apart = 0;").size(), 3u);
-    EXPECT_TRUE(privateWords("a", "impatience, scrub(), apart, settles, Meetings").empty());
-    EXPECT_EQ(privateWords("a", "\nstruct FaceMeeting {").at(0),
+    EXPECT_EQ(privateWords(kWords, "a", "int patience;\n// Nobody waits.\nout.apart = 0;").size(), 3u);
+    EXPECT_TRUE(privateWords(kWords, "a", "impatience, scrub(), apart, settles, Meetings").empty());
+    EXPECT_EQ(privateWords(kWords, "a", "\nstruct FaceMeeting {").at(0),
               "a:2: \"FaceMeeting\", use \"face pair, feature pair, coupling\"");
+    EXPECT_EQ(privateWords(kWords, "a", "in the plane\nin the plane, too\nin the plane z = 0").size(), 2u);
+    EXPECT_EQ(privateWords(kWordsOutsideTheEngine, "a", "a lane\na plane").size(), 1u);
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ TEST(Start, UnitsChangeWhatTheyPromise) {
 }
 
 // ---------------------------------------- parts
-TEST(Selection, TrainAndTestArePartedAndListsAreChecked) {
+TEST(Selection, TrainAndTestAreSeparateAndListsAreChecked) {
     const auto folder = freshFolder("parts");
     for (int id : {0, 2, 4, 6, 8, 10}) {
         Flight flight;
@@ -154,10 +154,10 @@ TEST(Selection, TrainAndTestArePartedAndListsAreChecked) {
 }
 
 // ---------------------------------------- broken folders
-std::string refusal(const std::function<void(std::string&)>& spoil) {
+std::string refusal(const std::function<void(std::string&)>& edit) {
     const auto folder = freshFolder("broken");
     std::string text = tossText(Flight{}.lines(30));
-    spoil(text);
+    edit(text);
     writeText(folder / "toss_003.csv", text);
     try {
         importFrom(folder);

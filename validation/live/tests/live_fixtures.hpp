@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Engines and scenarios for the tests of lanes and sessions.
+// Engines and scenarios for the tests of instances and sessions.
 #pragma once
 
 #include <gtest/gtest.h>

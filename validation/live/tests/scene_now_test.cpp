@@ -10,7 +10,7 @@
 
 #include "scenarios/loader/loader.hpp"
 #include "scenarios/loader/write.hpp"
-#include "validation/live/lane_world.hpp"
+#include "validation/live/instance_world.hpp"
 #include "validation/live/tests/live_fixtures.hpp"
 
 namespace rigor::validation {
@@ -20,16 +20,17 @@ using scenario::Scenario;
 
 /// The largest difference of positions and velocities between a run that goes on and one that starts from its
 /// scene after `before` steps, over `after` steps more.
-double partedBy(const std::string& text, const std::string& spec, double dt, std::size_t before,
-                std::size_t after, std::vector<std::string>* notes = nullptr) {
+double divergenceOf(const std::string& text, const std::string& spec, double dt, std::size_t before,
+                    std::size_t after, std::vector<std::string>* notes = nullptr) {
     fixtures::useEngines();
     const Scenario s = scenario::loadScenarioText(text, "test.json").scenario;
-    LaneWorld original(s, adapter::parseSpec(spec), dt);
+    InstanceWorld original(s, adapter::parseSpec(spec), dt);
     original.advance(before, 1e9);
     const SceneNow seen = original.now();
     if (notes != nullptr) *notes = seen.notes;
     const std::string saved = scenario::scenarioText(seen.scenario);
-    LaneWorld again(scenario::loadScenarioText(saved, "saved.json").scenario, adapter::parseSpec(spec), dt);
+    InstanceWorld again(scenario::loadScenarioText(saved, "saved.json").scenario, adapter::parseSpec(spec),
+                        dt);
     double worst = 0.0;
     for (std::size_t i = 0; i < after; ++i) {
         original.advance(1, 1e9);
@@ -54,10 +55,10 @@ const std::string kRod =
     R"("shapes": [{"box": {"half_extents": [0.5, 0.1, 0.1]}, "material": "wood"}], "collides": false)";
 
 TEST(SceneNow, AFreeBodyFliesOn) {
-    EXPECT_LT(partedBy(scene(R"("gravity": [0, -9.81, 0], "bodies": [{"name": "stone", "mass": 2,
+    EXPECT_LT(divergenceOf(scene(R"("gravity": [0, -9.81, 0], "bodies": [{"name": "stone", "mass": 2,
         "velocity": [3, 4, 0], "angular_velocity": [1, 2, 3], "orientation": [0.5, 0.5, 0.5, 0.5], )" +
-                             kRod + "}]"),
-                       "rigor", 0.005, 100, 200),
+                                 kRod + "}]"),
+                           "rigor", 0.005, 100, 200),
               1e-9);
 }
 
@@ -70,7 +71,7 @@ TEST(SceneNow, AHingeMeetsItsStopsWhereTheyWere) {
         "joints": [{"name": "pivot", "type": "hinge", "a": "world", "b": "arm", "anchor": [0, 0, 0],
         "axis": [0, 0, 1], "limits": [-2, 0.5]}])");
     std::vector<std::string> notes;
-    EXPECT_LT(partedBy(text, "rigor", 0.005, 70, 300, &notes), 1e-6);
+    EXPECT_LT(divergenceOf(text, "rigor", 0.005, 70, 300, &notes), 1e-6);
     EXPECT_THAT(notes, testing::IsEmpty());
 }
 
@@ -81,7 +82,7 @@ TEST(SceneNow, AnglesAreCountedOverTurns) {
         "joints": [{"name": "pivot", "type": "hinge", "a": "world", "b": "arm", "anchor": [0, 0, 0],
         "axis": [0, 0, 1], "limits": [null, 12]}])");
     // At step 150 it has turned by 7.5 rad, at step 240 it meets its stop.
-    EXPECT_LT(partedBy(text, "rigor", 0.005, 150, 150), 1e-6);
+    EXPECT_LT(divergenceOf(text, "rigor", 0.005, 150, 150), 1e-6);
 }
 
 TEST(SceneNow, ASliderKeepsItsSpring) {
@@ -92,7 +93,7 @@ TEST(SceneNow, ASliderKeepsItsSpring) {
                                    kRod + R"(}],
         "joints": [{"name": "rail", "type": "slider", "a": "base", "b": "sled", "anchor": [0, 0.5, 0],
         "axis": [1, 0, 0], "spring": {"stiffness": 20, "damping": 0.5, "target": 0.4}}])");
-    EXPECT_LT(partedBy(text, "rigor", 0.005, 90, 200), 1e-5);
+    EXPECT_LT(divergenceOf(text, "rigor", 0.005, 90, 200), 1e-5);
 }
 
 TEST(SceneNow, AWheelKeepsItsSuspension) {
@@ -104,7 +105,7 @@ TEST(SceneNow, AWheelKeepsItsSuspension) {
         "joints": [{"name": "axle", "type": "wheel", "a": "car", "b": "wheel", "anchor": [0.5, -0.5],
         "axis": [0, 1], "axes": {"travel": {"spring": {"stiffness": 80, "damping": 2, "target": -0.1}}}}])",
                                    2);
-    EXPECT_LT(partedBy(text, "rigor", 0.005, 60, 200), 1e-5);
+    EXPECT_LT(divergenceOf(text, "rigor", 0.005, 60, 200), 1e-5);
 }
 
 TEST(SceneNow, SixDofAndDistanceGoOn) {
@@ -119,7 +120,7 @@ TEST(SceneNow, SixDofAndDistanceGoOn) {
          "damping": 1}}, "swing_z": {"limits": [-0.4, 0.4]}}},
         {"name": "rod", "type": "distance", "a": "box", "b": "bob", "anchor_a": [0, 0, 0],
          "anchor_b": [0, 0, 0], "length": 1}])");
-    EXPECT_LT(partedBy(text, "rigor", 0.005, 100, 200), 1e-4);
+    EXPECT_LT(divergenceOf(text, "rigor", 0.005, 100, 200), 1e-4);
 }
 
 TEST(SceneNow, ForcesAndEventsAreThoseToCome) {
@@ -133,16 +134,16 @@ TEST(SceneNow, ForcesAndEventsAreThoseToCome) {
                    {"time": 0.5, "body": "stone", "impulse": [0, 0, 1]},
                    {"time": 0.6, "body": "stone", "impulse": [0, 2, 0]}])");
     // After 100 steps, at 0.5 s: the first event is over, the second is that of the step that comes.
-    EXPECT_LT(partedBy(text, "rigor", 0.005, 100, 100), 1e-9);
+    EXPECT_LT(divergenceOf(text, "rigor", 0.005, 100, 100), 1e-9);
     if (fixtures::hasEngine("ode")) {
-        EXPECT_LT(partedBy(text, "ode", 0.005, 100, 100), 1e-9);
+        EXPECT_LT(divergenceOf(text, "ode", 0.005, 100, 100), 1e-9);
     }
 }
 
 /// What the solver remembers is lost; a resting stack stays at rest all the same.
 TEST(SceneNow, AStackStaysAStack) {
     const auto loaded = scenario::loadScenario(scenario::findScenario("box_stack"));
-    EXPECT_LT(partedBy(loaded.text, "rigor", loaded.scenario.timeSteps.front(), 60, 60), 1e-2);
+    EXPECT_LT(divergenceOf(loaded.text, "rigor", loaded.scenario.timeSteps.front(), 60, 60), 1e-2);
 }
 
 TEST(SceneNow, ABrokenJointIsLeftOut) {
@@ -153,7 +154,7 @@ TEST(SceneNow, ABrokenJointIsLeftOut) {
         "joints": [{"name": "pivot", "type": "hinge", "a": "world", "b": "arm", "anchor": [0, 0, 0],
         "axis": [0, 0, 1], "break_force": 15}])");
     std::vector<std::string> notes;
-    EXPECT_LT(partedBy(text, "rigor", 0.005, 200, 50, &notes), 1e-9);
+    EXPECT_LT(divergenceOf(text, "rigor", 0.005, 200, 50, &notes), 1e-9);
     EXPECT_THAT(notes, testing::ElementsAre(testing::HasSubstr("pivot has broken")));
 }
 
@@ -167,9 +168,9 @@ TEST(SceneNow, WhatCanNotBeKeptIsSaid) {
         "reference": {"free_flight": {"body": "arm"}}, "accept": {"*": {"position_final": 0.1}})");
     fixtures::useEngines();
     const Scenario s = scenario::loadScenarioText(text, "test.json").scenario;
-    LaneWorld lane(s, adapter::parseSpec("rigor"), 0.005);
-    lane.advance(20, 1e9);
-    const SceneNow seen = lane.now();
+    InstanceWorld instance(s, adapter::parseSpec("rigor"), 0.005);
+    instance.advance(20, 1e9);
+    const SceneNow seen = instance.now();
     EXPECT_FALSE(seen.scenario.reference.has_value());
     EXPECT_THAT(seen.notes, testing::Contains(testing::HasSubstr("cone: swing")));
     EXPECT_THAT(seen.notes, testing::Contains(testing::HasSubstr("free_flight")));

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What a page knows: the last state and the last frame of every lane.
+/// What a page knows: the last state and the last frame of every instance.
 class Viewer {
   public:
     explicit Viewer(Session& session) : session_(session) {}
@@ -25,9 +25,9 @@ class Viewer {
         after_ = packet.header["sequence"];
         state_ = packet.header["session"];
         for (const json& frame : packet.header["frames"]) {
-            frames_[frame["lane"]] = frame;
-            const std::string lane = std::to_string(frame["lane"].get<int>());
-            poses_[frame["lane"]] = packet.arrays.doubles(lane + "/position");
+            frames_[frame["instance"]] = frame;
+            const std::string instance = std::to_string(frame["instance"].get<int>());
+            poses_[frame["instance"]] = packet.arrays.doubles(instance + "/position");
         }
     }
     bool until(const std::function<bool()>& condition) {
@@ -36,14 +36,14 @@ class Viewer {
             return condition();
         });
     }
-    const json& lane(std::size_t i) const { return state_["lanes"][i]; }
+    const json& instance(std::size_t i) const { return state_["instances"][i]; }
     bool allReady() const {
-        return std::all_of(state_["lanes"].begin(), state_["lanes"].end(),
-                           [](const json& lane) { return lane["state"] != "loading"; });
+        return std::all_of(state_["instances"].begin(), state_["instances"].end(),
+                           [](const json& instance) { return instance["state"] != "loading"; });
     }
     bool allAt(std::size_t step) const {
-        return std::all_of(state_["lanes"].begin(), state_["lanes"].end(),
-                           [&](const json& lane) { return lane["step"] == step; });
+        return std::all_of(state_["instances"].begin(), state_["instances"].end(),
+                           [&](const json& instance) { return instance["step"] == step; });
     }
     json state_;
     std::map<int, json> frames_;
@@ -74,7 +74,7 @@ class Sessions : public testing::Test {
     std::unique_ptr<Viewer> viewer_;
 };
 
-TEST_F(Sessions, LanesStepTogetherForwardsAndBack) {
+TEST_F(Sessions, InstancesStepTogetherForwardsAndBack) {
     open("rigor,rigor:solver=tgs_soft");
     tell({{"command", "step"}, {"steps", 7}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(7); }));
@@ -112,31 +112,31 @@ TEST_F(Sessions, EnginesThatFailLeaveTheOthersAlone) {
     open("double_abort,double_hang,double_nan,double_free_flight,no_such_engine");
     tell({{"command", "play"}});
     ASSERT_TRUE(viewer_->until(
-        [&] { return viewer_->lane(3)["step"] > 120 && viewer_->lane(1)["state"] == "timeout"; }));
-    EXPECT_EQ(viewer_->lane(0)["state"], "crashed");
-    EXPECT_THAT(viewer_->lane(0)["message"].get<std::string>(), testing::HasSubstr("SIGABRT"));
-    EXPECT_EQ(viewer_->lane(2)["state"], "non_finite");
-    EXPECT_EQ(viewer_->lane(2)["step"], 5);
-    EXPECT_EQ(viewer_->lane(3)["state"], "ready");
-    EXPECT_EQ(viewer_->lane(4)["state"], "bad_input");
-    EXPECT_THAT(viewer_->lane(4)["message"].get<std::string>(), testing::HasSubstr("no_such_engine"));
+        [&] { return viewer_->instance(3)["step"] > 120 && viewer_->instance(1)["state"] == "timeout"; }));
+    EXPECT_EQ(viewer_->instance(0)["state"], "crashed");
+    EXPECT_THAT(viewer_->instance(0)["message"].get<std::string>(), testing::HasSubstr("SIGABRT"));
+    EXPECT_EQ(viewer_->instance(2)["state"], "non_finite");
+    EXPECT_EQ(viewer_->instance(2)["step"], 5);
+    EXPECT_EQ(viewer_->instance(3)["state"], "ready");
+    EXPECT_EQ(viewer_->instance(4)["state"], "bad_input");
+    EXPECT_THAT(viewer_->instance(4)["message"].get<std::string>(), testing::HasSubstr("no_such_engine"));
     tell({{"command", "reset"}});
     EXPECT_TRUE(viewer_->until([&] {
-        return viewer_->lane(0)["state"] == "ready" && viewer_->lane(2)["state"] == "ready";
+        return viewer_->instance(0)["state"] == "ready" && viewer_->instance(2)["state"] == "ready";
     })) << "a reset begins anew";
 }
 
 TEST_F(Sessions, StagesStopInsideAStep) {
     open("rigor,double_free_flight");
-    EXPECT_TRUE(viewer_->lane(0)["has_stages"].get<bool>());
-    EXPECT_FALSE(viewer_->lane(1)["has_stages"].get<bool>());
+    EXPECT_TRUE(viewer_->instance(0)["has_stages"].get<bool>());
+    EXPECT_FALSE(viewer_->instance(1)["has_stages"].get<bool>());
     tell({{"command", "step"}, {"steps", 3}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(3); }));
     tell({{"command", "stage"}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->frames_[0]["stage"]["done"] == "broad_phase"; }));
     EXPECT_TRUE(viewer_->frames_[0]["has_stages"].get<bool>());
-    EXPECT_THROW(tell({{"command", "save"}, {"lane", 0}}), CommandError) << "in the middle of a step";
-    for (int i = 0; i < 20 && viewer_->lane(0)["step"] == 3; ++i) {
+    EXPECT_THROW(tell({{"command", "save"}, {"instance", 0}}), CommandError) << "in the middle of a step";
+    for (int i = 0; i < 20 && viewer_->instance(0)["step"] == 3; ++i) {
         const json before = viewer_->frames_[0]["stage"]["done"];
         tell({{"command", "stage"}});
         ASSERT_TRUE(viewer_->until([&] { return viewer_->frames_[0]["stage"]["done"] != before; }));
@@ -153,56 +153,58 @@ TEST_F(Sessions, ABranchLeavesFromWhereItsOriginIs) {
     open("rigor");
     tell({{"command", "step"}, {"steps", 40}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(40); }));
-    const auto same = tell({{"command", "branch"}, {"lane", 0}});
-    const auto other = tell({{"command", "branch"}, {"lane", 0}, {"options", {{"solver", "xpbd"}}}});
-    const auto moon = tell({{"command", "branch"}, {"lane", 0}, {"set", {"gravity=[0,-1.6,0]"}}});
+    const auto same = tell({{"command", "branch"}, {"instance", 0}});
+    const auto other = tell({{"command", "branch"}, {"instance", 0}, {"options", {{"solver", "xpbd"}}}});
+    const auto moon = tell({{"command", "branch"}, {"instance", 0}, {"set", {"gravity=[0,-1.6,0]"}}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(40); }));
-    EXPECT_EQ(viewer_->lane(2)["options"]["solver"], "xpbd");
-    EXPECT_EQ(viewer_->lane(3)["branch_of"], 0);
+    EXPECT_EQ(viewer_->instance(2)["options"]["solver"], "xpbd");
+    EXPECT_EQ(viewer_->instance(3)["branch_of"], 0);
     for (const json& branch : {same, other, moon})
         for (std::size_t i = 0; i < 9; ++i)
-            EXPECT_NEAR(viewer_->poses_[branch["lane"]][i], viewer_->poses_[0][i], 1e-12);
+            EXPECT_NEAR(viewer_->poses_[branch["instance"]][i], viewer_->poses_[0][i], 1e-12);
     tell({{"command", "step"}, {"steps", 60}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(100); }));
-    const double height = viewer_->poses_[0][7], onMoon = viewer_->poses_[moon["lane"]][7];
+    const double height = viewer_->poses_[0][7], onMoon = viewer_->poses_[moon["instance"]][7];
     EXPECT_GT(onMoon, height + 0.3) << "the ball falls more slowly";
     for (std::size_t i = 0; i < 9; ++i)
-        EXPECT_NEAR(viewer_->poses_[same["lane"]][i], viewer_->poses_[0][i], 1e-4);
+        EXPECT_NEAR(viewer_->poses_[same["instance"]][i], viewer_->poses_[0][i], 1e-4);
     tell({{"command", "back"}, {"steps", 80}});
-    ASSERT_TRUE(viewer_->until([&] { return viewer_->lane(0)["step"] == 20; }));
-    EXPECT_TRUE(viewer_->until([&] { return viewer_->lane(3)["step"] == 40; })) << "not before its start";
-    EXPECT_THROW(tell({{"command", "branch"}, {"lane", 0}, {"options", {{"solver", "hope"}}}}), CommandError);
-    EXPECT_THROW(tell({{"command", "branch"}, {"lane", 0}, {"set", {"bodies.nobody.mass=1"}}}), CommandError);
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->instance(0)["step"] == 20; }));
+    EXPECT_TRUE(viewer_->until([&] { return viewer_->instance(3)["step"] == 40; })) << "not before its start";
+    EXPECT_THROW(tell({{"command", "branch"}, {"instance", 0}, {"options", {{"solver", "hope"}}}}),
+                 CommandError);
+    EXPECT_THROW(tell({{"command", "branch"}, {"instance", 0}, {"set", {"bodies.unknown.mass=1"}}}),
+                 CommandError);
     viewer_->look();
-    EXPECT_EQ(viewer_->state_["lanes"].size(), 4u) << "what could not be loaded is no lane";
-    tell({{"command", "remove"}, {"lane", moon["lane"]}});
+    EXPECT_EQ(viewer_->state_["instances"].size(), 4u) << "what could not be loaded is no instance";
+    tell({{"command", "remove"}, {"instance", moon["instance"]}});
     viewer_->look();
-    EXPECT_EQ(viewer_->state_["lanes"].size(), 3u);
+    EXPECT_EQ(viewer_->state_["instances"].size(), 3u);
 }
 
-TEST_F(Sessions, ABranchIsTakenFromALaneThatPlays) {
+TEST_F(Sessions, ABranchIsTakenFromAnInstanceThatPlays) {
     open("rigor");
     tell({{"command", "play"}});
-    ASSERT_TRUE(viewer_->until([&] { return viewer_->lane(0)["step"] > 10; }));
-    tell({{"command", "branch"}, {"lane", 0}, {"options", {{"solver", "tgs_soft"}}}});
-    ASSERT_TRUE(viewer_->until([&] { return viewer_->state_["lanes"].size() == 2; }));
-    const int start = viewer_->lane(1)["start_step"];
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->instance(0)["step"] > 10; }));
+    tell({{"command", "branch"}, {"instance", 0}, {"options", {{"solver", "tgs_soft"}}}});
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->state_["instances"].size() == 2; }));
+    const int start = viewer_->instance(1)["start_step"];
     EXPECT_GT(start, 10);
-    ASSERT_TRUE(viewer_->until([&] { return viewer_->lane(1)["step"] > start + 30; }));
+    ASSERT_TRUE(viewer_->until([&] { return viewer_->instance(1)["step"] > start + 30; }));
     tell({{"command", "pause"}});
     viewer_->look();
     const std::size_t step = viewer_->state_["step"];
     EXPECT_TRUE(viewer_->until([&] { return viewer_->allAt(step); })) << "both at one clock";
 }
 
-TEST_F(Sessions, ADragMovesTheBodyInEveryLane) {
+TEST_F(Sessions, ADragMovesTheBodyInEveryInstance) {
     open("rigor,double_free_flight");
     tell({{"command", "drag"}, {"body", 2}, {"point", {0, 0, 0}}, {"target", {3, 5, 2}}});
     tell({{"command", "step"}, {"steps", 240}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(240); }));
-    for (const int lane : {0, 1}) {
-        EXPECT_NEAR(viewer_->poses_[lane][6], 3.0, 0.05);
-        EXPECT_EQ(viewer_->frames_[lane]["drag"]["body"], 2);
+    for (const int instance : {0, 1}) {
+        EXPECT_NEAR(viewer_->poses_[instance][6], 3.0, 0.05);
+        EXPECT_EQ(viewer_->frames_[instance]["drag"]["body"], 2);
     }
     tell({{"command", "release"}});
     EXPECT_TRUE(viewer_->until([&] { return !viewer_->frames_[0].contains("drag"); }));
@@ -214,7 +216,7 @@ TEST_F(Sessions, WhatIsSavedCanBeLoadedAndRunsAlike) {
     open("rigor:solver=tgs_soft,substeps=2");
     tell({{"command", "step"}, {"steps", 30}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(30); }));
-    const json saved = tell({{"command", "save"}, {"lane", 0}, {"write", true}});
+    const json saved = tell({{"command", "save"}, {"instance", 0}, {"write", true}});
     EXPECT_EQ(saved["name"], "slide_at_0.25s.json");
     const auto loaded = scenario::loadScenario(saved["file"].get<std::string>());
     EXPECT_EQ(loaded.text, saved["text"].get<std::string>());
@@ -222,31 +224,31 @@ TEST_F(Sessions, WhatIsSavedCanBeLoadedAndRunsAlike) {
     EXPECT_FALSE(loaded.scenario.reference.has_value());
     EXPECT_THAT(loaded.scenario.description, testing::HasSubstr("tgs_soft"));
     EXPECT_THAT(loaded.text, testing::HasSubstr("\"substeps\": 2"));
-    EXPECT_THROW(tell({{"command", "save"}, {"lane", 0}, {"write", true}}), CommandError)
+    EXPECT_THROW(tell({{"command", "save"}, {"instance", 0}, {"write", true}}), CommandError)
         << "a file that is there stays";
 }
 
-/// Whoever looks rarely gets the newest frame and nothing else: what is kept and what is sent do not grow
-/// with what was missed.
+/// A client that polls rarely gets the newest frame and nothing else: what is kept and what is sent do not
+/// grow with what was missed.
 TEST_F(Sessions, ASlowViewerSkipsFrames) {
     open("rigor,double_free_flight");
     tell({{"command", "speed"}, {"factor", 20}});
     tell({{"command", "play"}});
-    viewer_->until([&] { return viewer_->lane(1)["step"] > 50; });
+    viewer_->until([&] { return viewer_->instance(1)["step"] > 50; });
     const std::size_t kept = session_->keptBytes();
     std::size_t least = 1 << 30, most = 0;
     for (int i = 0; i < 4; ++i) {
-        const double before = viewer_->lane(0)["frames"];
+        const double before = viewer_->instance(0)["frames"];
         std::this_thread::sleep_for(std::chrono::milliseconds(400));
         viewer_->look();
-        EXPECT_GT(viewer_->lane(0)["frames"].get<double>(), before + 3) << "frames were made meanwhile";
+        EXPECT_GT(viewer_->instance(0)["frames"].get<double>(), before + 3) << "frames were made meanwhile";
         EXPECT_EQ(viewer_->frames_.size(), 2u);
         least = std::min(least, viewer_->bytes_);
         most = std::max(most, viewer_->bytes_);
     }
     EXPECT_LT(most, 2 * least);
     EXPECT_LT(session_->keptBytes(), 2 * kept);
-    EXPECT_GT(viewer_->lane(1)["step"].get<double>(), 1000) << "and the simulation was not held up";
+    EXPECT_GT(viewer_->instance(1)["step"].get<double>(), 1000) << "and the simulation was not held up";
 }
 
 TEST_F(Sessions, NonsenseIsRefused) {
@@ -255,7 +257,7 @@ TEST_F(Sessions, NonsenseIsRefused) {
          {json(nullptr), json::array(), json{{"command", "fly"}}, json{{"command", "step"}, {"steps", "x"}},
           json{{"command", "step"}, {"steps", 0}}, json{{"command", "step"}, {"steps", 1e12}},
           json{{"command", "speed"}, {"factor", -1}}, json{{"command", "speed"}, {"factor", "fast"}},
-          json{{"command", "remove"}, {"lane", 77}}, json{{"command", "save"}, {"lane", 77}},
+          json{{"command", "remove"}, {"instance", 77}}, json{{"command", "save"}, {"instance", 77}},
           json{{"command", "branch"}}, json{{"command", "stage"}}, json{{"command", "add"}, {"spec", ":::"}}})
         EXPECT_THROW(tell(request), CommandError) << request;
     EXPECT_EQ(session_->scene(77), nullptr);
@@ -266,18 +268,19 @@ TEST_F(Sessions, AnotherScenarioIsOpenedForTheSameEngines) {
     open("rigor,double_free_flight");
     tell({{"command", "step"}, {"steps", 9}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(9); }));
-    tell({{"command", "branch"}, {"lane", 0}});
+    tell({{"command", "branch"}, {"instance", 0}});
     session_->open(scenario::loadScenario(scenario::findScenario("free_flight_2d")).text);
-    ASSERT_TRUE(viewer_->until([&] { return viewer_->state_["lanes"].size() == 2 && viewer_->allReady(); }));
+    ASSERT_TRUE(
+        viewer_->until([&] { return viewer_->state_["instances"].size() == 2 && viewer_->allReady(); }));
     EXPECT_EQ(viewer_->state_["scenario"], "free_flight_2d");
     EXPECT_EQ(viewer_->state_["step"], 0);
-    EXPECT_EQ(viewer_->lane(0)["spec"], "rigor");
+    EXPECT_EQ(viewer_->instance(0)["spec"], "rigor");
     EXPECT_TRUE(viewer_->allAt(0));
 }
 
-TEST_F(Sessions, NoMoreThanEightLanes) {
+TEST_F(Sessions, NoMoreThanEightInstances) {
     open("double_free_flight");
-    for (std::size_t i = 1; i < Session::kMostLanes; ++i)
+    for (std::size_t i = 1; i < Session::kMaxInstances; ++i)
         tell({{"command", "add"}, {"spec", "double_free_flight"}});
     EXPECT_THROW(tell({{"command", "add"}, {"spec", "double_free_flight"}}), CommandError);
 }

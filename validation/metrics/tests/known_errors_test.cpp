@@ -207,7 +207,7 @@ struct Row {
     const char* metric;
     const char* subject;  ///< of the row that shows the error
     std::unique_ptr<Case> (*make)();
-    std::function<void(Case&)> spoil;
+    std::function<void(Case&)> injectFault;
     double expected;
     double unspoiled = 0.0;  ///< of the exact run; what came of a scene is no error
 };
@@ -418,7 +418,7 @@ TEST(KnownErrors, ComeBackWithTheirSizeAndAnExactRunHasNone) {
         SCOPED_TRACE(row.metric);
         const auto c = row.make();
         EXPECT_NEAR(valueOf(*c, row), row.unspoiled, 1e-13);
-        row.spoil(*c);
+        row.injectFault(*c);
         EXPECT_NEAR(valueOf(*c, row), row.expected, 1e-12);
     }
 }

@@ -49,13 +49,13 @@ Pose pose(const json& j, const json& shape) {
     return X;
 }
 
-struct Tally {
+struct Counts {
     int answered = 0, normals = 0, refuted = 0;
     double worst = 0.0;
 };
 
 /// `relative`: tolerance on the signed distance, relative to the distances involved.
-void checkFile(const std::string& name, double tolerance, Tally& tally) {
+void checkFile(const std::string& name, double tolerance, Counts& counts) {
     const char* data = std::getenv("RIGOR_DATA");
     if (!data) GTEST_SKIP() << "RIGOR_DATA is not set";
     std::ifstream file(std::string(data) + "/collision-cases/" + name);
@@ -68,7 +68,7 @@ void checkFile(const std::string& name, double tolerance, Tally& tally) {
         const Pose Xa = pose(c.at("pose_a"), c.at("a")), Xb = pose(c.at("pose_b"), c.at("b"));
         const auto answer = exactContact(*a, Xa, *b, Xb, 3);
         ASSERT_TRUE(answer) << c.at("id");
-        ++tally.answered;
+        ++counts.answered;
         const double d = expected.at("signed_distance"), accuracy = expected.value("accuracy", 0.0);
         const double error = std::abs(answer->signedDistance - d);
         const double allowed = accuracy + tolerance * std::max(1.0, std::abs(d));
@@ -79,11 +79,11 @@ void checkFile(const std::string& name, double tolerance, Tally& tally) {
             EXPECT_NEAR(*separationAlong(*a, Xa, *b, Xb, 3, answer->normals[0]), answer->signedDistance,
                         1e-15);
             EXPECT_LE(error, 1e-5) << c.at("id");
-            ++tally.refuted;
+            ++counts.refuted;
             continue;
         }
         EXPECT_LE(error, allowed) << c.at("id") << " expected " << d;
-        tally.worst = std::max(tally.worst, error);
+        counts.worst = std::max(counts.worst, error);
         if (!expected.value("normal_unique", false) || expected.value("touching", false)) continue;
         const json& margin = expected.at("normal_margin");
         if (margin.is_number() && margin.get<double>() < 1e-7) continue;
@@ -93,28 +93,28 @@ void checkFile(const std::string& name, double tolerance, Tally& tally) {
         double nearest = 10.0;
         for (const Vec3& m : answer->normals) nearest = std::min(nearest, norm(m - n));
         EXPECT_LE(nearest, own + blur + 1e-8) << c.at("id");
-        ++tally.normals;
+        ++counts.normals;
     }
 }
 
 TEST(CollisionCases, GeneratedPolytopePairs) {
-    Tally tally;
-    checkFile("generated.jsonl", 1e-9, tally);
+    Counts counts;
+    checkFile("generated.jsonl", 1e-9, counts);
     if (IsSkipped() || HasFatalFailure()) return;
-    EXPECT_EQ(tally.answered, 400);
-    EXPECT_GT(tally.normals, 300);
-    RecordProperty("worst_error", std::to_string(tally.worst));
-    std::printf("worst signed distance error %.3g over %d cases\n", tally.worst, tally.answered);
+    EXPECT_EQ(counts.answered, 400);
+    EXPECT_GT(counts.normals, 300);
+    RecordProperty("worst_error", std::to_string(counts.worst));
+    std::printf("worst signed distance error %.3g over %d cases\n", counts.worst, counts.answered);
 }
 
 TEST(CollisionCases, PublishedQueries) {
-    Tally tally;
-    checkFile("cases.jsonl", 1e-9, tally);
+    Counts counts;
+    checkFile("cases.jsonl", 1e-9, counts);
     if (IsSkipped() || HasFatalFailure()) return;
-    EXPECT_GT(tally.answered, 350);
-    EXPECT_LE(tally.refuted, 16);
+    EXPECT_GT(counts.answered, 350);
+    EXPECT_LE(counts.refuted, 16);
     std::printf("worst signed distance error %.3g over %d cases, values of %d refuted by a direction\n",
-                tally.worst, tally.answered, tally.refuted);
+                counts.worst, counts.answered, counts.refuted);
 }
 
 }  // namespace

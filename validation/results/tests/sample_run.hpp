@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A run with every field set, among them doubles that are easily spoiled on the way.
+// A run with every field set, among them doubles that a conversion easily changes.
 #pragma once
 
 #include <unistd.h>

@@ -59,10 +59,10 @@ std::vector<std::string> lines(const std::string& text) {
 class EventLogTest : public testing::Test {
   protected:
     std::vector<std::string> step(EventLog& log, double vy, const std::vector<ContactPoint>& contacts) {
-        return lines(log.step(0.01 * steps_++, states(vy), contacts, told_));
+        return lines(log.step(0.01 * steps_++, states(vy), contacts, reports_));
     }
     const scenario::Scenario scene_ = scene();
-    EventLog::Told told_;
+    EventLog::EngineReports reports_;
     int steps_ = 0;
 };
 
@@ -116,7 +116,7 @@ TEST_F(EventLogTest, AnImpactIsASpeedOfApproachThatIsTakenAway) {
 TEST_F(EventLogTest, SleepAndBreakingAreToldOnce) {
     EventLog log(scene_, 0.01, LogWhat::Events);
     bool asleep = false, holds = true;
-    told_ = {[&](int body) { return asleep && body == 1; }, [&](int) { return holds; }};
+    reports_ = {[&](int body) { return asleep && body == 1; }, [&](int) { return holds; }};
     EXPECT_TRUE(step(log, 0, {}).empty());
     asleep = true;
     holds = false;

@@ -156,7 +156,7 @@ const Fault kFaults[] = {
     {"quaternion_order", &kFlight, "orientation_max", "right", 0.1, 3.1416},
     // 64 steps of 1e-6
     {"quaternion_drifts", &kFlight, "quaternion_norm_error", "", 6.39e-5, 6.41e-5},
-    {"origin_is_centre", &kFlight, "position_max", "left", 0.25, 0.26},
+    {"origin_is_center", &kFlight, "position_max", "left", 0.25, 0.26},
     {"own_step", &kFlight, "position_max", "", 0.03, 0.08,
      "velocity_max orientation_max linear_momentum_drift"},
     // g T h: on the other side of the exact solution, as far from it as it should be
@@ -294,34 +294,34 @@ TEST_F(FaultList, HasEveryFaultOfTheDouble) {
 }
 
 /// log2 of the ratio of errors at successive halvings of the step, and what was wrong at each step.
-struct Ladder {
+struct Refinement {
     std::vector<double> orders;
     std::vector<std::string> reasons;
 };
 
 class Order : public Faults {
   protected:
-    Ladder climb(const std::string& text, const std::string& fault, const std::string& metric) {
+    Refinement climb(const std::string& text, const std::string& fault, const std::string& metric) {
         const auto run = runWith(text, {fault}, {});
-        Ladder ladder;
+        Refinement refinement;
         double last = 0.0;
         for (const CaseRow& row : run.cases) {
             const double error = metricOf(row, metric, "").value;
-            if (last > 0.0) ladder.orders.push_back(std::log2(last / error));
+            if (last > 0.0) refinement.orders.push_back(std::log2(last / error));
             last = error;
-            ladder.reasons.push_back(row.reason);
+            refinement.reasons.push_back(row.reason);
         }
-        return ladder;
+        return refinement;
     }
 };
 
 TEST_F(Order, OfTheHonestDoubleIsKnown) {
-    const Ladder flight = climb(kFlight, "none", "position_max");
+    const Refinement flight = climb(kFlight, "none", "position_max");
     EXPECT_THAT(flight.orders,
                 testing::ElementsAre(testing::DoubleNear(1.0, 1e-9), testing::DoubleNear(1.0, 1e-9),
                                      testing::DoubleNear(1.0, 1e-9)));
     EXPECT_THAT(flight.reasons, testing::Each(""));
-    const Ladder top = climb(kTop, "none", "orientation_max");
+    const Refinement top = climb(kTop, "none", "orientation_max");
     EXPECT_THAT(top.orders,
                 testing::ElementsAre(testing::DoubleNear(2.0, 0.03), testing::DoubleNear(2.0, 0.03)));
     EXPECT_THAT(top.reasons, testing::Each(""));
@@ -329,7 +329,7 @@ TEST_F(Order, OfTheHonestDoubleIsKnown) {
 
 /// An engine that steps as it likes is as wrong at a small step as at a large one.
 TEST_F(Order, OfAnEngineWithAStepOfItsOwnIsNought) {
-    const Ladder flight = climb(kFlight, "own_step", "position_max");
+    const Refinement flight = climb(kFlight, "own_step", "position_max");
     ASSERT_EQ(flight.orders.size(), 3u);
     for (const double order : flight.orders) EXPECT_LT(order, 0.5);
     EXPECT_THAT(flight.reasons, testing::Each("position_max misses its bound"));

@@ -57,16 +57,16 @@ TEST(ReadBack, AFaithfulBuildHasEveryQuantityAndNoMismatch) {
 
 struct Tampering {
     const char* quantity;
-    std::function<void(adapter::ReadBack&)> spoil;
+    std::function<void(adapter::ReadBack&)> tamper;
 };
 
-class Spoiled : public testing::TestWithParam<Tampering> {};
+class TamperedReadBack : public testing::TestWithParam<Tampering> {};
 
 /// Each quantity alone, off by a relative 1e-7: found in double, forgiven in single precision.
-TEST_P(Spoiled, IsFoundAndNamed) {
+TEST_P(TamperedReadBack, IsFoundAndNamed) {
     const auto s = oneBlock();
     auto back = faithful(s);
-    GetParam().spoil(back);
+    GetParam().tamper(back);
     EXPECT_THAT(wrong(compareReadBack(s, back, readBackTolerance("f64"))),
                 testing::ElementsAre(GetParam().quantity));
     EXPECT_THAT(wrong(compareReadBack(s, back, readBackTolerance("f32"))), testing::IsEmpty());
@@ -74,7 +74,7 @@ TEST_P(Spoiled, IsFoundAndNamed) {
 
 constexpr double kOff = 1.0 + 1e-7;
 INSTANTIATE_TEST_SUITE_P(
-    Quantities, Spoiled,
+    Quantities, TamperedReadBack,
     testing::Values(Tampering{"mass", [](auto& b) { b.bodies[0].mass *= kOff; }},
                     Tampering{"com", [](auto& b) { b.bodies[0].centerOfMass.y *= kOff; }},
                     Tampering{"inertia", [](auto& b) { b.bodies[0].inertia(2, 2) *= kOff; }},

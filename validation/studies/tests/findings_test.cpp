@@ -110,14 +110,14 @@ TEST(Findings, ARunThatBrokeIsInfinitelyWrongAndOneWithoutValueProvesNothing) {
 TEST(Columns, OrderAndMeasuredQuantity) {
     Example example;
     const auto result = evaluateStudy(example.plan, example.run);
-    EXPECT_FALSE(result.rows[0].values[1].value) << "substeps differ: no ladder";
+    EXPECT_FALSE(result.rows[0].values[1].value) << "substeps differ: no refinement";
     for (auto& row : example.plan.rows) row.parameters.clear();
-    const auto ladder = evaluateStudy(example.plan, example.run);
-    EXPECT_NEAR(ladder.rows[0].values[1].value.value(), 2.0, 1e-12);
-    EXPECT_NEAR(ladder.rows[1].values[1].value.value(), 2.0, 1e-12);
-    EXPECT_FALSE(ladder.rows[2].values[1].value);
-    EXPECT_EQ(ladder.rows[0].values[2].value, 0.4);
-    EXPECT_FALSE(ladder.rows[2].values[2].value);
+    const auto refinement = evaluateStudy(example.plan, example.run);
+    EXPECT_NEAR(refinement.rows[0].values[1].value.value(), 2.0, 1e-12);
+    EXPECT_NEAR(refinement.rows[1].values[1].value.value(), 2.0, 1e-12);
+    EXPECT_FALSE(refinement.rows[2].values[1].value);
+    EXPECT_EQ(refinement.rows[0].values[2].value, 0.4);
+    EXPECT_FALSE(refinement.rows[2].values[2].value);
 }
 
 TEST(Findings, OfTheLibraryHold) {

@@ -63,7 +63,7 @@ TEST(StudyPlan, RefusesWhatCannotBeFilled) {
     EXPECT_THROW((void)planOf(study), std::invalid_argument);
     study.parts[0].metrics = {"mean_pair_tests", "time.step", "rest_sink:block"};
     EXPECT_NO_THROW((void)planOf(study));
-    study.parts[0].variants = {{"x", "nobody"}};
+    study.parts[0].variants = {{"x", "no_engine"}};
     EXPECT_THROW((void)planOf(study), adapter::BadInput);
 }
 

@@ -54,7 +54,7 @@ std::string nameOf(const Scenario& s, int body) {
     return s.bodies[static_cast<std::size_t>(body)].name;
 }
 
-/// Whoever is named by an index is the same one.
+/// What an index names is the same body or joint.
 void expectSameConnections(const Scenario& a, const Scenario& b) {
     ASSERT_EQ(a.bodies.size(), b.bodies.size());
     for (const auto& joint : b.joints) {

@@ -10,7 +10,7 @@ export interface Face {
   closed: boolean; // false: a line
 }
 /** What is drawn of a shape: faces, or a ball, which is a disc from everywhere. */
-export type Solid = { faces: Face[] } | { ball: { centre: Vec3; radius: number } };
+export type Solid = { faces: Face[] } | { ball: { center: Vec3; radius: number } };
 
 const around = 24; // corners of a circle
 
@@ -82,10 +82,10 @@ function hull(points: Vec3[]): Vec3[][] {
 
 /** Corners of a flat convex face, one after the other. */
 function inOrder(corners: Vec3[], normal: Vec3): Vec3[] {
-  const centre = corners.reduce((s, v) => add(s, v), [0, 0, 0] as Vec3).map((v) => v / corners.length) as Vec3;
-  const u = minus(corners[0] as Vec3, centre);
+  const center = corners.reduce((s, v) => add(s, v), [0, 0, 0] as Vec3).map((v) => v / corners.length) as Vec3;
+  const u = minus(corners[0] as Vec3, center);
   const v = cross(normal, u);
-  const angle = (p: Vec3) => Math.atan2(dot(minus(p, centre), v), dot(minus(p, centre), u));
+  const angle = (p: Vec3) => Math.atan2(dot(minus(p, center), v), dot(minus(p, center), u));
   return [...corners].sort((p, q) => angle(p) - angle(q));
 }
 
@@ -185,7 +185,7 @@ const product = ([a, b, c, d]: Quat, [e, f, g, h]: Quat): Quat => [
 export function solidsOf(body: SceneBody, planar: boolean, middle: Vec3, reach: number): Solid[] {
   return body.shapes.map(({ geometry, pose }) => {
     const frame = composed(body.first, pose);
-    if (geometry.kind === 'sphere') return { ball: { centre: frame.position, radius: geometry.radius } };
+    if (geometry.kind === 'sphere') return { ball: { center: frame.position, radius: geometry.radius } };
     if (geometry.kind === 'half_space') {
       const normal = rotate(frame.orientation, geometry.normal);
       return { faces: [patch(normal, geometry.offset + dot(normal, frame.position), middle, reach, planar)] };

@@ -93,14 +93,14 @@ function brightness(corners: Vec3[], towards: Vec3): number {
 
 function drawSolid(solid: Solid, kind: string, planar: boolean, p: Projection): Drawn[] {
   if ('ball' in solid) {
-    const { centre, radius } = solid.ball;
-    const [cx, cy] = p.at(centre);
+    const { center, radius } = solid.ball;
+    const [cx, cy] = p.at(center);
     const r = radius * p.scale;
     const disc = svg('circle', { cx, cy, r, class: `face ${kind}` });
     const shine = planar
       ? svg('line', { x1: cx, y1: cy, x2: cx + r, y2: cy, class: 'edge' })
       : svg('circle', { cx: cx - 0.3 * r, cy: cy - 0.35 * r, r: 0.3 * r, class: 'shine' });
-    return [{ depth: p.depth(centre) + 0.3 * radius, ground: false, node: svg('g', null, disc, shine) }];
+    return [{ depth: p.depth(center) + 0.3 * radius, ground: false, node: svg('g', null, disc, shine) }];
   }
   return solid.faces.map(({ corners, closed }) => {
     const depth = corners.reduce((sum, c) => sum + p.depth(c), 0) / corners.length;
@@ -150,23 +150,23 @@ function arrows(scene: Scene, file: Json, p: Projection, longest: number): SVGEl
   for (const body of scene.bodies) {
     const v = first.get(body.name);
     if (!v) continue;
-    const centre = add(body.first.position, rotate(body.first.orientation, body.centre));
+    const center = add(body.first.position, rotate(body.first.orientation, body.center));
     const push = (value: Vec3, most: number, kind: string, what: string) => {
       const size = Math.hypot(...value);
       if (!(size > 0)) return;
-      const tip = add(centre, value.map((x) => (x / most) * unit) as Vec3);
-      drawn.push(arrow(p.at(centre), p.at(tip), kind, `${body.name}: ${what}`));
+      const tip = add(center, value.map((x) => (x / most) * unit) as Vec3);
+      drawn.push(arrow(p.at(center), p.at(tip), kind, `${body.name}: ${what}`));
     };
     push(v.linear, Math.max(...speeds), 'velocity', `velocity ${v.linear.join(', ')} m/s`);
     if (scene.dimension === 3)
       push(v.angular, Math.max(...spins), 'spin', `angular velocity ${v.angular.join(', ')} rad/s`);
     else if (v.angular[2] !== 0)
-      drawn.push(turning(p.at(centre), v.angular[2] > 0, `${body.name}: angular velocity ${v.angular[2]} rad/s`));
+      drawn.push(turning(p.at(center), v.angular[2] > 0, `${body.name}: angular velocity ${v.angular[2]} rad/s`));
   }
   return drawn;
 }
 
-/** Of a spin in the plane: an arc with a head. */
+/** A spin in 2D: an arc with a head. */
 function turning([x, y]: Point, counterclockwise: boolean, title: string): SVGElement {
   const r = 16;
   const s = counterclockwise ? 1 : -1;
@@ -243,7 +243,7 @@ export function scenePicture(scene: Scene, file: Json, options: PictureOptions):
   const labels =
     options.labels && moving.length <= mostLabels
       ? moving.map((b) => {
-          const [x, y] = p.at(add(b.first.position, rotate(b.first.orientation, b.centre)));
+          const [x, y] = p.at(add(b.first.position, rotate(b.first.orientation, b.center)));
           return svg('text', { x: x + 6, y: y - 6, class: 'label name' }, b.name);
         })
       : [];

@@ -6,7 +6,7 @@
 import { ArrayBundle } from '../common/arrays.ts';
 import type { Json } from '../replay/scene.ts';
 
-export type LaneStateName =
+export type InstanceStateName =
   | 'loading'
   | 'ready'
   | 'non_finite'
@@ -16,13 +16,13 @@ export type LaneStateName =
   | 'crashed'
   | 'timeout';
 
-export interface LaneState {
+export interface InstanceState {
   id: number;
   title: string;
   spec: string;
   engine: string;
   options: Record<string, string>;
-  state: LaneStateName;
+  state: InstanceStateName;
   message: string;
   step: number;
   start_step: number;
@@ -42,7 +42,7 @@ export interface SessionState {
   reached_speed: number;
   step: number;
   stages: boolean;
-  lanes: LaneState[];
+  instances: InstanceState[];
 }
 
 export interface StageState {
@@ -60,7 +60,7 @@ export interface DragState {
 }
 
 export interface FrameHead {
-  lane: number;
+  instance: number;
   step: number;
   time: number;
   counters: Record<string, number>;
@@ -109,7 +109,8 @@ const get = async (path: string): Promise<Json> => read(await fetch(path));
 
 export const engines = (): Promise<Engine[]> => get('/api/engines');
 export const scenarios = (): Promise<{ name: string; title: string }[]> => get('/api/scenarios');
-export const scene = (lane: number): Promise<{ scenario: Json; description: Json }> => get(`/api/scene?lane=${lane}`);
+export const scene = (instance: number): Promise<{ scenario: Json; description: Json }> =>
+  get(`/api/scene?instance=${instance}`);
 
 export async function command(request: { command: string } & Record<string, unknown>): Promise<Json> {
   const headers = { 'Content-Type': 'application/json' };

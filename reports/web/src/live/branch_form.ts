@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A branch: another lane from where one is now, with other algorithm choices, another engine, or other values of the
+// A branch: another instance from where one is now, with other algorithm choices, another engine, or other values of the
 // scenario. The options are those that the engine describes itself with.
 import { el } from '../common/elements.ts';
-import type { Engine, LaneState, Option } from './api.ts';
+import type { Engine, InstanceState, Option } from './api.ts';
 import type { SessionView } from './session_view.ts';
 
-/** What the resolved settings of a lane have for an option, or its default. */
+/** What the resolved settings of an instance have for an option, or its default. */
 export type Settings = Record<string, string>;
 
-/** Options of the form that differ from what the lane has. */
+/** Options of the form that differ from what the instance has. */
 export function changes(now: Settings, form: Settings): Settings {
   return Object.fromEntries(Object.entries(form).filter(([key, value]) => value !== '' && value !== now[key]));
 }
@@ -50,11 +50,11 @@ export class BranchForm {
     this.#engines = engines;
   }
 
-  /** `settings`: what the lane really runs with. */
-  open(lane: LaneState, settings: Settings): void {
-    const engine = this.#engines.find((e) => e.name === lane.engine);
+  /** `settings`: what the instance really runs with. */
+  open(instance: InstanceState, settings: Settings): void {
+    const engine = this.#engines.find((e) => e.name === instance.engine);
     const choice = el('select', { name: '', 'aria-label': 'Engine' });
-    choice.append(el('option', { value: '' }, `${lane.engine}, with what is chosen below`));
+    choice.append(el('option', { value: '' }, `${instance.engine}, with what is chosen below`));
     for (const other of this.#engines)
       for (const preset of other.presets)
         choice.append(el('option', { value: `${other.name}:preset=${preset}` }, `${other.title}, ${preset}`));
@@ -79,8 +79,8 @@ export class BranchForm {
     const form = el(
       'form',
       { method: 'dialog' },
-      el('h2', {}, `Branch from ${lane.title}, step ${lane.step}`),
-      el('p', { class: 'hint' }, 'The lane goes on as it is; the branch starts from what is seen now.'),
+      el('h2', {}, `Branch from ${instance.title}, step ${instance.step}`),
+      el('p', { class: 'hint' }, 'The instance goes on as it is; the branch starts from what is seen now.'),
       el('label', {}, el('span', {}, 'engine'), choice),
       own,
       el('label', { class: 'wide' }, el('span', {}, 'values of the scenario'), values),
@@ -93,7 +93,7 @@ export class BranchForm {
     );
     form.addEventListener('submit', () => {
       const set = overrides(values.value);
-      const request: Record<string, unknown> = { lane: lane.id, set };
+      const request: Record<string, unknown> = { instance: instance.id, set };
       if (choice.value !== '') request.spec = choice.value;
       else request.options = changes(settings, Object.fromEntries(this.#chosen(own)));
       void this.#session.tell({ command: 'branch', ...request });

@@ -20,7 +20,7 @@ const explained: [string, string][] = [
   ['space', 'play, pause'],
   ['← →', 'one step back, on; with shift ten'],
   ['s', 'one stage of the step'],
-  ['Home', 'all lanes back to the start'],
+  ['Home', 'all instances back to the start'],
   ['+ −', 'faster, slower'],
   ['o', 'side by side, overlaid'],
   ['a', 'camera: whole scene'],

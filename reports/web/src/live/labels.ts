@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Over each picture: which lane it is, where it stands, and what it does.
+// Over each picture: which instance it is, where it stands, and what it does.
 import { el } from '../common/elements.ts';
 import { duration, format } from '../common/format.ts';
 import type { ReplayView } from '../replay/view.ts';
-import type { LaneSource } from './lane_source.ts';
+import type { InstanceSource } from './instance_source.ts';
 
 const count = (n: number, what: string) => `${n} ${what}${n === 1 ? '' : 's'}`;
 
 /** "t = 0.5 s · step 60 · 12 contacts · 8 iterations · 0.3 ms a step". */
-export function laneLine(source: LaneSource, withNote = true): string {
+export function instanceLine(source: InstanceSource, withNote = true): string {
   const head = source.head;
   if (!head) return source.note || 'no frames yet';
   const { contacts, iterations, residual } = head.counters;
@@ -26,7 +26,7 @@ export function laneLine(source: LaneSource, withNote = true): string {
   return parts.join(' · ');
 }
 
-export class LaneLabels {
+export class InstanceLabels {
   readonly element = el('div', { class: 'labels' });
   #shown = '';
 
@@ -50,7 +50,7 @@ export class LaneLabels {
       const node = this.element.children[i] as HTMLElement;
       node.style.transform = `translate(${rect.x}px, ${rect.y}px)`;
       node.style.maxWidth = `${rect.width}px`;
-      const text = laneLine(sources[0] as LaneSource);
+      const text = instanceLine(sources[0] as InstanceSource);
       const small = node.querySelector('small') as HTMLElement;
       if (small.textContent !== text) small.textContent = text;
     });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The live view: picture, transport, lanes, branches, what a step is made of. The server runs the simulation; this
+// The live view: picture, transport, instances, branches, what a step is made of. The server runs the simulation; this
 // page asks for the newest frames and tells it what the person wants.
 import { el } from '../common/elements.ts';
 import { timeStep } from '../common/format.ts';
@@ -12,8 +12,8 @@ import { NoWebGL } from '../replay/view.ts';
 import * as api from './api.ts';
 import { BranchForm, type Settings } from './branch_form.ts';
 import type { Held } from './drag.ts';
+import { InstancesPanel } from './instances_panel.ts';
 import { bindKeys, helpDialog } from './keys.ts';
-import { LanesPanel } from './lanes_panel.ts';
 import { Picture } from './picture.ts';
 import { SessionView } from './session_view.ts';
 import { StagesPanel } from './stages_panel.ts';
@@ -26,10 +26,10 @@ const session = new SessionView();
 const said = el('p', { class: 'said', role: 'alert' });
 const help = helpDialog();
 const branch = new BranchForm(session);
-const lanes = new LanesPanel(
+const instances = new InstancesPanel(
   session,
-  (lane) => void openBranch(lane),
-  (lane) => void save(lane),
+  (instance) => void openBranch(instance),
+  (instance) => void save(instance),
 );
 const stages = new StagesPanel((on) => void session.tell({ command: 'stages', on }));
 const transport = new Transport(session, switchLayer, () => help.showModal());
@@ -70,14 +70,14 @@ function switchLayer(name: LayerName): void {
 const drag = (held: Held | null) =>
   held ? session.tell({ command: 'drag', ...held }) : session.tell({ command: 'release' });
 
-async function openBranch(lane: api.LaneState): Promise<void> {
-  const { description } = await api.scene(lane.id);
-  branch.open(lane, { ...(description.settings as Settings) });
+async function openBranch(instance: api.InstanceState): Promise<void> {
+  const { description } = await api.scene(instance.id);
+  branch.open(instance, { ...(description.settings as Settings) });
 }
 
 /** Into the folder that `rigor view` was given, or as a download where it is there already. */
-async function save(lane: api.LaneState): Promise<void> {
-  const answer = await session.tell({ command: 'save', lane: lane.id, write: true });
+async function save(instance: api.InstanceState): Promise<void> {
+  const answer = await session.tell({ command: 'save', instance: instance.id, write: true });
   if (!answer) return;
   const notes = (answer.notes as string[]).length > 0 ? ` Not kept: ${(answer.notes as string[]).join('; ')}.` : '';
   said.textContent = `Saved as ${answer.file}.${notes}`;
@@ -103,7 +103,7 @@ async function show(first: number): Promise<void> {
     return;
   }
   stages.scene = scene;
-  picture.setLanes(session.lanes.filter((lane) => lane.times.length > 0));
+  picture.setInstances(session.instances.filter((instance) => instance.times.length > 0));
   const link = decodeLink(viewOfHash(location.hash));
   if (link.options) picture.view.setOptions(link.options);
   if (link.camera) picture.setCamera(link.camera);
@@ -116,7 +116,7 @@ session.onSay = (text) => {
 };
 session.onNews = (others) => {
   const state = session.state as api.SessionState;
-  const first = state.lanes[0];
+  const first = state.instances[0];
   title.textContent = state.title;
   about.textContent = `${state.scenario} · ${state.dimension}D · step ${timeStep(state.dt)}`;
   document.title = `${state.scenario} · Rigor live`;
@@ -124,13 +124,13 @@ session.onNews = (others) => {
     scenario = state.scenario;
     void show(first.id);
   } else if (others) {
-    picture?.setLanes(session.lanes.filter((lane) => lane.times.length > 0));
+    picture?.setInstances(session.instances.filter((instance) => instance.times.length > 0));
   } else {
     picture?.update();
   }
-  if (others) stages.setLanes(session.lanes.filter((_, i) => state.lanes[i]?.has_stages));
+  if (others) stages.setInstances(session.instances.filter((_, i) => state.instances[i]?.has_stages));
   transport.refresh(picture?.view ?? null);
-  lanes.refresh();
+  instances.refresh();
   stages.refresh();
 };
 
@@ -165,7 +165,7 @@ document.body.append(
       el('div', { class: 'switches' }, arrangement.element),
       said,
     ),
-    el('aside', {}, lanes.element, stages.element),
+    el('aside', {}, instances.element, stages.element),
   ),
   branch.element,
   help,
@@ -173,7 +173,7 @@ document.body.append(
 void session.follow();
 void api.engines().then((list) => {
   branch.setEngines(list);
-  lanes.setEngines(list);
+  instances.setEngines(list);
 });
 void api.scenarios().then((list) => {
   open.append(...list.map(({ name, title: text }) => el('option', { value: name, title: text }, name)));

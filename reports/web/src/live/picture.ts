@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The picture of a live session: the view of the replay, fed by lanes, with what the pointer is on and the spring
+// The picture of a live session: the view of the replay, fed by instances, with what the pointer is on and the spring
 // that it pulls.
 import { el, svg } from '../common/elements.ts';
 import type { CameraState } from '../replay/camera_rig.ts';
@@ -11,8 +11,8 @@ import type { Scene } from '../replay/scene.ts';
 import type { Vec3 } from '../replay/vectors.ts';
 import { type Pick, ReplayView } from '../replay/view.ts';
 import { Dragger, type Held } from './drag.ts';
-import { LaneLabels } from './labels.ts';
-import type { LaneSource } from './lane_source.ts';
+import type { InstanceSource } from './instance_source.ts';
+import { InstanceLabels } from './labels.ts';
 
 const forEver = 1e12; // [s]: the newest frame
 
@@ -20,16 +20,16 @@ export class Picture {
   readonly view: ReplayView;
   readonly element: HTMLElement;
   readonly #inspector: Inspector;
-  readonly #labels = new LaneLabels();
+  readonly #labels = new InstanceLabels();
   readonly #dragger: Dragger;
   readonly #spring = svg('svg', { class: 'spring' });
   readonly #ends: (() => void)[] = [];
   readonly #scene: Scene;
-  #sources: LaneSource[] = [];
+  #sources: InstanceSource[] = [];
   #lookAgain = 0; // when the camera may move by itself [ms]
   #hover: Pick | null = null;
-  #pinned: { source: LaneSource; body: number } | null = null;
-  /** Somebody has moved the camera. */
+  #pinned: { source: InstanceSource; body: number } | null = null;
+  /** The user has moved the camera. */
   byHand = false;
   /** The camera or a switch has changed. */
   onChange: (() => void) | null = null;
@@ -57,13 +57,13 @@ export class Picture {
     this.#ends.push(followTheme(this.view));
   }
 
-  setLanes(sources: LaneSource[]): void {
+  setInstances(sources: InstanceSource[]): void {
     this.#sources = sources;
     this.view.setSources(sources);
     this.update();
   }
 
-  /** Lanes have new frames. */
+  /** Instances have new frames. */
   update(): void {
     this.view.setTime(forEver);
     this.view.refresh();
@@ -72,7 +72,7 @@ export class Picture {
     if (!this.byHand && this.#sources.some((source) => this.#hasLost(source))) this.view.frameAll();
   }
 
-  /** The camera follows what moves, until somebody takes it. */
+  /** The camera follows what moves, until the user moves it. */
   frame(): void {
     this.byHand = false;
     this.view.frameAll();
@@ -82,8 +82,8 @@ export class Picture {
     this.view.camera = camera;
   }
 
-  /** A body that moves is outside of the lane's picture. */
-  #hasLost(source: LaneSource): boolean {
+  /** A body that moves is outside of the instance's picture. */
+  #hasLost(source: InstanceSource): boolean {
     const panel = this.view.panels.find(({ sources }) => sources.includes(source));
     const position = source.newest?.position;
     if (!panel || !position) return false;
@@ -105,7 +105,7 @@ export class Picture {
         this.#inspect();
       },
       click: (pick) => {
-        this.#pinned = pick && pick.body >= 0 ? { source: pick.source as LaneSource, body: pick.body } : null;
+        this.#pinned = pick && pick.body >= 0 ? { source: pick.source as InstanceSource, body: pick.body } : null;
         this.view.mark(this.#pinned?.body ?? -1);
         this.#inspect();
       },

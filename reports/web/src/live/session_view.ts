@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The session as the page knows it: what the server told last, the lanes' frames, and how to tell it something.
+// The session as the page knows it: what the server told last, the instances' frames, and how to tell it something.
 import type { Json } from '../replay/scene.ts';
 import { command, type News, news, Refused, type SessionState } from './api.ts';
-import { LaneSource } from './lane_source.ts';
+import { InstanceSource } from './instance_source.ts';
 
-/** Colours of lanes, those of engines in reports. */
+/** Colours of instances, those of engines in reports. */
 const palette = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8a6fd1', '#a0791a'];
 
 export class SessionView {
   state: SessionState | null = null;
-  readonly sources = new Map<number, LaneSource>();
-  /** After everything the server told; `lanes`: there are others than before. */
-  onNews: ((lanes: boolean) => void) | null = null;
+  readonly sources = new Map<number, InstanceSource>();
+  /** After everything the server told; `instances`: there are others than before. */
+  onNews: ((instances: boolean) => void) | null = null;
   /** Something to be read by the person; "" takes it away. */
   onSay: ((text: string) => void) | null = null;
   #after = 0;
@@ -54,28 +54,28 @@ export class SessionView {
     this.#after = sequence;
     const other = session.scenario !== this.#scenario;
     this.#scenario = session.scenario;
-    const ids = session.lanes.map((lane) => lane.id).join();
-    const before = this.state?.lanes.map((lane) => lane.id).join();
+    const ids = session.instances.map((instance) => instance.id).join();
+    const before = this.state?.instances.map((instance) => instance.id).join();
     this.state = session;
     for (const id of [...this.sources.keys()])
-      if (!session.lanes.some((lane) => lane.id === id)) this.sources.delete(id);
-    session.lanes.forEach((lane) => {
-      let source = this.sources.get(lane.id);
+      if (!session.instances.some((instance) => instance.id === id)) this.sources.delete(id);
+    session.instances.forEach((instance) => {
+      let source = this.sources.get(instance.id);
       if (!source) {
-        const colour = palette[lane.id % palette.length] as string;
-        source = new LaneSource(lane.id, `lane ${lane.id}`, lane.title, colour);
-        this.sources.set(lane.id, source);
+        const colour = palette[instance.id % palette.length] as string;
+        source = new InstanceSource(instance.id, `instance ${instance.id}`, instance.title, colour);
+        this.sources.set(instance.id, source);
       }
-      source.note = lane.state === 'ready' ? '' : `${lane.state.replaceAll('_', '-')}: ${lane.message}`;
+      source.note = instance.state === 'ready' ? '' : `${instance.state.replaceAll('_', '-')}: ${instance.message}`;
     });
     const empty = [...this.sources.values()].filter((source) => source.times.length === 0).length;
-    for (const head of frames) this.sources.get(head.lane)?.push(head, arrays);
+    for (const head of frames) this.sources.get(head.instance)?.push(head, arrays);
     const filled = [...this.sources.values()].filter((source) => source.times.length === 0).length !== empty;
     this.onNews?.(other || filled || ids !== before);
   }
 
-  get lanes(): LaneSource[] {
-    return (this.state?.lanes ?? []).map((lane) => this.sources.get(lane.id) as LaneSource);
+  get instances(): InstanceSource[] {
+    return (this.state?.instances ?? []).map((instance) => this.sources.get(instance.id) as InstanceSource);
   }
 
   end(): void {

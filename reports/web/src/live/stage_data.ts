@@ -57,8 +57,8 @@ const ref = (list: Int32Array, at: number): ShapeRef => ({ body: list[at] as num
 /** Null where the frame has none. */
 export function stageData(head: FrameHead, arrays: ArrayBundle): StageData | null {
   if (!head.has_stages) return null;
-  const d = (name: string) => arrays.get(`${head.lane}/${name}`) as Float64Array;
-  const i = (name: string) => arrays.get(`${head.lane}/${name}`) as Int32Array;
+  const d = (name: string) => arrays.get(`${head.instance}/${name}`) as Float64Array;
+  const i = (name: string) => arrays.get(`${head.instance}/${name}`) as Int32Array;
   const pairs: StageData['pairs'] = [];
   const pairList = i('pairs');
   for (let k = 0; k < pairList.length; k += 4) pairs.push([ref(pairList, k), ref(pairList, k + 2)]);
@@ -149,8 +149,8 @@ function islands(list: Int32Array): number[][] {
 
 /** Points of the manifolds as contacts; impulses are those of their rows, or those they start with. */
 export function manifoldContacts(head: FrameHead, arrays: ArrayBundle): Contacts {
-  const d = (name: string) => arrays.get(`${head.lane}/${name}`) as Float64Array;
-  const i = (name: string) => arrays.get(`${head.lane}/${name}`) as Int32Array;
+  const d = (name: string) => arrays.get(`${head.instance}/${name}`) as Float64Array;
+  const i = (name: string) => arrays.get(`${head.instance}/${name}`) as Int32Array;
   const between = i('manifolds/between');
   const normals = d('manifolds/normal');
   const row = i('manifolds/row');

@@ -7,7 +7,7 @@ import { el } from '../common/elements.ts';
 import { format } from '../common/format.ts';
 import type { Scene } from '../replay/scene.ts';
 import { ImpulsePlot } from './impulse_plot.ts';
-import type { LaneSource } from './lane_source.ts';
+import type { InstanceSource } from './instance_source.ts';
 import { type Row, type ShapeRef, type StageData, stageData } from './stage_data.ts';
 
 const mostRows = 200; // of a table; the rest is counted
@@ -15,37 +15,39 @@ const words = (name: string) => name.replaceAll('_', ' ');
 
 export class StagesPanel {
   readonly element: HTMLElement;
-  readonly #lane = el('select', { 'aria-label': 'Lane' });
+  readonly #instance = el('select', { 'aria-label': 'Instance' });
   readonly #steps = el('ol', { class: 'stages' });
   readonly #made = el('div', { class: 'made' });
   readonly #plot = new ImpulsePlot();
   #names: string[] = []; // of the stages of a step, as far as they were seen
-  #lanes: LaneSource[] = [];
+  #instances: InstanceSource[] = [];
   #shown: unknown = null;
   scene: Scene | null = null;
 
   constructor(watch: (on: boolean) => void) {
     const always = el('input', { type: 'checkbox', 'data-action': 'watch' });
     always.addEventListener('change', () => watch(always.checked));
-    this.#lane.addEventListener('change', () => this.#draw(true));
+    this.#instance.addEventListener('change', () => this.#draw(true));
     this.element = el(
       'section',
       { class: 'panel', 'data-panel': 'stages' },
       el('h2', {}, 'Inside the step'),
-      el('div', { class: 'line' }, this.#lane, el('label', { class: 'check' }, always, 'also after whole steps')),
+      el('div', { class: 'line' }, this.#instance, el('label', { class: 'check' }, always, 'also after whole steps')),
       this.#steps,
       this.#plot.element,
       this.#made,
     );
   }
 
-  /** Lanes whose engines show their stages. */
-  setLanes(lanes: LaneSource[]): void {
-    this.#lanes = lanes;
-    const before = this.#lane.value;
-    this.#lane.replaceChildren(...lanes.map((lane) => el('option', { value: lane.id }, lane.label)));
-    if (lanes.some((lane) => String(lane.id) === before)) this.#lane.value = before;
-    this.element.hidden = lanes.length === 0;
+  /** Instances whose engines show their stages. */
+  setInstances(instances: InstanceSource[]): void {
+    this.#instances = instances;
+    const before = this.#instance.value;
+    this.#instance.replaceChildren(
+      ...instances.map((instance) => el('option', { value: instance.id }, instance.label)),
+    );
+    if (instances.some((instance) => String(instance.id) === before)) this.#instance.value = before;
+    this.element.hidden = instances.length === 0;
     this.#draw(true);
   }
 
@@ -54,10 +56,10 @@ export class StagesPanel {
   }
 
   #draw(anew: boolean): void {
-    const lane = this.#lanes.find(({ id }) => String(id) === this.#lane.value) ?? this.#lanes[0];
-    if (!lane?.head || !lane.arrays || (!anew && lane.head === this.#shown)) return;
-    this.#shown = lane.head;
-    const { stage } = lane.head;
+    const instance = this.#instances.find(({ id }) => String(id) === this.#instance.value) ?? this.#instances[0];
+    if (!instance?.head || !instance.arrays || (!anew && instance.head === this.#shown)) return;
+    this.#shown = instance.head;
+    const { stage } = instance.head;
     this.#follow(stage.done, stage.next);
     const past = this.#names.indexOf(stage.done);
     this.#steps.replaceChildren(
@@ -73,7 +75,7 @@ export class StagesPanel {
         ),
       ),
     );
-    const data = stageData(lane.head, lane.arrays);
+    const data = stageData(instance.head, instance.arrays);
     this.#plot.show(data, (row) => this.#rowName(row));
     if (!data) {
       this.#made.replaceChildren(

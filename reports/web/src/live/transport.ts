@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Buttons that move all lanes through time, and what is shown of them.
+// Buttons that move all instances through time, and what is shown of them.
 import { el } from '../common/elements.ts';
 import { format, timeStep } from '../common/format.ts';
 import { type Colouring, colourings, type LayerName, layerNames } from '../replay/layers.ts';
@@ -44,7 +44,7 @@ export class Transport {
       el(
         'div',
         { class: 'transport' },
-        button('| ◀', 'All lanes back to the start (Home)', tell('reset'), 'reset'),
+        button('| ◀', 'All instances back to the start (Home)', tell('reset'), 'reset'),
         button('◀◀', 'Ten steps back (shift ←)', tell('back', 10), 'back10'),
         button('◀', 'One step back (←)', tell('back', 1), 'back'),
         this.#play,
@@ -81,14 +81,14 @@ export class Transport {
     if (!state) return;
     this.#play.textContent = state.playing ? '❙❙' : '▶';
     this.#play.setAttribute('aria-pressed', String(state.playing));
-    const able = state.lanes.some((lane) => lane.has_stages);
+    const able = state.instances.some((instance) => instance.has_stages);
     this.#stage.disabled = !able;
     this.#clock.textContent = `${format(state.step * state.dt, 6)} s`;
     this.#clock.title = `step ${state.step} of ${timeStep(state.dt)}`;
     if (document.activeElement !== this.#speed) this.#speed.value = String(state.speed);
     const reached = state.reached_speed;
     const slow = state.playing && reached > 0 && reached < 0.8 * state.speed;
-    this.#pace.textContent = slow ? `the lanes allow ${format(reached, 2)} ×` : '';
+    this.#pace.textContent = slow ? `the instances allow ${format(reached, 2)} ×` : '';
     for (const chip of this.#layers.querySelectorAll('button'))
       chip.setAttribute('aria-pressed', String(view?.options.layers[chip.dataset.switch as LayerName] ?? false));
   }

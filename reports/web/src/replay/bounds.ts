@@ -65,7 +65,7 @@ export function boundsOf(geometry: Geometry, m: ArrayLike<number>, o: number, ou
   if (geometry.kind === 'half_space' || geometry.kind === 'height_field') return false;
   const vertices = corner(geometry);
   for (let k = 0; k < 3; ++k) {
-    const centre = m[o + 12 + k] as number;
+    const center = m[o + 12 + k] as number;
     let low = 0;
     let high = 0;
     if (vertices !== null) {
@@ -85,8 +85,8 @@ export function boundsOf(geometry: Geometry, m: ArrayLike<number>, o: number, ou
         high = Math.max(-apex + high, apex);
       }
     }
-    out[k] = centre + low;
-    out[3 + k] = centre + high;
+    out[k] = center + low;
+    out[3 + k] = center + high;
   }
   return true;
 }

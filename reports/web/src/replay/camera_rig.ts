@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The one camera of all pictures: straight at the plane of a flat scene, else turned and moved by hand. Until somebody
+// The one camera of all pictures: straight at the plane of a flat scene, else turned and moved by hand. Until the user
 // does, it stands so that everything that moves is seen below the label of a picture.
 import { type Camera, OrthographicCamera, PerspectiveCamera, Vector3 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -34,19 +34,19 @@ const nearStep = 1.15;
 const clearOf = (rect: Rect) => Math.min(0.88, Math.max(0.6, 1 - 100 / rect.height));
 
 export class CameraRig {
-  /** It was moved: by anybody; by hand, when the hand lets go. */
+  /** The camera was moved, by the user or by a call; after a drag once it has ended. */
   onChange: (() => void) | null = null;
   onHand: (() => void) | null = null;
   /** Width of the scene over its height, as it is seen. */
   wide = 1.25;
-  framing: Framing = { centre: [0, 0, 0], radius: 1, low: [-1, -1, -1], high: [1, 1, 1] };
+  framing: Framing = { center: [0, 0, 0], radius: 1, low: [-1, -1, -1], high: [1, 1, 1] };
 
   readonly #camera: PerspectiveCamera | OrthographicCamera;
   readonly #controls: OrbitControls;
   readonly #canvas: HTMLCanvasElement;
   readonly #flat: boolean;
   readonly #up = new Vector3(0, 1, 0);
-  #byHand = false; // it stands where somebody put it
+  #byHand = false; // it stands where the user put it
 
   constructor(scene: Scene, canvas: HTMLCanvasElement) {
     this.#canvas = canvas;
@@ -104,14 +104,14 @@ export class CameraRig {
   get position(): Vec3 {
     return this.#camera.position.toArray() as Vec3;
   }
-  /** What it is meant to see: everything, or what somebody has turned it to. */
+  /** What it is meant to see: everything, or what the user has turned it to. */
   get looking(): Framing {
     if (!this.#byHand) return this.framing;
-    const centre = this.#controls.target.toArray() as Vec3;
+    const center = this.#controls.target.toArray() as Vec3;
     const away = this.#camera.position.distanceTo(this.#controls.target);
     const radius = Math.min(this.framing.radius, 0.6 * away * Math.tan(halfAngle));
-    const beside = (side: number) => centre.map((v) => v + side * radius) as Vec3;
-    return { centre, radius, low: beside(-1), high: beside(1) };
+    const beside = (side: number) => center.map((v) => v + side * radius) as Vec3;
+    return { center, radius, low: beside(-1), high: beside(1) };
   }
   set enabled(on: boolean) {
     this.#controls.enabled = on;
@@ -125,7 +125,7 @@ export class CameraRig {
   /** Direction and form of the scene, before the canvas is divided. */
   turn(): void {
     if (this.#byHand) return;
-    const target = new Vector3(...this.framing.centre);
+    const target = new Vector3(...this.framing.center);
     const direction = new Vector3(0, 0, 1);
     if (!this.#flat) {
       direction.set(0.42, 0, 1).addScaledVector(this.#up, 0.34).normalize();
@@ -205,11 +205,11 @@ export class CameraRig {
 
   /** Corners of the framed box, from its centre, along the axes of the camera. */
   #corners(): Vector3[] {
-    const { low, high, centre } = this.framing;
+    const { low, high, center } = this.framing;
     const back = this.#camera.quaternion.clone().invert();
     return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => {
       const at = [0, 1, 2].map(
-        (k) => ((i >> k) & 1 ? (high[k] as number) : (low[k] as number)) - (centre[k] as number),
+        (k) => ((i >> k) & 1 ? (high[k] as number) : (low[k] as number)) - (center[k] as number),
       );
       return new Vector3(...(at as Vec3)).applyQuaternion(back);
     });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Colours of engines and bodies. Engines take the palette of Okabe and Ito, which the colour-blind can tell apart.
+// Colours of engines and bodies. Engines take the palette of Okabe and Ito, which colour-blind readers distinguish.
 import { Color } from 'three';
 
 const palette = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8a6fd1', '#a0791a'];

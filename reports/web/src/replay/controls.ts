@@ -202,7 +202,7 @@ export class Controls {
     this.#stage.setOptions({ layers: { ...layers, [name]: !layers[name] } });
   }
 
-  /** Engines are told apart by colour where they share a picture. */
+  /** Engines are distinguished by colour where they share a picture. */
   overlay(on: boolean): void {
     const { colouring } = this.#stage.view.options;
     this.#stage.setOptions({ overlaid: on, colouring: on ? 'engine' : colouring === 'engine' ? 'body' : colouring });

@@ -42,12 +42,12 @@ export interface Frame {
 /** What the view can jump to. */
 export interface ReplayEvent {
   time: number; // [s]
-  kind: 'divergence' | 'parting' | 'largest' | 'audit' | 'contact_begin' | 'contact_end' | 'nonfinite';
+  kind: 'divergence' | 'engine_divergence' | 'largest' | 'audit' | 'contact_begin' | 'contact_end' | 'nonfinite';
   what?: string; // metric, auditor or other engine's spec
   subject?: string; // body, "a|b"
   value?: number;
   unit?: string;
-  threshold?: number; // divergence, parting: the distance that was passed [m]
+  threshold?: number; // divergence, engine_divergence: the distance that was passed [m]
   text?: string;
   contact?: number; // audit: which of the contacts of the frame
 }

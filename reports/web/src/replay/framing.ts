@@ -11,7 +11,7 @@ import type { Scene } from './scene.ts';
 import type { Vec3 } from './vectors.ts';
 
 export interface Framing {
-  centre: Vec3;
+  center: Vec3;
   radius: number; // [m] of the sphere to be seen
   low: Vec3; // corners of the box around what moves
   high: Vec3;
@@ -104,10 +104,10 @@ function around(boxes: Bounds[]): Framing {
       high[k] = Math.max(high[k] as number, box[3 + k] as number);
     }
   }
-  if (!(low[0] <= high[0])) return { centre: [0, 0, 0], radius: 1, low: [-1, -1, -1], high: [1, 1, 1] };
-  const centre = low.map((v, k) => (v + (high[k] as number)) / 2) as Vec3;
+  if (!(low[0] <= high[0])) return { center: [0, 0, 0], radius: 1, low: [-1, -1, -1], high: [1, 1, 1] };
+  const center = low.map((v, k) => (v + (high[k] as number)) / 2) as Vec3;
   const radius = Math.max(1e-3, Math.hypot(...high.map((v, k) => (v - (low[k] as number)) / 2)));
-  return { centre, radius, low, high };
+  return { center, radius, low, high };
 }
 
 /** Speeds and impulses that a full arrow stands for: those that nine of ten stay below. */

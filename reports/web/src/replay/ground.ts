@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Half-spaces: a grid on the surface that fades away, or in the plane a filled half with a line.
+// Half-spaces: a grid on the surface that fades away, or in 2D a filled half with a line.
 import { Color, DoubleSide, Group, Matrix4, Mesh, PlaneGeometry, Quaternion, ShaderMaterial, Vector3 } from 'three';
 import type { Theme } from './colours.ts';
 import type { Scene } from './scene.ts';
@@ -41,7 +41,7 @@ export class Ground {
   }
 
   /** Around what the camera frames. */
-  build(centre: Vec3, radius: number, theme: Theme): void {
+  build(center: Vec3, radius: number, theme: Theme): void {
     this.#clear();
     const flat = this.#scene.dimension === 2;
     const cell = roundNumber(radius / 4);
@@ -53,8 +53,8 @@ export class Ground {
         const n = rotate(q, rotate(pose.orientation, geometry.normal));
         const origin = add(body.first.position, rotate(q, pose.position));
         const height = geometry.offset + n[0] * origin[0] + n[1] * origin[1] + n[2] * origin[2];
-        const away = n[0] * centre[0] + n[1] * centre[1] + n[2] * centre[2] - height;
-        const foot = add(centre, scaled(n, -away));
+        const away = n[0] * center[0] + n[1] * center[1] + n[2] * center[2] - height;
+        const foot = add(center, scaled(n, -away));
         this.#add(flat, foot, n, cell, reach, theme);
       }
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which bodies hang together: union-find over contacts and joints. Static and kinematic bodies join nobody.
+// Islands: union-find over contacts and joints. Static and kinematic bodies connect no islands.
 
 export class UnionFind {
   readonly #parent: Int32Array;
@@ -11,7 +11,7 @@ export class UnionFind {
     this.reset();
   }
 
-  /** Everybody alone again. */
+  /** Makes every body an island of its own. */
   reset(): void {
     for (let i = 0; i < this.#parent.length; ++i) this.#parent[i] = i;
   }

@@ -21,12 +21,12 @@ const all = (sources: readonly FrameSource[], kinds: Kinds): Jump[] =>
 const earliest = (jumps: Jump[]): Jump | null =>
   jumps.reduce<Jump | null>((best, j) => (best === null || j.event.time < best.event.time ? j : best), null);
 
-/** From the reference; where nobody leaves it, or there is none, from another engine. */
+/** From the reference; where no run leaves it, or there is none, from another engine. */
 export function firstDivergence(sources: readonly FrameSource[]): Jump | null {
-  return earliest(all(sources, ['divergence'])) ?? earliest(all(sources, ['parting']));
+  return earliest(all(sources, ['divergence'])) ?? earliest(all(sources, ['engine_divergence']));
 }
 
-/** Of the metric that comes first in `metrics` and that somebody has; of the whole scene before that of one body. */
+/** Of the metric that comes first in `metrics` and that any case has; of the whole scene before that of one body. */
 export function largestError(sources: readonly FrameSource[], metrics: readonly string[]): Jump | null {
   const found = all(sources, ['largest']);
   const named = metrics.find((name) => found.some((j) => j.event.what === name));
@@ -66,7 +66,7 @@ export const bodiesOf = (event: ReplayEvent): string[] => (event.subject ? event
 
 const kindWords: Record<ReplayEvent['kind'], string> = {
   divergence: 'leaves the reference',
-  parting: 'leaves',
+  engine_divergence: 'leaves',
   largest: 'largest',
   audit: 'worst contact geometry by',
   contact_begin: 'contact begins',

@@ -34,7 +34,7 @@ export interface ReplayContext {
   load?: () => Promise<ArrayBuffer>;
   /** What a link restores, and what is told when that changes; else both are the page's address. */
   state?: string;
-  /** All frames of a case, where somebody serves them; else asked of the server that the page came from. */
+  /** All frames of a case, where a server is given; else requested from the server of the page. */
   frames?: (caseId: string) => FetchFrames;
   onState?: (state: string) => void;
 }
@@ -67,7 +67,7 @@ function inOrder(scene: Scene, names: readonly string[]): Scene {
         position: [0, 0, 0] as [number, number, number],
         orientation: [1, 0, 0, 0] as [number, number, number, number],
       };
-      return { name, type: 'dynamic', first, centre: [0, 0, 0], shapes: [], collides: false };
+      return { name, type: 'dynamic', first, center: [0, 0, 0], shapes: [], collides: false };
     }),
     joints: scene.joints.map((joint) => ({ ...joint, a: moved(joint.a), b: moved(joint.b) })),
   };

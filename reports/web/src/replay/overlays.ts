@@ -154,7 +154,7 @@ export class Overlays {
     this.#c.set(colour);
     this.#scene.bodies.forEach((body, b) => {
       if (body.type === 'static') return;
-      const [x, y, z] = this.#pointOf(frame, b, body.centre);
+      const [x, y, z] = this.#pointOf(frame, b, body.center);
       const [vx, vy, vz] = [vectors[3 * b] as number, vectors[3 * b + 1] as number, vectors[3 * b + 2] as number];
       this.#fat.arrow(x, y, z, vx * k, vy * k, vz * k, 0.03 * scales.size, this.#c);
     });
@@ -172,8 +172,8 @@ export class Overlays {
         [joint.a, a],
         [joint.b, b],
       ] as const) {
-        const centre = this.#scene.bodies[body]?.centre;
-        if (centre) this.#thin.line(...this.#pointOf(frame, body, centre), ...anchor, this.#c);
+        const center = this.#scene.bodies[body]?.center;
+        if (center) this.#thin.line(...this.#pointOf(frame, body, center), ...anchor, this.#c);
         this.#dots.dot(...anchor, this.#c);
       }
       this.#fat.line(...a, ...b, this.#c); // what holds them apart, or how far they have drifted
@@ -224,7 +224,7 @@ export class Overlays {
     let before: Vec3[] | null = null;
     for (let f = first; f <= last; ++f) {
       const state = source.frame(f);
-      const points = moving.map((b) => this.#pointOf(state, b, (this.#scene.bodies[b] as { centre: Vec3 }).centre));
+      const points = moving.map((b) => this.#pointOf(state, b, (this.#scene.bodies[b] as { center: Vec3 }).center));
       if (before)
         for (let i = 0; i < points.length; ++i) {
           const [p, q, b] = [before[i] as Vec3, points[i] as Vec3, 3 * (moving[i] as number)];

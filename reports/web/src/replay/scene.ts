@@ -32,7 +32,7 @@ export interface SceneBody {
   name: string;
   type: 'dynamic' | 'static' | 'kinematic';
   first: Pose;
-  centre: Vec3; // of mass as given, or the middle of its shapes; body frame
+  center: Vec3; // of mass as given, or the middle of its shapes; body frame
   shapes: SceneShape[];
   collides: boolean;
 }
@@ -58,7 +58,7 @@ export interface Scene {
 // biome-ignore lint/suspicious/noExplicitAny: files are checked by the loader, not here
 export type Json = any;
 
-/** A vector of the file; two-dimensional ones lie in the plane. */
+/** A vector of the file; two-dimensional ones have z = 0. */
 export const vector = (json: Json, fallback: Vec3 = [0, 0, 0]): Vec3 =>
   json === undefined ? fallback : [Number(json[0]), Number(json[1]), Number(json[2] ?? 0)];
 
@@ -152,7 +152,7 @@ function readBody(json: Json): SceneBody {
     name: String(json.name),
     type: json.type ?? 'dynamic',
     first: { position: vector(json.position), orientation: orientation(json) },
-    centre: json.center_of_mass === undefined ? middle(shapes) : vector(json.center_of_mass),
+    center: json.center_of_mass === undefined ? middle(shapes) : vector(json.center_of_mass),
     shapes,
     collides: json.collides !== false,
   };

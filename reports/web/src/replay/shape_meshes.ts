@@ -140,7 +140,7 @@ function stadium(round: number, ratio: number): Template {
   return { faces: fan(points), edges: lines([...outline(points, true), ...middle]) };
 }
 
-/** A convex polygon in the plane. */
+/** A convex polygon. */
 function fan(points: Vec3[]): BufferGeometry {
   return new ShapeGeometry(new Shape(points.map((p) => new Vector2(p[0], p[1]))));
 }

@@ -73,7 +73,7 @@ export class SourceLayer {
   }
 
   build(framing: Framing, theme: Theme, pixelRatio: number): void {
-    this.#ground.build(framing.centre, framing.radius, theme);
+    this.#ground.build(framing.center, framing.radius, theme);
     this.#overlays.pixels = (this.#scene.bodies.length > 60 ? 5 : 8) * pixelRatio;
     this.#sky.intensity = theme.dark ? 1.0 : 1.35;
   }

@@ -6,10 +6,10 @@ import { el, svg } from '../common/elements.ts';
 import type { FrameSource, ReplayEvent } from './frames.ts';
 import { describe } from './jumps.ts';
 
-const lanes: Record<ReplayEvent['kind'], { height: number; mark: string }> = {
+const tracks: Record<ReplayEvent['kind'], { height: number; mark: string }> = {
   contact_begin: { height: 0.35, mark: 'contact' },
   contact_end: { height: 0.2, mark: 'contact' },
-  parting: { height: 0.6, mark: 'parting' },
+  engine_divergence: { height: 0.6, mark: 'engine_divergence' },
   largest: { height: 0.75, mark: 'largest' },
   audit: { height: 0.75, mark: 'audit' },
   divergence: { height: 1, mark: 'divergence' },
@@ -47,7 +47,7 @@ export class Timeline {
     this.#marks.replaceChildren(
       ...sources.flatMap((source) =>
         source.events.filter(isMarked).map((event) => {
-          const { height, mark } = lanes[event.kind];
+          const { height, mark } = tracks[event.kind];
           const x = (1000 * event.time) / this.#end;
           const y = 24 * (1 - height);
           const line = svg(

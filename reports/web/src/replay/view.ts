@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The picture: engines side by side in one canvas, or overlaid, seen by one camera. It shows FrameSources at a time,
-// whoever makes them; it has no clock and no controls but those of the camera.
+// its caller; it has no clock and no controls but those of the camera.
 //
 //   const view = new ReplayView(element, scene);     // throws NoWebGL
 //   view.setSources([...]); view.setTime(0.5); view.setOptions({...});
@@ -13,13 +13,13 @@ import { lightTheme, type Theme } from './colours.ts';
 import type { Frame, FrameSource } from './frames.ts';
 import { arrowScales, frameScene } from './framing.ts';
 import { defaultOptions, type ViewOptions } from './layers.ts';
+import { occludingBodies } from './occluder_fade.ts';
 import type { ArrowScales } from './overlays.ts';
 import { nearestContact, type Rect, rectAt, tile, toDevice } from './picking.ts';
 import type { Scene } from './scene.ts';
 import { TemplateCache } from './shape_meshes.ts';
 import { type Drawn, SourceLayer } from './source_layer.ts';
 import type { Vec3 } from './vectors.ts';
-import { veilingBodies } from './veil.ts';
 
 export type { CameraState } from './camera_rig.ts';
 
@@ -115,7 +115,7 @@ export class ReplayView {
     this.#rig = new CameraRig(scene, this.canvas);
     this.#rig.onChange = () => this.invalidate();
     this.#rig.onHand = () => {
-      this.#veil();
+      this.#fadeOccluders();
       this.onCamera?.();
     };
     this.#resize = new ResizeObserver(() => this.#measure(element));
@@ -195,7 +195,7 @@ export class ReplayView {
   /** Brings a point to the middle, as near as a sphere of this radius [m] needs. */
   lookAt(point: Vec3, radius: number): void {
     this.#rig.lookAt(point, radius);
-    this.#veil();
+    this.#fadeOccluders();
     this.invalidate();
   }
 
@@ -352,7 +352,7 @@ export class ReplayView {
     if (rects[0]) this.#rig.fit(rects[0]);
   }
 
-  /** Measures what moves; the camera follows unless somebody has put it somewhere. */
+  /** Measures what moves; the camera follows unless the user has moved it. */
   #frame(): void {
     const shown = this.#sources.filter((s) => s.times.length > 0);
     const exact = shown.filter((s) => s.ghost);
@@ -360,7 +360,7 @@ export class ReplayView {
     this.#scales = arrowScales(this.#scene, shown, this.#rig.framing.radius);
     this.#framed = shown.length > 0;
     this.#layout();
-    this.#veil();
+    this.#fadeOccluders();
     for (const { layers } of this.#pictures) for (const layer of layers) this.#dress(layer);
     this.#stale = true;
     this.invalidate();
@@ -385,9 +385,9 @@ export class ReplayView {
   }
 
   /** Walls before the scene become glass, others stone again. */
-  #veil(): void {
+  #fadeOccluders(): void {
     if (this.#scene.dimension === 2) return;
-    const glass = veilingBodies(this.#scene, this.#rig.looking, this.#rig.position);
+    const glass = occludingBodies(this.#scene, this.#rig.looking, this.#rig.position);
     if (glass.size === this.#glass.size && [...glass].every((b) => this.#glass.has(b))) return;
     this.#glass = glass;
     this.#rebuild();

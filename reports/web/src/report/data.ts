@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The page's data as reports/page_data.cpp, audit_json.cpp, ladders.cpp and study_charts.cpp write them. SI units; dt and
+// The page's data as reports/page_data.cpp, audit_json.cpp, refinements.cpp and study_charts.cpp write them. SI units; dt and
 // all costs in seconds. A field that only newer runs have is marked with `?` or may be null.
 import type { Maybe, Stored } from '../common/format.ts';
 
@@ -113,7 +113,7 @@ export interface Miss {
 
 export type Regression = 'unchanged' | 'better' | 'worse' | 'no record';
 
-/** How near a case is to the physics, and whether it changed: counted and worded by reports/standings.cpp, sentences.cpp. */
+/** How near a case is to the physics, and whether it changed: counted and worded by reports/rankings.cpp, sentences.cpp. */
 export interface Judged {
   grade: string; // "A" .. "E"; "": not graded
   by: string; // the metric that decides
@@ -208,7 +208,7 @@ export interface Scenario {
 }
 
 /** How a column did over some scenarios, each at its finest time step. */
-export interface Standing {
+export interface Ranking {
   scenarios: number; // it could take part in
   lost: number; // crashed, timed out, not finite, or not what was asked for
   grades: number[]; // scenarios of grade A to E
@@ -230,8 +230,8 @@ export interface Mechanism {
   about: string;
   scenarios: string[];
   order: number[]; // columns that took part, the most trusted first
-  best: number; // column; -1: nobody
-  standings: Standing[]; // per column
+  best: number; // column; -1: none
+  rankings: Ranking[]; // per column
 }
 
 export interface Audit {

@@ -4,8 +4,8 @@
 // Lines of the parity ledger: asked for, given, why.
 import { el } from '../common/elements.ts';
 import type { LedgerLine, Shown } from './data.ts';
-import { chip, looseHeadRow } from './parts.ts';
 import { scenarioLink } from './run.ts';
+import { chip, looseHeadRow } from './widgets.ts';
 
 const mark: Record<string, Shown> = { exact: 'pass', approximate: 'known_deviation', unsupported: 'unsupported' };
 

@@ -30,7 +30,7 @@ export function metricShown(verdict: string): Shown {
   return verdict === 'known deviation' ? 'known_deviation' : 'unsupported';
 }
 
-/** Okabe-Ito: told apart with every common colour vision; by place in the list of engines. */
+/** Okabe and Ito's palette, distinguishable with every common colour vision; by place in the list of engines. */
 export const palette = ['#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#8C6D1F'];
 export function engineColour(engine: string): string {
   const taking = [...new Set(run.columns.map((c) => c.engine))];

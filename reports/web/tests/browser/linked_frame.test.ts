@@ -88,8 +88,8 @@ function turned([w, ...u]: Pose['q'], v: Vec): Vec {
 const inFrame = ({ p, q: [w, x, y, z] }: Pose, v: Vec): Vec => turned([w, -x, -y, -z], add(v, p, -1));
 
 /** From the plank to a ball whose centre is outside of it: away from the nearest point of the plank. */
-function fromPlank(of: Pose, centre: Vec): Vec {
-  const local = inFrame(of, centre);
+function fromPlank(of: Pose, center: Vec): Vec {
+  const local = inFrame(of, center);
   const nearest = local.map((x, k) => Math.min(plank[k] as number, Math.max(-(plank[k] as number), x))) as Vec;
   return turned(of.q, unit(add(local, nearest, -1)));
 }
@@ -291,7 +291,7 @@ describe('links of the contact audit', { skip }, () => {
         assertDrawnThere(saw, bodies.indexOf(saw.body), 2e-4 + pointError);
         largest = Math.max(largest, angle);
       }
-      assert.ok(largest > 1e-3, 'somebody is wrong here, and is seen to be as wrong as measured');
+      assert.ok(largest > 1e-3, 'an engine is wrong here, and is shown to be as wrong as measured');
       it.clean();
     });
 });

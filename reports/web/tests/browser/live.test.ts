@@ -36,9 +36,9 @@ async function now(page: Page): Promise<News> {
   return { ...(arrays.meta as Omit<News, 'arrays'>), arrays };
 }
 
-const lane = (id: number) => `[data-panel="lanes"] [data-lane="${id}"]`;
+const instance = (id: number) => `[data-panel="instances"] [data-instance="${id}"]`;
 const clock = (page: Page) => page.locator('.clock').innerText();
-const ready = (page: Page, id: number) => page.waitForSelector(`${lane(id)}[data-state="ready"]`);
+const ready = (page: Page, id: number) => page.waitForSelector(`${instance(id)}[data-state="ready"]`);
 const numberOf = (text: string) => Number(text.replace('−', '-'));
 
 /** A point of the page where a body of this name is seen. */
@@ -109,15 +109,15 @@ test('a person plays, looks inside a step, drags, branches and saves', { skip },
   });
 
   await t.test('branches with another solver and other gravity', async () => {
-    await page.click(`${lane(0)} [data-action="branch"]`);
+    await page.click(`${instance(0)} [data-action="branch"]`);
     await page.selectOption('dialog select[name="solver"]', 'xpbd');
     await page.fill('dialog textarea', 'gravity=[0,-1.6,0]');
     await shoot(page, 'live-branch');
     await page.click('[data-action="branch-now"]');
     await ready(page, 1);
-    const text = await page.locator(lane(1)).innerText();
+    const text = await page.locator(instance(1)).innerText();
     assert.match(text, /solver=xpbd/);
-    assert.match(text, /branch of lane 0, from step 11/);
+    assert.match(text, /branch of instance 0, from step 11/);
     await page.keyboard.press(' ');
     await page.waitForFunction(() => Number.parseFloat(document.querySelector('.clock')?.textContent ?? '') > 0.6);
     await page.keyboard.press(' ');
@@ -129,8 +129,10 @@ test('a person plays, looks inside a step, drags, branches and saves', { skip },
   });
 
   await t.test('a body follows the pointer', async () => {
-    await page.click(`${lane(1)} [data-action="remove"]`);
-    await page.waitForFunction(() => document.querySelectorAll('[data-panel="lanes"] [data-lane]').length === 1);
+    await page.click(`${instance(1)} [data-action="remove"]`);
+    await page.waitForFunction(
+      () => document.querySelectorAll('[data-panel="instances"] [data-instance]').length === 1,
+    );
     await page.keyboard.press('a');
     const [x, y] = await findBody(page, 'block');
     const from = (await now(page)).arrays.get('0/position')[4] as number;
@@ -150,7 +152,7 @@ test('a person plays, looks inside a step, drags, branches and saves', { skip },
   });
 
   await t.test('saves a scenario that every command takes', async () => {
-    await page.click(`${lane(0)} [data-action="save"]`);
+    await page.click(`${instance(0)} [data-action="save"]`);
     await page.waitForFunction(() => document.querySelector('.said')?.textContent?.startsWith('Saved as'));
     const file = /^Saved as (.*\.json)\./.exec(await page.locator('.said').innerText())?.[1] as string;
     assert.ok(file.startsWith(saved));
@@ -169,7 +171,7 @@ test('a person plays, looks inside a step, drags, branches and saves', { skip },
     assert.equal(await clock(page), before, 'and the session went on without the page');
   });
 
-  await t.test('nobody else comes in', async () => {
+  await t.test('no other client is let in', async () => {
     const stranger = await browser.newContext();
     const other = await stranger.newPage();
     assert.equal((await other.goto(program.url))?.status(), 403);
@@ -189,8 +191,8 @@ test('an engine that crashes says so, and the other plays on', { skip }, async (
   await page.goto(program.url);
   await ready(page, 1);
   await page.keyboard.press(' ');
-  await page.waitForSelector(`${lane(0)}[data-state="crashed"]`);
-  assert.match(await page.locator(`${lane(0)} .why`).innerText(), /SIGABRT/);
+  await page.waitForSelector(`${instance(0)}[data-state="crashed"]`);
+  assert.match(await page.locator(`${instance(0)} .why`).innerText(), /SIGABRT/);
   await page.waitForFunction(() => Number.parseFloat(document.querySelector('.clock')?.textContent ?? '') > 0.5);
   await page.keyboard.press(' ');
   await shoot(page, 'live-crashed');

@@ -7,8 +7,8 @@ import type { FrameHead } from '../../src/live/api.ts';
 import { changes, overrides } from '../../src/live/branch_form.ts';
 import { Dragger, type Held, meet } from '../../src/live/drag.ts';
 import { curves, mostCurves } from '../../src/live/impulse_plot.ts';
+import { InstanceSource } from '../../src/live/instance_source.ts';
 import { type KeyActions, keyAction } from '../../src/live/keys.ts';
-import { LaneSource } from '../../src/live/lane_source.ts';
 import { type StageData, stageData } from '../../src/live/stage_data.ts';
 import { type Frame, middleOf } from '../../src/replay/frames.ts';
 import type { Pick } from '../../src/replay/view.ts';
@@ -41,7 +41,7 @@ function bundle(arrays: Record<string, number[]>, integers: Record<string, numbe
 }
 
 const head = (step: number, more: Partial<FrameHead> = {}): FrameHead => ({
-  lane: 3,
+  instance: 3,
   step,
   time: 0.1 * step,
   counters: {},
@@ -77,27 +77,27 @@ function frame(step: number): ArrayBundle {
   );
 }
 
-test('a lane keeps its last frames, and forgets those after a step back', () => {
-  const lane = new LaneSource(3, 'lane 3', 'rigor', '#fff');
-  for (let step = 0; step < 300; ++step) lane.push(head(step), frame(step));
-  assert.equal(lane.times.length, 240);
-  assert.equal(lane.newest?.position[3], 299);
-  assert.equal(lane.frame(0).position[3], 60);
-  assert.equal(lane.newest?.contacts?.shapeB[0], 2);
-  assert.ok(Number.isNaN(lane.newest?.contacts?.normalImpulse[0]));
-  const contacts = lane.newest?.contacts;
+test('an instance keeps its last frames, and forgets those after a step back', () => {
+  const instance = new InstanceSource(3, 'instance 3', 'rigor', '#fff');
+  for (let step = 0; step < 300; ++step) instance.push(head(step), frame(step));
+  assert.equal(instance.times.length, 240);
+  assert.equal(instance.newest?.position[3], 299);
+  assert.equal(instance.frame(0).position[3], 60);
+  assert.equal(instance.newest?.contacts?.shapeB[0], 2);
+  assert.ok(Number.isNaN(instance.newest?.contacts?.normalImpulse[0]));
+  const contacts = instance.newest?.contacts;
   assert.ok(contacts);
   assert.deepEqual(middleOf(contacts, 0), [300, 2, 4], 'drawn where the bodies have carried it');
   assert.equal(contacts.pointA[0], 1, 'told as it was found');
   assert.match(contacts.instant ?? '', /where the last step began/);
-  lane.push(head(100), frame(100));
-  assert.equal(lane.times.length, 41);
-  assert.equal(lane.newest?.step, 100);
-  lane.push(head(100), frame(7));
-  assert.equal(lane.times.length, 41, 'the same moment is replaced');
-  assert.equal(lane.newest?.position[3], 7);
-  lane.push(head(0), frame(0));
-  assert.deepEqual(lane.times, [0]);
+  instance.push(head(100), frame(100));
+  assert.equal(instance.times.length, 41);
+  assert.equal(instance.newest?.step, 100);
+  instance.push(head(100), frame(7));
+  assert.equal(instance.times.length, 41, 'the same moment is replaced');
+  assert.equal(instance.newest?.position[3], 7);
+  instance.push(head(0), frame(0));
+  assert.deepEqual(instance.times, [0]);
 });
 
 const staged = bundle(
@@ -159,9 +159,9 @@ test('what stages have made is read in its order', () => {
 });
 
 test('inside a step the manifolds are the contacts, with the impulses of their rows', () => {
-  const lane = new LaneSource(3, 'lane 3', 'rigor', '#fff');
-  lane.push(inStep, staged);
-  const { contacts, boxes } = lane.newest as Frame;
+  const instance = new InstanceSource(3, 'instance 3', 'rigor', '#fff');
+  instance.push(inStep, staged);
+  const { contacts, boxes } = instance.newest as Frame;
   assert.equal(contacts?.count, 3);
   assert.deepEqual(Array.from(contacts?.bodyB as Int32Array), [1, 1, 2]);
   assert.deepEqual(Array.from(contacts?.normal as Float64Array), [0, 1, 0, 0, 1, 0, 1, 0, 0]);

@@ -36,7 +36,7 @@ test('bodies, shapes and joints of a file', () => {
   assert.ok(floor && rod);
   assert.deepEqual(floor.shapes[0]?.geometry, { kind: 'half_space', normal: [0, 1, 0], offset: -1 });
   close(rod.first.orientation, [h, 0, 0, h]);
-  assert.deepEqual(rod.centre, [0, 1, 0]);
+  assert.deepEqual(rod.center, [0, 1, 0]);
   const pin = scene.joints[0];
   assert.ok(pin);
   assert.equal(pin.a, -1);
@@ -248,7 +248,7 @@ test('every kind of shape has faces or lines in its dimension', () => {
   assert.equal(chain?.template.edges.getAttribute('position').count, 6, 'a loop of three has three segments');
 });
 
-test('the hull of points in the plane', () => {
+test('the hull of points in 2D', () => {
   assert.deepEqual(
     hull2d([
       [0, 0, 0],

@@ -21,11 +21,11 @@ import {
 } from '../../src/replay/jumps.ts';
 import { defaultOptions } from '../../src/replay/layers.ts';
 import { decodeLink, encodeLink, viewOfHash, withView } from '../../src/replay/link.ts';
+import { crossesBox, occludingBodies } from '../../src/replay/occluder_fade.ts';
 import { nearestContact, rectAt, tile, toDevice, toPixels } from '../../src/replay/picking.ts';
 import { Player } from '../../src/replay/player.ts';
 import { readScene } from '../../src/replay/scene.ts';
 import { TemplateCache } from '../../src/replay/shape_meshes.ts';
-import { crossesBox, veilingBodies } from '../../src/replay/veil.ts';
 
 test('islands are joined by contacts and joints, never through what stands still', () => {
   const moves = [false, true, true, true, true, true];
@@ -151,7 +151,7 @@ const source = (spec: string, times: number[], events: ReplayEvent[] = [], posit
 
 test('the camera frames what moves, not what has flown away', () => {
   const positions = Array.from({ length: 20 }, (_, i) => [i / 20, 0, 0, i === 19 ? 1e7 : 3, 0, 0]);
-  const { centre, radius } = frameScene(twoBodies, [
+  const { center, radius } = frameScene(twoBodies, [
     source(
       'a',
       positions.map((_, i) => i),
@@ -160,7 +160,7 @@ test('the camera frames what moves, not what has flown away', () => {
     ),
   ]);
   assert.ok(radius < 10 && radius > 1, String(radius));
-  assert.ok(Math.abs(centre[0] - 1.9) < 2, String(centre));
+  assert.ok(Math.abs(center[0] - 1.9) < 2, String(center));
   const nothing = frameScene(twoBodies, []);
   assert.ok(Number.isFinite(nothing.radius));
   assert.deepEqual(sampled(5), [0, 1, 2, 3, 4]);
@@ -187,7 +187,7 @@ test('jumps', () => {
     [0, 0.5],
     [
       { time: 0.5, kind: 'divergence', subject: 'ball', value: 0.02, unit: 'm', threshold: 0.01 },
-      { time: 0.25, kind: 'parting', what: 'a' },
+      { time: 0.25, kind: 'engine_divergence', what: 'a' },
       { time: 0.1, kind: 'contact_end', subject: 'ball|box' },
     ],
   );
@@ -236,7 +236,7 @@ test('a link restores the view', () => {
   const pinned = { body: 2, of: 'ode:preset=matched', contact: 0 };
   assert.deepEqual(decodeLink(encodeLink(pinned)), pinned);
   assert.equal(decodeLink('c=-1').contact, undefined);
-  assert.deepEqual(decodeLink('t=abc&cam=1_2&on=&by=nobody&x=-4&s=nan').options?.exaggeration, 1);
+  assert.deepEqual(decodeLink('t=abc&cam=1_2&on=&by=unknown&x=-4&s=nan').options?.exaggeration, 1);
   assert.equal(decodeLink('t=abc').time, undefined);
   assert.equal(decodeLink('cam=1_2').camera, undefined);
   const hash = withView('#/scenario/pile?dt=0.01&t=7&contact=3', 't=1&on=faces');
@@ -277,17 +277,17 @@ test('a wall before the scene is seen through, the floor and the wall behind are
       { name: 'ball', position: [0, 0.5, 0], shapes: [{ sphere: { radius: 0.5 } }] },
     ],
   });
-  const framing = { centre: [0, 0.5, 0], radius: 1, low: [-1, 0, -1], high: [1, 1, 1] } as Parameters<
-    typeof veilingBodies
+  const framing = { center: [0, 0.5, 0], radius: 1, low: [-1, 0, -1], high: [1, 1, 1] } as Parameters<
+    typeof occludingBodies
   >[1];
-  assert.deepEqual([...veilingBodies(scene, framing, [0, 1, 20])], [0]);
-  assert.deepEqual([...veilingBodies(scene, framing, [0, 20, 0])], []);
+  assert.deepEqual([...occludingBodies(scene, framing, [0, 1, 20])], [0]);
+  assert.deepEqual([...occludingBodies(scene, framing, [0, 20, 0])], []);
   assert.equal(crossesBox([0, 0, 5], [0, 0, -5], [1, 1, 1]), true);
   assert.equal(crossesBox([0, 2, 5], [0, 2, -5], [1, 1, 1]), false);
   assert.equal(crossesBox([0, 0, 5], [0, 0, 2], [1, 1, 1]), false, 'it ends before');
 });
 
-test('presets of one engine are told apart by lightness', () => {
+test('presets of one engine are distinguished by lightness', () => {
   const [a, b, c, d] = toldApart(['#0072b2', '#0072b2', '#d55e00', '#0072b2']);
   assert.equal(a, '#0072b2');
   assert.equal(c, '#d55e00');

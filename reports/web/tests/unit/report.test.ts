@@ -7,8 +7,8 @@ import { angle, duration, format, median, ratio, timeStep, toNumber } from '../.
 import { cellOf, errorOf, gradeOf, logPlace, relativeOf, severity } from '../../src/report/cells.ts';
 import { barScale } from '../../src/report/charts/bars.ts';
 import { logTicks, nearest, spreadsByDecades, unpack, widened, withGaps } from '../../src/report/charts/samples.ts';
-import type { BriefCase, Column, Judged, Mechanism, Scenario, Standing } from '../../src/report/data.ts';
-import { placed, wrongIn } from '../../src/report/standing.ts';
+import type { BriefCase, Column, Judged, Mechanism, Ranking, Scenario } from '../../src/report/data.ts';
+import { placed, wrongIn } from '../../src/report/ranking.ts';
 
 test('numbers are read and written', () => {
   assert.equal(toNumber('inf'), Infinity);
@@ -94,8 +94,8 @@ test('places on a logarithmic bar', () => {
   assert.ok(Number.isNaN(logPlace(Number.NaN, 1e-3, 1)));
 });
 
-test('standings meet their columns in the order that was counted', () => {
-  const standing = (within: number): Standing => ({
+test('rankings meet their columns in the order that was counted', () => {
+  const ranking = (within: number): Ranking => ({
     scenarios: 2,
     lost: 0,
     grades: [0, 0, within, 0, 2 - within],
@@ -116,7 +116,7 @@ test('standings meet their columns in the order that was counted', () => {
     scenarios: ['one', 'two'],
     order: [1, 0],
     best: 1,
-    standings: [standing(1), standing(2)],
+    rankings: [ranking(1), ranking(2)],
   };
   assert.deepEqual(
     placed(m, ['bad', 'good'].map(column)).map((s) => [s.column.spec, s.within]),

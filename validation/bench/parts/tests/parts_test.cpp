@@ -163,7 +163,7 @@ TEST(BroadPhasePart, ASpecThatNamesItsChoiceIsTimedAlone) {
     EXPECT_EQ(planned[0].engine, "rigor:broad_phase=octree,precision=f32");
 }
 
-/// The usual cases are some of all; who is named is planned, usual or not.
+/// The usual cases are some of all; an engine that is named is planned, usual or not.
 TEST(Parts, UsualCasesAreSomeOfAllAndNamesAreTaken) {
     const auto plan = [](bool full, std::vector<std::string> only) {
         BenchRequest r = request({"rigor:precision=f32,broad_phase=wide_tree,solver=nsgs"});
@@ -306,12 +306,12 @@ TEST(ContactScenes, AreCompleteAndSymmetric) {
     }
 }
 
-/// The floor carries everybody: m g h.
+/// The floor carries all bodies: m g h.
 TEST(ContactSolverPart, ResidualsAreReachedAndTheSolutionIsTheWeight) {
     const auto engine = adapter::loadEngine(adapter::parseSpec("rigor"));
     const auto settings = adapter::resolveSettings(adapter::parseSpec("rigor:solver=nsgs"), *engine);
-    const FrozenProblem frozen = makeContactScene("stack_10", 1);
-    const auto found = engine->contactSolvers()->take(frozen.problem, settings)->run(1000, 1e-14);
+    const ExportedProblem exported = makeContactScene("stack_10", 1);
+    const auto found = engine->contactSolvers()->take(exported.problem, settings)->run(1000, 1e-14);
     double floor = 0.0;
     for (std::size_t c = 0; c < 4; ++c) floor += found.r[3 * c];
     EXPECT_NEAR(floor, 10 * 1000.0 * 9.81 / 60.0, 1e-6 * floor);

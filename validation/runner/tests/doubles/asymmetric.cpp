@@ -19,9 +19,9 @@ class AsymmetricWorld : public RigidWorld {
   protected:
     void endOfStep() override {
         for (std::size_t i = 0; i < bodies_.size(); ++i)
-            if (isDynamic(i)) spoil(i, bodies_[i]);
+            if (isDynamic(i)) injectFault(i, bodies_[i]);
     }
-    virtual void spoil(std::size_t, Moving&) const {}
+    virtual void injectFault(std::size_t, Moving&) const {}
     double time() const { return steps_ * dt_; }
     int threads_;
 };
@@ -29,12 +29,12 @@ class AsymmetricWorld : public RigidWorld {
 /// Air at rest, in a scene without any.
 struct AbsoluteDrag : AsymmetricWorld {
     using AsymmetricWorld::AsymmetricWorld;
-    void spoil(std::size_t, Moving& m) const override { m.velocity = (1.0 - 0.1 * dt_) * m.velocity; }
+    void injectFault(std::size_t, Moving& m) const override { m.velocity = (1.0 - 0.1 * dt_) * m.velocity; }
 };
 /// A pull along the world's x.
 struct PreferredAxis : AsymmetricWorld {
     using AsymmetricWorld::AsymmetricWorld;
-    void spoil(std::size_t, Moving& m) const override { m.velocity += dt_ * Vec3{0.1, 0, 0}; }
+    void injectFault(std::size_t, Moving& m) const override { m.velocity += dt_ * Vec3{0.1, 0, 0}; }
 };
 /// The later a dynamic body is listed, the heavier.
 struct OrderDependent : AsymmetricWorld {
@@ -55,21 +55,21 @@ struct InsertionDependent : AsymmetricWorld {
 /// A seed from the clock.
 struct HiddenRandom : AsymmetricWorld {
     using AsymmetricWorld::AsymmetricWorld;
-    void spoil(std::size_t, Moving& m) const override { m.position += Vec3{noise_, 0, 0}; }
+    void injectFault(std::size_t, Moving& m) const override { m.position += Vec3{noise_, 0, 0}; }
     double noise_ =
         1e-12 * static_cast<double>(std::chrono::system_clock::now().time_since_epoch().count() % 9973 + 1);
 };
 /// Sums in another order on more threads.
 struct ThreadDependent : AsymmetricWorld {
     using AsymmetricWorld::AsymmetricWorld;
-    void spoil(std::size_t, Moving& m) const override {
+    void injectFault(std::size_t, Moving& m) const override {
         m.velocity = (1.0 + 1e-12 * (threads_ - 1)) * m.velocity;
     }
 };
 /// Positions in single precision.
 struct FloatPositions : AsymmetricWorld {
     using AsymmetricWorld::AsymmetricWorld;
-    void spoil(std::size_t, Moving& m) const override {
+    void injectFault(std::size_t, Moving& m) const override {
         const auto round = [](double x) { return static_cast<double>(static_cast<float>(x)); };
         m.position = {round(m.position.x), round(m.position.y), round(m.position.z)};
     }
@@ -77,7 +77,9 @@ struct FloatPositions : AsymmetricWorld {
 /// Everything that turns is driven along its axis, like a screw.
 struct Screw : AsymmetricWorld {
     using AsymmetricWorld::AsymmetricWorld;
-    void spoil(std::size_t i, Moving& m) const override { m.velocity += 0.1 * dt_ * spin(i, m.orientation); }
+    void injectFault(std::size_t i, Moving& m) const override {
+        m.velocity += 0.1 * dt_ * spin(i, m.orientation);
+    }
 };
 /// A length of its own: large bodies fall more slowly.
 struct OwnLength : AsymmetricWorld {

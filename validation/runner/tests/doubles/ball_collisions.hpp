@@ -23,19 +23,19 @@ class BallCollisions : public CollisionEngine {
         ContactPoint c;
         c.bodyA = 0;
         c.bodyB = 1;
-        const Vec3 centre = query.b.pose.position;
+        const Vec3 center = query.b.pose.position;
         if (plane != nullptr) {
             c.normal = rotate(query.a.pose.orientation, plane->normal);
-            const double distance = dot(c.normal, centre - query.a.pose.position) - plane->offset;
+            const double distance = dot(c.normal, center - query.a.pose.position) - plane->offset;
             c.depth = b->radius - distance;
-            c.pointA = centre - distance * c.normal;
+            c.pointA = center - distance * c.normal;
         } else {
-            const Vec3 span = centre - query.a.pose.position;
+            const Vec3 span = center - query.a.pose.position;
             c.normal = span / norm(span);
             c.depth = a->radius + b->radius - norm(span);
             c.pointA = query.a.pose.position + a->radius * c.normal;
         }
-        c.pointB = centre - b->radius * c.normal;
+        c.pointB = center - b->radius * c.normal;
         return answer(c);
     }
 

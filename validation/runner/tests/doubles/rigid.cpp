@@ -126,7 +126,7 @@ struct IdsSwapped : RigidWorld {
     BodyState reported(std::size_t i) const override { return stateOf(bodies_.size() - 1 - i); }
 };
 /// The frame's origin taken for the centre of mass.
-struct OriginIsCentre : RigidWorld {
+struct OriginIsCenter : RigidWorld {
     using RigidWorld::RigidWorld;
     BodyState reported(std::size_t i) const override {
         BodyState s = stateOf(i);
@@ -264,7 +264,7 @@ const std::map<std::string, Maker> kFaults{{"none", &make<RigidWorld>},
                                            {"momentum_leak", &make<MomentumLeak>},
                                            {"normal_flickers", &make<NormalFlickers>},
                                            {"normal_flipped", &make<NormalFlipped>},
-                                           {"origin_is_centre", &make<OriginIsCentre>},
+                                           {"origin_is_center", &make<OriginIsCenter>},
                                            {"own_step", &make<OwnStep>},
                                            {"points_swapped", &make<PointsSwapped>},
                                            {"quaternion_drifts", &make<QuaternionDrifts>},

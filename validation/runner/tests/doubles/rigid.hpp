@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// An honest small engine of known order: rigid bodies in space, balls and boxes on half-spaces, balls on
-// balls. The faulty engines of rigid.cpp are this one with one function spoiled each.
+// An honest small engine of known order: rigid bodies in 3D, spheres and boxes on half-spaces, balls on
+// balls. The faulty engines of rigid.cpp are this one with one injected fault each.
 //
 //   velocity   v += h (g + F/m), x += h v: symplectic Euler, first order, exact for its own scheme
 //   rotation   L += h T; q = exp(h w(q')) q, q' = exp(h/2 w(q)) q, w(q) = R I^-1 R^T L: the explicit midpoint

@@ -5,8 +5,8 @@
 import { type Child, el } from '../../common/elements.ts';
 import { duration, format } from '../../common/format.ts';
 import type { Bench, BenchChange } from '../data.ts';
-import { facts, folded, headRow, panel, scroll } from '../parts.ts';
 import { run } from '../run.ts';
+import { facts, folded, headRow, panel, scroll } from '../widgets.ts';
 import { labelOf, specKey } from './groups.ts';
 import { subjectsNode } from './subject.ts';
 
@@ -80,7 +80,7 @@ function meaning(bench: Bench): Child {
       ? el(
           'p',
           null,
-          'Isolated parts are asked beside the rest of their engine: the same boxes, pairs and frozen contacts for all, in the engine’s own numbers, conversions outside of the clock. ',
+          'Isolated parts are asked beside the rest of their engine: the same boxes, pairs and exported contacts for all, in the engine’s own numbers, conversions outside of the clock. ',
           'What they find is checked after the clock has stopped: pairs against those of all boxes, depths against an exact oracle, impulses against the contact law. ',
           'Broad phases do their work in bursts: theirs are means over the updates of a repetition.',
         )

@@ -7,8 +7,8 @@ import { duration, format, toNumber, words } from '../../common/format.ts';
 import { lineSample } from '../charts/line_sample.ts';
 import { plotCard } from '../charts/plot.ts';
 import type { Bench, BenchCase } from '../data.ts';
-import { folded, headRow, scroll } from '../parts.ts';
 import { engineColour } from '../run.ts';
+import { folded, headRow, scroll } from '../widgets.ts';
 import {
   byTime,
   dashesOf,

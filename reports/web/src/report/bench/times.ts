@@ -7,8 +7,8 @@ import { duration, format, toNumber, unitText, words } from '../../common/format
 import { barList } from '../charts/bars.ts';
 import { spreadsByDecades } from '../charts/samples.ts';
 import type { BenchCase } from '../data.ts';
-import { command, facts, folded, headRow, scroll } from '../parts.ts';
 import { engineColour } from '../run.ts';
+import { command, facts, folded, headRow, scroll } from '../widgets.ts';
 import { engineOf, labelOf, rate, speedUp } from './groups.ts';
 
 export const interval = (

@@ -6,8 +6,8 @@
 import { type Child, el } from '../../common/elements.ts';
 import { angle, format, type Maybe, toNumber } from '../../common/format.ts';
 import type { Engine } from '../data.ts';
-import { chip, headRow, panel, scroll } from '../parts.ts';
 import { labelOf, run, scenarioLink } from '../run.ts';
+import { chip, headRow, panel, scroll } from '../widgets.ts';
 import { placeQuery, worstPlace } from '../worst.ts';
 
 interface Row {

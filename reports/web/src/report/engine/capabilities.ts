@@ -5,7 +5,7 @@
 import { type Child, el } from '../../common/elements.ts';
 import { format, words } from '../../common/format.ts';
 import type { Capability, Engine, EngineOption } from '../data.ts';
-import { chip, facts, headRow, panel, scroll } from '../parts.ts';
+import { chip, facts, headRow, panel, scroll } from '../widgets.ts';
 
 function said(value: Capability): Child {
   if (value === null) return '—';

@@ -3,8 +3,8 @@
 import { el } from '../../common/elements.ts';
 import { timeStep } from '../../common/format.ts';
 import type { BriefCase, Engine, Scenario } from '../data.ts';
-import { chip, gradeChip, headRow, panel, scroll } from '../parts.ts';
 import { labelOf, run, scenarioLink } from '../run.ts';
+import { chip, gradeChip, headRow, panel, scroll } from '../widgets.ts';
 
 /** Cases of wrong physics with their reasons, and those that make the run red. */
 export function deviations(engine: Engine): HTMLElement | null {

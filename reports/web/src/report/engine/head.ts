@@ -4,9 +4,9 @@ import { type Child, el } from '../../common/elements.ts';
 import { duration, ratio } from '../../common/format.ts';
 import type { Engine } from '../data.ts';
 import { wrongText } from '../overview/trust.ts';
-import { chip, facts, gradeBar, headRow, panel, scroll } from '../parts.ts';
+import { type Placed, placed } from '../ranking.ts';
 import { engineLink, run } from '../run.ts';
-import { type Placed, placed } from '../standing.ts';
+import { chip, facts, gradeBar, headRow, panel, scroll } from '../widgets.ts';
 
 /** What it is, and how its columns did over all scenarios. */
 export function engineHead(engine: Engine): HTMLElement {

@@ -3,8 +3,8 @@
 import { el } from '../../common/elements.ts';
 import type { Engine } from '../data.ts';
 import { ledgerTable } from '../ledger.ts';
-import { panel, scroll } from '../parts.ts';
 import { run } from '../run.ts';
+import { panel, scroll } from '../widgets.ts';
 
 /** The parity ledger of one engine over all scenarios. */
 export function engineLedger(engine: Engine): HTMLElement | null {

@@ -4,8 +4,8 @@
 // The page of one engine. A section is one file and one line here, where it shall stand.
 import { el } from '../../common/elements.ts';
 import type { Engine } from '../data.ts';
-import { panel } from '../parts.ts';
 import { run } from '../run.ts';
+import { panel } from '../widgets.ts';
 import { engineAudit } from './audit.ts';
 import { capabilities } from './capabilities.ts';
 import { deviations } from './deviations.ts';

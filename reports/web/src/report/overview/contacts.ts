@@ -5,8 +5,8 @@
 import { type Child, el } from '../../common/elements.ts';
 import { angle, format, full, type Maybe, toNumber } from '../../common/format.ts';
 import type { Audit, Column, InRun, Scenario } from '../data.ts';
-import { chip, headRow, panel, scroll, specHead, stickyHead } from '../parts.ts';
 import { run, scenarioLink } from '../run.ts';
+import { chip, headRow, panel, scroll, specHead, stickyHead } from '../widgets.ts';
 import { placeQuery, worstPlace } from '../worst.ts';
 import { worstNormals } from './worst_normals.ts';
 

@@ -6,8 +6,8 @@ import { el } from '../../common/elements.ts';
 import { duration, format, full, timeStep, words } from '../../common/format.ts';
 import { cellOf } from '../cells.ts';
 import type { Column, Scenario } from '../data.ts';
-import { specHead, stickyHead } from '../parts.ts';
 import { isFirstOfEngine, run, scenarioLink, verdictText } from '../run.ts';
+import { specHead, stickyHead } from '../widgets.ts';
 
 function cell(s: Scenario, column: Column, first: boolean): HTMLElement {
   const found = cellOf(s, column, 'finest')?.at;

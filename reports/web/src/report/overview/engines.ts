@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { el } from '../../common/elements.ts';
-import { chip, facts, headRow, panel, scroll } from '../parts.ts';
 import { engineLink, run } from '../run.ts';
+import { chip, facts, headRow, panel, scroll } from '../widgets.ts';
 
 export function engines(): HTMLElement {
   const rows = run.engines.map((e) =>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { type Child, el } from '../../common/elements.ts';
-import { panel } from '../parts.ts';
 import { run } from '../run.ts';
+import { panel } from '../widgets.ts';
 
 /** Title, totals, what is unfinished, and who wrote this. */
 export function headline(): HTMLElement {

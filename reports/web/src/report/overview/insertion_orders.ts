@@ -5,8 +5,8 @@
 import { type Child, el } from '../../common/elements.ts';
 import { format, full, timeStep, toNumber, words } from '../../common/format.ts';
 import type { OrderDependent } from '../data.ts';
-import { gradeChip, headRow, numberCell, panel, scroll } from '../parts.ts';
 import { labelOf, run, scenarioLink } from '../run.ts';
+import { gradeChip, headRow, numberCell, panel, scroll } from '../widgets.ts';
 
 /** Where the value as written lies between least and greatest. */
 function strip(d: OrderDependent): Child {

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { el } from '../../common/elements.ts';
 import { ledgerTable } from '../ledger.ts';
-import { panel, scroll } from '../parts.ts';
 import { run } from '../run.ts';
+import { panel, scroll } from '../widgets.ts';
 
 /** The parity ledger over all scenarios. */
 export function ledgerSummary(): HTMLElement {

@@ -4,8 +4,8 @@
 // What is measured and how, what the verdicts mean, what cannot be matched, and who wrote this.
 import { el } from '../../common/elements.ts';
 import type { Shown } from '../data.ts';
-import { chip, gradeChip, panel } from '../parts.ts';
 import { run } from '../run.ts';
+import { chip, gradeChip, panel } from '../widgets.ts';
 
 const item = (head: string, text: string) => el('li', null, el('b', null, head), ' ', text);
 const verdict = (shown: Shown, text: string) => el('li', null, chip(shown), text);
@@ -28,7 +28,7 @@ const measured: [string, string][] = [
     'Errors against a recorded motion of a real body are apart from both: the model, its coefficients and the instrument are in them.',
   ],
   [
-    'Same yardstick.',
+    'Same measure.',
     'Energy, momentum and all errors are computed from the recorded states by one implementation, in double precision, for all engines.',
   ],
   [

@@ -6,8 +6,8 @@ import { type Child, el } from '../../common/elements.ts';
 import { duration, format, full, ratio, timeStep, toNumber, words } from '../../common/format.ts';
 import { type Cell, cellOf, costOf, errorOf, gradeOf, isLost, logPlace, relativeOf } from '../cells.ts';
 import type { Column, Scenario, Shown } from '../data.ts';
-import { changeMark, chip, gradeChip, panel, select, specHead } from '../parts.ts';
 import { isFirstOfEngine, run, scenarioLink, subtitleOf, verdictText } from '../run.ts';
+import { changeMark, chip, gradeChip, panel, select, specHead } from '../widgets.ts';
 import { allScenarios, type Filters, filters, matches, ordered, type RowScale, rowScale } from './filters.ts';
 import { withPreview } from './preview.ts';
 

@@ -8,9 +8,9 @@ import { cellOf, costOf, relativeOf } from '../cells.ts';
 import { barList } from '../charts/bars.ts';
 import { type Line, plotCard } from '../charts/plot.ts';
 import type { Column, Step } from '../data.ts';
-import { facts, folded, gradeBar, headRow, panel, scroll, select } from '../parts.ts';
+import { placed } from '../ranking.ts';
 import { engineColour, run } from '../run.ts';
-import { placed } from '../standing.ts';
+import { facts, folded, gradeBar, headRow, panel, scroll, select } from '../widgets.ts';
 import { costTable } from './cost.ts';
 
 interface Sample {

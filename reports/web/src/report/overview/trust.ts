@@ -6,9 +6,9 @@ import { type Child, el } from '../../common/elements.ts';
 import { duration, ratio, toNumber } from '../../common/format.ts';
 import { isLost } from '../cells.ts';
 import type { Mechanism } from '../data.ts';
-import { folded, gradeBar, gradeChip, headRow, looseHeadRow, panel, scroll } from '../parts.ts';
+import { type Placed, placed, wrongIn } from '../ranking.ts';
 import { engineLink, run, scenarioLink, scenarioOf, verdictText } from '../run.ts';
-import { type Placed, placed, wrongIn } from '../standing.ts';
+import { folded, gradeBar, gradeChip, headRow, looseHeadRow, panel, scroll } from '../widgets.ts';
 import { filterScoreboard } from './filters.ts';
 
 const mostNamed = 4;
@@ -103,7 +103,7 @@ function mechanismRow(m: Mechanism): HTMLElement {
     el(
       'td',
       { 'data-label': 'Nearest first' },
-      m.best >= 0 ? list.slice(0, mostNamed).map(who) : el('span', { class: 'muted' }, 'nobody ranked'),
+      m.best >= 0 ? list.slice(0, mostNamed).map(who) : el('span', { class: 'muted' }, 'no engine ranked'),
     ),
     el(
       'td',

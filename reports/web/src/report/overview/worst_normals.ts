@@ -5,8 +5,8 @@
 import { type Child, el } from '../../common/elements.ts';
 import { angle, format, full, type Maybe, timeStep, toNumber } from '../../common/format.ts';
 import type { Scenario } from '../data.ts';
-import { headRow, scroll } from '../parts.ts';
 import { engineLink, labelOf, run, scenarioLink } from '../run.ts';
+import { headRow, scroll } from '../widgets.ts';
 import { type Place, placeQuery, worstPlace } from '../worst.ts';
 
 const perEngine = 3;

@@ -6,8 +6,8 @@
 import { type Child, el } from '../../common/elements.ts';
 import { angle, full, type Maybe } from '../../common/format.ts';
 import type { Audit, Case } from '../data.ts';
-import { chip, headRow, numberCell, panel, scroll } from '../parts.ts';
 import { labelOf } from '../run.ts';
+import { chip, headRow, numberCell, panel, scroll } from '../widgets.ts';
 import { placeTime, worstPlace } from '../worst.ts';
 import { type Context, moment } from './context.ts';
 

@@ -3,8 +3,8 @@
 import { type Child, el } from '../../common/elements.ts';
 import { duration, toNumber } from '../../common/format.ts';
 import type { Case } from '../data.ts';
-import { chip, command, facts, panel } from '../parts.ts';
 import { labelOf } from '../run.ts';
+import { chip, command, facts, panel } from '../widgets.ts';
 import type { Context } from './context.ts';
 
 /** The command behind each number, with the settings that the engine resolved. */

@@ -10,8 +10,8 @@ import { dropPlots } from '../charts/live_plots.ts';
 import { plotCard } from '../charts/plot.ts';
 import { bodyNames, type CurvePlot, collectCurves, referenceLabel, wantsLog } from '../curves.ts';
 import type { Column } from '../data.ts';
-import { panel, select } from '../parts.ts';
 import { columnOf, columnsAmong, engineColour } from '../run.ts';
+import { panel, select } from '../widgets.ts';
 import type { Context } from './context.ts';
 
 const lineStyle = (spec: string) => {

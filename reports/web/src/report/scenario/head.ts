@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the scenario is: its statement, the exact solution, the time steps, and how everybody did.
+// What the scenario is: its statement, the exact solution, the time steps, and how the engines did.
 import { type Child, el } from '../../common/elements.ts';
 import { format, timeStep } from '../../common/format.ts';
 import { formula } from '../formula.ts';
-import { changeMark, facts, panel } from '../parts.ts';
 import { labelOf, run, scenarioLink, verdictText } from '../run.ts';
+import { changeMark, facts, panel } from '../widgets.ts';
 import type { Context } from './context.ts';
 import { drawing } from './drawing.ts';
 

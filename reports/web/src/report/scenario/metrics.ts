@@ -5,8 +5,8 @@
 import { type Child, el } from '../../common/elements.ts';
 import { format, full, toNumber, words } from '../../common/format.ts';
 import type { Case, Column, Metric } from '../data.ts';
-import { chip, panel, scroll, specHead, stickyHead } from '../parts.ts';
 import { caseOf, metricShown, run, verdictText } from '../run.ts';
+import { chip, panel, scroll, specHead, stickyHead } from '../widgets.ts';
 import { type Context, moment } from './context.ts';
 import { bodiesOf } from './outcomes.ts';
 

@@ -3,8 +3,8 @@
 import { type Child, el } from '../../common/elements.ts';
 import { format, ratio, toNumber, unitText, words } from '../../common/format.ts';
 import type { Case, Metric } from '../data.ts';
-import { changeMark, chip, gradeChip, headRow, panel, scroll } from '../parts.ts';
 import { labelOf, run } from '../run.ts';
+import { changeMark, chip, gradeChip, headRow, panel, scroll } from '../widgets.ts';
 import { type Context, moment } from './context.ts';
 
 const most = 6; // metrics of one case

@@ -7,18 +7,18 @@ import { newCursor } from '../../common/cursor.ts';
 import { loadJson } from '../../common/data_files.ts';
 import { el } from '../../common/elements.ts';
 import type { ScenarioData } from '../data.ts';
-import { panel } from '../parts.ts';
 import { run } from '../run.ts';
+import { panel } from '../widgets.ts';
 import { caseAudit } from './audit.ts';
 import { commands } from './commands.ts';
 import { type Context, type Section, showMoment } from './context.ts';
 import { curves } from './curves.ts';
 import { head } from './head.ts';
-import { ladder } from './ladder.ts';
 import { metrics } from './metrics.ts';
 import { outcomes, verdicts } from './outcomes.ts';
 import { parity } from './parity.ts';
 import { quantities } from './quantities.ts';
+import { refinement } from './refinement.ts';
 import { replay } from './replay.ts';
 import { caseTiming } from './timing.ts';
 
@@ -30,7 +30,7 @@ const sections: Section[] = [
   curves,
   metrics,
   caseAudit,
-  ladder,
+  refinement,
   quantities,
   parity,
   caseTiming,

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { el } from '../../common/elements.ts';
 import { ledgerTable } from '../ledger.ts';
-import { chip, headRow, numberCell, panel, scroll } from '../parts.ts';
 import { labelOf } from '../run.ts';
+import { chip, headRow, numberCell, panel, scroll } from '../widgets.ts';
 import type { Context } from './context.ts';
 
 /** The parity ledger of these cases, and what was read back from the engines. */

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { el } from '../../common/elements.ts';
 import { type Maybe, toNumber, words } from '../../common/format.ts';
-import { headRow, numberCell, panel, scroll } from '../parts.ts';
 import { labelOf } from '../run.ts';
+import { headRow, numberCell, panel, scroll } from '../widgets.ts';
 import type { Context } from './context.ts';
 
 const difference = (a: Maybe, b: Maybe): Maybe => (a === null || b === null ? null : toNumber(a) - toNumber(b));

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 import { el } from '../../common/elements.ts';
 import { mountReplay, type ReplayHandle } from '../../replay/mount.ts';
-import { panel } from '../parts.ts';
 import { columnOf, engineColour, run } from '../run.ts';
+import { panel } from '../widgets.ts';
 import type { Context } from './context.ts';
 
 /** The replay of this time step; made when it comes into view or when a link asks for a moment. */

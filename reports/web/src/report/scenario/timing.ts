@@ -3,8 +3,8 @@
 import { el } from '../../common/elements.ts';
 import { words } from '../../common/format.ts';
 import type { Case, Timing } from '../data.ts';
-import { chip, durationCell, headRow, numberCell, panel, scroll } from '../parts.ts';
 import { labelOf } from '../run.ts';
+import { chip, durationCell, headRow, numberCell, panel, scroll } from '../widgets.ts';
 import type { Context } from './context.ts';
 
 /** Cost by phase, beside the accuracy of the same run. */

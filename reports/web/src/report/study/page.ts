@@ -4,8 +4,8 @@
 // The study that a run was made for: what was found, and each part as charts and as a table.
 import { el } from '../../common/elements.ts';
 import type { Study } from '../data.ts';
-import { panel } from '../parts.ts';
 import { study } from '../run.ts';
+import { panel } from '../widgets.ts';
 import { studyChart } from './charts.ts';
 import { findings, rowsTable, symptoms } from './tables.ts';
 

@@ -3,8 +3,8 @@
 import { type Child, el } from '../../common/elements.ts';
 import { format, full, type Maybe, timeStep, words } from '../../common/format.ts';
 import type { Finding, Study, StudyRow } from '../data.ts';
-import { chip, looseHeadRow, numberCell, scroll } from '../parts.ts';
 import { run, scenarioLink } from '../run.ts';
+import { chip, looseHeadRow, numberCell, scroll } from '../widgets.ts';
 
 const plain = (heads: string[], rows: HTMLElement[]) =>
   scroll(el('table', { class: 'full' }, looseHeadRow(heads), el('tbody', null, rows)));

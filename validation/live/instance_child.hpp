@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The child's side of an instance: `rigor __instance FILE_NUMBER`.
+#pragma once
+
+#include <filesystem>
+
+namespace rigor::validation {
+
+/// Answers the packets of the socket with that number, each with one, until it is closed. Returns the exit
+/// code.
+int instanceChild(const std::filesystem::path& fileNumber);
+
+}  // namespace rigor::validation
