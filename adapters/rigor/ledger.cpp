@@ -165,7 +165,7 @@ class Ledger {
             late ? "velocity threshold" : "");
     }
 
-    /// The frequency that springs really have [Hz] (World::biasRule).
+    /// The frequency that springs really have [Hz] (Step::biasRule).
     double springFrequency(const char* key) const {
         return std::min(numberSetting(settings_, key), 0.25 / substep_);
     }

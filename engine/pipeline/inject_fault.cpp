@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Injects a fault (engine/faults) between the stages of a step. Called only where the world has one.
-#include "engine/pipeline/world.hpp"
+#include "engine/pipeline/step.hpp"
 
 namespace rigor::engine {
 namespace {
@@ -40,32 +40,32 @@ void injectIntoRows(const BodyArrays<S>& bodies, const Fault<S>& fault, const Co
 }  // namespace
 
 template <class S>
-void World<S>::injectFault(Phase phase) {
+void Step<S>::injectFault(Phase phase) {
+    const Fault<S>& fault = *algorithms_.fault;
     switch (phase) {
         case Phase::BroadPhase:
-            contacts_.pairSearch().edit([this](std::vector<ProxyPair>& pairs) {
-                fault_->pairs(contacts_.shapes().movable(), pairs);
-            });
+            contacts_.pairSearch().edit(
+                [&](std::vector<ProxyPair>& pairs) { fault.pairs(contacts_.shapes().movable(), pairs); });
             break;
         case Phase::NarrowPhase:
-            injectIntoManifolds<S>(bodies_, *fault_, stepCount_, contacts_);
+            injectIntoManifolds<S>(bodies_, fault, world_.clock.steps, contacts_);
             break;
         case Phase::Velocities:
-            injectIntoRows<S>(bodies_, *fault_, contacts_.list(), rows_);
+            injectIntoRows<S>(bodies_, fault, contacts_.list(), rows_);
             break;
         case Phase::Solve:
-            fault_->solved(bodies_, rows_);
+            fault.solved(bodies_, rows_);
             break;
         case Phase::Move:
-            fault_->moved(bodies_, motion_.startRotations(), progress_.substepSize);
-            if (fault_->movesStatics()) contacts_.structureChanged(false);
+            fault.moved(bodies_, motion_.startRotations(), state_.substepSize);
+            if (fault.movesStatics()) contacts_.structureChanged(false);
             break;
         default:
             break;
     }
 }
 
-#define RIGOR_INSTANTIATE(S) template void World<S>::injectFault(Phase);
+#define RIGOR_INSTANTIATE(S) template void Step<S>::injectFault(Phase);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 

@@ -84,39 +84,38 @@ void visitManifoldCache(A& archive, C& candidates) {
     }
 }
 
-}  // namespace
-
-template <class S>
-template <class A, class W>
-void World<S>::visitState(A& archive, W& world) {
-    auto& bodies = world.bodies_;
+/// World: WorldParts, const to be read.
+template <class S, class A, class World>
+void visitState(A& archive, World& world) {
+    auto& bodies = world.bodies.arrays();
 #define WORLD_FIELD(member) visitValue(archive, world.member);
 #define BODY_FIELD(member) visitValue(archive, bodies.member);
 #include "engine/state/state_fields.def"
-    for (auto& shape : world.contacts_.shapes().records()) {
+    for (auto& shape : world.contacts.shapes().records()) {
 #define SHAPE_FIELD(member) visitValue(archive, shape.member);
 #include "engine/state/state_fields.def"
     }
-    for (auto& record : world.joints_.records()) {
+    for (auto& record : world.joints.records()) {
 #define JOINT_FIELD(member) visitValue(archive, record.member);
 #include "engine/state/state_fields.def"
     }
-    ForceSet<S>::visitIds(archive, world.forces_);
-    auto& contacts = world.contacts_.list();
+    ForceSet<S>::visitIds(archive, world.forces);
+    auto& contacts = world.contacts.list();
     const std::size_t count = archive.size(contacts.size());
-    if constexpr (!std::is_const_v<W>) contacts.reset(count);
+    if constexpr (!std::is_const_v<World>) contacts.reset(count);
     for (auto& contact : contacts) visitContact(archive, contact);
     // Without cached manifolds the candidates follow from the rest of the state.
-    if (!std::is_same_v<A, HashArchive> || world.def_.cacheTolerance > 0)
-        visitManifoldCache(archive, world.contacts_.candidates());
+    if (!std::is_same_v<A, HashArchive> || world.def.cacheTolerance > 0)
+        visitManifoldCache(archive, world.contacts.candidates());
 }
 
 /// Structure of the world as built.
 template <class S>
-std::uint64_t World<S>::structureHash() const {
+std::uint64_t structureHash(const WorldParts<S>& world) {
+    const BodyArrays<S>& bodies = world.bodies.arrays();
     HashArchive hash;
-    hash.size(bodies_.size());
-    for (const BodyConstants<S>& body : bodies_.constants) {
+    hash.size(bodies.size());
+    for (const BodyConstants<S>& body : bodies.constants) {
         hash.scalar(body.type);
         hash.scalar(body.collides);
         hash.scalar(body.mass);
@@ -126,8 +125,8 @@ std::uint64_t World<S>::structureHash() const {
         hash.scalar(body.linearVelocityKept);
         hash.scalar(body.angularVelocityKept);
     }
-    hash.size(contacts_.shapes().size());
-    for (const ShapeRecord<S>& shape : contacts_.shapes().records()) {
+    hash.size(world.contacts.shapes().size());
+    for (const ShapeRecord<S>& shape : world.contacts.shapes().records()) {
         hash.scalar(shape.body);
         hash.scalar(shape.material);
         visitValue(hash, shape.local);
@@ -136,8 +135,8 @@ std::uint64_t World<S>::structureHash() const {
         visitValue(hash, box.min);
         visitValue(hash, box.max);
     }
-    hash.size(joints_.records().size());
-    for (const auto& record : joints_.records()) {
+    hash.size(world.joints.records().size());
+    for (const auto& record : world.joints.records()) {
         const Joint<S>& joint = record.joint;
         hash.scalar(joint.type);
         hash.scalar(joint.a);
@@ -146,8 +145,8 @@ std::uint64_t World<S>::structureHash() const {
         visitValue(hash, joint.anchorB);
         hash.scalar(joint.length);
     }
-    hash.size(forces_.size());
-    for (const auto& record : forces_.records()) {
+    hash.size(world.forces.size());
+    for (const auto& record : world.forces.records()) {
         hash.size(record.def.index());
         hash.scalar(record.place.a);
         hash.scalar(record.place.b);
@@ -157,10 +156,41 @@ std::uint64_t World<S>::structureHash() const {
     return hash.value();
 }
 
+/// Indices within their arrays, handles that lead back to what they name.
+template <class S>
+void checkRestored(const WorldParts<S>& world, std::size_t bodyCount) {
+    const BodyArrays<S>& bodies = world.bodies.arrays();
+    const IdTable<BodyTag>& bodyIds = world.bodies.ids();
+    const auto require = &ByteReader::require;
+    require(bodies.id.size() == bodyCount && bodies.pose.size() == bodyCount &&
+                bodies.velocity.size() == bodyCount && bodies.wrench.size() == bodyCount &&
+                bodies.asleep.size() == bodyCount && bodies.stillTime.size() == bodyCount,
+            "another number of bodies");
+    for (std::size_t i = 1; i < bodyCount; ++i)
+        require(bodyIds.contains(bodies.id[i]) && bodyIds.dense(bodies.id[i]) == i, "a body without a name");
+    const ShapeSet<S>& shapes = world.contacts.shapes();
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+        require(shapes.ids().contains(shapes[i].id) && shapes.ids().dense(shapes[i].id) == i,
+                "a shape without a name");
+    const auto& joints = world.joints.records();
+    const IdTable<JointTag>& jointIds = world.joints.ids();
+    for (std::size_t i = 0; i < joints.size(); ++i)
+        require(jointIds.contains(joints[i].joint.id) && jointIds.dense(joints[i].joint.id) == i &&
+                    joints[i].rows <= joints[i].total.size(),
+                "a joint without a name");
+    for (const Contact<S>& contact : world.contacts.list())
+        require(contact.shapeA < shapes.size() && contact.shapeB < shapes.size() &&
+                    contact.bodyA == shapes[contact.shapeA].body &&
+                    contact.bodyB == shapes[contact.shapeB].body,
+                "a contact of shapes that are not there");
+}
+
+}  // namespace
+
 template <class S>
 std::uint64_t World<S>::stateHash() const {
     HashArchive hash;
-    visitState(hash, *this);
+    visitState<S>(hash, parts_);
     return hash.value();
 }
 
@@ -172,10 +202,10 @@ void World<S>::saveSnapshot(std::vector<unsigned char>& bytes) const {
     Header header;
     header.dimension = S::dim;
     header.realSize = sizeof(Real);
-    header.structure = structureHash();
-    for (const auto& record : joints_.records()) header.joints.push_back(record.joint.id);
+    header.structure = structureHash<S>(parts_);
+    for (const auto& record : parts_.joints.records()) header.joints.push_back(record.joint.id);
     visitHeader(writer, header);
-    visitState(writer, *this);
+    visitState<S>(writer, parts_);
     writer.scalar(checksum(bytes));
 }
 
@@ -195,54 +225,30 @@ void World<S>::restoreSnapshot(std::span<const unsigned char> bytes) {
     if (header.version != kVersion || header.byteOrder != kByteOrder)
         throw EngineError("snapshot_format", "of another version or machine");
     World next(*this);  // this world stays as it is if anything below throws
-    for (const auto& record : joints_.records())
+    for (const auto& record : parts_.joints.records())
         if (std::find(header.joints.begin(), header.joints.end(), record.joint.id) == header.joints.end())
             next.removeJoint(record.joint.id);
     if (header.dimension != S::dim || header.realSize != sizeof(Real) ||
-        header.structure != next.structureHash())
+        header.structure != structureHash<S>(next.parts_))
         throw EngineError("snapshot_world", "of a world with other bodies, shapes, joints or forces");
-    visitState(reader, next);
+    WorldParts<S>& restored = next.parts_;
+    visitState<S>(reader, restored);
     reader.end();
-    next.checkRestored(bodies_.size());
-    ByteReader::require(next.contacts_.completeRestored(), "contacts and pairs that do not belong together");
-    next.islandsStale_ = true;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {  // what follows from being asleep
-        const BodyConstants<S>& constants = next.bodies_.constants[i];
-        const bool awake = constants.type == BodyType::Dynamic && !next.bodies_.asleep[i];
-        next.bodies_.invMass[i] = awake ? Real(1) / constants.mass : Real(0);
-        next.bodies_.invInertia[i] = zeroInertia<S>();
+    checkRestored<S>(restored, parts_.bodies.size());
+    ByteReader::require(restored.contacts.completeRestored(),
+                        "contacts and pairs that do not belong together");
+    restored.islands.changed();
+    BodyArrays<S>& bodies = restored.bodies.arrays();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {  // what follows from being asleep
+        const BodyConstants<S>& constants = bodies.constants[i];
+        const bool awake = constants.type == BodyType::Dynamic && !bodies.asleep[i];
+        bodies.invMass[i] = awake ? Real(1) / constants.mass : Real(0);
+        bodies.invInertia[i] = zeroInertia<S>();
     }
-    next.contacts_.structureChanged(false);
-    next.broadPhase_->reset();
-    next.result_ = {};
+    restored.contacts.structureChanged(false);
+    restored.algorithms.broadPhase->reset();
+    next.step_.result = {};
     *this = std::move(next);
-}
-
-/// Indices within their arrays, handles that lead back to what they name.
-template <class S>
-void World<S>::checkRestored(std::size_t bodyCount) const {
-    const auto require = &ByteReader::require;
-    require(bodies_.id.size() == bodyCount && bodies_.pose.size() == bodyCount &&
-                bodies_.velocity.size() == bodyCount && bodies_.wrench.size() == bodyCount &&
-                bodies_.asleep.size() == bodyCount && bodies_.stillTime.size() == bodyCount,
-            "another number of bodies");
-    for (std::size_t i = 1; i < bodyCount; ++i)
-        require(bodyIds_.contains(bodies_.id[i]) && bodyIds_.dense(bodies_.id[i]) == i,
-                "a body without a name");
-    const ShapeSet<S>& shapes = contacts_.shapes();
-    for (std::size_t i = 0; i < shapes.size(); ++i)
-        require(shapes.ids().contains(shapes[i].id) && shapes.ids().dense(shapes[i].id) == i,
-                "a shape without a name");
-    const auto& joints = joints_.records();
-    for (std::size_t i = 0; i < joints.size(); ++i)
-        require(jointIds_.contains(joints[i].joint.id) && jointIds_.dense(joints[i].joint.id) == i &&
-                    joints[i].rows <= joints[i].total.size(),
-                "a joint without a name");
-    for (const Contact<S>& contact : contacts_.list())
-        require(contact.shapeA < shapes.size() && contact.shapeB < shapes.size() &&
-                    contact.bodyA == shapes[contact.shapeA].body &&
-                    contact.bodyB == shapes[contact.shapeB].body,
-                "a contact of shapes that are not there");
 }
 
 #define RIGOR_INSTANTIATE(S)                                                 \

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// One step of h, as World::forEachStage writes it down:
+// One step of h, as Step::forEachStage writes it down:
 //     find contacts    broad phase, narrow phase, where the bodies are
 //     in each sub-step
 //         rows         joints, contacts (approach speeds from before the forces)
@@ -12,11 +12,12 @@
 //         relax        impulses again, without the bias of position errors        (where the choice needs it)
 //         correct      position correction; angular momentum to end velocity
 // Solvers that iterate on positions move first, are put right (`positions`), and solve velocities after that.
+#include "engine/pipeline/step.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-
-#include "engine/pipeline/world.hpp"
+#include <cmath>
 
 namespace rigor::engine {
 namespace {
@@ -34,6 +35,15 @@ class PhaseClock {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// A force that starts or ends in [begin, end) wakes what it acts on.
+template <class S>
+void wakeByForces(WorldParts<S>& world, double begin, double end) {
+    for (const auto& record : world.forces.records())
+        if (const auto* force = std::get_if<ConstantForce<S>>(&record.def))
+            for (const double edge : {force->start, force->end})
+                if (edge >= begin && edge < end) world.wakeIslandOf(record.place.b);
+}
+
 }  // namespace
 
 const char* phaseName(Phase phase) {
@@ -46,129 +56,151 @@ const char* phaseName(Phase phase) {
 /// The stages of a step in their order: calls stage(Phase, sub-step, the member function that does the work).
 template <class S>
 template <class Visitor>
-void World<S>::forEachStage(const Visitor& stage) const {
-    stage(Phase::BroadPhase, 0, &World::findPairs);
-    stage(Phase::NarrowPhase, 0, &World::findManifolds);
-    for (int substep = 0; substep < substeps(); ++substep) {
-        stage(Phase::Rows, substep, &World::makeRows);
-        stage(Phase::Velocities, substep, &World::kick);
-        if (!style_.positions) {
-            stage(Phase::Solve, substep, &World::solve);
-            stage(Phase::Move, substep, &World::move);
-            stage(Phase::Impacts, substep, &World::resolveImpacts);
-            stage(Phase::Relax, substep, &World::relax);
+void Step<S>::forEachStage(const WorldParts<S>& world, const Visitor& stage) {
+    stage(Phase::BroadPhase, 0, &Step::findPairs);
+    stage(Phase::NarrowPhase, 0, &Step::findManifolds);
+    for (int substep = 0; substep < world.substeps(); ++substep) {
+        stage(Phase::Rows, substep, &Step::makeRows);
+        stage(Phase::Velocities, substep, &Step::kick);
+        if (!world.algorithms.style.positions) {
+            stage(Phase::Solve, substep, &Step::solve);
+            stage(Phase::Move, substep, &Step::move);
+            stage(Phase::Impacts, substep, &Step::resolveImpacts);
+            stage(Phase::Relax, substep, &Step::relax);
         } else {
-            stage(Phase::Move, substep, &World::move);
-            stage(Phase::Positions, substep, &World::solvePositions);
-            stage(Phase::Solve, substep, &World::solve);
-            stage(Phase::Impacts, substep, &World::resolveImpacts);
+            stage(Phase::Move, substep, &Step::move);
+            stage(Phase::Positions, substep, &Step::solvePositions);
+            stage(Phase::Solve, substep, &Step::solve);
+            stage(Phase::Impacts, substep, &Step::resolveImpacts);
         }
-        stage(Phase::Correct, substep, &World::correct);
+        stage(Phase::Correct, substep, &Step::correct);
     }
 }
 
 template <class S>
-const StepResult<S>& World<S>::step(Real h) {
-    beginStep(h);
-    tasks_.withWorkers([this] {
-        forEachStage([this](Phase phase, int substep, Work work) { runStage(phase, substep, work); });
-        endStep();
-    });
-    return result_;
-}
+Step<S>::Step(WorldParts<S>& world, StepState<S>& state)
+    : world_(world),
+      state_(state),
+      def_(world.def),
+      algorithms_(world.algorithms),
+      tasks_(world.tasks),
+      bodies_(world.bodies.arrays()),
+      contacts_(world.contacts),
+      joints_(world.joints.set()),
+      motion_(world.algorithms.motion),
+      contactModel_(*world.algorithms.contactModel),
+      rows_(state.rows),
+      result_(state.result) {}
 
 template <class S>
-void World<S>::beginStep(Real h) {
-    if (stepping()) throw EngineError("step_in_progress", "the last step has phases left to run");
+void Step<S>::begin(Real h) {
+    if (state_.active) throw EngineError("step_in_progress", "the last step has phases left to run");
     if (!(h > 0) || !std::isfinite(h)) throw EngineError("time_step", "a step must be positive and finite");
-    for (const auto& record : forces_.records())  // a force that starts or ends wakes what it acts on
-        if (const auto* force = std::get_if<ConstantForce<S>>(&record.def))
-            for (const double edge : {force->start, force->end})
-                if (edge >= time_ && edge < time_ + static_cast<double>(h)) wakeIslandOf(record.place.b);
+    const double now = world_.clock.time;
+    wakeByForces(world_, now, now + static_cast<double>(h));
     result_ = {};
-    residuals_.clear();
-    impacts_.clear();
+    state_.residuals.clear();
+    state_.impacts.clear();
     joints_.clearTotals();
     motion_.beginStep();
-    progress_ = {true, 0, 0, h, h / Real(substeps())};
+    state_.active = true;
+    state_.stagesDone = state_.substep = 0;
+    state_.size = h;
+    state_.substepSize = h / Real(world_.substeps());
 }
 
 template <class S>
-void World<S>::runStage(Phase phase, int substep, Work work) {
-    PhaseClock clock(result_.seconds);
-    progress_.substep = substep;
-    (this->*work)();
-    if (fault_ != nullptr) injectFault(phase);
-    clock.end(phase);
-    ++progress_.stagesDone;
-}
-
-/// The same loop as in step(), of which this call runs the first stage that has not run yet.
-template <class S>
-void World<S>::runPhase() {
-    if (!stepping()) throw EngineError("no_step", "no step has begun");
-    const int next = progress_.stagesDone;
-    int stages = 0;
-    tasks_.withWorkers([&] {
-        forEachStage([&](Phase phase, int substep, Work work) {
-            if (stages++ == next) runStage(phase, substep, work);
-        });
-        if (progress_.stagesDone == stages) endStep();
+void Step<S>::runAll() {
+    tasks_.withWorkers([this] {
+        forEachStage(world_, [this](Phase phase, int substep, Work work) { run(phase, substep, work); });
+        end();
     });
 }
 
 template <class S>
-typename World<S>::Stage World<S>::nextStage() const {
+void Step<S>::run(Phase phase, int substep, Work work) {
+    PhaseClock clock(result_.seconds);
+    state_.substep = substep;
+    (this->*work)();
+    if (algorithms_.fault != nullptr) injectFault(phase);
+    clock.end(phase);
+    ++state_.stagesDone;
+}
+
+/// The same loop as in runAll(), of which this call runs the first stage that has not run yet.
+template <class S>
+void Step<S>::runNext() {
+    if (!state_.active) throw EngineError("no_step", "no step has begun");
+    const int next = state_.stagesDone;
+    int stages = 0;
+    tasks_.withWorkers([&] {
+        forEachStage(world_, [&](Phase phase, int substep, Work work) {
+            if (stages++ == next) run(phase, substep, work);
+        });
+        if (state_.stagesDone == stages) end();
+    });
+}
+
+template <class S>
+typename Step<S>::Stage Step<S>::next(const WorldParts<S>& world, const StepState<S>& state) {
     Stage next;
     int stages = 0;
-    forEachStage([&](Phase phase, int substep, Work) {
-        if (stages++ == progress_.stagesDone) next = {phase, substep};
+    forEachStage(world, [&](Phase phase, int substep, Work) {
+        if (stages++ == state.stagesDone) next = {phase, substep};
     });
     return next;
 }
 
 template <class S>
-void World<S>::endStep() {
-    progress_.active = false;
+void Step<S>::end() {
+    state_.active = false;
     tasks_.forEach(bodies_.size(), kBodyGrain, [this](std::size_t i) { bodies_.wrench[i] = {}; });
     contacts_.keepSides(bodies_, tasks_);
-    if (sleeping_.rest) sleeping_.rest(sleepStep());
-    checkFinite();
-    time_ += static_cast<double>(progress_.size);
-    ++stepCount_;
+    if (algorithms_.sleeping.rest) algorithms_.sleeping.rest(sleepStep());
+    result_.nonFinite = !isFinite();
+    world_.clock.time += static_cast<double>(state_.size);
+    ++world_.clock.steps;
     result_.pairs = contacts_.pairSearch().count();
-    const ContactCounts contacts = contactModel_->counts();
+    const ContactCounts contacts = contactModel_.counts();
     result_.contacts = contacts.points;
-    result_.rows = jointRows_ + contacts.rows;
+    result_.rows = state_.jointRows + contacts.rows;
     result_.narrowPhaseCalls = contacts_.queries();
-    result_.iterations = static_cast<int>(residuals_.size());
+    result_.iterations = static_cast<int>(state_.residuals.size());
     result_.measure = def_.measureResiduals ? ResidualMeasure::NaturalMap : ResidualMeasure::Change;
-    result_.residuals = residuals_;
-    events_.clear();
-    contacts_.addEvents(bodies_, events_, tasks_);
-    result_.events = events_;
+    result_.residuals = state_.residuals;
+    state_.events.clear();
+    contacts_.addEvents(bodies_, state_.events, tasks_);
+    result_.events = state_.events;
     breakJoints();
-    result_.impacts = impacts_;
+    result_.impacts = state_.impacts;
     result_.sleeping = static_cast<std::size_t>(std::count(bodies_.asleep.begin(), bodies_.asleep.end(), 1));
 }
 
+/// Removes the joints whose mean force or torque over the step was too large for them.
 template <class S>
-void World<S>::checkFinite() {
+void Step<S>::breakJoints() {
+    world_.joints.findOverloaded(world_.lastStepSize(), state_.broken);
+    for (const JointId joint : state_.broken) world_.removeJoint(joint);
+    result_.broken = state_.broken;
+}
+
+template <class S>
+bool Step<S>::isFinite() const {
     std::atomic<bool> finite = true;
     tasks_.forEach(bodies_.size(), kBodyGrain, [&](std::size_t i) {
         if (!bodies_.pose[i].p.allFinite() || !bodies_.velocity[i].v.allFinite() ||
             !finiteAng(bodies_.velocity[i].w))
             finite = false;
     });
-    if (!finite) result_.nonFinite = true;
+    return finite;
 }
 
-#define RIGOR_INSTANTIATE(S)                                       \
-    template const StepResult<S>& World<S>::step(Real);            \
-    template void World<S>::beginStep(Real);                       \
-    template void World<S>::runPhase();                            \
-    template typename World<S>::Stage World<S>::nextStage() const; \
-    template void World<S>::checkFinite();
+#define RIGOR_INSTANTIATE(S)                               \
+    template Step<S>::Step(WorldParts<S>&, StepState<S>&); \
+    template void Step<S>::begin(Real);                    \
+    template void Step<S>::runAll();                       \
+    template void Step<S>::runNext();                      \
+    template typename Step<S>::Stage Step<S>::next(const WorldParts<S>&, const StepState<S>&);
 RIGOR_FOR_ALL_SPACES(RIGOR_INSTANTIATE)
 #undef RIGOR_INSTANTIATE
 

@@ -1,88 +1,23 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The world: bodies, shapes, joints, and the step. Two worlds share nothing; a copy of a world has the same
+// The world: what a program builds, steps and reads. Two worlds share nothing; a copy of a world has the same
 // future, bit for bit. Instantiated for Space2f, Space2d, Space3f and Space3d.
+//
+// A world is its parts (world_parts.hpp) and the state of a step (step.hpp). This class checks what a program
+// asks for, wakes what that may move, and hands it to the part whose it is.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "engine/ccd/continuous_collision.hpp"
-#include "engine/contacts/contact_model.hpp"
-#include "engine/contacts/contacts.hpp"
-#include "engine/core/clone_ptr.hpp"
-#include "engine/faults/fault.hpp"
-#include "engine/integrators/motion.hpp"
 #include "engine/pipeline/events.hpp"
-#include "engine/pipeline/joint_set.hpp"
-#include "engine/pipeline/step_positions.hpp"
-#include "engine/sleeping/sleeping.hpp"
-#include "engine/solvers/restitution.hpp"
-#include "engine/state/world_def.hpp"
+#include "engine/pipeline/step.hpp"
+#include "engine/pipeline/world_parts.hpp"
 
 namespace rigor::engine {
-
-/// Parts of a step (step.cpp); the first two run once, the others in every sub-step.
-enum class Phase : std::uint8_t {
-    BroadPhase,
-    NarrowPhase,
-    Rows,
-    Velocities,
-    Solve,
-    Move,
-    Impacts,
-    Relax,
-    Positions,
-    Correct
-};
-inline constexpr std::size_t kPhases = 10;
-const char* phaseName(Phase phase);  ///< "broad_phase", "narrow_phase", ...
-
-enum class ResidualMeasure : std::uint8_t {
-    Change,     ///< largest velocity error that the iteration removed from a row or block
-    NaturalMap  ///< how far all rows are from their laws after it (solvers/natural_map.hpp)
-};
-/// Called after each iteration of the velocity solver with its number in the step, the rows (impulses so far)
-/// and its residual as in StepResult.
-template <class S>
-using IterationObserver = std::function<void(int, const ConstraintRows<S>&, typename S::Real)>;
-
-/// What happened in one step. Spans are valid until the next.
-template <class S>
-struct StepResult {
-    bool nonFinite = false;     ///< a velocity or pose has become NaN or infinite
-    std::size_t pairTests = 0;  ///< boxes that the broad phase compared
-    std::size_t pairs = 0, contacts = 0, rows = 0;
-    std::size_t narrowPhaseCalls = 0;  ///< narrow-phase queries: pairs, or pieces of surfaces
-    int iterations = 0;                ///< of the solver, in all sub-steps
-    /// Collisions that continuous_collision = conservative_advancement has put at their time, in its order.
-    std::span<const ImpactEvent<S>> impacts;
-    std::size_t sleeping = 0;  ///< bodies asleep at the end of the step
-    bool impactsCut = false;   ///< a body had too many of them and lost the rest of its time
-    /// What `residuals` holds, one per iteration [m/s or rad/s].
-    ResidualMeasure measure = ResidualMeasure::Change;
-    std::span<const typename S::Real> residuals;
-    std::span<const Event<S>> events;  ///< what began and ended, in the order of shapes
-    bool solverGaveUp = false;         ///< a solver did not reach what it promises and left the best it had
-    std::array<double, kPhases> seconds{};  ///< wall time per phase
-    std::span<const JointId> broken;        ///< joints that broke in this step; they are gone
-};
-
-/// A contact point as the last step solved it. A is the body of lower dense index.
-template <class S>
-struct ContactView {
-    BodyId bodyA, bodyB;
-    ShapeId shapeA, shapeB;
-    typename S::Vec pointA, pointB, normal;  ///< at the pose where it was found; normal from A to B
-    typename S::Real separation;             ///< [m]; < 0: overlap
-    typename S::Real normalImpulse;          ///< [N s], >= 0
-    typename S::Vec frictionImpulse;         ///< on B [N s]
-};
 
 template <class S>
 class World {
@@ -110,11 +45,11 @@ class World {
     void removeForce(ForceId force);
 
     /// All shapes, in the order of their dense indices; those of removed bodies are gone.
-    std::span<const ShapeRecord<S>> shapes() const { return contacts_.shapes().records(); }
+    std::span<const ShapeRecord<S>> shapes() const { return parts_.contacts.shapes().records(); }
     Pose<S> shapePose(const ShapeRecord<S>& shape) const {
-        return compose<S>(bodies_.pose[shape.body], shape.local);
+        return compose<S>(parts_.bodies.arrays().pose[shape.body], shape.local);
     }  ///< now, world frame
-    BodyId bodyOf(const ShapeRecord<S>& shape) const { return bodies_.id[shape.body]; }
+    BodyId bodyOf(const ShapeRecord<S>& shape) const { return parts_.bodies.arrays().id[shape.body]; }
 
     // --- running
     /// Force [N] and torque [N m] at the centre of mass, world frame, during the next step. Adds up.
@@ -126,72 +61,79 @@ class World {
     /// The same a phase at a time: beginStep(h), then runPhase() while stepping(). Between phases everything
     /// may be read; bodies, shapes and joints may not be added or removed.
     void beginStep(Real h);
-    bool stepping() const { return progress_.active; }
-    Phase nextPhase() const { return nextStage().phase; }
-    int substep() const { return nextStage().substep; }  ///< of the next phase: 0 .. substeps() - 1
+    bool stepping() const { return step_.active; }
+    Phase nextPhase() const { return Step<S>::next(parts_, step_).phase; }
+    int substep() const {
+        return Step<S>::next(parts_, step_).substep;
+    }  ///< of the next phase: 0 .. substeps() - 1
     void runPhase();
     /// Sets the observer of the solver, null: none. Copies of the world have the same observer.
-    void observeIterations(IterationObserver<S> observer) { observer_ = std::move(observer); }
+    void observeIterations(IterationObserver<S> observer) { step_.observer = std::move(observer); }
 
     // --- joints while running; coordinates are numbered as in JointDef. Throw EngineError as addJoint does.
-    bool contains(JointId joint) const { return jointIds_.contains(joint); }
-    int jointAxes(JointId joint) const { return joint_(joint).axisCount; }
-    Real jointCoordinate(JointId joint, int axis = 0) const;  ///< [m] or [rad], angles over turns
-    Real jointSpeed(JointId joint, int axis = 0) const;       ///< its rate [m/s] or [rad/s]
-    Vec jointForce(JointId joint) const;   ///< mean of the last step, of A on B at B's anchor [N]
-    Ang jointTorque(JointId joint) const;  ///< likewise, about B's anchor [N m]
+    bool contains(JointId joint) const { return parts_.joints.ids().contains(joint); }
+    int jointAxes(JointId joint) const { return parts_.joints.joint(joint).axisCount; }
+    Real jointCoordinate(JointId joint, int axis = 0) const {
+        return parts_.joints.coordinate(joint, axis, parts_.bodies.arrays());
+    }  ///< [m] or [rad], angles over turns
+    Real jointSpeed(JointId joint, int axis = 0) const {
+        return parts_.joints.speed(joint, axis, parts_.bodies.arrays());
+    }  ///< its rate [m/s] or [rad/s]
+    Vec jointForce(JointId joint) const {
+        return parts_.joints.force(joint, parts_.lastStepSize());
+    }  ///< mean of the last step, of A on B at B's anchor [N]
+    Ang jointTorque(JointId joint) const {
+        return parts_.joints.torque(joint, parts_.lastStepSize());
+    }  ///< likewise, about B's anchor [N m]
     /// Replaces the limits, motor and spring of a coordinate.
     void setJointAxis(JointId joint, int axis, const JointAxis<Real>& control);
     /// Motor of a coordinate: its speed [m/s] or [rad/s] and largest force or torque; 0: none.
     void setJointMotor(JointId joint, int axis, Real speed, Real maxForce);
     /// Where the spring of a coordinate pulls to [m] or [rad].
     void setJointTarget(JointId joint, int axis, Real target);
-    const JointAxis<Real>& jointAxis(JointId joint, int axis = 0) const;
+    const JointAxis<Real>& jointAxis(JointId joint, int axis = 0) const {
+        return parts_.joints.axis(joint, axis);
+    }
 
     // --- reading
-    std::size_t bodyCount() const { return bodies_.size() - 1; }
-    bool contains(BodyId body) const { return bodyIds_.contains(body); }
-    bool contains(ForceId force) const { return forces_.contains(force); }
-    double time() const { return time_; }  ///< the sum of all steps [s]
-    Pose<S> pose(BodyId body) const;       ///< of the body frame
-    Vec velocity(BodyId body) const {
-        return bodies_.velocity[bodyIds_.dense(body)].v;
-    }  ///< of the centre of mass
-    Ang angularVelocity(BodyId body) const { return bodies_.velocity[bodyIds_.dense(body)].w; }
-    const BodyConstants<S>& constants(BodyId body) const { return bodies_.constants[bodyIds_.dense(body)]; }
+    std::size_t bodyCount() const { return parts_.bodies.size() - 1; }
+    bool contains(BodyId body) const { return parts_.bodies.ids().contains(body); }
+    bool contains(ForceId force) const { return parts_.forces.contains(force); }
+    double time() const { return parts_.clock.time; }                           ///< the sum of all steps [s]
+    Pose<S> pose(BodyId body) const { return parts_.bodies.pose(body); }        ///< of the body frame
+    Vec velocity(BodyId body) const { return parts_.bodies.velocity(body).v; }  ///< of the centre of mass
+    Ang angularVelocity(BodyId body) const { return parts_.bodies.velocity(body).w; }
+    const BodyConstants<S>& constants(BodyId body) const { return parts_.bodies.constants(body); }
     void setVelocity(BodyId body, const Vec& velocity, const Ang& angularVelocity);
     const PairCoefficients<S>& pairCoefficients(std::uint32_t a, std::uint32_t b) const;
-    const WorldDef<S>& def() const { return def_; }
+    const WorldDef<S>& def() const { return parts_.def; }
     /// Sub-steps of a step, and most iterations of each: the settings, or the solver's own.
-    int substeps() const { return def_.substeps > 0 ? def_.substeps : style_.substeps; }
-    int velocityIterations() const {
-        return def_.velocityIterations > 0 ? def_.velocityIterations : style_.iterations.value_or(50);
-    }
-    const StepResult<S>& lastStep() const { return result_; }
+    int substeps() const { return parts_.substeps(); }
+    int velocityIterations() const { return parts_.velocityIterations(); }
+    const StepResult<S>& lastStep() const { return step_.result; }
     /// The boxes that the broad phase has compared in the last step, in the order of shapes() [m], world
     /// frame; those of dynamic bodies are grown by the speculative distance. Empty before the first broad
     /// phase.
-    std::span<const Aabb<S>> boxes() const { return contacts_.shapes().boxes(); }
+    std::span<const Aabb<S>> boxes() const { return parts_.contacts.shapes().boxes(); }
     /// Shapes whose boxes overlapped then, as indices of shapes(), the lower one first.
-    std::span<const ProxyPair> pairs() const { return contacts_.pairs(); }
+    std::span<const ProxyPair> pairs() const { return parts_.contacts.pairs(); }
     /// What the last narrow phase found of them, sorted by shapes: normal, points with their separations and
     /// features, and the impulses they start with. Also points that the solver has no need of.
-    const ContactList<S>& manifolds() const { return contacts_.list(); }
+    const ContactList<S>& manifolds() const { return parts_.contacts.list(); }
     /// Replaces `out` by the contacts of the last step: the points that got rows.
     void readContacts(std::vector<ContactView<S>>& out) const;
     /// The rows of the last sub-step, solved or not yet.
-    const ConstraintRows<S>& rows() const { return rows_; }
+    const ConstraintRows<S>& rows() const { return step_.rows; }
     /// Where a joint's rows stand among them: the first, and how many.
-    std::pair<std::uint32_t, std::uint32_t> jointRows(JointId joint) const;
+    std::pair<std::uint32_t, std::uint32_t> jointRows(JointId joint) const {
+        return parts_.joints.rows(joint);
+    }
     /// Impulses of a joint's rows in the last step, summed over its sub-steps [N s] or [N m s].
-    std::span<const Real> jointImpulses(JointId joint) const;
+    std::span<const Real> jointImpulses(JointId joint) const { return parts_.joints.impulses(joint); }
     /// Of the contacts and joints of the last step, between dynamic bodies, asleep or not. Found when they
     /// are asked for, so the first to ask after a step must be alone.
-    const Islands& islands() const {
-        if (islandsStale_) findIslands();
-        return islands_;
-    }
-    bool isAsleep(BodyId body) const { return bodies_.asleep[bodyIds_.dense(body)]; }
+    const Islands& islands() const { return parts_.currentIslands(); }
+    bool isAsleep(BodyId body) const { return parts_.bodies.arrays().asleep[parts_.bodies.dense(body)]; }
     /// Of everything that decides the future (state/state_fields.def).
     std::uint64_t stateHash() const;
 
@@ -205,98 +147,8 @@ class World {
     void restoreSnapshot(std::span<const unsigned char> bytes);
 
   private:
-    /// A part of a step, and the sub-step that it belongs to.
-    struct Stage {
-        Phase phase = Phase::BroadPhase;
-        int substep = 0;
-    };
-    /// How far the step is.
-    struct Progress {
-        bool active = false;
-        int stagesDone = 0;
-        int substep = 0;                 ///< of the stage that runs, or has run last
-        Real size = 0, substepSize = 0;  ///< [s]
-    };
-
-    using Work = void (World::*)();
-
-    template <class Visitor>
-    void forEachStage(const Visitor& stage) const;
-    void runStage(Phase phase, int substep, Work work);
-    Stage nextStage() const;
-    void findPairs();
-    void findManifolds();
-    void solve();
-    void move();
-    void endStep();
-    BiasRule<Real> biasRule() const;
-    Load<S> load() const;
-    ContactStep<S> contactStep() const;
-    void makeRows();
-    void solveVelocities(int iterations, bool warmStarted);
-    void resolveImpacts();
-    void relax();
-    void kick();
-    void findIslands() const;
-    ContactSearch<S> contactSearch() const;
-    SleepStep<S> sleepStep();
-    void wakeIslandOf(std::uint32_t body);
-    void wakeNeighboursOf(std::uint32_t body);
-    void solveImpacts();
-    void solvePositions();
-    void correct();
-    void injectFault(Phase phase);
-    void rebuildExclusions();
-    void breakJoints();
-    const Joint<S>& joint_(JointId joint) const { return joints_.records()[jointIds_.dense(joint)].joint; }
-    void checkFinite();
-    template <class A, class W>
-    static void visitState(A& archive, W& world);
-    std::uint64_t structureHash() const;
-    void checkRestored(std::size_t bodyCount) const;
-    std::uint32_t bodyOrWorld(BodyId id) const { return id ? bodyIds_.dense(id) : 0; }
-
-    WorldDef<S> def_;
-    Motion<S> motion_;
-    std::shared_ptr<const NarrowPhase<S>> narrowPhase_;
-    ManifoldFunction<S> makeManifold_ = nullptr;
-    FrictionLaw<S> friction_ = nullptr;
-    ClonePtr<BroadPhase<S>> broadPhase_;
-    ClonePtr<Solver<S>> solver_;
-    ClonePtr<PositionCorrection<S>> correction_;
-    ClonePtr<ContinuousCollision<S>> ccd_;
-    SleepingScheme<S> sleeping_;
-    ClonePtr<Restitution<S>> restitution_;
-    SolverStyle<S> style_;
-    const Fault<S>* fault_ = nullptr;
-    Tasks tasks_;
-
-    BodyArrays<S> bodies_;
-    IdTable<BodyTag> bodyIds_;
-    IdTable<JointTag> jointIds_;
-    Contacts<S> contacts_;
-    ClonePtr<ContactModel<S>> contactModel_;
-    JointSet<S> joints_;
-    ForceSet<S> forces_;
-    double time_ = 0;  ///< [s]
-    Real lastStepSize_ = 0;
-    std::uint64_t stepCount_ = 0;
-
-    // --- recomputed every step
-    Progress progress_;
-    JointStep<S> jointStep_{};
-    ConstraintRows<S> rows_;
-    std::size_t jointRows_ = 0;  ///< of rows_, which come first
-    PositionScratch<S> positionScratch_;
-    mutable Islands islands_;
-    mutable std::vector<std::uint8_t> islandMarks_;
-    mutable bool islandsStale_ = false;  ///< they are not yet those of contacts_
-    std::vector<Real> residuals_, warmStart_;
-    std::vector<Event<S>> events_;
-    std::vector<JointId> broken_;
-    std::vector<ImpactEvent<S>> impacts_;
-    IterationObserver<S> observer_;
-    StepResult<S> result_;
+    WorldParts<S> parts_;
+    StepState<S> step_;
 };
 
 }  // namespace rigor::engine

@@ -11,7 +11,7 @@
 // It wakes, all of it, when a body of the same island is awake and not at rest (a contact or joint with it is
 // how that body came to be in the island; contacts ahead count), or a kinematic body that moves touches it.
 // The world wakes it for a force, a new velocity, shape or joint, and when a neighbour is removed
-// (World::wakeIslandOf). An awake body at rest wakes no other; it goes to sleep beside the others in its
+// (WorldParts::wakeIslandOf). An awake body at rest wakes no other; it goes to sleep beside the others in its
 // time.
 //
 // Cost: O(bodies + contacts) per step. Limits: the kinetic energy at falling asleep, at most

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// One step of a world: the loop over its stages (step.cpp) and what each stage does (stages.cpp).
+#pragma once
+
+#include <vector>
+
+#include "engine/pipeline/step_positions.hpp"
+#include "engine/pipeline/step_result.hpp"
+#include "engine/pipeline/world_parts.hpp"
+
+namespace rigor::engine {
+
+/// What a step keeps from stage to stage. Nothing of it decides the future of a world between steps.
+template <class S>
+struct StepState {
+    using Real = typename S::Real;
+    // --- how far the step is
+    bool active = false;
+    int stagesDone = 0;
+    int substep = 0;                 ///< of the stage that runs, or has run last
+    Real size = 0, substepSize = 0;  ///< [s]
+    // --- the problem of the sub-step
+    JointStep<S> jointStep{};
+    ConstraintRows<S> rows;
+    std::size_t jointRows = 0;  ///< of rows, which come first
+    std::vector<Real> warmStart;
+    PositionScratch<S> positions;
+    // --- what the result refers to
+    std::vector<Real> residuals;
+    std::vector<ImpactEvent<S>> impacts;
+    std::vector<Event<S>> events;
+    std::vector<JointId> broken;
+    StepResult<S> result;
+
+    IterationObserver<S> observer;
+};
+
+template <class S>
+class Step {
+  public:
+    using Real = typename S::Real;
+    /// A part of a step, and the sub-step that it belongs to.
+    struct Stage {
+        Phase phase = Phase::BroadPhase;
+        int substep = 0;
+    };
+
+    Step(WorldParts<S>& world, StepState<S>& state);
+
+    /// Begins a step of h [s]. Throws EngineError for a size out of range, and where a step has not ended.
+    void begin(Real h);
+    void runAll();
+    /// Runs the next stage; the last one ends the step.
+    void runNext();
+    static Stage next(const WorldParts<S>& world, const StepState<S>& state);
+
+  private:
+    using Ang = typename S::Ang;
+    using Work = void (Step::*)();
+
+    template <class Visitor>
+    static void forEachStage(const WorldParts<S>& world, const Visitor& stage);
+    void run(Phase phase, int substep, Work work);
+    void end();
+    void injectFault(Phase phase);
+
+    // --- stages
+    void findPairs();
+    void findManifolds();
+    void makeRows();
+    void kick();
+    void solve();
+    void move();
+    void resolveImpacts();
+    void relax();
+    void solvePositions();
+    void correct();
+
+    // --- what they share
+    ContactStep<S> contactStep() const;
+    BiasRule<Real> biasRule() const;
+    void solveVelocities(int iterations, bool warmStarted);
+    void solveImpacts();
+    void advanceContacts();
+    SleepStep<S> sleepStep();
+    void breakJoints();
+    bool isFinite() const;
+
+    WorldParts<S>& world_;
+    StepState<S>& state_;
+    // --- parts of both, by the names that the stages use
+    const WorldDef<S>& def_;
+    StepAlgorithms<S>& algorithms_;
+    const Tasks& tasks_;
+    BodyArrays<S>& bodies_;
+    Contacts<S>& contacts_;
+    JointSet<S>& joints_;
+    Motion<S>& motion_;
+    ContactModel<S>& contactModel_;
+    ConstraintRows<S>& rows_;
+    StepResult<S>& result_;
+};
+
+}  // namespace rigor::engine

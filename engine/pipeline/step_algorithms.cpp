@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include "engine/pipeline/step_algorithms.hpp"
+
+#include "engine/ccd/traits.hpp"
+#include "engine/integrators/traits.hpp"
+#include "engine/narrowphase/narrowphases.hpp"
+#include "engine/narrowphase/traits.hpp"
+#include "engine/pipeline/require.hpp"
+#include "engine/solvers/traits.hpp"
+#include "engine/state/settings.hpp"
+
+namespace rigor::engine {
+namespace {
+
+/// What does not go together, by the traits of the choices.
+template <class S>
+void checkChoices(const WorldDef<S>& def, const StepAlgorithms<S>& chosen) {
+    const bool solvesImpacts = chosen.restitution->solvesImpacts();
+    require(!chosen.style.positions || !solvesImpacts, "restitution_solver",
+            "this restitution needs a solver of velocities");
+    const SolverTraits& solver = solverTraits(def.solver);
+    if (solver.contacts == ContactForm::Rows) return;
+    require(chosen.fault == nullptr, "fault_solver",
+            "faults change rows of contacts, which this solver does not have");
+    require(frictionShape(def.friction) == solver.friction, "friction_solver",
+            "this solver has a friction law of its own, the cone's: friction must be cone");
+    require(!solvesImpacts, "restitution_solver",
+            "this restitution needs contacts as rows, which this solver does not have");
+    require(!def.measureResiduals, "measure_residuals_solver",
+            "residuals are measured on rows of contacts, which this solver does not have");
+}
+
+/// Bodies move in SIMD where their contacts are solved in SIMD, if all choices can do it.
+template <class S>
+bool movesInBlocks(const WorldDef<S>& def) {
+    return solverTraits(def.solver).contacts == ContactForm::Patches &&
+           integratorTraits(def.integrator).inBlocks && orientationTraits(def.orientationUpdate).inBlocks &&
+           rotationTraits(def.rotation).inBlocks && !continuousCollisionTraits(def.continuousCollision).acts;
+}
+
+}  // namespace
+
+template <class S>
+StepAlgorithms<S>::StepAlgorithms(const WorldDef<S>& def) {
+    checkSettings<S>(def);
+    require(def.gravity.allFinite(), "gravity", "gravity must be finite");
+    require(def.cacheTolerance == 0 || !manifoldTraits(def.manifold).remembers, "reuse_manifold",
+            "a manifold that remembers needs the narrow phase in every step: reuse distance must be 0");
+    const RotationScheme<S> rotation = findAlgorithm(rotationTable<S>(), "rotation", def.rotation).make();
+    motion = {findAlgorithm(integratorTable<S>(), "integrator", def.integrator).make(), rotation,
+              findAlgorithm(orientationUpdateTable<S>(), "orientation_update", def.orientationUpdate).make()};
+    broadPhase = findAlgorithm(broadPhaseTable<S>(), "broad_phase", def.broadPhase).make();
+    solver = findAlgorithm(solverTable<S>(), "solver", def.solver).make();
+    style = solver->style();
+    contactModel = makeContactModel<S>(solverTraits(def.solver).contacts);
+    correction =
+        findAlgorithm(positionCorrectionTable<S>(), "position_correction", def.positionCorrection).make();
+    ccd =
+        findAlgorithm(continuousCollisionTable<S>(), "continuous_collision", def.continuousCollision).make();
+    sleeping = findAlgorithm(sleepingTable<S>(), "sleeping", def.sleeping).make();
+    restitution = findAlgorithm(restitutionTable<S>(), "restitution", def.restitution).make();
+    combineFriction = findAlgorithm(combineTable<Real>(), "friction_combine", def.frictionCombine).make;
+    combineRestitution =
+        findAlgorithm(combineTable<Real>(), "restitution_combine", def.restitutionCombine).make;
+    fault = findAlgorithm(faultTable<S>(), "fault", def.fault).make();
+    friction = findAlgorithm(frictionTable<S>(), "friction", def.friction).make;
+    narrowPhase = def.customNarrowPhase ? def.customNarrowPhase : makeNarrowPhase<S>(def.narrowPhase);
+    makeManifold = findAlgorithm(manifoldTable<S>(), "manifold", def.manifold).make;
+    checkChoices<S>(def, *this);
+    if (movesInBlocks<S>(def)) motion.moveInBlocks(rotation.gyroscopic);
+}
+
+RIGOR_INSTANTIATE_CLASS(StepAlgorithms)
+
+}  // namespace rigor::engine

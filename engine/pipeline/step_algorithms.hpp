@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The algorithms that a world has chosen, each with its own scratch.
+#pragma once
+
+#include <memory>
+
+#include "engine/broadphase/broad_phase.hpp"
+#include "engine/ccd/continuous_collision.hpp"
+#include "engine/contacts/contact_model.hpp"
+#include "engine/core/clone_ptr.hpp"
+#include "engine/faults/fault.hpp"
+#include "engine/integrators/motion.hpp"
+#include "engine/narrowphase/manifolds.hpp"
+#include "engine/sleeping/sleeping.hpp"
+#include "engine/solvers/combine_rules.hpp"
+#include "engine/solvers/position_correction.hpp"
+#include "engine/solvers/restitution.hpp"
+#include "engine/solvers/solver.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+struct StepAlgorithms {
+    using Real = typename S::Real;
+
+    /// Those that `def` names. Throws EngineError for unknown names, for settings out of range, and for choices
+    /// that do not go together.
+    explicit StepAlgorithms(const WorldDef<S>& def);
+
+    Motion<S> motion;
+    ClonePtr<BroadPhase<S>> broadPhase;
+    std::shared_ptr<const NarrowPhase<S>> narrowPhase;
+    ManifoldFunction<S> makeManifold = nullptr;
+    CombineRule<Real> combineFriction = nullptr, combineRestitution = nullptr;
+    ClonePtr<Solver<S>> solver;
+    SolverStyle<S> style;
+    ClonePtr<ContactModel<S>> contactModel;  ///< the one that the solver takes
+    FrictionLaw<S> friction = nullptr;
+    ClonePtr<Restitution<S>> restitution;
+    ClonePtr<PositionCorrection<S>> correction;
+    ClonePtr<ContinuousCollision<S>> ccd;
+    SleepingScheme<S> sleeping;
+    const Fault<S>* fault = nullptr;  ///< null: none
+};
+
+}  // namespace rigor::engine

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The parts of a world: what a step works on (step.hpp) and what a program builds (world.hpp).
+//
+//     def, algorithms     settings, and the algorithms that they name
+//     bodies              poses, velocities, masses
+//     contacts            shapes, materials, and what touches
+//     joints, forces      as added
+//     islands             what connects the bodies
+//     clock               steps so far
+//
+// Invariant: a part knows the bodies of the others by their dense index, 0 the world. Whoever changes dense
+// indices tells all parts (removeBody).
+#pragma once
+
+#include <cstdint>
+
+#include "engine/contacts/contacts.hpp"
+#include "engine/core/tasks.hpp"
+#include "engine/forces/force_set.hpp"
+#include "engine/pipeline/joints.hpp"
+#include "engine/pipeline/step_algorithms.hpp"
+#include "engine/pipeline/world_bodies.hpp"
+#include "engine/pipeline/world_islands.hpp"
+
+namespace rigor::engine {
+
+template <class S>
+struct WorldClock {
+    double time = 0;                       ///< the sum of all steps [s]
+    typename S::Real lastSubstepSize = 0;  ///< [s]; 0: there was none
+    std::uint64_t steps = 0;
+};
+
+template <class S>
+struct WorldParts {
+    using Real = typename S::Real;
+
+    /// Throws EngineError for unknown algorithm names and for numbers out of range.
+    explicit WorldParts(const WorldDef<S>& definition);
+
+    /// Sub-steps of a step, and most iterations of each: the settings, or the solver's own.
+    int substeps() const { return def.substeps > 0 ? def.substeps : algorithms.style.substeps; }
+    int velocityIterations() const {
+        return def.velocityIterations > 0 ? def.velocityIterations : algorithms.style.iterations.value_or(50);
+    }
+    /// Of the last step [s].
+    Real lastStepSize() const {
+        return clock.steps == 0 ? Real(0) : clock.lastSubstepSize * Real(substeps());
+    }
+
+    void removeBody(BodyId body);
+    void removeJoint(JointId joint);
+    void jointsChanged() { contacts.setExcluded(joints.exclusions()); }
+
+    /// Of the contacts and joints of the last step.
+    const Islands& currentIslands() const { return islands.get(links()); }
+    /// Wakes all of the island of a body, if the body is asleep: what leans on it must see what becomes of it.
+    void wakeIslandOf(std::uint32_t body);
+    void wakeNeighboursOf(std::uint32_t body);
+
+    WorldDef<S> def;
+    StepAlgorithms<S> algorithms;
+    Tasks tasks;
+    WorldBodies<S> bodies;
+    Contacts<S> contacts;
+    Joints<S> joints;
+    ForceSet<S> forces;
+    WorldIslands<S> islands;
+    WorldClock<S> clock;
+
+  private:
+    typename WorldIslands<S>::Links links() const { return {bodies.arrays(), contacts.list(), joints}; }
+};
+
+}  // namespace rigor::engine
