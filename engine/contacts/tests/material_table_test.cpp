@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "engine/contacts/material_table.hpp"
+#include "engine/core/table.hpp"
+
+namespace rigor::engine::test {
+namespace {
+
+using S = Space3d;
+
+MaterialTable<S> table() {
+    MaterialTable<S> materials;
+    const auto rule = [](const char* name) {
+        return findAlgorithm(combineTable<double>(), "combine", std::string(name)).make;
+    };
+    materials.setCombineRules(rule("geometric_mean"), rule("min"));
+    return materials;
+}
+
+TEST(MaterialTable, CombinesByItsRulesInBothOrders) {
+    MaterialTable<S> materials = table();
+    const std::uint32_t a = materials.add({0.25, 0.5, 0});
+    const std::uint32_t b = materials.add({0.64, 0.2, 0.81});
+    EXPECT_EQ(materials.size(), 3u);
+    for (const auto& pair : {materials.pair(a, b), materials.pair(b, a)}) {
+        EXPECT_DOUBLE_EQ(pair.friction, 0.4);
+        EXPECT_DOUBLE_EQ(pair.restitution, 0.2);
+        EXPECT_DOUBLE_EQ(pair.staticFriction, 0.45);
+    }
+    EXPECT_EQ(materials.pair(0, b).friction, 0) << "material 0 has none";
+}
+
+TEST(MaterialTable, KeepsPairsThatWereSetWhenMaterialsAreAdded) {
+    MaterialTable<S> materials = table();
+    const std::uint32_t a = materials.add({0.25, 0.5, 0});
+    const std::uint32_t b = materials.add({0.64, 0.2, 0});
+    materials.setPair(b, a, {0.9, 0.1, 0});
+    const std::uint64_t before = materials.revision();
+    materials.add({1, 1, 0});
+    EXPECT_NE(materials.revision(), before);
+    EXPECT_EQ(materials.pair(a, b).friction, 0.9);
+    EXPECT_EQ(materials.pair(b, a).restitution, 0.1);
+    EXPECT_EQ(materials.pair(a, a).friction, 0.25);
+}
+
+}  // namespace
+}  // namespace rigor::engine::test
