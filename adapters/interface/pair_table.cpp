@@ -43,14 +43,14 @@ std::vector<PairTable::Example> PairTable::examples() const {
                     std::swap(example.materialA, example.materialB);
                     std::swap(example.a, example.b);
                 }
-                found.try_emplace({example.materialA, example.materialB}, meeting);
+                found.try_emplace({example.materialA, example.materialB}, example);
             }
     };
     for (int a = 0; a < count; ++a)
         for (int b = a + 1; b < count; ++b)
             if (mayCollide(a, b)) addShapes(a, b);
     std::vector<Example> all;
-    for (const auto& [materials, meeting] : found) all.push_back(meeting);
+    for (const auto& [materials, example] : found) all.push_back(example);
     return all;
 }
 

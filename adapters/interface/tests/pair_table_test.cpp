@@ -57,7 +57,7 @@ TEST(PairTable, AgreesWithTheScenarioModel) {
     }
 }
 
-TEST(PairTable, MeetingsNameShapesOfTheirMaterialsThatMayTouch) {
+TEST(PairTable, ExamplesNameShapesOfTheirMaterialsThatMayTouch) {
     std::size_t total = 0;
     for (unsigned seed = 0; seed < 50; ++seed) {
         const Scenario s = crowd(seed);

@@ -143,7 +143,8 @@ TEST(Words, OfTheTreeAreThoseOfTheField) {
     for (const std::string& file :
          sourceFiles({".cpp", ".hpp", ".def", ".ts", ".css", ".md", "CMakeLists.txt"})) {
         const bool engine = file.starts_with("engine/");
-        if (file.starts_with("validation/hygiene/")) continue;
+        if (file.starts_with("validation/hygiene/") || file == "CHANGELOG.md")
+            continue;  // they name old words
         ++read;
         const std::string text = readFile(file);
         std::vector<std::string> found = privateWords(kWords, file, text);
