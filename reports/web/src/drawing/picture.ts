@@ -5,7 +5,8 @@
 // velocities, joints, and the ways that bodies take. Far faces first.
 import { svg } from '../common/elements.ts';
 import { bodyReach } from '../replay/framing.ts';
-import type { Json, Scene, SceneBody } from '../replay/scene.ts';
+import type { Json } from '../replay/json.ts';
+import type { Scene, SceneBody } from '../replay/scene.ts';
 import { vector } from '../replay/scene.ts';
 import { add, rotate, type Vec3 } from '../replay/vectors.ts';
 import { type Solid, solidsOf } from './faces.ts';

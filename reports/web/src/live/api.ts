@@ -4,7 +4,7 @@
 // What the page asks of `rigor view`: cli/view/README.md has the questions, validation/live/README.md the commands
 // and the arrays of a frame.
 import { ArrayBundle } from '../common/arrays.ts';
-import type { Json } from '../replay/scene.ts';
+import type { Json } from '../replay/json.ts';
 
 export type InstanceStateName =
   | 'loading'

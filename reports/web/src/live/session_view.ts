@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The session as the page knows it: what the server told last, the instances' frames, and how to tell it something.
-import type { Json } from '../replay/scene.ts';
+import type { Json } from '../replay/json.ts';
 import { command, type News, news, Refused, type SessionState } from './api.ts';
 import { InstanceSource } from './instance_source.ts';
 

@@ -18,7 +18,7 @@ export function distinctColour(index: number, light: number, out: Color): Color 
 }
 
 /** Lighter for each one before it in the list that has the same colour: presets of one engine in one picture. */
-export function toldApart(colours: readonly string[]): string[] {
+export function distinguishable(colours: readonly string[]): string[] {
   const seen = new Map<string, number>();
   return colours.map((colour) => {
     const before = seen.get(colour) ?? 0;

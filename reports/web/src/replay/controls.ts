@@ -3,10 +3,10 @@
 //
 // Buttons under the picture: transport, jumps, engines, layers.
 import { el } from '../common/elements.ts';
+import type { ControlActions, ReplayActions } from './actions.ts';
 import { helpOverlay } from './keys.ts';
 import { type Colouring, colourings, type LayerName, layerNames } from './layers.ts';
 import { speeds } from './player.ts';
-import type { ReplayStage } from './stage.ts';
 import { Timeline } from './timeline.ts';
 
 const hints: Partial<Record<LayerName, string>> = {
@@ -18,9 +18,9 @@ const hints: Partial<Record<LayerName, string>> = {
   reference: 'The exact solution as a ghost',
 };
 
-export class Controls {
+export class Controls implements ControlActions {
   readonly element: HTMLElement;
-  readonly #stage: ReplayStage;
+  readonly #stage: ReplayActions;
   readonly #timeline: Timeline;
   readonly #play: HTMLButtonElement;
   readonly #clock = el('output', { class: 'clock' });
@@ -31,7 +31,7 @@ export class Controls {
   readonly #said = el('p', { class: 'said', role: 'status' });
   readonly #help = helpOverlay();
 
-  constructor(stage: ReplayStage) {
+  constructor(stage: ReplayActions) {
     this.#stage = stage;
     this.#timeline = new Timeline((time) => {
       stage.player.pause();

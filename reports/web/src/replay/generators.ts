@@ -3,7 +3,7 @@
 //
 // The bodies and joints that generators of a scenario make, in their order and with their names
 // (scenarios/generators/). A pile's jitter and turns are left out: frames bring the true poses.
-import type { Json } from './scene.ts';
+import type { Json } from './json.ts';
 
 interface Made {
   bodies: Json[];

@@ -3,9 +3,9 @@
 //
 // Keyboard control of a replay, while it has the focus, and the overlay that explains it.
 import { el } from '../common/elements.ts';
+import type { ControlActions, ReplayActions } from './actions.ts';
 import { keyList, layerKeys } from './key_list.ts';
 import type { LayerName } from './layers.ts';
-import type { ReplayStage } from './stage.ts';
 
 const layers: Record<string, LayerName> = { ...layerKeys, r: 'reference' };
 
@@ -43,8 +43,8 @@ export function helpOverlay(): HTMLElement {
   );
 }
 
-/** Returns what ends it. */
-export function bindKeys(root: HTMLElement, stage: ReplayStage): () => void {
+/** Binds the keys of `root`. The function that is returned unbinds them. */
+export function bindKeys(root: HTMLElement, stage: ReplayActions, controls: ControlActions): () => void {
   const simple: Record<string, () => void> = {
     ' ': () => stage.player.toggle(),
     Home: () => stage.setTime(0),
@@ -57,8 +57,8 @@ export function bindKeys(root: HTMLElement, stage: ReplayStage): () => void {
     '[': () => stage.jump('previous'),
     ']': () => stage.jump('next'),
     a: () => stage.view.frameAll(),
-    o: () => stage.controls.overlay(!stage.view.options.overlaid),
-    '?': () => stage.controls.toggleHelp(),
+    o: () => controls.overlay(!stage.view.options.overlaid),
+    '?': () => controls.toggleHelp(),
   };
   const press = (event: KeyboardEvent) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -69,7 +69,7 @@ export function bindKeys(root: HTMLElement, stage: ReplayStage): () => void {
     if (key === 'ArrowLeft' || key === 'ArrowRight') stage.step(key === 'ArrowRight', event.shiftKey ? 10 : 1);
     else if (key === ' ' && target.matches('button')) return;
     else if (simple[key]) simple[key]?.();
-    else if (layer) stage.controls.toggle(layer);
+    else if (layer) controls.toggle(layer);
     else if (/^[1-9]$/.test(key)) {
       const source = stage.engines[Number(key) - 1];
       if (source && source.times.length > 0) stage.toggleEngine(source);

@@ -7,37 +7,18 @@
 //   replay.focus({spec: 'bullet:preset=default', bodies: ['block', 'floor'], contact: null});
 //
 // The cursor is shared with the curves; the address is kept up to date, so that a link restores the view.
-import type { Cursor, Focus } from '../common/cursor.ts';
+import type { Focus } from '../common/cursor.ts';
 import { loadData } from '../common/data_files.ts';
 import { el } from '../common/elements.ts';
-import { toldApart } from './colours.ts';
+import { distinguishable } from './colours.ts';
+import type { ReplayContext } from './context.ts';
 import type { FrameSource } from './frames.ts';
-import { type FetchFrames, fetchFrames, fullSource } from './full_frames.ts';
+import { fetchFrames, fullSource } from './full_frames.ts';
 import { type Replay, readReplay } from './replay_file.ts';
-import { type Json, readScene, type Scene } from './scene.ts';
+import { readScene, type Scene } from './scene.ts';
 import { ReplayStage } from './stage.ts';
 import { NoWebGL } from './view.ts';
 import './style.css';
-
-export interface ReplayContext {
-  scenario: Json; // the scenario file, parsed
-  index: number; // of the scenario in the run
-  step: number; // of the time step among those that were run, coarsest first
-  cursor: Cursor;
-  /** Colour of a spec, as the curves have it; "" is the reference. */
-  colourOf: (spec: string, index: number) => string;
-  dt?: number; // [s] of the runs; else that of the replay file
-  /** Of more engines than are shown at first: those to begin with. */
-  isPreferred?: (spec: string) => boolean;
-  metrics?: readonly string[]; // in order of importance: whose largest error counts
-  /** Where the replay file comes from; else from beside the page. */
-  load?: () => Promise<ArrayBuffer>;
-  /** What a link restores, and what is told when that changes; else both are the page's address. */
-  state?: string;
-  /** All frames of a case, where a server is given; else requested from the server of the page. */
-  frames?: (caseId: string) => FetchFrames;
-  onState?: (state: string) => void;
-}
 
 export interface ReplayHandle {
   /** Settled when everything is there, or a sentence says why not. */
@@ -91,7 +72,7 @@ export function mountReplay(element: HTMLElement, context: ReplayContext): Repla
     }
     if (disposed) return;
     const lastFirst = [...replay.sources].reverse(); // matched settings come last and keep the engine's colour
-    const own = toldApart(lastFirst.map((source) => source.colour));
+    const own = distinguishable(lastFirst.map((source) => source.colour));
     lastFirst.forEach((source, i) => {
       source.colour = own[i] as string;
     });

@@ -5,6 +5,7 @@
 // format 1 as they stand (scenarios/README.md); what a generator makes is expanded, without the random turns of a
 // pile, which the frames bring. The loader has checked the file: what is wrong here throws an Error.
 import { expandGenerators } from './generators.ts';
+import type { Json } from './json.ts';
 import { add, conjugate, type Quat, rotate, sub, type Vec3 } from './vectors.ts';
 
 export interface Pose {
@@ -54,9 +55,6 @@ export interface Scene {
   bodies: SceneBody[];
   joints: SceneJoint[];
 }
-
-// biome-ignore lint/suspicious/noExplicitAny: files are checked by the loader, not here
-export type Json = any;
 
 /** A vector of the file; two-dimensional ones have z = 0. */
 export const vector = (json: Json, fallback: Vec3 = [0, 0, 0]): Vec3 =>

@@ -6,6 +6,8 @@
 import type { Focus } from '../common/cursor.ts';
 import { el } from '../common/elements.ts';
 import { stepAt } from '../common/steps.ts';
+import type { JumpTarget, ReplayActions } from './actions.ts';
+import type { ReplayContext } from './context.ts';
 import { Controls } from './controls.ts';
 import { followPointer, followTheme, type PointerActions } from './follow.ts';
 import { type Frame, type FrameSource, indexAt } from './frames.ts';
@@ -23,7 +25,6 @@ import {
 } from './jumps.ts';
 import { bindKeys } from './keys.ts';
 import { decodeLink, encodeLink, viewOfHash, withView } from './link.ts';
-import type { ReplayContext } from './mount.ts';
 import { PanelLabels } from './panel_labels.ts';
 import { Player } from './player.ts';
 import type { Scene } from './scene.ts';
@@ -56,7 +57,7 @@ function contactOf(pinned: Pinned, { contacts, step }: Frame): number {
   return found;
 }
 
-export class ReplayStage {
+export class ReplayStage implements ReplayActions {
   readonly view: ReplayView;
   readonly player: Player;
   readonly sources: FrameSource[];
@@ -98,7 +99,7 @@ export class ReplayStage {
     if (this.player.end < 1.2) this.player.speed = 0.25;
     this.controls = new Controls(this);
     root.append(this.controls.element);
-    this.#ends.push(bindKeys(root, this));
+    this.#ends.push(bindKeys(root, this, this.controls));
     const leave = () => {
       this.#left = true;
     };
@@ -110,7 +111,7 @@ export class ReplayStage {
     this.#seek(context.cursor.time.value);
   }
 
-  // ---- what the controls ask for ----
+  // ---- ReplayActions ----
 
   get engines(): FrameSource[] {
     return this.sources.filter((s) => !s.ghost);
@@ -174,9 +175,9 @@ export class ReplayStage {
     this.setTime(time);
   }
 
-  jump(to: 'divergence' | 'largest' | 'next' | 'previous' | 'normal'): void {
+  jump(to: JumpTarget): void {
     const shown = this.shown;
-    const find: Record<typeof to, () => Jump | null> = {
+    const find: Record<JumpTarget, () => Jump | null> = {
       divergence: () => firstDivergence(shown),
       largest: () => largestError(shown, this.#context.metrics ?? []),
       next: () => contactEvent(shown, this.time, true),

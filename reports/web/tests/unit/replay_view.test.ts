@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { Matrix4, PerspectiveCamera, Raycaster, Vector2, Vector3 } from 'three';
 import { Observable } from '../../src/common/cursor.ts';
 import { BodyLayer } from '../../src/replay/body_layer.ts';
-import { toldApart } from '../../src/replay/colours.ts';
+import { distinguishable } from '../../src/replay/colours.ts';
 import type { Contacts, Frame, FrameSource, ReplayEvent } from '../../src/replay/frames.ts';
 import { frameScene, sampled } from '../../src/replay/framing.ts';
 import { roundNumber } from '../../src/replay/ground.ts';
@@ -288,7 +288,7 @@ test('a wall before the scene is seen through, the floor and the wall behind are
 });
 
 test('presets of one engine are distinguished by lightness', () => {
-  const [a, b, c, d] = toldApart(['#0072b2', '#0072b2', '#d55e00', '#0072b2']);
+  const [a, b, c, d] = distinguishable(['#0072b2', '#0072b2', '#d55e00', '#0072b2']);
   assert.equal(a, '#0072b2');
   assert.equal(c, '#d55e00');
   assert.match(b ?? '', /^#[0-9a-f]{6}$/);

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What the buttons and the keys of a replay ask of it. The stage implements ReplayActions and the controls
+// ControlActions; buttons and keys know these interfaces alone.
+import type { FrameSource } from './frames.ts';
+import type { LayerName } from './layers.ts';
+import type { Player } from './player.ts';
+import type { ReplayView } from './view.ts';
+
+export type JumpTarget = 'divergence' | 'largest' | 'next' | 'previous' | 'normal';
+
+export interface ReplayActions {
+  readonly view: ReplayView;
+  readonly player: Player;
+  readonly engines: FrameSource[];
+  readonly shown: FrameSource[];
+  readonly time: number;
+  readonly hasReference: boolean;
+  /** True if frames of a shown engine are stored that are not loaded yet. */
+  readonly canLoadMore: boolean;
+  isShown(source: FrameSource): boolean;
+  toggleEngine(source: FrameSource): void;
+  loadAll(): Promise<void>;
+  setTime(seconds: number): void;
+  step(forward: boolean, count?: number): void;
+  jump(to: JumpTarget): void;
+  setOptions(change: Parameters<ReplayView['setOptions']>[0]): void;
+}
+
+export interface ControlActions {
+  toggle(name: LayerName): void;
+  overlay(on: boolean): void;
+  toggleHelp(): void;
+}
