@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "scenarios/loader/node.hpp"
+#include "scenarios/json/node.hpp"
 
 namespace rigor::scenario {
 

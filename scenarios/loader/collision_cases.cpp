@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "scenarios/loader/collision_lines.hpp"
-#include "scenarios/loader/node.hpp"
+#include "scenarios/loader/read_parts.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "scenarios/loader/schema_check.hpp"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scenarios/loader/collision_cases.hpp"
-#include "scenarios/loader/node.hpp"
+#include "scenarios/json/node.hpp"
 
 namespace rigor::scenario {
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "scenarios/loader/engine_settings.hpp"
 
-#include "scenarios/loader/node.hpp"
+#include "scenarios/json/node.hpp"
 
 namespace rigor::scenario {
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "scenarios/loader/collision_cases.hpp"
-#include "scenarios/loader/node.hpp"
+#include "scenarios/json/node.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "scenarios/loader/schema_check.hpp"
 #include "scenarios/loader/study.hpp"

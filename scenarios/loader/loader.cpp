@@ -13,7 +13,7 @@
 
 #include "scenarios/generators/generator.hpp"
 #include "scenarios/loader/engine_settings.hpp"
-#include "scenarios/loader/node.hpp"
+#include "scenarios/loader/read_parts.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "scenarios/loader/schema_check.hpp"
 
@@ -180,17 +180,6 @@ Scenario readScenario(const JsonDocument& document, const std::string& file) {
 }
 
 }  // namespace
-
-std::string Problem::text() const {
-    std::string text = file;
-    if (line > 0) text += ":" + std::to_string(line);
-    return text + ": " + (pointer.empty() ? "(document)" : pointer) + ": found " + found + ", expected " +
-           expected + " [" + id + "]";
-}
-
-LoadError::LoadError(std::vector<Problem> problems)
-    : std::runtime_error(problems.empty() ? "no problem" : problems.front().text()),
-      problems_(std::move(problems)) {}
 
 std::string readTextFile(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);

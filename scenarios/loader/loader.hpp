@@ -6,33 +6,13 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "scenarios/json/problem.hpp"
 #include "scenarios/model/scenario.hpp"
 
 namespace rigor::scenario {
-
-/// One thing wrong with a file.
-struct Problem {
-    std::string id;  ///< stable: "schema.type", "reference.unknown_body", ...
-    std::string file;
-    std::string pointer;  ///< JSON pointer to the value, "" the whole document
-    int line = 0;         ///< 1-based; 0 unknown
-    std::string found, expected;
-    /// "file:line: pointer: found X, expected Y [id]"
-    std::string text() const;
-};
-
-class LoadError : public std::runtime_error {
-  public:
-    explicit LoadError(std::vector<Problem> problems);
-    const std::vector<Problem>& problems() const { return problems_; }
-
-  private:
-    std::vector<Problem> problems_;
-};
 
 struct LoadedScenario {
     Scenario scenario;

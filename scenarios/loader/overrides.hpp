@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "scenarios/loader/json_text.hpp"
+#include "scenarios/json/json_text.hpp"
 
 namespace rigor::scenario {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "scenarios/loader/node.hpp"
+#include "scenarios/loader/read_parts.hpp"
 
 namespace rigor::scenario {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // "bench": how a scene is timed, and the bounds outside of which a timing does not count.
-#include "scenarios/loader/node.hpp"
+#include "scenarios/loader/read_parts.hpp"
 
 namespace rigor::scenario {
 namespace {

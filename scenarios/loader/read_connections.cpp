@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "scenarios/loader/node.hpp"
+#include "scenarios/loader/read_parts.hpp"
 
 namespace rigor::scenario {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "scenarios/loader/node.hpp"
+#include "scenarios/loader/read_parts.hpp"
 #include "scenarios/model/hull.hpp"
 #include "scenarios/model/surfaces.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scenarios/loader/json_text.hpp"
+#include "scenarios/json/json_text.hpp"
 
 namespace rigor::scenario {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scenarios/loader/node.hpp"
+#include "scenarios/json/node.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "scenarios/loader/schema_check.hpp"
 

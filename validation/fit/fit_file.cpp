@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "scenarios/loader/node.hpp"
+#include "scenarios/json/node.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "validation/fit/fit.hpp"
 #include "validation/metrics/metric.hpp"

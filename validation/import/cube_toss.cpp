@@ -17,7 +17,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "scenarios/loader/json_text.hpp"
+#include "scenarios/json/json_text.hpp"
 #include "validation/import/csv.hpp"
 #include "validation/import/dataset.hpp"
 #include "validation/import/importer.hpp"

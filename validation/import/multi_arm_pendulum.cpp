@@ -23,7 +23,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "scenarios/loader/json_text.hpp"
+#include "scenarios/json/json_text.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "validation/import/arm_model.hpp"
 #include "validation/import/csv.hpp"

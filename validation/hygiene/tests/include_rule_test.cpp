@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Who may include whom. The layers are a table; every #include "..." of the tree is held against it.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,8 +48,16 @@ const std::vector<Rule>& rules() {
         {"engine/sleeping", {"engine/core", "engine/state", "engine/contacts"}},
         {"engine/pipeline", {"engine/"}},
         {"engine/queries", {"engine/"}},
-        {"engine", {"engine/"}},
-        {"scenarios", {"scenarios/"}},
+        {"engine/ccd", {"engine/"}},
+        {"engine/sleeping", {"engine/"}},
+        {"engine/benchmarks", {"engine/"}},
+        {"engine/package", {"engine/"}},
+        {"engine", {"engine/"}},  // of engine/engine.hpp alone
+        {"scenarios/model", {}},
+        {"scenarios/json", {"scenarios/model/"}},
+        {"scenarios/generators", {"scenarios/json/", "scenarios/model/"}},
+        {"scenarios/loader",
+         {"scenarios/generators/", "scenarios/json/", "scenarios/model/", "scenarios/schema/"}},
         {"adapters/interface", {"scenarios/model/"}},
         {"adapters/conformance", {"adapters/interface/", "scenarios/"}},
         {"adapters/rigor", {"adapters/interface/", "scenarios/model/", "engine/"}},
@@ -115,6 +124,7 @@ TEST(IncludeRule, EveryIncludeRespectsTheLayers) {
         if (file.starts_with("cmake/")) continue;
         const Rule* rule = ruleFor(file);
         ASSERT_NE(rule, nullptr) << file << " is in no known folder";
+        EXPECT_TRUE(rule->folder != "engine" || file == "engine/engine.hpp") << file << " has no rule";
         for (const auto& included : includesOf(readFile(file))) {
             ++checked;
             EXPECT_TRUE(isAllowed(*rule, file, included))
@@ -208,6 +218,72 @@ TEST(IncludeRule, FoldersOfSolversIncludeTheCommonPartAndWhatTheyBuildOn) {
     EXPECT_EQ(seen.size(), buildsOn.size());
 }
 
+using FolderGraph = std::map<std::string, std::set<std::string>>;
+
+std::string folderOf(const std::string& path) {
+    return path.substr(0, path.rfind('/'));
+}
+
+/// Which folder includes which others. Tests and benchmarks are left out.
+FolderGraph folderGraph() {
+    FolderGraph graph;
+    for (const auto& file : sourceFiles({".hpp", ".cpp", ".def"})) {
+        if (file.starts_with("cmake/") || isTest(file)) continue;
+        std::set<std::string>& used = graph[folderOf(file)];
+        for (const auto& included : includesOf(readFile(file)))
+            if (exists(included) && folderOf(included) != folderOf(file)) used.insert(folderOf(included));
+    }
+    return graph;
+}
+
+/// Continues `path`, whose last folder is looked at, until a folder comes again; empty where none does.
+std::vector<std::string> cycleFrom(const FolderGraph& graph, std::vector<std::string>& path,
+                                   std::set<std::string>& finished) {
+    const std::string folder = path.back();
+    const auto found = graph.find(folder);
+    if (found == graph.end() || finished.contains(folder)) return {};
+    for (const std::string& next : found->second) {
+        const auto start = std::find(path.begin(), path.end(), next);
+        if (start != path.end()) {
+            std::vector<std::string> cycle(start, path.end());
+            cycle.push_back(next);
+            return cycle;
+        }
+        path.push_back(next);
+        if (auto cycle = cycleFrom(graph, path, finished); !cycle.empty()) return cycle;
+        path.pop_back();
+    }
+    finished.insert(folder);
+    return {};
+}
+
+std::vector<std::string> findCycle(const FolderGraph& graph) {
+    std::set<std::string> finished;
+    for (const auto& [folder, used] : graph) {
+        std::vector<std::string> path{folder};
+        if (auto cycle = cycleFrom(graph, path, finished); !cycle.empty()) return cycle;
+    }
+    return {};
+}
+
+/// Includes that close a cycle today and are to go: these folders need the world of the pipeline.
+const std::map<std::string, std::string> kKnownBackwards{{"engine/ccd", "engine/pipeline"},
+                                                         {"engine/queries", "engine/pipeline"},
+                                                         {"engine/sleeping", "engine/pipeline"}};
+
+TEST(IncludeRule, FoldersDoNotIncludeEachOtherInACycle) {
+    FolderGraph graph = folderGraph();
+    EXPECT_GT(graph.size(), 50u);
+    for (const auto& [from, to] : kKnownBackwards) graph[from].erase(to);
+    EXPECT_THAT(findCycle(graph), testing::IsEmpty());
+}
+
+TEST(IncludeRule, TheFinderOfCyclesFindsThem) {
+    EXPECT_THAT(findCycle({{"a", {"b", "d"}}, {"b", {"c"}}, {"c", {"d"}}, {"d", {}}}), testing::IsEmpty());
+    EXPECT_THAT(findCycle({{"a", {"b", "d"}}, {"b", {"c"}}, {"c", {"d"}}, {"d", {"b"}}}),
+                testing::ElementsAre("b", "c", "d", "b"));
+}
+
 TEST(IncludeRule, TheRuleItselfRefuses) {
     const auto refused = [](const std::string& file, const std::string& included) {
         return !isAllowed(*ruleFor(file), file, included);
@@ -220,6 +296,7 @@ TEST(IncludeRule, TheRuleItselfRefuses) {
     EXPECT_TRUE(refused("validation/references/free_flight.cpp", "engine/math/space.hpp"));
     EXPECT_TRUE(refused("reports/html.cpp", "validation/runner/runner.hpp"));
     EXPECT_TRUE(refused("scenarios/loader/loader.cpp", "adapters/interface/types.hpp"));
+    EXPECT_TRUE(refused("scenarios/generators/pile.cpp", "scenarios/loader/loader.hpp"));
     EXPECT_FALSE(refused("adapters/rigor/world.cpp", "engine/math/space.hpp"));
 }
 

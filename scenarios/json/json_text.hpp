@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/loader/loader.hpp"
+#include "scenarios/json/problem.hpp"
 
 namespace rigor::scenario {
 

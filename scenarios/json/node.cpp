@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "scenarios/loader/node.hpp"
+#include "scenarios/json/node.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/loader/json_text.hpp"
-#include "scenarios/model/scenario.hpp"
+#include "scenarios/json/json_text.hpp"
+#include "scenarios/model/math.hpp"
 
 namespace rigor::scenario {
 
@@ -84,23 +84,5 @@ class Node {
     std::string pointer_;
     ReadContext* context_;
 };
-
-// Parts of a scenario, one file each.
-struct MaterialNames;
-std::vector<Shape> readShapes(const Node& list, const Scenario& scenario, int defaultMaterial);
-/// One shape in the world, without a material; for collision queries.
-Shape readPosedShape(const Node& node);
-/// "orientation", "axis_angle_deg", "angle", "angle_deg" of an object; identity without any.
-Quat readOrientation(const Node& object);
-Body readBody(const Node& node, const Scenario& scenario);
-void readJoints(const Node& list, Scenario& scenario);
-void readForces(const Node& list, Scenario& scenario);
-void readEvents(const Node& list, Scenario& scenario);
-void readAcceptance(const Node& root, Scenario& scenario);
-BenchPlan readBench(const Node& node);
-std::optional<ReferenceSpec> readReference(const Node& node);
-/// Index of the body that a text node names; kNone for "world" where `mayBeWorld`; reported otherwise.
-int readBodyName(const Node& node, const Scenario& scenario, bool mayBeWorld);
-int readMaterialName(const Node& node, const Scenario& scenario);
 
 }  // namespace rigor::scenario

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "scenarios/loader/node.hpp"
+#include "scenarios/json/node.hpp"
 
 namespace rigor::scenario {
 namespace {

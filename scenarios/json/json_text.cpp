@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "scenarios/loader/json_text.hpp"
+#include "scenarios/json/json_text.hpp"
 
 #include <algorithm>
 #include <set>
