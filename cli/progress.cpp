@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "cli/command.hpp"
-#include "reports/view_model.hpp"
+#include "reports/model/view_model.hpp"
 
 namespace rigor::cli {
 namespace {

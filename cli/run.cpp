@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
-#include "reports/view_model.hpp"
+#include "reports/model/view_model.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/results/values.hpp"
 #include "validation/runner/event_log.hpp"

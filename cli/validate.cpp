@@ -14,6 +14,7 @@
 #include "cli/progress.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
+#include "reports/summaries/terminal.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/results/insertion_orders.hpp"
 #include "validation/results/judgement.hpp"

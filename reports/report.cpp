@@ -5,13 +5,21 @@
 #include <exception>
 #include <fstream>
 
-#include "reports/data_files.hpp"
-#include "reports/replay_data.hpp"
-#include "reports/study.hpp"
-#include "reports/svg_plot.hpp"
-#include "reports/table.hpp"
-#include "reports/text.hpp"
-#include "reports/writers.hpp"
+#include "reports/encoding/data_files.hpp"
+#include "reports/encoding/text.hpp"
+#include "reports/model/derived_runs.hpp"
+#include "reports/model/trajectory_loader.hpp"
+#include "reports/model/view_model.hpp"
+#include "reports/page/html.hpp"
+#include "reports/page/page_data.hpp"
+#include "reports/plots/study.hpp"
+#include "reports/plots/svg_plot.hpp"
+#include "reports/replay/data.hpp"
+#include "reports/summaries/junit.hpp"
+#include "reports/summaries/summary.hpp"
+#include "reports/tables/csv.hpp"
+#include "reports/tables/refinements.hpp"
+#include "reports/tables/table.hpp"
 #include "validation/results/store.hpp"
 #include "validation/results/trajectory_file.hpp"
 

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "validation/results/types.hpp"
@@ -14,8 +13,5 @@ namespace rigor::report {
 
 /// Writes index.html, results.csv, summary.md, junit.xml into the run folder; returns the files written.
 std::vector<std::filesystem::path> writeReports(const std::filesystem::path& runDirectory);
-
-/// The same story for a terminal: at most `lines` lines, ANSI colours only when `colour`.
-std::string terminalSummary(const results::Run& run, int lines, int columns, bool colour);
 
 }  // namespace rigor::report

@@ -10,9 +10,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "reports/replay_data.hpp"
+#include "reports/model/view_model.hpp"
+#include "reports/replay/data.hpp"
 #include "reports/tests/replay_reader.hpp"
-#include "reports/view_model.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/metrics/metric_parts.hpp"
 #include "validation/results/trajectory_file.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "reports/web_assets.hpp"
+#include "reports/page/web_assets.hpp"
 #include "scenarios/loader/loader.hpp"
 #include "validation/runner/describe.hpp"
 

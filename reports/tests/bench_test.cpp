@@ -2,14 +2,16 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // A bench in the report: data of the page, tables, summary.
-#include "reports/bench.hpp"
+#include "reports/tables/bench.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "reports/model/view_model.hpp"
+#include "reports/page/html.hpp"
+#include "reports/summaries/summary.hpp"
 #include "reports/tests/synthetic_bench.hpp"
 #include "reports/tests/synthetic_run.hpp"
-#include "reports/writers.hpp"
 
 namespace rigor::report {
 namespace {

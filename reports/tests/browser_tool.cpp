@@ -13,13 +13,16 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "reports/data_files.hpp"
-#include "reports/replay_data.hpp"
-#include "reports/study.hpp"
+#include "reports/encoding/data_files.hpp"
+#include "reports/encoding/text.hpp"
+#include "reports/model/view_model.hpp"
+#include "reports/page/html.hpp"
+#include "reports/page/page_data.hpp"
+#include "reports/plots/study.hpp"
+#include "reports/replay/data.hpp"
 #include "reports/tests/synthetic_bench.hpp"
 #include "reports/tests/synthetic_run.hpp"
 #include "reports/tests/synthetic_study.hpp"
-#include "reports/text.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "reports/data_files.hpp"
+#include "reports/encoding/data_files.hpp"
 
 #include <gtest/gtest.h>
 

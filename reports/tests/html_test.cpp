@@ -10,8 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "reports/curves.hpp"
-#include "reports/data_files.hpp"
+#include "reports/encoding/data_files.hpp"
+#include "reports/model/view_model.hpp"
+#include "reports/page/html.hpp"
+#include "reports/page/page_data.hpp"
+#include "reports/plots/curves.hpp"
 #include "reports/tests/synthetic_run.hpp"
 
 namespace rigor::report {

@@ -7,11 +7,16 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reports/report.hpp"
-#include "reports/table.hpp"
+#include "reports/encoding/text.hpp"
+#include "reports/model/view_model.hpp"
+#include "reports/page/page_data.hpp"
+#include "reports/summaries/summary.hpp"
+#include "reports/summaries/terminal.hpp"
+#include "reports/tables/costs.hpp"
+#include "reports/tables/csv.hpp"
+#include "reports/tables/table.hpp"
 #include "reports/tests/csv_reader.hpp"
 #include "reports/tests/synthetic_run.hpp"
-#include "reports/text.hpp"
 #include "validation/results/insertion_orders.hpp"
 
 namespace rigor::report {

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "reports/svg_plot.hpp"
+#include "reports/model/view_model.hpp"
+#include "reports/plots/svg_plot.hpp"
+#include "reports/summaries/summary.hpp"
+#include "reports/tables/refinements.hpp"
 #include "reports/tests/synthetic_run.hpp"
-#include "reports/writers.hpp"
 
 namespace rigor::report {
 namespace {

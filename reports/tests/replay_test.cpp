@@ -11,11 +11,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "reports/data_files.hpp"
-#include "reports/replay_codec.hpp"
-#include "reports/replay_data.hpp"
-#include "reports/replay_events.hpp"
-#include "reports/replay_frames.hpp"
+#include "reports/encoding/data_files.hpp"
+#include "reports/model/view_model.hpp"
+#include "reports/replay/codec.hpp"
+#include "reports/replay/data.hpp"
+#include "reports/replay/events.hpp"
+#include "reports/replay/frames.hpp"
 #include "reports/tests/replay_reader.hpp"
 
 namespace rigor::report {

@@ -10,10 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "reports/encoding/text.hpp"
 #include "reports/report.hpp"
+#include "reports/summaries/terminal.hpp"
 #include "reports/tests/csv_reader.hpp"
 #include "reports/tests/synthetic_run.hpp"
-#include "reports/text.hpp"
 #include "validation/results/store.hpp"
 #include "validation/results/trajectory_file.hpp"
 

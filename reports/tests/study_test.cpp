@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
-#include "reports/study.hpp"
+#include "reports/plots/study.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include "reports/tests/synthetic_run.hpp"
+#include "reports/model/trajectory_loader.hpp"
 
 #include <array>
 #include <cmath>

@@ -5,7 +5,7 @@
 // names.
 #pragma once
 
-#include "reports/writers.hpp"
+#include "reports/model/trajectory_loader.hpp"
 #include "validation/results/types.hpp"
 
 namespace rigor::report::synthetic {

@@ -11,10 +11,11 @@
 #include <set>
 #include <sstream>
 
-#include "reports/table.hpp"
+#include "reports/encoding/text.hpp"
+#include "reports/model/view_model.hpp"
+#include "reports/tables/table.hpp"
 #include "reports/tests/csv_reader.hpp"
 #include "reports/tests/synthetic_run.hpp"
-#include "reports/text.hpp"
 
 namespace rigor::report {
 namespace {

@@ -8,11 +8,16 @@
 #include <cstdlib>
 #include <regex>
 
-#include "reports/report.hpp"
-#include "reports/svg_plot.hpp"
+#include "reports/encoding/text.hpp"
+#include "reports/model/view_model.hpp"
+#include "reports/page/page_data.hpp"
+#include "reports/plots/svg_plot.hpp"
+#include "reports/summaries/junit.hpp"
+#include "reports/summaries/summary.hpp"
+#include "reports/summaries/terminal.hpp"
+#include "reports/tables/csv.hpp"
 #include "reports/tests/csv_reader.hpp"
 #include "reports/tests/synthetic_run.hpp"
-#include "reports/text.hpp"
 #include "validation/results/judgement.hpp"
 
 namespace rigor::report {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // What the reports claim about a run, on small runs whose answer is known.
-#include "reports/view_model.hpp"
+#include "reports/model/view_model.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,8 @@
 #include <limits>
 #include <set>
 
-#include "reports/writers.hpp"
+#include "reports/model/derived_runs.hpp"
+#include "reports/tables/csv.hpp"
 #include "validation/results/judgement.hpp"
 
 namespace rigor::report {

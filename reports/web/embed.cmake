@@ -21,7 +21,7 @@ foreach(input IN LISTS INPUTS)
 endforeach()
 file(WRITE "${OUTPUT}"
 "// Written by embed.cmake.
-#include \"reports/web_assets.hpp\"
+#include \"reports/page/web_assets.hpp\"
 
 #include <stdexcept>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Writes what the replay reads, for tests: the same rules as reports/replay_codec.cpp, said a second time.
+// Writes what the replay reads, for tests: the same rules as reports/replay/codec.cpp, said a second time.
 
 function code(out: number[], difference: number | null): void {
   let rest = difference === null ? 0 : 1 + (difference >= 0 ? 2 * difference : -2 * difference - 1);

@@ -68,7 +68,17 @@ const std::vector<Rule>& rules() {
         {"validation/statistics", {}},
         {"validation/results", {}},
         {"validation", {"validation/", "adapters/interface/", "scenarios/"}},
-        {"reports", {"validation/results/", "validation/statistics/", "reports/tests/browser_tool.cpp"}},
+        {"reports/encoding", {"validation/results/"}},
+        {"reports/model", {"reports/encoding/", "validation/results/", "validation/statistics/"}},
+        {"reports/tables",
+         {"reports/encoding/", "reports/model/", "validation/results/", "validation/statistics/"}},
+        {"reports/plots", {"reports/encoding/", "reports/model/", "validation/results/"}},
+        {"reports/replay",
+         {"reports/encoding/", "reports/model/", "validation/results/", "validation/statistics/"}},
+        {"reports/summaries",
+         {"reports/encoding/", "reports/model/", "reports/tables/", "validation/results/"}},
+        {"reports",
+         {"reports/", "validation/results/", "validation/statistics/", "reports/tests/browser_tool.cpp"}},
         {"cli", {"cli/", "engine/", "adapters/interface/", "scenarios/", "validation/", "reports/"}}};
     return table;
 }
@@ -294,7 +304,7 @@ TEST(IncludeRule, TheRuleItselfRefuses) {
     EXPECT_TRUE(refused("adapters/bullet/world.cpp", "engine/math/space.hpp"));
     EXPECT_TRUE(refused("adapters/bullet/world.cpp", "adapters/ode/world.hpp"));
     EXPECT_TRUE(refused("validation/references/free_flight.cpp", "engine/math/space.hpp"));
-    EXPECT_TRUE(refused("reports/html.cpp", "validation/runner/runner.hpp"));
+    EXPECT_TRUE(refused("reports/page/html.cpp", "validation/runner/runner.hpp"));
     EXPECT_TRUE(refused("scenarios/loader/loader.cpp", "adapters/interface/types.hpp"));
     EXPECT_TRUE(refused("scenarios/generators/pile.cpp", "scenarios/loader/loader.hpp"));
     EXPECT_FALSE(refused("adapters/rigor/world.cpp", "engine/math/space.hpp"));

@@ -126,7 +126,7 @@ const std::set<std::pair<std::string, std::string>> kOldNames{
     {"cli/view/live_site.cpp", "lane"},
     {"validation/live/session_commands.cpp", "lane"},
     {"validation/studies/columns.hpp", "onset"},
-    {"reports/derived_runs.cpp", "companion"},
+    {"reports/model/derived_runs.cpp", "companion"},
     {"reports/tests/view_model_test.cpp", "companion"}};
 
 bool isOldName(const std::string& file, const std::string& message) {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Data beside the page: `data/<name>.js` is a script that calls rigorData(name, base64 of gzip), because a page
-// opened from disk may run scripts beside it but not fetch files. reports/data_files.cpp writes them.
+// opened from disk may run scripts beside it but not fetch files. reports/encoding/data_files.cpp writes them.
 
 const waiting = new Map<string, { resolve: (text: string) => void; reject: (error: Error) => void }>();
 const cache = new Map<string, Promise<ArrayBuffer>>();

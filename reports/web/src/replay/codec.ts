@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Reads what reports/replay_codec.hpp writes: rounded numbers, predicted from those before them, as bytes.
+// Reads what reports/replay/codec.hpp writes: rounded numbers, predicted from those before them, as bytes.
 
 /** Variable-length codes of a byte array, one after the other. */
 export class CodeReader {

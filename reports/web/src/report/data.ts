@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The page's data as reports/page_data.cpp, audit_json.cpp, refinements.cpp and study_charts.cpp write them. SI units; dt and
+// The page's data as reports/page/page_data.cpp, audit_json.cpp, refinements.cpp and study_charts.cpp write them. SI units; dt and
 // all costs in seconds. A field that only newer runs have is marked with `?` or may be null.
 import type { Maybe, Stored } from '../common/format.ts';
 
@@ -113,7 +113,7 @@ export interface Miss {
 
 export type Regression = 'unchanged' | 'better' | 'worse' | 'no record';
 
-/** How near a case is to the physics, and whether it changed: counted and worded by reports/rankings.cpp, sentences.cpp. */
+/** How near a case is to the physics, and whether it changed: counted and worded by reports/model/rankings.cpp, sentences.cpp. */
 export interface Judged {
   grade: string; // "A" .. "E"; "": not graded
   by: string; // the metric that decides
@@ -295,7 +295,7 @@ export interface Run {
   ledger: GatheredLedger[];
 }
 
-/** What `rigor bench` timed; as reports/bench.cpp writes it. Times in seconds an operation. */
+/** What `rigor bench` timed; as reports/tables/bench.cpp writes it. Times in seconds an operation. */
 export interface BenchCase {
   id: string;
   part: string; // 'scene', or an isolated part

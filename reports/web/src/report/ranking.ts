@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Rankings as reports/rankings.cpp has counted and ordered them; here they only meet their columns.
+// Rankings as reports/model/rankings.cpp has counted and ordered them; here they only meet their columns.
 import { isLost } from './cells.ts';
 import type { BriefCase, Column, Mechanism, Ranking, Scenario } from './data.ts';
 

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What verdicts say in words: each names what was compared with what, and claims nothing else.
+#include <cmath>
+#include <sstream>
+
+#include "reports/encoding/text.hpp"
+#include "reports/model/view_model.hpp"
+#include "validation/results/insertion_orders.hpp"
+#include "validation/results/judgement.hpp"
+
+namespace rigor::report {
+namespace {
+
+using results::AgainstScheme;
+using results::CaseRow;
+using results::Grade;
+using results::MetricRow;
+using results::Outcome;
+using results::Regression;
+
+void append(std::string& line, const std::string& part, const char* gap = " · ") {
+    if (!part.empty()) line += (line.empty() ? "" : gap) + part;
+}
+
+std::string withUnit(double value, const std::string& unit) {
+    return shortNumber(value) + (unit.empty() || unit == "1" ? "" : " " + unit);
+}
+
+/// " An ideal run of its scheme has 0.031 (C): this is farther off than its scheme."
+std::string schemeText(const results::AccuracyRow& accuracy) {
+    if (!accuracy.ideal) return " What its scheme allows here is not known.";
+    std::string text = " An ideal run of its scheme has " + shortNumber(*accuracy.ideal) + " (" +
+                       results::gradeName(results::gradeOf(*accuracy.ideal)) + "): this is ";
+    switch (results::againstScheme(accuracy.relative, accuracy.ideal)) {
+        case AgainstScheme::Farther:
+            return text + "farther off than its scheme.";
+        case AgainstScheme::Nearer:
+            return text + "nearer than its scheme.";
+        default:
+            return text + "as good as its scheme allows.";
+    }
+}
+
+/// "joint_drift 0.0095 m, which is 0.047 of its scale 0.2 m"; a metric without a unit is its own relative error.
+std::string decidingText(const results::AccuracyRow& accuracy, const MetricRow* m) {
+    const double relative = accuracy.relative.value_or(kNoNumber);
+    if (m == nullptr) return accuracy.metric + ", relative error " + shortNumber(relative);
+    std::string text = accuracy.metric + " " + withUnit(m->value, m->unit);
+    if (m->unit == "1" && (!m->scale || *m->scale == 1.0)) return text;
+    return text + ", which is " + shortNumber(relative) + " of its scale" +
+           (m->scale ? " " + withUnit(*m->scale, m->unit) : "");
+}
+
+}  // namespace
+
+std::string accuracySentence(const CaseRow& row) {
+    if (row.outcome != Outcome::Completed)
+        return "Not graded: " + std::string(results::outcomeName(row.outcome)) + ".";
+    const auto& accuracy = row.accuracy;
+    if (accuracy.grade == Grade::None)
+        return "Not graded: " + (accuracy.note.empty() ? std::string("nothing was graded") : accuracy.note) +
+               ".";
+    const MetricRow* m = findMetric(row, accuracy.metric);
+    std::string text = "Grade " + std::string(results::gradeName(accuracy.grade)) + " at " +
+                       timeStepLabel(row.dt) + ", by its worst error: " + decidingText(accuracy, m) + "." +
+                       schemeText(accuracy);
+    if (m != nullptr && m->verdict == results::Verdict::KnownDeviation)
+        text += " Wrong physics: " + m->note + ".";
+    return text;
+}
+
+std::string regressionSentence(const CaseRow& row) {
+    switch (row.regression) {
+        case Regression::NoRecord:
+            return row.regressionReason.empty() ? "" : "No record: " + row.regressionReason + ".";
+        case Regression::Unchanged:
+            return "Unchanged against the record of this version" +
+                   (row.regressionReason.empty() ? "." : " (" + row.regressionReason + ").");
+        case Regression::Better:
+            return "Better than on record: " + row.regressionReason + ".";
+        case Regression::Worse:
+            return "Worse than on record: " + row.regressionReason + ".";
+    }
+    return "";
+}
+
+std::string runTitle(const results::Run& run) {
+    constexpr int kMost = 3;
+    if (run.suite.empty()) return "run";
+    std::istringstream words(run.suite);
+    std::string title, word;
+    int count = 0, left = 0;
+    while (words >> word)
+        if (count < kMost)
+            title += (count++ > 0 ? " " : "") + word;
+        else
+            ++left;
+    return left == 0 ? title : title + " and " + std::to_string(left) + " more";
+}
+
+std::string verdictSentence(const ViewModel& view) {
+    const std::string name = runTitle(view.run());
+    const int red = view.totals().red;
+    if (red == 0) return name + ": no case is red";
+    return name + ": " + std::to_string(red) + " of " + std::to_string(view.totals().total) +
+           (red == 1 ? " cases is red" : " cases are red");
+}
+
+std::vector<std::pair<std::string, std::string>> totalsText(const ViewModel& view) {
+    const Totals& totals = view.totals();
+    std::string accuracy, regression, endings;
+    for (const Grade grade : results::kGrades)
+        if (const auto it = totals.grades.find(grade); it != totals.grades.end())
+            append(accuracy, std::string(results::gradeName(grade)) + " " + std::to_string(it->second));
+    if (const auto it = totals.grades.find(Grade::None); it != totals.grades.end())
+        append(accuracy, std::to_string(it->second) + " not graded");
+    for (const auto& [state, count] : totals.regressions)
+        append(regression, std::to_string(count) + " " + results::regressionName(state));
+    for (const auto& [shown, count] : totals.cases) {
+        const std::string detail = detailOf(totals, shown);
+        append(endings, std::string(shownText(shown).symbol) + " " + std::to_string(count) + " " +
+                            shownText(shown).word + (detail.empty() ? "" : " (" + detail + ")"));
+    }
+    std::vector<std::pair<std::string, std::string>> lines{
+        {"accuracy", accuracy}, {"against the record", regression}, {"endings", endings}};
+    if (const std::string orders = ordersTotalText(view.run()); !orders.empty())
+        lines.emplace_back("order of insertion", orders);
+    return lines;
+}
+
+std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t column, bool withNumber) {
+    const Cell& cell = view.cell(scenario, column);
+    if (cell.cases.empty()) return "";
+    const CaseRow& row = *cell.cases.front();
+    const bool isLost =
+        cell.worst == Shown::Crashed || cell.worst == Shown::Timeout || cell.worst == Shown::NonFinite;
+    std::string text = results::gradeName(row.accuracy.grade);
+    if (text.empty() || isLost || cell.worst == Shown::Fail) text += shownText(cell.worst).symbol;
+    if (cell.worst == Shown::KnownDeviation && row.accuracy.grade != Grade::None)
+        text += shownText(cell.worst).symbol;
+    for (const CaseRow* c : cell.cases)
+        if (c->regression == Regression::Worse || c->regression == Regression::Better) {
+            text += c->regression == Regression::Worse ? "▼" : "▲";
+            break;
+        }
+    const CaseRow* ordered = &row;
+    for (const CaseRow* c : cell.cases)
+        if (results::orderDependence(*c) > results::orderDependence(*ordered)) ordered = c;
+    text += orderMark(*ordered);
+    if (!withNumber || isLost) return text;
+    const MetricRow* m = findMetric(row, view.mainMetric(scenario).name);
+    if (row.accuracy.relative)
+        text += " " + shortNumber(*row.accuracy.relative);
+    else if (m != nullptr && row.outcome == Outcome::Completed)
+        text += " " + shortNumber(m->value);
+    return text;
+}
+
+}  // namespace rigor::report

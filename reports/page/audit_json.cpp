@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The contact audit as the page shows it: of one case, of the run itself, and gathered over a run.
+#include "reports/page/audit_json.hpp"
+
+#include <algorithm>
+
+#include "reports/model/view_model.hpp"
+
+namespace rigor::report {
+
+using results::CaseRow;
+
+Json auditJson(const CaseRow& row) {
+    Json list = Json::array();
+    for (const auto& a : row.audit)
+        list.push_back({{"auditor", a.auditor},
+                        {"outcome", a.outcome},
+                        {"frames", a.frames},
+                        {"queries", a.queries},
+                        {"overlapping", a.overlapping},
+                        {"missed", a.missed},
+                        {"spurious", a.spurious},
+                        {"undecided", a.undecided},
+                        {"normalErrorMax", number(a.normalErrorMax)},
+                        {"normalErrorMedian", number(a.normalErrorMedian)},
+                        {"depthErrorMax", number(a.depthErrorMax)},
+                        {"depthErrorMedian", number(a.depthErrorMedian)},
+                        {"pointErrorMax", number(a.pointErrorMax)},
+                        {"worst", a.worst},
+                        {"note", a.note}});
+    return list;
+}
+
+Json inRunJson(const CaseRow& row) {
+    const auto a = std::find_if(row.audit.begin(), row.audit.end(),
+                                [](const auto& r) { return r.auditor == "in_run" && r.queries > 0; });
+    if (a == row.audit.end()) return nullptr;
+    const auto value = [&](const char* metric) {
+        const auto* m = findMetric(row, metric);
+        return m ? number(m->value) : Json(nullptr);
+    };
+    return {{"queries", a->queries},
+            {"overlapping", a->overlapping},
+            {"missed", a->missed},
+            {"spurious", a->spurious},
+            {"normal", number(a->normalErrorMax)},
+            {"depth", number(a->depthErrorMax)},
+            {"point", number(a->pointErrorMax)},
+            {"worst", a->worst},
+            {"normalFlicker", value("normal_flicker")},
+            {"contactFlicker", value("contact_flicker")}};
+}
+
+Json gatheredAudit(const results::Run& run) {
+    Json list = Json::array();
+    for (const auto& gathered : gatherAudit(run)) {
+        CaseRow holder;
+        holder.audit = gathered.rows;
+        list.push_back({{"scenario", gathered.scenario}, {"rows", auditJson(holder)}});
+    }
+    return list;
+}
+
+}  // namespace rigor::report

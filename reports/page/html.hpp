@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The page of a report.
+#pragma once
+
+#include <string>
+
+#include "reports/model/view_model.hpp"
+
+namespace rigor::report {
+
+/// The page with the overview's data in it. `study`: studyPageJson() of a study's run, else empty.
+std::string htmlReport(const ViewModel& view, const std::string& study = "");
+
+}  // namespace rigor::report

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A small SVG line plot: axes with round ticks, grid, legend, linear or logarithmic values.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/model/trajectory_loader.hpp"
+#include "reports/model/view_model.hpp"
+
+namespace rigor::report {
+
+struct PlotLine {
+    std::string label, colour;
+    std::vector<double> dash;  ///< empty: solid
+    std::vector<double> x, y;  ///< same length; a non-finite y is a gap
+};
+
+struct Plot {
+    std::string title, xLabel, yLabel;
+    bool logarithmic = false;   ///< values <= 0 are gaps then
+    bool logarithmicX = false;  ///< likewise
+    bool marked = false;        ///< a dot at every point
+    std::vector<PlotLine> lines;
+};
+
+std::string svgPlot(const Plot& plot);
+
+/// Round tick values covering [least, greatest]: steps of 1, 2 or 5 times a power of ten.
+std::vector<double> niceTicks(double least, double greatest, int about);
+
+/// The data of a plot as CSV, digits that read back as the same doubles: a row for each point of each line.
+/// Points that a logarithmic axis can not show are there too.
+std::string plotCsv(const Plot& plot);
+
+struct NamedPlot {
+    std::string name;  ///< of its files, without an ending
+    std::string svg, csv;
+};
+/// The picture and its data.
+NamedPlot namedPlot(const std::string& name, const Plot& plot);
+/// Colours that every common colour vision distinguishes; they repeat after kPaletteSize.
+inline constexpr std::size_t kPaletteSize = 7;
+const char* paletteColour(std::size_t index);
+/// The colour of a column's engine: the same in every plot.
+std::string colourOf(const ViewModel& view, const SpecColumn& column);
+/// Error over time step and error over cost of every scenario that was run at three time steps or more.
+std::vector<NamedPlot> refinementPlots(const ViewModel& view);
+/// One plot per scenario: its position error over time at the finest time step, or the first series there is.
+std::vector<NamedPlot> scenarioPlots(const ViewModel& view, const TrajectoryLoader& load);
+
+}  // namespace rigor::report

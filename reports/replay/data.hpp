@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// What the replay beside a report shows: the thinned frames of all cases of one scenario at one time step, as
+// one ArrayBundle (README.md, "Replay files"). web/src/replay/replay_file.ts reads it.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/model/view_model.hpp"
+#include "validation/results/trajectory_file.hpp"
+
+namespace rigor::report {
+
+/// Bytes that a case may take once it is compressed, on average over a run.
+inline constexpr double kReplayBytesPerCase = 24e3;
+/// What one case may take at most, where others left theirs.
+inline constexpr double kReplayBytesAtMost = 240e3;
+/// More frames than this are not stored, however small.
+inline constexpr std::size_t kMostReplayFrames = 300;
+
+/// Trajectory of a case with its contacts; empty when there is none or it can not be read.
+using FullTrajectoryLoader =
+    std::function<std::optional<results::TrajectoryFile>(const results::CaseRow& row)>;
+
+/// What is left of the run's budget: a case that needs less than its share leaves the rest to those after it.
+class ReplayBudget {
+  public:
+    /// For the next case [bytes].
+    double allowance() const;
+    void spend(double bytes) { saved_ += kReplayBytesPerCase - bytes; }
+    /// What no case accounts for: a reference.
+    void spendBeside(double bytes) { saved_ -= bytes; }
+
+  private:
+    double saved_ = 0.0;
+};
+
+/// Time steps that cases of a scenario were run at [s], coarsest first: the order of its replay files.
+std::vector<double> replaySteps(const ViewModel& view, std::size_t scenario);
+
+/// Bundle of the scenario at replaySteps()[step]; empty when no case of it has a trajectory. Every case has
+/// its first and last frame and the frames of its events, whatever they cost.
+std::string replayBundle(const ViewModel& view, std::size_t scenario, std::size_t step,
+                         const FullTrajectoryLoader& load, ReplayBudget& budget);
+
+/// Bundles of all scenarios at all their time steps, one after the other, with the names of their data files:
+/// "replay-<scenario>-<step>".
+void replayFiles(const ViewModel& view, const FullTrajectoryLoader& load,
+                 const std::function<void(const std::string& name, const std::string& bundle)>& write);
+
+}  // namespace rigor::report

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// The cost of a step in the summary.
+#pragma once
+
+#include <string>
+
+#include "reports/model/view_model.hpp"
+
+namespace rigor::report {
+
+/// What a step costs each engine, by median and by mean, first step apart; empty where nothing was timed.
+std::string costMarkdown(const ViewModel& view);
+
+}  // namespace rigor::report

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// A table before it has a format: CSV for programs (all digits), Markdown and LaTeX for people.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/model/view_model.hpp"
+
+namespace rigor::report {
+
+/// How the numbers of a column are meant, which decides how people see them; CSV has SI numbers throughout.
+enum class ColumnKind {
+    Text,
+    Number,    ///< a number in the column's unit
+    Duration,  ///< [s], shown as 12.3 µs
+    TimeStep,  ///< [s], shown as 1/240 s
+    Judged     ///< a number with its verdict and its bound: three columns in CSV
+};
+
+struct TableColumn {
+    std::string title;
+    ColumnKind kind = ColumnKind::Text;
+    std::string unit = "";  ///< "" where the rows have different ones or none
+};
+
+/// What stands in a column of its kind. A cell with neither number nor text is empty.
+struct TableCell {
+    TableCell() = default;
+    TableCell(std::string words) : text(std::move(words)) {}
+    TableCell(const char* words) : text(words) {}
+    TableCell(std::optional<double> value) : number(value) {}
+    TableCell(double value) : number(value) {}
+    /// Counts are exact up to 2^53.
+    TableCell(std::int64_t count) : number(static_cast<double>(count)) {}
+
+    std::string text;              ///< instead of a number
+    std::optional<double> number;  ///< may be NaN or infinite
+    std::optional<Shown> verdict;  ///< of a Judged cell
+    std::optional<double> bound;   ///< of a Judged cell
+};
+
+struct Table {
+    std::string name;     ///< of its files, without an ending; "/" makes a folder
+    std::string caption;  ///< one line: what it says and how to read it
+    std::vector<TableColumn> columns;
+    std::vector<std::vector<TableCell>> rows;  ///< as many cells as columns
+};
+
+/// RFC 4180 with a header line. A Judged column "x" becomes "x", "x verdict", "x bound".
+std::string tableCsv(const Table& table);
+/// The caption, then a GitHub table.
+std::string tableMarkdown(const Table& table);
+/// A longtable with the rules of booktabs, to be \input; its first line says which packages it needs.
+std::string tableLatex(const Table& table);
+
+/// Plain text as LaTeX: its special characters escaped, what pdflatex does not know of Unicode replaced.
+std::string latexText(std::string_view text);
+
+/// The tables of a run. An entry is one line in tables.cpp.
+struct TableEntry {
+    const char* name;
+    std::vector<Table> (*make)(const ViewModel& view);
+};
+const std::vector<TableEntry>& tableEntries();
+std::vector<Table> allTables(const ViewModel& view);
+
+}  // namespace rigor::report
