@@ -66,7 +66,7 @@ void addScenario(Selection& selection, const std::string& name, const Arguments&
                                     loaded.scenario.name + "'; rename one or use two runs");
     }
     if (maxTimeSteps > 0 && loaded.scenario.timeSteps.size() > static_cast<std::size_t>(maxTimeSteps))
-        loaded.scenario.timeSteps.resize(static_cast<std::size_t>(maxTimeSteps));
+        loaded.scenario.timeSteps.resize(maxTimeSteps);
     selection.scenarios.emplace_back(std::move(loaded.scenario), std::move(loaded.text));
 }
 

@@ -50,7 +50,7 @@ void appendLinked(Bytes& out, std::span<const double> values, std::span<const st
                   double quantum) {
     std::vector<std::int64_t> kept(values.size(), 0);  // of what is not finite: its predecessor's
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const std::int64_t predicted = previous[i] < 0 ? 0 : kept[static_cast<std::size_t>(previous[i])];
+        const std::int64_t predicted = previous[i] < 0 ? 0 : kept[previous[i]];
         if (rounded(values[i], quantum, kept[i])) {
             appendCode(out, 1 + zigzag(kept[i] - predicted));
         } else {

@@ -138,8 +138,7 @@ void addChanges(const TrajectoryFile& file, std::size_t frame, const Pairs& befo
                 std::min(a, b) < 0)
                 continue;
             out.push_back(eventAt(file, frame, kind));
-            out.back().subject = file.bodies[static_cast<std::size_t>(a)].name + "|" +
-                                 file.bodies[static_cast<std::size_t>(b)].name;
+            out.back().subject = file.bodies[a].name + "|" + file.bodies[b].name;
         }
     };
     add(now, before, "contact_begin");

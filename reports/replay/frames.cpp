@@ -70,7 +70,7 @@ double typicalOf(const std::vector<BodyChannels>& bodies, const std::vector<int>
                  const Channel BodyChannels::*channel) {
     std::vector<double> all;
     for (const int b : moving) {
-        const auto& values = (bodies[static_cast<std::size_t>(b)].*channel).values;
+        const auto& values = (bodies[b].*channel).values;
         all.reserve(all.size() + values.size());
         for (const double v : values) all.push_back(std::abs(v));
     }
@@ -86,10 +86,9 @@ void encodeBodies(const std::vector<BodyChannels>& bodies, const std::vector<int
     const double w =
         quantumOf(typicalOf(bodies, moving, &BodyChannels::angularVelocity), kVelocityBits, kLeastVelocity);
     bool turns = true;
-    for (const int index : moving)
-        turns = turns && !bodies[static_cast<std::size_t>(index)].orientation.values.empty();
+    for (const int index : moving) turns = turns && !bodies[index].orientation.values.empty();
     for (const int index : moving) {
-        const auto& body = bodies[static_cast<std::size_t>(index)];
+        const auto& body = bodies[index];
         appendSeries(out.position, pick(body.position, 3, kept), 3, p);
         if (turns) {
             auto orientation = pick(body.orientation, 4, kept);

@@ -255,7 +255,7 @@ TEST(PageOfNothing, IsAPage) {
 
 TEST(Curves, OutlineKeepsASpikeOfOneSample) {
     std::vector<double> values(10000);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(0.001 * static_cast<double>(i));
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(0.001 * i);
     values[7321] = 9.0;
     values[1234] = -9.0;
     values[5000] = std::nan("");

@@ -41,7 +41,7 @@ class Codes {
     std::vector<double> linked(const std::vector<std::int64_t>& previous, double quantum) {
         std::vector<double> kept, out;
         for (const auto link : previous) {
-            const double predicted = link < 0 ? 0.0 : kept.at(static_cast<std::size_t>(link));
+            const double predicted = link < 0 ? 0.0 : kept.at(link);
             double difference = 0;
             const bool finite = next(difference);
             kept.push_back(finite ? predicted + difference : predicted);

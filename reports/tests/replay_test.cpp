@@ -189,9 +189,7 @@ TEST_F(ReplayFiles, PositionsReadBackWithinTheQuantum) {
             const auto column = codes.series(steps.size(), quantum);
             for (std::size_t i = 0; i < steps.size(); ++i) {
                 const auto f = static_cast<std::size_t>(steps[i]);
-                EXPECT_NEAR(column[i],
-                            files_[0]->bodies[static_cast<std::size_t>(b)].position.values[3 * f + k],
-                            0.51 * quantum);
+                EXPECT_NEAR(column[i], files_[0]->bodies[b].position.values[3 * f + k], 0.51 * quantum);
             }
         }
 }

@@ -278,7 +278,7 @@ TrajectoryFile makeTrajectory(const Run& run, const CaseRow& c) {
         const double t = static_cast<double>(i) * c.dt;
         f.times.push_back(t);
         for (std::size_t b = 0; b < measured.size(); ++b) {
-            const double phase = static_cast<double>(b);
+            const double phase = b;
             const double p[3] = {std::cos(3 * t + phase) * std::exp(-0.3 * t), t * (2 - t),
                                  0.1 * std::sin(9 * t)};
             for (int k = 0; k < 3; ++k) {
@@ -322,8 +322,8 @@ Run makeRun(int scenarios) {
     for (int i = 0; i < scenarios; ++i) run.scenarios.push_back(makeScenario(i));
     for (int i = 0; i < scenarios; ++i)
         for (const char* spec : kSpecs)
-            for (const double dt : run.scenarios[static_cast<std::size_t>(i)].timeSteps)
-                run.cases.push_back(makeCase(run.scenarios[static_cast<std::size_t>(i)],
+            for (const double dt : run.scenarios[i].timeSteps)
+                run.cases.push_back(makeCase(run.scenarios[i],
                                              kKinds[static_cast<std::size_t>(i) % kKinds.size()], spec, dt,
                                              static_cast<int>(run.cases.size())));
     run.plannedCases = static_cast<std::int64_t>(run.cases.size());

@@ -195,7 +195,7 @@ TEST(Tables, SayWhatTheRunSays) {
                                       [&](const auto& r) { return r[0].text == m.name; });
         ASSERT_NE(row, trust.rows.end());
         if (m.best < 0) continue;
-        EXPECT_EQ((*row)[1].text, view.columns()[static_cast<std::size_t>(m.best)].engine);
+        EXPECT_EQ((*row)[1].text, view.columns()[m.best].engine);
     }
 }
 

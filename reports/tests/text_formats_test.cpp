@@ -314,7 +314,7 @@ TEST(Terminal, TellsTheStory) {
     EXPECT_LT(at("more scenarios in the report"), at("Report: "));
     const ViewModel view(run);
     const auto mechanisms = view.mechanisms();
-    const auto& best = view.columns()[static_cast<std::size_t>(mechanisms.front().best)];
+    const auto& best = view.columns()[mechanisms.front().best];
     const auto line = text.substr(at(("  " + mechanisms.front().name + " ").c_str()));
     EXPECT_LT(line.find(best.label), line.find('\n')) << "the first choice stands beside the mechanism";
     EXPECT_GE(linesOf(text).size(), 36u) << "the lines are used";

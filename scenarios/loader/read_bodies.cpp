@@ -43,8 +43,8 @@ Mat3 readInertia(const Node& node) {
     Mat3 inertia;
     if (node.json().is_array() && node.json().size() == 3 && node.json()[0].is_array()) {
         for (int i = 0; i < 3; ++i) {
-            const auto row = node[static_cast<std::size_t>(i)].numbers(3);
-            for (int j = 0; j < 3; ++j) inertia(i, j) = row[static_cast<std::size_t>(j)];
+            const auto row = node[i].numbers(3);
+            for (int j = 0; j < 3; ++j) inertia(i, j) = row[j];
         }
     } else {
         const auto d = node.numbers(3);

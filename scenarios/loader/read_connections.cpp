@@ -11,7 +11,7 @@ namespace rigor::scenario {
 namespace {
 
 Pose poseOf(const Scenario& scenario, int body) {
-    return body == kNone ? Pose{} : scenario.bodies[static_cast<std::size_t>(body)].pose;
+    return body == kNone ? Pose{} : scenario.bodies[body].pose;
 }
 
 JointType readJointType(const Node& node) {
@@ -176,7 +176,7 @@ void readAxes(const Node& node, Joint& joint) {
 }
 
 bool isDynamic(const Scenario& scenario, int body) {
-    return body != kNone && scenario.bodies[static_cast<std::size_t>(body)].type == BodyType::Dynamic;
+    return body != kNone && scenario.bodies[body].type == BodyType::Dynamic;
 }
 
 int readDynamicBody(const Node& node, const Scenario& scenario) {

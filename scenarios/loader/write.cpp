@@ -55,12 +55,8 @@ class Writer {
   private:
     Json vector(const Vec3& v) const { return solid_ ? Json{v.x, v.y, v.z} : Json{v.x, v.y}; }
     Json angular(const Vec3& v) const { return solid_ ? vector(v) : Json(v.z); }
-    std::string bodyName(int index) const {
-        return index == kNone ? "world" : s_.bodies[static_cast<std::size_t>(index)].name;
-    }
-    const std::string& materialName(int index) const {
-        return s_.materials[static_cast<std::size_t>(index)].name;
-    }
+    std::string bodyName(int index) const { return index == kNone ? "world" : s_.bodies[index].name; }
+    const std::string& materialName(int index) const { return s_.materials[index].name; }
     Json points(const std::vector<Vec3>& list) const {
         Json out = Json::array();
         for (const Vec3& p : list) out.push_back(vector(p));
@@ -214,7 +210,7 @@ class Writer {
         if (!list.empty()) out["axes"] = list;
     }
     Quat orientationOf(int index) const {
-        return index == kNone ? Quat{} : s_.bodies[static_cast<std::size_t>(index)].pose.orientation;
+        return index == kNone ? Quat{} : s_.bodies[index].pose.orientation;
     }
     Json joint(const Joint& j) const {
         Json out{{"name", j.name},

@@ -36,16 +36,16 @@ std::vector<int> orderedCorners(const std::vector<Vec3>& points, const std::vect
     const Vec3 u = cross(n, helper) / norm(cross(n, helper));
     const Vec3 v = cross(n, u);
     std::vector<Vec3> flat;
-    const Vec3 origin = points[static_cast<std::size_t>(members.front())];
+    const Vec3 origin = points[members.front()];
     for (const int i : members) {
-        const Vec3 d = points[static_cast<std::size_t>(i)] - origin;
+        const Vec3 d = points[i] - origin;
         flat.push_back({dot(d, u), dot(d, v), 0.0});
     }
     std::vector<int> loop;
     for (const Vec3& corner : convexHull2d(flat)) {
         const auto it = std::min_element(flat.begin(), flat.end(),
                                          [&](Vec3 a, Vec3 b) { return norm(a - corner) < norm(b - corner); });
-        loop.push_back(members[static_cast<std::size_t>(it - flat.begin())]);
+        loop.push_back(members[it - flat.begin()]);
     }
     return loop;
 }
@@ -79,10 +79,10 @@ HullMesh compacted(const std::vector<Vec3>& points, std::vector<std::vector<int>
     std::vector<int> number(points.size(), -1);
     for (auto& face : faces)
         for (int& index : face) {
-            int& own = number[static_cast<std::size_t>(index)];
+            int& own = number[index];
             if (own < 0) {
                 own = static_cast<int>(mesh.vertices.size());
-                mesh.vertices.push_back(points[static_cast<std::size_t>(index)]);
+                mesh.vertices.push_back(points[index]);
             }
             index = own;
         }

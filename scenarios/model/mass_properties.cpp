@@ -57,7 +57,7 @@ struct SimplexSum {
     Mat3 second;
     template <std::size_t N>
     void add(const Vec3 (&corners)[N], double signedContent) {
-        constexpr double n = static_cast<double>(N);
+        constexpr double n = N;
         Vec3 s;
         Mat3 c;
         for (const Vec3& corner : corners) {
@@ -136,7 +136,7 @@ struct OfShape {
         }
         const HullMesh mesh = convexHull3d(hull.vertices);
         const Vec3 o = mesh.vertices.front();
-        const auto at = [&](int i) { return mesh.vertices[static_cast<std::size_t>(i)] - o; };
+        const auto at = [&](int i) { return mesh.vertices[i] - o; };
         for (const auto& face : mesh.faces)
             for (std::size_t i = 1; i + 1 < face.size(); ++i) {
                 const Vec3 corners[3] = {at(face[0]), at(face[i]), at(face[i + 1])};
@@ -161,7 +161,7 @@ MassProperties massPropertiesFromShapes(const std::vector<Shape>& shapes,
     std::vector<MassProperties> parts;
     MassProperties whole;
     for (const Shape& shape : shapes) {
-        const double density = materials.at(static_cast<std::size_t>(shape.material)).density;
+        const double density = materials.at(shape.material).density;
         MassProperties part = std::visit(OfShape{density, dimension}, shape.geometry);
         const Mat3 r = toMatrix(shape.pose.orientation);
         part.centerOfMass = shape.pose * part.centerOfMass;

@@ -102,12 +102,8 @@ inline double angleAboutZ(Quat q) {
 struct Mat3 {
     std::array<std::array<double, 3>, 3> m{};
     friend constexpr bool operator==(const Mat3&, const Mat3&) = default;
-    constexpr double& operator()(int i, int j) {
-        return m[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-    }
-    constexpr double operator()(int i, int j) const {
-        return m[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-    }
+    constexpr double& operator()(int i, int j) { return m[i][j]; }
+    constexpr double operator()(int i, int j) const { return m[i][j]; }
     static constexpr Mat3 diagonal(double a, double b, double c) {
         Mat3 r;
         r(0, 0) = a;

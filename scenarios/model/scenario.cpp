@@ -89,8 +89,8 @@ PairCoefficients pairCoefficients(const Scenario& scenario, int materialA, int m
     for (const MaterialPair& pair : scenario.pairs)
         if ((pair.a == materialA && pair.b == materialB) || (pair.a == materialB && pair.b == materialA))
             return {pair.friction, pair.restitution, pair.staticFriction};
-    const Material& a = scenario.materials[static_cast<std::size_t>(materialA)];
-    const Material& b = scenario.materials[static_cast<std::size_t>(materialB)];
+    const Material& a = scenario.materials[materialA];
+    const Material& b = scenario.materials[materialB];
     const double friction = std::sqrt(a.friction * b.friction);
     double sticking = 0.0;
     if (a.staticFriction > 0.0 || b.staticFriction > 0.0)
@@ -106,8 +106,8 @@ int findBody(const Scenario& scenario, const std::string& name) {
 }
 
 bool mayCollide(const Scenario& scenario, int bodyA, int bodyB) {
-    const Body& a = scenario.bodies[static_cast<std::size_t>(bodyA)];
-    const Body& b = scenario.bodies[static_cast<std::size_t>(bodyB)];
+    const Body& a = scenario.bodies[bodyA];
+    const Body& b = scenario.bodies[bodyB];
     if (bodyA == bodyB || !a.collides || !b.collides) return false;
     if (a.type != BodyType::Dynamic && b.type != BodyType::Dynamic) return false;
     return std::none_of(scenario.joints.begin(), scenario.joints.end(), [&](const Joint& joint) {

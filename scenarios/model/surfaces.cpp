@@ -51,9 +51,7 @@ std::string surfaceProblem(const TriangleMesh& mesh) {
         for (const int v : mesh.triangles[i])
             if (v < 0 || v >= n)
                 return "triangle " + std::to_string(i) + " has no vertex " + std::to_string(v);
-        const auto at = [&](std::size_t k) {
-            return mesh.vertices[static_cast<std::size_t>(mesh.triangles[i][k])];
-        };
+        const auto at = [&](std::size_t k) { return mesh.vertices[mesh.triangles[i][k]]; };
         const Vec3 a = at(1) - at(0), b = at(2) - at(0);
         const double longest = std::max({norm(a), norm(b), norm(b - a)});
         if (!(longest > 0.0) || !(norm(cross(a, b)) / longest > least))
@@ -87,7 +85,7 @@ std::vector<Vec3> surfaceVertices(const HeightField& field) {
     for (int k = 0; k < field.rows; ++k)
         for (int i = 0; i < field.columns; ++i)
             vertices.push_back({(i - 0.5 * (field.columns - 1)) * field.spacingX,
-                                field.heights[static_cast<std::size_t>(k * field.columns + i)],
+                                field.heights[k * field.columns + i],
                                 (k - 0.5 * (field.rows - 1)) * field.spacingZ});
     return vertices;
 }

@@ -209,13 +209,13 @@ std::string takeCommon(Row& head, std::vector<Row>& rows) {
     std::string said;
     for (auto i = found("ratio") + 2; rows.size() > 1 && i < found("runs");) {
         std::set<std::string> values;
-        for (const Row& row : rows) values.insert(row[static_cast<std::size_t>(i)]);
+        for (const Row& row : rows) values.insert(row[i]);
         values.erase("-");  // of who did nothing
         if (values.size() != 1) {
             ++i;
             continue;
         }
-        said += ", " + head[static_cast<std::size_t>(i)] + " " + *values.begin();
+        said += ", " + head[i] + " " + *values.begin();
         head.erase(head.begin() + i);
         for (Row& row : rows) row.erase(row.begin() + i);
     }

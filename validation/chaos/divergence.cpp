@@ -24,8 +24,7 @@ double spreadOf(const Scenario& s) {
     for (const auto& b : s.bodies)
         if (b.type != BodyType::Static) points.push_back(b.pose.position);
     for (const auto& j : s.joints) {
-        const auto pose =
-            j.bodyB == scenario::kNone ? scenario::Pose{} : s.bodies[static_cast<std::size_t>(j.bodyB)].pose;
+        const auto pose = j.bodyB == scenario::kNone ? scenario::Pose{} : s.bodies[j.bodyB].pose;
         points.push_back(pose * j.anchorB);
     }
     double most = 0.0;
@@ -88,7 +87,7 @@ double sceneLength(const Scenario& s) {
 std::optional<Growth> growthOf(const std::vector<double>& times, const std::vector<double>& values) {
     const std::size_t n = times.size();
     if (n < 3 || values.size() != n) return std::nullopt;
-    const double count = static_cast<double>(n);
+    const double count = n;
     double meanX = 0.0, meanY = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
         meanX += times[i] / count;
@@ -128,7 +127,7 @@ Divergence divergenceOf(const Scenario& scenario, const Trajectory& a, const Tra
         double largest = 0.0, sum = 0.0;
         int farthest = scenario::kNone;
         for (int i = 0; i < static_cast<int>(a.bodyCount); ++i) {
-            if (scenario.bodies[static_cast<std::size_t>(i)].type != BodyType::Dynamic) continue;
+            if (scenario.bodies[i].type != BodyType::Dynamic) continue;
             const double distance = norm(a.state(f, i).position - b.state(f, i).position);
             sum += distance * distance;
             if (distance > largest) {

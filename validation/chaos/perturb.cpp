@@ -14,7 +14,7 @@ namespace {
 using namespace scenario;
 
 bool isDynamicBody(const Scenario& s, int body) {
-    return body != kNone && s.bodies[static_cast<std::size_t>(body)].type == BodyType::Dynamic;
+    return body != kNone && s.bodies[body].type == BodyType::Dynamic;
 }
 
 /// The lowest body that each body is joined to, over dynamic bodies.
@@ -22,15 +22,15 @@ std::vector<int> groupsOf(const Scenario& s) {
     std::vector<int> parent(s.bodies.size());
     std::iota(parent.begin(), parent.end(), 0);
     const auto root = [&](int body) {
-        while (parent[static_cast<std::size_t>(body)] != body) body = parent[static_cast<std::size_t>(body)];
+        while (parent[body] != body) body = parent[body];
         return body;
     };
     for (const Joint& j : s.joints) {
         if (!isDynamicBody(s, j.bodyA) || !isDynamicBody(s, j.bodyB)) continue;
         const int a = root(j.bodyA), b = root(j.bodyB);
-        parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        parent[std::max(a, b)] = std::min(a, b);
     }
-    for (int i = 0; i < static_cast<int>(parent.size()); ++i) parent[static_cast<std::size_t>(i)] = root(i);
+    for (int i = 0; i < static_cast<int>(parent.size()); ++i) parent[i] = root(i);
     return parent;
 }
 
@@ -59,11 +59,11 @@ Freedom freedomOf(const Scenario& s, const std::vector<int>& group, int root) {
     int holds = 0;
     for (const Joint& j : s.joints) {
         const bool a = isDynamicBody(s, j.bodyA), b = isDynamicBody(s, j.bodyB);
-        if (a == b || group[static_cast<std::size_t>(a ? j.bodyA : j.bodyB)] != root) continue;
+        if (a == b || group[a ? j.bodyA : j.bodyB] != root) continue;
         ++holds;
         f.shifts = false;
         f.turns = holds == 1 && (j.type == JointType::Ball || j.type == JointType::Hinge);
-        const Body& body = s.bodies[static_cast<std::size_t>(a ? j.bodyA : j.bodyB)];
+        const Body& body = s.bodies[a ? j.bodyA : j.bodyB];
         f.pivot = body.pose * (a ? j.anchorA : j.anchorB);
         if (j.type == JointType::Hinge && s.dimension == 3)
             f.axis = rotate(body.pose.orientation, a ? j.axisA : j.axisB);
@@ -126,7 +126,7 @@ Scenario perturbed(const Scenario& scenario, const Perturbation& size, std::uint
     const std::vector<int> group = groupsOf(s);
     bool any = false;
     for (int i = 0; i < static_cast<int>(group.size()); ++i) {
-        if (group[static_cast<std::size_t>(i)] != i || !isDynamicBody(s, i)) continue;
+        if (group[i] != i || !isDynamicBody(s, i)) continue;
         const Freedom f = freedomOf(scenario, group, i);
         const bool moves = (f.shifts && (size.position > 0.0 || size.velocity > 0.0)) ||
                            (f.turns && (size.angle > 0.0 || size.spin > 0.0));

@@ -62,7 +62,7 @@ SparseMatrix readMatrix(const Hdf5File& file, const std::string& group) {
         if (p.size() != static_cast<std::size_t>(lines) + 1)
             refuse("p has " + std::to_string(p.size()) + " values, expected " + std::to_string(lines + 1));
         for (int line = 0; line < lines; ++line) {
-            const int from = p[static_cast<std::size_t>(line)], to = p[static_cast<std::size_t>(line) + 1];
+            const int from = p[line], to = p[static_cast<std::size_t>(line) + 1];
             if (from < 0 || to < from || static_cast<std::size_t>(to) > std::min(i.size(), x.size()))
                 refuse("p[" + std::to_string(line) + "] points outside of i and x");
             for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(to); ++k)

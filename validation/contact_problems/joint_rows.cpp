@@ -12,12 +12,12 @@ using namespace scenario;
 
 Pose poseOf(std::span<const BodyState> states, int body) {
     if (body == kNone) return {};
-    const BodyState& s = states[static_cast<std::size_t>(body)];
+    const BodyState& s = states[body];
     return {s.position, s.orientation};
 }
 Vec3 centerOf(const Scenario& s, std::span<const BodyState> states, int body) {
     if (body == kNone) return {};
-    return centerOfMassOf(s.bodies[static_cast<std::size_t>(body)], states[static_cast<std::size_t>(body)]);
+    return centerOfMassOf(s.bodies[body], states[body]);
 }
 
 /// Rows about where the joint stands.

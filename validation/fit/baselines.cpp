@@ -54,7 +54,7 @@ struct Slide {
 std::optional<Slide> slideOf(const Scenario& s, const Reference& reference) {
     const std::vector<int> recorded = reference.bodies();
     if (recorded.size() != 1 || s.dimension != 3) return std::nullopt;
-    const Body& cube = s.bodies[static_cast<std::size_t>(recorded[0])];
+    const Body& cube = s.bodies[recorded[0]];
     const auto* box = cube.shapes.size() == 1 ? std::get_if<Box>(&cube.shapes[0].geometry) : nullptr;
     if (box == nullptr) return std::nullopt;
     const double half = std::min({box->halfExtents.x, box->halfExtents.y, box->halfExtents.z});
@@ -100,7 +100,7 @@ std::vector<double> predict(Kind kind, const Scenario& s, double dt,
     if (kind != Kind::Frozen) {
         const auto slide = slideOf(s, *reference);
         if (!slide) return {};
-        Quat attitude = s.bodies[static_cast<std::size_t>(slide->body)].pose.orientation;
+        Quat attitude = s.bodies[slide->body].pose.orientation;
         if (kind == Kind::SlideToFinalAttitude) {
             const auto end = reference->measured(slide->body, s.duration);
             if (!end || !end->orientation) return {};

@@ -111,9 +111,8 @@ class Fitting {
             if (!objective_.evaluate(spec, train, {start, best}, values)) return false;
             for (std::size_t m = 0; m < task_.metrics.size(); ++m)
                 for (const int k : {0, 1})
-                    fit.scores.push_back(
-                        {train ? "train" : "test", k == 0 ? "unfitted" : "fitted", task_.metrics[m],
-                         scoreOf(lossesOf(*values[static_cast<std::size_t>(k)], m), task_.seed)});
+                    fit.scores.push_back({train ? "train" : "test", k == 0 ? "unfitted" : "fitted",
+                                          task_.metrics[m], scoreOf(lossesOf(*values[k], m), task_.seed)});
             if (!train)
                 std::tie(fit.change, fit.changeInterval) =
                     meanChange(lossesOf(*values[0], 0), lossesOf(*values[1], 0), task_.seed);

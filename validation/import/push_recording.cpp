@@ -127,7 +127,7 @@ std::vector<Vec3> pathOf(const Push& push, Vec3 inHand) {
     std::vector<Vec3> path = raw;
     for (std::size_t k = kReach; k + kReach < raw.size(); ++k) {
         const auto at = [&](std::ptrdiff_t i) -> const Vec3& {
-            return raw[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(k) + i)];
+            return raw[static_cast<std::ptrdiff_t>(k) + i];
         };
         path[k] = {fitParabola([&](std::ptrdiff_t i) { return at(i).x; }).middle,
                    fitParabola([&](std::ptrdiff_t i) { return at(i).y; }).middle,
@@ -138,8 +138,7 @@ std::vector<Vec3> pathOf(const Push& push, Vec3 inHand) {
 
 double slideDeceleration(const Push& push) {
     const auto middle = static_cast<std::ptrdiff_t>(push.stopped) - kReach;
-    const Parabola slide = fitParabola(
-        [&](std::ptrdiff_t i) { return push.cube[static_cast<std::size_t>(middle + i)].position.x; });
+    const Parabola slide = fitParabola([&](std::ptrdiff_t i) { return push.cube[middle + i].position.x; });
     return -slide.curvature * push.rate * push.rate;
 }
 

@@ -27,8 +27,8 @@ double feltMass(const Body& body, int dimension, const Vec3& arm) {
 
 DragPull dragForce(const Scenario& scenario, const Drag& drag, std::span<const adapter::BodyState> states,
                    double dt) {
-    const Body& body = scenario.bodies[static_cast<std::size_t>(drag.body)];
-    const adapter::BodyState& s = states[static_cast<std::size_t>(drag.body)];
+    const Body& body = scenario.bodies[drag.body];
+    const adapter::BodyState& s = states[drag.body];
     const Vec3 arm = rotate(s.orientation, drag.point - body.massProperties.centerOfMass);
     const Vec3 x = s.position + rotate(s.orientation, drag.point);
     const Vec3 v = s.velocity + cross(s.angularVelocity, arm);

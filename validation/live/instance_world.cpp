@@ -180,8 +180,7 @@ void InstanceWorld::goTo(std::size_t steps) {
 void InstanceWorld::drag(const std::optional<Drag>& drag) {
     if (drag) {
         const bool known = drag->body >= 0 && static_cast<std::size_t>(drag->body) < scenario_.bodies.size();
-        if (!known ||
-            scenario_.bodies[static_cast<std::size_t>(drag->body)].type != scenario::BodyType::Dynamic)
+        if (!known || scenario_.bodies[drag->body].type != scenario::BodyType::Dynamic)
             throw BadInput("only a dynamic body can be dragged");
         if (!isFinite(drag->point) || !isFinite(drag->target) || !std::isfinite(drag->stiffness))
             throw BadInput("a drag must be finite");
@@ -191,7 +190,7 @@ void InstanceWorld::drag(const std::optional<Drag>& drag) {
 
 std::optional<InstanceWorld::Pull> InstanceWorld::pull() {
     if (!drag_ || !nonFinite_.empty()) return std::nullopt;
-    const adapter::BodyState& s = stepper_->states()[static_cast<std::size_t>(drag_->body)];
+    const adapter::BodyState& s = stepper_->states()[drag_->body];
     return Pull{s.position + rotate(s.orientation, drag_->point),
                 dragForce(scenario_, *drag_, stepper_->states(), dt_).force};
 }

@@ -18,7 +18,7 @@ constexpr double kStill = 1e-6;  ///< [m] or [rad]: a coordinate this near to ze
 
 Pose poseNow(std::span<const BodyState> states, int body) {
     if (body == kNone) return {};
-    const BodyState& s = states[static_cast<std::size_t>(body)];
+    const BodyState& s = states[body];
     return {s.position, normalized(s.orientation)};
 }
 
@@ -74,7 +74,7 @@ class Rewriter {
 
     void place(Body& body, int index) {
         if (body.type == BodyType::Static) return;
-        const BodyState& state = moment_.states[static_cast<std::size_t>(index)];
+        const BodyState& state = moment_.states[index];
         body.pose = poseNow(moment_.states, index);
         body.velocity = state.velocity;
         body.angularVelocity = state.angularVelocity;

@@ -56,7 +56,7 @@ struct ContactStep {
 
 double gravityAlong(const ContactStep& d) {
     const auto pull = [&](int body) {
-        const Body& b = d.scenario.bodies[static_cast<std::size_t>(body)];
+        const Body& b = d.scenario.bodies[body];
         return b.type == BodyType::Dynamic ? b.gravityScale * dot(d.contact.normal, d.scenario.gravity) : 0.0;
     };
     return pull(d.contact.bodyB) - pull(d.contact.bodyA);

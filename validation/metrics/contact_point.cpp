@@ -104,7 +104,7 @@ bool isKnownContact(const Scenario& scenario, const ContactPoint& contact) {
 
 PairCoefficients coefficientsOf(const Scenario& scenario, const ContactPoint& contact) {
     const auto material = [&](int body, int shape) {
-        return scenario.bodies[place(body)].shapes[static_cast<std::size_t>(shape)].material;
+        return scenario.bodies[place(body)].shapes[shape].material;
     };
     return pairCoefficients(scenario, material(contact.bodyA, contact.shapeA),
                             material(contact.bodyB, contact.shapeB));

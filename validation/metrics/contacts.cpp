@@ -39,10 +39,8 @@ std::optional<PairGeometry> exactPair(const MetricInput& input, const ContactPoi
                                       std::size_t frame) {
     const auto shapeOf = [&](int body, int shape) -> const Shape* {
         if (body < 0 || static_cast<std::size_t>(body) >= input.scenario.bodies.size()) return nullptr;
-        const auto& shapes = input.scenario.bodies[static_cast<std::size_t>(body)].shapes;
-        return shape >= 0 && static_cast<std::size_t>(shape) < shapes.size()
-                   ? &shapes[static_cast<std::size_t>(shape)]
-                   : nullptr;
+        const auto& shapes = input.scenario.bodies[body].shapes;
+        return shape >= 0 && static_cast<std::size_t>(shape) < shapes.size() ? &shapes[shape] : nullptr;
     };
     const Shape *a = shapeOf(contact.bodyA, contact.shapeA), *b = shapeOf(contact.bodyB, contact.shapeB);
     if (!a || !b) return std::nullopt;
@@ -52,8 +50,8 @@ std::optional<PairGeometry> exactPair(const MetricInput& input, const ContactPoi
 
 /// Engines that do not tell which shape touched say 0: only bodies of one shape are judged.
 bool shapesAreKnown(const MetricInput& input, const ContactPoint& contact) {
-    return input.scenario.bodies[static_cast<std::size_t>(contact.bodyA)].shapes.size() == 1 &&
-           input.scenario.bodies[static_cast<std::size_t>(contact.bodyB)].shapes.size() == 1;
+    return input.scenario.bodies[contact.bodyA].shapes.size() == 1 &&
+           input.scenario.bodies[contact.bodyB].shapes.size() == 1;
 }
 
 /// The median as the row of the whole scene; none of nothing.
@@ -107,8 +105,8 @@ std::vector<MetricValue> overlapMax(const MetricInput& input) {
     for (int a = 0; a < count; ++a)
         for (int b = a + 1; b < count; ++b) {
             if (!mayCollide(input.scenario, a, b)) continue;
-            for (const auto& sa : bodies[static_cast<std::size_t>(a)].shapes)
-                for (const auto& sb : bodies[static_cast<std::size_t>(b)].shapes)
+            for (const auto& sa : bodies[a].shapes)
+                for (const auto& sb : bodies[b].shapes)
                     for (std::size_t k = 0; k < input.trajectory.frames(); ++k) {
                         const auto pair = closedFormPair(
                             sa.geometry, poseOf(input.trajectory.state(k, a), sa), sb.geometry,

@@ -53,8 +53,8 @@ bool contactsAreLossless(const Scenario& scenario) {
     for (int a = 0; a < count; ++a)
         for (int b = a + 1; b < count; ++b) {
             if (!mayCollide(scenario, a, b)) continue;
-            for (const auto& sa : scenario.bodies[static_cast<std::size_t>(a)].shapes)
-                for (const auto& sb : scenario.bodies[static_cast<std::size_t>(b)].shapes) {
+            for (const auto& sa : scenario.bodies[a].shapes)
+                for (const auto& sb : scenario.bodies[b].shapes) {
                     const auto pair = pairCoefficients(scenario, sa.material, sb.material);
                     if (pair.friction > 0.0 || pair.restitution < 1.0) return false;
                 }

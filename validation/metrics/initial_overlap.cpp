@@ -42,8 +42,8 @@ std::optional<double> exactDepth(const MetricInput& input, const ContactPoint& c
         return Pose{s.position, s.orientation};
     };
     double deepest = -std::numeric_limits<double>::infinity();
-    for (const Shape& a : input.scenario.bodies[static_cast<std::size_t>(contact.bodyA)].shapes)
-        for (const Shape& b : input.scenario.bodies[static_cast<std::size_t>(contact.bodyB)].shapes) {
+    for (const Shape& a : input.scenario.bodies[contact.bodyA].shapes)
+        for (const Shape& b : input.scenario.bodies[contact.bodyB].shapes) {
             const Pose poseA = bodyPose(contact.bodyA) * a.pose, poseB = bodyPose(contact.bodyB) * b.pose;
             const auto apart = separationAlong(a.geometry, poseA, b.geometry, poseB, input.scenario.dimension,
                                                directionFor(contact, a, poseA, b, poseB));

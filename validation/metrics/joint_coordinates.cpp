@@ -10,7 +10,7 @@ namespace {
 using namespace scenario;
 
 Quat startOf(const Scenario& scenario, int body) {
-    return body == kNone ? Quat{} : scenario.bodies[static_cast<std::size_t>(body)].pose.orientation;
+    return body == kNone ? Quat{} : scenario.bodies[body].pose.orientation;
 }
 
 /// Rotation of B against A since the start, in A's frame (the world's where A is the world).

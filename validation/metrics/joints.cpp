@@ -67,8 +67,7 @@ std::optional<double> axisError(const MetricInput& input, const Joint& joint, st
     }
     if (joint.type != JointType::Slider && joint.type != JointType::Fixed) return std::nullopt;
     const auto initial = [&](int body) {
-        return body == kNone ? Quat{}
-                             : input.scenario.bodies[static_cast<std::size_t>(body)].pose.orientation;
+        return body == kNone ? Quat{} : input.scenario.bodies[body].pose.orientation;
     };
     const Quat start = conjugate(initial(joint.bodyA)) * initial(joint.bodyB);
     return rotationAngle(start, conjugate(a.orientation) * b.orientation);

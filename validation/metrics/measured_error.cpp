@@ -61,8 +61,7 @@ std::vector<MetricValue> rowsOfRecorded(const MetricInput& input, Value value) {
 template <class Value>
 std::vector<MetricValue> positionRows(const MetricInput& input, Value value) {
     return rowsOfRecorded(input, [&](int body, const Errors& errors, Worst& worst) {
-        const double width =
-            widthOf(input.scenario.bodies[static_cast<std::size_t>(body)], input.scenario.dimension);
+        const double width = widthOf(input.scenario.bodies[body], input.scenario.dimension);
         if (!errors.position.empty() && width > 0.0 && std::isfinite(width)) value(errors, width, worst);
     });
 }

@@ -42,7 +42,7 @@ namespace {
 double springEnergy(std::span<const BodyState> states, const SpringForce& spring) {
     const auto place = [&](int body, Vec3 anchor) {
         if (body == kNone) return anchor;
-        const BodyState& s = states[static_cast<std::size_t>(body)];
+        const BodyState& s = states[body];
         return s.position + rotate(s.orientation, anchor);
     };
     const double stretch =

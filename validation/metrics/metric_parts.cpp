@@ -30,11 +30,11 @@ std::vector<MetricValue> withWorst(std::vector<MetricValue> rows) {
 }
 
 bool isDynamic(const scenario::Scenario& scenario, int body) {
-    return body >= 0 && scenario.bodies[static_cast<std::size_t>(body)].type == scenario::BodyType::Dynamic;
+    return body >= 0 && scenario.bodies[body].type == scenario::BodyType::Dynamic;
 }
 
 const std::string& bodyName(const MetricInput& input, int body) {
-    return input.scenario.bodies[static_cast<std::size_t>(body)].name;
+    return input.scenario.bodies[body].name;
 }
 
 std::vector<int> comparedBodies(const MetricInput& input) {

@@ -22,7 +22,7 @@ bool isHeap(const MetricInput& input) {
         return false;
     std::vector<int> dynamic;
     for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i)
-        if (isDynamic(s, i) && !s.bodies[static_cast<std::size_t>(i)].shapes.empty()) dynamic.push_back(i);
+        if (isDynamic(s, i) && !s.bodies[i].shapes.empty()) dynamic.push_back(i);
     if (dynamic.size() < 3) return false;
     for (const int a : dynamic)
         for (const int b : dynamic)
@@ -71,8 +71,7 @@ double farthest(const Body& body, const BodyState& state, const Vec3& direction)
 template <class Visit>
 void eachDynamic(const MetricInput& input, std::size_t frame, Visit visit) {
     for (int i = 0; i < static_cast<int>(input.scenario.bodies.size()); ++i)
-        if (isDynamic(input.scenario, i))
-            visit(input.scenario.bodies[static_cast<std::size_t>(i)], input.trajectory.state(frame, i));
+        if (isDynamic(input.scenario, i)) visit(input.scenario.bodies[i], input.trajectory.state(frame, i));
 }
 
 bool isSettled(const MetricInput& input, std::size_t frame) {

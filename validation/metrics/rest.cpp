@@ -36,7 +36,7 @@ std::vector<int> restingBodies(const MetricInput& input) {
 }
 
 Vec3 movedBy(const MetricInput& input, int body, std::size_t frame) {
-    const Body& b = input.scenario.bodies[static_cast<std::size_t>(body)];
+    const Body& b = input.scenario.bodies[body];
     return centerOfMassOf(b, input.trajectory.state(frame, body)) -
            centerOfMassOf(b, input.trajectory.state(0, body));
 }

@@ -33,7 +33,7 @@ struct Sides {
 };
 
 const Vec& at(const std::vector<Vec>& v, int i) {
-    return v[static_cast<std::size_t>(i)];
+    return v[i];
 }
 
 std::vector<Face> findFaces(const std::vector<Vec>& v, Real size) {

@@ -31,12 +31,10 @@ void segments(Vec p, Vec d, Vec q, Vec e, Pair& best) {
 /// Foot of x on the plane of a face, if inside the face: on the inner side of all its edges.
 bool footInFace(const Core& c, const Face& f, Vec x, Vec& foot) {
     Vec middle;
-    for (int v : f.vertices)
-        middle =
-            middle + (1.0L / static_cast<Real>(f.vertices.size())) * c.vertices[static_cast<std::size_t>(v)];
+    for (int v : f.vertices) middle = middle + (1.0L / static_cast<Real>(f.vertices.size())) * c.vertices[v];
     foot = x - dot(f.normal, x - middle) * f.normal;
     for (const auto& e : f.edges) {
-        const Vec p = c.vertices[static_cast<std::size_t>(e[0])];
+        const Vec p = c.vertices[e[0]];
         const Vec across = cross(f.normal, edgeVector(c, e));
         if (dot(across, foot - p) * dot(across, middle - p) < 0) return false;
     }
@@ -46,15 +44,15 @@ bool footInFace(const Core& c, const Face& f, Vec x, Vec& foot) {
 }  // namespace
 
 Vec edgeVector(const Core& c, const std::array<int, 2>& e) {
-    return c.vertices[static_cast<std::size_t>(e[1])] - c.vertices[static_cast<std::size_t>(e[0])];
+    return c.vertices[e[1]] - c.vertices[e[0]];
 }
 
 Pair closestFeatures(const Core& a, const Core& b, Vec shiftB) {
     Pair best;
     for (const auto& ea : a.edges)
         for (const auto& eb : b.edges)
-            segments(a.vertices[static_cast<std::size_t>(ea[0])], edgeVector(a, ea),
-                     b.vertices[static_cast<std::size_t>(eb[0])] + shiftB, edgeVector(b, eb), best);
+            segments(a.vertices[ea[0]], edgeVector(a, ea), b.vertices[eb[0]] + shiftB, edgeVector(b, eb),
+                     best);
     Vec foot;
     for (const Face& f : a.faces)
         for (const Vec& v : b.vertices)

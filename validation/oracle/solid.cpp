@@ -43,8 +43,7 @@ Solid fromCore(const Core& core) {
     for (const auto& e : core.edges) {
         const Vec along = edgeVector(core, e);
         const Real length = norm(along);
-        if (length > 0)
-            s.circles.push_back({(1 / length) * along, 0, core.vertices[static_cast<std::size_t>(e[0])], 0});
+        if (length > 0) s.circles.push_back({(1 / length) * along, 0, core.vertices[e[0]], 0});
     }
     return s;
 }

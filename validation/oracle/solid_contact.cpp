@@ -212,9 +212,8 @@ Core coreOf(const std::vector<Vec>& points, const Core* whole) {
     core.vertices = whole->vertices;
     for (const Face& f : whole->faces) {
         const auto has = [&](Vec p) {
-            return std::any_of(f.vertices.begin(), f.vertices.end(), [&](int i) {
-                return norm(whole->vertices[static_cast<std::size_t>(i)] - p) == 0;
-            });
+            return std::any_of(f.vertices.begin(), f.vertices.end(),
+                               [&](int i) { return norm(whole->vertices[i] - p) == 0; });
         };
         if (!std::all_of(points.begin(), points.end(), has)) continue;
         core.faces = {f};

@@ -96,7 +96,7 @@ class Binder {
         statement_.bind(at);
         if (names_ == nullptr) return *this;
         if (!nonFinite_.empty()) nonFinite_ += "; ";
-        nonFinite_ += (*names_)[static_cast<std::size_t>(at - 1)] + " is " + nonFiniteWords(value);
+        nonFinite_ += (*names_)[at - 1] + " is " + nonFiniteWords(value);
         return *this;
     }
     Binder& operator<<(const std::optional<double>& value) {

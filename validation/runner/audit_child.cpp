@@ -81,8 +81,7 @@ void recordNormalErrors(const AuditCase& found, const std::filesystem::path& tra
     series.channel.values.assign(file.times.size(), std::numeric_limits<double>::quiet_NaN());
     for (const auto& [time, angle] : errors) {
         const auto frame = std::lower_bound(file.times.begin(), file.times.end(), time);
-        if (frame != file.times.end())
-            series.channel.values[static_cast<std::size_t>(frame - file.times.begin())] = angle;
+        if (frame != file.times.end()) series.channel.values[frame - file.times.begin()] = angle;
     }
     std::erase_if(file.series, [](const auto& s) { return s.name == kNormalErrorSeries; });
     file.series.push_back(std::move(series));

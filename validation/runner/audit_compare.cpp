@@ -21,7 +21,7 @@ using scenario::Scenario;
 using scenario::Vec3;
 
 const Geometry& geometryOf(const Scenario& s, int body, int shape) {
-    return s.bodies[static_cast<std::size_t>(body)].shapes[static_cast<std::size_t>(shape)].geometry;
+    return s.bodies[body].shapes[shape].geometry;
 }
 
 /// Distance of a point from the surface of a convex shape [m], by the oracle: a ball of radius r around the
@@ -114,8 +114,7 @@ class Comparison {
         std::snprintf(place, sizeof place, " at t=%.6g, step %lld", q.time, static_cast<long long>(q.step));
         const std::string which = contact < 0 ? "" : ", contact " + std::to_string(contact);
         const auto& bodies = scenario_.bodies;
-        row_.worst = bodies[static_cast<std::size_t>(q.bodyA)].name + "|" +
-                     bodies[static_cast<std::size_t>(q.bodyB)].name + place + which + " (" + what + ")";
+        row_.worst = bodies[q.bodyA].name + "|" + bodies[q.bodyB].name + place + which + " (" + what + ")";
     }
 
     const Scenario& scenario_;

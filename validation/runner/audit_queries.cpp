@@ -67,7 +67,7 @@ struct ShapeAt {
 };
 
 const scenario::Shape& shapeOf(const Scenario& s, int body, int shape) {
-    return s.bodies[static_cast<std::size_t>(body)].shapes[static_cast<std::size_t>(shape)];
+    return s.bodies[body].shapes[shape];
 }
 
 ShapeAt place(const Scenario& s, int body, int shape, const Pose& bodyPose) {
@@ -92,9 +92,7 @@ double gap(const ShapeAt& a, const ShapeAt& b) {
 std::vector<Candidate> candidates(const Scenario& s) {
     std::vector<Candidate> pairs;
     const int bodies = static_cast<int>(s.bodies.size());
-    const auto shapes = [&](int body) {
-        return static_cast<int>(s.bodies[static_cast<std::size_t>(body)].shapes.size());
-    };
+    const auto shapes = [&](int body) { return static_cast<int>(s.bodies[body].shapes.size()); };
     for (int a = 0; a < bodies; ++a)
         for (int b = a + 1; b < bodies; ++b) {
             if (!mayCollide(s, a, b)) continue;
@@ -131,7 +129,7 @@ std::vector<std::size_t> sampledFrames(const results::TrajectoryFile& file) {
 }
 
 Pose bodyPose(const results::TrajectoryFile& file, std::size_t frame, int body) {
-    const auto& channels = file.bodies[static_cast<std::size_t>(body)];
+    const auto& channels = file.bodies[body];
     const double* p = channels.position.values.data() + 3 * frame;
     const double* q = channels.orientation.values.data() + 4 * frame;
     return {{p[0], p[1], p[2]}, scenario::normalized({q[0], q[1], q[2], q[3]})};

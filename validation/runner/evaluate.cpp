@@ -114,7 +114,7 @@ void set(results::Channel& c, std::size_t frame, const scenario::Quat& q) {
 }
 
 results::BodyChannels recordedBody(const Scenario& scenario, const Trajectory& t, int body) {
-    auto channels = emptyBody(scenario.bodies[static_cast<std::size_t>(body)].name, t.frames());
+    auto channels = emptyBody(scenario.bodies[body].name, t.frames());
     for (std::size_t f = 0; f < t.frames(); ++f) {
         const BodyState& s = t.state(f, body);
         set(channels.position, f, s.position);
@@ -127,7 +127,7 @@ results::BodyChannels recordedBody(const Scenario& scenario, const Trajectory& t
 
 results::BodyChannels referenceBody(const Scenario& scenario, const Trajectory& t, const Reference& reference,
                                     int body) {
-    auto channels = emptyBody(scenario.bodies[static_cast<std::size_t>(body)].name, t.frames());
+    auto channels = emptyBody(scenario.bodies[body].name, t.frames());
     bool known[4] = {};
     for (std::size_t f = 0; f < t.frames() && t.times[f] <= reference.validUntil(); ++f) {
         const PartialState s =

@@ -141,21 +141,19 @@ void EventLog::reportedEvents(const EngineReports& told) {
         broken_[i] = 1;
         const auto& joint = scenario_.joints[i];
         const auto name = [&](int body) {
-            return body == scenario::kNone ? std::string("world")
-                                           : scenario_.bodies[static_cast<std::size_t>(body)].name;
+            return body == scenario::kNone ? std::string("world") : scenario_.bodies[body].name;
         };
         line("break joint=" + joint.name + " a=" + name(joint.bodyA) + " b=" + name(joint.bodyB));
     }
 }
 
 std::string EventLog::pairText(const Pair& pair) const {
-    return "a=" + scenario_.bodies[static_cast<std::size_t>(pair[0])].name +
-           " b=" + scenario_.bodies[static_cast<std::size_t>(pair[1])].name;
+    return "a=" + scenario_.bodies[pair[0]].name + " b=" + scenario_.bodies[pair[1]].name;
 }
 
 std::string EventLog::idText(const Pair& pair) const {
     const auto shape = [&](int body, int index) {
-        const auto& shapes = scenario_.bodies[static_cast<std::size_t>(body)].shapes;
+        const auto& shapes = scenario_.bodies[body].shapes;
         const auto i = static_cast<std::size_t>(index);
         return std::to_string(index) +
                (i < shapes.size()

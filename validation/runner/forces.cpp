@@ -18,7 +18,7 @@ struct Step {
     std::span<const BodyState> states;
     adapter::World& world;
 
-    const scenario::Body& body(int index) const { return scenario.bodies[static_cast<std::size_t>(index)]; }
+    const scenario::Body& body(int index) const { return scenario.bodies[index]; }
 
     void push(int index, Vec3 force, Vec3 torque) const {
         if (body(index).type == scenario::BodyType::Dynamic) world.applyForce(index, force, torque);
@@ -32,7 +32,7 @@ struct Anchor {
 
 Anchor anchorOf(const Step& step, int index, Vec3 local) {
     if (index == kNone) return {local, {}, {}};
-    const BodyState& s = step.states[static_cast<std::size_t>(index)];
+    const BodyState& s = step.states[index];
     const Vec3 arm = rotate(s.orientation, local - step.body(index).massProperties.centerOfMass);
     return {s.position + rotate(s.orientation, local), s.velocity + cross(s.angularVelocity, arm), arm};
 }
@@ -63,7 +63,7 @@ void apply(const Step& step, const scenario::SpringForce& f) {
 }
 
 void apply(const Step& step, const scenario::DragForce& f) {
-    const Vec3 v = step.states[static_cast<std::size_t>(f.body)].velocity;
+    const Vec3 v = step.states[f.body].velocity;
     step.push(f.body, -(f.coefficient + f.quadratic * norm(v)) * v, {});
 }
 

@@ -31,7 +31,7 @@ results::ScenarioRow scenarioRow(const CasePlan& plan, const ReferenceCheck& ref
     row.isolates = s.isolates;
     row.tags = s.tags;
     row.metrics = s.metrics;
-    for (const int body : s.observed) row.observed.push_back(s.bodies[static_cast<std::size_t>(body)].name);
+    for (const int body : s.observed) row.observed.push_back(s.bodies[body].name);
     row.dimension = s.dimension;
     row.duration = s.duration;
     row.timeSteps = s.timeSteps;

@@ -133,7 +133,7 @@ void addRows(std::vector<MetricRow>& rows, const std::string& name, int every, c
     const auto worst = std::max_element(values.begin(), values.end());
     rows.push_back(rowOf(name, every, unit, lost ? kNaN : median(values), -1.0, note));
     rows.push_back(rowOf(name + "_worst", every, unit, lost ? kNaN : *worst,
-                         lost ? -1.0 : ends[static_cast<std::size_t>(worst - values.begin())], note));
+                         lost ? -1.0 : ends[worst - values.begin()], note));
 }
 
 }  // namespace

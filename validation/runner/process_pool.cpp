@@ -20,7 +20,7 @@ namespace rigor::validation {
 namespace {
 
 double seconds(const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    return static_cast<double>(t.tv_sec) + 1e-6 * t.tv_usec;
 }
 
 }  // namespace

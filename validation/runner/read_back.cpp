@@ -121,8 +121,8 @@ std::vector<ReadBackRow> compareReadBack(const Scenario& scenario, const adapter
     if (count > kFewBodies) rows = condensed(rows);
     for (const adapter::PairReadBack& pair : readBack.pairs) {
         const auto expected = pairCoefficients(scenario, pair.materialA, pair.materialB);
-        const std::string subject = scenario.materials[static_cast<std::size_t>(pair.materialA)].name + "|" +
-                                    scenario.materials[static_cast<std::size_t>(pair.materialB)].name;
+        const std::string subject =
+            scenario.materials[pair.materialA].name + "|" + scenario.materials[pair.materialB].name;
         rows.push_back(scalar("friction", subject, expected.friction, pair.friction, tolerance));
         rows.push_back(scalar("restitution", subject, expected.restitution, pair.restitution, tolerance));
     }

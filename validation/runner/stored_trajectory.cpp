@@ -51,8 +51,7 @@ Trajectory trajectoryOf(const results::TrajectoryFile& file) {
         for (const auto& body : file.bodies) t.states.push_back(stateAt(body, f));
     for (const auto& contact : file.contacts) {
         const auto it = std::lower_bound(t.times.begin(), t.times.end(), contact.time);
-        if (it != t.times.end())
-            t.contacts[static_cast<std::size_t>(it - t.times.begin())].push_back(contactOf(contact));
+        if (it != t.times.end()) t.contacts[it - t.times.begin()].push_back(contactOf(contact));
     }
     return t;
 }

@@ -118,7 +118,7 @@ class Filler {
         if (plain->trajectory.frames() == back.frames() &&
             findSymmetry(one.symmetry)->rerun != Rerun::Reversed)
             c.divergenceTime = divergenceOf(s, plain->trajectory, back, {threshold, 1, 1}).divergenceTime;
-        c.body = s.bodies[static_cast<std::size_t>(c.difference.body)].name;
+        c.body = s.bodies[c.difference.body].name;
         it->second = std::move(c);
         return &*it->second;
     }
@@ -210,7 +210,7 @@ class Filler {
     }
     static std::string divergenceNote(const scenario::Scenario& s, const Divergence& d,
                                       const std::string& name) {
-        const auto body = [&](int i) { return s.bodies[static_cast<std::size_t>(i)].name; };
+        const auto body = [&](int i) { return s.bodies[i].name; };
         if (name == kDivergenceTime && d.divergenceTime) return body(d.body);
         if (name == "growth" && d.growth) return intervalText({d.growth->low, d.growth->high});
         if (name == "split" && d.split)

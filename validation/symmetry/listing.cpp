@@ -32,22 +32,20 @@ Listing changed(const Scenario& s, Change change) {
 template <class T>
 void moveTo(std::vector<T>& list, const std::vector<int>& places) {
     std::vector<T> moved(list.size());
-    for (std::size_t i = 0; i < list.size(); ++i)
-        moved[static_cast<std::size_t>(places[i])] = std::move(list[i]);
+    for (std::size_t i = 0; i < list.size(); ++i) moved[places[i]] = std::move(list[i]);
     list = std::move(moved);
 }
 
 std::vector<int> inverse(const std::vector<int>& places) {
     std::vector<int> at(places.size());
-    for (std::size_t i = 0; i < places.size(); ++i)
-        at[static_cast<std::size_t>(places[i])] = static_cast<int>(i);
+    for (std::size_t i = 0; i < places.size(); ++i) at[places[i]] = static_cast<int>(i);
     return at;
 }
 
 /// Whatever names a body by its index names it by its new one.
 void renameBodies(Scenario& s, const std::vector<int>& places) {
     const auto rename = [&](int& body) {
-        if (body != kNone) body = places[static_cast<std::size_t>(body)];
+        if (body != kNone) body = places[body];
     };
     for (Joint& j : s.joints) {
         rename(j.bodyA);
@@ -116,9 +114,7 @@ Transformed listed(const Scenario& scenario, const Listing& listing) {
     std::vector<std::vector<int>> shapes;
     for (const auto& places : listing.shapes) shapes.push_back(inverse(places));
     const auto back = [bodies = listing.bodies, shapes](const Trajectory& t) {
-        const auto name = [&](int body, int& shape) {
-            shape = shapes[static_cast<std::size_t>(body)][static_cast<std::size_t>(shape)];
-        };
+        const auto name = [&](int body, int& shape) { shape = shapes[body][shape]; };
         return mapped(
             reordered(t, bodies), [](const BodyState& state, double) { return state; },
             [&](ContactPoint c, double) {

@@ -19,7 +19,7 @@ constexpr std::uint32_t kSeed = 43;
 std::vector<int> placesOf(const Scenario& s, bool dynamic) {
     std::vector<int> places;
     for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i)
-        if ((s.bodies[static_cast<std::size_t>(i)].type == BodyType::Dynamic) == dynamic) places.push_back(i);
+        if ((s.bodies[i].type == BodyType::Dynamic) == dynamic) places.push_back(i);
     return places;
 }
 
@@ -27,8 +27,8 @@ std::vector<int> reversedPlaces(const Scenario& s) {
     const std::vector<int> dynamic = placesOf(s, true), fixed = placesOf(s, false);
     std::vector<int> place(s.bodies.size());
     int next = 0;
-    for (const int i : dynamic) place[static_cast<std::size_t>(i)] = next++;
-    for (auto it = fixed.rbegin(); it != fixed.rend(); ++it) place[static_cast<std::size_t>(*it)] = next++;
+    for (const int i : dynamic) place[i] = next++;
+    for (auto it = fixed.rbegin(); it != fixed.rend(); ++it) place[*it] = next++;
     return place;
 }
 
@@ -47,8 +47,7 @@ Transformed permutation(const Scenario& scenario, const Trajectory*) {
     for (std::size_t i = after.size() - 1; i > 0; --i) std::swap(after[i], after[random() % (i + 1)]);
     if (after == before) std::rotate(after.begin(), after.begin() + 1, after.end());
     Listing listing = asWritten(scenario);
-    for (std::size_t i = 0; i < before.size(); ++i)
-        listing.bodies[static_cast<std::size_t>(before[i])] = after[i];
+    for (std::size_t i = 0; i < before.size(); ++i) listing.bodies[before[i]] = after[i];
     return listed(scenario, listing);
 }
 

@@ -32,7 +32,7 @@ void compareFrames(const scenario::Scenario& s, const Trajectory& a, std::size_t
                    std::size_t frameB, Difference& d) {
     bool same = true;
     for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
-        if (s.bodies[static_cast<std::size_t>(i)].type == scenario::BodyType::Static) continue;
+        if (s.bodies[i].type == scenario::BodyType::Static) continue;
         const BodyState &x = a.state(frameA, i), &y = b.state(frameB, i);
         same = same && sameBits(x, y);
         const double distance = norm(x.position - y.position);
@@ -118,15 +118,14 @@ Trajectory reordered(const Trajectory& trajectory, const std::vector<int>& place
     t.bodyCount = place.size();
     t.states.clear();
     std::vector<int> before(trajectory.bodyCount, scenario::kNone);
-    for (std::size_t i = 0; i < place.size(); ++i)
-        before[static_cast<std::size_t>(place[i])] = static_cast<int>(i);
+    for (std::size_t i = 0; i < place.size(); ++i) before[place[i]] = static_cast<int>(i);
     for (std::size_t f = 0; f < trajectory.frames(); ++f) {
         for (const int p : place) t.states.push_back(trajectory.state(f, p));
         if (f >= t.contacts.size()) continue;
         auto& contacts = t.contacts[f];
         for (ContactPoint& c : contacts) {
-            c.bodyA = before[static_cast<std::size_t>(c.bodyA)];
-            c.bodyB = before[static_cast<std::size_t>(c.bodyB)];
+            c.bodyA = before[c.bodyA];
+            c.bodyB = before[c.bodyB];
             if (c.bodyA <= c.bodyB) continue;
             std::swap(c.bodyA, c.bodyB);
             std::swap(c.shapeA, c.shapeB);

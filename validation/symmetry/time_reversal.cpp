@@ -24,8 +24,8 @@ bool contactsLose(const Scenario& s) {
     for (int a = 0; a < n; ++a)
         for (int b = a + 1; b < n; ++b) {
             if (!mayCollide(s, a, b)) continue;
-            for (const Shape& x : s.bodies[static_cast<std::size_t>(a)].shapes)
-                for (const Shape& y : s.bodies[static_cast<std::size_t>(b)].shapes) {
+            for (const Shape& x : s.bodies[a].shapes)
+                for (const Shape& y : s.bodies[b].shapes) {
                     const PairCoefficients pair = pairCoefficients(s, x.material, y.material);
                     if (pair.friction > 0.0 || pair.restitution < 1.0) return true;
                 }
@@ -97,7 +97,7 @@ Transformed timeReversal(const Scenario& scenario, const Trajectory* firstRun) {
     for (Force& force : s.forces)
         if (auto* f = std::get_if<ConstantForce>(&force)) f->end = 1e300;
     for (int i = 0; i < static_cast<int>(s.bodies.size()); ++i) {
-        const Body& b = s.bodies[static_cast<std::size_t>(i)];
+        const Body& b = s.bodies[i];
         if (b.type != BodyType::Dynamic) continue;
         const BodyState& end = firstRun->state(last, i);
         s.events.push_back({firstRun->times[last], i, -2.0 * b.massProperties.mass * end.velocity,

@@ -36,7 +36,7 @@ std::string problemOf(int dimension, const std::string& generator) {
 const Body& body(const Scenario& s, const std::string& name) {
     const int index = findBody(s, name);
     if (index == kNone) throw std::runtime_error("no body " + name);
-    return s.bodies[static_cast<std::size_t>(index)];
+    return s.bodies[index];
 }
 std::string ballOf(double radius) {
     return R"({"shapes": [{"sphere": {"radius": )" + std::to_string(radius) + "}}]}";
@@ -250,7 +250,7 @@ TEST(Repeat, CopiesBodiesAndJointsWithTheirNames) {
                     return joint.name == prefix + one.joints[n].name;
                 });
                 ASSERT_NE(found, s.joints.end());
-                EXPECT_EQ(s.bodies[static_cast<std::size_t>(found->bodyB)].name, b.name);
+                EXPECT_EQ(s.bodies[found->bodyB].name, b.name);
                 if (n == 0) {
                     EXPECT_EQ(found->bodyA, kNone);
                     EXPECT_LT(norm(found->anchorA - one.joints[n].anchorA - Vec3{4.0 * i, 0, 7.0 * k}),

@@ -29,7 +29,7 @@ TEST(Grid, NamesAndPlaces) {
     ASSERT_EQ(s.bodies.size(), 12u);
     const int index = findBody(s, "g_1_2_1");
     ASSERT_NE(index, kNone);
-    EXPECT_EQ(s.bodies[static_cast<std::size_t>(index)].pose.position, (Vec3{11, 42, 33}));
+    EXPECT_EQ(s.bodies[index].pose.position, (Vec3{11, 42, 33}));
     EXPECT_EQ(s.bodies[0].name, "g_0_0_0");
     EXPECT_EQ(s.bodies[0].pose.position, (Vec3{1, 2, 3}));
 }
@@ -38,9 +38,7 @@ TEST(Pyramid, RowsShrinkByOneAndEachRestsOnTwo) {
     const Scenario s = made(2, R"({"pyramid": {"name": "p", "rows": 10, "origin": [0, 0.25],
         "spacing": [0.55, 0.5], "body": {"shapes": [{"box": {"half_extents": [0.25, 0.25]}}]}}})");
     ASSERT_EQ(s.bodies.size(), 55u);
-    const auto at = [&](const std::string& name) {
-        return s.bodies[static_cast<std::size_t>(findBody(s, name))].pose.position;
-    };
+    const auto at = [&](const std::string& name) { return s.bodies[findBody(s, name)].pose.position; };
     for (int row = 1; row < 10; ++row)
         for (int i = 0; i < 10 - row; ++i) {
             const auto label = [](int r, int k) {

@@ -84,7 +84,7 @@ class Mutator {
         const Json flat = document.flatten();
         for (const auto& [pointer, value] : flat.items()) pointers.push_back(pointer);
         if (pointers.empty() || !document.is_structured()) return text;
-        std::string pointer = pointers[static_cast<std::size_t>(below(pointers.size()))];
+        std::string pointer = pointers[below(pointers.size())];
         for (int up = below(3); up > 0 && pointer.find('/', 1) != std::string::npos; --up)
             pointer.resize(pointer.rfind('/'));
         const Json::json_pointer place(pointer);
@@ -109,8 +109,7 @@ class Mutator {
                 document[place] = oddValue();
                 break;
             default:  // a value from elsewhere
-                document[place] = Json(
-                    document[Json::json_pointer(pointers[static_cast<std::size_t>(below(pointers.size()))])]);
+                document[place] = Json(document[Json::json_pointer(pointers[below(pointers.size())])]);
         }
         return document.dump(2, ' ', false, Json::error_handler_t::replace);
     }
@@ -132,7 +131,7 @@ class Mutator {
                                               Json{{"sphere", 3}},
                                               std::string(500, 'a'),
                                               4294967296.0};
-        return values[static_cast<std::size_t>(below(values.size()))];
+        return values[below(values.size())];
     }
 
     std::mt19937_64 random_;

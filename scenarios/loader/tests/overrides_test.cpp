@@ -25,7 +25,7 @@ TEST(Overrides, ByNameByIndexAndDeep) {
                                                "gravity=[0,-1.6,0]", "pairs.0.friction=0.25",
                                                "materials.wood.restitution=0.125", "dt=[0.001,0.0005]"})
                            .scenario;
-    const Body& block = s.bodies[static_cast<std::size_t>(findBody(s, "block"))];
+    const Body& block = s.bodies[findBody(s, "block")];
     EXPECT_EQ(block.velocity, (Vec3{3.1, 0.0, 0.2}));
     EXPECT_EQ(block.massProperties.mass, 5.0);
     EXPECT_EQ(s.gravity, (Vec3{0.0, -1.6, 0.0}));

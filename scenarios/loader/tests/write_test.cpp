@@ -178,8 +178,7 @@ TEST_P(WrittenScenario, IsReadBackAsItWasWritten) {
     EXPECT_EQ(a.source, b.source);
     ASSERT_EQ(a.materials.size(), b.materials.size());
     for (int i = 0; i < static_cast<int>(a.materials.size()); ++i) {
-        EXPECT_EQ(a.materials[static_cast<std::size_t>(i)].name,
-                  b.materials[static_cast<std::size_t>(i)].name);
+        EXPECT_EQ(a.materials[i].name, b.materials[i].name);
         for (int j = 0; j <= i; ++j) {
             const auto one = pairCoefficients(a, i, j), other = pairCoefficients(b, i, j);
             EXPECT_EQ(one.friction, other.friction);

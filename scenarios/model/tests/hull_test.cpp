@@ -15,7 +15,7 @@ namespace rigor::scenario {
 namespace {
 
 Vec3 corner(const HullMesh& mesh, int i) {
-    return mesh.vertices[static_cast<std::size_t>(i)];
+    return mesh.vertices[i];
 }
 
 /// What makes a mesh the convex hull of the points: every face lies in a plane with all points behind it,

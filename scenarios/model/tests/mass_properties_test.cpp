@@ -18,7 +18,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 bool insideHull(const HullMesh& mesh, Vec3 p) {
     for (const auto& face : mesh.faces) {
-        const auto at = [&](std::size_t i) { return mesh.vertices[static_cast<std::size_t>(face[i])]; };
+        const auto at = [&](std::size_t i) { return mesh.vertices[face[i]]; };
         if (dot(cross(at(1) - at(0), at(2) - at(0)), p - at(0)) > 0.0) return false;
     }
     return true;
@@ -92,7 +92,7 @@ MassProperties byGrid(const std::vector<Shape>& shapes, const std::vector<Materi
                              dimension == 3 ? -1.0 + (k + 0.5) * cell : 0.0};
                 for (std::size_t s = 0; s < shapes.size(); ++s)
                     if (inside[s](inverse(shapes[s].pose) * p))
-                        add(p, content * materials[static_cast<std::size_t>(shapes[s].material)].density);
+                        add(p, content * materials[shapes[s].material].density);
             }
     sum.centerOfMass = sum.centerOfMass / sum.mass;
     const double c[3] = {sum.centerOfMass.x, sum.centerOfMass.y, sum.centerOfMass.z};

@@ -29,8 +29,8 @@ class Glide : public Reference {
     explicit Glide(const Scenario& scenario, double late) : scenario_(scenario), late_(late) {}
     std::vector<int> bodies() const override { return {0}; }
     PartialState exact(int body, double t) const override {
-        return {scenario_.bodies[static_cast<std::size_t>(body)].pose.position + t * kVelocity,
-                fromAxisAngle({0, 0, 1}, turn * t), kVelocity, Vec3{0, 0, turn}};
+        return {scenario_.bodies[body].pose.position + t * kVelocity, fromAxisAngle({0, 0, 1}, turn * t),
+                kVelocity, Vec3{0, 0, turn}};
     }
     std::optional<PartialState> schemeExact(int body, std::size_t step, double dt,
                                             adapter::Scheme) const override {

@@ -16,8 +16,7 @@ using adapter::Pair;
 
 MovingBoxes::MovingBoxes(int dimension, std::size_t count, BoxOrder order, std::uint64_t seed)
     : dimension_(dimension),
-      side_(static_cast<float>(dimension == 2 ? std::sqrt(4.0 * static_cast<double>(count))
-                                              : std::cbrt(8.0 * static_cast<double>(count)))),
+      side_(static_cast<float>(dimension == 2 ? std::sqrt(4.0 * count) : std::cbrt(8.0 * count))),
       random_(seed),
       movers_(count),
       boxes_(count) {

@@ -70,7 +70,7 @@ TEST(Summary, OneBadRepetitionMakesATimingInvalid) {
     for (const int round : {0, 4}) {
         Bench bench;
         bench.cases = {caseOf("a", 1e-3, 9, 1), caseOf("b", 2e-3, 9, 2)};
-        auto& quality = bench.cases[1].repetitions[static_cast<std::size_t>(round)].quality[0];
+        auto& quality = bench.cases[1].repetitions[round].quality[0];
         quality.value = 0.012;
         quality.ok = false;
         summarise(bench, {}, "");

@@ -41,7 +41,7 @@ struct Pair {
         c.bodyA = one;
         c.bodyB = other;
         c.depth = 0.001;
-        t.contacts[static_cast<std::size_t>(frame)].push_back(c);
+        t.contacts[frame].push_back(c);
     }
 };
 

@@ -84,13 +84,13 @@ TEST(Perturbed, JoinedBodiesMoveAsOne) {
         for (const Joint& j : p.joints) {
             const auto velocityAt = [&](int body, Vec3 anchor) {
                 if (body == kNone) return Vec3{};
-                const Body& b = p.bodies[static_cast<std::size_t>(body)];
+                const Body& b = p.bodies[body];
                 return b.velocity + cross(b.angularVelocity,
                                           rotate(b.pose.orientation, anchor - b.massProperties.centerOfMass));
             };
             const auto before = [&](int body, Vec3 anchor) {
                 if (body == kNone) return Vec3{};
-                const Body& b = s.bodies[static_cast<std::size_t>(body)];
+                const Body& b = s.bodies[body];
                 return b.velocity + cross(b.angularVelocity,
                                           rotate(b.pose.orientation, anchor - b.massProperties.centerOfMass));
             };

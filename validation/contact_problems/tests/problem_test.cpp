@@ -155,7 +155,7 @@ TEST(Condensation, AgreesWithTheEquationsItComesFrom) {
         std::vector<std::vector<double>> basis;
         for (int j = 0; j < bilateral; ++j) {
             std::vector<double> g(v.size(), 0.0), unit(static_cast<std::size_t>(bilateral), 0.0);
-            unit[static_cast<std::size_t>(j)] = 1.0;
+            unit[j] = 1.0;
             multiplyAdd(exported.G, unit, g);
             basis.push_back(g);
             for (int pass = 0; pass < 2; ++pass)

@@ -36,7 +36,7 @@ inline ExportedProblem bodyPoint(double mu, const std::vector<double>& v) {
     std::vector<Triplet> M, H;
     for (int i = 0; i < dofs; ++i) {
         M.push_back({i, i, i < d ? 2.0 : 0.5});
-        p.f.push_back(i < d ? 2.0 * v[static_cast<std::size_t>(i)] : 0.25);
+        p.f.push_back(i < d ? 2.0 * v[i] : 0.25);
     }
     for (int i = 0; i < d; ++i) H.push_back({i, i, 1.0});
     p.M = fromTriplets(dofs, dofs, M);

@@ -81,8 +81,7 @@ TEST(Search, OneParameterAndThree) {
         std::vector<Losses> all;
         for (const FitPoint& p : asked) {
             double sum = 0.0;
-            for (std::size_t i = 0; i < p.size(); ++i)
-                sum += std::abs(p[i] - 0.2 - 0.3 * static_cast<double>(i));
+            for (std::size_t i = 0; i < p.size(); ++i) sum += std::abs(p[i] - 0.2 - 0.3 * i);
             all.push_back(Losses(5, sum));
         }
         return all;
@@ -91,7 +90,7 @@ TEST(Search, OneParameterAndThree) {
         const std::vector<FitParameter> parameters(count, {"a", "a", 0.0, 1.0, 0.9});
         const auto found = searchMinimum(parameters, Summary::Mean, count == 1 ? 40 : 400, 7, valley);
         for (std::size_t i = 0; i < count; ++i)
-            EXPECT_NEAR(found->all[found->best].point[i], 0.2 + 0.3 * static_cast<double>(i), 0.05) << count;
+            EXPECT_NEAR(found->all[found->best].point[i], 0.2 + 0.3 * i, 0.05) << count;
     }
 }
 

@@ -32,7 +32,7 @@ Scenario loaded(const ImportedScenario& s) {
 }
 
 const Body& cubeOf(const Scenario& s) {
-    return s.bodies[static_cast<std::size_t>(findBody(s, "cube"))];
+    return s.bodies[findBody(s, "cube")];
 }
 
 double angleBetween(Quat a, Quat b) {

@@ -112,8 +112,8 @@ fs::path longRecord(const std::string& name, ArmState& middle) {
     std::string text = "t,theta1,theta2,omega1,omega2\n";
     char line[120];
     for (std::size_t k = 0; k <= 1000; ++k) {
-        std::snprintf(line, sizeof line, "%.3f,%.5f,%.5f,0,0\n", 5 + 1e-3 * static_cast<double>(k),
-                      angles[2 * k], angles[2 * k + 1]);
+        std::snprintf(line, sizeof line, "%.3f,%.5f,%.5f,0,0\n", 5 + 1e-3 * k, angles[2 * k],
+                      angles[2 * k + 1]);
         text += line;
     }
     writeText(folder / "double_03.csv", text);

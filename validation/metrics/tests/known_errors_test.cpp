@@ -28,8 +28,8 @@ class Glide : public Reference {
     std::vector<int> bodies() const override { return {0, 1}; }
     PartialState exact(int body, double t) const override {
         const Vec3 w = body == 0 ? kSpin : Vec3{};
-        return {scenario_.bodies[static_cast<std::size_t>(body)].pose.position + t * kVelocity,
-                fromAxisAngle({0, 0, 1}, t * w.z), kVelocity, w};
+        return {scenario_.bodies[body].pose.position + t * kVelocity, fromAxisAngle({0, 0, 1}, t * w.z),
+                kVelocity, w};
     }
     std::optional<PartialState> schemeExact(int body, std::size_t step, double dt,
                                             adapter::Scheme) const override {
@@ -59,7 +59,7 @@ class Still : public Reference {
     explicit Still(const Scenario& scenario) : scenario_(scenario) {}
     std::vector<int> bodies() const override { return {1}; }
     PartialState exact(int body, double) const override {
-        const Pose& X = scenario_.bodies[static_cast<std::size_t>(body)].pose;
+        const Pose& X = scenario_.bodies[body].pose;
         return {X.position, X.orientation, Vec3{}, Vec3{}};
     }
 

@@ -124,7 +124,7 @@ TEST(SchemeError, FramesFartherApartThanStepsFindTheirStep) {
     sparse.stride = 10;
     sparse.bodyCount = 2;
     for (std::size_t k = 0; k <= 10; ++k) {
-        sparse.times.push_back(static_cast<double>(k) * 0.01);
+        sparse.times.push_back(k * 0.01);
         for (int b = 0; b < 2; ++b) {
             const auto ideal = c->reference->schemeExact(b, k * 10, 0.001, Scheme::SymplecticEuler);
             const auto exact = c->reference->exact(b, sparse.times.back());
@@ -258,7 +258,7 @@ TEST(Contacts, NormalsBelongToThePosesOfTheirFrame) {
         c->run.contacts[20].clear();
         c->run.contacts[other] = {touch};
         EXPECT_NEAR(c->worst("normal_error"), 0.1, 1e-12);
-        EXPECT_NEAR(c->rows("normal_error")[0].at, 0.01 * static_cast<double>(other), 1e-12);
+        EXPECT_NEAR(c->rows("normal_error")[0].at, 0.01 * other, 1e-12);
         c->run.contacts[other].clear();
     }
 }
@@ -356,7 +356,7 @@ TEST(Joints, InjectedLimitViolation) {
     const Vec3 axis{0, 0, 1}, along{1, 0, 0};
     const auto add = [&](JointType type, std::size_t k, double lower, double upper, Vec3 a) {
         const int b = addBall(c.scenario, std::string("b") + jointName(type), 0.1, 1, 0.4,
-                              {2.0 * static_cast<double>(c.scenario.bodies.size()), 1, 0});
+                              {2.0 * c.scenario.bodies.size(), 1, 0});
         Joint j;
         j.name = jointName(type);
         j.type = type;
@@ -386,8 +386,7 @@ TEST(Joints, InjectedLimitViolation) {
     EXPECT_EQ(c.worst("joint_limit_violation"), 0.0);
 
     // The hinge turns on and on: 8.2 rad are counted over the turn, whatever the quaternion says.
-    for (std::size_t k = 0; k <= 10; ++k)
-        c.state(k, 0).orientation = fromAxisAngle(axis, 0.82 * static_cast<double>(k));
+    for (std::size_t k = 0; k <= 10; ++k) c.state(k, 0).orientation = fromAxisAngle(axis, 0.82 * k);
     c.state(3, 1).position += {-0.25, 0.7, 0};                       // 0.05 beyond; across does not count
     c.state(4, 2).position += {0, -0.2, 0};                          // 0.3 long
     c.state(5, 3).orientation = fromAxisAngle({0, 0.6, 0.8}, 0.57);  // swings 0.57

@@ -49,7 +49,7 @@ TrajectoryFile sampleFile(std::size_t frames) {
                    {"error", "block", channel("m", 1, frames, 11)}};
     for (std::size_t i = 0; i < frames; ++i) {
         ContactSample c;
-        c.time = 0.1 * static_cast<double>(i);
+        c.time = 0.1 * i;
         c.bodyA = static_cast<int>(i);
         c.bodyB = 7;
         c.shapeA = 2;

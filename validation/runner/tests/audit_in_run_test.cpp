@@ -51,8 +51,7 @@ class InRun : public fixtures::RunnerTest {
     }
 
     Vec3 at(int frame, int body) const {
-        const double* p = &file_.bodies[static_cast<std::size_t>(body)]
-                               .position.values[3 * static_cast<std::size_t>(frame)];
+        const double* p = &file_.bodies[body].position.values[3 * static_cast<std::size_t>(frame)];
         return {p[0], p[1], p[2]};
     }
     /// The contact that the step from frame k to k + 1 should act upon.
@@ -63,7 +62,7 @@ class InRun : public fixtures::RunnerTest {
         if (depth <= 0.0) return;
         const Vec3 n = between / distance;
         ContactSample c;
-        c.time = file_.times[static_cast<std::size_t>(k)];
+        c.time = file_.times[k];
         c.bodyA = a;
         c.bodyB = b;
         c.depth = depth;

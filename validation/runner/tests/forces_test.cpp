@@ -18,8 +18,8 @@ class ScalesWorld : public adapter::World {
   public:
     explicit ScalesWorld(std::size_t bodies) : force(bodies), torque(bodies) {}
     void applyForce(int body, const Vec3& f, const Vec3& t) override {
-        force[static_cast<std::size_t>(body)] += f;
-        torque[static_cast<std::size_t>(body)] += t;
+        force[body] += f;
+        torque[body] += t;
     }
     void step() override {}
     void readStates(std::span<BodyState>) const override {}
@@ -120,8 +120,8 @@ class OwnForcesWorld final : public ScalesWorld {
     using ScalesWorld::ScalesWorld;
     bool evaluatesForces() const override { return true; }
     bool applyImpulse(int body, const Vec3& impulse, const Vec3& angularImpulse) override {
-        linear[static_cast<std::size_t>(body)] += impulse;
-        angular[static_cast<std::size_t>(body)] += angularImpulse;
+        linear[body] += impulse;
+        angular[body] += angularImpulse;
         return true;
     }
     std::vector<Vec3> linear = std::vector<Vec3>(2), angular = std::vector<Vec3>(2);

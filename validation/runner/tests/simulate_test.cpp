@@ -51,7 +51,7 @@ TEST(Simulate, RecordsTheTrajectoryOfTheScheme) {
     EXPECT_EQ(run.steps, 64u);
     ASSERT_EQ(t.frames(), 65u);
     for (std::size_t n = 0; n < t.frames(); ++n) {
-        const double k = static_cast<double>(n);
+        const double k = n;
         EXPECT_EQ(t.times[n], k * h);
         const Vec3 x = Vec3{1, 2, 3} + k * h * Vec3{4, 5, -6} + 0.5 * h * h * k * (k + 1) * s.gravity;
         EXPECT_NEAR(norm(t.state(n, 1).position - x), 0.0, 1e-12) << n;

@@ -45,7 +45,7 @@ TEST(Bootstrap, MeansHaveTheirStandardErrors) {
     };
     // 0 ... n - 1 has the variance (n^2 - 1) / 12.
     const auto errorOf = [](std::size_t n, double scale) {
-        const double size = static_cast<double>(n);
+        const double size = n;
         return scale * std::sqrt((size * size - 1) / 12 / size);
     };
     const auto found = bootstrap({kOne, kOther}, 2, 4000, [&](const Picks& picks) {

@@ -49,8 +49,7 @@ TEST(StudyPlan, IsTheWholeGridOnce) {
     for (const CasePlan& c : plan.cases) {
         EXPECT_EQ(c.spec.preset(), "default");
         masses[c.scenario.name].insert(
-            c.scenario.bodies[static_cast<std::size_t>(scenario::findBody(c.scenario, "block"))]
-                .massProperties.mass);
+            c.scenario.bodies[scenario::findBody(c.scenario, "block")].massProperties.mass);
     }
     EXPECT_EQ(masses.size(), 4u) << "a name for each mass, and the scenario as it is";
     for (const auto& [name, values] : masses) EXPECT_EQ(values.size(), 1u) << name;

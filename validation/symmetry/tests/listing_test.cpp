@@ -51,7 +51,7 @@ Scenario rods() {
 }
 
 std::string nameOf(const Scenario& s, int body) {
-    return s.bodies[static_cast<std::size_t>(body)].name;
+    return s.bodies[body].name;
 }
 
 /// What an index names is the same body or joint.
@@ -141,7 +141,7 @@ TEST(Listing, BringsStatesAndContactsBack) {
         c.bodyB = std::max(indexOf("compound"), indexOf("left"));
         const bool compoundFirst = c.bodyA == indexOf("compound");
         c.normal = {0, compoundFirst ? 1.0 : -1.0, 0};
-        const auto& shapes = other.scenario.bodies[static_cast<std::size_t>(indexOf("compound"))].shapes;
+        const auto& shapes = other.scenario.bodies[indexOf("compound")].shapes;
         for (std::size_t k = 0; k < shapes.size(); ++k)
             if (std::get<scenario::Sphere>(shapes[k].geometry).radius == 3.0)
                 (compoundFirst ? c.shapeA : c.shapeB) = static_cast<int>(k);

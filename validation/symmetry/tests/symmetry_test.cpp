@@ -248,9 +248,8 @@ TEST(Orders, BringContactsBack) {
     EXPECT_LT(back.bodyA, back.bodyB);
     const auto& names = shuffled.scenario.bodies;
     std::set<std::string> expected{names[4].name, names[9].name};
-    EXPECT_EQ(expected, (std::set<std::string>{s.bodies[static_cast<std::size_t>(back.bodyA)].name,
-                                               s.bodies[static_cast<std::size_t>(back.bodyB)].name}));
-    const bool flipped = s.bodies[static_cast<std::size_t>(back.bodyA)].name == names[9].name;
+    EXPECT_EQ(expected, (std::set<std::string>{s.bodies[back.bodyA].name, s.bodies[back.bodyB].name}));
+    const bool flipped = s.bodies[back.bodyA].name == names[9].name;
     EXPECT_EQ(back.normal.y, flipped ? -1.0 : 1.0);
     EXPECT_EQ(back.pointA.x, flipped ? 2.0 : 1.0);
 }

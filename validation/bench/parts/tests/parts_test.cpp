@@ -178,7 +178,7 @@ TEST(Parts, UsualCasesAreSomeOfAllAndNamesAreTaken) {
     };
     const auto usual = plan(false, {}), all = plan(true, {});
     EXPECT_TRUE(std::includes(all.begin(), all.end(), usual.begin(), usual.end()));
-    EXPECT_LT(usual.size(), 0.7 * static_cast<double>(all.size()));
+    EXPECT_LT(usual.size(), 0.7 * all.size());
     const auto has = [](const std::set<std::string>& cases, const std::string& start) {
         const auto found = cases.lower_bound(start);
         return found != cases.end() && found->starts_with(start);

@@ -33,9 +33,7 @@ class FreeFlightWorld : public World {
         }
     }
 
-    void applyForce(int body, const Vec3& force, const Vec3&) override {
-        forces_[static_cast<std::size_t>(body)] += force;
-    }
+    void applyForce(int body, const Vec3& force, const Vec3&) override { forces_[body] += force; }
 
     void step() override {
         ++steps_;

@@ -14,8 +14,7 @@ class Faulty : public FreeFlightWorld {
     void misbehave() override {
         if (!isDue()) return;
         for (std::size_t i = 0; i < states_.size(); ++i)
-            if (scenario_.bodies[i].type == scenario::BodyType::Dynamic)
-                states_[i].position.x += 1e-3 * static_cast<double>(i);
+            if (scenario_.bodies[i].type == scenario::BodyType::Dynamic) states_[i].position.x += 1e-3 * i;
     }
 };
 

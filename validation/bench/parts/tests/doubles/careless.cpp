@@ -23,9 +23,7 @@ class CarelessBoxes final : public TimedBroadPhase {
         found_.clear();
         for (int a = 0; a < static_cast<int>(boxes_.size()); ++a)
             for (int b = a + 1; b < static_cast<int>(boxes_.size()); ++b)
-                if (how_ == "generous" ||
-                    overlap(boxes_[static_cast<std::size_t>(a)], boxes_[static_cast<std::size_t>(b)]))
-                    found_.push_back({a, b});
+                if (how_ == "generous" || overlap(boxes_[a], boxes_[b])) found_.push_back({a, b});
         if (how_ == "forgetful" && !found_.empty()) found_.pop_back();
     }
     void held(std::vector<Pair>& pairs) override { pairs = found_; }
