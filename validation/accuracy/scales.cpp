@@ -15,6 +15,7 @@
 #include "validation/accuracy/accuracy.hpp"
 #include "validation/metrics/body_size.hpp"
 #include "validation/metrics/energy.hpp"
+#include "validation/table.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -157,9 +158,7 @@ const std::vector<ScaleEntry>& scaleTable() {
 }
 
 const ScaleEntry* findScale(const std::string& metric) {
-    for (const ScaleEntry& entry : scaleTable())
-        if (metric == entry.metric) return &entry;
-    return nullptr;
+    return findEntry(scaleTable(), metric, &ScaleEntry::metric);
 }
 
 }  // namespace rigor::validation

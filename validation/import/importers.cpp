@@ -12,6 +12,7 @@
 
 #include "validation/import/csv.hpp"
 #include "validation/import/importer.hpp"
+#include "validation/table.hpp"
 
 namespace rigor::validation {
 
@@ -36,12 +37,8 @@ const std::vector<ImporterEntry>& importerTable() {
 }
 
 const ImporterEntry& findImporter(const std::string& name) {
-    std::string known;
-    for (const ImporterEntry& entry : importerTable()) {
-        if (name == entry.name) return entry;
-        known += (known.empty() ? "" : ", ") + std::string(entry.name);
-    }
-    throw std::invalid_argument("no data set '" + name + "' is known; known: " + known);
+    if (const ImporterEntry* found = findEntry(importerTable(), name)) return *found;
+    throw std::invalid_argument("no data set '" + name + "' is known; known: " + namesOf(importerTable()));
 }
 
 std::map<std::string, std::string> resolveChoices(const ImporterEntry& importer,

@@ -3,6 +3,7 @@
 //
 // The table of metrics, from metrics.def.
 #include "validation/metrics/metric.hpp"
+#include "validation/table.hpp"
 
 namespace rigor::validation {
 
@@ -22,9 +23,7 @@ const std::vector<MetricEntry>& metricTable() {
 }
 
 const MetricEntry* findMetric(const std::string& name) {
-    for (const auto& entry : metricTable())
-        if (name == entry.name) return &entry;
-    return nullptr;
+    return findEntry(metricTable(), name);
 }
 
 const char* metricKindName(MetricKind kind) {

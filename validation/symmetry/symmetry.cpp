@@ -57,22 +57,18 @@ const std::vector<SymmetryEntry>& symmetryTable() {
 #define SYMMETRY(name, title, rerun, formula, obstacle, apply) \
     {#name, title, Rerun::rerun, formula, &obstacle, &apply},
 #include "validation/symmetry/symmetries.def"
+#include "validation/table.hpp"
 #undef SYMMETRY
     };
     return table;
 }
 
 const SymmetryEntry* findSymmetry(const std::string& name) {
-    for (const SymmetryEntry& entry : symmetryTable())
-        if (name == entry.name) return &entry;
-    return nullptr;
+    return findEntry(symmetryTable(), name);
 }
 
 std::string symmetryNames() {
-    std::string names;
-    for (const SymmetryEntry& entry : symmetryTable())
-        names += (names.empty() ? "" : ", ") + std::string(entry.name);
-    return names;
+    return namesOf(symmetryTable());
 }
 
 Difference differenceOf(const scenario::Scenario& scenario, const Trajectory& a, const Trajectory& b) {
