@@ -122,6 +122,8 @@ TEST_F(View, LiveFromTheLinkToCtrlC) {
     const json scene = json::parse(browser.get("/api/scene?instance=0")->body);
     EXPECT_EQ(scene["scenario"]["name"], "slide_and_stop");
     EXPECT_EQ(browser.get("/api/scene?instance=99")->status, 404);
+    EXPECT_EQ(browser.get("/api/scene?lane=99")->status, 404) << "the name of version 0.1";
+    EXPECT_EQ(browser.get("/api/scene?lane=0")->body, browser.get("/api/scene?instance=0")->body);
     EXPECT_EQ(browser.get("/api/frames?after=x")->status, 400);
     EXPECT_EQ(browser.post("/api/command", "[1]")->status, 400);
     EXPECT_EQ(browser.post("/api/command", R"({"command": "fly"})")->status, 422);

@@ -169,7 +169,7 @@ TEST(Refusals, SayWhatIsMissing) {
     }
     for (const char* solver : {"pgs_soft", "tgs_soft", "xpbd"})
         EXPECT_THAT(reason(solver, global.problem),
-                    ::testing::HasSubstr("an exported contact problem has no"))
+                    ::testing::HasSubstr("a contact problem has no"))
             << solver;
     // Not the masses of rigid bodies.
     ExportedProblem odd = global;

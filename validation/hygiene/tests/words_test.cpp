@@ -125,7 +125,10 @@ std::vector<std::string> privateWords(const std::vector<Word>& words, const std:
 const std::set<std::pair<std::string, std::string>> kOldNames{
     {"cli/view/live_site.cpp", "lane"},
     {"validation/live/session_commands.cpp", "lane"},
+    {"validation/live/tests/session_test.cpp", "lane"},
+    {"cli/view/tests/view_command_test.cpp", "lane"},
     {"validation/studies/columns.hpp", "onset"},
+    {"validation/studies/tests/study_test.cpp", "onset"},
     {"reports/model/derived_runs.cpp", "companion"},
     {"reports/tests/view_model_test.cpp", "companion"}};
 

@@ -177,7 +177,7 @@ TEST_F(Sessions, ABranchLeavesFromWhereItsOriginIs) {
                  CommandError);
     viewer_->look();
     EXPECT_EQ(viewer_->state_["instances"].size(), 4u) << "what could not be loaded is no instance";
-    tell({{"command", "remove"}, {"instance", moon["instance"]}});
+    tell({{"command", "remove"}, {"lane", moon["instance"]}});  // the name of version 0.1
     viewer_->look();
     EXPECT_EQ(viewer_->state_["instances"].size(), 3u);
 }

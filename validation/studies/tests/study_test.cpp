@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "validation/studies/columns.hpp"
 #include "validation/studies/print.hpp"
 
 namespace rigor::validation {
@@ -54,6 +55,20 @@ TEST(StudyPlan, IsTheWholeGridOnce) {
     EXPECT_EQ(masses.size(), 4u) << "a name for each mass, and the scenario as it is";
     for (const auto& [name, values] : masses) EXPECT_EQ(values.size(), 1u) << name;
     EXPECT_TRUE(masses.contains("slide_and_stop.grid-2"));
+}
+
+TEST(StudyColumns, TheDivergenceTimeHasItsOldNameToo) {
+    for (const char* name : {"divergence_time", "onset"}) {
+        const Column own = columnOf(name), other = columnOf(std::string(name) + ":bullet");
+        EXPECT_EQ(own.kind, Column::Kind::Divergence) << name;
+        EXPECT_EQ(own.name, "divergence_time");
+        EXPECT_EQ(other.name, "divergence_time");
+        EXPECT_EQ(other.variant, "bullet");
+        const Column symmetry = columnOf("symmetry.mirror." + std::string(name));
+        EXPECT_EQ(symmetry.kind, Column::Kind::Symmetry);
+        EXPECT_EQ(symmetry.name, "mirror");
+        EXPECT_EQ(symmetry.aspect, "divergence_time");
+    }
 }
 
 TEST(StudyPlan, RefusesWhatCannotBeFilled) {
