@@ -404,7 +404,7 @@ TEST_P(Joints, ARopeIsSlackThenTaut) {
     within("rope_rest", norm(stateOf(*world, s, b).velocity), 2e-2);
 }
 
-/// A pin need not be normal to its strut, in space.
+/// In 3D a pin need not be normal to its strut.
 TEST_P(Joints, AWheelHasASpringAlongItsAxisAndAMotorAboutItsPin) {
     if (!hasJoint("wheel.spring") || !hasJoint("wheel.motor")) GTEST_SKIP() << "no driven wheels";
     for (const Vec3& pin : {Vec3{0, 0, 1}, Vec3{0, 0.6, 0.8}}) {
