@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <stdexcept>
 
 #include "validation/runner/start_program.hpp"
@@ -22,6 +23,17 @@ namespace {
 double seconds(const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * t.tv_usec;
 }
+
+/// Processor time of a process and its threads so far [s]; negative where it is not known.
+double processorTimeOf(pid_t pid) {
+    clockid_t clock = 0;
+    timespec t{};
+    if (clock_getcpuclockid(pid, &clock) != 0 || clock_gettime(clock, &t) != 0) return -1.0;
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// A child that has done nothing for so long is blocked: on a busy machine it would have had its turn.
+constexpr auto kBlocked = std::chrono::seconds(2);
 
 }  // namespace
 
@@ -62,6 +74,7 @@ void ProcessPool::start(ProcessTask task) {
     child.output = ends[0];
     child.started = now;
     child.deadline = now + std::chrono::duration_cast<Clock::duration>(limit);
+    child.workedAt = child.deadline;
 }
 
 void ProcessPool::waitForEvents() {
@@ -70,13 +83,26 @@ void ProcessPool::waitForEvents() {
     const auto now = Clock::now();
     for (const Running& child : running_) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(child.deadline - now).count();
-        milliseconds = static_cast<int>(std::clamp<std::int64_t>(left, 1, milliseconds));
+        if (left > 0) milliseconds = static_cast<int>(std::min<std::int64_t>(left, milliseconds));
         if (child.output >= 0)
             files.push_back({child.output, POLLIN, 0});
         else
             milliseconds = 1;  // its output has ended: it is about to end itself
     }
     poll(files.data(), files.size(), milliseconds);
+}
+
+bool ProcessPool::isOverTime(Running& child) {
+    const auto now = Clock::now();
+    if (now < child.deadline) return false;
+    const double limit = child.task.limits.seconds * timeLimitFactor(), cpu = processorTimeOf(child.pid);
+    if (cpu < 0.0 || cpu >= limit) return true;
+    if (now - child.started >= std::chrono::duration<double>(kMostWaiting * limit)) return true;
+    if (cpu > child.cpuSeen + 1e-3) {
+        child.cpuSeen = cpu;
+        child.workedAt = now;
+    }
+    return now - child.workedAt >= kBlocked;
 }
 
 /// True when the child has ended and its result is complete.
@@ -89,7 +115,7 @@ bool ProcessPool::collect(Running& child) {
     struct rusage usage {};
     const pid_t ended = wait4(child.pid, &result.status, WNOHANG, &usage);
     if (ended == 0) {
-        if (Clock::now() >= child.deadline && !result.timedOut) {
+        if (!result.timedOut && isOverTime(child)) {
             result.timedOut = true;
             kill(-child.pid, SIGKILL);
         }

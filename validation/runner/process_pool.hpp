@@ -18,10 +18,14 @@
 namespace rigor::validation {
 
 struct ProcessLimits {
-    double seconds = 60.0;  ///< wall time; then the group is killed
+    /// Wall time; then the group is killed, but not as long as the child works and has had less processor
+    /// time than that: on a busy machine a child gets a part of the clock alone. At most kMostWaiting times it.
+    double seconds = 60.0;
     std::size_t memoryMiB =
         0;  ///< address space; 0: none. Not set in sanitizer builds, which reserve terabytes.
 };
+
+inline constexpr double kMostWaiting = 20.0;
 
 struct ProcessResult {
     bool timedOut = false;
@@ -64,11 +68,14 @@ class ProcessPool {
         pid_t pid = -1;
         int output = -1;
         Clock::time_point started, deadline;
+        double cpuSeen = 0.0;        ///< processor time when it was last looked at after the deadline [s]
+        Clock::time_point workedAt;  ///< when that had grown
         ProcessResult result;
     };
     void start(ProcessTask task);
     void waitForEvents();
     bool collect(Running& child);
+    static bool isOverTime(Running& child);
     void killAll();
 
     int slots_;

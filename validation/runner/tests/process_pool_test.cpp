@@ -54,6 +54,27 @@ TEST(ProcessPool, EndsWhatTakesTooLongWithAllItStarted) {
     EXPECT_FALSE(std::filesystem::exists(mark)) << "a grandchild went on";
 }
 
+/// A stand-in for a busy machine: the child is stopped for eight ninths of the time. What it needs of the
+/// processor is within its limit, what the clock shows is not.
+TEST(ProcessPool, WaitsForAChildThatGetsAPartOfTheProcessor) {
+    const ScratchFolder folder;
+    const std::string mark = (folder.path() / "mark").string();
+    const double limit = 2.0;
+    const ProcessResult r = shell(
+        "(for i in 1 2 3 4 5 6 7; do sleep 0.05; kill -STOP $$; sleep 0.4; kill -CONT $$; done; touch " +
+            mark + ") & while [ ! -e " + mark + " ]; do :; done; exit 7",
+        {limit / timeLimitFactor(), 0});
+    EXPECT_TRUE(r.exitedWith(7)) << r.ending() << " after " << r.wallSeconds << " s, " << r.cpuSeconds;
+    EXPECT_GT(r.wallSeconds, limit);
+}
+
+/// Nothing to do and nothing done: no reason to wait.
+TEST(ProcessPool, EndsWhatIsBlocked) {
+    const ProcessResult r = shell("sleep 60", {0.2 / timeLimitFactor(), 0});
+    EXPECT_TRUE(r.timedOut);
+    EXPECT_LT(r.wallSeconds, 10.0);
+}
+
 TEST(ProcessPool, ChildrenHaveNoInputAndNoCoreDump) {
     EXPECT_TRUE(shell("if read line; then exit 1; fi; [ $(ulimit -c) = 0 ]").exitedWith(0));
 }
