@@ -25,8 +25,9 @@ int runImport(const Arguments& a) {
             throw std::invalid_argument("--option: found '" + option + "', expected KEY=VALUE");
         given[option.substr(0, equals)] = option.substr(equals + 1);
     }
-    const auto imported =
-        importer.read({a.from, a.select, a.train, validation::resolveChoices(importer, given)});
+    const auto choices = validation::resolveChoices(importer, given);
+    const auto from = validation::dataFolder(a.dataSet, a.from);
+    const auto imported = importer.read({from, a.select, a.train, choices});
     std::string name = a.dataSet;
     std::replace(name.begin(), name.end(), '-', '_');
     const std::filesystem::path folder = a.out.empty() ? name : a.out;
@@ -61,7 +62,8 @@ void addImport(CLI::App& app, Action& action) {
     auto* command =
         app.add_subcommand("import", "Turn measured data into scenarios to score and fit engines on");
     command->add_option("DATASET", a->dataSet, "Which data set, see below")->required();
-    command->add_option("DIR", a->from, "Its folder")->required();
+    command->add_option("DIR", a->from, "Its folder, or one that has a folder of its name inside")
+        ->required();
     command->add_option("--out", a->out, "New folder for the scenarios (default: the data set's name)");
     command->add_option("--select", a->select, "Only the recordings of this CSV file (column id), or all");
     command->add_option("--train", a->train,

@@ -67,6 +67,11 @@ const std::vector<ImporterEntry>& importerTable();
 /// Throws std::invalid_argument naming the known ones.
 const ImporterEntry& findImporter(const std::string& name);
 
+/// The folder of a data set in what the user named: itself, or the one of the data set's name in it or in one
+/// of its folders, so that the folder of all data does. Throws LoadError for what is no folder, and for the
+/// folder of another data set.
+std::filesystem::path dataFolder(const std::string& dataSet, const std::filesystem::path& given);
+
 /// Defaults for keys not given; throws std::invalid_argument for unknown keys and values.
 std::map<std::string, std::string> resolveChoices(const ImporterEntry& importer,
                                                   const std::map<std::string, std::string>& given);

@@ -41,6 +41,52 @@ const ImporterEntry& findImporter(const std::string& name) {
     throw std::invalid_argument("no data set '" + name + "' is known; known: " + namesOf(importerTable()));
 }
 
+namespace {
+
+/// "a folder", "a file", or "nothing" with what is there instead.
+std::string foundAt(const fs::path& given) {
+    if (fs::is_directory(given)) return "a folder";
+    if (fs::exists(given)) return "a file";
+    fs::path parent = given;
+    while (parent.has_parent_path() && parent != parent.parent_path() && !fs::is_directory(parent))
+        parent = parent.parent_path();
+    std::set<std::string> names;
+    std::error_code unreadable;
+    for (const auto& entry : fs::directory_iterator(parent.empty() ? "." : parent, unreadable))
+        if (entry.is_directory()) names.insert(entry.path().filename().string());
+    std::string text;
+    for (const std::string& name : names) {
+        if (text.size() > 200) return "nothing; in " + parent.string() + " are " + text + ", ...";
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return "nothing" + (text.empty() ? "" : "; in " + parent.string() + " are " + text);
+}
+
+/// The name of the last folder of a path, be it written with a slash behind it or with dots.
+std::string folderName(const fs::path& path) {
+    const fs::path whole = fs::absolute(path).lexically_normal();
+    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
+}  // namespace
+
+fs::path dataFolder(const std::string& dataSet, const fs::path& given) {
+    const auto refuse = [&](const std::string& found) {
+        throw LoadError({{"import.folder", given.string(), "", 0, found,
+                          "the folder of the data set, " + dataSet + ", or one that has it inside"}});
+    };
+    if (!fs::is_directory(given)) refuse(foundAt(given));
+    const std::string name = folderName(given);
+    if (name == dataSet) return given;
+    if (fs::is_directory(given / dataSet)) return given / dataSet;
+    std::error_code unreadable;
+    for (const auto& entry : fs::directory_iterator(given, unreadable))
+        if (entry.is_directory() && fs::is_directory(entry.path() / dataSet)) return entry.path() / dataSet;
+    for (const ImporterEntry& other : importerTable())
+        if (name == other.name) refuse("the folder of " + name);
+    return given;
+}
+
 std::map<std::string, std::string> resolveChoices(const ImporterEntry& importer,
                                                   const std::map<std::string, std::string>& given) {
     std::map<std::string, std::string> resolved;

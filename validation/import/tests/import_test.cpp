@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <numeric>
 
 #include "scenarios/loader/overrides.hpp"
@@ -247,6 +248,35 @@ double frozenLoss(const Scenario& s) {
         ->evaluate({s, run, reference.get(), adapter::Scheme::Unknown})
         .at(0)
         .value;
+}
+
+/// The folder of the data set, or one above it, with a slash behind or not; another one is told what is there.
+TEST(DataFolder, IsFoundInTheFoldersAboveIt) {
+    const fs::path data = fs::path(::testing::TempDir()) / "data-folders";
+    fs::remove_all(data);
+    const fs::path rod = data / "lab" / "compound-pendulum", cart = data / "lab" / "rolling-cart";
+    fs::create_directories(rod);
+    fs::create_directories(cart);
+    for (const fs::path& given : {rod, rod / "", data / "lab", data, cart / ".." / "compound-pendulum"})
+        EXPECT_TRUE(fs::equivalent(dataFolder("compound-pendulum", given), rod)) << given;
+    const fs::path renamed = data / "mine";
+    fs::create_directories(renamed);
+    EXPECT_EQ(dataFolder("compound-pendulum", renamed), renamed) << "any other name is taken as it is";
+
+    const auto refusal = [](const fs::path& given) -> std::string {
+        try {
+            dataFolder("compound-pendulum", given);
+            return "";
+        } catch (const LoadError& error) {
+            return error.what();
+        }
+    };
+    EXPECT_THAT(refusal(cart), HasSubstr("the folder of rolling-cart"));
+    EXPECT_THAT(refusal(data / "lab" / "compound"), HasSubstr("compound-pendulum, rolling-cart"));
+    EXPECT_THAT(refusal(data / "lab" / "compound"), HasSubstr("nothing; in "));
+    std::ofstream(data / "a_file") << "x";
+    EXPECT_THAT(refusal(data / "a_file"), HasSubstr("a file"));
+    fs::remove_all(data);
 }
 
 TEST(RealTosses, ComeOutAsTheirDescriptionSays) {
