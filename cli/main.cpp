@@ -2,8 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "adapters/interface/nearest.hpp"
 #include "adapters/interface/types.hpp"
 #include "cli/command.hpp"
 #include "scenarios/loader/loader.hpp"
@@ -54,7 +57,11 @@ int runCommand(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::RequiredError& error) {
         if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty()) {
-            std::fprintf(stderr, "rigor: no command '%s'; `rigor --help` lists them\n", argv[1]);
+            std::vector<std::string> known;
+            for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+                known.push_back(command->get_name());
+            std::fprintf(stderr, "rigor: no command '%s'%s; `rigor --help` lists them\n", argv[1],
+                         rigor::adapter::didYouMean(argv[1], known).c_str());
             return kBadInput;
         }
         return app.exit(error) == 0 ? kOk : kBadInput;

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <thread>
 
+#include "adapters/interface/nearest.hpp"
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_folder.hpp"
@@ -76,11 +77,27 @@ bool isSuite(const std::string& name) {
     return scenario::isSuiteFile(name);
 }
 
+/// A misspelt suite is said as one: what is no file may be meant as either.
+void checkName(const std::string& name) {
+    if (fs::exists(name)) return;
+    std::vector<std::string> known;
+    for (const auto& list :
+         {scenario::listScenarios(), scenario::listBenchScenarios(), scenario::listSuites()})
+        for (const auto& entry : list) {
+            if (entry.name == name) return;
+            known.push_back(entry.name);
+        }
+    throw std::invalid_argument("no such scenario or suite: found '" + name +
+                                "', expected a file or a name of the library" +
+                                adapter::didYouMean(name, known));
+}
+
 Selection select(const Arguments& arguments) {
     Selection selection;
     for (const auto& name : arguments.what) {
         selection.title += (selection.title.empty() ? "" : " ") + fs::path(name).stem().string();
         if (!isSuite(name)) {
+            checkName(name);
             addScenario(selection, name, arguments, 0);
             continue;
         }

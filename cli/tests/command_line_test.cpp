@@ -50,6 +50,17 @@ TEST(CommandLine, ListsEnginesWithVersionAndPrecision) {
     EXPECT_EQ(names, (std::set<std::string>{"box2d", "bullet", "fcl", "ode", "rigor"}));
 }
 
+TEST(CommandLine, AMisspeltCommandSuiteOrScenarioNamesTheNearest) {
+    for (const auto& [arguments, meant] : {std::pair{"vaildate smoke", "validate"},
+                                           {"validate smok", "smoke"},
+                                           {"validate box_stak", "box_stack"}}) {
+        const Result result = rigor(arguments);
+        EXPECT_EQ(result.code, 2) << arguments;
+        EXPECT_NE(result.out.find(std::string("did you mean '") + meant + "'"), std::string::npos)
+            << result.out;
+    }
+}
+
 TEST(CommandLine, EveryListIsAnArrayOfNamedObjects) {
     for (const char* what :
          {"engines", "scenarios", "suites", "studies", "algorithms", "metrics", "references"}) {
