@@ -142,57 +142,6 @@ TEST(IncludeRule, EveryIncludeRespectsTheLayers) {
     EXPECT_GT(checked, 100u);
 }
 
-using FolderGraph = std::map<std::string, std::set<std::string>>;
-
-/// A way along the graph that comes back to where it was: "a -> b -> a"; empty where there is none.
-std::string cycleFrom(const FolderGraph& graph, const std::string& folder, std::vector<std::string>& way,
-                      std::set<std::string>& done) {
-    if (const auto seen = std::find(way.begin(), way.end(), folder); seen != way.end()) {
-        std::string cycle;
-        for (auto next = seen; next != way.end(); ++next) cycle += *next + " -> ";
-        return cycle + folder;
-    }
-    way.push_back(folder);
-    const auto entry = graph.find(folder);
-    if (entry != graph.end() && !done.contains(folder))
-        for (const std::string& other : entry->second)
-            if (std::string cycle = cycleFrom(graph, other, way, done); !cycle.empty()) return cycle;
-    way.pop_back();
-    done.insert(folder);
-    return {};
-}
-std::string findCycle(const FolderGraph& graph) {
-    std::set<std::string> done;
-    for (const auto& [folder, others] : graph) {
-        std::vector<std::string> way;
-        if (std::string cycle = cycleFrom(graph, folder, way, done); !cycle.empty()) return cycle;
-    }
-    return {};
-}
-
-/// No folder of the engine includes, directly or through others, one that includes it.
-TEST(IncludeRule, FoldersOfTheEngineHaveAnOrder) {
-    const std::string root = "engine/";
-    const auto folderOf = [&](const std::string& path) {
-        const std::size_t slash = path.find('/', root.size());
-        return slash == std::string::npos ? "" : path.substr(root.size(), slash - root.size());
-    };
-    FolderGraph graph;
-    for (const auto& file : sourceFiles({".hpp", ".cpp", ".def"})) {
-        if (!file.starts_with(root) || isTest(file)) continue;
-        for (const auto& included : includesOf(readFile(file)))
-            if (included.starts_with(root) && folderOf(included) != folderOf(file))
-                graph[folderOf(file)].insert(folderOf(included));
-    }
-    EXPECT_GE(graph.size(), 12u);
-    EXPECT_EQ(findCycle(graph), "");
-}
-
-TEST(IncludeRule, ACycleOfFoldersIsFound) {
-    EXPECT_EQ(findCycle({{"a", {"b", "c"}}, {"b", {"c"}}, {"c", {"d"}}}), "");
-    EXPECT_EQ(findCycle({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b", "d"}}}), "b -> c -> b");
-}
-
 /// The folders of the solvers build on each other in one order: what is common, then laws and the joints'
 /// direct solver, then the methods. No method includes another one's folder.
 TEST(IncludeRule, FoldersOfSolversIncludeTheCommonPartAndWhatTheyBuildOn) {
