@@ -62,7 +62,10 @@ class SlotList {
         free_.pop_back();
         return slot;
     }
-    void remove(std::uint32_t slot) { free_.push_back(slot), ++changes_; }
+    void remove(std::uint32_t slot) {
+        free_.push_back(slot);
+        ++changes_;
+    }
 
     /// True when many slots are out of order, so that a loop over the list misses the cache.
     bool fragmented() const { return changes_ > size() / 4; }
@@ -78,7 +81,12 @@ class SlotList {
         std::iota(order_.begin(), order_.end(), 0u);
     }
 
-    void clear() { slots_.clear(), order_.clear(), free_.clear(), changes_ = 0; }
+    void clear() {
+        slots_.clear();
+        order_.clear();
+        free_.clear();
+        changes_ = 0;
+    }
     /// Replaces the list by `count` default items in the order of their slots.
     void reset(std::size_t count) {
         clear();

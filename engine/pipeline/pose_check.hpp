@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Checks of the poses that a caller gives.
 #pragma once
 
 #include <cmath>
