@@ -150,7 +150,7 @@ ShownText shownText(Shown shown) {
                                                      {"timeout", "…", "timeout"},
                                                      {"crashed", "!", "crashed"},
                                                      {"unsupported", "–", "unsupported"}}};
-    return table.at(shown);
+    return table.at(static_cast<std::size_t>(shown));
 }
 
 Shown shownOf(const CaseRow& row) {

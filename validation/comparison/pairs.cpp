@@ -61,7 +61,7 @@ std::string listed(const std::set<std::string>& names) {
 
 const char* pairByName(PairBy by) {
     constexpr const char* kNames[] = {"", "engine", "spec", "dt"};
-    return kNames[by];
+    return kNames[static_cast<std::size_t>(by)];
 }
 
 std::optional<PairBy> parsePairBy(const std::string& name) {

@@ -24,7 +24,7 @@ constexpr std::array<Row, 6> kRows{
      {Grade::E, "E", "beyond 1e-1, or another outcome", std::numeric_limits<double>::infinity()}}};
 
 const Row& rowOf(Grade grade) {
-    return kRows.at(grade);
+    return kRows.at(static_cast<std::size_t>(grade));
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ Grade gradeOf(double relative) {
 
 const char* againstSchemeName(AgainstScheme a) {
     static constexpr std::array<const char*, 4> names{"unknown", "nearer", "same", "farther"};
-    return names.at(a);
+    return names.at(static_cast<std::size_t>(a));
 }
 
 AgainstScheme againstScheme(std::optional<double> relative, std::optional<double> ideal) {
