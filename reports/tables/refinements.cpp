@@ -11,7 +11,6 @@
 #include "reports/encoding/text.hpp"
 #include "reports/model/refinements.hpp"
 #include "reports/model/view_model.hpp"
-#include "reports/plots/svg_plot.hpp"
 #include "validation/results/values.hpp"
 
 namespace rigor::report {

@@ -170,7 +170,8 @@ TEST(InsertionOrders, AnOrderThatCrashesIsTold) {
 TEST(InsertionOrders, OrdersThatDisagreeAboutTheVerdictAreCountedByEveryFormat) {
     results::Run run = plainRun();
     CaseRow& c = orderedCase(run, 0.0031, 0.0031);
-    c.orders.failed = 2, c.orders.verdicts = "pass 3, fail 2";
+    c.orders.failed = 2;
+    c.orders.verdicts = "pass 3, fail 2";
     c.orders.note = "order 3: fails rest_creep (0.4, bound 0.1); order 5: fails rest_creep (0.2, bound 0.1)";
     const ViewModel view(run);
     const std::string counts = "1 of 1 cases order-dependent (⇅ 1 in verdict)";
@@ -201,10 +202,13 @@ TEST(InsertionOrders, OrdersThatDisagreeAboutTheVerdictAreCountedByEveryFormat) 
 TEST(InsertionOrders, TheRangeOfACaseThatDoesNotCompleteIsShown) {
     results::Run run = plainRun();
     CaseRow& c = orderedCase(run, 0.0031, 0.0053);
-    c.outcome = results::Outcome::Crashed, c.verdict = results::Verdict::Crashed;
+    c.outcome = results::Outcome::Crashed;
+    c.verdict = results::Verdict::Crashed;
     c.metrics.back().value = std::nan("");
     c.metrics = {c.metrics.back()};
-    c.orders.completed = 4, c.orders.failed = 1, c.orders.verdicts = "pass 4, crashed 1";
+    c.orders.completed = 4;
+    c.orders.failed = 1;
+    c.orders.verdicts = "pass 4, crashed 1";
     EXPECT_THAT(orderSentence(c), HasSubstr("rest_creep is 0.0031 … 0.0053 m (no value as written)"));
     EXPECT_THAT(orderSentence(c), HasSubstr("1 of 5 orders fails (pass 4, crashed 1)"));
     EXPECT_THAT(markdownSummary(ViewModel(run)), HasSubstr("| no value | 0.0031 … 0.0053 m over 5 orders |"));

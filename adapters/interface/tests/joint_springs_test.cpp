@@ -39,8 +39,10 @@ Joint jointAt(const Scenario& s, JointType type, int a, int b, const Vec3& ancho
     };
     Joint joint;
     joint.type = type;
-    joint.bodyA = a, joint.bodyB = b;
-    joint.anchorA = local(a), joint.anchorB = local(b);
+    joint.bodyA = a;
+    joint.bodyB = b;
+    joint.anchorA = local(a);
+    joint.anchorB = local(b);
     joint.axisA = joint.axisB = axis;
     return joint;
 }
