@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Where scenarios were run at several time steps: orders of convergence, error against cost, and engines
-// compared in four labelled ways, as CSV and as plots.
+// compared in four labelled ways, as CSV, JSON and Markdown.
 #include "reports/tables/refinements.hpp"
 
 #include <algorithm>
