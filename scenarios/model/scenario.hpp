@@ -280,7 +280,7 @@ struct Scenario {
         metrics;  ///< that matter here, in order of importance; never empty after loading
     std::vector<Bound> accept;
     std::vector<KnownDeviation> knownDeviations;
-    double timeLimit = 60.0;         ///< [s] for one case, see ProcessLimits::seconds
+    double timeLimit = 60.0;         ///< [s] wall time for one case
     std::optional<int> size;         ///< N of a scene that grows with it; bodies are those of this N
     std::optional<BenchPlan> bench;  ///< of scenes that are timed
 };
