@@ -52,6 +52,8 @@ class PlanarScheme {
         if (hold_ == Hold::Positions) {
             for (int pass = 0; pass < 30; ++pass) {
                 const auto [ahead, atEnd] = constraints(moved(h));
+                const auto isHeld = [](double error) { return std::abs(error) < 1e-15; };
+                if (std::all_of(ahead.begin(), ahead.end(), isHeld)) break;
                 correct(v_, J, atEnd, scaled(ahead, -1.0 / h));
             }
         } else {
