@@ -34,9 +34,11 @@ int runImport(const Arguments& a) {
     validation::writeImported(imported, name, folder);
     const auto train = std::count_if(imported.scenarios.begin(), imported.scenarios.end(),
                                      [](const auto& s) { return s.train; });
-    std::printf("%zu scenarios in %s: %td to fit on (train.json), %td to score on (test.json)\n",
-                imported.scenarios.size(), folder.c_str(), train,
-                static_cast<std::ptrdiff_t>(imported.scenarios.size()) - train);
+    const auto test = static_cast<std::ptrdiff_t>(imported.scenarios.size()) - train;
+    std::printf("%zu scenarios in %s", imported.scenarios.size(), folder.c_str());
+    if (train > 0) std::printf(": %td to fit on (train.json)", train);
+    if (test > 0) std::printf("%s %td to score on (test.json)", train > 0 ? "," : ":", test);
+    std::printf("\n");
     for (const auto& study : imported.studies)
         std::printf("Findings: ./rigor study %s\n", (folder / (study.name + ".json")).c_str());
     if (std::filesystem::exists(folder / "fit.json"))

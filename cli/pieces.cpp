@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <unistd.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <csignal>
@@ -64,11 +65,29 @@ void printCase(const results::CaseRow& c, const std::vector<int>& every) {
     std::printf("  %s\n", ran ? note.c_str() : (results::outcomeName(c.outcome) + (": " + c.reason)).c_str());
 }
 
+/// Suites stand for their scenarios.
+std::vector<std::string> scenarioNames(const std::vector<std::string>& given) {
+    std::vector<std::string> names;
+    for (const auto& name : given) {
+        const auto suites = scenario::listSuites();
+        const bool isSuite =
+            scenario::isSuiteFile(name) ||
+            std::any_of(suites.begin(), suites.end(), [&](const auto& suite) { return suite.name == name; });
+        if (!isSuite) {
+            names.push_back(name);
+            continue;
+        }
+        const auto suite = scenario::loadSuite(scenario::findSuite(name));
+        names.insert(names.end(), suite.scenarios.begin(), suite.scenarios.end());
+    }
+    return names;
+}
+
 int pieces(const Arguments& a) {
     validation::RunOptions options;
     options.referenceLimits = a.referenceLimits;
     std::vector<std::pair<scenario::Scenario, std::string>> scenarios;
-    for (const auto& name : a.scenarios) {
+    for (const auto& name : scenarioNames(a.scenarios)) {
         validation::ReferenceCheck reference;
         auto loaded = loadWithReference(name, a.overrides, a.referenceLimits, false, &reference);
         options.references[loaded.scenario.name] = reference;
@@ -115,7 +134,7 @@ void addPieces(CLI::App& app, Action& action) {
     auto a = std::make_shared<Arguments>();
     auto* command = app.add_subcommand(
         "pieces", "Put bodies back on the truth every k steps and measure one piece: fair in chaos too");
-    command->add_option("SCENARIO", a->scenarios, "Names or files")->required();
+    command->add_option("SCENARIO", a->scenarios, "Scenarios or suites, names or files")->required();
     command->add_option("--every", a->every, "Steps of a piece: K1,K2,... (default 1,8,64)")
         ->delimiter(',')
         ->check(CLI::Range(1, 1000000));

@@ -49,6 +49,7 @@ std::string asWrittenText(const MetricRow& m) {
 std::string verdictsText(const CaseRow& row) {
     if (row.orders.verdicts.find(", ") == std::string::npos) return "";
     const std::int64_t failed = row.orders.failed.value_or(0);
+    if (failed == 0) return "orders end in other verdicts (" + row.orders.verdicts + ")";
     return std::to_string(failed) + " of " + std::to_string(row.orders.run.value_or(0)) +
            (failed == 1 ? " orders fails (" : " orders fail (") + row.orders.verdicts + ")";
 }

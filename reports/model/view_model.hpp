@@ -203,7 +203,8 @@ std::map<const results::CaseRow*, Ratios> ratiosOf(const ViewModel& view);
 const char* orderMark(const results::CaseRow& row);
 /// "C" or, where orders have other grades, "B … D".
 std::string gradesText(const results::CaseRow& row);
-/// "2 of 5 orders fail (pass 3, fail 2)"; "" where all have one verdict.
+/// "2 of 5 orders fail (pass 3, fail 2)", "orders end in other verdicts (pass 1, known deviation 3)"; "" where
+/// all have one verdict.
 std::string verdictsText(const results::CaseRow& row);
 /// "0.0027 … 0.053 m over 5 orders"; "" where the metric has no range.
 std::string orderRangeText(const results::MetricRow& metric);

@@ -198,6 +198,13 @@ TEST(InsertionOrders, OrdersThatDisagreeAboutTheVerdictAreCountedByEveryFormat) 
               "2 of 5 orders fail (pass 3, fail 2)");
 }
 
+TEST(InsertionOrders, OtherVerdictsThatAreNoFailuresAreNotCalledSo) {
+    results::Run run = plainRun();
+    CaseRow& c = orderedCase(run, 0.0031, 0.0031);
+    c.orders.failed = 0, c.orders.verdicts = "pass 1, known deviation 4";
+    EXPECT_THAT(orderSentence(c), HasSubstr("orders end in other verdicts (pass 1, known deviation 4)"));
+}
+
 /// Another order has numbers where the order as written has none.
 TEST(InsertionOrders, TheRangeOfACaseThatDoesNotCompleteIsShown) {
     results::Run run = plainRun();
