@@ -173,7 +173,8 @@ TEST(BenchStore, ARunOfTheSchemaBeforeHasNone) {
         for (const char* column :
              {"grade", "graded_by", "relative_error", "ideal_error", "grade_note", "regression",
               "regression_reason", "insertion_orders", "insertion_orders_completed", "grade_best",
-              "grade_worst", "insertion_note"})
+              "grade_worst", "insertion_note", "insertion_orders_failed", "insertion_verdicts",
+              "order_dependent"})
             database.exec(std::string("ALTER TABLE cases DROP COLUMN ") + column);
         for (const char* column :
              {"scale", "relative_error", "ideal_error", "recorded", "order_min", "order_max", "order_count"})
