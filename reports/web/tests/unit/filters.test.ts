@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Which scenarios the scoreboard shows, and in which order; and what the page knows of its run.
+import assert from 'node:assert/strict';
+import { before, test } from 'node:test';
+import type { BriefCase, Column, Judged, Scenario } from '../../src/report/data.ts';
+import type { Filters } from '../../src/report/overview/filters.ts';
+
+const columns = ['bullet', 'bullet:preset=matched', 'ode'].map(
+  (spec): Column => ({ spec, engine: spec.split(':')[0] ?? '', preset: '', options: '', label: spec, dash: [] }),
+);
+const data = {
+  columns,
+  engines: [{ name: 'ode' }, { name: 'spare' }],
+  tasks: [{ name: 'walking', scenarios: ['stack'] }],
+  symbols: { pass: { symbol: '✓', word: 'pass', count: 3 } },
+};
+
+interface Given {
+  spec: string;
+  value: number;
+  relative: number;
+  cost: number;
+  grade: Judged['grade'];
+  shown?: BriefCase['shown'];
+  regression?: Judged['regression'];
+}
+const brief = ({ spec, value, relative, cost, grade, shown = 'pass', regression = 'unchanged' }: Given) =>
+  ({ spec, value, shown, step: { median: cost }, judged: { grade, relative, regression } }) as unknown as BriefCase;
+const scenario = (name: string, more: Partial<Scenario>, cases: Given[]): Scenario =>
+  ({
+    name,
+    title: '',
+    description: '',
+    tags: [],
+    isolates: [],
+    dimension: 3,
+    main: { name: 'energy', unit: 'J', kind: 'exact' },
+    ...more,
+    cases: cases.map(brief),
+  }) as unknown as Scenario;
+
+const list = [
+  scenario('stack', { title: 'Ten boxes stand', isolates: ['friction'], tags: ['contact'] }, [
+    { spec: 'bullet', value: 3, relative: 0.03, cost: 2e-5, grade: 'D' },
+    { spec: 'ode', value: 1, relative: 0.01, cost: 4e-5, grade: 'D', regression: 'worse' },
+    { spec: 'bullet:preset=matched', value: Number.NaN, relative: Number.NaN, cost: 5e-5, grade: 'C' },
+  ]),
+  scenario('pendulum', { dimension: 2, title: 'A rod swings', main: { name: 'angle', unit: 'rad', kind: 'exact' } }, [
+    { spec: 'bullet', value: 5, relative: 1e-7, cost: 1e-6, grade: 'A' },
+    { spec: 'ode', value: 7, relative: 2, cost: 3e-6, grade: 'E', shown: 'crashed' },
+  ]),
+  scenario('drop', { title: 'A ball falls', tags: ['contact'] }, [
+    { spec: 'bullet', value: 4, relative: 1e-3, cost: 5e-7, grade: 'C' },
+    { spec: 'bullet:preset=matched', value: 2, relative: 2e-3, cost: 1e-6, grade: 'C' },
+  ]),
+];
+
+let all: Filters;
+let of: typeof import('../../src/report/overview/filters.ts');
+let run: typeof import('../../src/report/run.ts');
+
+before(async () => {
+  // The page's data stand in its document.
+  Object.assign(globalThis, {
+    document: { getElementById: (id: string) => (id === 'run-data' ? { textContent: JSON.stringify(data) } : null) },
+  });
+  of = await import('../../src/report/overview/filters.ts');
+  run = await import('../../src/report/run.ts');
+  all = of.allScenarios;
+});
+
+const shown = (changes: Partial<Filters>) =>
+  list.filter((s) => of.matches(s, columns, { ...all, ...changes })).map((s) => s.name);
+const sorted = (changes: Partial<Filters>) => of.ordered(list, columns, { ...all, ...changes }).map((s) => s.name);
+
+test('every filter leaves what it names, and without one all is shown', () => {
+  assert.deepEqual(shown({}), ['stack', 'pendulum', 'drop']);
+  assert.deepEqual(shown({ text: 'BALL falls' }), ['drop'], 'all words, in any case');
+  assert.deepEqual(shown({ text: 'ten' }), ['stack']);
+  assert.deepEqual(shown({ text: 'ball swings' }), []);
+  assert.deepEqual(shown({ text: ' ' }), ['stack', 'pendulum', 'drop']);
+  assert.deepEqual(shown({ mechanism: 'friction' }), ['stack']);
+  assert.deepEqual(shown({ mechanism: 'contact' }), ['stack', 'drop'], 'a tag will do');
+  assert.deepEqual(shown({ task: 'walking' }), ['stack']);
+  assert.deepEqual(shown({ dimension: '2' }), ['pendulum']);
+  assert.deepEqual(shown({ verdict: 'crashed' }), ['pendulum']);
+  assert.deepEqual(shown({ change: 'worse' }), ['stack']);
+  assert.deepEqual(shown({ mechanism: 'contact', dimension: '2' }), [], 'filters add up');
+});
+
+test('a grade is that of a cell which ran, never that of a crash', () => {
+  assert.deepEqual(shown({ grade: 'A' }), ['pendulum']);
+  assert.deepEqual(shown({ grade: 'E' }), []);
+});
+
+test('verdict and grade must be of the same cell', () => {
+  assert.deepEqual(shown({ grade: 'A', verdict: 'crashed' }), []);
+  assert.deepEqual(shown({ grade: 'A', verdict: 'pass' }), ['pendulum']);
+});
+
+test('scenarios are sorted by what the cells of a column say, those without a number last', () => {
+  assert.deepEqual(sorted({}), ['stack', 'pendulum', 'drop'], 'as stored');
+  assert.deepEqual(sorted({ sort: 'name' }), ['drop', 'pendulum', 'stack']);
+  assert.deepEqual(sorted({ sort: 'name', descending: true }), ['stack', 'pendulum', 'drop']);
+  assert.deepEqual(sorted({ sort: 'metric' }), ['pendulum', 'stack', 'drop'], 'equal ones stay in their order');
+  assert.deepEqual(sorted({ sort: 'bullet' }), ['pendulum', 'drop', 'stack'], 'by grade');
+  assert.deepEqual(sorted({ sort: 'bullet', number: 'cost' }), ['drop', 'pendulum', 'stack']);
+  assert.deepEqual(sorted({ sort: 'ode' }), ['stack', 'pendulum', 'drop'], 'a crash after what ran');
+  assert.deepEqual(sorted({ sort: 'bullet:preset=matched' }), ['drop', 'stack', 'pendulum']);
+  assert.deepEqual(list[0]?.name, 'stack', 'the list itself is left as it is');
+});
+
+test('bars of a row are measured against its best', () => {
+  const scale = (i: number, number: Filters['number']) => of.rowScale(list[i] as Scenario, columns, 'all', number);
+  assert.deepEqual(scale(0, 'error'), { bestError: 1, leastCost: 2e-5 });
+  assert.deepEqual(scale(0, 'relative'), { bestError: 0.01, leastCost: 2e-5 });
+  assert.ok(Number.isNaN(scale(1, 'error').bestError), 'one number alone has no best');
+  assert.equal(scale(2, 'error').leastCost, 5e-7);
+});
+
+test('an engine has one colour, whichever of its columns is shown', () => {
+  const colours = ['bullet', 'ode', 'spare', 'unknown'].map(run.engineColour);
+  assert.equal(new Set(colours).size, 4, 'colours differ');
+  assert.deepEqual(colours, run.palette.slice(0, 4), 'those that take part first');
+  assert.deepEqual(
+    [0, 1, 2].map((i) => run.isFirstOfEngine(columns, i)),
+    [true, false, true],
+  );
+});
+
+test('links keep what they are given, escaped, and leave out what is absent', () => {
+  assert.equal(run.scenarioLink('a b'), '#/scenario/a%20b');
+  const link = run.scenarioLink('pile', { dt: 0.01, spec: 'ode:stepper=quickstep,iterations=50', pair: null, t: '' });
+  assert.equal(link, '#/scenario/pile?dt=0.01&spec=ode%3Astepper%3Dquickstep%2Citerations%3D50');
+  const query = new URLSearchParams(link.slice(link.indexOf('?') + 1));
+  assert.equal(query.get('spec'), 'ode:stepper=quickstep,iterations=50');
+  assert.equal(run.engineLink('x/y'), '#/engine/x%2Fy');
+});
+
+test('labels and verdicts of what the run does not know are still readable', () => {
+  assert.equal(run.labelOf('ode'), 'ode');
+  assert.equal(run.labelOf('gone:preset=x'), 'gone:preset=x');
+  assert.equal(run.verdictText('pass').symbol, '✓');
+  assert.deepEqual(run.verdictText('timeout'), { symbol: '?', word: 'timeout', count: 0 });
+  assert.deepEqual(['pass', 'fail', 'known deviation', 'skipped'].map(run.metricShown), [
+    'pass',
+    'fail',
+    'known_deviation',
+    'unsupported',
+  ]);
+});
