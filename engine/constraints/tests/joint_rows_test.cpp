@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "engine/constraints/joint.hpp"
+#include "engine/constraints/tests/joint_case.hpp"
 #include "engine/core/error.hpp"
 
 namespace rigor::engine {
@@ -138,6 +138,123 @@ TYPED_TEST(JointRowsOf, RowsPushBothBodiesOppositely) {
                 continue;  // where anchors are apart, equality rows are exact at C = 0 only
             const Row<S>& row = rows.row[static_cast<std::size_t>(i)];
             EXPECT_NEAR(rowVelocity<S>(row, a, b), 0, 1e-12) << "row " << i;
+        }
+    }
+}
+
+template <class S>
+class JointRowsAnywhere : public testing::Test, public JointCases<S> {};
+TYPED_TEST_SUITE(JointRowsAnywhere, Spaces);
+
+/// Equality rows whose gradient is exact far from C = 0 too; orientation rows (fixed, slider) and the angles of
+/// hinge and wheel are exact only where the joint holds.
+int exactRows(JointType type, int dim, int rows) {
+    if (type == JointType::Fixed) return dim;
+    if (type == JointType::Slider) return dim - 1;
+    return rows;
+}
+bool exactCoordinate(JointType type, int dim, std::size_t k) {
+    if (dim == 2) return true;
+    return type != JointType::Hinge && !(type == JointType::Wheel && k == 1);
+}
+
+/// Poses that violate the joint as much as can be: Jacobians against finite differences of C all the same.
+TYPED_TEST(JointRowsAnywhere, AreTheGradientsOfCInAnyPose) {
+    using S = TypeParam;
+    constexpr double h = 1e-6;
+    for (const JointEntry<S>& entry : jointTable<S>()) {
+        if (entry.axes < 0) continue;
+        SCOPED_TRACE(entry.name);
+        for (int trial = 0; trial < 100; ++trial) {
+            Pose<S> A, B;
+            JointDef<S> def = this->freeJoint(entry.type, A, B);
+            const Joint<S> joint = this->made(def, A, B);
+            A = this->pose(2);
+            B = this->pose(2);
+            const Velocity<S> u{this->vector(1), this->angular(1)}, v{this->vector(1), this->angular(1)};
+            const JointRows<S> now = this->rows(joint, A, B);
+            const JointRows<S> before = this->rows(joint, this->moved(A, u, -h), this->moved(B, v, -h));
+            const JointRows<S> after = this->rows(joint, this->moved(A, u, h), this->moved(B, v, h));
+            for (int i = 0; i < exactRows(entry.type, S::dim, now.equalities); ++i) {
+                const auto r = static_cast<std::size_t>(i);
+                ASSERT_NEAR(rowVelocity<S>(now.row[r], u, v), (after.error[r] - before.error[r]) / (2 * h),
+                            1e-7)
+                    << "row " << i;
+            }
+            for (std::size_t k = 0; k < static_cast<std::size_t>(now.axes); ++k) {
+                if (!exactCoordinate(entry.type, S::dim, k)) continue;
+                const double change = after.value[k] - before.value[k];
+                if (std::abs(change) > 1) continue;  // an angle went over half a turn
+                // The swing's rate grows without bound towards half a turn.
+                const double rate = std::abs(rowVelocity<S>(now.along[k], u, v));
+                if (rate > 50) continue;
+                ASSERT_NEAR(rowVelocity<S>(now.along[k], u, v), change / (2 * h), 1e-6 * (1 + rate * rate))
+                    << "coordinate " << k;
+            }
+        }
+    }
+}
+
+template <class S>
+Velocity<S> rounded(const Velocity<Space<double, S::dim>>& u) {
+    if constexpr (S::dim == 2)
+        return {u.v.template cast<float>(), static_cast<float>(u.w)};
+    else
+        return {u.v.template cast<float>(), u.w.template cast<float>()};
+}
+template <class S>
+Pose<S> rounded(const Pose<Space<double, S::dim>>& X) {
+    if constexpr (S::dim == 2)
+        return {X.p.template cast<float>(), {static_cast<float>(X.q.c), static_cast<float>(X.q.s)}};
+    else
+        return {X.p.template cast<float>(), normalizedRot(Eigen::Quaternionf(X.q.template cast<float>()))};
+}
+
+/// Rows and errors in single precision are those in double, up to rounding.
+TYPED_TEST(JointRowsAnywhere, AreTheSameInBothPrecisions) {
+    using D = TypeParam;
+    using F = Space<float, D::dim>;
+    for (const JointEntry<D>& entry : jointTable<D>()) {
+        if (entry.axes < 0) continue;
+        SCOPED_TRACE(entry.name);
+        for (int trial = 0; trial < 50; ++trial) {
+            Pose<D> A, B;
+            const JointDef<D> def = this->freeJoint(entry.type, A, B);
+            JointDef<F> single;
+            single.type = def.type;
+            single.anchorA = def.anchorA.template cast<float>();
+            single.anchorB = def.anchorB.template cast<float>();
+            single.axisA = def.axisA.template cast<float>();
+            single.axisB = def.axisB.template cast<float>();
+            single.spinAxisB = def.spinAxisB.template cast<float>();
+            single.length = static_cast<float>(def.length);
+            for (std::size_t k = 0; k < kMaxJointAxes; ++k) single.axes[k].mode = def.axes[k].mode;
+            JointCases<F> other;
+            Joint<D> joint = this->made(def, A, B);
+            Joint<F> singleJoint = other.made(single, rounded<F>(A), rounded<F>(B));
+            // Any two normals of an axis will do: the same for both.
+            singleJoint.perpA1 = joint.perpA1.template cast<float>();
+            singleJoint.perpA2 = joint.perpA2.template cast<float>();
+            singleJoint.turnPerpA1 = joint.turnPerpA1.template cast<float>();
+            singleJoint.turnPerpA2 = joint.turnPerpA2.template cast<float>();
+            singleJoint.turnPerpB1 = joint.turnPerpB1.template cast<float>();
+            B = {B.p + this->vector(0.3), rotatedBy(B.q, this->angular(0.5))};
+            const JointRows<D> rows = this->rows(joint, A, B);
+            const JointRows<F> singles = other.rows(singleJoint, rounded<F>(A), rounded<F>(B));
+            ASSERT_EQ(rows.count, singles.count);
+            const Velocity<D> u{this->vector(1), this->angular(1)}, v{this->vector(1), this->angular(1)};
+            const Velocity<F> uf = rounded<F>(u), vf = rounded<F>(v);
+            for (std::size_t i = 0; i < static_cast<std::size_t>(rows.count); ++i) {
+                ASSERT_NEAR(singles.error[i], rows.error[i], 1e-5) << "row " << i;
+                ASSERT_NEAR(rowVelocity<F>(singles.row[i], uf, vf), rowVelocity<D>(rows.row[i], u, v), 1e-5)
+                    << "row " << i;
+            }
+            for (std::size_t k = 0; k < static_cast<std::size_t>(rows.axes); ++k) {
+                ASSERT_NEAR(singles.value[k], rows.value[k], 1e-5) << "coordinate " << k;
+                ASSERT_NEAR(rowVelocity<F>(singles.along[k], uf, vf), rowVelocity<D>(rows.along[k], u, v),
+                            1e-4)
+                    << "coordinate " << k;
+            }
         }
     }
 }
