@@ -6,19 +6,27 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 namespace rigor::validation {
 
+/// A new folder that no other process has: a study whose folder another run of the test takes away ends with
+/// "attempt to write a readonly database".
+inline std::filesystem::path newFolder() {
+    std::string name = (std::filesystem::path(testing::TempDir()) / "rigor-study-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+    return name;
+}
+
 /// What `rigor study` prints as JSON; its exit code in `code`.
 inline nlohmann::json runStudy(const std::string& study, int& code) {
-    const auto folder = std::filesystem::path(testing::TempDir()) /
-                        (std::string("study-") + std::filesystem::path(study).stem().string());
-    std::filesystem::remove_all(folder);
+    const auto folder = newFolder();
     const std::string command = std::string(RIGOR_BINARY_DIR) + "/bin/rigor study " + study +
                                 " -q -j 2 --json --out " + folder.string();
     FILE* pipe = popen(command.c_str(), "r");
@@ -27,6 +35,7 @@ inline nlohmann::json runStudy(const std::string& study, int& code) {
     while (const std::size_t n = fread(buffer, 1, sizeof buffer, pipe)) out.append(buffer, n);
     const int status = pclose(pipe);
     code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    std::filesystem::remove_all(folder);
     return nlohmann::json::parse(out, nullptr, false);
 }
 

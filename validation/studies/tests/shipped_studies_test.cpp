@@ -28,7 +28,7 @@ std::string partsOf(const std::string& study, const std::set<std::string>& names
         parts.push_back(part);
     }
     all["parts"] = parts;
-    const auto copy = std::filesystem::path(testing::TempDir()) / (study + "_parts.json");
+    const auto copy = newFolder() / (study + "_parts.json");
     std::ofstream(copy) << all.dump();
     return copy.string();
 }
