@@ -201,7 +201,8 @@ TEST(InsertionOrders, OrdersThatDisagreeAboutTheVerdictAreCountedByEveryFormat) 
 TEST(InsertionOrders, OtherVerdictsThatAreNoFailuresAreNotCalledSo) {
     results::Run run = plainRun();
     CaseRow& c = orderedCase(run, 0.0031, 0.0031);
-    c.orders.failed = 0, c.orders.verdicts = "pass 1, known deviation 4";
+    c.orders.failed = 0;
+    c.orders.verdicts = "pass 1, known deviation 4";
     EXPECT_THAT(orderSentence(c), HasSubstr("orders end in other verdicts (pass 1, known deviation 4)"));
 }
 

@@ -125,8 +125,14 @@ class PlanarScheme {
                        x[b + 1] + rB.y - rA.y - (hasA ? x[a + 1] : 0.0), 0.0};
         const auto along = [&](const Vec3& n) {
             Vector row(x.size());
-            row[b] = n.x, row[b + 1] = n.y, row[b + 2] = rB.x * n.y - rB.y * n.x;
-            if (hasA) row[a] -= n.x, row[a + 1] -= n.y, row[a + 2] -= rA.x * n.y - rA.y * n.x;
+            row[b] = n.x;
+            row[b + 1] = n.y;
+            row[b + 2] = rB.x * n.y - rB.y * n.x;
+            if (hasA) {
+                row[a] -= n.x;
+                row[a + 1] -= n.y;
+                row[a + 2] -= rA.x * n.y - rA.y * n.x;
+            }
             J.push_back(row);
             C.push_back(dot(n, gap));
         };

@@ -70,7 +70,7 @@ TEST(PairSearch, ReportsChangesUntilTheyAreTaken) {
         EXPECT_TRUE(crowd.search.changed()) << "not taken yet";
         crowd.search.take();
         crowd.find(margin);
-        EXPECT_FALSE(crowd.search.changed()) << "nobody has moved";
+        EXPECT_FALSE(crowd.search.changed()) << "no body has moved";
         crowd.bodies.pose[3].p = crowd.bodies.pose[11].p;
         crowd.bodies.pose[5].p = crowd.bodies.pose[11].p;
         crowd.find(margin);
