@@ -62,7 +62,7 @@ std::string scoreboardSection(const ViewModel& view, std::size_t budget) {
         "\nA cell: grade of accuracy (A to 1e-6, B to 1e-4, C to 1e-2, D to 1e-1 of the scenario's own "
         "scale, E "
         "beyond), △ wrong physics with a reason on file, ▼ ▲ worse or better than on record, ↕ depends on "
-        "the order of insertion (⇅: its verdict), and the relative error that the grade rests on, at the "
+        "the order of insertion, ⇅ in its verdict, and the relative error that the grade rests on, at the "
         "finest time step; of "
         "a scene "
         "without an exact answer how it ended (✓ bounds kept, ○ ran) and its main metric.\n\n</details>\n";
