@@ -5,13 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
 #include "scenarios/loader/loader.hpp"
@@ -32,7 +32,7 @@ using validation::EngineDescription;
 const std::string kDefaultSuite = "bench";
 constexpr double kPartsBudget = 480.0;  ///< [s]
 
-struct Arguments {
+struct BenchArguments {
     std::vector<std::string> what, overrides, parts, only;
     std::vector<int> threads{1}, sizes;
     std::string engines, out, base, baseline, dt, preset = "matched";
@@ -42,12 +42,7 @@ struct Arguments {
     bool growth = false, full = false, resume = false, json = false, quiet = false, slowBuild = false;
 };
 
-std::atomic<bool> interrupted{false};
-extern "C" void onInterruptBench(int) {
-    interrupted = true;
-}
-
-std::vector<std::string> sceneNames(const Arguments& a) {
+std::vector<std::string> sceneNames(const BenchArguments& a) {
     std::vector<std::string> what = a.what;
     if (what.empty() && a.parts.empty()) what.push_back(kDefaultSuite);
     std::vector<std::string> names;
@@ -74,7 +69,7 @@ std::string again(const std::vector<std::string>& overrides) {
 }
 
 /// `size` 0: the scenario's own.
-validation::SceneRequest::Scene loadScene(const std::string& name, int size, const Arguments& a) {
+validation::SceneRequest::Scene loadScene(const std::string& name, int size, const BenchArguments& a) {
     auto overrides = a.overrides;
     std::string arguments = validation::shellWord(name) + again(a.overrides);
     if (size > 0) {
@@ -87,7 +82,7 @@ validation::SceneRequest::Scene loadScene(const std::string& name, int size, con
 }
 
 /// A scene at the sizes that were asked for: --size, with --growth its own list, else as it is.
-void addScenes(const std::string& name, const Arguments& a, validation::SceneRequest& request) {
+void addScenes(const std::string& name, const BenchArguments& a, validation::SceneRequest& request) {
     auto scene = loadScene(name, 0, a);
     std::vector<int> sizes = a.sizes;
     if (sizes.empty() && a.growth && scene.scenario.bench) sizes = scene.scenario.bench->sizes;
@@ -101,7 +96,7 @@ void addScenes(const std::string& name, const Arguments& a, validation::SceneReq
     for (const int size : sizes) request.scenes.push_back(loadScene(name, size, a));
 }
 
-std::vector<adapter::EngineSpec> chooseSpecs(const Arguments& a) {
+std::vector<adapter::EngineSpec> chooseSpecs(const BenchArguments& a) {
     if (!a.engines.empty()) return adapter::parseSpecList(a.engines);
     std::vector<adapter::EngineSpec> specs;
     for (const auto& name : adapter::availableEngines()) specs.push_back({name, {}});
@@ -117,20 +112,20 @@ std::vector<EngineDescription> describe(const std::vector<adapter::EngineSpec>& 
     return validation::describeEngines(names, ownBinary(), 1);
 }
 
-bool isAsked(const Arguments& a, const std::string& part) {
+bool isAsked(const BenchArguments& a, const std::string& part) {
     return std::any_of(a.parts.begin(), a.parts.end(),
                        [&](const std::string& asked) { return asked == "all" || asked == part; });
 }
 
 /// No further round after so many seconds. The usual cases of the parts are to be done in ten minutes, the
 /// last round, of a minute or so, included.
-double budgetOf(const Arguments& a) {
+double budgetOf(const BenchArguments& a) {
     const bool usualParts = !a.parts.empty() && a.what.empty() && !a.full;
     return a.budget.value_or(usualParts ? kPartsBudget : a.target.budget);
 }
 
 /// Cases of the isolated parts that are asked for. Throws std::invalid_argument where --only names none.
-std::vector<BenchWork> planParts(const Arguments& a, validation::BenchRequest request) {
+std::vector<BenchWork> planParts(const BenchArguments& a, validation::BenchRequest request) {
     std::vector<BenchWork> work;
     for (const auto& family : validation::benchFamilies()) {
         if (!isAsked(a, family.name)) continue;
@@ -150,7 +145,7 @@ std::vector<BenchWork> planParts(const Arguments& a, validation::BenchRequest re
                                 (known.empty() ? "none, as no part has cases" : "one of " + known));
 }
 
-std::vector<BenchWork> planAll(const Arguments& a) {
+std::vector<BenchWork> planAll(const BenchArguments& a) {
     validation::SceneRequest request;
     for (const auto& name : sceneNames(a)) addScenes(name, a, request);
     request.specs = chooseSpecs(a);
@@ -177,7 +172,7 @@ std::vector<BenchWork> planAll(const Arguments& a) {
     return work;
 }
 
-void checkParts(const Arguments& a) {
+void checkParts(const BenchArguments& a) {
     if (a.parts.empty() && !a.only.empty()) throw std::invalid_argument("--only: goes with --parts");
     if (a.parts.empty() && a.full) throw std::invalid_argument("--full: goes with --parts");
     std::string known = "all";
@@ -240,7 +235,7 @@ results::Run readBaseline(const std::string& folder) {
 }
 
 /// Compares, stores what changed, and says so. True when something became slower.
-bool compareWithBaseline(const Arguments& a, const results::Run& baseline, results::Run& run) {
+bool compareWithBaseline(const BenchArguments& a, const results::Run& baseline, results::Run& run) {
     run.bench.changes = validation::changesSince(baseline.bench, run.bench, a.held);
     run.bench.settings["baseline"] = a.baseline;
     results::RunWriter writer(run.directory, true);
@@ -251,7 +246,7 @@ bool compareWithBaseline(const Arguments& a, const results::Run& baseline, resul
     return validation::becameSlower(run.bench.changes);
 }
 
-int interruptedAt(const Arguments& a, const validation::BenchOptions& options) {
+int interruptedAt(const BenchArguments& a, const validation::BenchOptions& options) {
     std::string command = options.command;
     if (!a.resume) command += " --resume";
     if (a.out.empty()) command += " --out " + options.directory.string();
@@ -270,7 +265,7 @@ bool isBroken(const results::Bench& bench) {
     return !anyValid;
 }
 
-int bench(const Arguments& a) {
+int bench(const BenchArguments& a) {
     checkParts(a);
     if (const auto slow = validation::slowBuild(); !slow.empty() && !a.slowBuild)
         throw std::invalid_argument("bench: this program was " + slow +
@@ -292,8 +287,7 @@ int bench(const Arguments& a) {
     for (const auto& name : a.what) options.suite += (options.suite.empty() ? "" : " ") + name;
     if (options.suite.empty()) options.suite = kDefaultSuite;
 
-    std::signal(SIGINT, onInterruptBench);
-    std::signal(SIGTERM, onInterruptBench);
+    const std::atomic<bool>& interrupted = catchInterrupts();
     const bool live = canRewriteLines(STDERR_FILENO);
     auto run = validation::runBench(
         work, options,
@@ -316,7 +310,7 @@ int bench(const Arguments& a) {
     return slower || isBroken(run.bench) ? kRed : kOk;
 }
 
-void addWhat(CLI::App& command, Arguments& a) {
+void addWhat(CLI::App& command, BenchArguments& a) {
     command.add_option("WHAT", a.what, "Suites or scenarios (names or files); default: the suite 'bench'");
     command
         .add_option("--parts", a.parts,
@@ -346,7 +340,7 @@ void addWhat(CLI::App& command, Arguments& a) {
                        "Time step in seconds (0.004 or 1/240) instead of each scenario's first");
 }
 
-void addMethod(CLI::App& command, Arguments& a) {
+void addMethod(CLI::App& command, BenchArguments& a) {
     auto& t = a.target;
     command
         .add_option(
@@ -378,7 +372,7 @@ void addMethod(CLI::App& command, Arguments& a) {
 }  // namespace
 
 void addBench(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<BenchArguments>();
     auto* command = app.add_subcommand(
         "bench", "Time scenes and parts on every engine, interleaved, with intervals and quality");
     addWhat(*command, *a);

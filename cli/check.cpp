@@ -11,13 +11,13 @@
 namespace rigor::cli {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
     std::vector<std::string> files, overrides;
     validation::ReferenceLimits referenceLimits;
     bool json = false;
 };
 
-int checkFiles(const Arguments& a) {
+int checkFiles(const CheckArguments& a) {
     std::vector<scenario::Problem> problems;
     for (const auto& file : a.files) {
         try {
@@ -35,7 +35,7 @@ int checkFiles(const Arguments& a) {
 }  // namespace
 
 void addCheck(CLI::App& app, Action& action) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<CheckArguments>();
     auto* command = app.add_subcommand("check", "Validate scenario files: schema, meaning, reference");
     command->add_option("FILE", arguments->files, "Scenario files or names")->required();
     command

@@ -3,13 +3,13 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
 #include "scenarios/loader/collision_cases.hpp"
 #include "validation/collide/print.hpp"
 #include "validation/collide/random_pairs.hpp"
@@ -17,7 +17,7 @@
 namespace rigor::cli {
 namespace {
 
-struct Arguments {
+struct CollideArguments {
     std::vector<std::string> files;
     std::string engines, out;
     validation::CollideTolerance tolerance;
@@ -27,12 +27,7 @@ struct Arguments {
     std::string save;
 };
 
-std::atomic<bool> interrupted{false};
-extern "C" void onInterruptCollide(int) {
-    interrupted = true;
-}
-
-std::vector<scenario::CollisionFile> loadFiles(const Arguments& a) {
+std::vector<scenario::CollisionFile> loadFiles(const CollideArguments& a) {
     std::vector<scenario::CollisionFile> files;
     if (a.suite)
         for (const auto& entry : scenario::listCollisionFiles())
@@ -54,21 +49,21 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
-std::vector<adapter::EngineSpec> chooseSpecs(const Arguments& a, int jobs) {
+std::vector<adapter::EngineSpec> chooseSpecs(const CollideArguments& a, int jobs) {
     if (a.engines.empty()) return validation::allCollisionSpecs(ownBinary(), jobs);
     auto specs = adapter::parseSpecList(a.engines);
     for (const auto& spec : specs) validation::checkCollisionSpec(spec, ownBinary());
     return specs;
 }
 
-int collide(const Arguments& a) {
+int collide(const CollideArguments& a) {
     const auto files = loadFiles(a);
     validation::CollideOptions options;
     options.binary = ownBinary();
     options.tolerance = a.tolerance;
     options.jobs = a.jobs > 0 ? a.jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     const auto specs = chooseSpecs(a, options.jobs);
-    std::signal(SIGINT, onInterruptCollide);
+    const std::atomic<bool>& interrupted = catchInterrupts({SIGINT});
     const bool live = !a.quiet && isTerminal(STDERR_FILENO);
     const auto run = validation::runCollide(
         files, specs, options,
@@ -92,7 +87,7 @@ int collide(const Arguments& a) {
     return validation::collideIsGreen(run) ? kOk : kRed;
 }
 
-void addRandom(CLI::App& command, Arguments& a) {
+void addRandom(CLI::App& command, CollideArguments& a) {
     auto* random =
         command.add_option("--random", a.random.count, "So many random pairs, exact answers by the oracle")
             ->check(CLI::Range(1, 10000000));
@@ -113,7 +108,7 @@ void addRandom(CLI::App& command, Arguments& a) {
 }  // namespace
 
 void addCollide(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<CollideArguments>();
     auto* command =
         app.add_subcommand("collide", "Put collision queries to every engine and the exact oracle");
     command->add_option(

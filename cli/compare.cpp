@@ -21,7 +21,7 @@ using results::Run;
 
 const std::string kRecorded = "recorded";
 
-struct Arguments {
+struct CompareArguments {
     std::string before, after;  ///< folders with commas between
     validation::CompareOptions options;
     std::size_t most = 20;
@@ -42,7 +42,7 @@ std::vector<Run> readRuns(const std::string& folders) {
 }
 
 /// Cases that differ on purpose: in one run, or in two.
-validation::RunComparison pairedComparison(const Arguments& a) {
+validation::RunComparison pairedComparison(const CompareArguments& a) {
     validation::CompareOptions options = a.options;
     options.pairBy = *validation::parsePairBy(a.pairBy);
     if (a.before == kRecorded || a.after == kRecorded)
@@ -52,7 +52,7 @@ validation::RunComparison pairedComparison(const Arguments& a) {
     return validation::compareRuns(before, readRuns(a.after), options);
 }
 
-validation::RunComparison comparisonOf(const Arguments& a) {
+validation::RunComparison comparisonOf(const CompareArguments& a) {
     const auto after = readRuns(a.after);
     std::vector<Run> before;
     if (a.before == kRecorded) {
@@ -66,7 +66,7 @@ validation::RunComparison comparisonOf(const Arguments& a) {
     return validation::compareRuns(before, after, a.options);
 }
 
-int compare(const Arguments& a) {
+int compare(const CompareArguments& a) {
     if (a.after.empty() && a.pairBy.empty())
         throw std::invalid_argument(
             "compare: found one run, expected AFTER as well, or --pair engine|spec|dt");
@@ -92,7 +92,7 @@ fs::path recordedFolder() {
 }
 
 bool becameWorseThan(const std::string& baseline, const fs::path& run) {
-    Arguments a;
+    CompareArguments a;
     a.before = baseline;
     a.after = run.string();
     const auto comparison = comparisonOf(a);
@@ -106,7 +106,7 @@ void checkBaseline(const std::string& baseline) {
 }
 
 void addCompare(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<CompareArguments>();
     auto* command = app.add_subcommand(
         "compare",
         "What became better or worse between runs, or differs between two engines, specs or time steps");

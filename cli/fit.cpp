@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
@@ -19,16 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct FitArguments {
     std::string file, engines, out;
     int jobs = 0, budget = 0;
     bool resume = false, noRuns = false, json = false, quiet = false;
 };
-
-std::atomic<bool> interrupted{false};
-extern "C" void onInterruptFit(int) {
-    interrupted = true;
-}
 
 /// A folder that holds no fit yet, or with --resume one that does.
 void prepareFolder(const fs::path& folder, bool resume) {
@@ -39,7 +34,7 @@ void prepareFolder(const fs::path& folder, bool resume) {
                                     "' holds a fit already; add --resume or choose another folder");
 }
 
-int runFit(const Arguments& a) {
+int runFit(const FitArguments& a) {
     std::vector<adapter::EngineSpec> engines;
     if (!a.engines.empty()) engines = adapter::parseSpecList(a.engines);
     validation::FitTask task = validation::loadFit(a.file, engines);
@@ -53,8 +48,7 @@ int runFit(const Arguments& a) {
     options.runs = !a.noRuns;
     options.jobs = a.jobs > 0 ? a.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     options.command = ownCommandLine();
-    std::signal(SIGINT, onInterruptFit);
-    std::signal(SIGTERM, onInterruptFit);
+    const std::atomic<bool>& interrupted = catchInterrupts();
     ProgressLine line(a.quiet);
     std::string said;
     const auto outcome = validation::runFit(
@@ -88,7 +82,7 @@ int runFit(const Arguments& a) {
 }  // namespace
 
 void addFit(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<FitArguments>();
     auto* command = app.add_subcommand(
         "fit", "Fit values of scenarios to measured motions on one part, score engines on the other");
     command->add_option("FILE", a->file, "Fit file; `rigor import` writes one")

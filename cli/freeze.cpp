@@ -15,14 +15,14 @@
 namespace rigor::cli {
 namespace {
 
-struct Arguments {
+struct FreezeArguments {
     std::string scenario, engine = validation::kInHouseEngine, dt, out;
     std::vector<std::string> overrides;
     std::size_t step = 0;
     double time = -1.0;
 };
 
-int exportStep(const Arguments& a) {
+int exportStep(const FreezeArguments& a) {
     const auto loaded = loadWithReference(a.scenario, a.overrides, {});
     validation::ExportRequest request;
     request.scenarioText = loaded.text;
@@ -46,7 +46,7 @@ int exportStep(const Arguments& a) {
 }  // namespace
 
 void addFreeze(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<FreezeArguments>();
     auto* command =
         app.add_subcommand("freeze", "Write one step of a run as a contact problem (FCLIB's HDF5 layout)");
     command->add_option("SCENARIO", a->scenario, "Name or file")->required();

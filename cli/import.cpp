@@ -11,12 +11,12 @@
 namespace rigor::cli {
 namespace {
 
-struct Arguments {
+struct ImportArguments {
     std::string dataSet, from, out, select = "all", train;
     std::vector<std::string> options;
 };
 
-int runImport(const Arguments& a) {
+int runImport(const ImportArguments& a) {
     const auto& importer = validation::findImporter(a.dataSet);
     std::map<std::string, std::string> given;
     for (const auto& option : a.options) {
@@ -60,7 +60,7 @@ std::string footer() {
 }  // namespace
 
 void addImport(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<ImportArguments>();
     auto* command =
         app.add_subcommand("import", "Turn measured data into scenarios to score and fit engines on");
     command->add_option("DATASET", a->dataSet, "Which data set, see below")->required();

@@ -3,13 +3,12 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
@@ -20,7 +19,7 @@
 namespace rigor::cli {
 namespace {
 
-struct Arguments {
+struct PiecesArguments {
     std::vector<std::string> scenarios, overrides, timeSteps;
     std::vector<int> every{1, 8, 64};
     std::string engines, out;
@@ -29,12 +28,7 @@ struct Arguments {
     bool quiet = false;
 };
 
-std::atomic<bool> interrupted{false};
-extern "C" void onInterruptPieces(int) {
-    interrupted = true;
-}
-
-std::vector<adapter::EngineSpec> chooseSpecs(const Arguments& a) {
+std::vector<adapter::EngineSpec> chooseSpecs(const PiecesArguments& a) {
     if (!a.engines.empty()) return adapter::parseSpecList(a.engines);
     std::vector<adapter::EngineSpec> specs;
     for (const auto& name : adapter::availableEngines())
@@ -83,7 +77,7 @@ std::vector<std::string> scenarioNames(const std::vector<std::string>& given) {
     return names;
 }
 
-int pieces(const Arguments& a) {
+int pieces(const PiecesArguments& a) {
     validation::RunOptions options;
     options.referenceLimits = a.referenceLimits;
     std::vector<std::pair<scenario::Scenario, std::string>> scenarios;
@@ -106,8 +100,7 @@ int pieces(const Arguments& a) {
     options.audit = false;
     options.pieces = a.every;
     options.command = ownCommandLine();
-    std::signal(SIGINT, onInterruptPieces);
-    std::signal(SIGTERM, onInterruptPieces);
+    const std::atomic<bool>& interrupted = catchInterrupts();
     ProgressLine line(a.quiet);
     const auto run = validation::runCases(
         plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
@@ -131,7 +124,7 @@ int pieces(const Arguments& a) {
 }  // namespace
 
 void addPieces(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<PiecesArguments>();
     auto* command = app.add_subcommand(
         "pieces", "Put bodies back on the truth every k steps and measure one piece: fair in chaos too");
     command->add_option("SCENARIO", a->scenarios, "Scenarios or suites, names or files")->required();

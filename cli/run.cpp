@@ -27,7 +27,7 @@
 namespace rigor::cli {
 namespace {
 
-struct Arguments {
+struct RunArguments {
     std::string scenario, engine = validation::kInHouseEngine, timeStep, csv, log;
     std::vector<std::string> overrides;
     validation::ReferenceLimits referenceLimits;
@@ -180,7 +180,7 @@ validation::Transformed otherOrder(const scenario::Scenario& s, int order) {
     return validation::listed(s, listings.back());
 }
 
-int runHere(const Arguments& a) {
+int runHere(const RunArguments& a) {
     validation::ReferenceCheck reference;
     const auto loaded = loadWithReference(a.scenario, a.overrides, a.referenceLimits, false, &reference);
     const auto& s = loaded.scenario;
@@ -237,7 +237,7 @@ int runHere(const Arguments& a) {
 }
 
 /// Libraries may abort: the run happens in a child, so that a crash ends in a sentence and an exit code.
-int runGuarded(const Arguments& arguments, const std::function<int()>& work) {
+int runGuarded(const RunArguments& arguments, const std::function<int()>& work) {
     std::fflush(nullptr);
     int finished[2];  // the child writes a byte when it got to its end: a library may call exit()
     if (pipe(finished) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
@@ -296,7 +296,7 @@ int runGuarded(const Arguments& arguments, const std::function<int()>& work) {
 }  // namespace
 
 void addRun(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<RunArguments>();
     auto* command = app.add_subcommand("run", "Run one case and print its metrics");
     command->add_option("SCENARIO", a->scenario, "Name or file")->required();
     command->add_option("-e,--engine", a->engine, "Engine spec (default: rigor)");

@@ -3,36 +3,31 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
 #include "validation/contact_problems/solve.hpp"
 
 namespace rigor::cli {
 namespace {
 
-struct Arguments {
+struct SolveArguments {
     std::vector<std::string> files;
     std::string solvers, csv;
     validation::SolveOptions options;
     bool json = false, all = false, quiet = false;
 };
 
-std::atomic<bool> interrupted{false};
-extern "C" void onInterruptSolve(int) {
-    interrupted = true;
-}
-
-int solve(Arguments a) {
+int solve(SolveArguments a) {
     a.options.binary = ownBinary();
     std::sort(a.options.iterations.begin(), a.options.iterations.end());
     const std::vector<adapter::EngineSpec> asked =
         a.solvers.empty() ? std::vector<adapter::EngineSpec>{} : adapter::parseSpecList(a.solvers);
     const auto specs = validation::contactSolverSpecs(asked, a.options.binary);
-    std::signal(SIGINT, onInterruptSolve);
+    const std::atomic<bool>& interrupted = catchInterrupts({SIGINT});
     const bool live = !a.quiet && isTerminal(STDERR_FILENO);
     bool complete = false;
     const auto problems = validation::solveFiles(
@@ -56,7 +51,7 @@ int solve(Arguments a) {
 }  // namespace
 
 void addSolve(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<SolveArguments>();
     auto* command = app.add_subcommand(
         "solve", "Put contact problems to the solvers: residual against iterations and time");
     command->add_option("FILE", a->files, "Problems: FCLIB's .hdf5, or .json")->required();

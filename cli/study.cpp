@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
@@ -16,18 +16,13 @@
 namespace rigor::cli {
 namespace {
 
-struct Arguments {
+struct StudyArguments {
     std::string study, out;
     std::vector<std::string> parts;
     validation::ReferenceLimits referenceLimits;
     int jobs = 1, orders = 1;
     bool resume = false, audit = false, json = false, quiet = false;
 };
-
-std::atomic<bool> interrupted{false};
-extern "C" void onInterruptStudy(int) {
-    interrupted = true;
-}
 
 scenario::Study chosenParts(scenario::Study study, const std::vector<std::string>& names) {
     if (names.empty()) return study;
@@ -45,7 +40,7 @@ scenario::Study chosenParts(scenario::Study study, const std::vector<std::string
     return study;
 }
 
-int runStudy(const Arguments& a) {
+int runStudy(const StudyArguments& a) {
     const auto study = chosenParts(scenario::loadStudy(scenario::findStudy(a.study)), a.parts);
     validation::RunOptions options;
     options.referenceLimits = a.referenceLimits;
@@ -73,8 +68,7 @@ int runStudy(const Arguments& a) {
         validation::extendFromFolder(plan, options.directory);
         checkResumed(options.directory, plan.cases);
     }
-    std::signal(SIGINT, onInterruptStudy);
-    std::signal(SIGTERM, onInterruptStudy);
+    const std::atomic<bool>& interrupted = catchInterrupts();
     ProgressLine line(a.quiet);
     const auto run = validation::runStudyCases(
         plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
@@ -101,7 +95,7 @@ int runStudy(const Arguments& a) {
 }  // namespace
 
 void addStudy(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<StudyArguments>();
     auto* command = app.add_subcommand("study", "Run a grid of choices and show them side by side");
     command->add_option("STUDY", a->study, "Study file, or a name of `rigor list studies`")->required();
     command->add_option("--part", a->parts, "Only these parts")->delimiter(',');

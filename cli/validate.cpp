@@ -3,7 +3,6 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 
 #include "adapters/interface/nearest.hpp"
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_folder.hpp"
 #include "reports/report.hpp"
@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ValidateArguments {
     std::vector<std::string> what, overrides, timeSteps;
     std::string engines, out, baseline;
     int jobs = 0, orders = 0;
@@ -38,11 +38,6 @@ struct Arguments {
 };
 
 const std::string kDefaultSuite = "standard";
-
-std::atomic<bool> interrupted{false};
-extern "C" void onInterrupt(int) {
-    interrupted = true;
-}
 
 /// What the positional arguments name, flattened: scenarios with their text, the engines and steps a suite
 /// asks for.
@@ -55,7 +50,7 @@ struct Selection {
     int orders = 1;
 };
 
-void addScenario(Selection& selection, const std::string& name, const Arguments& arguments,
+void addScenario(Selection& selection, const std::string& name, const ValidateArguments& arguments,
                  int maxTimeSteps) {
     validation::ReferenceCheck reference;
     auto loaded = loadWithReference(name, arguments.overrides, arguments.referenceLimits, false, &reference);
@@ -92,7 +87,7 @@ void checkName(const std::string& name) {
                                 adapter::didYouMean(name, known));
 }
 
-Selection select(const Arguments& arguments) {
+Selection select(const ValidateArguments& arguments) {
     Selection selection;
     for (const auto& name : arguments.what) {
         selection.title += (selection.title.empty() ? "" : " ") + fs::path(name).stem().string();
@@ -125,7 +120,8 @@ std::vector<adapter::EngineSpec> allDynamicEngines() {
     return specs;
 }
 
-std::vector<adapter::EngineSpec> chooseEngines(const Arguments& arguments, const Selection& selection) {
+std::vector<adapter::EngineSpec> chooseEngines(const ValidateArguments& arguments,
+                                               const Selection& selection) {
     std::vector<adapter::EngineSpec> specs;
     if (!arguments.engines.empty())
         specs = adapter::parseSpecList(arguments.engines);
@@ -196,15 +192,15 @@ void printResult(const results::Run& run, const fs::path& directory, bool json) 
 }
 
 /// What the run that is resumed was asked for.
-std::vector<std::string> resumedWhat(const Arguments& arguments) {
+std::vector<std::string> resumedWhat(const ValidateArguments& arguments) {
     const fs::path directory = chooseRunFolder(arguments.out, arguments.resume, "");
     prepareRunFolder(directory, true);
     std::istringstream words(results::readRun(directory).suite);
     return {std::istream_iterator<std::string>(words), {}};
 }
 
-int validate(const Arguments& given) {
-    Arguments arguments = given;
+int validate(const ValidateArguments& given) {
+    ValidateArguments arguments = given;
     if (arguments.what.empty())
         arguments.what = arguments.resume ? resumedWhat(arguments) : std::vector{kDefaultSuite};
     checkBaseline(arguments.baseline);
@@ -232,8 +228,7 @@ int validate(const Arguments& given) {
     options.command = ownCommandLine();
 
     if (options.resume) checkResumed(options.directory, plan);
-    std::signal(SIGINT, onInterrupt);
-    std::signal(SIGTERM, onInterrupt);
+    const std::atomic<bool>& interrupted = catchInterrupts();
     ProgressLine line(arguments.quiet);
     const auto run = validation::runCases(
         plan, options, [&](const validation::Progress& p) { line.update(p); }, interrupted);
@@ -260,7 +255,7 @@ int validate(const Arguments& given) {
 }  // namespace
 
 void addValidate(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<ValidateArguments>();
     auto* command = app.add_subcommand(
         "validate", "Run scenarios on engines, compare with the references, write the report");
     command->add_option("WHAT", a->what,

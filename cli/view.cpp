@@ -3,7 +3,6 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <thread>
 
 #include "cli/command.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/view/live_site.hpp"
 #include "cli/view/run_site.hpp"
 #include "cli/view/server.hpp"
@@ -24,17 +24,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ViewArguments {
     std::string what, engines = validation::kInHouseEngine, timeStep, saveFolder = ".";
     std::vector<std::string> overrides;
     int port = 0;
     bool open = false, json = false;
 };
-
-std::atomic<bool> interrupted{false};
-extern "C" void onInterruptView(int) {
-    interrupted = true;
-}
 
 /// A folder, unless it holds no run and a scenario of the library has its name.
 bool isFolderOfRun(const std::string& what) {
@@ -54,10 +49,8 @@ void openInBrowser(const std::string& url) {
 }
 
 /// Serves until Ctrl-C.
-int serve(view::Site& site, const std::string& title, const Arguments& a) {
-    std::signal(SIGINT, onInterruptView);
-    std::signal(SIGTERM, onInterruptView);
-    std::signal(SIGHUP, onInterruptView);
+int serve(view::Site& site, const std::string& title, const ViewArguments& a) {
+    const std::atomic<bool>& interrupted = catchInterrupts({SIGINT, SIGTERM, SIGHUP});
     std::signal(SIGCHLD, SIG_DFL);
     const view::Server server(site, a.port);
     const std::string url = server.url();
@@ -74,12 +67,12 @@ int serve(view::Site& site, const std::string& title, const Arguments& a) {
     return kOk;
 }
 
-int viewRun(const Arguments& a) {
+int viewRun(const ViewArguments& a) {
     view::RunSite site(a.what);
     return serve(site, "run " + fs::path(a.what).lexically_normal().string(), a);
 }
 
-int viewScenario(const Arguments& a) {
+int viewScenario(const ViewArguments& a) {
     const auto loaded = loadWithReference(a.what, a.overrides, {});
     const std::vector<adapter::EngineSpec> specs = adapter::parseSpecList(a.engines);
     validation::checkSpecs(specs, ownBinary());
@@ -97,7 +90,7 @@ int viewScenario(const Arguments& a) {
 }  // namespace
 
 void addView(CLI::App& app, Action& action) {
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<ViewArguments>();
     auto* command =
         app.add_subcommand("view", "Watch a scenario run live, or a recorded run, in the browser");
     command->footer(

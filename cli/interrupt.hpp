@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// SPDX-FileCopyrightText: 2026 The Rigor authors
+//
+// Ctrl-C ends a command where its work can be resumed.
+#pragma once
+
+#include <atomic>
+#include <csignal>
+#include <initializer_list>
+
+namespace rigor::cli {
+
+/// From now on these signals set the flag that is returned, instead of ending the program.
+const std::atomic<bool>& catchInterrupts(std::initializer_list<int> signals = {SIGINT, SIGTERM});
+
+}  // namespace rigor::cli
