@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 using validation::BenchWork;
 using validation::EngineDescription;
 
-const std::string kDefaultSuite = "bench";
+const std::string kDefaultBenchSuite = "bench";
 constexpr double kPartsBudget = 480.0;  ///< [s]
 
 struct BenchArguments {
@@ -44,7 +44,7 @@ struct BenchArguments {
 
 std::vector<std::string> sceneNames(const BenchArguments& a) {
     std::vector<std::string> what = a.what;
-    if (what.empty() && a.parts.empty()) what.push_back(kDefaultSuite);
+    if (what.empty() && a.parts.empty()) what.push_back(kDefaultBenchSuite);
     std::vector<std::string> names;
     for (const auto& name : what) {
         const auto suites = scenario::listSuites();
@@ -199,7 +199,7 @@ void checkSameBench(const fs::path& directory, const std::vector<BenchWork>& wor
     }
 }
 
-std::string clock(double seconds) {
+std::string clockText(double seconds) {
     const long total = std::lround(seconds);
     char text[32];
     std::snprintf(text, sizeof text, "%ld:%02ld", total / 60, total % 60);
@@ -208,7 +208,7 @@ std::string clock(double seconds) {
 
 /// A live line on a terminal, a line for each repetition elsewhere.
 void tell(const validation::BenchProgress& p, bool live) {
-    const std::string eta = p.etaSeconds >= 0.0 ? "  ETA " + clock(p.etaSeconds) : "";
+    const std::string eta = p.etaSeconds >= 0.0 ? "  ETA " + clockText(p.etaSeconds) : "";
     if (live) {
         std::string line = std::to_string(p.done) + " repetitions, about " + std::to_string(p.coming) +
                            " to come" + eta + "  " + p.current;
@@ -285,7 +285,7 @@ int bench(const BenchArguments& a) {
     options.base = a.base;
     options.command = ownCommandLine();
     for (const auto& name : a.what) options.suite += (options.suite.empty() ? "" : " ") + name;
-    if (options.suite.empty()) options.suite = kDefaultSuite;
+    if (options.suite.empty()) options.suite = kDefaultBenchSuite;
 
     const std::atomic<bool>& interrupted = catchInterrupts();
     const bool live = canRewriteLines(STDERR_FILENO);

@@ -26,7 +26,7 @@ float roundedDown(double v) {
     const auto f = static_cast<float>(v);
     return static_cast<double>(f) > v ? std::nextafter(f, -std::numeric_limits<float>::max()) : f;
 }
-b2AABB toBox2d(const Aabb& box) {
+b2AABB boxToBox2d(const Aabb& box) {
     b2AABB aabb;
     aabb.lowerBound.Set(roundedDown(box.min.x), roundedDown(box.min.y));
     aabb.upperBound.Set(-roundedDown(-box.max.x), -roundedDown(-box.max.y));
@@ -38,7 +38,7 @@ class Box2dBroadPhase final : public adapter::TimedBroadPhase {
     void take(std::span<const Aabb> boxes) override {
         if (boxes.size() != proxies_.size()) rebuild(boxes);
         for (std::size_t i = 0; i < boxes.size(); ++i) {
-            const b2AABB box = toBox2d(boxes[i]);
+            const b2AABB box = boxToBox2d(boxes[i]);
             moves_[i].displacement = box.GetCenter() - moves_[i].box.GetCenter();
             moves_[i].box = box;
         }
@@ -84,7 +84,7 @@ class Box2dBroadPhase final : public adapter::TimedBroadPhase {
         reported_.clear();
         kept_.clear();
         for (std::size_t i = 0; i < boxes.size(); ++i) {
-            moves_.push_back({toBox2d(boxes[i]), b2Vec2(0.0f, 0.0f)});
+            moves_.push_back({boxToBox2d(boxes[i]), b2Vec2(0.0f, 0.0f)});
             proxies_.push_back(
                 tree_->CreateProxy(moves_[i].box, reinterpret_cast<void*>(static_cast<std::intptr_t>(i))));
         }

@@ -88,7 +88,7 @@ Quat frameOf(const Layout& layout) {
     return normalized(scenario::fromAxisAngle(layout.x, angle) * swing);
 }
 
-btScalar scalar(double x) {
+btScalar toScalar(double x) {
     return static_cast<btScalar>(x);
 }
 
@@ -121,15 +121,15 @@ std::unique_ptr<SixDof> freeJoint(const Layout& layout, const Joint& joint, cons
 
 void setRange(SixDof& part, std::size_t k, const Range& range) {
     const bool negated = k >= 3 && range.lower <= range.upper;
-    part.setLimit(static_cast<int>(k), scalar(negated ? -range.upper : range.lower),
-                  scalar(negated ? -range.lower : range.upper));
+    part.setLimit(static_cast<int>(k), toScalar(negated ? -range.upper : range.lower),
+                  toScalar(negated ? -range.lower : range.upper));
 }
 
 void setMotor(SixDof& part, std::size_t k, const JointAxis& axis) {
     const int index = static_cast<int>(k);
     part.enableMotor(index, true);
-    part.setTargetVelocity(index, scalar(-axis.motorSpeed));
-    part.setMaxMotorForce(index, scalar(axis.motorMaxForce));
+    part.setTargetVelocity(index, toScalar(-axis.motorSpeed));
+    part.setMaxMotorForce(index, toScalar(axis.motorMaxForce));
 }
 
 /// A damper takes the coordinate's motor.
@@ -143,9 +143,9 @@ void setSpring(SixDof& part, std::size_t k, const JointAxis& axis, const JointSe
         return;
     }
     part.enableSpring(index, true);
-    part.setStiffness(index, scalar(axis.stiffness), settings.limitSprings);
-    part.setDamping(index, scalar(axis.damping), settings.limitSprings);
-    part.setEquilibriumPoint(index, scalar(k >= 3 ? -axis.target : axis.target));
+    part.setStiffness(index, toScalar(axis.stiffness), settings.limitSprings);
+    part.setDamping(index, toScalar(axis.damping), settings.limitSprings);
+    part.setEquilibriumPoint(index, toScalar(k >= 3 ? -axis.target : axis.target));
 }
 
 /// The turns about a spin axis that leans: a constraint of its own, whose frame has that axis for x.

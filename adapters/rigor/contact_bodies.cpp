@@ -26,7 +26,7 @@ std::size_t place(int i) {
     return static_cast<std::size_t>(i);
 }
 
-using Block = std::array<std::array<double, 6>, 6>;
+using BodyMatrix = std::array<std::array<double, 6>, 6>;
 
 /// x = A^-1 b for the symmetric positive definite inertia, by cofactors.
 std::array<double, 3> solveInertia(const std::array<std::array<double, 3>, 3>& A,
@@ -38,7 +38,7 @@ std::array<double, 3> solveInertia(const std::array<std::array<double, 3>, 3>& A
     return {x.x, x.y, x.z};
 }
 
-ProblemBody readBody(const Block& block, const double* f, int dimension, int index) {
+ProblemBody readBody(const BodyMatrix& block, const double* f, int dimension, int index) {
     const std::string name = "block " + std::to_string(index) + " of M";
     const int lin = dimension, dofs = dimension == 3 ? 6 : 3;
     ProblemBody body;
@@ -73,7 +73,7 @@ void readMasses(const ContactProblem& p, int dofs, ProblemBodies& out) {
     if (p.M.rows % dofs != 0)
         refuse("M has " + std::to_string(p.M.rows) + " rows, no multiple of " + std::to_string(dofs));
     const int bodies = p.M.rows / dofs;
-    std::vector<Block> blocks(place(bodies), Block{});
+    std::vector<BodyMatrix> blocks(place(bodies), BodyMatrix{});
     for (int j = 0; j < p.M.columns; ++j)
         forEach(p.M, j, [&](int i, double x) {
             if (x == 0.0) return;

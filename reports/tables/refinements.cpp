@@ -20,7 +20,7 @@ std::string optionalNumber(const std::optional<double>& value) {
     return value ? finiteText(*value) : std::string();
 }
 
-std::string joined(const std::vector<std::string>& fields) {
+std::string csvLine(const std::vector<std::string>& fields) {
     std::string line;
     for (const auto& field : fields) line += (line.empty() ? "" : ",") + csvField(field);
     return line + "\n";
@@ -63,14 +63,14 @@ Json fairnessJson(const results::Run& run, const std::string& scenario) {
 std::string ordersCsv(const results::Run& run) {
     std::string out = "scenario,spec,metric,unit,order,low,high,points,finest,coarsest,note,non_finite\n";
     for (const auto& o : run.orders)
-        out += joined({o.scenario, o.spec, o.metric, o.unit, optionalNumber(o.order), optionalNumber(o.low),
-                       optionalNumber(o.high), std::to_string(o.points), finiteText(o.finest),
-                       finiteText(o.coarsest), o.note,
-                       results::nonFiniteNote({{"order", o.order},
-                                               {"low", o.low},
-                                               {"high", o.high},
-                                               {"finest", o.finest},
-                                               {"coarsest", o.coarsest}})});
+        out += csvLine({o.scenario, o.spec, o.metric, o.unit, optionalNumber(o.order), optionalNumber(o.low),
+                        optionalNumber(o.high), std::to_string(o.points), finiteText(o.finest),
+                        finiteText(o.coarsest), o.note,
+                        results::nonFiniteNote({{"order", o.order},
+                                                {"low", o.low},
+                                                {"high", o.high},
+                                                {"finest", o.finest},
+                                                {"coarsest", o.coarsest}})});
     return out;
 }
 
@@ -78,7 +78,7 @@ std::string fairnessCsv(const results::Run& run) {
     std::string out =
         "mode,scenario,metric,unit,competitor,spec,dt,error,cost,budget_or_target,case,non_finite\n";
     for (const auto& f : run.fairness)
-        out += joined(
+        out += csvLine(
             {f.mode, f.scenario, f.metric, f.unit, f.competitor, f.spec, fullNumber(f.dt),
              finiteText(f.error), finiteText(f.cost), optionalNumber(f.limit), f.caseId,
              results::nonFiniteNote({{"error", f.error}, {"cost", f.cost}, {"budget_or_target", f.limit}})});

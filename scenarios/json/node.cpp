@@ -15,9 +15,6 @@ std::string shown(double value) {
     return text.str();
 }
 
-/// Larger magnitudes are mistakes, and overflow when squared in single precision.
-constexpr double kLargest = 1e15;
-
 }  // namespace
 
 void Node::problem(const std::string& id, const std::string& found, const std::string& expected) const {
@@ -99,7 +96,7 @@ double Node::positive() const {
         problem("value.range", "number > 0");
         return 1.0;
     }
-    return number(1e-12, kLargest);
+    return number(1e-12, kLargestNumber);
 }
 
 int Node::integer(int min, int max) const {
@@ -148,7 +145,7 @@ std::vector<double> Node::numbers(std::size_t count) const {
         return std::vector<double>(count, 0.0);
     }
     std::vector<double> list;
-    for (const Node& item : items()) list.push_back(item.number(-kLargest, kLargest));
+    for (const Node& item : items()) list.push_back(item.number(-kLargestNumber, kLargestNumber));
     return list;
 }
 
@@ -168,7 +165,7 @@ Vec3 Node::unitVector() const {
 }
 
 Vec3 Node::angularVector() const {
-    if (dimension() == 2) return {0.0, 0.0, number(-kLargest, kLargest)};
+    if (dimension() == 2) return {0.0, 0.0, number(-kLargestNumber, kLargestNumber)};
     return vector();
 }
 

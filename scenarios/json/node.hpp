@@ -16,6 +16,9 @@
 
 namespace rigor::scenario {
 
+/// Larger magnitudes are mistakes, and overflow when squared in single precision.
+inline constexpr double kLargestNumber = 1e15;
+
 /// What the nodes of one file share.
 struct ReadContext {
     std::string file;

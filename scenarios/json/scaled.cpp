@@ -10,9 +10,7 @@
 namespace rigor::scenario {
 namespace {
 
-constexpr double kLargest = 1e15;  ///< as for other numbers
-
-std::string shown(double value) {
+std::string shownNumber(double value) {
     std::ostringstream text;
     text << value;
     return text.str();
@@ -27,9 +25,9 @@ std::optional<double> Node::ofSize() const {
     if (!context_->size)
         problem("size.missing", "a number of the scene's size",
                 "a number, or the key 'size' in the scenario");
-    const double f = factor ? factor->number(-kLargest, kLargest) : 0.0,
+    const double f = factor ? factor->number(-kLargestNumber, kLargestNumber) : 0.0,
                  p = power ? power->number(-4.0, 4.0) : 1.0,
-                 c = plus ? plus->number(-kLargest, kLargest) : 0.0;
+                 c = plus ? plus->number(-kLargestNumber, kLargestNumber) : 0.0;
     if (context_->problems.size() > before) return std::nullopt;
     return f * std::pow(*context_->size, p) + c;
 }
@@ -38,8 +36,8 @@ double Node::scaled(double min, double max) const {
     if (!value_->is_object()) return number(min, max);
     const auto value = ofSize();
     if (!value || (*value >= min && *value <= max)) return value.value_or(min);
-    problem("value.range", shown(*value) + " at size " + std::to_string(*context_->size),
-            "number from " + shown(min) + " to " + shown(max));
+    problem("value.range", shownNumber(*value) + " at size " + std::to_string(*context_->size),
+            "number from " + shownNumber(min) + " to " + shownNumber(max));
     return min;
 }
 
@@ -49,7 +47,7 @@ int Node::scaledInteger(int min, int max) const {
     if (!value) return min;
     const double whole = std::round(*value);
     if (whole >= min && whole <= max) return static_cast<int>(whole);
-    problem("value.range", shown(*value) + " at size " + std::to_string(*context_->size),
+    problem("value.range", shownNumber(*value) + " at size " + std::to_string(*context_->size),
             "integer from " + std::to_string(min) + " to " + std::to_string(max));
     return min;
 }
@@ -57,7 +55,7 @@ int Node::scaledInteger(int min, int max) const {
 Vec3 Node::scaledVector() const {
     const auto count = static_cast<std::size_t>(dimension());
     if (!value_->is_array() || value_->size() != count) return vector();  // which reports it
-    const auto component = [&](std::size_t i) { return (*this)[i].scaled(-kLargest, kLargest); };
+    const auto component = [&](std::size_t i) { return (*this)[i].scaled(-kLargestNumber, kLargestNumber); };
     return {component(0), component(1), count == 3 ? component(2) : 0.0};
 }
 

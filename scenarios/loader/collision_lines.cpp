@@ -33,7 +33,7 @@ double requiredPositive(const Node& node, const char* key) {
 }
 
 template <class Round>
-Shape readRound(const Node& node) {
+Shape readRoundSize(const Node& node) {
     Shape shape;
     const double radius = requiredPositive(node, "radius");
     shape.geometry = Round{radius, requiredPositive(node, "half_height")};
@@ -59,9 +59,9 @@ Shape readLineShape(const Node& node, std::string& unsupported) {
     const auto type = node.require("type");
     const std::string kind = type ? type->text() : "";
     if (kind == "sphere") return {Sphere{requiredPositive(node, "radius")}, {}, 0};
-    if (kind == "capsule") return readRound<Capsule>(node);
-    if (kind == "cylinder") return readRound<Cylinder>(node);
-    if (kind == "cone") return readRound<Cone>(node);
+    if (kind == "capsule") return readRoundSize<Capsule>(node);
+    if (kind == "cylinder") return readRoundSize<Cylinder>(node);
+    if (kind == "cone") return readRoundSize<Cone>(node);
     if (kind == "convex") return readConvex(node, unsupported);
     if (kind == "box") {
         const auto half = node.require("half");

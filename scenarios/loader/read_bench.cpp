@@ -8,7 +8,6 @@ namespace rigor::scenario {
 namespace {
 
 constexpr int kMaxSteps = 1000000;
-constexpr double kLargest = 1e15;
 
 std::vector<int> readSizes(const Node& list) {
     std::vector<int> sizes;
@@ -24,12 +23,12 @@ QualityBound readBound(const Node& node, Quality quantity) {
     QualityBound bound{quantity};
     const bool range = node.json().is_object() && !node.has("size");
     if (!range) {
-        bound.max = node.scaled(-kLargest, kLargest);
+        bound.max = node.scaled(-kLargestNumber, kLargestNumber);
         return bound;
     }
     node.isObject({"min", "max"});
-    if (const auto n = node.find("min")) bound.min = n->scaled(-kLargest, kLargest);
-    if (const auto n = node.find("max")) bound.max = n->scaled(-kLargest, kLargest);
+    if (const auto n = node.find("min")) bound.min = n->scaled(-kLargestNumber, kLargestNumber);
+    if (const auto n = node.find("max")) bound.max = n->scaled(-kLargestNumber, kLargestNumber);
     if (!node.has("min") && !node.has("max")) node.problem("bench.bound", "min, max or both");
     if (bound.min > bound.max) node.problem("bench.bound", "min not above max");
     return bound;

@@ -62,7 +62,7 @@ double numberIn(const std::string& text, const fs::path& file, std::size_t line)
     damaged(file, line, "a number, found '" + text + "'");
 }
 
-using Cases = std::map<Record::Key, RecordedCase>;
+using RecordedCases = std::map<Record::Key, RecordedCase>;
 
 RecordedMetric& metricIn(RecordedCase& recorded, const std::string& name, const std::string& unit) {
     for (RecordedMetric& m : recorded.metrics)
@@ -70,7 +70,7 @@ RecordedMetric& metricIn(RecordedCase& recorded, const std::string& name, const 
     return recorded.metrics.emplace_back(RecordedMetric{name, unit, {}});
 }
 
-void readFile(const fs::path& file, Cases& cases) {
+void readFile(const fs::path& file, RecordedCases& cases) {
     std::ifstream in(file);
     std::string text;
     std::size_t line = 1;
@@ -87,7 +87,7 @@ void readFile(const fs::path& file, Cases& cases) {
     }
 }
 
-void writeFile(const fs::path& file, const Cases& cases) {
+void writeFile(const fs::path& file, const RecordedCases& cases) {
     std::ofstream out(file, std::ios::trunc);
     out << kHeader << "\n";
     for (const auto& [key, c] : cases) {
@@ -159,7 +159,7 @@ std::vector<fs::path> writeRecorded(const Run& run, const fs::path& folder, bool
     for (const auto& engine : run.engines) {
         if (!tookPart(run, engine)) continue;
         const fs::path file = fileOf(folder, engine);
-        Cases cases;
+        RecordedCases cases;
         if (fs::exists(file)) readFile(file, cases);
         for (const CaseRow& c : run.cases) {
             const auto* scenario = scenarioOf(run, c.scenario);

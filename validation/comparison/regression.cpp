@@ -23,7 +23,7 @@ struct Change {
     std::string text;
 };
 
-std::string number(double value) {
+std::string shownNumber(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.4g", value);
     return text;
@@ -52,7 +52,7 @@ Change changeOf(const CaseRow& row, const MetricRow& now, const RecordedMetric& 
     change.size = is && was ? std::abs(value - (change.state == Regression::Worse ? high : low)) /
                                   now.scale.value_or(std::max(high, value))
                             : std::numeric_limits<double>::infinity();
-    change.text = now.name + " " + number(old.values.front()) + " -> " + number(now.value) +
+    change.text = now.name + " " + shownNumber(old.values.front()) + " -> " + shownNumber(now.value) +
                   (now.unit.empty() || now.unit == "1" ? "" : " " + now.unit);
     return change;
 }

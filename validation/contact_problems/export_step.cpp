@@ -17,7 +17,7 @@ namespace {
 using namespace scenario;
 using adapter::Unsupported;
 
-std::size_t place(int i) {
+std::size_t placeOf(int i) {
     return static_cast<std::size_t>(i);
 }
 double component(const Vec3& v, int i) {
@@ -29,8 +29,8 @@ class Scale final : public adapter::World {
   public:
     explicit Scale(std::size_t bodies) : loads(bodies) {}
     void applyForce(int body, const Vec3& force, const Vec3& torque) override {
-        loads[place(body)].force += force;
-        loads[place(body)].torque += torque;
+        loads[placeOf(body)].force += force;
+        loads[placeOf(body)].torque += torque;
     }
     void step() override {}
     void readStates(std::span<BodyState>) const override {}
@@ -78,17 +78,17 @@ class StepExporter {
     ContactProblem& p() { return problem_.problem; }
 
     Mat3 inertia(int body) const {
-        const Mat3& local = s_.bodies[place(body)].massProperties.inertia;
+        const Mat3& local = s_.bodies[placeOf(body)].massProperties.inertia;
         if (s_.dimension == 2) return local;
-        const Mat3 R = toMatrix(step_.before[place(body)].orientation);
+        const Mat3 R = toMatrix(step_.before[placeOf(body)].orientation);
         return R * local * transpose(R);
     }
     void addBody(int body) {
-        const Body& b = s_.bodies[place(body)];
-        const BodyState& state = step_.before[place(body)];
+        const Body& b = s_.bodies[placeOf(body)];
+        const BodyState& state = step_.before[placeOf(body)];
         const double m = b.massProperties.mass, h = step_.dt;
-        const AppliedLoad& load = step_.loads[place(body)];
-        const int first = first_[place(body)];
+        const AppliedLoad& load = step_.loads[placeOf(body)];
+        const int first = first_[placeOf(body)];
         const Mat3 I = inertia(body);
         const Vec3 spin =
             s_.dimension == 2 ? Vec3{0, 0, I(2, 2) * state.angularVelocity.z} : I * state.angularVelocity;
@@ -113,7 +113,7 @@ class StepExporter {
     /// A column of H or G: what direction d on an arm, and turning about t, are to one body's velocities.
     void addColumn(std::vector<Triplet>& matrix, int body, int column, const Vec3& d, const Vec3& arm,
                    const Vec3& t = {}) const {
-        const int first = body == kNone ? kNone : first_[place(body)];
+        const int first = body == kNone ? kNone : first_[placeOf(body)];
         if (first == kNone) return;
         const Vec3 turn = cross(arm, d) + t;
         for (int i = 0; i < s_.dimension; ++i) matrix.push_back({first + i, column, component(d, i)});
@@ -124,8 +124,8 @@ class StepExporter {
     }
     /// Velocity of the point on a body that no impulse moves, along d.
     double carried(int body, const Vec3& d, const Vec3& arm, const Vec3& t = {}) const {
-        if (body == kNone || first_[place(body)] != kNone) return 0.0;
-        const BodyState& state = step_.before[place(body)];
+        if (body == kNone || first_[placeOf(body)] != kNone) return 0.0;
+        const BodyState& state = step_.before[placeOf(body)];
         return dot(d, state.velocity + cross(state.angularVelocity, arm)) + dot(t, state.angularVelocity);
     }
     void addJoint(const Joint& joint) {
@@ -141,13 +141,13 @@ class StepExporter {
         const PairCoefficients pair = coefficientsOf(s_, contact);
         if (pair.staticFriction > pair.friction)
             throw Unsupported("a exported contact has one coefficient of friction; " +
-                              s_.bodies[place(contact.bodyA)].name + " and " +
-                              s_.bodies[place(contact.bodyB)].name + " have a static one above it");
+                              s_.bodies[placeOf(contact.bodyA)].name + " and " +
+                              s_.bodies[placeOf(contact.bodyB)].name + " have a static one above it");
         const PointOfContact point(s_, contact, step_.before);
         const auto tangents = tangentsOf(contact.normal, s_.dimension);
         const Vec3 impulse = contact.normalImpulse * contact.normal + contact.frictionImpulse;
         for (int k = 0; k < s_.dimension; ++k) {
-            const Vec3 d = k == 0 ? contact.normal : tangents[place(k - 1)];
+            const Vec3 d = k == 0 ? contact.normal : tangents[placeOf(k - 1)];
             const int column = static_cast<int>(p().w.size());
             addColumn(direction_, contact.bodyA, column, -d, point.armA());
             addColumn(direction_, contact.bodyB, column, d, point.armB());

@@ -8,7 +8,7 @@
 namespace rigor::validation {
 namespace {
 
-std::size_t place(int i) {
+std::size_t entry(int i) {
     return static_cast<std::size_t>(i);
 }
 
@@ -23,34 +23,34 @@ SparseMatrix fromTriplets(int rows, int columns, std::vector<Triplet> entries) {
     std::sort(entries.begin(), entries.end(), [](const Triplet& a, const Triplet& b) {
         return std::tie(a.column, a.row) < std::tie(b.column, b.row);
     });
-    SparseMatrix A{rows, columns, std::vector<int>(place(columns) + 1, 0), {}, {}};
+    SparseMatrix A{rows, columns, std::vector<int>(entry(columns) + 1, 0), {}, {}};
     for (std::size_t k = 0; k < entries.size(); ++k) {
         const Triplet& e = entries[k];
         if (k > 0 && e.row == entries[k - 1].row && e.column == entries[k - 1].column) {
             A.value.back() += e.value;
             continue;
         }
-        ++A.start[place(e.column) + 1];
+        ++A.start[entry(e.column) + 1];
         A.row.push_back(e.row);
         A.value.push_back(e.value);
     }
-    for (std::size_t j = 0; j < place(columns); ++j) A.start[j + 1] += A.start[j];
+    for (std::size_t j = 0; j < entry(columns); ++j) A.start[j + 1] += A.start[j];
     return A;
 }
 
 std::vector<Triplet> toTriplets(const SparseMatrix& A) {
     std::vector<Triplet> entries;
     for (int j = 0; j < A.columns; ++j)
-        for (int k = A.start[place(j)]; k < A.start[place(j) + 1]; ++k)
-            entries.push_back({A.row[place(k)], j, A.value[place(k)]});
+        for (int k = A.start[entry(j)]; k < A.start[entry(j) + 1]; ++k)
+            entries.push_back({A.row[entry(k)], j, A.value[entry(k)]});
     return entries;
 }
 
 void multiplyAdd(const SparseMatrix& A, const std::vector<double>& x, std::vector<double>& y) {
-    for (const Triplet& e : toTriplets(A)) y[place(e.row)] += e.value * x[place(e.column)];
+    for (const Triplet& e : toTriplets(A)) y[entry(e.row)] += e.value * x[entry(e.column)];
 }
 void multiplyTransposedAdd(const SparseMatrix& A, const std::vector<double>& x, std::vector<double>& y) {
-    for (const Triplet& e : toTriplets(A)) y[place(e.column)] += e.value * x[place(e.row)];
+    for (const Triplet& e : toTriplets(A)) y[entry(e.column)] += e.value * x[entry(e.row)];
 }
 
 }  // namespace rigor::validation

@@ -19,10 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kLength = 1.0;      // of the rod [m]
-constexpr double kHalfWidth = 0.01;  // of its picture [m]
-constexpr double kMass = 1.0;        // [kg]; the period does not know it
-constexpr double kCoverage = 2.0;    // standard uncertainties
+constexpr double kRodLength = 1.0;    // of the rod [m]
+constexpr double kHalfWidth = 0.01;   // of its picture [m]
+constexpr double kRodMass = 1.0;      // [kg]; the period does not know it
+constexpr double kRodCoverage = 2.0;  // standard uncertainties
 
 struct Pivot {
     std::string name;
@@ -33,7 +33,7 @@ struct Pivot {
 
 /// Of the period, with what the pivot's place does to it: dT/T = (2 h/(l^2/12 + h^2) - 1/h) dh/2.
 double uncertaintyOf(const Pivot& p) {
-    const double gyration = kLength * kLength / 12.0 + p.distance * p.distance;
+    const double gyration = kRodLength * kRodLength / 12.0 + p.distance * p.distance;
     const double byPlace =
         0.5 * p.period * (2.0 * p.distance / gyration - 1.0 / p.distance) * p.distanceUncertainty;
     return std::hypot(p.periodUncertainty, byPlace);
@@ -51,7 +51,7 @@ std::vector<Pivot> readPivots(const fs::path& file) {
         p.period = lab::positive(table, row, "time");
         p.periodUncertainty = lab::positive(table, row, "uncertainty_time");
         p.dropped = p.name == "d1";
-        if (!(p.distance < 0.5 * kLength))
+        if (!(p.distance < 0.5 * kRodLength))
             throw scenario::LoadError(
                 {table.problem("import.value", table.line(row),
                                "distance_CM = " + table.text(row, "distance_CM"), "a pivot on the rod")});
@@ -78,11 +78,11 @@ lab::Pendulum pendulumOf(const Pivot& p) {
                         ordered_json(p.distanceUncertainty).dump() + " m." +
                         (p.dropped ? " The authors leave this one out." : "");
     swing.source = lab::sourceText("one period from the lowest place on, units unchanged");
-    swing.mass = kMass;
+    swing.mass = kRodMass;
     swing.distance = p.distance;
-    swing.inertia = kMass * kLength * kLength / 12.0;
+    swing.inertia = kRodMass * kRodLength * kRodLength / 12.0;
     swing.period = p.period;
-    swing.shape = {{"box", {{"half_extents", {kHalfWidth, 0.5 * kLength}}}}};
+    swing.shape = {{"box", {{"half_extents", {kHalfWidth, 0.5 * kRodLength}}}}};
     return swing;
 }
 
@@ -100,7 +100,7 @@ Imported importCompoundPendulum(const ImportRequest& request) {
     ordered_json parts = ordered_json::array();
     for (const Pivot& pivot : readPivots(request.from / "output-data-2.csv")) {
         const lab::Pendulum swing = pendulumOf(pivot);
-        const double bound = lab::lateness(swing, kCoverage * uncertaintyOf(pivot), 2.0 * kHalfWidth);
+        const double bound = lab::lateness(swing, kRodCoverage * uncertaintyOf(pivot), 2.0 * kHalfWidth);
         imported.scenarios.push_back({swing.name, lab::swingText(swing), false});
         if (pivot.dropped) {
             parts.push_back(lab::part(

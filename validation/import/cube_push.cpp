@@ -35,20 +35,20 @@ namespace fs = std::filesystem;
 using namespace scenario;
 using nlohmann::ordered_json;
 
-constexpr double kGravity = 9.81;                                  // [m/s^2]
-constexpr double kHalf = 0.0375, kMass = 0.0884;                   // of the cube, as the source simulates it
+constexpr double kTableGravity = 9.81;                             // [m/s^2]
+constexpr double kHalf = 0.0375, kPushedMass = 0.0884;             // of the cube, as the source simulates it
 constexpr double kFingerMass = 1e5;                                // [kg]
 constexpr double kFingerRadius = 0.005, kFingerHalfLength = 0.02;  // a capsule across the push [m]
 constexpr double kFingerClearance = 0.005;                         // of the table, at its lowest [m]
 constexpr double kFingerFriction = 0.3;                            // not given: a start for a fit
 constexpr double kStartGap = 0.002;                                // between finger and cube, at least [m]
 constexpr double kCalm = 0.3;                                      // [s] of rest at the end
-constexpr int kStepsPerFrame = 10;
+constexpr int kPushStepsPerFrame = 10;
 // MuJoCo's published displacement, 0.1137 m, against the mean of the measured ones, 0.0962 m: the farther of
 // the two of seven published configurations that push the cube at all.
 constexpr double kPublishedMiss = 0.0175;
 constexpr double kSmooth = 0.02;  // friction of a table on which the cube has to slide too far
-constexpr std::array kEngines{results::kInHouseEngine, "bullet:preset=matched", "ode:preset=matched"};
+constexpr std::array kPushEngines{results::kInHouseEngine, "bullet:preset=matched", "ode:preset=matched"};
 
 /// What all recordings of a folder have in common.
 struct Common {
@@ -71,7 +71,7 @@ Common commonOf(const std::vector<Push>& pushes) {
     Common common;
     common.point = fitPushPoint(pushes, kHalf);
     std::tie(common.friction, common.frictionScatter) =
-        spread(pushes, [](const Push& push) { return slideDeceleration(push) / kGravity; });
+        spread(pushes, [](const Push& push) { return slideDeceleration(push) / kTableGravity; });
     std::tie(common.displacement, common.displacementScatter) =
         spread(pushes, [](const Push& push) { return push.displacement; });
     return common;
@@ -146,7 +146,7 @@ ordered_json bodiesOf(const Push& push, const Piece& piece) {
               {{{"capsule", {{"radius", kFingerRadius}, {"half_length", kFingerHalfLength}}},
                 {"material", "finger"}}}}},
             {{"name", "cube"},
-             {"mass", kMass},
+             {"mass", kPushedMass},
              {"position", {cube.x, cube.y, kHalf}},
              {"shapes", {{{"box", {{"half_extents", {kHalf, kHalf, kHalf}}}}, {"material", "cube"}}}}}};
 }
@@ -178,9 +178,9 @@ std::string scenarioOf(const std::string& name, bool train, const Push& push, co
          {"isolates", {"friction", "contact"}},
          {"tags", {"measured", train ? "train" : "test"}},
          {"dimension", 3},
-         {"gravity", {0, 0, -kGravity}},
+         {"gravity", {0, 0, -kTableGravity}},
          {"duration", duration},
-         {"dt", {1.0 / (kStepsPerFrame * push.rate)}},
+         {"dt", {1.0 / (kPushStepsPerFrame * push.rate)}},
          {"materials",
           {{"table", ordered_json::object()},
            {"cube", ordered_json::object()},
@@ -198,7 +198,7 @@ std::string scenarioOf(const std::string& name, bool train, const Push& push, co
 ordered_json partOf(const char* name, const std::string& statement, const char* bound,
                     const ordered_json& files) {
     ordered_json findings = ordered_json::array();
-    for (const char* engine : kEngines)
+    for (const char* engine : kPushEngines)
         findings.push_back({{"statement", statement},
                             {"source", "Collins, Howard, Leitner, ICRA 2019"},
                             {"variant", engine},
@@ -206,7 +206,7 @@ ordered_json partOf(const char* name, const std::string& statement, const char* 
                             {bound, kPublishedMiss / (2.0 * kHalf)}});
     return {{"name", name},
             {"scenarios", files},
-            {"variants", kEngines},
+            {"variants", kPushEngines},
             {"metrics", {"measured_position_final", "measured_position_mean", "measured_orientation_mean"}},
             {"findings", findings}};
 }

@@ -30,11 +30,11 @@ namespace fs = std::filesystem;
 using namespace scenario;
 using nlohmann::ordered_json;
 
-constexpr double kMass = 0.37;                            // [kg]
-constexpr double kNominalHalf = 0.0524;                   // [m]
-constexpr double kNominalInertia = 0.00081;               // [kg m^2] at the nominal half width
-constexpr double kFriction = 0.18, kRestitution = 0.125;  // contact-nets' parameters
-constexpr int kStepsPerFrame = 10;                        // 1/1480 s, the step of the published fits
+constexpr double kTossedMass = 0.37;                          // [kg]
+constexpr double kNominalHalf = 0.0524;                       // [m]
+constexpr double kNominalInertia = 0.00081;                   // [kg m^2] at the nominal half width
+constexpr double kTossFriction = 0.18, kRestitution = 0.125;  // contact-nets' parameters
+constexpr int kTossStepsPerFrame = 10;                        // 1/1480 s, the step of the published fits
 constexpr std::size_t kLeastFrames = 10;
 
 struct Units {
@@ -114,15 +114,16 @@ std::string scenarioOf(int id, bool train, const Recording& recording, const Sta
          {"dimension", 3},
          {"gravity", {0, 0, -units.gravity}},
          {"duration", frames / recording.rate},
-         {"dt", {1.0 / (kStepsPerFrame * recording.rate)}},
+         {"dt", {1.0 / (kTossStepsPerFrame * recording.rate)}},
          {"materials", {{"cube", ordered_json::object()}, {"board", ordered_json::object()}}},
-         {"pairs", {{{"a", "cube"}, {"b", "board"}, {"friction", kFriction}, {"restitution", kRestitution}}}},
+         {"pairs",
+          {{{"a", "cube"}, {"b", "board"}, {"friction", kTossFriction}, {"restitution", kRestitution}}}},
          {"bodies",
           {{{"name", "board"},
             {"type", "static"},
             {"shapes", {{{"half_space", {{"normal", {0, 0, 1}}}}, {"material", "board"}}}}},
            {{"name", "cube"},
-            {"mass", kMass},
+            {"mass", kTossedMass},
             {"inertia", {inertia, inertia, inertia}},
             {"position", toJson(start.position)},
             {"orientation", toJson(start.orientation)},
@@ -197,7 +198,7 @@ Imported importCubeToss(const ImportRequest& request) {
         }
     }
     if (!problems.empty()) throw LoadError(std::move(problems));
-    imported.parameters = {{"friction", "pairs.0.friction", 0.02, 0.6, kFriction},
+    imported.parameters = {{"friction", "pairs.0.friction", 0.02, 0.6, kTossFriction},
                            {"restitution", "pairs.0.restitution", 0.0, 0.7, kRestitution}};
     imported.metric = "measured_loss";
     imported.report = {"measured_position_mean", "measured_orientation_mean"};

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using namespace scenario;
 using nlohmann::ordered_json;
 
-constexpr double kMass = 10.0, kDuration = 10.0;              // [kg], [s]
+constexpr double kBoxMass = 10.0, kDuration = 10.0;           // [kg], [s]
 constexpr Vec3 kInertia{0.80833333, 0.68333333, 0.14166667};  // [kg m^2], as in the benchmark's world
 // The published errors have six digits, and are of first or second order in the time step: other roundings of
 // dt and of the inertia change them by far less than this.
@@ -48,7 +48,7 @@ const Motion kMotions[] = {{"simple", false, {}, {-0.9, 0.4, 0.1}, {0.5, 0, 0}},
 
 double kineticAt(const Motion& m, double t) {
     const Vec3 v = m.velocity + t * m.gravity;
-    return 0.5 * (kMass * dot(v, v) + kInertia.x * m.spin.x * m.spin.x + kInertia.y * m.spin.y * m.spin.y +
+    return 0.5 * (kBoxMass * dot(v, v) + kInertia.x * m.spin.x * m.spin.x + kInertia.y * m.spin.y * m.spin.y +
                   kInertia.z * m.spin.z * m.spin.z);
 }
 
@@ -73,7 +73,7 @@ std::string scenarioOf(const Motion& motion, const std::vector<double>& steps) {
                 {"materials", {{"box", ordered_json::object()}}},
                 {"bodies",
                  {{{"name", "box"},
-                   {"mass", kMass},
+                   {"mass", kBoxMass},
                    {"inertia", toJson(kInertia)},
                    {"velocity", toJson(motion.velocity)},
                    {"angular_velocity", toJson(motion.spin)},
@@ -118,27 +118,27 @@ std::vector<Published> rowsOf(const CsvTable& table, const std::string& engine, 
 }
 
 /// How many times the published error today's engine has.
-struct Times {
+struct Factors {
     double least, most;
 };
-constexpr Times kAsPublished{1.0 - kSame, 1.0 + kSame};
+constexpr Factors kAsPublished{1.0 - kSame, 1.0 + kSame};
 
 /// An engine of the benchmark, and today's that is held to it. Gazebo brings its own branch of ODE: position
 /// and orientation errors are those of its steps, but the torque-free tumbling of ODE 0.16.2 is less accurate
 /// by a factor that hardly depends on the step, so both are of first order.
 struct Variant {
     const char *engine, *spec;
-    Times momentum, energy;
+    Factors momentum, energy;
 };
 const Variant kVariants[] = {{"ode", "ode:preset=default", {1.6, 2.0}, {1.1, 1.2}},
                              {"bullet", "bullet:preset=default", kAsPublished, kAsPublished}};
 
-Times timesOf(const Variant& variant, const std::string& metric) {
+Factors timesOf(const Variant& variant, const std::string& metric) {
     if (metric == "angular_momentum_drift") return variant.momentum;
     return metric == "energy_drift" ? variant.energy : kAsPublished;
 }
 
-std::string statementOf(const Variant& variant, double dt, const std::string& metric, const Times& times) {
+std::string statementOf(const Variant& variant, double dt, const std::string& metric, const Factors& times) {
     const bool same = times.least == kAsPublished.least;
     return std::string(variant.engine) + " at " + ordered_json(dt).dump() + " s: " + metric +
            (same ? " as published"
@@ -153,7 +153,7 @@ ordered_json partOf(const CsvTable& table, const Variant& variant, const Motion&
         steps.push_back(one.dt);
         for (const Column& column : columnsOf(motion)) {
             const double value = column.factor * table.number(one.row, column.published);
-            const Times times = timesOf(variant, column.metric);
+            const Factors times = timesOf(variant, column.metric);
             findings.push_back({{"statement", statementOf(variant, one.dt, column.metric, times)},
                                 {"source", "Peters, Hsu, 2014"},
                                 {"variant", variant.spec},

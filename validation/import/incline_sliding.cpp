@@ -24,10 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kSteps = 2000;                           // of a run: first order is 5e-4 of the way
-constexpr double kHalfLength = 0.02, kHalfHeight = 0.01;  // of the box [m]
-constexpr double kMass = 0.1;                             // [kg]; the motion does not know it
-constexpr double kCoverage = 2.0;                         // published uncertainties
+constexpr double kSlideSteps = 2000;                            // of a run: first order is 5e-4 of the way
+constexpr double kBoxHalfLength = 0.02, kBoxHalfHeight = 0.01;  // of the box [m]
+constexpr double kSliderMass = 0.1;                             // [kg]; the motion does not know it
+constexpr double kSlideCoverage = 2.0;                          // published uncertainties
 
 struct Slope {
     double way = 0.0, angle = 0.0;  ///< [m], [rad]
@@ -51,7 +51,7 @@ Slope readSlope(const fs::path& file) {
 }
 
 /// Mean times of the bodies, in the order in which they first stand in the file.
-std::vector<std::pair<std::string, double>> readTimes(const fs::path& file) {
+std::vector<std::pair<std::string, double>> readSlideTimes(const fs::path& file) {
     const CsvTable table(file, {"mass", "t"});
     std::vector<std::pair<std::string, double>> sums;
     std::vector<double> counts;
@@ -87,7 +87,7 @@ std::string scenarioOf(const std::string& name, const std::string& body, const S
          {"dimension", 2},
          {"gravity", {lab::kGravity * std::sin(slope.angle), -lab::kGravity * std::cos(slope.angle)}},
          {"duration", time},
-         {"dt", {time / kSteps}},
+         {"dt", {time / kSlideSteps}},
          {"materials", {{"body", ordered_json::object()}, {"rail", ordered_json::object()}}},
          {"pairs", {{{"a", "body"}, {"b", "rail"}, {"friction", friction}, {"restitution", 0}}}},
          {"bodies",
@@ -95,15 +95,16 @@ std::string scenarioOf(const std::string& name, const std::string& body, const S
             {"type", "static"},
             {"shapes", {{{"half_plane", {{"normal", {0, 1}}}}, {"material", "rail"}}}}},
            {{"name", "body"},
-            {"mass", kMass},
-            {"position", {0, kHalfHeight}},
-            {"shapes", {{{"box", {{"half_extents", {kHalfLength, kHalfHeight}}}}, {"material", "body"}}}}}}},
+            {"mass", kSliderMass},
+            {"position", {0, kBoxHalfHeight}},
+            {"shapes",
+             {{{"box", {{"half_extents", {kBoxHalfLength, kBoxHalfHeight}}}}, {"material", "body"}}}}}}},
          {"observe", {"body"}},
          {"reference",
           {{"measured_motion",
             {{"body", "body"},
              {"times", {0.0, time}},
-             {"positions", {0.0, kHalfHeight, slope.way, kHalfHeight}}}}}},
+             {"positions", {0.0, kBoxHalfHeight, slope.way, kBoxHalfHeight}}}}}},
          {"metrics", {"measured_position_final"}}});
 }
 
@@ -121,11 +122,11 @@ Imported importInclineSliding(const ImportRequest& request) {
                                  {"configuration", "acceleration", "uncertainty"});
     const CsvTable coefficients(request.from / "output-data-2.csv",
                                 {"configuration", "coefficient_friction", "uncertainty"});
-    const double width = 2.0 * kHalfHeight;
+    const double width = 2.0 * kBoxHalfHeight;
     Imported imported;
     imported.title = "Bodies that slide down a rail";
     ordered_json parts = ordered_json::array();
-    for (const auto& [body, time] : readTimes(request.from / "experimental-data-2.csv")) {
+    for (const auto& [body, time] : readSlideTimes(request.from / "experimental-data-2.csv")) {
         const double acceleration = 2.0 * slope.way / (time * time);
         const double friction =
             std::tan(slope.angle) - acceleration / (lab::kGravity * std::cos(slope.angle));
@@ -142,14 +143,14 @@ Imported importInclineSliding(const ImportRequest& request) {
             lab::findings(
                 "At the measured time the body is at the photocell, within two uncertainties of the "
                 "published acceleration",
-                "at_most", kCoverage * byAcceleration * perAcceleration)));
+                "at_most", kSlideCoverage * byAcceleration * perAcceleration)));
         const double byFriction = valueOf(coefficients, "configuration", body, "uncertainty") *
                                   lab::kGravity * std::cos(slope.angle);
         ordered_json published =
             lab::part(body + "_published_coefficient", file,
                       lab::findings("With the published coefficient it is not, by more than two of its "
                                     "uncertainties: a cosine multiplies there that has to divide",
-                                    "at_least", kCoverage * byFriction * perAcceleration));
+                                    "at_least", kSlideCoverage * byFriction * perAcceleration));
         published["set"] = {
             "pairs.0.friction=" +
             ordered_json(valueOf(coefficients, "configuration", body, "coefficient_friction")).dump()};

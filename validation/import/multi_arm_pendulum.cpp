@@ -37,12 +37,12 @@ namespace fs = std::filesystem;
 using namespace scenario;
 using nlohmann::ordered_json;
 
-constexpr std::array kEngines{results::kInHouseEngine, "ode:preset=matched", "bullet:preset=matched"};
-constexpr double kRate = 1000.0;           // samples per second
-constexpr double kTimeTolerance = 1e-6;    // [s]
-constexpr std::size_t kFitSamples = 100;   // 0.1 s: rates to 4 mrad/s with encoders of 1 mrad
-constexpr std::size_t kLeastSamples = 20;  // of a span whose start is fitted
-constexpr double kHalfThickness = 0.01;    // of the picture of an arm [m]
+constexpr std::array kArmEngines{results::kInHouseEngine, "ode:preset=matched", "bullet:preset=matched"};
+constexpr double kRate = 1000.0;               // samples per second
+constexpr double kSampleTimeTolerance = 1e-6;  // [s]
+constexpr std::size_t kFitSamples = 100;       // 0.1 s: rates to 4 mrad/s with encoders of 1 mrad
+constexpr std::size_t kLeastSamples = 20;      // of a span whose start is fitted
+constexpr double kHalfThickness = 0.01;        // of the picture of an arm [m]
 constexpr double kFineStep = 1.0 / 16000;  // [s] of the judged study: well below the noise of the encoders
 // Two codes that integrate one model differ by rounding of the record (1e-5 rad), of its first velocity and
 // by the first order of a time step: half a milliradian of an RMS of 2 to 220.
@@ -127,7 +127,7 @@ Swing readSwing(const Span& span, const ArmModel& model, bool fitted) {
     const double start = table.number(begin, "t");
     for (std::size_t row = begin; row < end; ++row) {
         const double t = static_cast<double>(row - begin) / kRate;
-        if (!(std::abs(table.number(row, "t") - start - t) <= kTimeTolerance))
+        if (!(std::abs(table.number(row, "t") - start - t) <= kSampleTimeTolerance))
             throw LoadError({table.problem("import.time", table.line(row), "t = " + table.text(row, "t"),
                                            "times that rise by 0.001 s from line to line")});
         swing.times.push_back(t);
@@ -275,7 +275,7 @@ std::string scenarioOf(const std::string& name, const std::string& kind, bool tr
 ordered_json findingsOf(const std::string& name, double published) {
     const double slack = std::max(kSameModel, kSameModelShare * published);
     ordered_json findings = ordered_json::array();
-    for (const char* engine : kEngines)
+    for (const char* engine : kArmEngines)
         findings.push_back({{"statement", std::string("As far from the record as the published model: ") +
                                               name + ", " + engine},
                             {"source", "Kaheman et al., arXiv 2205.06231"},
@@ -290,7 +290,7 @@ ordered_json partOf(const std::string& name, double published) {
     return {{"name", name},
             {"scenarios", {name + ".json"}},
             {"dt", {kFineStep}},
-            {"variants", kEngines},
+            {"variants", kArmEngines},
             {"metrics", {"measured_orientation_rms"}},
             {"findings", findingsOf(name, published)}};
 }

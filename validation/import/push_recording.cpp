@@ -13,12 +13,12 @@ namespace {
 
 using namespace scenario;
 
-constexpr double kSettling = 0.2;           // [s] of the tracker
-constexpr double kMoved = 0.003;            // [m]: a hundred times the noise
-constexpr double kStopped = 0.0005;         // [m]
-constexpr double kLeastPush = 0.01;         // [m]
-constexpr double kLead = 1.5, kCalm = 0.5;  // [s]: at rest from 1.5 s to 1 s before the largest speed
-constexpr std::ptrdiff_t kReach = 3;        // frames to either side of a parabola's middle
+constexpr double kSettling = 0.2;                 // [s] of the tracker
+constexpr double kMoved = 0.003;                  // [m]: a hundred times the noise
+constexpr double kStopped = 0.0005;               // [m]
+constexpr double kLeastPush = 0.01;               // [m]
+constexpr double kLead = 1.5, kCalmBefore = 0.5;  // [s]: at rest from 1.5 s to 1 s before the largest speed
+constexpr std::ptrdiff_t kReach = 3;              // frames to either side of a parabola's middle
 constexpr std::size_t kSlide = 2 * kReach + 1;
 
 std::size_t framesIn(double seconds, double rate) {
@@ -43,7 +43,7 @@ std::size_t fastestFrame(const std::vector<RecordedPose>& cube) {
 template <class Refuse>
 void findStages(Push& push, Refuse refuse) {
     const std::size_t frames = push.cube.size(), lead = framesIn(kLead, push.rate),
-                      calm = framesIn(kCalm, push.rate);
+                      calm = framesIn(kCalmBefore, push.rate);
     if (frames < lead + calm) refuse("a recording of " + std::to_string(frames) + " frames");
     push.fastest = fastestFrame(push.cube);
     const std::size_t rest = push.fastest < lead ? 0 : push.fastest - lead;

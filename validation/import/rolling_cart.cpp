@@ -29,11 +29,12 @@ namespace fs = std::filesystem;
 using namespace scenario;
 using nlohmann::ordered_json;
 
-constexpr double kGravity = 9.81;  // [m/s^2]; only its product with the slope's sine matters
-constexpr double kWay = 1.0;       // [m]
-constexpr double kSteps = 2000;    // of a run: the first order of a time step is 5e-4 of the way
-constexpr double kFriction = 0.5;  // enough to roll: a tenth would do
-constexpr double kHalfLength = 0.15, kHalfHeight = 0.05, kAxle = 0.1;  // of the picture of the frame [m]
+constexpr double kCartGravity = 9.81;     // [m/s^2]; only its product with the slope's sine matters
+constexpr double kWay = 1.0;              // [m]
+constexpr double kCartSteps = 2000;       // of a run: the first order of a time step is 5e-4 of the way
+constexpr double kRollingFriction = 0.5;  // enough to roll: a tenth would do
+constexpr double kFrameHalfLength = 0.15, kFrameHalfHeight = 0.05,
+                 kAxle = 0.1;  // of the picture of the frame [m]
 
 struct Cart {
     double frame = 0.0, discs = 0.0;               ///< masses [kg]; the two discs together
@@ -41,7 +42,7 @@ struct Cart {
     double mass() const { return frame + discs; }  ///< [kg]
 };
 
-struct Times {
+struct CartTimes {
     double atRest = 0.0, turning = 0.0;  ///< means [s]
     double standardError = 0.0;          ///< of the mean ratio turning/at rest
 };
@@ -65,10 +66,10 @@ Cart readCart(const fs::path& file) {
     return cart;
 }
 
-Times readTimes(const fs::path& file) {
+CartTimes readCartTimes(const fs::path& file) {
     const CsvTable table(file, {"t1", "t2"});
     const auto count = static_cast<double>(table.size());
-    Times times;
+    CartTimes times;
     double ratio = 0.0, squares = 0.0;
     for (std::size_t row = 0; row < table.size(); ++row) {
         const double t1 = table.number(row, "t1"), t2 = table.number(row, "t2");
@@ -88,16 +89,16 @@ Times readTimes(const fs::path& file) {
 }
 
 /// The slope is the x axis; gravity is tilted instead.
-std::string scenarioOf(const Cart& cart, const Times& times, bool turning) {
+std::string scenarioOf(const Cart& cart, const CartTimes& times, bool turning) {
     const double pull = 2.0 * kWay / (times.atRest * times.atRest);  // g sin(slope)
     const double duration = turning ? times.turning : times.atRest;
-    const double height = cart.wheelRadius + kHalfHeight;
+    const double height = cart.wheelRadius + kFrameHalfHeight;
     ordered_json bodies = {
         {{"name", "slope"}, {"type", "static"}, {"shapes", {{{"half_plane", {{"normal", {0, 1}}}}}}}},
         {{"name", "frame"},
          {"mass", cart.frame},
          {"position", {0, height}},
-         {"shapes", {{{"box", {{"half_extents", {kHalfLength, kHalfHeight}}}}}}}}};
+         {"shapes", {{{"box", {{"half_extents", {kFrameHalfLength, kFrameHalfHeight}}}}}}}}};
     ordered_json joints = ordered_json::array();
     for (const auto& [name, x] : {std::pair{"rear", -kAxle}, std::pair{"front", kAxle}}) {
         // Each axle has one disc; what turns is the disc, what touches the slope is the small wheel.
@@ -130,12 +131,15 @@ std::string scenarioOf(const Cart& cart, const Times& times, bool turning) {
          {"isolates", {"rolling", "joints"}},
          {"tags", {"measured"}},
          {"dimension", 2},
-         {"gravity", {pull, -std::sqrt(kGravity * kGravity - pull * pull)}},
+         {"gravity", {pull, -std::sqrt(kCartGravity * kCartGravity - pull * pull)}},
          {"duration", duration},
-         {"dt", {duration / kSteps}},
+         {"dt", {duration / kCartSteps}},
          {"materials", {{"wood", ordered_json::object()}, {"wheel", ordered_json::object()}}},
          {"pairs",
-          {{{"a", "wheel"}, {"b", "wood"}, {"friction", turning ? kFriction : 0.0}, {"restitution", 0}}}},
+          {{{"a", "wheel"},
+            {"b", "wood"},
+            {"friction", turning ? kRollingFriction : 0.0},
+            {"restitution", 0}}}},
          {"bodies", bodies},
          {"joints", joints},
          {"observe", {"frame"}},
@@ -146,8 +150,8 @@ std::string scenarioOf(const Cart& cart, const Times& times, bool turning) {
 }
 
 /// The metric is in widths of the frame, its height.
-ordered_json studyOf(const Times& times) {
-    const double width = 2.0 * kHalfHeight, ratio = times.turning / times.atRest;
+ordered_json studyOf(const CartTimes& times) {
+    const double width = 2.0 * kFrameHalfHeight, ratio = times.turning / times.atRest;
     const double allowed = kWay * 2.0 * 2.0 * times.standardError / ratio / width;
     const ordered_json within = lab::findings(
         "At the measured time the cart is at the photocell, within two standard errors of the measured ratio",
@@ -176,7 +180,7 @@ const std::vector<ImportChoice>& rollingCartChoices() {
 Imported importRollingCart(const ImportRequest& request) {
     lab::requireWhole(request, "rolling-cart");
     const Cart cart = readCart(request.from / "experimental-data-2.csv");
-    const Times times = readTimes(request.from / "experimental-data-1.csv");
+    const CartTimes times = readCartTimes(request.from / "experimental-data-1.csv");
     Imported imported;
     imported.title = "A timed cart with turning discs";
     imported.scenarios.push_back({"cart_discs_at_rest", scenarioOf(cart, times, false), false});

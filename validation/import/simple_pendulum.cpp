@@ -18,8 +18,8 @@ using nlohmann::ordered_json;
 
 constexpr double kPeriods = 10;        // in the recorded time
 constexpr double kRadius = 0.005;      // of the bob [m]; its own turning adds 0.01 % to the period
-constexpr double kMass = 0.1;          // [kg]; the period does not know it
-constexpr double kCoverage = 2.0;      // published uncertainties
+constexpr double kBobMass = 0.1;       // [kg]; the period does not know it
+constexpr double kBobCoverage = 2.0;   // published uncertainties
 constexpr double kOtherGravity = 8.8;  // [m/s^2], a tenth less
 
 lab::Pendulum pendulumOf(const CsvTable& table, std::size_t row) {
@@ -32,8 +32,8 @@ lab::Pendulum pendulumOf(const CsvTable& table, std::size_t row) {
                         " s; published: g = " + table.text(row, "g") + " +- " +
                         table.text(row, "uncertainty_g") + " m/s^2.";
     swing.source = lab::sourceText("one of ten periods from the lowest place on, units unchanged");
-    swing.mass = kMass;
-    swing.inertia = 0.4 * kMass * kRadius * kRadius;
+    swing.mass = kBobMass;
+    swing.inertia = 0.4 * kBobMass * kRadius * kRadius;
     swing.shape = {{"circle", {{"radius", kRadius}}}};
     return swing;
 }
@@ -56,7 +56,7 @@ Imported importSimplePendulum(const ImportRequest& request) {
         const lab::Pendulum swing = pendulumOf(table, row);
         const double share =
             0.5 * lab::positive(table, row, "uncertainty_g") / lab::positive(table, row, "g");
-        const double bound = lab::lateness(swing, kCoverage * share * swing.period, 2.0 * kRadius);
+        const double bound = lab::lateness(swing, kBobCoverage * share * swing.period, 2.0 * kRadius);
         const std::string name = table.text(row, "l"), file = swing.name + ".json";
         imported.scenarios.push_back({swing.name, lab::swingText(swing), false});
         parts.push_back(lab::part(name, file,

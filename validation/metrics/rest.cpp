@@ -15,13 +15,13 @@ namespace {
 
 using namespace scenario;
 
-constexpr int kSamples = 8;  // times at which the exact solution is asked whether it moves
+constexpr int kRestSamples = 8;  // times at which the exact solution is asked whether it moves
 
 bool restsExactly(const MetricInput& input, int body) {
     const PartialState start = input.reference->exact(body, 0.0);
     if (!start.position || !start.velocity || norm(*start.velocity) > 0.0) return false;
-    for (int k = 1; k <= kSamples; ++k) {
-        const double t = std::min(input.scenario.duration * k / kSamples, input.reference->validUntil());
+    for (int k = 1; k <= kRestSamples; ++k) {
+        const double t = std::min(input.scenario.duration * k / kRestSamples, input.reference->validUntil());
         const PartialState now = input.reference->exact(body, t);
         if (!now.position || norm(*now.position - *start.position) > 0.0) return false;
     }

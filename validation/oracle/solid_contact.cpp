@@ -34,7 +34,7 @@ constexpr std::size_t kMostNormals = 64;  ///< of a tie or a continuum
 Vec unit(Vec v) {
     return (1 / norm(v)) * v;
 }
-Vec anyOrthogonal(Vec u) {
+Vec anyNormalTo(Vec u) {
     const Vec axis =
         std::abs(u.x) < 0.6L ? Vec{1, 0, 0} : (std::abs(u.y) < 0.6L ? Vec{0, 1, 0} : Vec{0, 0, 1});
     return unit(cross(u, axis));
@@ -46,7 +46,7 @@ Vec without(Vec v, Vec axis) {
 /// Unit vector of the part of v across the axis; any, where that part is rounding.
 Vec unitAcross(Vec v, Vec axis) {
     const Vec rest = without(v, axis);
-    if (norm(rest) <= 1e-18L * norm(v)) return anyOrthogonal(axis);
+    if (norm(rest) <= 1e-18L * norm(v)) return anyNormalTo(axis);
     return unit(without(unit(rest), axis));  // once more: a short rest is not across to all digits
 }
 
@@ -98,7 +98,7 @@ class Directions {
         Vec x, y;
         Real radius;
         explicit Basis(const DirectionCircle& c)
-            : x(anyOrthogonal(c.axis)), y(cross(c.axis, x)), radius(std::sqrt(1 - c.height * c.height)) {}
+            : x(anyNormalTo(c.axis)), y(cross(c.axis, x)), radius(std::sqrt(1 - c.height * c.height)) {}
     };
 
     void circlePoint(const DirectionCircle& c, Vec point) {
@@ -133,7 +133,7 @@ class Directions {
     /// x = q + e's rim point is along the direction it is supported by: in the plane of the axis of e and x,
     /// which gives the place on e's rim for one on d's, and in that of the axis of d.
     void discs(const Disc& d, const Disc& e) {
-        const Vec across = anyOrthogonal(d.axis), other = cross(d.axis, across);
+        const Vec across = anyNormalTo(d.axis), other = cross(d.axis, across);
         for (const Real side : {-1.0L, 1.0L}) {
             const auto spoke = [&](Real angle) { return std::cos(angle) * across + std::sin(angle) * other; };
             const auto sum = [&](Real angle) {

@@ -27,24 +27,24 @@ namespace {
 using numerics::OdeState;
 using numerics::Real;
 using scenario::JointType;
-using Point = std::complex<Real>;  ///< in the plane of motion
+using PlanePoint = std::complex<Real>;  ///< in the plane of motion
 
-constexpr Point kTurn{0, 1};  // k x p
-Real dotOf(Point a, Point b) {
+constexpr PlanePoint kTurn{0, 1};  // k x p
+Real planeDot(PlanePoint a, PlanePoint b) {
     return a.real() * b.real() + a.imag() * b.imag();
 }
-Real crossOf(Point a, Point b) {
+Real crossOf(PlanePoint a, PlanePoint b) {
     return a.real() * b.imag() - a.imag() * b.real();
 }
 /// x a + y b = c.
-std::pair<Real, Real> solve2(Point a, Point b, Point c) {
+std::pair<Real, Real> solve2(PlanePoint a, PlanePoint b, PlanePoint c) {
     const Real det = crossOf(a, b);
     return {crossOf(c, b) / det, crossOf(a, c) / det};
 }
 
 /// A link at one angle of the crank: its centre of mass and the first and second derivative of that.
 struct Motion {
-    Point com[3];
+    PlanePoint com[3];
     Real turn = 0, bend = 0;  ///< first and second derivative of the turn
 };
 struct Kinematics {
@@ -76,7 +76,8 @@ class PlanarLinkage : public Reference {
             const double z = dot(worldInertia(bodyOf(i)) * normal_, normal_);
             moment_[i] = z;
         }
-        branch_ = slider_ ? (dotOf(C_ - P_, rail_) >= 0 ? 1 : -1) : (crossOf(Q_ - P_, C_ - P_) >= 0 ? 1 : -1);
+        branch_ =
+            slider_ ? (planeDot(C_ - P_, rail_) >= 0 ? 1 : -1) : (crossOf(Q_ - P_, C_ - P_) >= 0 ? 1 : -1);
         require(std::abs(det(C_, P_)) > 1e-9L * std::norm(C_ - P_), "the linkage starts at a dead point");
         start();
         drive();
@@ -89,7 +90,7 @@ class PlanarLinkage : public Reference {
         Real turns[3] = {};
         const Motion m = kinematics(phi, turns).links[i];
         const Body& b = bodyOf(i);
-        const auto world = [&](Point p) {
+        const auto world = [&](PlanePoint p) {
             return static_cast<double>(p.real()) * e1_ + static_cast<double>(p.imag()) * e2_;
         };
         const Vec3 com = centerOfMass(b) + world(m.com[0] - com_[i]);
@@ -100,7 +101,7 @@ class PlanarLinkage : public Reference {
 
   private:
     const Body& bodyOf(int i) const { return scenario_.bodies[static_cast<std::size_t>(links_[i])]; }
-    Point flat(Vec3 p) const { return {dot(p, e1_), dot(p, e2_)}; }
+    PlanePoint flat(Vec3 p) const { return {dot(p, e1_), dot(p, e2_)}; }
     bool isFixed(int body) const {
         return body == scenario::kNone ||
                scenario_.bodies[static_cast<std::size_t>(body)].type == scenario::BodyType::Static;
@@ -153,42 +154,42 @@ class PlanarLinkage : public Reference {
     }
 
     /// Determinant of the closure's linear systems.
-    Real det(Point C, Point P) const {
+    Real det(PlanePoint C, PlanePoint P) const {
         return slider_ ? crossOf(kTurn * (C - P), -rail_) : crossOf(kTurn * (C - P), -kTurn * (C - Q_));
     }
 
     /// Turns of the three links since the start go to `turns`; NaN where the linkage does not close.
     Kinematics kinematics(Real phi, Real (&turns)[3]) const {
-        const Point spin = std::polar(Real(1), phi), arm = spin * (P_ - O_), P = O_ + arm;
-        const Point P1 = kTurn * arm, P2 = -arm;
+        const PlanePoint spin = std::polar(Real(1), phi), arm = spin * (P_ - O_), P = O_ + arm;
+        const PlanePoint P1 = kTurn * arm, P2 = -arm;
         const Real l = std::abs(C_ - P_);
-        Point C;
+        PlanePoint C;
         if (slider_) {
             // |C0 + s u - P| = l
-            const Point d = C_ - P;
-            const Real b = dotOf(d, rail_), c = std::norm(d) - l * l;
+            const PlanePoint d = C_ - P;
+            const Real b = planeDot(d, rail_), c = std::norm(d) - l * l;
             C = C_ + (-b + static_cast<Real>(branch_) * std::sqrt(b * b - c)) * rail_;
         } else {
-            const Point d = Q_ - P;
+            const PlanePoint d = Q_ - P;
             const Real r = std::abs(C_ - Q_), D = std::abs(d), x = (D * D + l * l - r * r) / (2 * D);
-            C = P + (d / D) * Point{x, static_cast<Real>(branch_) * std::sqrt(l * l - x * x)};
+            C = P + (d / D) * PlanePoint{x, static_cast<Real>(branch_) * std::sqrt(l * l - x * x)};
         }
         // P' + a k x (C - P) = b k x (C - Q) or b u; then once more.
-        const Point bar = kTurn * (C - P), out = slider_ ? rail_ : kTurn * (C - Q_);
+        const PlanePoint bar = kTurn * (C - P), out = slider_ ? rail_ : kTurn * (C - Q_);
         const auto [a1, b1] = solve2(bar, -out, -P1);
-        const Point C1 = b1 * out, bend = slider_ ? Point{} : -b1 * b1 * (C - Q_);
+        const PlanePoint C1 = b1 * out, bend = slider_ ? PlanePoint{} : -b1 * b1 * (C - Q_);
         const auto [a2, b2] = solve2(bar, -out, bend - P2 + a1 * a1 * (C - P));
-        const Point C2 = b2 * out + bend;
+        const PlanePoint C2 = b2 * out + bend;
 
         Kinematics k;
         turns[0] = phi;
         turns[1] = std::arg((C - P) / (C_ - P_));
         turns[2] = slider_ ? 0 : std::arg((C - Q_) / (C_ - Q_));
         const Real rate[3] = {1, a1, slider_ ? 0 : b1}, bent[3] = {0, a2, slider_ ? 0 : b2};
-        const Point pin[3] = {O_, P, C}, pin0[3] = {O_, P_, C_}, pin1[3] = {{}, P1, C1},
-                    pin2[3] = {{}, P2, C2};
+        const PlanePoint pin[3] = {O_, P, C}, pin0[3] = {O_, P_, C_}, pin1[3] = {{}, P1, C1},
+                         pin2[3] = {{}, P2, C2};
         for (int i = 0; i < 3; ++i) {
-            const Point r = std::polar(Real(1), turns[i]) * (com_[i] - pin0[i]);
+            const PlanePoint r = std::polar(Real(1), turns[i]) * (com_[i] - pin0[i]);
             Motion& m = k.links[i];
             m.com[0] = pin[i] + r;
             m.com[1] = pin1[i] + rate[i] * kTurn * r;
@@ -209,10 +210,10 @@ class PlanarLinkage : public Reference {
         for (int i = 0; i < 3; ++i) {
             const Motion& m = k.links[i];
             const Real mass = bodyOf(i).massProperties.mass;
-            const Point g = flat(gravityOn(scenario_, links_[i]));
+            const PlanePoint g = flat(gravityOn(scenario_, links_[i]));
             sum.M += mass * std::norm(m.com[1]) + moment_[i] * m.turn * m.turn;
-            sum.half += mass * dotOf(m.com[1], m.com[2]) + moment_[i] * m.turn * m.bend;
-            sum.load += mass * dotOf(g, m.com[1]);
+            sum.half += mass * planeDot(m.com[1], m.com[2]) + moment_[i] * m.turn * m.bend;
+            sum.load += mass * planeDot(g, m.com[1]);
         }
         return sum;
     }
@@ -233,7 +234,7 @@ class PlanarLinkage : public Reference {
     PartialState initial(int i) const {
         Real turns[3] = {};
         const Motion m = kinematics(0, turns).links[i];
-        const Point v = static_cast<Real>(rate0_) * m.com[1];
+        const PlanePoint v = static_cast<Real>(rate0_) * m.com[1];
         PartialState state;
         state.velocity = static_cast<double>(v.real()) * e1_ + static_cast<double>(v.imag()) * e2_;
         state.angularVelocity = (rate0_ * static_cast<double>(m.turn)) * normal_;
@@ -315,7 +316,7 @@ class PlanarLinkage : public Reference {
     const scenario::Joint* joints_[4] = {};
     Vec3 normal_, e1_, e2_;
     double sense_ = 1.0, rate0_ = 0.0, steadyFrom_ = 0.0;
-    Point O_, P_, C_, Q_, rail_, com_[3];
+    PlanePoint O_, P_, C_, Q_, rail_, com_[3];
     Real moment_[3] = {}, steadyAngle_ = 0, steadySpeed_ = 0;
     int branch_ = 1;
     numerics::DenseSolution solution_;

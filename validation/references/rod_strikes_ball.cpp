@@ -19,7 +19,7 @@
 namespace rigor::validation {
 namespace {
 
-constexpr double kTurn = 6.283185307179586476925;
+constexpr double kFullTurn = 6.283185307179586476925;
 
 class RodStrikesBall : public Reference {
   public:
@@ -57,7 +57,7 @@ class RodStrikesBall : public Reference {
         const double delta = side <= L ? std::asin(R / D) : std::acos((D * D + L * L - R * R) / (2 * D * L));
         double ahead = std::atan2(dot(axis, cross(arm_, to)), dot(arm_, to));
         require(std::abs(ahead) > delta, "rod and ball overlap at the start");
-        if (ahead < 0.0) ahead += kTurn;
+        if (ahead < 0.0) ahead += kFullTurn;
         const double rate = norm(turn_);
         time_ = (ahead - delta) / rate;
         // Where on the rod, and along which normal.

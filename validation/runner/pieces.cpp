@@ -20,7 +20,7 @@ using results::MetricRow;
 using scenario::Scenario;
 using States = std::vector<BodyState>;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 bool isDynamic(const Scenario& s, std::size_t body) {
     return s.bodies[body].type == scenario::BodyType::Dynamic;
@@ -105,8 +105,8 @@ PieceErrors pieceErrorsOf(const Scenario& s, double dt, std::size_t every, adapt
             turn = std::max(turn, angleBetween(now[i].orientation, wanted[i].orientation));
         }
         const bool lost = !stepper.nonFinite().empty();
-        errors.ways.push_back(lost ? kNaN : way);
-        errors.turns.push_back(lost ? kNaN : turn);
+        errors.ways.push_back(lost ? kNoValue : way);
+        errors.turns.push_back(lost ? kNoValue : turn);
         errors.ends.push_back(stepper.time());
         if (lost) break;
     }
@@ -131,8 +131,8 @@ void addRows(std::vector<MetricRow>& rows, const std::string& name, int every, c
              const std::vector<double>& values, const std::vector<double>& ends, const std::string& note) {
     const bool lost = values.empty() || std::isnan(values.back());
     const auto worst = std::max_element(values.begin(), values.end());
-    rows.push_back(rowOf(name, every, unit, lost ? kNaN : median(values), -1.0, note));
-    rows.push_back(rowOf(name + "_worst", every, unit, lost ? kNaN : *worst,
+    rows.push_back(rowOf(name, every, unit, lost ? kNoValue : median(values), -1.0, note));
+    rows.push_back(rowOf(name + "_worst", every, unit, lost ? kNoValue : *worst,
                          lost ? -1.0 : ends[worst - values.begin()], note));
 }
 

@@ -20,7 +20,7 @@ BodyState stateAt(const results::BodyChannels& body, std::size_t frame) {
             vec(body.angularVelocity.values.data() + 3 * frame)};
 }
 
-ContactPoint contactOf(const results::ContactSample& c) {
+ContactPoint storedContact(const results::ContactSample& c) {
     ContactPoint out;
     out.bodyA = c.bodyA;
     out.bodyB = c.bodyB;
@@ -51,7 +51,7 @@ Trajectory trajectoryOf(const results::TrajectoryFile& file) {
         for (const auto& body : file.bodies) t.states.push_back(stateAt(body, f));
     for (const auto& contact : file.contacts) {
         const auto it = std::lower_bound(t.times.begin(), t.times.end(), contact.time);
-        if (it != t.times.end()) t.contacts[it - t.times.begin()].push_back(contactOf(contact));
+        if (it != t.times.end()) t.contacts[it - t.times.begin()].push_back(storedContact(contact));
     }
     return t;
 }

@@ -12,10 +12,10 @@
 namespace rigor::validation::numerics {
 namespace {
 
-using Matrix = Eigen::Matrix<Real, 3, 3>;
+using AxesMatrix = Eigen::Matrix<Real, 3, 3>;
 
-Matrix matrixOf(const scenario::Mat3& m) {
-    Matrix result;
+AxesMatrix matrixOf(const scenario::Mat3& m) {
+    AxesMatrix result;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) result(i, j) = m(i, j);
     return result;
@@ -24,9 +24,9 @@ Matrix matrixOf(const scenario::Mat3& m) {
 }  // namespace
 
 PrincipalAxes principalAxes(const scenario::Mat3& symmetric) {
-    const Matrix m = matrixOf(symmetric);
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver((m + m.transpose()) / 2);
-    Matrix axes = solver.eigenvectors();
+    const AxesMatrix m = matrixOf(symmetric);
+    const Eigen::SelfAdjointEigenSolver<AxesMatrix> solver((m + m.transpose()) / 2);
+    AxesMatrix axes = solver.eigenvectors();
     if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
     PrincipalAxes result;
     const Eigen::Vector3d values = solver.eigenvalues().cast<double>();
