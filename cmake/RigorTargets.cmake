@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The Rigor authors
 #
 # rigor_library(<target> [COLD] [LIBS ...] SOURCES ...), rigor_adapter(<name> [PRECISION f32] SOURCES ... LIBS ...),
-# rigor_test(<name> SOURCES ... LIBS ... [LABELS ...]), rigor_benchmark(<name> SOURCES ... LIBS ...): our own targets,
-# with our warnings and flags. COLD: nothing in it is timed (RigorPrecompiled.cmake).
+# rigor_test(<name> SOURCES ... LIBS ... [LABELS ...] [COST seconds]), rigor_benchmark(<name> SOURCES ... LIBS ...): our
+# own targets, with our warnings and flags. COLD: nothing in it is timed (RigorPrecompiled.cmake). COST: about how long a
+# long test takes. Several files of a target are compiled at once (RigorUnity.cmake).
 
 add_library(rigor_flags INTERFACE)
 target_include_directories(rigor_flags INTERFACE ${PROJECT_SOURCE_DIR})
@@ -24,6 +25,7 @@ endif()
 
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 include(RigorPrecompiled)
+include(RigorUnity)
 
 function(rigor_library target)
     cmake_parse_arguments(ARG "COLD" "" "SOURCES;LIBS" ${ARGN})
@@ -32,6 +34,7 @@ function(rigor_library target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     target_link_libraries(${target} PUBLIC ${ARG_LIBS} PRIVATE $<BUILD_INTERFACE:rigor_flags>)
     target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+    rigor_unity(${target})
     if(ARG_COLD)
         rigor_precompile(${target} cold)
     else()
@@ -53,6 +56,7 @@ function(rigor_adapter name)
                                                LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin/adapters)
     target_link_libraries(${target} PRIVATE rigor_flags rigor_adapter_interface ${ARG_LIBS})
     rigor_precompile(${target} hot)
+    rigor_unity(${target})
     set_property(GLOBAL APPEND PROPERTY RIGOR_ADAPTER_TARGETS ${target})
 endfunction()
 
@@ -60,7 +64,7 @@ function(rigor_test name)
     if(NOT RIGOR_TESTS)
         return()
     endif()
-    cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
+    cmake_parse_arguments(ARG "" "TIMEOUT;COST" "SOURCES;LIBS;LABELS" ${ARGN})
     add_executable(${name} ${ARG_SOURCES})
     target_link_libraries(${name} PRIVATE rigor_flags ${ARG_LIBS} GTest::gtest_main GTest::gmock)
     rigor_precompile(${name} test)
@@ -76,6 +80,9 @@ function(rigor_test name)
     file(MAKE_DIRECTORY ${temporary})
     set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT_MODIFICATION
                                                                    "TEST_TMPDIR=set:${temporary}/")
+    if(ARG_COST)  # the longest tests start first, so that none of them runs alone at the end
+        set_tests_properties(${name} PROPERTIES COST ${ARG_COST})
+    endif()
     if(ARG_LABELS)
         set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}")
     endif()

@@ -21,13 +21,8 @@
 #include "validation/results/schema.hpp"
 
 namespace rigor::results {
-namespace {
 
 namespace fs = std::filesystem;
-
-fs::path storeFile(const fs::path& directory) {
-    return directory / "results.sqlite";
-}
 
 /// One writer per run folder, also across processes; the lock ends with the process, however it ends.
 class FolderLock {
@@ -56,6 +51,12 @@ class FolderLock {
     }
     int file_;
 };
+
+namespace {
+
+fs::path storeFile(const fs::path& directory) {
+    return directory / "results.sqlite";
+}
 
 SQLite::Database openForWriting(const fs::path& directory, bool resume) {
     const fs::path file = storeFile(directory);
