@@ -49,20 +49,20 @@ RecordedStep runToStep(const scenario::Scenario& s, const ExportRequest& request
         throw adapter::Unsupported("engine '" + request.spec.engine + "' simulates nothing");
     const auto world =
         engine->dynamics()->build(s, request.dt, adapter::resolveSettings(request.spec, *engine));
-    RecordedStep told;
-    summary.dt = request.dt;
-    summary.before.resize(s.bodies.size());
-    summary.after.resize(s.bodies.size());
-    world->readStates(summary.after);
+    RecordedStep recorded;
+    recorded.dt = request.dt;
+    recorded.before.resize(s.bodies.size());
+    recorded.after.resize(s.bodies.size());
+    world->readStates(recorded.after);
     for (std::size_t k = 0; k < request.step; ++k) {
-        std::swap(summary.before, summary.after);
-        applyForces(s, k, request.dt, summary.before, *world);
+        std::swap(recorded.before, recorded.after);
+        applyForces(s, k, request.dt, recorded.before, *world);
         world->step();
-        world->readStates(summary.after);
+        world->readStates(recorded.after);
     }
-    world->readContacts(summary.contacts);
-    summary.loads = loadsOf(s, request.step - 1, request.dt, summary.before);
-    return summary;
+    world->readContacts(recorded.contacts);
+    recorded.loads = loadsOf(s, request.step - 1, request.dt, recorded.before);
+    return recorded;
 }
 
 int exportChild(const std::filesystem::path& requestFile) {
