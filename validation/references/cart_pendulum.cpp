@@ -108,13 +108,13 @@ class CartPendulum : public Reference {
         const double turns =
             1 / end + std::abs(rate) + std::sqrt(norm(gravityOn(scenario_, pendulum_)) / size);
         const OdeState beside{size, 1, std::abs(speed) + size * turns, turns};
-        solution_ = DenseSolution(rhs, 0, start, end, 1e-14L, {}, beside);
-        const DenseSolution coarse(rhs, 0, start, end, 1e-12L, {}, beside);
-        for (int k = 0; k <= 300 && validUntil_ > 1e299; ++k) {
-            const double t = end * k / 300;
-            if (std::abs(solution_.at(t)[1] - coarse.at(t)[1]) > 1e-9L)
-                validUntil_ = end * std::max(0, k - 1) / 300;
-        }
+        OdeLimits limits;
+        limits.companion = 1e-12L;
+        limits.agrees = [](const OdeState& y, const OdeState& companion) {
+            return std::abs(y[1] - companion[1]) <= 1e-9L;
+        };
+        solution_ = DenseSolution(rhs, 0, start, end, 1e-14L, {}, beside, limits);
+        if (!solution_.isWhole()) validUntil_ = static_cast<double>(solution_.end());
     }
 
     const Scenario& scenario_;

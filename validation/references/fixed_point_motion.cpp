@@ -26,8 +26,13 @@ FixedPointMotion::FixedPointMotion(const Mat3& inertia, double mass, Vec3 arm, V
     const Real heaviest = std::max({moments[0].x, moments[1].y, moments[2].z}),
                turns = 1 / static_cast<Real>(duration) + norm(w) +
                        std::sqrt(norm(lever) * norm(field) / heaviest);
+    const OdeState scale{1, 1, 1, 1, turns, turns, turns};
     solution_ = numerics::DenseSolution(rhs, 0, {q.w, q.x, q.y, q.z, w.x, w.y, w.z}, duration, 1e-14L, {},
-                                        {1, 1, 1, 1, turns, turns, turns});
+                                        scale, numerics::OdeLimits::companionOf(1e-13L, 1e-8L, scale));
+}
+
+double FixedPointMotion::validUntil() const {
+    return solution_.isWhole() ? 1e300 : static_cast<double>(solution_.end());
 }
 
 Attitude FixedPointMotion::at(double t) const {

@@ -65,6 +65,7 @@ class FreeFlight : public Reference {
     FreeFlight(const Scenario& scenario, const std::vector<int>& bodies) : scenario_(scenario) {
         for (const int index : bodies) add(index);
         validUntil_ = firstFloorContact();
+        for (const auto& flight : flights_) validUntil_ = std::min(validUntil_, flight.rotation.validUntil());
     }
 
     std::vector<int> bodies() const override {

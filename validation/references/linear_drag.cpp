@@ -8,6 +8,7 @@
 // with further terms of the exponential series in those of higher order. Damping has no scheme-exact value:
 // engines differ in where they put the factor. Source: Stokes 1851; Goldstein, Poole, Safko 2002, chapter 1.
 // Assumes: no contact, joint, other force; spin about a principal axis when the spin is damped.
+#include <algorithm>
 #include <cmath>
 
 #include "validation/references/rotation.hpp"
@@ -46,6 +47,12 @@ class LinearDrag : public Reference {
         for (const auto& one : damped_) result.push_back(one.index);
         return result;
     }
+    double validUntil() const override {
+        double end = 1e300;
+        for (const auto& d : damped_) end = std::min(end, d.rotation.validUntil());
+        return end;
+    }
+
     PartialState exact(int body, double t) const override {
         const Damped& d = find(body);
         const Vec3 velocity = std::exp(-d.rate * t) * d.velocity + relaxation(d.rate, t) * d.acceleration;

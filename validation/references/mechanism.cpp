@@ -25,6 +25,9 @@ using scenario::JointType;
 using scenario::kNone;
 using Equation = MechanismMotion::Equation;
 
+constexpr Real kApart = 1e-8L;                          // beside the size: a part that is lost
+constexpr std::size_t kMostOperations = 2'500'000'000;  // 2.5 s
+
 class Mechanism : public Reference {
   public:
     Mechanism(const Scenario& scenario, std::vector<int> bodies)
@@ -164,13 +167,16 @@ class Mechanism : public Reference {
 
     void check() {
         for (const int b : bodies_) size_ = std::max(size_, static_cast<Real>(sizeOf(body(b))));
-        for (const auto& e : motion_.equations) size_ = std::max({size_, norm(e.a.local), norm(e.b.local)});
+        for (const auto& e : motion_.equations) {
+            size_ = std::max(size_, norm(e.a.local));
+            if (e.kind != Equation::Kind::Direction) size_ = std::max(size_, norm(e.b.local));
+        }
         motion_.prepare(start_, 20 / static_cast<Real>(end()));
-        require(motion_.gap(start_) <= 1e-9L * size_, "the joints do not close at the start");
+        require(motion_.gap(start_, size_) <= 1e-9L * size_, "the joints do not close at the start");
         for (std::size_t i = 0; i < start_.size(); i += MechanismMotion::kStride)
             fastest_ = std::max({fastest_, norm(Real3{start_[i + 7], start_[i + 8], start_[i + 9]}),
                                  size_ * norm(Real3{start_[i + 10], start_[i + 11], start_[i + 12]})});
-        require(motion_.gapRate(start_) <= 1e-6L * fastest_, "the initial velocities do not fit the joints");
+        require(motion_.gapRate(start_, size_) <= 1e-6L * fastest_, "the initial velocities do not fit the joints");
         const bool driven = std::any_of(motion_.members.begin(), motion_.members.end(),
                                         [](const MechanismMotion::Member& m) { return m.driven; });
         require(driven || motion_.freedom() > 0, "the joints leave nothing that could move");
@@ -182,23 +188,22 @@ class Mechanism : public Reference {
             fastest_ + std::sqrt(norm(real3(scenario_.gravity)) * size_) + size_ / static_cast<Real>(end());
         OdeState beside(start_.size(), 1);
         for (std::size_t i = 0; i < beside.size(); i += MechanismMotion::kStride)
-            for (std::size_t k = 0; k < 3; ++k)
-                beside[i + k] = size_, beside[i + 7 + k] = fast, beside[i + 10 + k] = fast / size_;
-        solution_ = DenseSolution(rhs, 0, start_, end(), 1e-13L, breaks_, beside);
-        const DenseSolution coarse(rhs, 0, start_, end(), 1e-10L, breaks_, beside);
-        const int samples = 200;
-        for (int k = 0; k <= samples; ++k) {
-            const Real t = static_cast<Real>(end()) * k / samples;
-            const OdeState a = solution_.at(t), b = coarse.at(t);
-            Real apart = motion_.gap(a) / size_;
-            for (std::size_t i = 0; i < a.size(); ++i)
-                if (i % MechanismMotion::kStride < 7)
-                    apart = std::max(apart, std::abs(a[i] - b[i]) / beside[i]);
-            if (apart < 1e-8L) continue;
-            require(k > 1, "the mechanism is singular at the start");
-            validUntil_ = end() * (k - 1) / samples;
-            return;
-        }
+            for (std::size_t k = 0; k < 3; ++k) {
+                beside[i + k] = size_;
+                beside[i + 7 + k] = fast;
+                beside[i + 10 + k] = fast / size_;
+            }
+        OdeLimits limits;
+        limits.companion = 1e-10L;
+        limits.evaluations = kMostOperations / motion_.operations();
+        limits.agrees = [&](const OdeState& y, const OdeState& companion) {
+            for (std::size_t i = 0; i < y.size(); ++i)
+                if (i % MechanismMotion::kStride < 7 && !(std::abs(y[i] - companion[i]) < kApart * beside[i]))
+                    return false;
+            return motion_.gap(y, size_) < kApart * size_;
+        };
+        solution_ = DenseSolution(rhs, 0, start_, end(), 1e-13L, breaks_, beside, limits);
+        if (!solution_.isWhole()) validUntil_ = static_cast<double>(solution_.end());
     }
 
     const Scenario& scenario_;

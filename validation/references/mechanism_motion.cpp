@@ -42,6 +42,11 @@ void solveSymmetric(std::vector<std::vector<Real>>& m, std::vector<Real>& f) {
         for (std::size_t j = first[i]; j < i; ++j) f[j] -= m[i][j] * f[i];
 }
 
+/// The factor that makes the value of an equation a length.
+Real lengthOf(const MechanismMotion::Equation& equation, Real size) {
+    return equation.kind == MechanismMotion::Equation::Kind::Direction ? size : 1;
+}
+
 }  // namespace
 
 std::vector<MechanismMotion::Pose> MechanismMotion::posesOf(const OdeState& y) const {
@@ -265,18 +270,27 @@ void MechanismMotion::derivative(Real t, const OdeState& y, OdeState& d) const {
     }
 }
 
-Real MechanismMotion::gap(const OdeState& y) const {
+Real MechanismMotion::gap(const OdeState& y, Real size) const {
     const auto poses = posesOf(y);
     Real worst = 0;
-    for (const auto& e : equations) worst = std::max(worst, std::abs(rowOf(poses, e).value));
+    for (const auto& e : equations)
+        worst = std::max(worst, std::abs(rowOf(poses, e).value) * lengthOf(e, size));
     return worst;
 }
 
-Real MechanismMotion::gapRate(const OdeState& y) const {
+Real MechanismMotion::gapRate(const OdeState& y, Real size) const {
     const auto poses = posesOf(y);
     Real worst = 0;
-    for (const auto& e : equations) worst = std::max(worst, std::abs(rowOf(poses, e).rate));
+    for (const auto& e : equations)
+        worst = std::max(worst, std::abs(rowOf(poses, e).rate) * lengthOf(e, size));
     return worst;
+}
+
+std::size_t MechanismMotion::operations() const {
+    // Fitted to the times of loops of 3 to 7 bodies with 17 to 29 equations; the last part, the elimination of
+    // a matrix without zeros, is the most that it can take.
+    const std::size_t n = chosen_.size();
+    return 600 * members.size() + 450 * n + 7 * n * n + n * n * n / 6;
 }
 
 std::size_t MechanismMotion::freedom() const {

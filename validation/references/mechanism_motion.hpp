@@ -72,11 +72,14 @@ class MechanismMotion {
     void prepare(const numerics::OdeState& y, Real rate);
     /// dy/dt for integrateOde.
     void derivative(Real t, const numerics::OdeState& y, numerics::OdeState& d) const;
-    /// Largest |g| (lengths, sines of angles) and |g'| over all equations, those left out too.
-    Real gap(const numerics::OdeState& y) const;
-    Real gapRate(const numerics::OdeState& y) const;
+    /// Largest |g| and |g'| over all equations, those left out too; sines of angles count as lengths at the
+    /// distance `size`.
+    Real gap(const numerics::OdeState& y, Real size) const;
+    Real gapRate(const numerics::OdeState& y, Real size) const;
     /// How many motions are left free: 6 (planar: 3) per body less the independent equations.
     std::size_t freedom() const;
+    /// What one call of derivative() takes, in units of about one multiplication.
+    std::size_t operations() const;
 
   private:
     struct Spot {  ///< a point: where, how fast, the part of its acceleration that velocities give

@@ -26,6 +26,8 @@ using numerics::OdeState;
 using numerics::Real;
 using Point = std::array<Real, 2>;
 
+constexpr std::size_t kMostOperations = 2'500'000'000;  // 2.5 s; see the derivative below
+
 struct Link {
     int body = 0;
     Real mass = 0, inertia = 0;
@@ -105,9 +107,16 @@ class PendulumChain : public Reference {
         if (reach > 0) turns += std::sqrt(norm(g) / reach);
         OdeState beside(2 * n, 1);
         std::fill(beside.begin() + static_cast<std::ptrdiff_t>(n), beside.end(), turns);
-        solution_ = numerics::DenseSolution(rhs, 0, start, end, 1e-14L, {}, beside);
-        const numerics::DenseSolution coarse(rhs, 0, start, end, 1e-12L, {}, beside);
-        validUntil_ = firstParting(coarse);
+        numerics::OdeLimits limits;
+        limits.companion = 1e-12L;
+        limits.evaluations = kMostOperations / (300 + 100 * n * n + 5 * n * n * n);
+        limits.agrees = [n](const OdeState& y, const OdeState& companion) {
+            for (std::size_t i = 0; i < n; ++i)
+                if (!(std::abs(y[i] - companion[i]) < 1e-9L)) return false;
+            return true;
+        };
+        solution_ = numerics::DenseSolution(rhs, 0, start, end, 1e-14L, {}, beside, limits);
+        if (!solution_.isWhole()) validUntil_ = static_cast<double>(solution_.end());
     }
     std::vector<int> bodies() const override {
         std::vector<int> result;
@@ -234,17 +243,6 @@ class PendulumChain : public Reference {
         hingeVelocity_ += rate * cross(axis_, next - before);
         start[joints_.size() + i] = rate;
         links_.push_back(link);
-    }
-
-    double firstParting(const numerics::DenseSolution& coarse) const {
-        const int samples = 500;
-        for (int k = 0; k <= samples; ++k) {
-            const double t = runEnd(scenario_) * k / samples;
-            const OdeState a = solution_.at(t), b = coarse.at(t);
-            for (std::size_t i = 0; i < links_.size(); ++i)
-                if (!(std::abs(a[i] - b[i]) < 1e-9L)) return runEnd(scenario_) * std::max(0, k - 1) / samples;
-        }
-        return 1e300;
     }
 
     const Scenario& scenario_;

@@ -15,6 +15,7 @@
 // Pennock, Shigley, Theory of Machines and Mechanisms, 2017.
 // Assumes: hinges of one axis (four, or three and a slider across it); initial velocities that fit the
 // joints; gravity without a part along the axis does not matter; no dead point on the way; nothing else.
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -263,8 +264,10 @@ class PlanarLinkage : public Reference {
         if (steadyFrom_ >= end) return;
         steadySpeed_ = w;
         steadyAngle_ = steadyFrom_ > 0.0 ? solution_.at(steadyFrom_)[0] : 0;
+        // Everything repeats after a turn.
+        const Real turned = std::clamp(w * (end - steadyFrom_), -2 * numerics::kPi, 2 * numerics::kPi);
         for (int i = 0; i <= 4000; ++i) {
-            const Real phi = steadyAngle_ + w * (end - steadyFrom_) * i / 4000;
+            const Real phi = steadyAngle_ + turned * i / 4000;
             const Inertia I = inertia(phi);
             require(std::isfinite(I.M), "the linkage does not close at every angle of its crank");
             require(std::abs(I.half * w * w - I.load) <= most,
@@ -285,19 +288,17 @@ class PlanarLinkage : public Reference {
             const OdeState y{0, static_cast<Real>(rate0_)};
             const Real turns = 1 / static_cast<Real>(part) + std::max(std::abs(y[1]), std::abs(w));
             try {
-                solution_ = numerics::DenseSolution(f, 0, y, part, 1e-14L, {}, {1, turns});
+                solution_ = numerics::DenseSolution(f, 0, y, part, 1e-14L, {}, {1, turns},
+                                                    numerics::OdeLimits::ofEvaluations(2'000'000));
             } catch (const std::runtime_error&) {
                 violated("the linkage runs into a dead point");
             }
             require(std::isfinite(solution_.at(part)[0]), "the linkage runs into a dead point");
-            const auto reached = [&](Real t) { return (solution_.at(t)[1] - w) * goal >= 0; };
             if (motor) {
-                Real low = 0, high = -1;
-                for (int i = 1; i <= 1000 && high < 0; ++i)
-                    (reached(part * Real(i) / 1000) ? high : low) = part * Real(i) / 1000;
-                if (high > 0) {
-                    for (int k = 0; k < 100; ++k) (reached((low + high) / 2) ? high : low) = (low + high) / 2;
-                    steadyFrom_ = static_cast<double>(high);
+                const auto slower =
+                    solution_.lastTimeOf([&](const OdeState& at) { return (at[1] - w) * goal < 0; }, part);
+                if (slower && *slower < part) {
+                    steadyFrom_ = static_cast<double>(*slower);
                     return;
                 }
             }

@@ -9,18 +9,18 @@
 //
 // What is guaranteed:
 // - Right or refused. A reference answers only for scenes in which the assumptions listed at the top of its
-// file
-//   hold; otherwise making it throws AssumptionViolated with the reason. It also refuses where the laws leave
-//   the outcome open, where its own numerics do not reach their accuracy ("no reference to the accuracy asked
-//   for: ..."), and where neither of two opposite answers can be proved ("undecided: ...",
+//   file hold; otherwise making it throws AssumptionViolated with the reason. It also refuses where the laws
+//   leave the outcome open, where its own numerics do not reach their accuracy ("no reference to the accuracy
+//   asked for: ..."), and where neither of two opposite answers can be proved ("undecided: ...",
 //   static_equilibrium).
 // - Accuracy. Closed forms are evaluated to rounding. Integrated motions keep a local error of 1e-14 (1e-13
-// and
-//   1e-12 where the file says so) beside the scales of the scene: its lengths, speeds and times, not metres
-//   and seconds. Where neighbouring motions part so fast that this is lost, validUntil() ends the answer.
+//   and 1e-12 where the file says so) beside the scales of the scene: its lengths, speeds and times, not
+//   metres and seconds. Where neighbouring motions part so fast that this is lost, validUntil() ends the
+//   answer.
 // - Units. No threshold is an absolute number of a physical unit, so that a scene and the same scene in other
 //   units get the same answer.
-// - Time. Every search and every integration has a bound on its steps and ends with an answer or a refusal.
+// - Time. Every search and every integration has a bound on its steps and ends with an answer, an answer up to
+//   validUntil(), or a refusal.
 //   No reference measures its own time: `validate`, `run` and `check` compute it in a child under the limits
 //   of validation/runner/reference_guard.hpp (20 s, 2048 MiB by default), and running over is an outcome of
 //   its own, not a refusal. Whoever calls makeReference() directly has no such limit.

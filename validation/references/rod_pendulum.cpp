@@ -81,18 +81,9 @@ class RodPendulum : public Reference {
         }
     }
     void findSlack(double end) {
-        require(pull(solution_.at(0)) >= 0, "the rope of " + bodyTitle_() + " is slack at the start");
-        const int points = 4000;
-        for (int i = 1; i <= points; ++i) {
-            double low = end * (i - 1) / points, high = end * i / points;
-            if (pull(solution_.at(high)) >= 0) continue;
-            for (int k = 0; k < 60; ++k) {
-                const double middle = 0.5 * (low + high);
-                (pull(solution_.at(middle)) < 0 ? high : low) = middle;
-            }
-            slack_ = low;
-            return;
-        }
+        const auto taut = solution_.lastTimeOf([this](const OdeState& y) { return pull(y) >= 0; }, end);
+        require(taut.has_value(), "the rope of " + bodyTitle_() + " is slack at the start");
+        if (*taut < end) slack_ = static_cast<double>(*taut);
     }
     std::string bodyTitle_() const { return "body '" + body_.name + "'"; }
 

@@ -100,9 +100,13 @@ class RodStrikesBall : public Reference {
     /// Until the rod, going round, comes as near to the ball again.
     void findEnd(double reach) {
         const Vec3 axis = unit(turn_);
-        const int samples = 20000;
+        constexpr int kSamples = 20000;
+        constexpr double kMostSamples = 1e6;
         const double end = runEnd(scenario_);
-        for (int k = 1; k <= samples; ++k) {
+        // A hundred looks a turn at least; of a rod too fast for that, only as far as the looks go.
+        const double samples = std::max(double{kSamples}, std::ceil(16 * norm(turn_) * (end - time_)));
+        if (samples > kMostSamples) validUntil_ = time_ + (end - time_) * kMostSamples / samples;
+        for (int k = 1; k <= std::min(samples, kMostSamples); ++k) {
             const double t = time_ + (end - time_) * k / samples;
             const Vec3 tip = rotate(scenario::fromAxisAngle(axis, norm(turn_) * t), arm_);
             const Vec3 to = ball_.center + (t - time_) * velocity_ - pivot_;

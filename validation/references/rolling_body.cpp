@@ -217,16 +217,13 @@ class RollingBody : public Reference {
         const OdeState beside{1,       1,       1,       1,     turns, turns, turns,
                               radius_, radius_, radius_, speed, speed, speed};
         if (!rolls_) end = slipEnd(rhs, y, whole, beside);
-        solution_ = DenseSolution(rhs, 0, y, end, 1e-14L, {}, beside);
+        solution_ = DenseSolution(rhs, 0, y, end, 1e-14L, {}, beside, OdeLimits::ofEvaluations(2'000'000));
         validUntil_ = end < whole ? end : 1e300;
-        for (int k = 0; k <= 400; ++k) {
-            const double t = std::min(end, scenario_.duration) * k / 400;
-            if (holds(solution_.at(t))) continue;
-            require(k > 0,
-                    who + (rolls_ ? " slips: friction does not hold the contact" : " leaves the floor"));
-            validUntil_ = std::min(scenario_.duration, end) * (k - 1) / 400;
-            break;
-        }
+        const Real last = std::min(end, scenario_.duration);
+        const auto held = solution_.lastTimeOf([this](const OdeState& at) { return holds(at); }, last);
+        require(held && *held > 0,
+                who + (rolls_ ? " slips: friction does not hold the contact" : " leaves the floor"));
+        if (*held < last) validUntil_ = static_cast<double>(*held);
     }
 
     /// Time at which the slip has fallen to a twentieth, at most `whole`.

@@ -56,10 +56,10 @@ class RotatingHinge : public Reference {
                     1e-6L * std::max(norm(expected), norm(real3(body_.velocity))),
                 "the velocity of " + bodyTitle(scenario, index) + " is not that of its hinge, " +
                     shown(toVec3(expected), 3));
-        solution_ =
-            DenseSolution([this](Real t, const OdeState& y, OdeState& d) { derivative(t, y, d); }, 0,
-                          {0, rate}, runEnd(scenario), 1e-14L, {},
-                          {1, 1 / static_cast<Real>(runEnd(scenario)) + norm(turn_) + std::abs(rate)});
+        solution_ = DenseSolution([this](Real t, const OdeState& y, OdeState& d) { derivative(t, y, d); }, 0,
+                                  {0, rate}, runEnd(scenario), 1e-14L, {},
+                                  {1, 1 / static_cast<Real>(runEnd(scenario)) + norm(turn_) + std::abs(rate)},
+                                  OdeLimits::ofEvaluations(2'000'000));
     }
     std::vector<int> bodies() const override { return {index_}; }
 

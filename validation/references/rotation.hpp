@@ -18,13 +18,16 @@ struct Attitude {
 };
 
 /// A rigid body that turns about a fixed point (or its centre of mass) in a uniform field:
-/// I dw/dt = -w x I w + m c x R^T g, dq/dt = q (0, w)/2 in body axes, to 1e-13 over [0, duration].
+/// I dw/dt = -w x I w + m c x R^T g, dq/dt = q (0, w)/2 in body axes, to 1e-13 over [0, duration], or until
+/// neighbouring motions part (validUntil): a heavy top that is not symmetric moves chaotically.
 class FixedPointMotion {
   public:
     /// `inertia` about the point, body axes; `mass`, `arm` from the point to the centre of mass, body axes.
     FixedPointMotion(const Mat3& inertia, double mass, Vec3 arm, Vec3 gravity, Quat orientation,
                      Vec3 angularVelocity, double duration);
     Attitude at(double t) const;
+    /// 1e300: to the end.
+    double validUntil() const;
 
   private:
     numerics::DenseSolution solution_;
@@ -38,6 +41,8 @@ class TorqueFreeMotion {
   public:
     TorqueFreeMotion(const Body& body, int dimension, double duration);
     Attitude at(double t) const;
+    /// 1e300 but where the equations are integrated and neighbouring motions part.
+    double validUntil() const { return integrated_ ? integrated_->validUntil() : 1e300; }
 
     enum class Kind { Constant, Symmetric, Asymmetric, Integrated };
     Kind kind() const { return kind_; }

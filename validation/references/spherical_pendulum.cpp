@@ -24,6 +24,7 @@ class SphericalPendulum : public Reference {
           joint_(fixedJoint(scenario, jointIndex, index)),
           motion_(build(scenario)) {}
     std::vector<int> bodies() const override { return {index_}; }
+    double validUntil() const override { return motion_.validUntil(); }
 
     PartialState exact(int, double t) const override {
         const Attitude attitude = motion_.at(t);
@@ -34,7 +35,7 @@ class SphericalPendulum : public Reference {
 
     std::vector<Quantity> quantities(double, adapter::Scheme) const override {
         std::vector<Quantity> result;
-        if (up_ == Vec3{} || norm(arm_) == 0.0) return result;
+        if (up_ == Vec3{} || norm(arm_) == 0.0 || validUntil() < duration_) return result;
         std::vector<Vec3> arms;
         for (int k = 0; k <= kSamples; ++k)
             arms.push_back(rotate(motion_.at(duration_ * k / kSamples).orientation, arm_));

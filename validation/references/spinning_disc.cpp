@@ -150,9 +150,9 @@ class SpinningDisc : public Reference {
                 const Real loss = push_ * (1 + spinUp) + std::abs(y[5]) * std::hypot(y[3], y[4]);
                 return loss > 0 ? slowest(y) / (2 * loss) : Real(whole);
             },
-            scale));
+            scale, 50'000));
         require(end > 0.0, bodyTitle(scenario_, index_) + " stops at once");
-        solution_ = DenseSolution(rhs, 0, start, end, 1e-13L, {}, scale);
+        solution_ = DenseSolution(rhs, 0, start, end, 1e-13L, {}, scale, OdeLimits::ofEvaluations(50'000));
         if (end < whole) validUntil_ = end;
     }
 

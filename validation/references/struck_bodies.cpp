@@ -170,6 +170,12 @@ class StruckBodies : public Reference {
         for (const auto& one : struck_) result.push_back(one.index);
         return result;
     }
+    double validUntil() const override {
+        double end = 1e300;
+        for (const auto& one : struck_) end = std::min(end, one.rotation->validUntil());
+        return end;
+    }
+
     PartialState exact(int body, double t) const override {
         const Struck& one = find(body);
         if (t <= one.time) return stateOf(one.body, one.com, one.body.pose.orientation, {}, {});

@@ -26,6 +26,7 @@ class TorqueFreeTop : public Reference {
         requireUndisturbed(scenario, index);
     }
     std::vector<int> bodies() const override { return {index_}; }
+    double validUntil() const override { return rotation_.validUntil(); }
 
     PartialState exact(int, double t) const override {
         const Attitude attitude = rotation_.at(t);

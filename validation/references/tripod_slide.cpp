@@ -113,9 +113,9 @@ class TripodSlide : public Reference {
                                   std::abs(y[5]) * std::hypot(y[3], y[4]);
                 return loss > 0 ? loadsIn(y).slowest / (2 * loss) : Real(whole);
             },
-            scale));
+            scale, 400'000));
         require(end > 0.0, bodyTitle(scenario_, index_) + " tips or stops at once");
-        solution_ = DenseSolution(rhs, 0, start, end, 1e-14L, {}, scale);
+        solution_ = DenseSolution(rhs, 0, start, end, 1e-14L, {}, scale, OdeLimits::ofEvaluations(400'000));
         if (end < whole) validUntil_ = end;
     }
 

@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 
 namespace rigor::validation::numerics {
@@ -23,6 +22,9 @@ constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
 constexpr std::size_t kMostPanels = 4000;
 constexpr int kGrowAfter = 4;     // panels of one length, before a longer one is tried
 constexpr int kPanelDegree = 15;  // 16 nodes
+// Between two nodes of a panel that 16 nodes resolve the order of 16 needs a step or two. A trial panel that
+// needs many is far too long, and is given up before the rest of it is integrated.
+constexpr int kMostStepsToNode = 24;
 
 void midpointRule(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dydt, Real step, int n,
                   OdeState& result, OdeState& previous, OdeState& slope) {
@@ -46,6 +48,21 @@ void midpointRule(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dy
 
 Real scaleOf(const OdeState& scale, std::size_t i) {
     return scale.empty() ? Real(1) : scale[i];
+}
+
+/// The evaluations that the limits allow are used up.
+class EvaluationsSpent : public std::runtime_error {
+  public:
+    EvaluationsSpent() : std::runtime_error("the motion takes too many evaluations of its equations") {}
+};
+
+/// f for at most `left` evaluations, which it counts down.
+OdeRhs counted(const OdeRhs& f, std::size_t& left) {
+    return [&f, &left](Real t, const OdeState& y, OdeState& dydt) {
+        if (left == 0) throw EvaluationsSpent();
+        --left;
+        f(t, y, dydt);
+    };
 }
 
 struct Step {
@@ -99,17 +116,18 @@ Real chebyshevPoint(int j) {
     return points[static_cast<std::size_t>(j)];
 }
 
-}  // namespace
-
-OdeState integrateOde(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Real tolerance, Real firstStep,
-                      const OdeState& scale) {
-    OdeState y = y0, dydt(y0.size());
+/// integrateOde() in at most `mostSteps` steps, tried ones included; empty where they do not suffice.
+std::optional<OdeState> integrateInSteps(const OdeRhs& f, Real t0, const OdeState& y0, Real t1,
+                                         Real tolerance, Real firstStep, const OdeState& scale,
+                                         int mostSteps) {
+    OdeState y = y0;
+    OdeState dydt(y0.size());
     Real t = t0;
     const Real span = t1 - t0;
     if (span == 0) return y;
     Real step = firstStep != 0 ? firstStep : span / 16;
     for (int count = 0; (t1 - t) * span > 0; ++count) {
-        if (count > kMaxSteps) throw std::runtime_error("integrateOde: too many steps");
+        if (count > mostSteps) return std::nullopt;
         if (std::abs(step) > std::abs(t1 - t)) step = t1 - t;
         f(t, y, dydt);
         Step trial = extrapolate(f, t, y, dydt, step, tolerance, scale);
@@ -130,9 +148,38 @@ OdeState integrateOde(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Rea
     return y;
 }
 
+}  // namespace
+
+OdeState integrateOde(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Real tolerance, Real firstStep,
+                      const OdeState& scale) {
+    auto y = integrateInSteps(f, t0, y0, t1, tolerance, firstStep, scale, kMaxSteps);
+    if (!y) throw std::runtime_error("integrateOde: too many steps");
+    return std::move(*y);
+}
+
+OdeLimits OdeLimits::ofEvaluations(std::size_t most) {
+    OdeLimits limits;
+    limits.evaluations = most;
+    return limits;
+}
+
+OdeLimits OdeLimits::companionOf(Real tolerance, Real apart, OdeState scale) {
+    OdeLimits limits;
+    limits.companion = tolerance;
+    limits.agrees = [apart, scale = std::move(scale)](const OdeState& y, const OdeState& companion) {
+        for (std::size_t i = 0; i < y.size(); ++i)
+            if (!(std::abs(y[i] - companion[i]) <= apart * std::max(scaleOf(scale, i), std::abs(y[i]))))
+                return false;
+        return true;
+    };
+    return limits;
+}
+
 Real lastTimeOf(const std::function<bool(const OdeState&)>& holds, const OdeRhs& f, Real t0, OdeState y,
-                Real t1, int looks, const std::function<Real(const OdeState&)>& pace, const OdeState& scale) {
+                Real t1, int looks, const std::function<Real(const OdeState&)>& pace, const OdeState& scale,
+                std::size_t evaluations) {
     constexpr int kMostLooks = 100000;
+    const OdeRhs bounded = counted(f, evaluations);
     const Real longest = (t1 - t0) / looks, shortest = (t1 - t0) * 1e-15L;
     Real t = t0, bound = longest;
     for (int look = 0; t < t1; ++look) {
@@ -141,7 +188,9 @@ Real lastTimeOf(const std::function<bool(const OdeState&)>& holds, const OdeRhs&
         if (!(step > shortest)) return t1 - t > 2 * shortest ? t : t1;
         std::optional<OdeState> next;
         try {
-            next = integrateOde(f, t, y, t + step, 1e-12L, 0, scale);
+            next = integrateOde(bounded, t, y, t + step, 1e-12L, 0, scale);
+        } catch (const EvaluationsSpent&) {
+            return t;
         } catch (const std::runtime_error&) {
         }
         if (!next || !holds(*next)) {
@@ -159,20 +208,25 @@ bool DenseSolution::build(const OdeRhs& f, const OdeState& y0, Real tolerance, c
     const Real middle = (panel.begin + panel.end) / 2, half = (panel.end - panel.begin) / 2;
     panel.nodes.assign(1, y0);
     std::vector<std::pair<Real, OdeState>> checks;
+    const auto follow = [&](const OdeState& y, Real from, Real to) {
+        return integrateInSteps(f, from, y, to, tolerance / 100, to - from, scale, kMostStepsToNode);
+    };
     Real t = panel.begin;
     for (int j = 1; j <= kPanelDegree; ++j) {
         const Real next = middle + half * chebyshevPoint(j);
         const bool check = j == 2 || j == kPanelDegree / 2 + 1 || j == kPanelDegree - 1;
         const Real between = (t + next) / 2;
-        OdeState y = panel.nodes.back();
+        std::optional<OdeState> y;
         if (check) {
-            y = integrateOde(f, t, y, between, tolerance / 100, between - t, scale);
-            checks.emplace_back(between, y);
-            y = integrateOde(f, between, y, next, tolerance / 100, next - between, scale);
+            y = follow(panel.nodes.back(), t, between);
+            if (!y) return false;
+            checks.emplace_back(between, *y);
+            y = follow(*y, between, next);
         } else {
-            y = integrateOde(f, t, y, next, tolerance / 100, next - t, scale);
+            y = follow(panel.nodes.back(), t, next);
         }
-        panel.nodes.push_back(std::move(y));
+        if (!y) return false;
+        panel.nodes.push_back(std::move(*y));
         t = next;
     }
     for (const auto& [time, exact] : checks) {
@@ -186,21 +240,33 @@ bool DenseSolution::build(const OdeRhs& f, const OdeState& y0, Real tolerance, c
 }
 
 DenseSolution::DenseSolution(const OdeRhs& f, Real t0, const OdeState& y0, Real t1, Real tolerance,
-                             std::vector<Real> breaks, const OdeState& scale) {
+                             std::vector<Real> breaks, const OdeState& scale, const OdeLimits& limits) {
+    std::size_t left = limits.evaluations;
+    const OdeRhs bounded = counted(f, left);
     OdeState y = y0;
+    OdeState companion = y0;
     std::sort(breaks.begin(), breaks.end());
+    breaks.push_back(t1);
     Real begin = t0;
-    for (const Real time : breaks) {
-        if (!(time > begin && time < t1)) continue;
-        append(f, begin, y, time, tolerance, scale);
-        begin = time;
+    try {
+        for (const Real time : breaks) {
+            if (!whole_ || !(time > begin && time <= t1)) continue;
+            // At the end of a smooth part f is what it was just before.
+            const OdeRhs part = [&bounded, time](Real t, const OdeState& state, OdeState& dydt) {
+                bounded(t < time ? t : std::nextafter(time, -kInfinite), state, dydt);
+            };
+            append(time < t1 ? part : bounded, begin, y, companion, time, tolerance, scale, limits);
+            begin = time;
+        }
+    } catch (const std::runtime_error&) {
+        if (!limits.agrees || panels_.empty()) throw;
+        whole_ = false;
     }
-    if (t1 > begin) append(f, begin, y, t1, tolerance, scale);
     if (panels_.empty()) panels_.push_back({t0, t0, {y0}});
 }
 
-void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, Real t1, Real tolerance,
-                           const OdeState& scale) {
+void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, OdeState& companion, Real t1,
+                           Real tolerance, const OdeState& scale, const OdeLimits& limits) {
     Real length = t1 - t0;
     const Real shortest = (t1 - t0) * 1e-6L;
     int inOneGo = 0;  // panels of this length
@@ -208,17 +274,38 @@ void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, Real t1, Real 
         Panel panel;
         panel.begin = t;
         panel.end = t1 - t <= length * 1.0001L ? t1 : t + length;
-        if (!build(f, y, tolerance, scale, panel)) {
+        bool built = false;
+        try {
+            built = build(f, y, tolerance, scale, panel);
+        } catch (const EvaluationsSpent&) {
+            throw;
+        } catch (const std::runtime_error&) {
+            // A singular point within the panel: with a companion the solution may end before it.
+            if (!limits.agrees) throw;
+        }
+        if (!built) {
             length = (panel.end - panel.begin) / 2;
             inOneGo = 0;
             if (length < shortest) throw std::runtime_error("DenseSolution: panels became too short");
             continue;
         }
+        if (limits.agrees) {
+            companion = integrateOde(f, t, companion, panel.end, limits.companion, panel.end - t, scale);
+            if (!limits.agrees(panel.nodes.back(), companion)) {
+                if (panels_.empty())
+                    throw std::runtime_error("DenseSolution: neighbouring motions part at the start");
+                whole_ = false;
+                return;
+            }
+        }
         t = panel.end;
         y = panel.nodes.back();
         panels_.push_back(std::move(panel));
         // One quick moment must not leave short panels to the end.
-        if (++inOneGo == kGrowAfter) length *= 2, inOneGo = 0;
+        if (++inOneGo == kGrowAfter) {
+            length *= 2;
+            inOneGo = 0;
+        }
         if (panels_.size() > kMostPanels)
             throw std::runtime_error("DenseSolution: the motion is too long for its oscillations");
     }
@@ -240,6 +327,38 @@ OdeState DenseSolution::evaluate(const Panel& panel, Real t) {
     }
     for (auto& value : sum) value /= weights;
     return sum;
+}
+
+std::vector<Real> DenseSolution::nodes() const {
+    std::vector<Real> times;
+    for (const Panel& panel : panels_) {
+        const Real middle = (panel.begin + panel.end) / 2;
+        const Real half = (panel.end - panel.begin) / 2;
+        for (int j = times.empty() ? 0 : 1; j <= kPanelDegree; ++j)
+            times.push_back(middle + half * chebyshevPoint(j));
+    }
+    return times;
+}
+
+std::optional<Real> DenseSolution::lastTimeOf(const std::function<bool(const OdeState&)>& holds,
+                                              Real until) const {
+    constexpr int kHalvings = 60;
+    std::optional<Real> low;
+    for (const Real node : nodes()) {
+        const Real time = std::min(node, until);
+        if (!holds(at(time))) {
+            if (!low) return std::nullopt;
+            Real high = time;
+            for (int k = 0; k < kHalvings; ++k) {
+                const Real middle = *low + (high - *low) / 2;
+                (holds(at(middle)) ? *low : high) = middle;
+            }
+            return low;
+        }
+        low = time;
+        if (node >= until) break;
+    }
+    return low;
 }
 
 OdeState DenseSolution::at(Real t) const {

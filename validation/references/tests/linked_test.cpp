@@ -47,6 +47,23 @@ TEST(SpringNetwork, CatalogueValues) {
     EXPECT_NEAR(period->measure(exactRun(pair, *r, 0.002, 1500)).value(), period->exact, 1e-6);
 }
 
+TEST(SpringNetwork, ALongSwingIsAnsweredUpToWhereNeighboursPart) {
+    // Two bobs on springs below one another, thrown: as chaotic as a double pendulum.
+    Scenario s = springPendulum();
+    addBall(s, "second", 0.1, 1, 0.4, {1.6 * std::sin(0.9), 0, -2.0}, {0, 2, 1});
+    s.forces.push_back(SpringForce{0, 1, {}, {}, 80, 0, 0.8});
+    setReference(s, "spring_network");
+    s.duration = 300;
+    const auto r = makeReference(s);
+    EXPECT_GT(r->validUntil(), 3);
+    EXPECT_LT(r->validUntil(), 200);
+    // One bob without gravity moves in a central field, which is regular.
+    s = springPendulum();
+    s.gravity = {};
+    s.duration = 100;
+    EXPECT_GT(makeReference(s)->validUntil(), 100);
+}
+
 TEST(SpringNetwork, ForcesFollowFromTheMotionOfANetWithDampers) {
     Scenario s = emptyScene(3, {0.5, -9.81, 0}, 2);
     addBall(s, "a", 0.1, 1, 0.4, {0.3, -1, 0}, {0, 0.4, 0.5});
@@ -358,6 +375,16 @@ Scenario heavyTop(double spin, double precession, double tilt) {
     addJoint(s, JointType::Ball, kNone, 0, {});
     setReference(s, "spherical_pendulum");
     return s;
+}
+
+TEST(HeavyTop, ATopOfThreeMomentsIsAnsweredUpToWhereNeighboursPart) {
+    Scenario s = heavyTop(5, 4, 2.0);
+    s.duration = 300;
+    s.bodies[0].massProperties.inertia = Mat3::diagonal(0.03, 0.01, 0.05);
+    const auto r = makeReference(s);
+    EXPECT_GT(r->validUntil(), 1);
+    EXPECT_LT(r->validUntil(), 300);
+    EXPECT_TRUE(r->quantities(0.01, Scheme::Unknown).empty());
 }
 
 TEST(HeavyTop, SteadyPrecessionAtBothRatesAndNutation) {

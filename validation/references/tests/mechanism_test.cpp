@@ -14,6 +14,7 @@
 
 #include "scenarios/loader/loader.hpp"
 #include "validation/references/tests/newton_euler.hpp"
+#include "validation/references/tests/other_units.hpp"
 
 namespace rigor::validation::testing {
 namespace {
@@ -131,6 +132,18 @@ TEST(Mechanism, SpringsDampersAndLoadsAreThoseOfTheScenario) {
     }
     EXPECT_NEAR(r->exact(0, 1).angularVelocity->z, rate, 1e-4);
     EXPECT_NEAR(std::remainder(angleAboutZ(*r->exact(0, 1).orientation) - angle, 2 * pi), 0.0, 1e-5);
+}
+
+TEST(Mechanism, ALongRunIsAnsweredUpToWhereNeighboursPartInAnyUnits) {
+    Scenario s = libraryScene("bricard_loop");
+    s.gravity = 30 * s.gravity;
+    s.duration = 60;
+    const auto r = makeReference(s);
+    EXPECT_GT(r->validUntil(), 0.5);
+    EXPECT_LT(r->validUntil(), 60);
+    Scenario other = s;
+    ASSERT_TRUE(inUnits(other, {1048576, 1024, 1}));
+    EXPECT_EQ(makeReference(other)->validUntil(), 1024 * r->validUntil());
 }
 
 TEST(Mechanism, RefusesWhatItDoesNotKnow) {

@@ -106,6 +106,68 @@ TEST(Ode, DenseSolutionAnswersBetweenItsNodesAndAcrossBreaks) {
     }
 }
 
+/// Lorenz 1963: neighbours part by exp(0.9 t).
+void lorenz(Real, const OdeState& y, OdeState& d) {
+    d = {10 * (y[1] - y[0]), y[0] * (28 - y[2]) - y[1], y[0] * y[1] - 8 * y[2] / 3};
+}
+
+TEST(Ode, ASolutionEndsWhereItsCompanionParts) {
+    const OdeState start{1, 1, 1};
+    const OdeState scale{10, 10, 10};
+    const DenseSolution followed(lorenz, 0, start, 100, 1e-14L, {}, scale,
+                                 OdeLimits::companionOf(1e-12L, 1e-8L, scale));
+    EXPECT_FALSE(followed.isWhole());
+    EXPECT_GT(followed.end(), 5);
+    EXPECT_LT(followed.end(), 30);
+    const Real t = followed.end();
+    const OdeState nearest = integrateOde(lorenz, 0, start, t, 1e-18L, 0, scale);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(static_cast<double>(followed.at(t)[i] - nearest[i]), 0.0, 1e-8);
+    const OdeRhs regular = [](Real, const OdeState& y, OdeState& d) { d = {y[1], -9 * y[0]}; };
+    const DenseSolution whole(regular, 0, {1, 0}, 100, 1e-14L, {}, {1, 3},
+                              OdeLimits::companionOf(1e-12L, 1e-8L, {1, 3}));
+    EXPECT_TRUE(whole.isWhole());
+    EXPECT_EQ(whole.end(), 100);
+}
+
+TEST(Ode, ASolutionTakesNoMoreEvaluationsThanAllowed) {
+    std::size_t count = 0;
+    const OdeRhs f = [&count](Real, const OdeState& y, OdeState& d) {
+        ++count;
+        d = {y[1], -y[0]};
+    };
+    constexpr std::size_t kMost = 50'000;
+    EXPECT_THROW(DenseSolution(f, 0, {1, 0}, 1e4L, 1e-14L, {}, {}, OdeLimits::ofEvaluations(kMost)),
+                 std::runtime_error);
+    EXPECT_EQ(count, kMost);
+    count = 0;
+    OdeLimits limits = OdeLimits::companionOf(1e-12L, 1e-8L, {});
+    limits.evaluations = kMost;
+    const DenseSolution part(f, 0, {1, 0}, 1e4L, 1e-14L, {}, {}, limits);
+    EXPECT_EQ(count, kMost);
+    EXPECT_FALSE(part.isWhole());
+    EXPECT_GT(part.end(), 10);
+    EXPECT_NEAR(static_cast<double>(part.at(part.end())[0] - std::cos(part.end())), 0.0, 1e-9);
+    count = 0;
+    const auto always = [](const OdeState&) { return true; };
+    const auto pace = [](const OdeState&) { return Real(1); };
+    const Real last = lastTimeOf(always, f, 0, {1, 0}, 1e4L, 10, pace, {}, kMost);
+    EXPECT_EQ(count, kMost);
+    EXPECT_GT(last, 10);
+    EXPECT_LT(last, 1e4L);
+}
+
+TEST(Ode, ASolutionLooksForTheEndOfAConditionAtEveryNode) {
+    // cos(200 t) is positive at every multiple of pi/100, where equal samples might fall.
+    const OdeRhs f = [](Real, const OdeState& y, OdeState& d) { d = {y[1], -40000 * y[0]}; };
+    const DenseSolution quick(f, 0, {1, 0}, kPi, 1e-14L, {}, {1, 200});
+    const auto positive = [](const OdeState& y) { return y[0] > 0; };
+    EXPECT_NEAR(static_cast<double>(quick.lastTimeOf(positive, kPi).value()), static_cast<double>(kPi / 400),
+                1e-14);
+    EXPECT_EQ(quick.lastTimeOf([](const OdeState& y) { return y[0] < 2; }, 2).value(), 2);
+    EXPECT_FALSE(quick.lastTimeOf([](const OdeState& y) { return y[0] < 0; }, 2).has_value());
+}
+
 TEST(Ode, ASingularityIsReportedNotLoopedOn) {
     const OdeRhs f = [](Real, const OdeState& y, OdeState& d) { d = {y[0] * y[0]}; };  // pole at t = 1
     EXPECT_THROW(integrateOde(f, 0, {1}, 2), std::runtime_error);
