@@ -35,7 +35,8 @@ class PlanarPart {
           frame_(scenario, body, floor),
           motion_(frame_.setup(), frame_.start(), scenario.duration, runEnd(scenario)) {
         for (const Event& event : motion_.events())
-            if (event.kind == EventKind::Impact && event.time < duration_) impacts_.push_back(event);
+            if (event.kind == EventKind::Impact && event.time < std::min(duration_, validUntil()))
+                impacts_.push_back(event);
     }
     int body() const { return body_; }
     double validUntil() const { return motion_.validUntil(); }

@@ -129,6 +129,11 @@ PlanarMotion::Mode PlanarMotion::impact(double& t, State& s, const std::vector<i
     corners.insert(corners.end(), touching.begin(), touching.end());
     require(corners.size() <= 2, "three corners meet the floor at once");
     const std::size_t n = corners.size();
+    if (setup_.stopsAtImpact) {
+        events_.push_back({t, kind, corners[0], n == 2 ? corners[1] : -1, s, s});
+        validUntil_ = t;
+        return {Kind::Flight, -1};
+    }
     const Real speed = std::abs(s.vx) + std::abs(s.vz) + setup_.size * std::abs(s.rate), tiny = 1e-9L * speed;
     struct Outcome {
         State state;
@@ -227,10 +232,35 @@ PlanarMotion::Mode PlanarMotion::impact(double& t, State& s, const std::vector<i
     for (const int i : corners)
         if (closingOf(i, s) <= tiny) staying.push_back(i);
     if (staying.size() == 2) return flatMode(staying, s);
-    if (chatters(t, s)) return n == 2 ? flatMode(corners, s) : contactMode(corners[0], s);
+    const double last = t;
+    const State left = s;
+    if (chatters(t, s)) {
+        bridge(last, left, t, s);
+        return n == 2 ? flatMode(corners, s) : contactMode(corners[0], s);
+    }
     if (staying.empty()) return {Kind::Flight, -1};
     if (!settles(t, s)) return contactMode(staying[0], s);
+    bridge(last, left, t, s);
     return flatMode(lowest(s), s);
+}
+
+/// The phase from the last impact that was followed to the limit of the series: every part of the state goes
+/// evenly from one to the other. The bounces in between are lower than the square of kChatter beside the size.
+void PlanarMotion::bridge(double begin, const State& from, double end, const State& to) {
+    if (!(end > begin)) return;
+    const auto time = static_cast<Real>(end) - static_cast<Real>(begin);
+    const numerics::OdeState y{from.x, from.z, from.angle, from.vx, from.vz, from.rate};
+    const numerics::OdeState rate{(to.x - from.x) / time,         (to.z - from.z) / time,
+                                  (to.angle - from.angle) / time, (to.vx - from.vx) / time,
+                                  (to.vz - from.vz) / time,       (to.rate - from.rate) / time};
+    const auto rhs = [&rate](Real, const numerics::OdeState&, numerics::OdeState& d) { d = rate; };
+    phases_.push_back({begin,
+                       end,
+                       {Kind::Flight, -1},
+                       from,
+                       0,
+                       begin,
+                       numerics::DenseSolution(rhs, begin, y, end, 1e-14L, {}, scale_)});
 }
 
 }  // namespace rigor::validation

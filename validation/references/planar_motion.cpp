@@ -9,7 +9,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "validation/references/numerics/roots.hpp"
+#include "validation/references/planar_events.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -21,13 +21,13 @@ using Kind = PlanarMotion::Kind;
 constexpr Real kStill = 1e-10L;  // beside the speeds of the scene: rounding of events, not physics
 constexpr int kChunks = 48;      // pieces of the duration that are integrated at a time
 constexpr int kShorter = 10;     // times that a piece is cut to a quarter
-constexpr int kLooks = 64;       // samples of the event functions in a piece
 constexpr std::size_t kMostEvents = 200;
 constexpr Real kZero = 1e-15L;  // of the event functions beside lengths, speeds and forces of the scene
 constexpr Real kNear = 1e-3L;   // beside the size: a corner that may land soon
-constexpr int kHalvings = 30;   // of the first sample, for motions that come back at once
 constexpr std::size_t kMostPhases = 5000;
-constexpr int kMostStops = 8;  // changes of the mode in a row in which no time passes
+constexpr int kMostStops = 8;                        // changes of the mode in a row in which no time passes
+constexpr std::size_t kMostEvaluations = 1'500'000;  // of the equations of motion: 1.5 s
+constexpr std::size_t kMostInPiece = 100'000;        // of these, 100 times what a piece takes
 
 OdeState pack(const PlanarMotion::State& s) {
     return {s.x, s.z, s.angle, s.vx, s.vz, s.rate};
@@ -103,21 +103,36 @@ std::optional<PlanarMotion::Forces> PlanarMotion::forcesIn(const Mode& mode, con
     return f;
 }
 
-PlanarMotion::PlanarMotion(Setup setup, State start, double duration, double end)
-    : setup_(std::move(setup)), duration_(duration) {
+void PlanarMotion::setScale(const State& start) {
     const Real speed = std::abs(start.vx) + std::abs(start.vz) + setup_.size * std::abs(start.rate) +
                        std::sqrt(std::hypot(setup_.pullAlong, setup_.pullAbove) * setup_.size);
     scale_ = {setup_.size, setup_.size, 1, speed, speed, speed / setup_.size};
+}
+
+PlanarMotion::PlanarMotion(Setup setup, State start, double duration, double end)
+    : setup_(std::move(setup)), duration_(duration) {
+    setScale(start);
     double t = 0.0;
     State s = start;
     Mode mode = startMode(s);
-    followTo(duration_, t, s, mode);
-    require(validUntil_ > 0.0, "the contact changes its mode again and again at the start");
+    std::optional<AssumptionViolated> open;
     try {
+        followTo(duration_, t, s, mode);
         followTo(end, t, s, mode);
-    } catch (const AssumptionViolated&) {
-        validUntil_ = t;  // what the laws leave open after the duration takes nothing from what is before
+    } catch (const AssumptionViolated& violation) {
+        // What the laws leave open after the duration takes nothing from what is before.
+        if (t < duration_) open.emplace(violation);
+        validUntil_ = std::min(validUntil_, t);
     }
+    if (open && setup_.stopsAtImpact) throw *open;
+    if (!setup_.stopsAtImpact) {
+        const double parting = partingFrom(companionOf(start, end), std::min(t, validUntil_));
+        if (open && !(parting < validUntil_)) throw *open;
+        if (parting < std::min(t, validUntil_)) validUntil_ = parting;
+    }
+    require(validUntil_ > 0.0,
+            "the contact changes its mode again and again, or neighbouring motions part, "
+            "at the start");
 }
 
 void PlanarMotion::followTo(double end, double& t, State& s, Mode& mode) {
@@ -128,7 +143,8 @@ void PlanarMotion::followTo(double end, double& t, State& s, Mode& mode) {
         mode = follow(t, s, mode);
         stops = t > before ? 0 : stops + 1;
         // Bounces that come closer and closer, or modes that alternate at one instant: known up to here.
-        if (events_.size() >= kMostEvents || stops > kMostStops || phases_.size() >= kMostPhases)
+        if (events_.size() >= kMostEvents || stops > kMostStops || phases_.size() >= kMostPhases ||
+            evaluations_ >= kMostEvaluations)
             validUntil_ = std::min(validUntil_, t);
     }
 }
@@ -222,13 +238,16 @@ double PlanarMotion::pieceFrom(const State& s, const Mode& mode) const {
         if (i == mode.corner || gap > kNear * setup_.size || flight < 1e-9L * duration_) continue;
         piece = std::min(piece, 32 * flight);
     }
+    // The samples of the event functions tell the corners of a body that spins apart.
+    if (s.rate != 0) piece = std::min(piece, 2 * numerics::kPi / std::abs(s.rate));
     return static_cast<double>(piece);
 }
 
 /// One mode from t on, for a piece of time that may reach past its next event. Beyond the event the contact
 /// may come to where no force fits it: then a shorter piece is taken.
-PlanarMotion::Phase PlanarMotion::piece(double t, const State& s, const Mode& mode) const {
+PlanarMotion::Phase PlanarMotion::piece(double t, const State& s, const Mode& mode) {
     const auto rhs = [this, mode](Real, const OdeState& y, OdeState& d) {
+        ++evaluations_;
         const auto f = forcesIn(mode, unpack(y));
         if (f)
             d = {y[3], y[4], y[5], f->ax, f->az, f->spin};
@@ -239,7 +258,14 @@ PlanarMotion::Phase PlanarMotion::piece(double t, const State& s, const Mode& mo
     for (int attempt = 0;; ++attempt) {
         const double end = length < end_ - t ? t + length : end_;
         try {
-            return {t, end, mode, s, 0, t, numerics::DenseSolution(rhs, t, pack(s), end, 1e-14L, {}, scale_)};
+            return {t,
+                    end,
+                    mode,
+                    s,
+                    0,
+                    t,
+                    numerics::DenseSolution(rhs, t, pack(s), end, 1e-14L, {}, scale_,
+                                            numerics::OdeLimits::ofEvaluations(kMostInPiece))};
         } catch (const std::runtime_error&) {
             if (attempt == kShorter || !(t + length / 4 > t)) throw;
         }
@@ -267,11 +293,6 @@ PlanarMotion::Mode PlanarMotion::follow(double& t, State& s, Mode mode) {
     Phase phase = piece(t, s, mode);
     const double end = phase.end;
     const auto stateAt = [&](Real at) { return unpack(phase.solution.at(at)); };
-    // Functions that are positive while the mode holds, and what of them is zero.
-    struct Watched {
-        std::function<Real(Real)> value;
-        Real small = 0;
-    };
     std::vector<Watched> watched;
     const Real pull = std::hypot(setup_.pullAlong, setup_.pullAbove), load = kZero * setup_.mass * pull;
     if (mode.kind != Kind::Flight)
@@ -288,33 +309,14 @@ PlanarMotion::Mode PlanarMotion::follow(double& t, State& s, Mode mode) {
     for (int i = 0; i < static_cast<int>(setup_.corners.size()); ++i)
         if (i != mode.corner)
             watched.push_back({[&, i](Real at) { return gapOf(i, stateAt(at)); }, kZero * setup_.size});
-    Real first = end;
-    bool found = false;
-    for (const auto& [f, small] : watched) {
-        Real low = t;
-        for (int k = 1; k <= kLooks; ++k) {
-            const Real high = t + (static_cast<Real>(end) - t) * k / kLooks;
-            // Zero at the very start is the event that led here; it counts once the function has moved.
-            if (f(high) >= 0) {
-                low = high;
-                continue;
-            }
-            // An excursion from zero and back that is shorter than a sample: look nearer to the start.
-            Real above = low, below = high;
-            for (int halving = 0; k == 1 && !(f(above) > small) && halving < kHalvings; ++halving) {
-                const Real middle = low + (below - low) / 2;
-                (f(middle) > small ? above : below) = middle;
-            }
-            const Real root = k > 1 || f(above) > small ? numerics::findRoot(f, above, below) : low;
-            if (root < first || !found) first = std::min(first, root), found = true;
-            break;
-        }
-    }
-    phase.end = static_cast<double>(first);
+    std::optional<Real> event;
+    for (const Watched& one : watched)
+        if (const auto zero = firstZero(one, t, end); zero && !(event && *event <= *zero)) event = zero;
+    if (event) phase.end = static_cast<double>(*event);
     phases_.push_back(phase);
     t = phase.end;
     s = unpack(phase.solution.at(t));
-    if (!found) return mode;
+    if (!event) return mode;
     return resolve(t, s, mode);
 }
 
@@ -367,9 +369,9 @@ PlanarMotion::Mode PlanarMotion::resolve(double& t, State& s, const Mode& mode) 
 }
 
 const PlanarMotion::Phase& PlanarMotion::phaseAt(double t) const {
-    for (const Phase& phase : phases_)
-        if (t <= phase.end) return phase;
-    return phases_.back();
+    const auto phase = std::lower_bound(phases_.begin(), phases_.end(), t,
+                                        [](const Phase& p, double value) { return p.end < value; });
+    return phase == phases_.end() ? phases_.back() : *phase;
 }
 
 PlanarMotion::State PlanarMotion::at(double t) const {

@@ -12,6 +12,10 @@
 // Where both ends of a flat side touch the body rests, slides as a whole or tips over one of them. A block
 // that rocks between two corners at ever shorter intervals lies flat at the limit of the geometric series, one
 // that bounces ever lower touches at the limit of its own.
+// Impacts make neighbours part: a companion whose mass properties, coefficients, load and velocities differ by
+// 1e-12 of their values is followed as well, and the answer ends where the two are 1e-8 of the way and the size
+// apart. The errors of the solution, of its event times and of those limits are about as large as that
+// difference or smaller, and grow like it.
 // Impacts: all laws at the level of impulses at once (Newton's restitution at the corner that lands, Coulomb
 // with the slip after the impact), the answer by trying every mode. Where a slipping contact can carry no
 // force and not open either (Painleve), it stops in an impact without collision.
@@ -45,6 +49,8 @@ class PlanarMotion {
         Real torque = 0;                    ///< constant [N m]
         Real friction = 0, restitution = 0;
         Real size = 1;  ///< lengths are small beside this [m]
+        /// Follow the motion to the first impact alone, whose law is not asked; validUntil() is its time.
+        bool stopsAtImpact = false;
     };
     struct State {
         Real x = 0, z = 0, angle = 0, vx = 0, vz = 0, rate = 0;
@@ -70,7 +76,7 @@ class PlanarMotion {
 
     /// Follows the motion for `duration`, and on to `end` as far as the laws tell. Throws AssumptionViolated
     /// for a start inside the floor, contacts that do not fit the velocities, and impacts within `duration`
-    /// without one answer.
+    /// and before neighbours part that have no answer or several.
     PlanarMotion(Setup setup, State start, double duration, double end);
     PlanarMotion(Setup setup, State start, double duration)
         : PlanarMotion(std::move(setup), start, duration, duration) {}
@@ -79,11 +85,16 @@ class PlanarMotion {
     /// Contact force at time t; zero in flight, empty on two corners.
     std::optional<Load> loadAt(double t) const;
     Mode modeAt(double t) const;
+    /// Those after validUntil() mean nothing.
     const std::vector<Event>& events() const { return events_; }
     /// Until when the motion is known [s]; 1e300 where it is to `end`.
     double validUntil() const { return validUntil_; }
 
   private:
+    struct AsCompanion {};
+    /// The companion: ends where it cannot be followed, whatever the reason.
+    PlanarMotion(Setup setup, State start, double duration, double end, AsCompanion);
+
     struct Phase {
         double begin = 0.0, end = 0.0;
         Mode mode;
@@ -118,15 +129,19 @@ class PlanarMotion {
     void layFlat(int one, int other, State& s) const;
     bool settles(double& t, State& s) const;
     bool chatters(double& t, State& s) const;
+    void bridge(double begin, const State& from, double end, const State& to);
     double pieceFrom(const State& s, const Mode& mode) const;
-    Phase piece(double t, const State& s, const Mode& mode) const;
+    Phase piece(double t, const State& s, const Mode& mode);
     Mode follow(double& t, State& s, Mode mode);
     Mode slide(double& t, State& s, Mode mode);
     Mode resolve(double& t, State& s, const Mode& mode);
     Mode impact(double& t, State& s, const std::vector<int>& touching, const std::vector<int>& landing,
                 EventKind kind);
     const Phase& phaseAt(double t) const;
+    void setScale(const State& start);
     void followTo(double end, double& t, State& s, Mode& mode);
+    PlanarMotion companionOf(State start, double end) const;
+    double partingFrom(const PlanarMotion& companion, double end) const;
 
     Setup setup_;
     double duration_ = 0.0, validUntil_ = 1e300;
@@ -134,6 +149,7 @@ class PlanarMotion {
     numerics::OdeState scale_;  ///< of x, z, angle and their rates
     std::vector<Phase> phases_;
     std::vector<Event> events_;
+    std::size_t evaluations_ = 0;  ///< of the equations of motion
 };
 
 /// The body of a scenario as a planar body over a plane, with the way between the coordinates.
