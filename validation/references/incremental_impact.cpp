@@ -13,7 +13,7 @@
 // Source: Routh 1905; Keller, J. Appl. Mech. 53 (1986) 1; Wang and Mason, J. Appl. Mech. 59 (1992) 635;
 // Stronge, Impact Mechanics, 2000; Brach 1991. Assumes: what planar_contact assumes of body and floor; one
 // corner hits first, from flight. Valid until the next touch. Quantities: velocity_along, velocity_above,
-// spin after the impact.
+// spin after the impact. Newton's law may add energy, and is refused where it does.
 #include <algorithm>
 #include <cmath>
 
@@ -107,12 +107,13 @@ class IncrementalImpact : public Reference {
         : scenario_(scenario),
           index_(body),
           frame_(scenario, body, floor),
-          motion_(frame_.setup(), frame_.start(), scenario.duration, runEnd(scenario)) {
+          motion_(untilImpact(frame_.setup()), frame_.start(), scenario.duration, runEnd(scenario)) {
         const std::string who = bodyTitle(scenario, body);
         require(!motion_.events().empty(), who + " does not hit the floor");
         const auto& hit = motion_.events().front();
-        require(hit.kind == PlanarMotion::EventKind::Impact && hit.corner >= 0 && hit.time > 0.0,
-                who + " does not come from flight to the floor with one corner");
+        require(
+            hit.kind == PlanarMotion::EventKind::Impact && hit.corner >= 0 && hit.other < 0 && hit.time > 0.0,
+            who + " does not come from flight to the floor with one corner");
         time_ = hit.time;
         after_ = hit.before;
         const auto& s = frame_.setup();
@@ -121,9 +122,15 @@ class IncrementalImpact : public Reference {
         const Touch touch(1 / s.mass + cz * cz / s.inertia, -cx * cz / s.inertia,
                           1 / s.mass + cx * cx / s.inertia, s.friction, slip, gapRate);
         const auto [normal, tangential] = touch.end(law, s.restitution);
+        const auto energy = [&s](const PlanarMotion::State& of) {
+            return s.mass * (of.vx * of.vx + of.vz * of.vz) + s.inertia * of.rate * of.rate;
+        };
+        const Real before = energy(after_);
         after_.vx += tangential / s.mass;
         after_.vz += normal / s.mass;
         after_.rate += (cx * normal - cz * tangential) / s.inertia;
+        require(energy(after_) <= before * (1 + 1e-12L),
+                "Newton's restitution with this friction adds energy in the impact (Kane and Levinson 1985)");
         findNextTouch();
     }
     std::vector<int> bodies() const override { return {index_}; }
@@ -157,6 +164,11 @@ class IncrementalImpact : public Reference {
     }
 
   private:
+    /// The law of this file acts in the impact, not that of planar_motion.
+    static PlanarMotion::Setup untilImpact(PlanarMotion::Setup setup) {
+        setup.stopsAtImpact = true;
+        return setup;
+    }
     std::pair<Real, Real> contactOf(int corner, const PlanarMotion::State& at) const {
         const auto& c = frame_.setup().corners[static_cast<std::size_t>(corner)];
         const Real cs = std::cos(at.angle), sn = std::sin(at.angle);

@@ -114,9 +114,54 @@ TEST(IncrementalImpact, RefusesWhatItDoesNotKnow) {
     Scenario s = cornerHit({0.1, 0.2, -0.4, 1, -2, 0.2, 0.5}, "impact_newton");
     s.bodies[1].velocity = {0, 2, 0};
     EXPECT_THROW(makeReference(s), AssumptionViolated);
+    // A flat side lands with both its corners.
+    s = cornerHit({0.1, 0.2, -0.4, 0, -2, 0.2, 0.5}, "impact_poisson");
+    s.bodies[1].shapes[0].geometry = ConvexHull{{{0.2, -0.4, 0}, {-0.2, -0.4, 0}, {0, 0.4, 0}}};
+    EXPECT_THROW(makeReference(s), AssumptionViolated);
     // So steep and rough that friction drives the corner in while it slips.
     s = cornerHit({0.01, 0.4, -0.5, 2, -1, 3, 0.5}, "impact_newton");
     EXPECT_THROW(makeReference(s), AssumptionViolated);
+}
+
+TEST(IncrementalImpact, NewtonsLawThatAddsEnergyIsRefusedAndTheOthersAreNot) {
+    // The slip turns round, so that Newton's law gives back more than the corner brought along the normal.
+    int refused = 0;
+    for (const double e : {0.0, 0.5, 0.9, 1.0}) {
+        const Hit hit{1.0 / 12, 0.24, -0.38, -1.2, -2, 0.4, e};
+        const auto energy = [&](const PartialState& after) {
+            return dot(*after.velocity, *after.velocity) +
+                   hit.inertia * after.angularVelocity->z * after.angularVelocity->z;
+        };
+        const double before = hit.vx * hit.vx + hit.vy * hit.vy;
+        for (const char* law : {"impact_poisson", "impact_stronge"})
+            EXPECT_LE(energy(makeReference(cornerHit(hit, law))->exact(1, 0.151)), before + 1e-12)
+                << law << e;
+        try {
+            const Scenario s = cornerHit(hit, "impact_newton");
+            EXPECT_LE(energy(makeReference(s)->exact(1, 0.151)), before + 1e-12) << e;
+        } catch (const AssumptionViolated& violation) {
+            EXPECT_NE(std::string(violation.what()).find("adds energy"), std::string::npos);
+            ++refused;
+        }
+    }
+    EXPECT_EQ(refused, 2) << "of the two with the larger restitution";
+}
+
+TEST(IncrementalImpact, WhatNewtonsLawWouldDoLaterDoesNotMatter) {
+    // Of the law of impulses the same drop is refused: an impact after the first adds energy.
+    Scenario s = emptyScene(2, {0, -9.81, 0}, 1.5);
+    s.materials[0].friction = 0.9;
+    s.materials[0].restitution = 1.0;
+    addFloor(s);
+    addBox(s, "body", {0.12, 0.45, 0}, 1, {0, 0.7, 0});
+    s.bodies[1].pose.orientation = fromAxisAngle({0, 0, 1}, 0.14);
+    s.bodies[1].massProperties.inertia = Mat3::diagonal(1, 1, (0.12 * 0.12 + 0.45 * 0.45) / 3);
+    setReference(s, "planar_contact");
+    EXPECT_THROW(makeReference(s), AssumptionViolated);
+    for (const char* law : {"impact_poisson", "impact_stronge"}) {
+        setReference(s, law, {{"body", std::string("body")}, {"floor", std::string("floor")}});
+        EXPECT_GT(makeReference(s)->validUntil(), 0.2) << law;
+    }
 }
 
 // -------------------------------------------------------------------------------------------- pushed_block
