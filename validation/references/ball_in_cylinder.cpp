@@ -35,12 +35,15 @@ class BallInCylinder : public Reference {
         const Vec3 g = gravityOn(scenario, ball);
         require(norm(g) > 0.0 && norm(cross(g, hollow_.axis)) <= 1e-9 * norm(g),
                 "the cylinder is not upright");
-        up_ = -1.0 * unit(g), gravity_ = norm(g);
+        up_ = -1.0 * unit(g);
+        gravity_ = norm(g);
         reach_ = hollow_.radius - ball_.radius;
-        out_ = unit(hollow_.across(ball_.center)), along_ = cross(up_, out_);
+        out_ = unit(hollow_.across(ball_.center));
+        along_ = cross(up_, out_);
         require(std::abs(norm(hollow_.across(ball_.center)) - reach_) <= 1e-4 * hollow_.radius,
                 who + " does not touch the cylinder");
-        rate_ = dot(ball_.velocity, along_) / reach_, rise_ = dot(ball_.velocity, up_);
+        rate_ = dot(ball_.velocity, along_) / reach_;
+        rise_ = dot(ball_.velocity, up_);
         require(rate_ != 0.0, who + " does not run round the cylinder");
         spin_ = dot(ball_.spin, out_);
         const Vec3 spin =
@@ -111,7 +114,8 @@ class BallInCylinder : public Reference {
         double low = 1e300, high = -1e300;
         for (const Vec3 v : mesh.vertices) {
             const double h = dot(wall.pose * (wall.shapes[0].pose * v) - ball_.center, up_);
-            low = std::min(low, h), high = std::max(high, h);
+            low = std::min(low, h);
+            high = std::max(high, h);
         }
         require(low <= middle_ - swing && high >= middle_ + swing, who + " leaves the cylinder");
     }

@@ -31,7 +31,8 @@ class BallInTrough : public Reference {
         const Vec3 g = gravityOn(scenario, ball);
         require(norm(g) > 0.0 && std::abs(dot(g, hollow_.axis)) <= 1e-9 * norm(g),
                 "the trough is not level along its axis");
-        down_ = unit(g), side_ = cross(hollow_.axis, down_);
+        down_ = unit(g);
+        side_ = cross(hollow_.axis, down_);
         const Vec3 out = hollow_.across(ball_.center);
         reach_ = hollow_.radius - ball_.radius;
         require(reach_ > 0.0 && std::abs(norm(out) - reach_) <= 1e-4 * hollow_.radius,

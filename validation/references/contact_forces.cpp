@@ -32,11 +32,17 @@ void write(const LoadedBodies& problem, int body, Real3 force, Real3 torque, Put
     const Real f = 1 / static_cast<Real>(b.load), t = f / static_cast<Real>(b.size);
     if (problem.dimension == 2) {
         const std::size_t row = 3 * static_cast<std::size_t>(body);
-        put(row, f * force.x), put(row + 1, f * force.y), put(row + 2, t * torque.z);
+        put(row, f * force.x);
+        put(row + 1, f * force.y);
+        put(row + 2, t * torque.z);
     } else {
         const std::size_t row = 6 * static_cast<std::size_t>(body);
-        put(row, f * force.x), put(row + 1, f * force.y), put(row + 2, f * force.z);
-        put(row + 3, t * torque.x), put(row + 4, t * torque.y), put(row + 5, t * torque.z);
+        put(row, f * force.x);
+        put(row + 1, f * force.y);
+        put(row + 2, f * force.z);
+        put(row + 3, t * torque.x);
+        put(row + 4, t * torque.y);
+        put(row + 5, t * torque.z);
     }
 }
 

@@ -19,7 +19,9 @@ FixedPointMotion::FixedPointMotion(const Mat3& inertia, double mass, Vec3 arm, V
         const Real3 torque = cross(lever, transposed(rotationOf(y[0], y[1], y[2], y[3]), field));
         const Real3 a = solve(moments, torque - cross(w, moments * w));
         quaternionRate(y, 0, w, d);
-        d[4] = a.x, d[5] = a.y, d[6] = a.z;
+        d[4] = a.x;
+        d[5] = a.y;
+        d[6] = a.z;
     };
     const Quat q = scenario::normalized(orientation);
     const Vec3 w = rotateInverse(q, angularVelocity);

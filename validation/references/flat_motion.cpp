@@ -26,7 +26,8 @@ FlatMotion::FlatMotion(const Scenario& scenario, int index, int floor, const Pla
     require(std::abs(dot(body.velocity, normal)) <= 1e-9 * norm(body.velocity), who + " leaves the floor");
     require(norm(moment - dot(normal, moment) * normal) <= 1e-9 * norm(moment),
             "the normal is not along a principal axis of " + who);
-    mass = body.massProperties.mass, inertia = dot(normal, moment);
+    mass = body.massProperties.mass;
+    inertia = dot(normal, moment);
     friction = pairCoefficients(scenario, footing.material, plane.material).friction;
 }
 

@@ -94,7 +94,8 @@ class HangingChain : public Reference {
             if (n > 0) addLink(at, hinge, place);
             const int other = n == 0 ? (isFixed(next->bodyA) ? next->bodyB : next->bodyA)
                                      : (next->bodyA == at ? next->bodyB : next->bodyA);
-            hinge = place, at = other;
+            hinge = place;
+            at = other;
             if (n == bodies.size()) end_ = place;
         }
         require(isFixed(at), "the chain does not end at a fixed point");
@@ -107,7 +108,9 @@ class HangingChain : public Reference {
         const Body& body = scenario_.bodies[static_cast<std::size_t>(index)];
         const Vec3 arm = to - from, com = centerOfMass(body) - from;
         Link link;
-        link.body = index, link.length = norm(arm), link.mass = body.massProperties.mass;
+        link.body = index;
+        link.length = norm(arm);
+        link.mass = body.massProperties.mass;
         link.part = dot(com, arm) / dot(arm, arm);
         require(norm(com - static_cast<double>(link.part) * arm) <= 1e-9 * norm(arm),
                 "the centre of mass of " + bodyTitle(scenario_, index) + " is off the line of its hinges");
@@ -123,8 +126,12 @@ class HangingChain : public Reference {
             const Real3 weight = link.mass * real3(gravityOn(scenario_, link.body));
             const Real3 along = pull - (1 - link.part) * weight;
             const Real3 arm = (link.length / norm(along)) * along;
-            if (links) (*links)[i].center = toVec3(at + link.part * arm), (*links)[i].end = toVec3(at + arm);
-            at = at + arm, pull = pull - weight;
+            if (links) {
+                (*links)[i].center = toVec3(at + link.part * arm);
+                (*links)[i].end = toVec3(at + arm);
+            }
+            at = at + arm;
+            pull = pull - weight;
         }
         return at;
     }
@@ -132,8 +139,10 @@ class HangingChain : public Reference {
     void balance() {
         const Real3 goal = real3(end_);
         Real reach = 0, weight = 0;
-        for (const Link& link : links_)
-            reach += link.length, weight += link.mass * norm(real3(gravityOn(scenario_, link.body)));
+        for (const Link& link : links_) {
+            reach += link.length;
+            weight += link.mass * norm(real3(gravityOn(scenario_, link.body)));
+        }
         require(weight > 0, "no gravity acts on the chain");
         require(norm(goal - real3(start_)) < 0.9999L * reach, "the chain is too short for its two ends");
         const Vec3 g = gravityOn(scenario_, links_.front().body);

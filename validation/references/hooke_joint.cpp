@@ -37,7 +37,9 @@ class HookeJoint : public Reference {
                    &bearing = hingeOf(output, scenario::kNone);
         requireOnlyJoints(scenario, spider, {&first, &second});
         requireOnlyJoints(scenario, output, {&second, &bearing});
-        c_ = axisOf(scenario, first), d_ = axisOf(scenario, second), f_ = axisOf(scenario, bearing);
+        c_ = axisOf(scenario, first);
+        d_ = axisOf(scenario, second);
+        f_ = axisOf(scenario, bearing);
         center_ = anchorOf(scenario, first, spider);
         const double size = sizeOf(body(spider)) + sizeOf(body(output));
         for (const Vec3 p : {anchorOf(scenario, second, spider), onLine(centerOfMass(shaft), e_),
@@ -75,7 +77,8 @@ class HookeJoint : public Reference {
         double low = 1e300, high = -1e300;
         for (int k = 0; k <= 4000; ++k) {
             const double ratio = motionAt(scenario_.duration * k / 4000).rate / rate_;
-            low = std::min(low, ratio), high = std::max(high, ratio);
+            low = std::min(low, ratio);
+            high = std::max(high, ratio);
         }
         std::vector<Quantity> result;
         for (const bool most : {true, false}) {

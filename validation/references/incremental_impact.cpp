@@ -65,7 +65,8 @@ class Touch {
         for (const Piece& piece : pieces_) {
             const Real need = (goal - n) / piece.slope;
             if (need <= piece.length) return p + need;
-            p += piece.length, n += piece.slope * piece.length;
+            p += piece.length;
+            n += piece.slope * piece.length;
         }
         return p;
     }

@@ -60,7 +60,8 @@ std::pair<double, double> freeMotion(const Coordinate& x, double load, double q0
     const double w2 = x.k / x.inertia, s2 = w2 - gamma * gamma, rest = x.target + load / x.k, y0 = q0 - rest;
     double co = 1.0, si = t;  // e^(gamma t) times the two fundamental solutions
     if (s2 > 1e-12 * w2) {
-        co = std::cos(std::sqrt(s2) * t), si = std::sin(std::sqrt(s2) * t) / std::sqrt(s2);
+        co = std::cos(std::sqrt(s2) * t);
+        si = std::sin(std::sqrt(s2) * t) / std::sqrt(s2);
     } else if (s2 < -1e-12 * w2) {
         const double w = std::sqrt(-s2), up = std::exp((w - gamma) * t), down = std::exp(-(w + gamma) * t);
         const double c = 0.5 * (up + down), s = 0.5 * (up - down) / w;
@@ -104,8 +105,14 @@ void solve(Coordinate& x, double end) {
     double t = 0.0, q = x.q0, v = x.v0;
     // A stop that is hit ever more softly and never again rests in the end; more phases mean neither.
     for (int count = 0; count < 64; ++count) {
-        if (q <= x.lower) q = x.lower, v = std::max(v, 0.0);
-        if (q >= x.upper) q = x.upper, v = std::min(v, 0.0);
+        if (q <= x.lower) {
+            q = x.lower;
+            v = std::max(v, 0.0);
+        }
+        if (q >= x.upper) {
+            q = x.upper;
+            v = std::min(v, 0.0);
+        }
         const double ahead = x.motorForce == 0.0 ? 0.0 : x.motorSpeed - v;
         const double pull = x.load - x.k * (q - x.target);
         bool atSpeed =
@@ -258,7 +265,9 @@ class JointCoordinate : public Reference {
 
     void add(bool turn, Vec3 direction, const JointAxis& axis, double q0) {
         Coordinate x;
-        x.turn = turn, x.direction = direction, x.q0 = q0;
+        x.turn = turn;
+        x.direction = direction;
+        x.q0 = q0;
         const Vec3 g = gravityOn(scenario_, index_), arm = com_ - anchor_;
         const double m = body_.massProperties.mass;
         if (turn) {
@@ -275,7 +284,10 @@ class JointCoordinate : public Reference {
         }
         require(!(axis.hasMotor() && axis.hasSpring()),
                 "joint '" + joint_.name + "' has a motor and a spring on one coordinate");
-        if (axis.hasMotor()) x.motorSpeed = axis.motorSpeed, x.motorForce = axis.motorMaxForce;
+        if (axis.hasMotor()) {
+            x.motorSpeed = axis.motorSpeed;
+            x.motorForce = axis.motorMaxForce;
+        }
         if (axis.hasSpring()) {
             const double w = 2.0 * static_cast<double>(numerics::kPi) * axis.frequency;
             x.k = axis.frequency > 0.0 ? x.inertia * w * w : axis.stiffness;
@@ -283,7 +295,8 @@ class JointCoordinate : public Reference {
             x.target = axis.target;
         }
         if (axis.mode == AxisMode::Limited) {
-            x.lower = axis.lower, x.upper = axis.upper;
+            x.lower = axis.lower;
+            x.upper = axis.upper;
             require(x.q0 >= x.lower && x.q0 <= x.upper,
                     "joint '" + joint_.name + "' starts beyond its limits");
         }

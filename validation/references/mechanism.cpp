@@ -97,14 +97,17 @@ class Mechanism : public Reference {
     void addJoint(const scenario::Joint& joint) {
         const auto ours = [&](int b) { return b != kNone && slotOf(b) >= 0; };
         if (!ours(joint.bodyA) && !ours(joint.bodyB)) return;
-        include(joint.bodyA), include(joint.bodyB);
+        include(joint.bodyA);
+        include(joint.bodyB);
         requirePassive(joint);
         Equation e;
         e.joint = static_cast<int>(&joint - scenario_.joints.data());
-        e.a = point(joint.bodyA, joint.anchorA), e.b = point(joint.bodyB, joint.anchorB);
+        e.a = point(joint.bodyA, joint.anchorA);
+        e.b = point(joint.bodyB, joint.anchorB);
         const Vec3 axis = axisOf(scenario_, joint), t = perpendicular(axis), u = cross(axis, t);
         const auto add = [&](Equation::Kind kind, Real3 along) {
-            e.kind = kind, e.axis = along;
+            e.kind = kind;
+            e.axis = along;
             motion_.equations.push_back(e);
         };
         const auto square = [&](Vec3 inA, Vec3 inB) {
@@ -132,7 +135,10 @@ class Mechanism : public Reference {
                 violated("joint '" + joint.name + "' is of a kind that this reference does not know");
         }
         if (joint.type == JointType::Ball) return;
-        if (!motion_.planar) square(t, axis), square(u, axis);
+        if (!motion_.planar) {
+            square(t, axis);
+            square(u, axis);
+        }
         if (joint.type == JointType::Slider || joint.type == JointType::Fixed) square(t, u);
     }
     /// World directions across a slider's rail: two, in the plane one.
@@ -176,7 +182,8 @@ class Mechanism : public Reference {
         for (std::size_t i = 0; i < start_.size(); i += MechanismMotion::kStride)
             fastest_ = std::max({fastest_, norm(Real3{start_[i + 7], start_[i + 8], start_[i + 9]}),
                                  size_ * norm(Real3{start_[i + 10], start_[i + 11], start_[i + 12]})});
-        require(motion_.gapRate(start_, size_) <= 1e-6L * fastest_, "the initial velocities do not fit the joints");
+        require(motion_.gapRate(start_, size_) <= 1e-6L * fastest_,
+                "the initial velocities do not fit the joints");
         const bool driven = std::any_of(motion_.members.begin(), motion_.members.end(),
                                         [](const MechanismMotion::Member& m) { return m.driven; });
         require(driven || motion_.freedom() > 0, "the joints leave nothing that could move");

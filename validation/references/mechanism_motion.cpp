@@ -80,7 +80,8 @@ Real3 MechanismMotion::turned(const std::vector<Pose>& poses, int body, Real3 lo
 
 MechanismMotion::Row MechanismMotion::rowOf(const std::vector<Pose>& poses, const Equation& e) const {
     Row row;
-    row.a = e.a.body, row.b = e.b.body;
+    row.a = e.a.body;
+    row.b = e.b.body;
     const auto spinOf = [&](int body) {
         return body < 0 ? Real3{} : poses[static_cast<std::size_t>(body)].spin;
     };
@@ -91,7 +92,8 @@ MechanismMotion::Row MechanismMotion::rowOf(const std::vector<Pose>& poses, cons
         row.value = dot(t, n);
         row.rate = dot(across, wb - wa);
         row.bend = dot(cross(cross(wb, n), t) + cross(n, cross(wa, t)), wb - wa);
-        row.wb = across, row.wa = -1 * across;
+        row.wb = across;
+        row.wa = -1 * across;
         return row;
     }
     const Spot a = spotOf(poses, e.a), b = spotOf(poses, e.b);
@@ -110,10 +112,14 @@ MechanismMotion::Row MechanismMotion::rowOf(const std::vector<Pose>& poses, cons
         row.rate = dot(swing, d) + dot(along, v);
         row.bend = dot(cross(wa, swing), d) + 2 * dot(swing, v) + dot(along, bend);
     } else {
-        row.value = dot(along, d), row.rate = dot(along, v), row.bend = dot(along, bend);
+        row.value = dot(along, d);
+        row.rate = dot(along, v);
+        row.bend = dot(along, bend);
     }
-    row.vb = along, row.wb = cross(b.arm, along);
-    row.va = -1 * along, row.wa = -1 * cross(a.arm, along);
+    row.vb = along;
+    row.wb = cross(b.arm, along);
+    row.va = -1 * along;
+    row.wa = -1 * cross(a.arm, along);
     // The direction itself turns with a.
     if (e.kind == Equation::Kind::Offset) row.wa = row.wa + cross(along, d);
     return row;
@@ -129,7 +135,8 @@ void MechanismMotion::push(Real t, const std::vector<Pose>& poses, std::vector<R
     for (const auto& load : loads) {
         if (t < load.start || t >= load.end) continue;
         const auto i = static_cast<std::size_t>(load.body);
-        force[i] = force[i] + load.force, torque[i] = torque[i] + load.torque;
+        force[i] = force[i] + load.force;
+        torque[i] = torque[i] + load.torque;
     }
     for (const auto& spring : springs) {
         const Spot a = spotOf(poses, spring.a), b = spotOf(poses, spring.b);
@@ -263,10 +270,16 @@ void MechanismMotion::derivative(Real t, const OdeState& y, OdeState& d) const {
         const Real3 v = poses[i].velocity, w = transposed(poses[i].turn, poses[i].spin);
         // R^T w of a changing R: d(R^T w)/dt = R^T w' as w x w = 0.
         const Real3 rate = transposed(poses[i].turn, spin[i]);
-        d[at] = v.x, d[at + 1] = v.y, d[at + 2] = v.z;
+        d[at] = v.x;
+        d[at + 1] = v.y;
+        d[at + 2] = v.z;
         quaternionRate(y, at + 3, w, d);
-        d[at + 7] = a[i].x, d[at + 8] = a[i].y, d[at + 9] = a[i].z;
-        d[at + 10] = rate.x, d[at + 11] = rate.y, d[at + 12] = rate.z;
+        d[at + 7] = a[i].x;
+        d[at + 8] = a[i].y;
+        d[at + 9] = a[i].z;
+        d[at + 10] = rate.x;
+        d[at + 11] = rate.y;
+        d[at + 12] = rate.z;
     }
 }
 

@@ -23,7 +23,8 @@ class MotorPair : public Reference {
         for (const std::string& feature : joint.features())
             require(feature == "motor", "joint '" + joint.name + "' has a " + feature);
         require(joint.axes[0].hasMotor(), "joint '" + joint.name + "' has no motor");
-        a_ = joint.bodyA, b_ = joint.bodyB;
+        a_ = joint.bodyA;
+        b_ = joint.bodyB;
         axis_ = axisOf(scenario, joint);
         for (const int body : {a_, b_}) check(joint, body);
         const Body &a = body(a_), &b = body(b_);

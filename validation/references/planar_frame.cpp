@@ -106,8 +106,15 @@ void PlanarFrame::chooseAxis(const Scenario& scenario) {
         int count = 0;
         for (const auto& corner : cornersOf(scenario, body_)) {
             const double height = plane_.height(corner.point) - corner.radius;
-            if (height < low - 1e-6 * sizeOf(body_)) low = height, foot = {}, count = 0;
-            if (height < low + 1e-6 * sizeOf(body_)) foot += corner.point, ++count;
+            if (height < low - 1e-6 * sizeOf(body_)) {
+                low = height;
+                foot = {};
+                count = 0;
+            }
+            if (height < low + 1e-6 * sizeOf(body_)) {
+                foot += corner.point;
+                ++count;
+            }
         }
         Vec3 g = scenario.gravity;
         for (const auto& force : scenario.forces) {

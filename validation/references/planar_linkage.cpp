@@ -195,7 +195,8 @@ class PlanarLinkage : public Reference {
             m.com[0] = pin[i] + r;
             m.com[1] = pin1[i] + rate[i] * kTurn * r;
             m.com[2] = pin2[i] + bent[i] * kTurn * r - rate[i] * rate[i] * r;
-            m.turn = rate[i], m.bend = bent[i];
+            m.turn = rate[i];
+            m.bend = bent[i];
         }
         return k;
     }

@@ -44,7 +44,8 @@ class QuadraticDragFlight : public Reference {
                                             adapter::Scheme scheme) const override {
         if (!adapter::isEuler(scheme)) return std::nullopt;
         if (steps_.empty() || dt != dt_ || scheme != scheme_) steps_ = {start_};
-        dt_ = dt, scheme_ = scheme;
+        dt_ = dt;
+        scheme_ = scheme;
         while (steps_.size() <= step) {
             OdeState y = steps_.back(), d(6);
             derivative(y, d);

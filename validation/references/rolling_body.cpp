@@ -202,12 +202,18 @@ class RollingBody : public Reference {
             const Real3 speed = rolls_ ? cross(frame.r, frame.w) : Real3{s[10], s[11], s[12]};
             const Push push = pushIn(frame, speed);
             quaternionRate(s, 0, frame.w, d);
-            d[4] = push.spin.x, d[5] = push.spin.y, d[6] = push.spin.z;
+            d[4] = push.spin.x;
+            d[5] = push.spin.y;
+            d[6] = push.spin.z;
             const Real3 world = frame.turn * speed;
-            d[7] = world.x, d[8] = world.y, d[9] = world.z;
+            d[7] = world.x;
+            d[8] = world.y;
+            d[9] = world.z;
             const Real3 rate =
                 rolls_ ? Real3{} : push.force + transposed(frame.turn, gravity_) - cross(frame.w, speed);
-            d[10] = rate.x, d[11] = rate.y, d[12] = rate.z;
+            d[10] = rate.x;
+            d[11] = rate.y;
+            d[12] = rate.z;
         };
         // In pieces, so that it may end where the slip ends.
         const double whole = runEnd(scenario_);

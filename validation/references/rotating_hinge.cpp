@@ -82,7 +82,8 @@ class RotatingHinge : public Reference {
         for (int k = 0; k <= samples; ++k) {
             const double t = scenario_.duration * k / samples;
             const double tilt = tiltOf(toVec3(swung(t, solution_.at(t)[0], arm_)));
-            low = std::min(low, tilt), high = std::max(high, tilt);
+            low = std::min(low, tilt);
+            high = std::max(high, tilt);
         }
         for (const bool most : {true, false}) {
             Quantity q{most ? "tilt_max" : "tilt_min", "rad", most ? high : low, {}, 1.0, {}};

@@ -88,9 +88,11 @@ class SpinningDisc : public Reference {
         Real least = 1e30L;
         for (const Vec3 p : motion_.footing.points) {
             feet_.push_back(motion_.place(p));
-            middle.x += feet_.back().x, middle.y += feet_.back().y;
+            middle.x += feet_.back().x;
+            middle.y += feet_.back().y;
             const Real reach = std::hypot(feet_.back().x, feet_.back().y);
-            radius_ = std::max(radius_, reach), least = std::min(least, reach);
+            radius_ = std::max(radius_, reach);
+            least = std::min(least, reach);
         }
         const auto n = static_cast<Real>(feet_.size());
         require(n >= 3, who + " stands on fewer than three points");
@@ -120,7 +122,10 @@ class SpinningDisc : public Reference {
         if (feet_.empty()) {
             const Real v = std::hypot(y[3], y[4]), rim = std::abs(y[5]) * radius_;
             const Friction f = rim == 0 ? Friction{1, 0} : discFriction(v / rim);
-            if (v > 0) fx = -f.force * y[3] / v, fy = -f.force * y[4] / v;
+            if (v > 0) {
+                fx = -f.force * y[3] / v;
+                fy = -f.force * y[4] / v;
+            }
             torque = y[5] > 0 ? -f.torque * radius_ : (y[5] < 0 ? f.torque * radius_ : 0);
         }
         for (const Foot& foot : feet_) {

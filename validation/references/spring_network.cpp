@@ -78,7 +78,8 @@ class SpringNetwork : public Reference {
                                             adapter::Scheme scheme) const override {
         if (!adapter::isEuler(scheme)) return std::nullopt;
         if (steps_.empty() || dt != dt_ || scheme != scheme_) steps_ = {start_};
-        dt_ = dt, scheme_ = scheme;
+        dt_ = dt;
+        scheme_ = scheme;
         while (steps_.size() <= step) {
             OdeState y = steps_.back(), d(y.size());
             derivative(y, d);
@@ -127,7 +128,9 @@ class SpringNetwork : public Reference {
     const Body& at(std::size_t i) const { return scenario_.bodies[static_cast<std::size_t>(bodies_[i])]; }
     static Real3 get(const OdeState& y, std::size_t i) { return {y[3 * i], y[3 * i + 1], y[3 * i + 2]}; }
     static void put(OdeState& y, std::size_t i, Real3 v) {
-        y[3 * i] = v.x, y[3 * i + 1] = v.y, y[3 * i + 2] = v.z;
+        y[3 * i] = v.x;
+        y[3 * i + 1] = v.y;
+        y[3 * i + 2] = v.z;
     }
 
     PartialState stateIn(const OdeState& y, int body) const {
@@ -203,7 +206,8 @@ class SpringNetwork : public Reference {
         Real low = slopeZero, high = slopeZero;
         while (excess(low) > 0) low /= 2;
         while (excess(high) > 0) high *= 2;
-        low = findRoot(excess, low, slopeZero), high = findRoot(excess, slopeZero, high);
+        low = findRoot(excess, low, slopeZero);
+        high = findRoot(excess, slopeZero, high);
         // r = middle - half cos(s) takes the root singularities out of both ends.
         const Real middle = (low + high) / 2, half = (high - low) / 2;
         const Real time = boost::math::quadrature::gauss_kronrod<Real, 31>::integrate(

@@ -108,7 +108,10 @@ std::vector<std::vector<Vec3>> hullFaces(const std::vector<Vec3>& corners, const
                 std::vector<Vec3> on;
                 Vec3 middle;
                 for (const Vec3 v : corners)
-                    if (dot(u, v) > offset - 1e-9 * size) on.push_back(v), middle += v;
+                    if (dot(u, v) > offset - 1e-9 * size) {
+                        on.push_back(v);
+                        middle += v;
+                    }
                 middle = middle / static_cast<double>(on.size());
                 const Vec3 s = unit(on[0] - middle), t = cross(u, s);
                 std::sort(on.begin(), on.end(), [&](Vec3 a, Vec3 b) {

@@ -171,9 +171,15 @@ Attitude TorqueFreeMotion::asymmetricAt(double t) const {
         x[1] = -l[axisDn_] * l[1];
         Mat3 m;
         const Vec3 ex = unit(toVec(x)), ez = unit(toVec(l)), ey = cross(ez, ex);
-        m(0, 0) = ex.x, m(1, 0) = ex.y, m(2, 0) = ex.z;
-        m(0, 1) = ey.x, m(1, 1) = ey.y, m(2, 1) = ey.z;
-        m(0, 2) = ez.x, m(1, 2) = ez.y, m(2, 2) = ez.z;
+        m(0, 0) = ex.x;
+        m(1, 0) = ex.y;
+        m(2, 0) = ex.z;
+        m(0, 1) = ey.x;
+        m(1, 1) = ey.y;
+        m(2, 1) = ey.z;
+        m(0, 2) = ez.x;
+        m(1, 2) = ez.y;
+        m(2, 2) = ez.z;
         return m;
     };
     const Vec3 rates = principalRates(u);

@@ -71,7 +71,8 @@ class Collector {
     Collector(const Scenario& scenario, std::vector<TouchingPoint>& out) : scenario_(scenario), out_(out) {}
 
     void pair(int a, int b) {
-        a_ = a, b_ = b;
+        a_ = a;
+        b_ = b;
         const Body &one = body(a), &other = body(b);
         size_ = 1e300;
         for (const Body* x : {&one, &other})

@@ -79,7 +79,8 @@ class TripodSlide : public Reference {
         for (std::size_t i = 0; i < 3; ++i) {
             const Real x = -mu_ * loads.normal[i] * loads.slip[i].x,
                        z = -mu_ * loads.normal[i] * loads.slip[i].y;
-            fx += x, fy += z;
+            fx += x;
+            fy += z;
             torque += loads.place[i].x * z - loads.place[i].y * x;
         }
         d = {y[3],

@@ -134,7 +134,9 @@ class WedgeBlock : public Reference {
                 for (const Vec3 v : block)
                     if (dot(n, v) < bottom + near) base.push_back(v);
                 if (face.size() < least || base.size() < least) continue;
-                normal_ = n, face_ = face, base_ = base;
+                normal_ = n;
+                face_ = face;
+                base_ = base;
                 const Vec3 up = plane_.normal;
                 downhill_ = unit(dot(n, up) * n - up);
                 return;

@@ -44,7 +44,10 @@ Jacobi jacobi(Real u, Real m) {
     // Boost 1.74 has dn as a quotient of two cosines that vanish together at u = K.
     f.dn = std::sqrt(f.cn * f.cn + (1 - m) * f.sn * f.sn);
     f.am = std::atan2(f.sn, f.cn) + turns * kPi;
-    if (std::fmod(turns, 2) != 0) f.sn = -f.sn, f.cn = -f.cn;
+    if (std::fmod(turns, 2) != 0) {
+        f.sn = -f.sn;
+        f.cn = -f.cn;
+    }
     return f;
 }
 

@@ -73,8 +73,12 @@ Vec3 stepped(const Hit& h, const std::string& law) {
         if (std::abs(hold) <= h.mu) t = hold;
         const double before = gap();
         u += t * dp, v += dp, w += (h.rx - h.ry * t) * dp / h.inertia;
-        p += dp, work += 0.5 * (before + gap()) * dp;
-        if (gap() < 0) least = work, atRest = p;
+        p += dp;
+        work += 0.5 * (before + gap()) * dp;
+        if (gap() < 0) {
+            least = work;
+            atRest = p;
+        }
         if (law == "impact_newton" && gap() >= -h.e * start) break;
         if (law == "impact_poisson" && gap() > 0 && p >= (1 + h.e) * atRest) break;
         if (law == "impact_stronge" && gap() > 0 && work >= least * (1 - h.e * h.e)) break;
@@ -200,7 +204,8 @@ TEST(PushedBlock, SchemeValuesAreSteps) {
     Vec3 x = s.bodies[1].pose.position, v{};
     for (int k = 0; k < 50; ++k) v += 0.01 * a, x += 0.01 * v;
     EXPECT_LT(norm(*r->schemeExact(1, 50, 0.01, adapter::Scheme::SymplecticEuler)->position - x), 1e-14);
-    x = s.bodies[1].pose.position, v = {};
+    x = s.bodies[1].pose.position;
+    v = {};
     for (int k = 0; k < 50; ++k) x += 0.01 * v, v += 0.01 * a;
     EXPECT_LT(norm(*r->schemeExact(1, 50, 0.01, adapter::Scheme::ExplicitEuler)->position - x), 1e-14);
     EXPECT_FALSE(r->schemeExact(1, 1, 0.01, adapter::Scheme::RungeKutta4).has_value());

@@ -101,9 +101,14 @@ TEST(HandValues, ARopeBesideTheOriginIsAsLongAsItsAnchorsAreApart) {
     Scenario s = emptyScene(3, {0, -10, 0}, 2);
     addBall(s, "body", 0.1, 2, 0.4, {3, 1.5, -1});
     Joint j;
-    j.name = "rope", j.type = JointType::Distance, j.bodyB = 0;
-    j.anchorA = {3, 2, -1}, j.length = 0.5;
-    j.axes[0].mode = AxisMode::Limited, j.axes[0].lower = 0, j.axes[0].upper = 1.3;
+    j.name = "rope";
+    j.type = JointType::Distance;
+    j.bodyB = 0;
+    j.anchorA = {3, 2, -1};
+    j.length = 0.5;
+    j.axes[0].mode = AxisMode::Limited;
+    j.axes[0].lower = 0;
+    j.axes[0].upper = 1.3;
     s.joints = {j};
     setReference(s, "joint_coordinate");
     const auto state = makeReference(s)->exact(0, 0.5);  // taut after 0.4 s
@@ -136,7 +141,10 @@ TEST(HandValues, AStanceReachesAsFarAsItsNearerEnd) {
 TEST(HandValues, FacesEndWhereTheirShapesDo) {
     Scenario s = emptyScene(3, {}, 1);
     HeightField field;
-    field.columns = 5, field.rows = 3, field.spacingX = 0.5, field.spacingZ = 2;
+    field.columns = 5;
+    field.rows = 3;
+    field.spacingX = 0.5;
+    field.spacingZ = 2;
     field.heights.assign(15, 0.25);
     addBody(s, "field", BodyType::Static, field, {10, 0, 0});
     const Plane top = planeOf(s, 0, {10, 3, 0});
@@ -183,7 +191,9 @@ TEST(HandValues, WhatRestsHasSomethingUnderItAndAPendulumOneJoint) {
     Scenario s = emptyScene(3, {0, -10, 0}, 1);
     addBox(s, "bob", {0.1, 0.1, 0.1}, 1, {1, 0, 0});
     Joint hinge;
-    hinge.name = "hinge", hinge.type = JointType::Hinge, hinge.bodyB = 0;
+    hinge.name = "hinge";
+    hinge.type = JointType::Hinge;
+    hinge.bodyB = 0;
     hinge.anchorB = {-1, 0, 0};
     s.joints = {hinge};
     setReference(s, "physical_pendulum", {{"joint", std::string("hinge")}});
@@ -234,8 +244,12 @@ TEST(HandValues, AMotorThatBrakesIsMeasuredLikeOneThatDrives) {
         s.bodies[0].massProperties.inertia = Mat3::diagonal(2, 2, 2);
         s.bodies[1].massProperties.inertia = Mat3::diagonal(1, 1, 1);
         Joint hinge;
-        hinge.name = "hinge", hinge.type = JointType::Hinge, hinge.bodyA = 0, hinge.bodyB = 1;
-        hinge.axes[0].motorSpeed = speed, hinge.axes[0].motorMaxForce = 3;
+        hinge.name = "hinge";
+        hinge.type = JointType::Hinge;
+        hinge.bodyA = 0;
+        hinge.bodyB = 1;
+        hinge.axes[0].motorSpeed = speed;
+        hinge.axes[0].motorMaxForce = 3;
         s.joints = {hinge};
         setReference(s, "motor_pair");
         const auto quantities = makeReference(s)->quantities(0.01, Scheme::Unknown);
@@ -278,7 +292,9 @@ Scenario hung(Vec3 bob) {
     Scenario s = emptyScene(3, {0, -10, 0}, 20);
     addBox(s, "bob", {0.1, 0.1, 0.1}, 1, bob);
     Joint hinge;
-    hinge.name = "hinge", hinge.type = JointType::Hinge, hinge.bodyB = 0;
+    hinge.name = "hinge";
+    hinge.type = JointType::Hinge;
+    hinge.bodyB = 0;
     hinge.anchorB = -bob;
     s.joints = {hinge};
     setReference(s, "physical_pendulum");
@@ -313,7 +329,11 @@ TEST(HandValues, AShortRodBesideTheOriginKeepsItsEnergy) {
     const Vec3 pivot{3, 2, -1};
     addBall(s, "bob", 0.05, 2, 0.4, pivot + Vec3{0.24, -0.32, 0}, {0, 0, 1.5});
     Joint rod;
-    rod.name = "rod", rod.type = JointType::Distance, rod.bodyB = 0, rod.anchorA = pivot, rod.length = 0.4;
+    rod.name = "rod";
+    rod.type = JointType::Distance;
+    rod.bodyB = 0;
+    rod.anchorA = pivot;
+    rod.length = 0.4;
     s.joints = {rod};
     setReference(s, "rod_pendulum");
     const auto reference = makeReference(s);

@@ -48,8 +48,14 @@ std::pair<double, double> integrated(const Drive& d, double end) {
         const double most = h / d.inertia * d.force;
         v += std::clamp(d.speed - v, -most, most);
         q += h * v;
-        if (q < d.lower) q = d.lower, v = std::max(v, 0.0);
-        if (q > d.upper) q = d.upper, v = std::min(v, 0.0);
+        if (q < d.lower) {
+            q = d.lower;
+            v = std::max(v, 0.0);
+        }
+        if (q > d.upper) {
+            q = d.upper;
+            v = std::min(v, 0.0);
+        }
     }
     return {q, v};
 }
@@ -83,9 +89,16 @@ Scenario driven(const Drive& d, JointType type, int dimension) {
     Joint& j = addJoint(s, type, kNone, b, body.pose.position, axis);
     JointAxis& a = j.axes[0];
     a.mode = AxisMode::Free;
-    if (d.upper < kFar) a.mode = AxisMode::Limited, a.lower = d.lower, a.upper = d.upper;
-    a.stiffness = d.k, a.damping = d.c, a.target = d.target;
-    a.motorSpeed = d.speed, a.motorMaxForce = d.force;
+    if (d.upper < kFar) {
+        a.mode = AxisMode::Limited;
+        a.lower = d.lower;
+        a.upper = d.upper;
+    }
+    a.stiffness = d.k;
+    a.damping = d.c;
+    a.target = d.target;
+    a.motorSpeed = d.speed;
+    a.motorMaxForce = d.force;
     s.reference = {"joint_coordinate", {}};
     return s;
 }
@@ -132,13 +145,16 @@ TEST(JointCoordinate, CatalogueOscillatorAndFrequencies) {
     // The same by frequency and damping ratio: w = 10, zeta = c / (2 m w).
     JointAxis& a = s.joints[0].axes[0];
     a.stiffness = a.damping = 0;
-    a.frequency = 10 / (2 * pi), a.dampingRatio = 0.1;
+    a.frequency = 10 / (2 * pi);
+    a.dampingRatio = 0.1;
     EXPECT_NEAR(along(1.0), 0.1311451499, 1e-10);
     // A body of moment 0.1 with its centre 0.5 beside a vertical hinge: J = 0.1 + 2 0.25.
     Scenario h = emptyScene(3, {0, 0, -9.81}, 1);
     const int b = addBall(h, "body", 0.1, 2, 5, {0.5, 0, 0});
     Joint& j = addJoint(h, JointType::Hinge, kNone, b, {});
-    j.axes[0].mode = AxisMode::Free, j.axes[0].stiffness = 15, j.axes[0].target = 0.2;
+    j.axes[0].mode = AxisMode::Free;
+    j.axes[0].stiffness = 15;
+    j.axes[0].target = 0.2;
     h.reference = {"joint_coordinate", {}};
     const double J = 0.1 + 0.5, w = std::sqrt(15 / J);
     EXPECT_NEAR(turnAboutZ(*makeReference(h)->exact(0, 0.7).orientation), 0.2 * (1 - std::cos(w * 0.7)),
@@ -149,8 +165,11 @@ TEST(JointCoordinate, ARopeFallsTautAndARodIsRefused) {
     Scenario s = emptyScene(3, {0, -10, 0}, 2);
     const int b = addBall(s, "body", 0.1, 2, 0.4, {0, -0.5, 0});
     Joint& j = addJoint(s, JointType::Distance, kNone, b, {});
-    j.anchorB = {}, j.length = 0.5;
-    j.axes[0].mode = AxisMode::Limited, j.axes[0].lower = 0, j.axes[0].upper = 1.3;
+    j.anchorB = {};
+    j.length = 0.5;
+    j.axes[0].mode = AxisMode::Limited;
+    j.axes[0].lower = 0;
+    j.axes[0].upper = 1.3;
     s.reference = {"joint_coordinate", {}};
     const auto reference = makeReference(s);
     EXPECT_NEAR(reference->exact(0, 0.2).position->y, -0.5 - 0.5 * 10 * 0.04, 1e-13);
@@ -177,7 +196,8 @@ TEST(JointCoordinate, Refusals) {
     EXPECT_THROW(makeReference(breaks), AssumptionViolated);
     Scenario outside = driven(plain, JointType::Slider, 3);
     outside.joints[0].axes[0].mode = AxisMode::Limited;
-    outside.joints[0].axes[0].lower = 0.1, outside.joints[0].axes[0].upper = 1;
+    outside.joints[0].axes[0].lower = 0.1;
+    outside.joints[0].axes[0].upper = 1;
     EXPECT_THROW(makeReference(outside), AssumptionViolated);
 }
 
@@ -186,8 +206,13 @@ Scenario onRod(double theta, Vec3 velocity, bool rope) {
     Scenario s = emptyScene(3, {0, 0, -9.81}, 2);
     const int b = addBall(s, "bob", 0.1, 2, 0.4, {std::sin(theta), 0, -std::cos(theta)}, velocity);
     Joint& j = addJoint(s, JointType::Distance, kNone, b, {});
-    j.anchorB = {}, j.length = 1;
-    if (rope) j.axes[0].mode = AxisMode::Limited, j.axes[0].lower = 0, j.axes[0].upper = 1;
+    j.anchorB = {};
+    j.length = 1;
+    if (rope) {
+        j.axes[0].mode = AxisMode::Limited;
+        j.axes[0].lower = 0;
+        j.axes[0].upper = 1;
+    }
     s.reference = {"rod_pendulum", {}};
     return s;
 }
@@ -231,7 +256,8 @@ TEST(PhysicalPendulum, RestsAtAStopOfItsHingeOrCone) {
         Joint& j = addJoint(s, type, kNone, b, {}, hinge ? Vec3{0, 0, 1} : Vec3{1, 0, 0});
         JointAxis& axis = j.axes[type == JointType::ConeTwist ? 1 : 0];
         axis.mode = AxisMode::Limited;
-        axis.lower = hinge ? -0.7 : -1e300, axis.upper = 0.7;
+        axis.lower = hinge ? -0.7 : -1e300;
+        axis.upper = 0.7;
         s.reference = unlimited.reference = {"physical_pendulum", {}};
         addJoint(unlimited, JointType::Hinge, kNone, b, {});
         const auto stopped = makeReference(s), swinging = makeReference(unlimited);
@@ -250,7 +276,9 @@ TEST(PhysicalPendulum, RestsAtAStopOfItsHingeOrCone) {
     Scenario s = emptyScene(2, {0, -9.81, 0}, 2);
     const int b = addRod(s, "rod", {}, {1, 0, 0}, 2);
     Joint& j = addJoint(s, JointType::Hinge, b, kNone, {});  // B is the world: the angle has the other sign
-    j.axes[0].mode = AxisMode::Limited, j.axes[0].lower = -0.5, j.axes[0].upper = 2.0;
+    j.axes[0].mode = AxisMode::Limited;
+    j.axes[0].lower = -0.5;
+    j.axes[0].upper = 2.0;
     s.reference = {"physical_pendulum", {}};
     const auto reference = makeReference(s);
     ASSERT_LT(reference->validUntil(), 1.0);
@@ -348,7 +376,8 @@ TEST(PlanarLinkage, DrivenByAMotorFromRestAndAtItsSpeed) {
         Scenario s = slider ? sliderCrank(1.0) : fourBar(1.0);
         JointAxis& motor = s.joints[0].axes[0];
         motor.mode = AxisMode::Free;
-        motor.motorSpeed = -3, motor.motorMaxForce = 300;
+        motor.motorSpeed = -3;
+        motor.motorMaxForce = 300;
         const auto reference = makeReference(s);
         const double turn = crankAngle(*reference, 0.0);
         bool reached = false;
@@ -374,7 +403,8 @@ TEST(PlanarLinkage, CatalogueKinematicsOfASteadyCrank) {
     Scenario s = fourBar(1.0);
     const auto steady = [](Scenario& scene, double w) {
         scene.joints[0].axes[0].mode = AxisMode::Free;
-        scene.joints[0].axes[0].motorSpeed = w, scene.joints[0].axes[0].motorMaxForce = 1e9;
+        scene.joints[0].axes[0].motorSpeed = w;
+        scene.joints[0].axes[0].motorMaxForce = 1e9;
     };
     steady(s, 1);
     const auto bar = makeReference(s);
@@ -399,7 +429,8 @@ TEST(PlanarLinkage, Refusals) {
     EXPECT_THROW(makeReference(velocity), AssumptionViolated);
     Scenario weak = fourBar(1.0);
     weak.joints[0].axes[0].mode = AxisMode::Free;
-    weak.joints[0].axes[0].motorSpeed = 5, weak.joints[0].axes[0].motorMaxForce = 30;
+    weak.joints[0].axes[0].motorSpeed = 5;
+    weak.joints[0].axes[0].motorMaxForce = 30;
     EXPECT_THROW(makeReference(weak), AssumptionViolated) << "it gets there and can not hold it";
     Scenario open = fourBar(1.0);
     open.joints.pop_back();
@@ -429,7 +460,8 @@ TEST(BreakingJoint, HoldsBreaksAndFalls) {
     s.joints[0].breakForce = 27;
     EXPECT_EQ(*makeReference(s)->exact(b, 2.0).position, (Vec3{1, 3, 0}));
     // The same load on an arm of 0.5 m: 13 N m.
-    s.joints[0].anchorA.x += 0.5, s.joints[0].anchorB.x += 0.5;
+    s.joints[0].anchorA.x += 0.5;
+    s.joints[0].anchorB.x += 0.5;
     s.joints[0].breakTorque = 12.5;
     EXPECT_NEAR(makeReference(s)->exact(b, 0.7).position->y, 3 - 0.5 * 13 * 0.04, 1e-14);
     s.joints[0].type = JointType::Hinge;

@@ -99,7 +99,8 @@ TEST(Kinematics, OfFlightsAndSprings) {
     Scenario drag = emptyScene(3, {0, -10, 0}, 2);
     addBox(drag, "box", {0.1, 0.1, 0.1}, 2, {}, {1, 2, 3});
     drag.bodies[0].angularVelocity = {2, -1, 3};
-    drag.bodies[0].linearVelocityKept = 0.7, drag.bodies[0].angularVelocityKept = 0.4;
+    drag.bodies[0].linearVelocityKept = 0.7;
+    drag.bodies[0].angularVelocityKept = 0.4;
     drag.forces.push_back(DragForce{0, 1.5});
     setReference(drag, "linear_drag");
     expectMoves(drag, {0.3, 1.5});
@@ -124,7 +125,10 @@ TEST(Kinematics, OfAConicalPendulum) {
     const Vec3 arm{length * std::sin(tilt), -length * std::cos(tilt), 0};
     addBall(s, "bob", 1e-3, 2, 0.4, arm, cross({0, rate, 0}, arm), {0, rate, 0});
     Joint ball;
-    ball.name = "pivot", ball.type = JointType::Ball, ball.bodyB = 0, ball.anchorB = -arm;
+    ball.name = "pivot";
+    ball.type = JointType::Ball;
+    ball.bodyB = 0;
+    ball.anchorB = -arm;
     s.joints = {ball};
     setReference(s, "spherical_pendulum");
     expectMoves(s, {0.2, 1.1});

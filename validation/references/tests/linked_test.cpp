@@ -82,7 +82,8 @@ TEST(SpringNetwork, ForcesFollowFromTheMotionOfANetWithDampers) {
         const auto a = r->exact(0, t), b = r->exact(1, t);
         onA = onA - pull({0, 0.2, 0}, {}, *a.position, *a.velocity, 60, 1.5, 0.8);
         const Vec3 between = pull(*a.position, *a.velocity, *b.position, *b.velocity, 40, 0.7, 1.1);
-        onA += between, onB = onB - between;
+        onA += between;
+        onB = onB - between;
         expectNear(wrenchOn(s, *r, 0, t).force, onA, 1e-7);
         expectNear(wrenchOn(s, *r, 1, t).force, onB, 1e-7);
         expectConsistent(s, *r, 0, t, 1e-9);

@@ -182,7 +182,8 @@ TEST(RotatingHinge, ASkewHingeOnAShaftElsewhereGivesNoTorqueAboutItsAxis) {
         const double t = s.duration * k / 4000;
         const Vec3 arm = centerAt(s, *r, 1, t) - pointAt(*r, 1, t, s.joints[0].anchorB);
         const double tilt = std::acos(dot(unit(arm), unit(s.gravity)));
-        low = std::min(low, tilt), high = std::max(high, tilt);
+        low = std::min(low, tilt);
+        high = std::max(high, tilt);
     }
     const auto all = r->quantities(0.01, adapter::Scheme::Unknown);
     const Trajectory run = exactRun(s, *r, 0.0005, 4000);
@@ -203,7 +204,8 @@ TEST(SphericalPendulum, TheExtremesOfItsTiltAreMeasured) {
         const double t = s.duration * k / 6000;
         const Vec3 arm = centerAt(s, *r, 0, t) - pointAt(*r, 0, t, s.joints[0].anchorB);
         const double tilt = std::acos(dot(unit(arm), -1.0 * unit(s.gravity)));
-        low = std::min(low, tilt), high = std::max(high, tilt);
+        low = std::min(low, tilt);
+        high = std::max(high, tilt);
     }
     const auto all = r->quantities(0.01, adapter::Scheme::Unknown);
     const Trajectory run = exactRun(s, *r, s.duration / 6000, 6000);
@@ -241,7 +243,8 @@ TEST(PlanarLinkage, AMotorGivesItsTorqueUntilItsSpeedAndHoldsItThen) {
             ASSERT_NE(drive, nullptr);
             for (auto& body : s.bodies) body.velocity = body.angularVelocity = {};
             const double most = turned ? 60 : 45, speed = (turned ? -1.5 : 2.0);
-            drive->axes[0].motorMaxForce = most, drive->axes[0].motorSpeed = speed;
+            drive->axes[0].motorMaxForce = most;
+            drive->axes[0].motorSpeed = speed;
             const auto r = makeReference(s);
             const double sense = drive->bodyB == crank ? 1 : -1;
             const Vec3 axis{0, 0, 1};

@@ -128,7 +128,8 @@ TEST(Mechanism, SpringsDampersAndLoadsAreThoseOfTheScenario) {
         const double a2 = slope(t, angle + h / 2 * rate, u2), u3 = rate + h / 2 * a2;
         const double a3 = slope(t, angle + h / 2 * u2, u3), u4 = rate + h * a3;
         const double a4 = slope(t, angle + h * u3, u4);
-        angle += h / 6 * (rate + 2 * u2 + 2 * u3 + u4), rate += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+        angle += h / 6 * (rate + 2 * u2 + 2 * u3 + u4);
+        rate += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
     }
     EXPECT_NEAR(r->exact(0, 1).angularVelocity->z, rate, 1e-4);
     EXPECT_NEAR(std::remainder(angleAboutZ(*r->exact(0, 1).orientation) - angle, 2 * pi), 0.0, 1e-5);

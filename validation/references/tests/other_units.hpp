@@ -36,22 +36,27 @@ inline void scaleShape(scenario::Geometry& geometry, double l) {
             } else if constexpr (std::is_same_v<G, scenario::HalfSpace>) {
                 g.offset *= l;
             } else if constexpr (std::is_same_v<G, scenario::Segment>) {
-                g.a = l * g.a, g.b = l * g.b;
+                g.a = l * g.a;
+                g.b = l * g.b;
             } else if constexpr (std::is_same_v<G, scenario::HeightField>) {
-                g.spacingX *= l, g.spacingZ *= l, g.thickness *= l;
+                g.spacingX *= l;
+                g.spacingZ *= l;
+                g.thickness *= l;
                 for (double& h : g.heights) h *= l;
             } else if constexpr (std::is_same_v<G, scenario::ConvexHull> ||
                                  std::is_same_v<G, scenario::Chain> ||
                                  std::is_same_v<G, scenario::TriangleMesh>) {
                 for (Vec3& v : g.vertices) v = l * v;
             } else {
-                g.radius *= l, g.halfLength *= l;
+                g.radius *= l;
+                g.halfLength *= l;
             }
         },
         geometry);
 }
 inline void scaleJoint(scenario::Joint& joint, int dimension, const Units& u) {
-    joint.anchorA = u.length * joint.anchorA, joint.anchorB = u.length * joint.anchorB;
+    joint.anchorA = u.length * joint.anchorA;
+    joint.anchorB = u.length * joint.anchorB;
     joint.length *= u.length;
     joint.breakForce = scaledUnlessEndless(joint.breakForce, u.force());
     joint.breakTorque = scaledUnlessEndless(joint.breakTorque, u.force() * u.length);
@@ -62,23 +67,32 @@ inline void scaleJoint(scenario::Joint& joint, int dimension, const Units& u) {
         const bool isLength = coordinate == "travel" || coordinate == "length" || coordinate.size() == 1;
         const double unit = isLength ? u.length : 1.0, load = u.force() * (isLength ? 1.0 : u.length);
         scenario::JointAxis& axis = joint.axes[k];
-        axis.lower = scaledUnlessEndless(axis.lower, unit),
+        axis.lower = scaledUnlessEndless(axis.lower, unit);
+
         axis.upper = scaledUnlessEndless(axis.upper, unit);
-        axis.motorSpeed *= unit / u.time, axis.motorMaxForce *= load;
-        axis.target *= unit, axis.frequency /= u.time;
-        axis.stiffness *= load / unit, axis.damping *= load * u.time / unit;
+        axis.motorSpeed *= unit / u.time;
+        axis.motorMaxForce *= load;
+        axis.target *= unit;
+        axis.frequency /= u.time;
+        axis.stiffness *= load / unit;
+        axis.damping *= load * u.time / unit;
     }
 }
 inline void scaleForce(scenario::Force& force, const Units& u) {
     if (auto* f = std::get_if<scenario::ConstantForce>(&force)) {
-        f->force = u.force() * f->force, f->torque = (u.force() * u.length) * f->torque;
-        f->start *= u.time, f->end = scaledUnlessEndless(f->end, u.time);
+        f->force = u.force() * f->force;
+        f->torque = (u.force() * u.length) * f->torque;
+        f->start *= u.time;
+        f->end = scaledUnlessEndless(f->end, u.time);
     } else if (auto* spring = std::get_if<scenario::SpringForce>(&force)) {
-        spring->anchorA = u.length * spring->anchorA, spring->anchorB = u.length * spring->anchorB;
+        spring->anchorA = u.length * spring->anchorA;
+        spring->anchorB = u.length * spring->anchorB;
         spring->restLength *= u.length;
-        spring->stiffness *= u.force() / u.length, spring->damping *= u.mass / u.time;
+        spring->stiffness *= u.force() / u.length;
+        spring->damping *= u.mass / u.time;
     } else if (auto* drag = std::get_if<scenario::DragForce>(&force)) {
-        drag->coefficient *= u.mass / u.time, drag->quadratic *= u.mass / u.length;
+        drag->coefficient *= u.mass / u.time;
+        drag->quadratic *= u.mass / u.length;
     }
 }
 /// The same scene in other units; false for one that is damped, whose factor per second has no exact power.
@@ -103,7 +117,8 @@ inline bool inUnits(Scenario& s, const Units& u) {
     for (auto& joint : s.joints) scaleJoint(joint, s.dimension, u);
     for (auto& force : s.forces) scaleForce(force, u);
     for (auto& event : s.events) {
-        event.time *= u.time, event.impulse = (u.mass * u.speed()) * event.impulse;
+        event.time *= u.time;
+        event.impulse = (u.mass * u.speed()) * event.impulse;
         event.angularImpulse = (u.mass * u.speed() * u.length) * event.angularImpulse;
     }
     return true;

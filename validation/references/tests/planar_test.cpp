@@ -211,7 +211,10 @@ TEST(PlanarContact, ImpulsesActAtTheCornerWithRestitutionAndCoulomb) {
     for (const double x : {-0.5, 0.5})
         for (const double y : {-0.1, 0.1}) {
             const Vec3 p = pointAt(*r, 1, t, {x, y, 0});
-            if (p.y < low) low = p.y, corner = p;
+            if (p.y < low) {
+                low = p.y;
+                corner = p;
+            }
         }
     EXPECT_NEAR(low, 0.0, 1e-9);
     const Vec3 arm = corner - *a.position;

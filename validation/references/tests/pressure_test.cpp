@@ -131,7 +131,8 @@ TEST(SpinningDisc, FeetShareTheWeight) {
         Vec3 p = rotate(*e.orientation, shape.pose.position);
         p.y = 0;
         const Vec3 f = (-0.4 * 1.5 * 9.81 / 12) * unit(*e.velocity + cross(*e.angularVelocity, p));
-        force += f, torque += cross(p, f).y;
+        force += f;
+        torque += cross(p, f).y;
     }
     EXPECT_NEAR(w.force.x, force.x, 1e-7);
     EXPECT_NEAR(w.force.z, force.z, 1e-7);
@@ -316,7 +317,8 @@ Scenario chain(int dimension, const std::vector<double>& length, const std::vect
                  points[i]);
     }
     addJoint(s, JointType::Ball, static_cast<int>(length.size()) - 1, kNone, points.back());
-    s.joints.back().bodyA = kNone, s.joints.back().bodyB = static_cast<int>(length.size()) - 1;
+    s.joints.back().bodyA = kNone;
+    s.joints.back().bodyB = static_cast<int>(length.size()) - 1;
     s.joints.back().anchorA = points.back();
     s.joints.back().anchorB = inverse(s.bodies.back().pose) * points.back();
     setReference(s, "hanging_chain");

@@ -36,8 +36,10 @@ class Change {
         if (picks(2)) forEachMass(s, 3, true);
         if (picks(3)) {
             const double factor = chance(0.3) ? 0.0 : decades(2), turn = chance(0.7) ? factor : decades(2);
-            for (auto& b : s.bodies)
-                b.velocity = factor * b.velocity, b.angularVelocity = turn * b.angularVelocity;
+            for (auto& b : s.bodies) {
+                b.velocity = factor * b.velocity;
+                b.angularVelocity = turn * b.angularVelocity;
+            }
         }
         if (picks(4)) s.gravity = (chance(0.2) ? 0.0 : decades(2)) * s.gravity;
         if (picks(5)) s.duration *= decades(1.5);
@@ -50,8 +52,10 @@ class Change {
             const double length = decades(3), time = chance(0.5) ? std::sqrt(length) : 1.0;
             const Vec3 gravity = s.gravity;
             Scenario other = s;
-            if (inUnits(other, {length, time, chance(0.5) ? length * length * length : 1.0}))
-                s = other, s.gravity = gravity;
+            if (inUnits(other, {length, time, chance(0.5) ? length * length * length : 1.0})) {
+                s = other;
+                s.gravity = gravity;
+            }
         }
         if (picks(8)) {
             const Quat tilt =

@@ -38,7 +38,8 @@ inline Joint& addJoint(Scenario& s, JointType type, int a, int b, Vec3 anchor, V
     Joint j;
     j.name = "joint" + std::to_string(s.joints.size());
     j.type = type;
-    j.bodyA = a, j.bodyB = b;
+    j.bodyA = a;
+    j.bodyB = b;
     const auto pose = [&](int body) {
         return body == kNone ? Pose{} : s.bodies[static_cast<std::size_t>(body)].pose;
     };

@@ -17,7 +17,8 @@ using adapter::Scheme;
 /// A block or a ball of moment 2/5 m r^2 on a slope that rises towards +x by `slope`.
 Scenario onSlope(double slope, double sliding, double holding, bool isBall) {
     Scenario s = emptyScene(3, {0, -9.81, 0}, 2);
-    s.materials[0].friction = sliding, s.materials[0].staticFriction = holding;
+    s.materials[0].friction = sliding;
+    s.materials[0].staticFriction = holding;
     const double angle = std::atan(slope);
     const Vec3 n{-std::sin(angle), std::cos(angle), 0};
     addFloor(s, n);
@@ -94,7 +95,8 @@ TEST(StaticFriction, AnImpactThatOnlyStaticFrictionWouldStickIsRefused) {
     addBall(s, "ball", 0.1, 1, 0.4, {0, 0.5, 0}, {2, -1, 0});
     setReference(s, "sphere_plane_impact");
     const auto after = [&](double sliding, double holding) {
-        s.materials[0].friction = sliding, s.materials[0].staticFriction = holding;
+        s.materials[0].friction = sliding;
+        s.materials[0].staticFriction = holding;
         return makeReference(s)->exact(1, 0.9).velocity->x;
     };
     EXPECT_NEAR(after(0.3, 0.5), 2.0 - 0.3, 1e-14) << "slips by both";
@@ -105,7 +107,8 @@ TEST(StaticFriction, AnImpactThatOnlyStaticFrictionWouldStickIsRefused) {
 // ------------------------------------------------------------------------------------------- ball_off_ball
 Scenario ballOnBall(double sliding, double holding, double angle, double speed, double spin) {
     Scenario s = emptyScene(3, {0, -9.81, 0}, 1.2);
-    s.materials[0].friction = sliding, s.materials[0].staticFriction = holding;
+    s.materials[0].friction = sliding;
+    s.materials[0].staticFriction = holding;
     addBody(s, "base", BodyType::Static, Sphere{1}, {});
     addBall(s, "ball", 0.1, 1, 0.4, {1.1 * std::sin(angle), 1.1 * std::cos(angle), 0},
             {speed * std::cos(angle), -speed * std::sin(angle), 0}, {0, 0, -spin});

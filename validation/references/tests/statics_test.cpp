@@ -174,7 +174,8 @@ TEST(StaticEquilibrium, LadderAndAFrame) {
         s.pairs = {{0, 1, mu, 0, 0}, {0, 2, 0.2, 0, 0}};
         addFloor(s);
         addBody(s, "wall", BodyType::Static, HalfSpace{{1, 0, 0}, 0.0}, {});
-        s.bodies[0].shapes[0].material = 1, s.bodies[1].shapes[0].material = 2;
+        s.bodies[0].shapes[0].material = 1;
+        s.bodies[1].shapes[0].material = 2;
         // Foot at (L cos, 0), top at (0, L sin); load at the fraction q from the foot.
         const double l = 4, angle = 1.1, q = (5 + 70 * 0.8) / 80;
         const Vec3 foot{l * std::cos(angle), 0, 0}, top{0, l * std::sin(angle), 0};

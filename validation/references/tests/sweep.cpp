@@ -196,7 +196,8 @@ std::string checkEnergy(const Scenario& s, const Reference& r, double end) {
         const auto e = energyAt(s, r, end * k / 40);
         if (!e) return "";
         energy.push_back(*e);
-        least = std::min(least, *e), most = std::max(most, *e);
+        least = std::min(least, *e);
+        most = std::max(most, *e);
     }
     // Beside what the bodies hold: falls and drops that are long compared to the scene count as well.
     const double tolerance = 1e-7 * (weight + std::abs(least) + std::abs(most));
@@ -341,7 +342,8 @@ void sweep(const Scenario& s, const Options& options, int place, Counts& all) {
         longest = std::max(longest, judged.seconds);
         ++all.checked;
         if (judged.text.rfind("refused: ", 0) == 0) {
-            ++refused, ++reasons[judged.text.substr(9)];
+            ++refused;
+            ++reasons[judged.text.substr(9)];
             if (options.verbose) std::printf("%s set %d: %s\n", s.name.c_str(), set, judged.text.c_str());
         } else if (!judged.text.empty()) {
             ++(judged.text == "hangs" ? all.late : all.failed);

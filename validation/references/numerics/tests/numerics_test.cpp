@@ -204,7 +204,9 @@ TEST(LinearSystem, SolvesInAnyUnitsAndTellsSingularMatrices) {
         EXPECT_NEAR(static_cast<double>((*x)[i] / inverseOfLast[i]), 1.0, 1e-11) << i;
     Matrix scaled = hilbert;
     Vector right = last;
-    scaled.row(2) *= 1e-30L, scaled.row(5) *= 1e30L, right[5] *= 1e30L;
+    scaled.row(2) *= 1e-30L;
+    scaled.row(5) *= 1e30L;
+    right[5] *= 1e30L;
     const auto same = solveDense(scaled, right);
     ASSERT_TRUE(same.has_value());
     for (int i = 0; i < kOrder; ++i)
