@@ -130,7 +130,9 @@ bool isTheSameInBlocks(WorldDef<S> def) {
     };
     const auto usual = end(def.solver);
     for (const auto& solver : solverTable<S>())
-        if (solver.make()->patches() != nullptr && (end(solver.name) - usual).norm() > 1e-9) return false;
+        if (solverTraits(solver.name).contacts == ContactForm::Patches &&
+            (end(solver.name) - usual).norm() > 1e-9)
+            return false;
     return true;
 }
 
