@@ -10,6 +10,7 @@
 
 #include "validation/metrics/metric_parts.hpp"
 #include "validation/symmetry/transforms.hpp"
+#include "validation/table.hpp"
 
 namespace rigor::validation {
 namespace {
@@ -57,7 +58,6 @@ const std::vector<SymmetryEntry>& symmetryTable() {
 #define SYMMETRY(name, title, rerun, formula, obstacle, apply) \
     {#name, title, Rerun::rerun, formula, &obstacle, &apply},
 #include "validation/symmetry/symmetries.def"
-#include "validation/table.hpp"
 #undef SYMMETRY
     };
     return table;
