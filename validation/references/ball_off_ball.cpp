@@ -25,7 +25,7 @@ using numerics::DenseSolution;
 using numerics::OdeState;
 using numerics::Real;
 
-constexpr std::size_t kMostPhases = 5000;  // pieces of a natural time at most
+constexpr std::size_t kMostPieces = 5000;  // pieces of a natural time at most
 
 class BallOffBall : public Reference {
   public:
@@ -161,7 +161,7 @@ class BallOffBall : public Reference {
             phases_.push_back(phase);
             y = phase.solution.at(phase.end);
             stops = phase.end > t ? 0 : stops + 1;
-            require(phases_.size() < kMostPhases, "the ball stays on for too long beside its natural time");
+            require(phases_.size() < kMostPieces, "the ball stays on for too long beside its natural time");
             require(stops < 4, "rolling and slipping alternate at one instant: the laws leave it open");
             t = phase.end;
             if (lost && *lost <= phase.end) {

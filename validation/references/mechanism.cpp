@@ -25,8 +25,8 @@ using scenario::JointType;
 using scenario::kNone;
 using Equation = MechanismMotion::Equation;
 
-constexpr Real kApart = 1e-8L;                          // beside the size: a part that is lost
-constexpr std::size_t kMostOperations = 2'500'000'000;  // 2.5 s
+constexpr Real kJointsApart = 1e-8L;                         // beside the size: a part that is lost
+constexpr std::size_t kMechanismOperations = 2'500'000'000;  // 2.5 s
 
 class Mechanism : public Reference {
   public:
@@ -202,12 +202,13 @@ class Mechanism : public Reference {
             }
         OdeLimits limits;
         limits.companion = 1e-10L;
-        limits.evaluations = kMostOperations / motion_.operations();
+        limits.evaluations = kMechanismOperations / motion_.operations();
         limits.agrees = [&](const OdeState& y, const OdeState& companion) {
             for (std::size_t i = 0; i < y.size(); ++i)
-                if (i % MechanismMotion::kStride < 7 && !(std::abs(y[i] - companion[i]) < kApart * beside[i]))
+                if (i % MechanismMotion::kStride < 7 &&
+                    !(std::abs(y[i] - companion[i]) < kJointsApart * beside[i]))
                     return false;
-            return motion_.gap(y, size_) < kApart * size_;
+            return motion_.gap(y, size_) < kJointsApart * size_;
         };
         solution_ = DenseSolution(rhs, 0, start_, end(), 1e-13L, breaks_, beside, limits);
         if (!solution_.isWhole()) validUntil_ = static_cast<double>(solution_.end());

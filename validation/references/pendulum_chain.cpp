@@ -26,7 +26,7 @@ using numerics::OdeState;
 using numerics::Real;
 using Point = std::array<Real, 2>;
 
-constexpr std::size_t kMostOperations = 2'500'000'000;  // 2.5 s; see the derivative below
+constexpr std::size_t kChainOperations = 2'500'000'000;  // 2.5 s; see the derivative below
 
 struct Link {
     int body = 0;
@@ -109,7 +109,7 @@ class PendulumChain : public Reference {
         std::fill(beside.begin() + static_cast<std::ptrdiff_t>(n), beside.end(), turns);
         numerics::OdeLimits limits;
         limits.companion = 1e-12L;
-        limits.evaluations = kMostOperations / (300 + 100 * n * n + 5 * n * n * n);
+        limits.evaluations = kChainOperations / (300 + 100 * n * n + 5 * n * n * n);
         limits.agrees = [n](const OdeState& y, const OdeState& companion) {
             for (std::size_t i = 0; i < n; ++i)
                 if (!(std::abs(y[i] - companion[i]) < 1e-9L)) return false;
