@@ -109,9 +109,9 @@ class CartPendulum : public Reference {
             1 / end + std::abs(rate) + std::sqrt(norm(gravityOn(scenario_, pendulum_)) / size);
         const OdeState beside{size, 1, std::abs(speed) + size * turns, turns};
         OdeLimits limits;
-        limits.companion = 1e-12L;
-        limits.agrees = [](const OdeState& y, const OdeState& companion) {
-            return std::abs(y[1] - companion[1]) <= 1e-9L;
+        limits.neighbour = 1e-12L;
+        limits.agrees = [](const OdeState& y, const OdeState& neighbour) {
+            return std::abs(y[1] - neighbour[1]) <= 1e-9L;
         };
         solution_ = DenseSolution(rhs, 0, start, end, 1e-14L, {}, beside, limits);
         if (!solution_.isWhole()) validUntil_ = static_cast<double>(solution_.end());

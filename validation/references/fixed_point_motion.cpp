@@ -30,7 +30,7 @@ FixedPointMotion::FixedPointMotion(const Mat3& inertia, double mass, Vec3 arm, V
                        std::sqrt(norm(lever) * norm(field) / heaviest);
     const OdeState scale{1, 1, 1, 1, turns, turns, turns};
     solution_ = numerics::DenseSolution(rhs, 0, {q.w, q.x, q.y, q.z, w.x, w.y, w.z}, duration, 1e-14L, {},
-                                        scale, numerics::OdeLimits::companionOf(1e-13L, 1e-8L, scale));
+                                        scale, numerics::OdeLimits::neighbourOf(1e-13L, 1e-8L, scale));
 }
 
 double FixedPointMotion::validUntil() const {

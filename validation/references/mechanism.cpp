@@ -201,12 +201,12 @@ class Mechanism : public Reference {
                 beside[i + 10 + k] = fast / size_;
             }
         OdeLimits limits;
-        limits.companion = 1e-10L;
+        limits.neighbour = 1e-10L;
         limits.evaluations = kMechanismOperations / motion_.operations();
-        limits.agrees = [&](const OdeState& y, const OdeState& companion) {
+        limits.agrees = [&](const OdeState& y, const OdeState& neighbour) {
             for (std::size_t i = 0; i < y.size(); ++i)
                 if (i % MechanismMotion::kStride < 7 &&
-                    !(std::abs(y[i] - companion[i]) < kJointsApart * beside[i]))
+                    !(std::abs(y[i] - neighbour[i]) < kJointsApart * beside[i]))
                     return false;
             return motion_.gap(y, size_) < kJointsApart * size_;
         };

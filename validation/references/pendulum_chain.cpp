@@ -108,11 +108,11 @@ class PendulumChain : public Reference {
         OdeState beside(2 * n, 1);
         std::fill(beside.begin() + static_cast<std::ptrdiff_t>(n), beside.end(), turns);
         numerics::OdeLimits limits;
-        limits.companion = 1e-12L;
+        limits.neighbour = 1e-12L;
         limits.evaluations = kChainOperations / (300 + 100 * n * n + 5 * n * n * n);
-        limits.agrees = [n](const OdeState& y, const OdeState& companion) {
+        limits.agrees = [n](const OdeState& y, const OdeState& neighbour) {
             for (std::size_t i = 0; i < n; ++i)
-                if (!(std::abs(y[i] - companion[i]) < 1e-9L)) return false;
+                if (!(std::abs(y[i] - neighbour[i]) < 1e-9L)) return false;
             return true;
         };
         solution_ = numerics::DenseSolution(rhs, 0, start, end, 1e-14L, {}, beside, limits);

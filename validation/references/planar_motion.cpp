@@ -126,9 +126,9 @@ PlanarMotion::PlanarMotion(Setup setup, State start, double duration, double end
     }
     if (open && setup_.stopsAtImpact) throw *open;
     if (!setup_.stopsAtImpact) {
-        const double parting = partingFrom(companionOf(start, end), std::min(t, validUntil_));
-        if (open && !(parting < validUntil_)) throw *open;
-        if (parting < std::min(t, validUntil_)) validUntil_ = parting;
+        const double divergence = partingFrom(neighbourOf(start, end), std::min(t, validUntil_));
+        if (open && !(divergence < validUntil_)) throw *open;
+        if (divergence < std::min(t, validUntil_)) validUntil_ = divergence;
     }
     require(validUntil_ > 0.0,
             "the contact changes its mode again and again, or neighbouring motions part, "

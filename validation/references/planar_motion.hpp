@@ -12,7 +12,7 @@
 // Where both ends of a flat side touch the body rests, slides as a whole or tips over one of them. A block
 // that rocks between two corners at ever shorter intervals lies flat at the limit of the geometric series, one
 // that bounces ever lower touches at the limit of its own.
-// Impacts make neighbours part: a companion whose mass properties, coefficients, load and velocities differ by
+// Impacts make neighbouring motions part: a neighbour whose mass properties, coefficients, load and velocities differ by
 // 1e-12 of their values is followed as well, and the answer ends where the two are 1e-8 of the way and the size
 // apart. The errors of the solution, of its event times and of those limits are about as large as that
 // difference or smaller, and grow like it.
@@ -91,9 +91,9 @@ class PlanarMotion {
     double validUntil() const { return validUntil_; }
 
   private:
-    struct AsCompanion {};
-    /// The companion: ends where it cannot be followed, whatever the reason.
-    PlanarMotion(Setup setup, State start, double duration, double end, AsCompanion);
+    struct AsNeighbour {};
+    /// The neighbour: ends where it cannot be followed, whatever the reason.
+    PlanarMotion(Setup setup, State start, double duration, double end, AsNeighbour);
 
     struct Phase {
         double begin = 0.0, end = 0.0;
@@ -140,8 +140,8 @@ class PlanarMotion {
     const Phase& phaseAt(double t) const;
     void setScale(const State& start);
     void followTo(double end, double& t, State& s, Mode& mode);
-    PlanarMotion companionOf(State start, double end) const;
-    double partingFrom(const PlanarMotion& companion, double end) const;
+    PlanarMotion neighbourOf(State start, double end) const;
+    double partingFrom(const PlanarMotion& neighbour, double end) const;
 
     Setup setup_;
     double duration_ = 0.0, validUntil_ = 1e300;

@@ -4,7 +4,7 @@
 // Bodies on springs, each spring between centres of mass or from a fixed point to one: the spring pendulum
 // (elastic pendulum), two bodies on a spring in free space, nets.
 //   m x'' = m g - sum (k (|d| - L) + c d'.n) n,  n = d/|d|, d from the other end,
-// integrated in Cartesian coordinates to 1e-12 (ode.hpp), valid until a companion of a larger tolerance parts
+// integrated in Cartesian coordinates to 1e-12 (ode.hpp), valid until a neighbour of a larger tolerance parts
 // from it: in most fields two bodies on springs move chaotically. Scheme-exact: Euler's schemes stepped with the
 // forces at the start of each step. Source: Landau and Lifshitz, Mechanics, 1976, sections 13-14 (central
 // field); Cuerno, Ranada, Ruiz-Lorenzo, Am. J. Phys. 60 (1992) 73 (elastic pendulum).
@@ -66,7 +66,7 @@ class SpringNetwork : public Reference {
         }
         solution_ =
             DenseSolution([this](Real, const OdeState& y, OdeState& d) { derivative(y, d); }, 0, start, end,
-                          1e-14L, {}, beside, OdeLimits::companionOf(1e-13L, 1e-8L, beside));
+                          1e-14L, {}, beside, OdeLimits::neighbourOf(1e-13L, 1e-8L, beside));
         if (!solution_.isWhole()) validUntil_ = static_cast<double>(solution_.end());
     }
     std::vector<int> bodies() const override { return bodies_; }

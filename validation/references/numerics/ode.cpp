@@ -163,12 +163,12 @@ OdeLimits OdeLimits::ofEvaluations(std::size_t most) {
     return limits;
 }
 
-OdeLimits OdeLimits::companionOf(Real tolerance, Real apart, OdeState scale) {
+OdeLimits OdeLimits::neighbourOf(Real tolerance, Real apart, OdeState scale) {
     OdeLimits limits;
-    limits.companion = tolerance;
-    limits.agrees = [apart, scale = std::move(scale)](const OdeState& y, const OdeState& companion) {
+    limits.neighbour = tolerance;
+    limits.agrees = [apart, scale = std::move(scale)](const OdeState& y, const OdeState& neighbour) {
         for (std::size_t i = 0; i < y.size(); ++i)
-            if (!(std::abs(y[i] - companion[i]) <= apart * std::max(scaleOf(scale, i), std::abs(y[i]))))
+            if (!(std::abs(y[i] - neighbour[i]) <= apart * std::max(scaleOf(scale, i), std::abs(y[i]))))
                 return false;
         return true;
     };
@@ -244,7 +244,7 @@ DenseSolution::DenseSolution(const OdeRhs& f, Real t0, const OdeState& y0, Real 
     std::size_t left = limits.evaluations;
     const OdeRhs bounded = counted(f, left);
     OdeState y = y0;
-    OdeState companion = y0;
+    OdeState neighbour = y0;
     std::sort(breaks.begin(), breaks.end());
     breaks.push_back(t1);
     Real begin = t0;
@@ -255,7 +255,7 @@ DenseSolution::DenseSolution(const OdeRhs& f, Real t0, const OdeState& y0, Real 
             const OdeRhs part = [&bounded, time](Real t, const OdeState& state, OdeState& dydt) {
                 bounded(t < time ? t : std::nextafter(time, -kInfinite), state, dydt);
             };
-            append(time < t1 ? part : bounded, begin, y, companion, time, tolerance, scale, limits);
+            append(time < t1 ? part : bounded, begin, y, neighbour, time, tolerance, scale, limits);
             begin = time;
         }
     } catch (const std::runtime_error&) {
@@ -265,7 +265,7 @@ DenseSolution::DenseSolution(const OdeRhs& f, Real t0, const OdeState& y0, Real 
     if (panels_.empty()) panels_.push_back({t0, t0, {y0}});
 }
 
-void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, OdeState& companion, Real t1,
+void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, OdeState& neighbour, Real t1,
                            Real tolerance, const OdeState& scale, const OdeLimits& limits) {
     Real length = t1 - t0;
     const Real shortest = (t1 - t0) * 1e-6L;
@@ -280,7 +280,7 @@ void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, OdeState& comp
         } catch (const EvaluationsSpent&) {
             throw;
         } catch (const std::runtime_error&) {
-            // A singular point within the panel: with a companion the solution may end before it.
+            // A singular point within the panel: with a neighbour the solution may end before it.
             if (!limits.agrees) throw;
         }
         if (!built) {
@@ -290,8 +290,8 @@ void DenseSolution::append(const OdeRhs& f, Real t0, OdeState& y, OdeState& comp
             continue;
         }
         if (limits.agrees) {
-            companion = integrateOde(f, t, companion, panel.end, limits.companion, panel.end - t, scale);
-            if (!limits.agrees(panel.nodes.back(), companion)) {
+            neighbour = integrateOde(f, t, neighbour, panel.end, limits.neighbour, panel.end - t, scale);
+            if (!limits.agrees(panel.nodes.back(), neighbour)) {
                 if (panels_.empty())
                     throw std::runtime_error("DenseSolution: neighbouring motions part at the start");
                 whole_ = false;

@@ -36,25 +36,25 @@ Real lastTimeOf(const std::function<bool(const OdeState&)>& holds, const OdeRhs&
 
 /// What ends a DenseSolution before t1. All bounds are counts, so that every machine gives the same answer.
 struct OdeLimits {
-    /// Evaluations of f, by the companion as well.
+    /// Evaluations of f, by the neighbour as well.
     std::size_t evaluations = 5'000'000;
-    /// Tolerance of a companion, a second integration from the same start; 0: none. The distance between the
+    /// Tolerance of a neighbour, a second integration from the same start; 0: none. The distance between the
     /// two shows how much of the accuracy is left where neighbouring motions part.
-    Real companion = 0;
-    /// Whether solution and companion still agree.
-    std::function<bool(const OdeState& y, const OdeState& companion)> agrees;
+    Real neighbour = 0;
+    /// Whether solution and neighbour still agree.
+    std::function<bool(const OdeState& y, const OdeState& neighbour)> agrees;
 
-    /// No companion.
+    /// No neighbour.
     static OdeLimits ofEvaluations(std::size_t most);
-    /// A companion of this tolerance that agrees while every |y_i - companion_i| is at most `apart` beside
+    /// A neighbour of this tolerance that agrees while every |y_i - neighbour_i| is at most `apart` beside
     /// max(scale_i, |y_i|).
-    static OdeLimits companionOf(Real tolerance, Real apart, OdeState scale);
+    static OdeLimits neighbourOf(Real tolerance, Real apart, OdeState scale);
 };
 
 /// A solution over [t0, t1] that can be asked at any time: Chebyshev interpolation of degree 15 on panels
 /// halved until the interpolated midpoints agree with the integrated ones to `tolerance` beside
 /// max(scale_i, |y_i|). It is given up where a panel would be shorter than 1e-6 of a smooth part, beyond 4000
-/// panels, and beyond the evaluations of its limits: without a companion std::runtime_error is thrown, with
+/// panels, and beyond the evaluations of its limits: without a neighbour std::runtime_error is thrown, with
 /// one the solution ends after the last panel in which the two agreed (and throws where there is none).
 class DenseSolution {
   public:
@@ -65,7 +65,7 @@ class DenseSolution {
 
     /// y(t); t is clamped to [t0, end()].
     OdeState at(Real t) const;
-    /// To which time it goes: t1 unless the companion or the bounds ended it before.
+    /// To which time it goes: t1 unless the neighbour or the bounds ended it before.
     Real end() const { return panels_.empty() ? Real(0) : panels_.back().end; }
     bool isWhole() const { return whole_; }
     /// The times of its nodes, ascending: as dense as the motion is quick, for looking at all of it.
@@ -79,7 +79,7 @@ class DenseSolution {
         Real begin = 0, end = 0;
         std::vector<OdeState> nodes;  ///< at the Chebyshev-Lobatto points of [begin, end]
     };
-    void append(const OdeRhs& f, Real t0, OdeState& y, OdeState& companion, Real t1, Real tolerance,
+    void append(const OdeRhs& f, Real t0, OdeState& y, OdeState& neighbour, Real t1, Real tolerance,
                 const OdeState& scale, const OdeLimits& limits);
     static OdeState evaluate(const Panel& panel, Real t);
     static bool build(const OdeRhs& f, const OdeState& y0, Real tolerance, const OdeState& scale,

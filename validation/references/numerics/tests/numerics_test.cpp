@@ -111,11 +111,11 @@ void lorenz(Real, const OdeState& y, OdeState& d) {
     d = {10 * (y[1] - y[0]), y[0] * (28 - y[2]) - y[1], y[0] * y[1] - 8 * y[2] / 3};
 }
 
-TEST(Ode, ASolutionEndsWhereItsCompanionParts) {
+TEST(Ode, ASolutionEndsWhereItsNeighbourParts) {
     const OdeState start{1, 1, 1};
     const OdeState scale{10, 10, 10};
     const DenseSolution followed(lorenz, 0, start, 100, 1e-14L, {}, scale,
-                                 OdeLimits::companionOf(1e-12L, 1e-8L, scale));
+                                 OdeLimits::neighbourOf(1e-12L, 1e-8L, scale));
     EXPECT_FALSE(followed.isWhole());
     EXPECT_GT(followed.end(), 5);
     EXPECT_LT(followed.end(), 30);
@@ -125,7 +125,7 @@ TEST(Ode, ASolutionEndsWhereItsCompanionParts) {
         EXPECT_NEAR(static_cast<double>(followed.at(t)[i] - nearest[i]), 0.0, 1e-8);
     const OdeRhs regular = [](Real, const OdeState& y, OdeState& d) { d = {y[1], -9 * y[0]}; };
     const DenseSolution whole(regular, 0, {1, 0}, 100, 1e-14L, {}, {1, 3},
-                              OdeLimits::companionOf(1e-12L, 1e-8L, {1, 3}));
+                              OdeLimits::neighbourOf(1e-12L, 1e-8L, {1, 3}));
     EXPECT_TRUE(whole.isWhole());
     EXPECT_EQ(whole.end(), 100);
 }
@@ -141,7 +141,7 @@ TEST(Ode, ASolutionTakesNoMoreEvaluationsThanAllowed) {
                  std::runtime_error);
     EXPECT_EQ(count, kMost);
     count = 0;
-    OdeLimits limits = OdeLimits::companionOf(1e-12L, 1e-8L, {});
+    OdeLimits limits = OdeLimits::neighbourOf(1e-12L, 1e-8L, {});
     limits.evaluations = kMost;
     const DenseSolution part(f, 0, {1, 0}, 1e4L, 1e-14L, {}, {}, limits);
     EXPECT_EQ(count, kMost);
