@@ -244,7 +244,7 @@ TEST(IncludeRule, TheRuleItselfRefuses) {
     EXPECT_TRUE(refused("engine/pipeline/world.cpp", "scenarios/model/scenario.hpp"));
     EXPECT_TRUE(refused("adapters/bullet/world.cpp", "engine/math/space.hpp"));
     EXPECT_TRUE(refused("adapters/bullet/world.cpp", "adapters/ode/world.hpp"));
-    EXPECT_TRUE(refused("validation/references/free_flight.cpp", "engine/math/space.hpp"));
+    EXPECT_TRUE(refused("validation/references/flight/free_flight.cpp", "engine/math/space.hpp"));
     EXPECT_TRUE(refused("reports/page/html.cpp", "validation/runner/runner.hpp"));
     EXPECT_TRUE(refused("scenarios/loader/loader.cpp", "adapters/interface/types.hpp"));
     EXPECT_TRUE(refused("scenarios/generators/pile.cpp", "scenarios/loader/loader.hpp"));

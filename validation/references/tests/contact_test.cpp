@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "validation/references/parts.hpp"
-#include "validation/references/planar_slide.hpp"
+#include "validation/references/sliding/planar_slide.hpp"
 #include "validation/references/tests/scene.hpp"
 
 namespace rigor::validation::testing {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "validation/references/contact_forces.hpp"
+#include "validation/references/statics/contact_forces.hpp"
 
 namespace rigor::validation {
 namespace {

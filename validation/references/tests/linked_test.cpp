@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "validation/references/rotation.hpp"
+#include "validation/references/flight/rotation.hpp"
 #include "validation/references/tests/newton_euler.hpp"
 
 namespace rigor::validation::testing {

@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "scenarios/loader/loader.hpp"
-#include "validation/references/planar_motion.hpp"
-#include "validation/references/swing.hpp"
+#include "validation/references/joints/swing.hpp"
+#include "validation/references/planar/planar_motion.hpp"
 #include "validation/references/tests/newton_euler.hpp"
 
 namespace rigor::validation::testing {

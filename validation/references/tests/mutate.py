@@ -91,6 +91,8 @@ class Tests:
         link = subprocess.run(ninja + ["-t", "commands", "references_test"], check=True, capture_output=True,
                               text=True).stdout.splitlines()[-1]
         self.link = re.sub(r"(&& :|: &&)", "", link).strip()
+        if not any("validation/references/parts.cpp" in file for file in self.compile_commands):
+            sys.exit("mutate.py: this build compiles several files as one: configure it with -DRIGOR_UNITY=OFF")
         self.quick = self.quick_tests()
 
     # Without the data from elsewhere: what is in the repository must notice.
@@ -144,7 +146,7 @@ def main():
 
     known, total, survivors, skipped = equivalents(), 0, 0, 0
     tests = None if asked.list else Tests(asked.build.resolve())
-    for source in sorted(FOLDER.glob("*.cpp")) + sorted(FOLDER.glob("numerics/*.cpp")):
+    for source in sorted(p for p in FOLDER.rglob("*.cpp") if "tests" not in p.parts):
         name = str(source.relative_to(FOLDER))
         if not re.fullmatch(asked.files, name):
             continue

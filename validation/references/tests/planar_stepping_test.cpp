@@ -12,8 +12,8 @@
 #include <random>
 #include <vector>
 
-#include "validation/references/planar_events.hpp"
-#include "validation/references/planar_motion.hpp"
+#include "validation/references/planar/planar_events.hpp"
+#include "validation/references/planar/planar_motion.hpp"
 
 namespace rigor::validation::testing {
 namespace {

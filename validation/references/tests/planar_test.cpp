@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "validation/references/numerics/real.hpp"
-#include "validation/references/planar_motion.hpp"
+#include "validation/references/planar/planar_motion.hpp"
 #include "validation/references/tests/newton_euler.hpp"
 #include "validation/references/tests/other_units.hpp"
 

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
+#include "validation/references/flight/rotation.hpp"
 #include "validation/references/numerics/elliptic.hpp"
 #include "validation/references/parts.hpp"
-#include "validation/references/rotation.hpp"
 #include "validation/references/tests/scene.hpp"
 
 namespace rigor::validation::testing {

@@ -5,7 +5,7 @@
 // between the two must use the first for what rests or rolls and the second for what slides, or refuse.
 #include <gtest/gtest.h>
 
-#include "validation/references/planar_slide.hpp"
+#include "validation/references/sliding/planar_slide.hpp"
 #include "validation/references/tests/newton_euler.hpp"
 
 namespace rigor::validation {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "validation/references/statics/touching.hpp"
 #include "validation/references/tests/scene.hpp"
-#include "validation/references/touching.hpp"
 
 namespace rigor::validation::testing {
 namespace {
