@@ -8,7 +8,8 @@
 A mutant is one source file of validation/references with one change in one line: an operator turned round, a constant
 times 1.5, a function taken for its partner, a sign dropped. It is compiled with the file's own command, linked into the
 reference tests in place of the file, and run, quick tests first. What survives is printed; mutants that are equivalent
-stand with their reason in equivalent_mutants.txt and are not counted. Exit code 1 if any survives.
+stand with their reason in equivalent_mutants.txt and are not counted. BUILD_FOLDER must compile every file by itself
+(-DRIGOR_UNITY=OFF). Exit code 1 if any survives.
 
 Not mutated: checks of assumptions (they have tests of their own), loop headers, lines with tolerances (1e-...), the
 number of frames, text. Changes nothing in the source tree; everything happens in BUILD_FOLDER/mutants.
