@@ -9,6 +9,7 @@
 #include <fstream>
 #include <numeric>
 
+#include "scenarios/loader/loader.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "validation/import/importer.hpp"
 #include "validation/import/recording.hpp"
