@@ -200,13 +200,13 @@ TEST(Fit, BaselinesAreWhatTheySay) {
     const fs::path scenarios = importFolder(folder, "baselines-in", "all", {{"start", "flight"}});
     FitTask task = smallTask(scenarios, {"rigor"}, 90);
     ASSERT_EQ(task.train[0].scenario.name, "toss_001");
-    const auto baselines = baselines(task);
-    ASSERT_EQ(baselines.size(), 3U);
-    const double frozen = baselines[0].scores.at(0).score.mean, slide = baselines[1].scores.at(0).score.mean;
-    EXPECT_EQ(baselines[0].name, "frozen");
+    const auto found = baselines(task);
+    ASSERT_EQ(found.size(), 3U);
+    const double frozen = found[0].scores.at(0).score.mean, slide = found[1].scores.at(0).score.mean;
+    EXPECT_EQ(found[0].name, "frozen");
     // Left: between samples the recording is a polygon, g dt^2/8 = 55 um off in flight, more where it lands.
     EXPECT_LT(slide, 1e-4 * frozen);
-    EXPECT_NEAR(baselines[2].scores.at(0).score.mean, slide, 1e-9) << "it never turned";
+    EXPECT_NEAR(found[2].scores.at(0).score.mean, slide, 1e-9) << "it never turned";
     // Frozen: the mean square distance from the start over the half width, by hand.
     const Scenario& s = task.train[0].scenario;
     const auto reference = makeReference(s);
