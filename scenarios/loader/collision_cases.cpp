@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "scenarios/loader/collision_lines.hpp"
-#include "scenarios/loader/read_parts.hpp"
 #include "scenarios/loader/overrides.hpp"
+#include "scenarios/loader/read_parts.hpp"
 #include "scenarios/loader/schema_check.hpp"
 
 namespace rigor::scenario {

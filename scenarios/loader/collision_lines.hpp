@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #pragma once
 
-#include "scenarios/loader/collision_cases.hpp"
 #include "scenarios/json/node.hpp"
+#include "scenarios/loader/collision_cases.hpp"
 
 namespace rigor::scenario {
 

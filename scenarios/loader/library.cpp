@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "scenarios/loader/collision_cases.hpp"
 #include "scenarios/json/node.hpp"
+#include "scenarios/loader/collision_cases.hpp"
 #include "scenarios/loader/overrides.hpp"
 #include "scenarios/loader/schema_check.hpp"
 #include "scenarios/loader/study.hpp"

@@ -13,8 +13,8 @@
 
 #include "scenarios/generators/generator.hpp"
 #include "scenarios/loader/engine_settings.hpp"
-#include "scenarios/loader/read_parts.hpp"
 #include "scenarios/loader/overrides.hpp"
+#include "scenarios/loader/read_parts.hpp"
 #include "scenarios/loader/schema_check.hpp"
 
 namespace rigor::scenario {

@@ -168,8 +168,7 @@ TEST(Refusals, SayWhatIsMissing) {
         EXPECT_EQ(reason(solver, global.problem), "") << solver;
     }
     for (const char* solver : {"pgs_soft", "tgs_soft", "xpbd"})
-        EXPECT_THAT(reason(solver, global.problem),
-                    ::testing::HasSubstr("a contact problem has no"))
+        EXPECT_THAT(reason(solver, global.problem), ::testing::HasSubstr("a contact problem has no"))
             << solver;
     // Not the masses of rigid bodies.
     ExportedProblem odd = global;
