@@ -68,7 +68,8 @@ TEST(ImportCommand, BadInputIsSaid) {
     };
     EXPECT_THAT(refused("teapot " + data.string()),
                 HasSubstr("known: compound-pendulum, cube-push, cube-toss"));
-    EXPECT_THAT(refused("cube-toss nowhere"), HasSubstr("found no folder"));
+    EXPECT_THAT(refused("cube-toss nowhere"),
+                HasSubstr("found nothing, expected the folder of the data set, cube-toss"));
     EXPECT_THAT(refused("cube-toss " + data.string() + " --option units=inches"),
                 HasSubstr("expected one of data"));
     EXPECT_THAT(refused("cube-toss " + data.string() + " --train 7"), HasSubstr("a share between 0 and 1"));
