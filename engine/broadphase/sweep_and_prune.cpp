@@ -31,7 +31,10 @@ class SweepAndPrune final : public BroadPhase<S> {
     using Box = Aabb<S>;
 
     std::unique_ptr<BroadPhase<S>> clone() const override { return std::make_unique<SweepAndPrune>(*this); }
-    void reset() override { intervals_.clear(), axis_ = 0; }
+    void reset() override {
+        intervals_.clear();
+        axis_ = 0;
+    }
 
     void update(std::span<const Box> boxes, std::span<const std::uint8_t> movable,
                 std::vector<ProxyPair>& pairs, const Tasks&) override {

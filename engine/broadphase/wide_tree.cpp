@@ -52,7 +52,10 @@ class WideTree final : public BroadPhase<S> {
     using Box = Aabb<S>;
 
     std::unique_ptr<BroadPhase<S>> clone() const override { return std::make_unique<WideTree>(*this); }
-    void reset() override { kept_.clear(), pairs_.clear(); }
+    void reset() override {
+        kept_.clear();
+        pairs_.clear();
+    }
 
     void update(std::span<const Box> boxes, std::span<const std::uint8_t> movable,
                 std::vector<ProxyPair>& pairs, const Tasks& tasks) override {

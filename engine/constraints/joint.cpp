@@ -84,7 +84,10 @@ void addParallelRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, 
             row.angA = -row.angB;
         }
     } else {
-        (void)joint, (void)A, (void)B, (void)out;
+        (void)joint;
+        (void)A;
+        (void)B;
+        (void)out;
     }
 }
 

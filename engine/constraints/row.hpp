@@ -75,7 +75,11 @@ struct ConstraintRows {
     std::vector<Row<S>> rows;
     std::vector<Block<S>> blocks;
     std::vector<BlockMatrix<S>> matrices;
-    void clear() { rows.clear(), blocks.clear(), matrices.clear(); }
+    void clear() {
+        rows.clear();
+        blocks.clear();
+        matrices.clear();
+    }
     /// Biases and softnesses become the relaxed ones.
     void relax();
 };

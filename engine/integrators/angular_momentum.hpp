@@ -23,7 +23,11 @@ typename S::Ang keepAngularMomentum(const BodyConstants<S>& body, const typename
                                     const typename S::Rot& q1, const typename S::Ang& w,
                                     const typename S::Ang& predicted, const typename S::Ang& solved) {
     if constexpr (S::dim == 2) {
-        (void)body, (void)q0, (void)q1, (void)w, (void)predicted;
+        (void)body;
+        (void)q0;
+        (void)q1;
+        (void)w;
+        (void)predicted;
         return solved;
     } else {
         using Vec = typename S::Vec;

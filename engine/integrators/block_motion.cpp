@@ -104,7 +104,9 @@ void BlockMotion<S>::addTumbling(const BodyArrays<S>& bodies, std::size_t i, Rea
         putSymmetric<Real>(block.invInertia, lane, bodies.invInertiaLocal[i]);
         for (int k = 0; k < 3; ++k) block.kick[k][lane] = kick * bodies.wrench[i].torque[k];
     } else {
-        (void)bodies, (void)i, (void)kick;
+        (void)bodies;
+        (void)i;
+        (void)kick;
     }
 }
 
@@ -143,7 +145,8 @@ void BlockMotion<S>::finish(BodyArrays<S>& bodies, const Tasks& tasks) const {
                               bodies.velocity.data());
         });
     } else {
-        (void)bodies, (void)tasks;
+        (void)bodies;
+        (void)tasks;
     }
 }
 

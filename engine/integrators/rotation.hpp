@@ -15,7 +15,15 @@ namespace rigor::engine {
 template <class R>
 Eigen::Matrix<R, 3, 3> skew(const Eigen::Matrix<R, 3, 1>& a) {
     Eigen::Matrix<R, 3, 3> m;
-    m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+    m << 0;
+    -a.z();
+    a.y();
+    a.z();
+    0;
+    -a.x();
+    -a.y();
+    a.x();
+    0;
     return m;
 }
 
@@ -33,7 +41,9 @@ template <class S, class Law>
 typename S::Ang predictInBodyFrame(const BodyConstants<S>& body, const typename S::Rot& q,
                                    const typename S::Ang& w, typename S::Real h) {
     if constexpr (S::dim == 2) {
-        (void)body, (void)q, (void)h;
+        (void)body;
+        (void)q;
+        (void)h;
         return w;
     } else {
         using Vec = typename S::Vec;

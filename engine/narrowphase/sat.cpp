@@ -2,7 +2,12 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The "sat" narrow phase: a table of pair functions by the kinds of A and B. Each pair is written in one
-// order of kinds; the other order swaps the arguments and flips the result.
+// order of kinds; the other order swaps the arguments and flips the result. The method itself, from the axes to
+// the clipped manifold:
+//     boxes      3d/box_axis.cpp, 3d/box_box.cpp; 2d/box_box.cpp
+//     polytopes  3d/polytope_axis.cpp (faces, then edges on the Gauss map), 3d/polytope_manifold.cpp;
+//                2d/polygon_pairs.cpp
+//     others     closed forms; pairs with a curved side between features (3d/feature_pairs.cpp)
 //
 // Known limits: faces are preferred to edges within 1e-7 of the depth. Measured in double precision against
 // the separations along all normals of three vertices and all cross products of two differences of vertices,

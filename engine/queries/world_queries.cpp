@@ -52,7 +52,10 @@ bool underField(const Shape<S>& field, const Pose<S>& Xf, const Shape<S>& shape,
         RayHit<S> hit;
         return castRay<S>(field, Pose<S>{}, low, V(0, d.highest - low.y() + d.thickness, 0), hit);
     } else {
-        (void)field, (void)Xf, (void)shape, (void)X;
+        (void)field;
+        (void)Xf;
+        (void)shape;
+        (void)X;
         return false;
     }
 }

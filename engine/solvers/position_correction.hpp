@@ -62,7 +62,9 @@ class PositionCorrection {
     virtual int relaxIterations() const { return 0; }
     /// Called after the bodies have moved.
     virtual void correct(PositionProblem<S>& problem, int iterations, typename S::Real slop) {
-        (void)problem, (void)iterations, (void)slop;
+        (void)problem;
+        (void)iterations;
+        (void)slop;
     }
 };
 

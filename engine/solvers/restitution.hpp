@@ -29,7 +29,9 @@ class Restitution {
     /// impulses for the rows as they are, starting from zero.
     virtual void impact(ConstraintRows<S>& rows, std::span<Velocity<S>> velocities,
                         const std::function<void()>& solve) {
-        (void)rows, (void)velocities, (void)solve;
+        (void)rows;
+        (void)velocities;
+        (void)solve;
     }
 };
 

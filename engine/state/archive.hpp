@@ -139,7 +139,9 @@ void visitValue(A& archive, X& x) {
 }
 template <class A, class C>
 requires requires(C& c) {
-    c.count, c.points[0].onA, c.points[0].name;
+    c.count;
+    c.points[0].onA;
+    c.points[0].name;
 }
 void visitValue(A& archive, C& cache) {
     archive.scalar(cache.count);
@@ -153,7 +155,10 @@ void visitValue(A& archive, C& cache) {
 }
 template <class A, class M>
 requires requires(M& m) {
-    m.axis, m.featureA, m.featureB, m.names;
+    m.axis;
+    m.featureA;
+    m.featureB;
+    m.names;
 }
 void visitValue(A& archive, M& memory) {
     archive.scalar(memory.axis);

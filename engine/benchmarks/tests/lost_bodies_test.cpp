@@ -22,8 +22,13 @@ TEST_P(LostBodies, AreNone) {
         for (const bool single : {false, true})
             for (std::uint64_t k = 0; k < kSeeds; ++k) {
                 Case what;
-                what.ground = ground, what.motion = motion, what.fast = fast, what.single = single;
-                what.bodies = fast ? 60 : 25, what.duration = 1.5, what.seed = seed++;
+                what.ground = ground;
+                what.motion = motion;
+                what.fast = fast;
+                what.single = single;
+                what.bodies = fast ? 60 : 25;
+                what.duration = 1.5;
+                what.seed = seed++;
                 setGroundOfSeed(what);
                 for (const Loss& loss : run(what).lost)
                     ADD_FAILURE() << "body " << loss.body << ", a " << loss.shape << ", in step " << loss.step

@@ -56,7 +56,8 @@ class Maker {
     void shift(Scene<S>& scene, double distance) {
         for (auto& box : scene.boxes) {
             const Vec d = vec(-distance, distance);
-            box.min += d, box.max += d;
+            box.min += d;
+            box.max += d;
         }
     }
 
@@ -74,7 +75,10 @@ struct Case {
 
 template <class S>
 void fillWith(Scene<S>& scene, int count, const std::function<Aabb<S>()>& make) {
-    for (int i = 0; i < count; ++i) scene.boxes.push_back(make()), scene.movable.push_back(1);
+    for (int i = 0; i < count; ++i) {
+        scene.boxes.push_back(make());
+        scene.movable.push_back(1);
+    }
 }
 
 template <class S>
@@ -163,8 +167,14 @@ std::vector<Case<S>> cases() {
              const double what = m.uniform(0, 1);
              if (what < 0.2) fillWith<S>(s, 30, [&] { return ordinary(m); });
              const std::size_t fewer = what < 0.25 ? 1 : s.boxes.size() / 2;
-             if (what >= 0.2 && what < 0.4) s.boxes.resize(fewer), s.movable.resize(fewer);
-             if (what > 0.95) s.boxes.clear(), s.movable.clear();
+             if (what >= 0.2 && what < 0.4) {
+                 s.boxes.resize(fewer);
+                 s.movable.resize(fewer);
+             }
+             if (what > 0.95) {
+                 s.boxes.clear();
+                 s.movable.clear();
+             }
          },
          100},
         {"fixed boxes among movable ones, without bounds some",
@@ -181,7 +191,8 @@ std::vector<Case<S>> cases() {
          [=](Scene<S>& s, M& m) {
              for (std::size_t i = 0; i < 150; ++i) {
                  const Vec d = m.vec(-0.1, 0.1);
-                 s.boxes[i].min += d, s.boxes[i].max += d;
+                 s.boxes[i].min += d;
+                 s.boxes[i].max += d;
              }
              if (m.uniform(0, 1) < 0.2) s.boxes[11] = s.boxes.back();
              if (m.uniform(0, 1) < 0.2) s.boxes[11] = ordinary(m);

@@ -74,12 +74,16 @@ TYPED_TEST(BroadPhases, EqualTheDoubleLoopWhileBoxesMoveJumpAndBecomeUnbounded) 
             for (std::size_t i = 0; i < 150; ++i) {
                 typename S::Vec d;
                 for (int k = 0; k < S::dim; ++k) d[k] = static_cast<R>(step(random));
-                boxes[i].min += d, boxes[i].max += d;
+                boxes[i].min += d;
+                boxes[i].max += d;
             }
             boxes[static_cast<std::size_t>(round)] = randomBox<S>(random, 8);
             if (round == 60) boxes[3] = boxes.back();  // becomes unbounded
             if (round == 70) boxes[3] = randomBox<S>(random, 8);
-            if (round == 80) boxes.resize(140), movable.resize(140);  // another count: starts afresh
+            if (round == 80) {
+                boxes.resize(140);
+                movable.resize(140);
+            }  // another count: starts afresh
             if (round == 80) round = 1000;
         }
         broadPhase->update(boxes, movable, pairs);
@@ -93,8 +97,10 @@ TYPED_TEST(BroadPhases, TouchingCountsAndACopyContinuesAlike) {
     for (const auto& entry : broadPhaseTable<S>()) {
         auto broadPhase = entry.make();
         Aabb<S> a, b;
-        a.min.setConstant(0), a.max.setConstant(1);
-        b.min.setConstant(1), b.max.setConstant(2);
+        a.min.setConstant(0);
+        a.max.setConstant(1);
+        b.min.setConstant(1);
+        b.max.setConstant(2);
         std::vector<Aabb<S>> boxes{a, b};
         std::vector<std::uint8_t> movable{1, 1};
         std::vector<ProxyPair> pairs, copied;
@@ -117,8 +123,10 @@ TYPED_TEST(BroadPhases, AProxyThatBecomesMovableFindsItsPairsAndLosesThemAgain) 
         auto broadPhase = entry.make();
         std::vector<Aabb<S>> boxes(20);
         for (std::size_t i = 0; i < boxes.size(); ++i) {
-            boxes[i].min.setConstant(0), boxes[i].max.setConstant(1);
-            boxes[i].min[0] = static_cast<R>(i), boxes[i].max[0] = static_cast<R>(i + 1);
+            boxes[i].min.setConstant(0);
+            boxes[i].max.setConstant(1);
+            boxes[i].min[0] = static_cast<R>(i);
+            boxes[i].max[0] = static_cast<R>(i + 1);
         }
         std::vector<std::uint8_t> movable(boxes.size(), 0);
         std::vector<ProxyPair> pairs;
@@ -148,7 +156,8 @@ TYPED_TEST(BroadPhases, AfterALongWayTheWorkIsThatOfAFreshStart) {
             for (auto& box : boxes) {
                 typename S::Vec d;
                 for (int k = 0; k < S::dim; ++k) d[k] = static_cast<R>(stride(random) + (k == 0 ? 2 : 0));
-                box.min += d, box.max += d;
+                box.min += d;
+                box.max += d;
             }
         }
         const auto cost = [&](BroadPhase<S>& broadPhase) {

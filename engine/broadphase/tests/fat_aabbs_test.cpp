@@ -27,11 +27,15 @@ class FatAabbsOf : public testing::Test {
         typename S::Vec lo = S::Vec::Constant(-50), hi = S::Vec::Constant(50);
         hi[1] = -5;
         add({lo, hi}, false);
-        hi.setConstant(std::numeric_limits<R>::max()), lo = -hi;
+        hi.setConstant(std::numeric_limits<R>::max());
+        lo = -hi;
         hi[0] = -5;
         add({lo, hi}, false);
     }
-    void add(const Aabb<S>& b, bool moves) { boxes.push_back(b), movable.push_back(moves); }
+    void add(const Aabb<S>& b, bool moves) {
+        boxes.push_back(b);
+        movable.push_back(moves);
+    }
     typename S::Vec vec(double a, double b) {
         typename S::Vec v;
         for (int k = 0; k < S::dim; ++k)
@@ -46,7 +50,8 @@ class FatAabbsOf : public testing::Test {
         for (std::size_t i = 0; i < boxes.size(); ++i) {
             if (!movable[i]) continue;
             const typename S::Vec d = vec(-distance, distance);
-            boxes[i].min += d, boxes[i].max += d;
+            boxes[i].min += d;
+            boxes[i].max += d;
         }
     }
     std::vector<ProxyPair> oracle(const std::vector<Aabb<S>>& of) const {
@@ -89,11 +94,16 @@ TYPED_TEST(FatAabbsOf, HoldThePairsOfTheBoxesAndSayWhenTheyChange) {
                     ASSERT_EQ(changed, fat.pairs() != before) << entry.name << " " << round;
                 }
                 before = fat.pairs();
-                found += before.size(), changes += changed;
+                found += before.size();
+                changes += changed;
                 this->shift(round % 20 == 19 ? 3 : 0.02);
                 if (round == 30) this->movable[4] = !this->movable[4];
                 if (round == 40) this->add(this->box(this->vec(-3, 3)), true);
-                if (round == 45) fat.reset(), broadPhase->reset(), before.clear();
+                if (round == 45) {
+                    fat.reset();
+                    broadPhase->reset();
+                    before.clear();
+                }
             }
             EXPECT_GT(found, 1000u);
             if (margin > 0.5) {
@@ -121,7 +131,8 @@ TYPED_TEST(FatAabbsOf, TheBroadPhaseRunsOnlyWhenABoxLeavesItsFatOne) {
     }
     EXPECT_EQ(broadPhase->tests(), tests);
     EXPECT_EQ(test::allocationCount(), allocations);
-    this->boxes[1].min[0] -= 10, this->boxes[1].max[0] -= 10;
+    this->boxes[1].min[0] -= 10;
+    this->boxes[1].max[0] -= 10;
     fat.update(*broadPhase, this->boxes, this->movable, margin);
     EXPECT_EQ(fat.replaced(), 1u);
     EXPECT_GT(broadPhase->tests(), tests);

@@ -34,7 +34,8 @@ class LargeScene : public testing::Test {
         add(vec(far, far), half, false);
     }
     void add(const Vec& center, const Vec& half, bool moves) {
-        boxes.push_back({center - half, center + half}), movable.push_back(moves);
+        boxes.push_back({center - half, center + half});
+        movable.push_back(moves);
     }
     Vec vec(double a, double b) {
         Vec v;
@@ -47,7 +48,8 @@ class LargeScene : public testing::Test {
         for (std::size_t i = random() % every; i < boxes.size(); i += every) {
             if (!movable[i]) continue;
             const Vec d = vec(-distance, distance);
-            boxes[i].min += d, boxes[i].max += d;
+            boxes[i].min += d;
+            boxes[i].max += d;
         }
     }
     /// By a sweep along x.
@@ -124,7 +126,9 @@ TYPED_TEST(LargeScene, NoAllocationInASteadyStateWithOneThread) {
         for (std::size_t i = 0; i < 100; ++i) this->boxes[i] = start[i];
         broadPhase->update(this->boxes, this->movable, pairs);
     };
-    period(), period(), period();
+    period();
+    period();
+    period();
     const long before = test::allocationCount();
     period();
     EXPECT_EQ(test::allocationCount(), before);

@@ -111,7 +111,8 @@ TYPED_TEST(Tunnelling, ProjectilesOfEveryShapeAndTurningOnes) {
     std::vector<Vec> points;
     for (int i = 0; i < 9; ++i) {
         Vec p = Vec::Zero();
-        p[0] = R(0.1 * std::cos(2.4 * i)), p[1] = R(0.1 * std::sin(2.4 * i));
+        p[0] = R(0.1 * std::cos(2.4 * i));
+        p[1] = R(0.1 * std::sin(2.4 * i));
         if constexpr (S::dim == 3) p[2] = R(0.02 * (i - 4));
         points.push_back(p);
     }

@@ -40,10 +40,12 @@ class JointRowsOf : public testing::Test {
     Joint<S> joint(JointType type, const Pose<S>& A, Pose<S>& B) {
         JointDef<S> def;
         def.type = type;
-        def.anchorA = vector(1), def.anchorB = vector(1);
+        def.anchorA = vector(1);
+        def.anchorB = vector(1);
         B = {Vec::Zero(), expMap(turn(2))};
         const Vec axis = direction();
-        def.axisA = rotateInverse(A.q, axis), def.axisB = rotateInverse(B.q, axis);
+        def.axisA = rotateInverse(A.q, axis);
+        def.axisB = rotateInverse(B.q, axis);
         def.spinAxisB = direction();
         def.length = 1.5;
         for (int k = 0; k < findJoint<S>(type).axes; ++k) {
@@ -52,8 +54,12 @@ class JointRowsOf : public testing::Test {
             const bool cone = (type == JointType::ConeTwist && k == 1) || type == JointType::Ball;
             if (!cone) control.lower = -0.7;
             control.upper = 0.9;
-            if (!cone) control.motorSpeed = 3, control.motorMaxForce = 10;
-            control.frequency = 2, control.dampingRatio = 0.5;
+            if (!cone) {
+                control.motorSpeed = 3;
+                control.motorMaxForce = 10;
+            }
+            control.frequency = 2;
+            control.dampingRatio = 0.5;
         }
         return makeJoint<S>(def, A, Vec::Zero(), B, Vec::Zero());
     }
@@ -305,17 +311,29 @@ TEST(JointDefinitions, BadOnesAreRefusedById) {
     EXPECT_EQ(hinge([](auto& d) { d.axes[0].motorMaxForce = -1; }), "joint_motor");
     EXPECT_EQ(hinge([](auto& d) { d.axes[0].motorSpeed = nan; }), "joint_motor");
     EXPECT_EQ(hinge([](auto& d) { d.axes[0].frequency = -1; }), "joint_spring");
-    EXPECT_EQ(hinge([](auto& d) { d.axes[0].frequency = 1, d.axes[0].stiffness = 1; }), "joint_spring");
+    EXPECT_EQ(hinge([](auto& d) {
+                  d.axes[0].frequency = 1;
+                  d.axes[0].stiffness = 1;
+              }),
+              "joint_spring");
     EXPECT_EQ(hinge([](auto& d) { d.axes[0].dampingRatio = 1; }), "joint_spring");
-    EXPECT_EQ(hinge([](auto& d) { d.axes[0].mode = AxisMode::Locked, d.axes[0].motorMaxForce = 1; }),
+    EXPECT_EQ(hinge([](auto& d) {
+                  d.axes[0].mode = AxisMode::Locked;
+                  d.axes[0].motorMaxForce = 1;
+              }),
               "joint_motor");
     EXPECT_EQ(hinge([](auto& d) { d.breakForce = 0; }), "joint_break");
     EXPECT_EQ(hinge([](auto& d) { d.breakTorque = nan; }), "joint_break");
     EXPECT_EQ(hinge([](auto& d) {
-                  d.type = JointType::Ball, d.axes[0] = {AxisMode::Limited, -10, 3.2};
+                  d.type = JointType::Ball;
+                  d.axes[0] = {AxisMode::Limited, -10, 3.2};
               }),
               "joint_limits");
-    EXPECT_EQ(hinge([](auto& d) { d.type = JointType::Wheel, d.spinAxisB *= 2; }), "joint_axis");
+    EXPECT_EQ(hinge([](auto& d) {
+                  d.type = JointType::Wheel;
+                  d.spinAxisB *= 2;
+              }),
+              "joint_axis");
     JointDef<S> rod;
     rod.type = JointType::Distance;
     EXPECT_EQ(refusal<S>(rod), "joint_length");

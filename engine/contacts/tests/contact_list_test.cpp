@@ -36,7 +36,10 @@ TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
             order.insert(order.begin() + static_cast<std::ptrdiff_t>(place), slot);
             names.insert(names.begin() + static_cast<std::ptrdiff_t>(place), round);
         }
-        if (list.fragmented()) list.defragment(tasks), tidied = true;
+        if (list.fragmented()) {
+            list.defragment(tasks);
+            tidied = true;
+        }
         ASSERT_EQ(list.size(), names.size());
         std::size_t place = 0;
         for (const Contact<S>& contact : list) ASSERT_EQ(contact.shapeA, names[place++]) << round;
@@ -55,7 +58,8 @@ TEST(ContactList, JointBetweenBodiesThatTouchEndsTheirContact) {
     std::vector<BodyId> boxes;
     for (const float x : {0.0f, 0.95f, 1.9f}) {
         BodyDef<S> body;
-        body.mass = 1, body.inertia = 1;
+        body.mass = 1;
+        body.inertia = 1;
         body.pose.p = {x, 0};
         boxes.push_back(world.addBody(body));
         world.addShape(boxes.back(), shape);
@@ -64,8 +68,10 @@ TEST(ContactList, JointBetweenBodiesThatTouchEndsTheirContact) {
     ASSERT_EQ(world.manifolds().size(), 2u);
     JointDef<S> joint;
     joint.type = JointType::Fixed;
-    joint.bodyA = boxes[0], joint.bodyB = boxes[1];
-    joint.anchorA = {0.5f, 0}, joint.anchorB = {-0.5f, 0};
+    joint.bodyA = boxes[0];
+    joint.bodyB = boxes[1];
+    joint.anchorA = {0.5f, 0};
+    joint.anchorB = {-0.5f, 0};
     world.addJoint(joint);
     world.step(1.0f / 60);
     ASSERT_EQ(world.manifolds().size(), 1u);

@@ -39,7 +39,9 @@ struct Pair {
     Pair(double reuse, double half) {
         search.cacheTolerance = static_cast<R>(reuse);
         for (const BodyType type : {BodyType::Static, BodyType::Dynamic}) {
-            bodies.pose.emplace_back(), bodies.velocity.emplace_back(), bodies.asleep.push_back(0);
+            bodies.pose.emplace_back();
+            bodies.velocity.emplace_back();
+            bodies.asleep.push_back(0);
             bodies.id.emplace_back();
             bodies.constants.emplace_back().type = type;
             bodies.invMass.push_back(type == BodyType::Dynamic ? R(1) : R(0));
@@ -189,7 +191,8 @@ TYPED_TEST(Reuse, WhatIsFarApartIsNotAskedAboutUntilItMayBeNear) {
         Pair<S> keeping(kReuse, 0.3), near(0, 0.3), wide(0, 0.3);
         wide.search.speculativeDistance += static_cast<R>(1.01 * kReuse);
         typename S::Vec out = S::Vec::Zero(), edge = S::Vec::Zero();
-        out[0] = out[1] = std::sqrt(R(0.5)), edge[0] = edge[1] = R(1);
+        out[0] = out[1] = std::sqrt(R(0.5));
+        edge[0] = edge[1] = R(1);
         typename S::Ang turned = zeroAng<S>();
         if constexpr (S::dim == 3)
             turned[2] = R(0.7853981634);
@@ -204,7 +207,9 @@ TYPED_TEST(Reuse, WhatIsFarApartIsNotAskedAboutUntilItMayBeNear) {
             const bool kept = !keeping.find().empty();
             EXPECT_TRUE(kept || near.find().empty()) << "gap " << gap;
             EXPECT_FALSE(kept && wide.find().empty()) << "gap " << gap;
-            ++steps, asked += static_cast<int>(keeping.set.queries()), found += kept;
+            ++steps;
+            asked += static_cast<int>(keeping.set.queries());
+            found += kept;
         }
     }
     EXPECT_GT(found, 20);
@@ -217,7 +222,8 @@ TYPED_TEST(Reuse, MovingFurtherAsksAgain) {
     Random<S> random;
     Pair<S> pair(kReuse, 0.3);
     pair.bodies.pose[1] = resting(random);
-    pair.find(), pair.find();
+    pair.find();
+    pair.find();
     EXPECT_EQ(pair.set.queries(), 0u);
     pair.bodies.pose[1].p[0] += R(1.1 * kReuse);
     pair.find();

@@ -85,8 +85,10 @@ TEST(Tasks, StagesFollowEachOtherAndVisitEveryIndexOnce) {
         tasks.forStages(stages, [&](std::size_t s, std::size_t chunk) {
             if (s > 0 && done[s - 1] != visits[s - 1].size()) early = true;
             const std::size_t end = tasks.chunkBegin(visits[s].size(), 4, chunk + 1);
-            for (std::size_t i = tasks.chunkBegin(visits[s].size(), 4, chunk); i < end; ++i)
-                ++visits[s][i], ++done[s];
+            for (std::size_t i = tasks.chunkBegin(visits[s].size(), 4, chunk); i < end; ++i) {
+                ++visits[s][i];
+                ++done[s];
+            }
         });
         EXPECT_FALSE(early) << threads;
         for (std::size_t s = 0; s < stages; ++s)

@@ -37,7 +37,8 @@ class Faults : public testing::Test {
     static World<S> cubeOnGround(const std::string& fault, const std::string& correction = "none",
                                  double friction = 0.5, double restitution = 0.5) {
         WorldDef<S> def = earth<S>();
-        def.fault = fault, def.positionCorrection = correction;
+        def.fault = fault;
+        def.positionCorrection = correction;
         World<S> world(def);
         const auto material = world.addMaterial(Real(friction), Real(restitution));
         addGround<S>(world, material);
@@ -114,7 +115,8 @@ TYPED_TEST(Faults, NoCheapRejectionOnlyCosts) {
         addGround<S>(world, material);
         for (int i = 0; i < 10; ++i) addBall<S>(world, 3.0 * i, 0.5, 0.5, 1, material);
         for (int i = 0; i < 10; ++i) world.step(R(kStep));
-        hash[bad] = world.stateHash(), pairs[bad] = world.lastStep().pairs;
+        hash[bad] = world.stateHash();
+        pairs[bad] = world.lastStep().pairs;
     }
     EXPECT_EQ(hash[0], hash[1]);
     EXPECT_EQ(pairs[0], 10u);
@@ -215,7 +217,8 @@ TYPED_TEST(Faults, UnnormalisedQuaternionGrows) {
     using S = TypeParam;
     using R = typename S::Real;
     WorldDef<S> def;
-    def.fault = "unnormalised_quaternion", def.rotation = "none";
+    def.fault = "unnormalised_quaternion";
+    def.rotation = "none";
     World<S> world(def);
     const auto ball = addBall<S>(world, 0, 0, 0.5, 1, 0, 0, 0, 6.0);
     for (int i = 0; i < 60; ++i) world.step(R(kStep));

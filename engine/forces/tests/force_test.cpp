@@ -37,8 +37,10 @@ TYPED_TEST(Forces, AForceWithABeginningAndAnEndGivesItsImpulseInEveryIntegrator)
             const BodyId body = addFree<S>(world, 0, 0, 2);
             ConstantForce<S> force;
             force.body = body;
-            force.force = at<S>(3, -1), force.torque = spin<S>(2);
-            force.start = 0.137, force.end = 0.4711;
+            force.force = at<S>(3, -1);
+            force.torque = spin<S>(2);
+            force.start = 0.137;
+            force.end = 0.4711;
             world.addForce(force);
             while (world.time() < 0.6) world.step(static_cast<R>(h));
             const double T = force.end - force.start;
@@ -67,9 +69,13 @@ TYPED_TEST(Forces, SpringAgainstAHandComputation) {
     def.angularVelocity = spin<S>(2);
     const BodyId b = world.addBody(def);
     LinearSpring<S> spring;
-    spring.bodyA = a, spring.bodyB = b;
-    spring.anchorA = at<S>(0, 0.5), spring.anchorB = at<S>(0, -0.25);  // both at height 0.5, 3 apart
-    spring.stiffness = 10, spring.damping = 2, spring.restLength = 1;
+    spring.bodyA = a;
+    spring.bodyB = b;
+    spring.anchorA = at<S>(0, 0.5);
+    spring.anchorB = at<S>(0, -0.25);  // both at height 0.5, 3 apart
+    spring.stiffness = 10;
+    spring.damping = 2;
+    spring.restLength = 1;
     world.addForce(spring);
     // The anchor of B moves with v + w x (0, -0.35): 0.5 + 2 * 0.35 along x.
     const double tension = 10.0 * (3 - 1) + 2.0 * (0.5 + 2 * 0.35);
@@ -107,7 +113,9 @@ TYPED_TEST(Forces, CoincidentAnchorsPullNowhere) {
         World<S> world(def);
         LinearSpring<S> spring;
         spring.bodyB = addFree<S>(world, 0, 0);
-        spring.stiffness = 10, spring.damping = 1, spring.restLength = 1;
+        spring.stiffness = 10;
+        spring.damping = 1;
+        spring.restLength = 1;
         world.addForce(spring);
         EXPECT_FALSE(world.step(R(0.01)).nonFinite);
         EXPECT_EQ(world.velocity(spring.bodyB).norm(), R(0));
@@ -123,9 +131,13 @@ TYPED_TEST(Forces, SpringsBetweenBodiesKeepBothMomentaInEveryIntegrator) {
         World<S> world(def);
         const BodyId a = addFree<S>(world, 0, 0, 1), b = addFree<S>(world, 2, 0.5, 3);
         LinearSpring<S> spring;
-        spring.bodyA = a, spring.bodyB = b;
-        spring.anchorA = at<S>(0.2, 0.3), spring.anchorB = at<S>(-0.1, 0.4);
-        spring.stiffness = 20, spring.damping = R(0.5), spring.restLength = 1;
+        spring.bodyA = a;
+        spring.bodyB = b;
+        spring.anchorA = at<S>(0.2, 0.3);
+        spring.anchorB = at<S>(-0.1, 0.4);
+        spring.stiffness = 20;
+        spring.damping = R(0.5);
+        spring.restLength = 1;
         world.addForce(spring);
         for (int i = 0; i < 256; ++i) world.step(R(1.0 / 256));
         const typename S::Vec P = world.velocity(a) * R(1) + world.velocity(b) * R(3);
@@ -170,7 +182,8 @@ TYPED_TEST(Forces, BadOnesAreRefusedByName) {
     force.force = at<S>(nan, 0);
     EXPECT_EQ(refused(force), "force");
     force.force = at<S>(1, 0);
-    force.start = 2, force.end = 1;
+    force.start = 2;
+    force.end = 1;
     EXPECT_EQ(refused(force), "force_time");
     LinearSpring<S> spring;
     spring.bodyA = ground;

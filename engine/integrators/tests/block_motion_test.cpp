@@ -64,11 +64,12 @@ BodyArrays<S> someBodies(std::size_t n) {
             if (i % 3 == 0) body.inertia = R(1.5) * S::Mat::Identity();
         body.mass = 2;
         body.gravityScale = i % 5 == 0 ? R(0.5) : R(1);
-        body.linearVelocityKept = i % 4 == 0 ? R(0.7) : R(1),
+        body.linearVelocityKept = i % 4 == 0 ? R(0.7) : R(1);
         body.angularVelocityKept = i % 4 == 1 ? R(0.6) : R(1);
         const bool asleep = dynamic && i % 13 == 5;
         Pose<S> pose{vec(3), rotatedBy(Pose<S>::identityRot(), ang(2))};
-        bodies.constants.push_back(body), bodies.pose.push_back(pose);
+        bodies.constants.push_back(body);
+        bodies.pose.push_back(pose);
         bodies.velocity.push_back(body.type == BodyType::Static || asleep
                                       ? Velocity<S>()
                                       : Velocity<S>(vec(2), ang(i % 9 == 2 ? 300 : 4)));
@@ -131,7 +132,8 @@ TYPED_TEST(BlockMotionTest, MovesAsOneByOneToRounding) {
         const BodyArrays<S> before = one;
         Motion<S> plain = usual<S>(rotation), blocks = usual<S>(rotation);
         blocks.moveInBlocks(std::string(rotation) == "lie_midpoint");
-        advance(plain, one), advance(blocks, block);
+        advance(plain, one);
+        advance(blocks, block);
         for (std::size_t i = 0; i < one.size(); ++i) {
             EXPECT_LT(difference(block, one, i), kRounding) << rotation << ", body " << i;
             if (one.asleep[i] || one.constants[i].type == BodyType::Static)

@@ -104,7 +104,10 @@ TYPED_TEST(ConstrainedMotion, EverySolverLeavesFreeMotionAlone) {
             World<S> world(def);
             const BodyId a = addBall<S>(plain, 0, 0, 0.1, 1, 0, 3, 4, 2),
                          b = addBall<S>(world, 0, 0, 0.1, 1, 0, 3, 4, 2);
-            for (int i = 0; i < 60; ++i) plain.step(R(1.0 / 60)), world.step(R(1.0 / 60));
+            for (int i = 0; i < 60; ++i) {
+                plain.step(R(1.0 / 60));
+                world.step(R(1.0 / 60));
+            }
             EXPECT_NEAR((plain.pose(a).p - world.pose(b).p).norm(), 0, tol<S>(1e-12, 1e-4))
                 << solver.name << " " << integrator.name;
             EXPECT_NEAR((plain.velocity(a) - world.velocity(b)).norm(), 0, tol<S>(1e-11, 1e-3))

@@ -28,11 +28,15 @@ Eigen::VectorXd stateOf(const World<S>& world, const std::vector<BodyId>& bodies
     };
     for (const BodyId id : bodies) {
         const Pose<S> X = world.pose(id);
-        add(X.p), add(world.velocity(id));
+        add(X.p);
+        add(world.velocity(id));
         if constexpr (S::dim == 2) {
-            values.push_back(X.q.c), values.push_back(X.q.s), values.push_back(world.angularVelocity(id));
+            values.push_back(X.q.c);
+            values.push_back(X.q.s);
+            values.push_back(world.angularVelocity(id));
         } else {
-            add(X.q.coeffs()), add(world.angularVelocity(id));
+            add(X.q.coeffs());
+            add(world.angularVelocity(id));
         }
     }
     return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
@@ -58,7 +62,15 @@ typename S::Inertia uneven() {
         return 0.02;
     } else {
         typename S::Inertia I;
-        I << 0.02, 0.002, 0, 0.002, 0.03, 0.001, 0, 0.001, 0.045;
+        I << 0.02;
+        0.002;
+        0;
+        0.002;
+        0.03;
+        0.001;
+        0;
+        0.001;
+        0.045;
         return I;
     }
 }
@@ -101,7 +113,9 @@ std::vector<BodyId> onASpring(World<S>& world) {
     const BodyId weight = world.addBody(def);
     LinearSpring<S> spring;
     spring.bodyB = weight;
-    spring.stiffness = 80, spring.damping = 1.5, spring.restLength = 1;
+    spring.stiffness = 80;
+    spring.damping = 1.5;
+    spring.restLength = 1;
     world.addForce(spring);
     return {weight};
 }
@@ -121,13 +135,20 @@ std::vector<BodyId> offCenter(World<S>& world) {
     }
     LinearSpring<S> hang;
     hang.bodyB = bodies[0];
-    hang.anchorA = point<S>(0, 1, 0), hang.anchorB = point<S>(0.1, 0.15, -0.1);
-    hang.stiffness = 40, hang.damping = 0.3, hang.restLength = 0.8;
+    hang.anchorA = point<S>(0, 1, 0);
+    hang.anchorB = point<S>(0.1, 0.15, -0.1);
+    hang.stiffness = 40;
+    hang.damping = 0.3;
+    hang.restLength = 0.8;
     world.addForce(hang);
     LinearSpring<S> couple;
-    couple.bodyA = bodies[0], couple.bodyB = bodies[1];
-    couple.anchorA = point<S>(0.2, 0, 0.05), couple.anchorB = point<S>(-0.15, 0.1, 0);
-    couple.stiffness = 25, couple.damping = 0.2, couple.restLength = 0.5;
+    couple.bodyA = bodies[0];
+    couple.bodyB = bodies[1];
+    couple.anchorA = point<S>(0.2, 0, 0.05);
+    couple.anchorB = point<S>(-0.15, 0.1, 0);
+    couple.stiffness = 25;
+    couple.damping = 0.2;
+    couple.restLength = 0.5;
     world.addForce(couple);
     world.addForce(LinearDrag<S>{bodies[1], 0.2});
     return bodies;
@@ -139,7 +160,8 @@ std::vector<BodyId> dampedAndTwisted(World<S>& world) {
     def.inertia = uneven<S>();
     def.velocity = point<S>(3, 2, 1);
     def.angularVelocity = turning<S>(2, 1, -3);
-    def.linearVelocityKept = 0.4, def.angularVelocityKept = 0.3;
+    def.linearVelocityKept = 0.4;
+    def.angularVelocityKept = 0.3;
     const BodyId body = world.addBody(def);
     ConstantForce<S> push;
     push.body = body;

@@ -43,7 +43,10 @@ Drift driftOf(World<S>& world, BodyId top, int steps, double h) {
         const Eigen::Vector3d w = q.conjugate() * world.angularVelocity(top).template cast<double>();
         const double E = 0.5 * w.dot(I.cwiseProduct(w));
         const Eigen::Vector3d L = q * I.cwiseProduct(w);
-        if (i == 0) E0 = E, L0 = L;
+        if (i == 0) {
+            E0 = E;
+            L0 = L;
+        }
         drift.energy = std::max(drift.energy, std::abs(E / E0 - 1));
         drift.momentum = std::max(drift.momentum, (L - L0).norm() / L0.norm());
     }
@@ -109,7 +112,8 @@ TEST(Rotation, RoundingOfAnyBodyDoesNotAddUp) {
         BodyDef<Space3d> def;
         const Eigen::Quaterniond turn = Eigen::Quaterniond(0.5, 0.1, -0.7, 0.3).normalized();
         const Eigen::Matrix3d R = top.turned ? turn.toRotationMatrix() : Eigen::Matrix3d::Identity();
-        def.mass = 1, def.inertia = R * top.inertia.asDiagonal() * R.transpose();
+        def.mass = 1;
+        def.inertia = R * top.inertia.asDiagonal() * R.transpose();
         def.angularVelocity = R * top.velocity;
         const BodyId id = world.addBody(def);
         const auto momentum = [&] {
@@ -215,7 +219,8 @@ TEST(Rotation, TorqueGivesItsAngularMomentum) {
             ConstantForce<Space3d> push;
             push.body = top;
             push.torque = {0.5, -1, 2};
-            push.start = 0.3, push.end = 1.7;
+            push.start = 0.3;
+            push.end = 1.7;
             world.addForce(push);
             for (int i = 0; i < 256; ++i) world.step(1.0 / 128);
             const Eigen::Quaterniond q = world.pose(top).q;
@@ -246,7 +251,8 @@ TEST(OrientationUpdate, AtAFixedRateTheFirstOrderUpdateIsShortByTheCubeOfTheAngl
             body2.angularVelocity = w;
             const BodyId id2 = world2.addBody(body2);
             for (int i = 1; i <= 2; ++i) {
-                world3.step(h), world2.step(h);
+                world3.step(h);
+                world2.step(h);
                 const Eigen::Quaterniond exact(Eigen::AngleAxisd(i * expected, Eigen::Vector3d::UnitZ()));
                 EXPECT_LT(world3.pose(id3).q.angularDistance(exact), 1e-14) << update;
                 EXPECT_NEAR(world2.pose(id2).q.c, std::cos(i * expected), 1e-14) << update;

@@ -67,7 +67,9 @@ void clipFlat(FlatPolygon<R>& from, R limit, int low, int high, FlatPolygon<R>& 
     }
     std::size_t count = 0;
     const auto add = [&](R atX, R atY, R height, int before, int after, bool really) {
-        (to.*X)[count] = atX, (to.*Y)[count] = atY, to.h[count] = height;
+        (to.*X)[count] = atX;
+        (to.*Y)[count] = atY;
+        to.h[count] = height;
         to.in[count] = before;
         to.out[count] = after;
         count += really;

@@ -59,7 +59,8 @@ TYPED_TEST(BoxCapsule, IsWhatTheHullOfItsCornersGives) {
         sameCount += m.count == oracle.count;
         two += m.count == 2;
         const double core = leastSeparation(m) + std::get<Capsule<S>>(capsule).radius;
-        overlapping += core<-0.01, apart += core> 0.01;
+        overlapping += core < -0.01;
+        apart += core > 0.01;
     }
     EXPECT_GT(overlapping, 3000);
     EXPECT_GT(apart, 3000);

@@ -82,8 +82,10 @@ TYPED_TEST(BoxPolygon, PointsAreNamedByCorners) {
         const auto n = collide<S>(small, pose<S>(at), large, pose<S>(vec<S>(0, 0)));
         ASSERT_EQ(m.count, 2);
         ASSERT_EQ(n.count, 2);
-        for (std::size_t k = 0; k < 2; ++k)
-            names.insert(m.points[k].feature), swapped.insert(n.points[k].feature);
+        for (std::size_t k = 0; k < 2; ++k) {
+            names.insert(m.points[k].feature);
+            swapped.insert(n.points[k].feature);
+        }
         EXPECT_LE((m.normal - rotate(q, vec<S>(0, 1))).norm(), tol<S>(1e-15, 1e-6));
         EXPECT_LE((m.normal + n.normal).norm(), tol<S>(1e-15, 1e-6));
     }

@@ -45,7 +45,8 @@ Manifold<S> standOnEdge(const char* narrowPhase, bool hull, bool swapped, double
         lowest = std::min(
             lowest, R((q * small.cwiseProduct(Vec(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1))).y()));
     Pose<S> X, Y;
-    Y.q = q, Y.p = Vec(R(0.1), R(0.5) - lowest - R(1e-3), R(-0.2));  // 1 mm deep
+    Y.q = q;
+    Y.p = Vec(R(0.1), R(0.5) - lowest - R(1e-3), R(-0.2));  // 1 mm deep
     Manifold<S> out;
     const CollideFunction<S> collide = findNarrowPhase<S>(narrowPhase);
     if (swapped)
@@ -95,7 +96,8 @@ TYPED_TEST(EdgeOnFace, AsManyPointsByAxesAsByDistance) {
         const typename S::Rot tilt = typename S::Rot(R(1), small.x(), small.y(), small.z()).normalized(),
                               yaw(Eigen::AngleAxis<R>(R(3 * number(random)), Vec::Unit(i % 3)));
         Pose<S> A, B;
-        B.q = tilt * yaw, B.p = vec().normalized();
+        B.q = tilt * yaw;
+        B.p = vec().normalized();
         Manifold<S> apart;
         gjk(a, A, b, B, R(10), apart);
         if (apart.count == 0) continue;
@@ -104,7 +106,8 @@ TYPED_TEST(EdgeOnFace, AsManyPointsByAxesAsByDistance) {
             least = std::min(least, apart.points[static_cast<std::size_t>(k)].separation);
         B.p += (R(-1e-3) - least) * apart.normal;
         Manifold<S> byAxes, byDistance;
-        sat(a, A, b, B, R(5e-3), byAxes), gjk(a, A, b, B, R(5e-3), byDistance);
+        sat(a, A, b, B, R(5e-3), byAxes);
+        gjk(a, A, b, B, R(5e-3), byDistance);
         if (byDistance.normal.dot(byAxes.normal) < R(0.9999)) continue;  // two ways out, equally deep
         ++compared;
         different += byAxes.count != byDistance.count;

@@ -112,9 +112,11 @@ TYPED_TEST(ManifoldKinds, ThePersistentCarriesItsPointsAlong) {
     pair.find({{0.4, 0.1, -1e-3}});
     const auto old = pair.manifold.points[0];
     const Pose<S> move = pose<S>(vec<S>(2, -1, 0.5), turn<S>(0.7, 0.2));
-    pair.Xa = compose<S>(move, pair.Xa), pair.Xb = compose<S>(move, pair.Xb);
+    pair.Xa = compose<S>(move, pair.Xa);
+    pair.Xb = compose<S>(move, pair.Xb);
     const typename S::Vec n = rotate(move.q, typename S::Vec(S::Vec::UnitY()));
-    pair.manifold.count = 1, pair.manifold.normal = n;
+    pair.manifold.count = 1;
+    pair.manifold.normal = n;
     auto& fresh = pair.manifold.points[0];
     fresh.pointA = fresh.pointB = toWorld<S>(move, vec<S>(-0.4, 0, 0));
     fresh.separation = 0;

@@ -81,7 +81,8 @@ TYPED_TEST(Contacts, ObliqueFrictionalImpactConservesLinearAndAngularMomentum) {
         for (const BodyId id : {a, b}) {
             const double mass = world.constants(id).mass;
             const typename S::Vec p = world.pose(id).p, v = world.velocity(id);
-            px += mass * v[0], py += mass * v[1];
+            px += mass * v[0];
+            py += mass * v[1];
             const double I = id == a ? 0.4 * 1 * 0.04 : 2.0 / 3 * 2 * 0.0625;
             L += mass * (p[0] * v[1] - p[1] * v[0]) + I * spinOf<S>(world.angularVelocity(id));
         }

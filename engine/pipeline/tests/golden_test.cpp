@@ -51,13 +51,17 @@ World<S> everything(const WorldDef<S>& def) {
     JointDef<S> joint;
     const BodyId upper = addBall<S>(world, 4, 3, 0.1, 1, wood), lower = addCube<S>(world, 5, 3, 0.1, 1, wood);
     joint.bodyB = upper;
-    joint.anchorA = at<S>(3, 3), joint.anchorB = at<S>(-1, 0);
+    joint.anchorA = at<S>(3, 3);
+    joint.anchorB = at<S>(-1, 0);
     world.addJoint(joint);
     joint.type = JointType::Hinge;
-    joint.bodyA = upper, joint.bodyB = lower;
-    joint.anchorA = at<S>(0, 0), joint.anchorB = at<S>(-1, 0);
+    joint.bodyA = upper;
+    joint.bodyB = lower;
+    joint.anchorA = at<S>(0, 0);
+    joint.anchorB = at<S>(-1, 0);
     joint.axes[0].mode = AxisMode::Limited;
-    joint.axes[0].lower = R(-0.3), joint.axes[0].upper = R(0.3);
+    joint.axes[0].lower = R(-0.3);
+    joint.axes[0].upper = R(0.3);
     world.addJoint(joint);
     BodyDef<S> crate;
     crate.pose.p = at<S>(-5, 2);
@@ -69,9 +73,13 @@ World<S> everything(const WorldDef<S>& def) {
         crate.angularVelocity = {3, -2, 1};
     }
     LinearSpring<S> spring;
-    spring.bodyA = ground, spring.bodyB = world.addBody(crate);
-    spring.anchorA = at<S>(-5, 4), spring.anchorB = at<S>(0.2, 0.3);
-    spring.stiffness = 60, spring.damping = R(0.5), spring.restLength = 1;
+    spring.bodyA = ground;
+    spring.bodyB = world.addBody(crate);
+    spring.anchorA = at<S>(-5, 4);
+    spring.anchorB = at<S>(0.2, 0.3);
+    spring.stiffness = 60;
+    spring.damping = R(0.5);
+    spring.restLength = 1;
     world.addForce(spring);
     BodyDef<S> plate;
     plate.type = BodyType::Static;
@@ -114,9 +122,13 @@ template <class S>
 std::uint64_t hashOf(const Scene& scene) {
     using R = typename S::Real;
     WorldDef<S> def = earth<S>();
-    def.solver = scene.solver, def.integrator = scene.integrator, def.rotation = scene.rotation;
-    def.narrowPhase = scene.narrowPhase, def.positionCorrection = scene.correction;
-    def.continuousCollision = scene.continuous, def.threads = scene.threads;
+    def.solver = scene.solver;
+    def.integrator = scene.integrator;
+    def.rotation = scene.rotation;
+    def.narrowPhase = scene.narrowPhase;
+    def.positionCorrection = scene.correction;
+    def.continuousCollision = scene.continuous;
+    def.threads = scene.threads;
     World<S> world = everything<S>(def);
     for (int i = 0; i < 120; ++i) world.step(R(1.0 / 120));
     EXPECT_FALSE(world.lastStep().nonFinite) << scene.name;
@@ -133,7 +145,10 @@ std::uint64_t libmHash() {
             hash.add(y);
     };
     volatile double start = 1e-4;
-    for (double x = start; x < 15; x += 0.0137) probe(x), probe(static_cast<float>(x));
+    for (double x = start; x < 15; x += 0.0137) {
+        probe(x);
+        probe(static_cast<float>(x));
+    }
     return hash.value();
 }
 

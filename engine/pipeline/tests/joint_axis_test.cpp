@@ -67,7 +67,8 @@ TYPED_TEST(JointAxes, MotorAcceleratesByItsTorqueAndHoldsItsSpeed) {
     using S = TypeParam;
     using R = typename S::Real;
     JointDef<S> def = hinge<S>();
-    def.axes[0].motorSpeed = 10, def.axes[0].motorMaxForce = R(0.8);
+    def.axes[0].motorSpeed = 10;
+    def.axes[0].motorMaxForce = R(0.8);
     OneBody<S> one(WorldDef<S>{}, def);
     const double h = 1.0 / 100, a = 0.8 / 0.5;
     for (int i = 1; i <= 800; ++i) {
@@ -92,7 +93,8 @@ TYPED_TEST(JointAxes, MotorStallsAtItsLargestForce) {
     using S = TypeParam;
     using R = typename S::Real;
     JointDef<S> def = slider<S>(0, 1);
-    def.axes[0].motorSpeed = 3, def.axes[0].motorMaxForce = R(15);
+    def.axes[0].motorSpeed = 3;
+    def.axes[0].motorMaxForce = R(15);
     OneBody<S> one(earth<S>(), def);
     one.run(100, 0.01);
     EXPECT_NEAR(one.world.velocity(one.body)[1], -(kGravity - 7.5), tol<S>(1e-10, 1e-4));
@@ -111,7 +113,8 @@ TYPED_TEST(JointAxes, HingeLimitStopsAndCarries) {
     JointDef<S> def = hinge<S>();
     def.anchorB = at<S>(-0.5, 0);
     def.axes[0].mode = AxisMode::Limited;
-    def.axes[0].lower = R(-kPi / 6), def.axes[0].upper = R(0.1);
+    def.axes[0].lower = R(-kPi / 6);
+    def.axes[0].upper = R(0.1);
     OneBody<S> one(earth<S>(), def, 0.5, 0);
     double deepest = 0, energyBefore = 0, landed = -1;
     const auto energy = [&] {
@@ -150,7 +153,8 @@ TYPED_TEST(JointAxes, HingeLimitBeyondATurnIsMetAfterThatManyTurns) {
     for (const double sign : {1.0, -1.0}) {
         JointDef<S> def = hinge<S>();
         def.axes[0].mode = AxisMode::Limited;
-        def.axes[0].lower = R(-5 * kPi), def.axes[0].upper = R(5 * kPi);
+        def.axes[0].lower = R(-5 * kPi);
+        def.axes[0].upper = R(5 * kPi);
         OneBody<S> one(WorldDef<S>{}, def, 0, 0, 0, 0, sign * 10);
         one.run(100, 0.01);
         EXPECT_NEAR(one.world.jointCoordinate(one.joint), sign * 10, tol<S>(1e-9, 1e-4));
@@ -165,7 +169,8 @@ TYPED_TEST(JointAxes, SliderStaysWithinItsLimits) {
     using R = typename S::Real;
     JointDef<S> def = slider<S>(1, 0);
     def.axes[0].mode = AxisMode::Limited;
-    def.axes[0].lower = R(-0.5), def.axes[0].upper = R(0.25);
+    def.axes[0].lower = R(-0.5);
+    def.axes[0].upper = R(0.25);
     OneBody<S> one(WorldDef<S>{}, def, 0, 0, 2);
     one.run(12, 0.01);
     EXPECT_NEAR(one.world.jointCoordinate(one.joint), 0.24, tol<S>(1e-12, 1e-6));
@@ -214,9 +219,13 @@ TYPED_TEST(JointAxes, SpringsAreTheImplicitOscillatorOfTheirFrequencyAndDamping)
         def.type = type;
         double startX = 0;
         if (type != JointType::Hinge) def.axisA = def.axisB = along<S>(1, 0);
-        if (type == JointType::Distance) def.length = 2, startX = 2;
+        if (type == JointType::Distance) {
+            def.length = 2;
+            startX = 2;
+        }
         def.axes[0].mode = AxisMode::Free;
-        def.axes[0].frequency = R(1.5), def.axes[0].dampingRatio = R(0.2);
+        def.axes[0].frequency = R(1.5);
+        def.axes[0].dampingRatio = R(0.2);
         double errors[2];
         for (int k = 0; k < 2; ++k) {
             const double h = k == 0 ? 1.0 / 200 : 1.0 / 800;
@@ -229,7 +238,8 @@ TYPED_TEST(JointAxes, SpringsAreTheImplicitOscillatorOfTheirFrequencyAndDamping)
                 errors[k] = 0;
                 for (int i = 1; i * h < 2; ++i) {
                     one.world.step(static_cast<R>(h));
-                    v = (v - h * w * w * x) / (1 + 2 * zeta * w * h + h * h * w * w), x += h * v;
+                    v = (v - h * w * w * x) / (1 + 2 * zeta * w * h + h * h * w * w);
+                    x += h * v;
                     ASSERT_NEAR(readAxis(one) - 1.7, x, tol<S>(1e-9, 2e-4));
                     const double t = i * h, exact = 0.3 * std::exp(-zeta * w * t) *
                                                     (std::cos(wd * t) + zeta * w / wd * std::sin(wd * t));
@@ -250,7 +260,9 @@ TYPED_TEST(JointAxes, ASpringsFrequencyIsThatOfWhatTheJointLetsMove) {
     JointDef<S> def;
     def.type = JointType::Hinge;
     def.anchorB = at<S>(-0.9, 0);
-    def.axes[0].frequency = R(1.5), def.axes[0].dampingRatio = R(0.2), def.axes[0].target = R(0.3);
+    def.axes[0].frequency = R(1.5);
+    def.axes[0].dampingRatio = R(0.2);
+    def.axes[0].target = R(0.3);
     const double w = 2 * kPi * 1.5, zeta = 0.2, wd = w * std::sqrt(1 - zeta * zeta);
     double errors[2] = {};
     for (int k = 0; k < 2; ++k) {
@@ -276,7 +288,9 @@ TYPED_TEST(JointAxes, ASpringsFrequencyDoesNotDependOnHowSoftTheJointIs) {
     JointDef<S> def;
     def.type = JointType::Hinge;
     def.anchorB = at<S>(-0.9, 0);
-    def.axes[0].frequency = R(1.5), def.axes[0].dampingRatio = R(0.2), def.axes[0].target = R(0.3);
+    def.axes[0].frequency = R(1.5);
+    def.axes[0].dampingRatio = R(0.2);
+    def.axes[0].target = R(0.3);
     WorldDef<S> settings;
     settings.solver = "tgs_soft";
     const double w = 2 * kPi * 1.5, zeta = 0.2, wd = w * std::sqrt(1 - zeta * zeta);
@@ -299,19 +313,24 @@ TYPED_TEST(JointAxes, StiffnessAndDampingAreTheSameSpring) {
     using R = typename S::Real;
     const double w = 2 * kPi * 1.5;
     JointDef<S> one = slider<S>(1, 0), other = one;
-    one.axes[0].frequency = R(1.5), one.axes[0].dampingRatio = R(0.2), one.axes[0].target = R(0.4);
-    other.axes[0].stiffness = R(2 * w * w), other.axes[0].damping = R(2 * 0.2 * 2 * w);
+    one.axes[0].frequency = R(1.5);
+    one.axes[0].dampingRatio = R(0.2);
+    one.axes[0].target = R(0.4);
+    other.axes[0].stiffness = R(2 * w * w);
+    other.axes[0].damping = R(2 * 0.2 * 2 * w);
     other.axes[0].target = R(0.4);
     OneBody<S> a(WorldDef<S>{}, one), b(WorldDef<S>{}, other);
     for (int i = 0; i < 200; ++i) {
-        a.run(1, 0.005), b.run(1, 0.005);
+        a.run(1, 0.005);
+        b.run(1, 0.005);
         ASSERT_NEAR(a.world.pose(a.body).p[0], b.world.pose(b.body).p[0], tol<S>(1e-12, 1e-5));
     }
     EXPECT_GT(std::abs(a.world.pose(a.body).p[0]), 0.1);
     // A spring carries a weight where k x = m g.
     OneBody<S> hung(earth<S>(), [&] {
         JointDef<S> def = slider<S>(0, 1);
-        def.axes[0].stiffness = R(100), def.axes[0].damping = R(20);
+        def.axes[0].stiffness = R(100);
+        def.axes[0].damping = R(20);
         return def;
     }());
     hung.run(1000, 0.01);
@@ -333,7 +352,8 @@ TYPED_TEST(JointAxes, RopeIsSlackThenTaut) {
     int i = 0;
     for (; i < 60; ++i) {
         one.world.step(R(h));
-        v -= h * kGravity, y += h * v;
+        v -= h * kGravity;
+        y += h * v;
         ASSERT_NEAR(one.world.pose(one.body).p[1], y, tol<S>(1e-11, 1e-5)) << "free flight while slack";
         EXPECT_EQ(one.world.jointForce(one.joint).norm(), R(0));
     }
@@ -360,7 +380,8 @@ TYPED_TEST(JointAxes, ShortestDistanceHolds) {
     def.type = JointType::Distance;
     def.length = 1;
     def.axes[0].mode = AxisMode::Limited;
-    def.axes[0].lower = typename S::Real(0.6), def.axes[0].upper = typename S::Real(1.5);
+    def.axes[0].lower = typename S::Real(0.6);
+    def.axes[0].upper = typename S::Real(1.5);
     OneBody<S> one(WorldDef<S>{}, def, 1, 0, -2, 0.5);
     double shortest = 9, longest = 0;
     for (int i = 0; i < 400; ++i) {
@@ -435,14 +456,16 @@ TYPED_TEST(JointAxes3, TwistMotorAndSwingSpring) {
     JointDef<S> def;
     def.type = JointType::ConeTwist;
     def.axisA = def.axisB = at<S>(0, 1);
-    def.axes[0].motorSpeed = 2, def.axes[0].motorMaxForce = R(0.5);
+    def.axes[0].motorSpeed = 2;
+    def.axes[0].motorMaxForce = R(0.5);
     OneBody<S> turned(WorldDef<S>{}, def);
     turned.run(300, 0.01);
     EXPECT_NEAR(turned.world.jointSpeed(turned.joint, 0), 2, tol<S>(1e-9, 1e-5));
     EXPECT_NEAR(turned.world.jointCoordinate(turned.joint, 0), 2 * 3 - 0.5 * 2 * 2, 0.011);
 
     def.axes[0] = {};
-    def.axes[1].frequency = R(2), def.axes[1].dampingRatio = R(0.1);
+    def.axes[1].frequency = R(2);
+    def.axes[1].dampingRatio = R(0.1);
     OneBody<S> swung(WorldDef<S>{}, def);
     swung.world.setVelocity(swung.body, S::Vec::Zero(), {R(0.5), 0, 0});
     // phi of a spring pendulum about one axis: signed here.
@@ -450,7 +473,8 @@ TYPED_TEST(JointAxes3, TwistMotorAndSwingSpring) {
     const double h = 0.002, w = 2 * kPi * 2;
     for (int i = 0; i < 500; ++i) {
         swung.run(1, h);
-        v = (v - h * w * w * x) / (1 + 0.2 * w * h + h * h * w * w), x += h * v;
+        v = (v - h * w * w * x) / (1 + 0.2 * w * h + h * h * w * w);
+        x += h * v;
         ASSERT_NEAR(swung.world.jointCoordinate(swung.joint, 1), std::abs(x), tol<S>(1e-9, 2e-5)) << i;
     }
 }
@@ -474,11 +498,14 @@ TYPED_TEST(JointAxes, WheelCarriesSpinsAndHoldsItsLine) {
     const BodyId wheel = world.addBody(b);
     JointDef<S> def;
     def.type = JointType::Wheel;
-    def.bodyA = frame, def.bodyB = wheel;
+    def.bodyA = frame;
+    def.bodyB = wheel;
     def.anchorA = at<S>(0.5, -0.5);
     def.axisA = def.axisB = at<S>(0, 1);
-    def.axes[0].stiffness = R(200), def.axes[0].damping = R(15);
-    def.axes[1].motorSpeed = R(-20), def.axes[1].motorMaxForce = R(0.2);
+    def.axes[0].stiffness = R(200);
+    def.axes[0].damping = R(15);
+    def.axes[1].motorSpeed = R(-20);
+    def.axes[1].motorMaxForce = R(0.2);
     const JointId joint = world.addJoint(def);
     for (int i = 0; i < 100; ++i) {
         world.step(R(0.01));

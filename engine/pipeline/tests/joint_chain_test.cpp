@@ -41,14 +41,19 @@ struct Jointed {
 
     BodyId body(const Vec& p, double angle, double mass, double inertia) {
         BodyDef<S> def;
-        def.pose.p = p, def.pose.q = expMap(spin<S>(angle));
-        def.mass = static_cast<R>(mass), def.inertia = isotropic<S>(inertia);
+        def.pose.p = p;
+        def.pose.q = expMap(spin<S>(angle));
+        def.mass = static_cast<R>(mass);
+        def.inertia = isotropic<S>(inertia);
         bodies.push_back(world.addBody(def));
         return bodies.back();
     }
     void ball(BodyId a, BodyId b, const Vec& onA, const Vec& onB) {
         JointDef<S> def;
-        def.bodyA = a, def.bodyB = b, def.anchorA = onA, def.anchorB = onB;
+        def.bodyA = a;
+        def.bodyB = b;
+        def.anchorA = onA;
+        def.anchorB = onB;
         joints.push_back({a, b, onA, onB, world.addJoint(def)});
     }
     /// Links from (0, 60), 45 degrees from the vertical, and a body of `ratio` links' masses at their end.
@@ -135,7 +140,8 @@ TYPED_TEST(Chains, AHundredLinksUnderAHundredTimesTheirMassKeepTheirEnergy) {
             for (int i = 0; i < 180; ++i) {
                 scene.world.step(static_cast<typename S::Real>(kStep));
                 const double change = scene.energy() - start;
-                most = std::max(most, change), least = std::min(least, change);
+                most = std::max(most, change);
+                least = std::min(least, change);
                 gap = std::max(gap, scene.gap());
             }
             EXPECT_LT(most, 1e-3 * fall) << ratio << " " << quick;
@@ -175,7 +181,8 @@ TYPED_TEST(Chains, LargeNetsHoldTogetherAndGainNothingWithTheSolverOfLargeScenes
     Jointed<S> scene(def);
     def.threads = 3;
     Jointed<S> shared(def);
-    scene.flatNet(14), shared.flatNet(14);
+    scene.flatNet(14);
+    shared.flatNet(14);
     const double start = scene.energy(), depth = 196 * kMass * kGravity * 14 * kLink;
     double most = 0, gap = 0;
     long allocated = 0;
@@ -246,7 +253,8 @@ TYPED_TEST(Chains, ACutChainFallsAsTwo) {
 TYPED_TEST(Chains, SuperfluousJointsChangeNothing) {
     using S = TypeParam;
     Jointed<S> once(stepped<S>(4)), twice(stepped<S>(4));
-    once.chain(10, 20), twice.chain(10, 20);
+    once.chain(10, 20);
+    twice.chain(10, 20);
     const auto joints = twice.joints;
     for (const auto& j : joints) twice.ball(j.a, j.b, j.onA, j.onB);
     for (int i = 0; i < 120; ++i) {

@@ -33,7 +33,8 @@ double afterTwoSeconds(const char* correction, JointType type, double lower, dou
     joint.bodyB = id;
     if (type == JointType::Slider) joint.axisA = joint.axisB = at<S>(1, 0);
     joint.axes[0].mode = AxisMode::Limited;
-    joint.axes[0].lower = static_cast<R>(lower), joint.axes[0].upper = static_cast<R>(upper);
+    joint.axes[0].lower = static_cast<R>(lower);
+    joint.axes[0].upper = static_cast<R>(upper);
     world.addJoint(joint);
     for (int i = 0; i < 120; ++i) world.step(R(1.0 / 60));
     if (type == JointType::Slider) return world.pose(id).p[0];

@@ -52,10 +52,15 @@ struct Pair {
             body.pose.p = at<S>(i, 0);
             ids[i] = world.addBody(body);
         }
-        joined.bodyA = ids[0], joined.bodyB = ids[1];
-        joined.anchorA = at<S>(0.5, 0), joined.anchorB = at<S>(-0.5, 0);
-        if (joined.type == JointType::Distance)
-            joined.anchorA = at<S>(0, 0), joined.anchorB = at<S>(0, 0), joined.length = 1;
+        joined.bodyA = ids[0];
+        joined.bodyB = ids[1];
+        joined.anchorA = at<S>(0.5, 0);
+        joined.anchorB = at<S>(-0.5, 0);
+        if (joined.type == JointType::Distance) {
+            joined.anchorA = at<S>(0, 0);
+            joined.anchorB = at<S>(0, 0);
+            joined.length = 1;
+        }
         def = joined;
         joint = world.addJoint(joined);
     }
@@ -109,9 +114,16 @@ std::vector<JointDef<S>> allJoints() {
         for (std::size_t k = 0; k < static_cast<std::size_t>(entry.axes); ++k) {
             const bool cone = (entry.type == JointType::ConeTwist && k == 1) || entry.type == JointType::Ball;
             def.axes[k] = {AxisMode::Limited, R(-0.2), R(0.2)};
-            if (entry.type == JointType::Distance) def.axes[k].lower = R(0.9), def.axes[k].upper = R(1.1);
-            def.axes[k].frequency = R(1), def.axes[k].dampingRatio = R(0.1);
-            if (!cone && k == 0) def.axes[k].motorSpeed = R(0.5), def.axes[k].motorMaxForce = R(0.5);
+            if (entry.type == JointType::Distance) {
+                def.axes[k].lower = R(0.9);
+                def.axes[k].upper = R(1.1);
+            }
+            def.axes[k].frequency = R(1);
+            def.axes[k].dampingRatio = R(0.1);
+            if (!cone && k == 0) {
+                def.axes[k].motorSpeed = R(0.5);
+                def.axes[k].motorMaxForce = R(0.5);
+            }
         }
         all.push_back(def);
     }
@@ -218,7 +230,8 @@ TYPED_TEST(JointTable, SixDofIsEachOfTheOthers) {
     };
     for (const Case& c : cases) {
         JointDef<S> special, general;
-        special.type = c.type, general.type = JointType::SixDof;
+        special.type = c.type;
+        general.type = JointType::SixDof;
         const typename S::Vec axis = at3<S>(0.6, 0.8, 0);
         special.axisA = special.axisB = general.axisA = general.axisB = axis;
         for (const int k : c.free) general.axes[static_cast<std::size_t>(k)].mode = AxisMode::Free;
@@ -226,12 +239,15 @@ TYPED_TEST(JointTable, SixDofIsEachOfTheOthers) {
         if (c.type == JointType::Slider || c.type == JointType::Hinge) {
             JointAxis<R>& one = special.axes[0];
             one = {AxisMode::Limited, R(-0.3), R(0.3)};
-            one.motorSpeed = R(2), one.motorMaxForce = R(0.2);
-            one.frequency = R(2), one.dampingRatio = R(0.3);
+            one.motorSpeed = R(2);
+            one.motorMaxForce = R(0.2);
+            one.frequency = R(2);
+            one.dampingRatio = R(0.3);
             general.axes[static_cast<std::size_t>(c.free[0])] = one;
         }
         Pair<S> a(special), b(general);
-        a.throwBodies(), b.throwBodies();
+        a.throwBodies();
+        b.throwBodies();
         double apart = 0, moved = 0;
         for (int i = 0; i < 480; ++i) {
             for (Pair<S>* pair : {&a, &b}) {

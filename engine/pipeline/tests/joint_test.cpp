@@ -122,16 +122,23 @@ TYPED_TEST(Joints, EveryJointConservesMomentumAndHolds) {
         }
         JointDef<S> j;
         j.type = type;
-        j.bodyA = ids[0], j.bodyB = ids[1];
-        j.anchorA = at<S>(0.5, 0), j.anchorB = at<S>(-0.5, 0);
+        j.bodyA = ids[0];
+        j.bodyB = ids[1];
+        j.anchorA = at<S>(0.5, 0);
+        j.anchorB = at<S>(-0.5, 0);
         if (type == JointType::Slider) j.axisA = j.axisB = at<S>(1, 0);
-        if (type == JointType::Distance) j.anchorA = at<S>(0, 0), j.anchorB = at<S>(0, 0), j.length = 1;
+        if (type == JointType::Distance) {
+            j.anchorA = at<S>(0, 0);
+            j.anchorB = at<S>(0, 0);
+            j.length = 1;
+        }
         world.addJoint(j);
         const auto momentum = [&] {
             std::array<double, 3> m{};
             for (int i = 0; i < 2; ++i) {
                 const typename S::Vec p = world.pose(ids[i]).p, v = world.velocity(ids[i]);
-                m[0] += (1 + i) * v[0], m[1] += (1 + i) * v[1];
+                m[0] += (1 + i) * v[0];
+                m[1] += (1 + i) * v[1];
                 m[2] += (1 + i) * (p[0] * v[1] - p[1] * v[0]) +
                         0.1 * (1 + i) * spinOf<S>(world.angularVelocity(ids[i]));
             }

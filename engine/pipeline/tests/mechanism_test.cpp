@@ -45,9 +45,12 @@ struct Mechanism {
         };
         JointDef<S> def;
         def.type = JointType::Hinge;
-        def.bodyA = a, def.bodyB = b;
-        def.anchorA = local(a), def.anchorB = local(b);
-        def.axes[0].motorSpeed = static_cast<R>(speed), def.axes[0].motorMaxForce = static_cast<R>(torque);
+        def.bodyA = a;
+        def.bodyB = b;
+        def.anchorA = local(a);
+        def.anchorB = local(b);
+        def.axes[0].motorSpeed = static_cast<R>(speed);
+        def.axes[0].motorMaxForce = static_cast<R>(torque);
         return world.addJoint(def);
     }
     Point end(BodyId body, double x) const { return flat(toWorld<S>(world.pose(body), at<S>(x, 0))); }
@@ -93,7 +96,8 @@ TYPED_TEST(Mechanisms, FourBarFollowsItsKinematicsOverFourTurns) {
                             (m.end(coupler, -0.45) - crankEnd).norm(), m.end(crank, -0.15).norm(),
                             (m.end(rocker, -0.35) - Q).norm()});
             const double swing = m.angle(rocker);
-            rockerLow = std::min(rockerLow, swing), rockerHigh = std::max(rockerHigh, swing);
+            rockerLow = std::min(rockerLow, swing);
+            rockerHigh = std::max(rockerHigh, swing);
             // The motor takes a step to reach its speed from rest and then turns by w h in every step.
             late[k] = std::max(late[k], std::abs(angle - start - 2 * 3.141592653589793 * h * (i + 1)));
         }

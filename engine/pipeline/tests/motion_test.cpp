@@ -88,11 +88,13 @@ TYPED_TEST(Motion, DampingIsTheSameInEveryIntegrator) {
         def.inertia = isotropic<S>(0.5);
         def.velocity = at<S>(3, 0);
         def.angularVelocity = spin<S>(2);
-        def.linearVelocityKept = R(0.5), def.angularVelocityKept = R(0.25);
+        def.linearVelocityKept = R(0.5);
+        def.angularVelocityKept = R(0.25);
         const BodyId body = world.addBody(def);
         ConstantForce<S> force;
         force.body = body;
-        force.force = at<S>(0, 4), force.torque = spin<S>(1);
+        force.force = at<S>(0, 4);
+        force.torque = spin<S>(1);
         world.addForce(force);
         for (int i = 0; i < 128; ++i) world.step(R(1.0 / 64));
         const double c = -std::log(0.5), k = -std::log(0.25);

@@ -153,7 +153,8 @@ double obliqueWorld(const Oblique& o, const char* law, double out[3]) {
     const BodyId id = world.addBody(body);
     attach<S>(world, id, Sphere<S>{static_cast<R>(radius)}, m);
     world.step(R(1e-4));
-    out[0] = world.velocity(id)[0], out[1] = world.velocity(id)[1],
+    out[0] = world.velocity(id)[0];
+    out[1] = world.velocity(id)[1];
     out[2] = spinOf<S>(world.angularVelocity(id));
     return 0.5 * (out[0] * out[0] + out[1] * out[1] + o.I * out[2] * out[2]);
 }

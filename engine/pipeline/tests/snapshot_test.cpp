@@ -34,18 +34,23 @@ World<S> scene(const WorldDef<S>& def) {
     const BodyId bob = addBall<S>(world, 3, 2, 0.1, 1, wood), link = addCube<S>(world, 4, 2, 0.1, 0.3, wood);
     JointDef<S> joint;
     joint.bodyB = bob;
-    joint.anchorA = at<S>(2, 2), joint.anchorB = at<S>(-1, 0);
+    joint.anchorA = at<S>(2, 2);
+    joint.anchorB = at<S>(-1, 0);
     world.addJoint(joint);
     joint.type = JointType::Distance;
-    joint.bodyA = bob, joint.bodyB = link;
+    joint.bodyA = bob;
+    joint.bodyB = link;
     joint.anchorA = joint.anchorB = at<S>(0, 0);
     joint.length = 1;
     joint.breakForce = 8;  // breaks on the way: its force goes up to 8.2 N, 1.2 s after the start
     world.addJoint(joint);
     LinearSpring<S> spring;
-    spring.bodyA = ground, spring.bodyB = link;
-    spring.anchorA = at<S>(4, 3), spring.anchorB = at<S>(0.1, 0.1);
-    spring.stiffness = 5, spring.restLength = R(0.5);
+    spring.bodyA = ground;
+    spring.bodyB = link;
+    spring.anchorA = at<S>(4, 3);
+    spring.anchorB = at<S>(0.1, 0.1);
+    spring.stiffness = 5;
+    spring.restLength = R(0.5);
     world.addForce(spring);
     world.addForce(LinearDrag<S>{ball, R(0.1)});
     world.removeBody(gone);  // dense indices and names part ways
@@ -59,10 +64,12 @@ void expectSameFuture(World<S>& one, World<S>& other, int steps, const std::stri
     ASSERT_EQ(one.stateHash(), other.stateHash()) << what << ": at once";
     std::vector<ContactView<S>> a, b;
     for (int i = 0; i < steps; ++i) {
-        one.step(R(1.0 / 120)), other.step(R(1.0 / 120));
+        one.step(R(1.0 / 120));
+        other.step(R(1.0 / 120));
         ASSERT_EQ(one.stateHash(), other.stateHash()) << what << ": step " << i;
     }
-    one.readContacts(a), other.readContacts(b);
+    one.readContacts(a);
+    other.readContacts(b);
     ASSERT_EQ(a.size(), b.size()) << what;
     EXPECT_FALSE(one.lastStep().nonFinite) << what;
 }

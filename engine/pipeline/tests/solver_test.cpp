@@ -91,7 +91,8 @@ TYPED_TEST(Solvers, ObliqueImpactKeepsLinearAndAngularMomentum) {
                 const double mass = world.constants(id).mass;
                 const typename S::Vec p = world.pose(id).p, v = world.velocity(id);
                 const double I = id == a ? 0.4 * 1 * 0.04 : 2.0 / 3 * 2 * 0.0625;
-                sum[0] += mass * v[0], sum[1] += mass * v[1];
+                sum[0] += mass * v[0];
+                sum[1] += mass * v[1];
                 sum[2] += mass * (p[0] * v[1] - p[1] * v[0]) + I * spinOf<S>(world.angularVelocity(id));
             }
             return sum;
@@ -244,7 +245,8 @@ World<S> busyWorld(const WorldDef<S>& def) {
     for (int i = 0; i < 4; ++i) addCube<S>(world, 0.05 * i, 0.55 + 1.02 * i, 0.5, 1, m);
     JointDef<S> j;
     j.bodyB = addBall<S>(world, -3, 2, 0.4, 2, m, 4);
-    j.anchorA = at<S>(-2, 3.5), j.anchorB = at<S>(1, 1.5);
+    j.anchorA = at<S>(-2, 3.5);
+    j.anchorB = at<S>(1, 1.5);
     world.addJoint(j);
     return world;
 }
@@ -256,11 +258,15 @@ TYPED_TEST(Solvers, EveryoneIsDeterministicAndNoTwoAreTheSame) {
     std::size_t choices = 0;
     const auto run = [&](const WorldDef<S>& def, const std::string& name) {
         World<S> world = busyWorld<S>(def), same = busyWorld<S>(def);
-        for (int i = 0; i < 60; ++i) world.step(R(1.0 / 60)), same.step(R(1.0 / 60));
+        for (int i = 0; i < 60; ++i) {
+            world.step(R(1.0 / 60));
+            same.step(R(1.0 / 60));
+        }
         World<S> copy = world;
         for (int i = 0; i < 30; ++i) {
             ASSERT_FALSE(world.step(R(1.0 / 60)).nonFinite) << name;
-            same.step(R(1.0 / 60)), copy.step(R(1.0 / 60));
+            same.step(R(1.0 / 60));
+            copy.step(R(1.0 / 60));
         }
         EXPECT_EQ(world.stateHash(), same.stateHash()) << name;
         EXPECT_EQ(world.stateHash(), copy.stateHash()) << name;
@@ -306,8 +312,10 @@ TYPED_TEST(Solvers, ConvergedSolversAgree) {
         for (int i = 0; i < 3; ++i) {
             const BodyId next = addBall<S>(world, 0.4 * (i + 1), 1, 0.15, 1 + i, m);
             JointDef<S> j;
-            j.bodyA = last, j.bodyB = next;
-            j.anchorA = i == 0 ? at<S>(0, 1) : at<S>(0, 0), j.anchorB = at<S>(-0.4, 0);
+            j.bodyA = last;
+            j.bodyB = next;
+            j.anchorA = i == 0 ? at<S>(0, 1) : at<S>(0, 0);
+            j.anchorB = at<S>(-0.4, 0);
             world.addJoint(j);
             last = next;
         }

@@ -320,7 +320,10 @@ TYPED_TEST(OnSurfaces, CopiesAndRefusals) {
     addCube<S>(world, 1, 0.31, 0.3, 1, material, -1);
     for (int i = 0; i < 60; ++i) world.step(R(1) / 60);
     World<S> copy = world;
-    for (int i = 0; i < 60; ++i) world.step(R(1) / 60), copy.step(R(1) / 60);
+    for (int i = 0; i < 60; ++i) {
+        world.step(R(1) / 60);
+        copy.step(R(1) / 60);
+    }
     EXPECT_EQ(world.stateHash(), copy.stateHash());
 
     const BodyId dynamic = world.addBody(BodyDef<S>{});

@@ -41,8 +41,10 @@ World<S> crowd(const WorldDef<S>& def, int columns, int height) {
         const BodyId link = addBall<S>(world, 0.3 + 0.3 * i, 0.52 * height + 0.4, 0.1, 0.3, wood);
         if (i > 0) {
             JointDef<S> joint;
-            joint.bodyA = last, joint.bodyB = link;
-            joint.anchorA = at<S>(0.15, 0), joint.anchorB = at<S>(-0.15, 0);
+            joint.bodyA = last;
+            joint.bodyB = link;
+            joint.anchorA = at<S>(0.15, 0);
+            joint.anchorB = at<S>(-0.15, 0);
             world.addJoint(joint);
         }
         last = link;

@@ -119,7 +119,8 @@ TYPED_TEST(WidePatches, OverlapIsPushedOutToTheSlopAndNotFast) {
         for (int i = 0; i < steps; ++i) {
             world.step(R(1.0 / 60));
             const double now = static_cast<double>(world.pose(box).p[1]);
-            fastest = std::max(fastest, 60 * (now - last)), last = now;
+            fastest = std::max(fastest, 60 * (now - last));
+            last = now;
         }
         return std::pair(last - start, fastest);
     };
@@ -265,7 +266,8 @@ void expectSlidesStraight() {
     const BodyId body = world.addBody(def);
     ShapeDef<S> base;
     base.shape = Box<S>{typename S::Vec(R(0.5), R(0.1), R(0.5))};
-    base.pose.p = typename S::Vec(0, 0, R(0.3)), base.material = wood;
+    base.pose.p = typename S::Vec(0, 0, R(0.3));
+    base.material = wood;
     world.addShape(body, base);
     for (int i = 0; i < 60; ++i) world.step(R(1.0 / 60));
     world.setVelocity(body, at<S>(4, 0), zeroAng<S>());

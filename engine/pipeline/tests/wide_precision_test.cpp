@@ -65,7 +65,8 @@ TYPED_TEST(WidePrecision, WhatOneGainsTheOtherLoses) {
 TYPED_TEST(WidePrecision, DoesNotDependOnTheSpeedOfAll) {
     using S = TypeParam;
     Crowd<S> still(0), flying(1e4);
-    still.run(), flying.run();
+    still.run();
+    flying.run();
     for (std::size_t k = 0; k < still.bodies.size(); ++k) {
         typename S::Vec v = flying.world.velocity(flying.bodies[k]);
         v[0] -= 1e4;
@@ -80,7 +81,8 @@ TYPED_TEST(WidePrecision, DoesNotDependOnTheSpeedOfAll) {
 TYPED_TEST(WidePrecision, DoesNotDependOnThePlace) {
     using S = TypeParam;
     Crowd<S> here(0), there(0, 1e5);
-    here.run(), there.run();
+    here.run();
+    there.run();
     for (std::size_t k = 0; k < here.bodies.size(); ++k) {
         typename S::Vec x = there.world.pose(there.bodies[k]).p;
         x[0] -= 1e5;

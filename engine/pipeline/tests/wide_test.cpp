@@ -159,7 +159,8 @@ void expectSubStepsOfJointsAreSteps() {
         rod.angularVelocity = {3, 5, 2};
         JointDef<S> joint;
         joint.bodyB = world.addBody(rod);
-        joint.anchorB = at<S>(-1, 0), joint.anchorA = at<S>(-1, 0);
+        joint.anchorB = at<S>(-1, 0);
+        joint.anchorA = at<S>(-1, 0);
         world.addJoint(joint);
         for (int i = 0; i < 30 * 8 / substeps; ++i) world.step(static_cast<R>(substeps / 480.0));
         return std::pair(world.pose(joint.bodyB).p, world.angularVelocity(joint.bodyB));

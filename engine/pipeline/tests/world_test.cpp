@@ -29,7 +29,8 @@ World<S> busyWorld(WorldDef<S> def = earth<S>()) {
     const BodyId ball = addBall<S>(world, -3, 2, 0.4, 2, m, 4);
     JointDef<S> j;
     j.bodyB = ball;
-    j.anchorA = at<S>(-2, 3.5), j.anchorB = at<S>(1, 1.5);
+    j.anchorA = at<S>(-2, 3.5);
+    j.anchorB = at<S>(1, 1.5);
     world.addJoint(j);
     return world;
 }
@@ -37,8 +38,10 @@ World<S> busyWorld(WorldDef<S> def = earth<S>()) {
 TYPED_TEST(Worlds, SameBitsFromRunToRunAndFromACopy) {
     using S = TypeParam;
     World<S> first = busyWorld<S>(), second = busyWorld<S>();
-    for (int i = 0; i < 120; ++i)
-        first.step(typename S::Real(1.0 / 60)), second.step(typename S::Real(1.0 / 60));
+    for (int i = 0; i < 120; ++i) {
+        first.step(typename S::Real(1.0 / 60));
+        second.step(typename S::Real(1.0 / 60));
+    }
     EXPECT_EQ(first.stateHash(), second.stateHash());
     World<S> copy = first;
     for (int i = 0; i < 120; ++i) {
@@ -191,8 +194,10 @@ TYPED_TEST(Worlds, FilterKeepsJoinedAndGhostBodiesApart) {
         World<S> world{WorldDef<S>{}};
         const BodyId a = addBall<S>(world, 0, 0, 0.5, 1, 0), b = addBall<S>(world, 0.8, 0, 0.5, 1, 0);
         JointDef<S> j;
-        j.bodyA = a, j.bodyB = b;
-        j.anchorA = at<S>(0.4, 0), j.anchorB = at<S>(-0.4, 0);
+        j.bodyA = a;
+        j.bodyB = b;
+        j.anchorA = at<S>(0.4, 0);
+        j.anchorB = at<S>(-0.4, 0);
         j.collideConnected = collideConnected;
         world.addJoint(j);
         BodyDef<S> ghost;

@@ -26,7 +26,8 @@ TEST(Islands, AreTheConnectedComponents) {
             const std::uint32_t a = random() % n, b = random() % n;
             if (!member[a] || !member[b]) continue;
             islands.join(a, b);
-            next[a].push_back(b), next[b].push_back(a);
+            next[a].push_back(b);
+            next[b].push_back(a);
         }
         islands.finish(member, ids);
         std::vector<std::uint32_t> expected(n, kNullIndex);
@@ -51,7 +52,8 @@ TEST(Islands, AreTheConnectedComponents) {
             for (const std::uint32_t i : islands.members(k)) {
                 EXPECT_EQ(expected[i], k);
                 EXPECT_TRUE(i > last || seen == 0 || i == islands.members(k)[0]);
-                last = i, ++seen;
+                last = i;
+                ++seen;
             }
             EXPECT_EQ(islands.bodies(k).size(), islands.members(k).size());
         }
@@ -286,7 +288,8 @@ TYPED_TEST(Sleeping, OnlyRestWithoutInterruptionCounts) {
         const BodyId id = world.addBody(body);
         LinearSpring<S> spring;
         spring.bodyB = id;
-        spring.stiffness = 100, spring.restLength = 1;
+        spring.stiffness = 100;
+        spring.restLength = 1;
         world.addForce(spring);
         double slept = 0;
         for (int i = 0; i < 300 && slept == 0; ++i) {
@@ -309,11 +312,13 @@ TYPED_TEST(Sleeping, WhatOnlySpinsOrOnlyDriftsIsAwake) {
         for (const double turn : {0.0, 0.2, 0.4}) {
             WorldDef<S> def;
             def.sleeping = "islands";
-            def.sleepLinearVelocity = R(0.03), def.sleepAngularVelocity = R(0.3);
+            def.sleepLinearVelocity = R(0.03);
+            def.sleepAngularVelocity = R(0.3);
             World<S> world(def);
             BodyDef<S> body;
             body.inertia = isotropic<S>(1);
-            body.velocity = at<S>(speed, 0), body.angularVelocity = spin<S>(-turn);
+            body.velocity = at<S>(speed, 0);
+            body.angularVelocity = spin<S>(-turn);
             const BodyId id = world.addBody(body);
             for (int i = 0; i < 120; ++i) world.step(static_cast<R>(kStep));
             EXPECT_EQ(world.isAsleep(id), speed < 0.03 && turn < 0.3) << speed << " " << turn;
@@ -323,14 +328,16 @@ TYPED_TEST(Sleeping, WhatOnlySpinsOrOnlyDriftsIsAwake) {
 TYPED_TEST(Sleeping, OffChangesNoBitsAndCopiesAndHashesKnowTheTimers) {
     using S = TypeParam;
     Scene<S> off("off"), on("islands");
-    off.run(25), on.run(25);
+    off.run(25);
+    on.run(25);
     for (std::size_t i = 0; i < 3; ++i)
         EXPECT_TRUE(samePose<S>(off.world.pose(off.stack[i]), on.world.pose(on.stack[i])))
             << "before anybody sleeps there is no difference";
     EXPECT_NE(off.world.stateHash(), on.world.stateHash()) << "but the timers run";
     Scene<S> copy = on;
     for (int i = 0; i < 60; ++i) {
-        on.run(1), copy.run(1);
+        on.run(1);
+        copy.run(1);
         ASSERT_EQ(on.world.stateHash(), copy.world.stateHash());
     }
     EXPECT_EQ(copy.asleep(), 4);

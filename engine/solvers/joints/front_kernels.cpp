@@ -56,7 +56,10 @@ template <std::size_t columns, std::size_t lanes, class R>
 HWY_INLINE void multiplyRest(const Product<R>& p, std::size_t i) {
     const hn::CappedTag<R, lanes> d;
     for (; i + lanes <= p.rows; i += lanes) multiplyTile<columns, 1>(d, p, i);
-    if constexpr (lanes > 1) multiplyRest<columns, lanes / 2>(p, i);
+    if constexpr (lanes > 1) {
+        multiplyRest < columns;
+        lanes / 2 > (p, i);
+    }
 }
 
 template <std::size_t columns, class R>
@@ -73,9 +76,16 @@ constexpr std::size_t kTile = 6;
 /// The first of `columns` columns that go together, at most kTile.
 template <class R>
 std::size_t multiplySome(const Product<R>& p, std::size_t columns) {
-    if (columns >= kTile) return multiplyColumns<kTile>(p), kTile;
-    if (columns >= 3) return multiplyColumns<3>(p), 3;
-    return multiplyColumns<1>(p), 1;
+    if (columns >= kTile) {
+        multiplyColumns<kTile>(p);
+        return kTile;
+    }
+    if (columns >= 3) {
+        multiplyColumns<3>(p);
+        return 3;
+    }
+    multiplyColumns<1>(p);
+    return 1;
 }
 
 /// Calls use(std::integral_constant<std::size_t, n>) for n of 1..kTile.
@@ -118,7 +128,10 @@ HWY_INLINE void divideRows(const Columns<R>& t, std::size_t i) {
             hn::StoreU(x[c], d, t.at + c * t.stride + i);
         }
     }
-    if constexpr (lanes > 1) divideRows<n, lanes / 2>(t, i);
+    if constexpr (lanes > 1) {
+        divideRows < n;
+        lanes / 2 > (t, i);
+    }
 }
 
 /// By columns that are scaled last: what one pivot has to wait for of the one before is then a division.

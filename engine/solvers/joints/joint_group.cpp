@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/solvers/joints/joint_inverses.hpp"
-#include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/sequential_impulses.hpp"
 
 namespace rigor::engine {
 

@@ -134,8 +134,14 @@ bool BoxLcp::takeIn(const Problem& p, std::size_t d, std::size_t& pieces) {
         if (pieces > most) return false;
         const double direction = w_[d] > 0 ? -1 : 1;
         taken_[d] = 1;
-        if (direction < 0 && p.x[d] <= p.lower[d]) return state_[d] = BoxState::Lower, true;
-        if (direction > 0 && p.x[d] >= p.upper[d]) return state_[d] = BoxState::Upper, true;
+        if (direction < 0 && p.x[d] <= p.lower[d]) {
+            state_[d] = BoxState::Lower;
+            return true;
+        }
+        if (direction > 0 && p.x[d] >= p.upper[d]) {
+            state_[d] = BoxState::Upper;
+            return true;
+        }
         follow(p, d, direction);
         // How far? The first to object decides; among equals the one found first.
         double way = std::abs(w_[d]) / std::max(std::abs(dw_[d]), 1e-300);

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Block Gauss-Seidel on velocities: projected Gauss-Seidel (pgs.cpp) whose unit is not the row but everything
-// that acts between two bodies, and all joints together. Kernels: row_kernels.hpp; source [Catto2005],
+// that acts between two bodies, and all joints together. Kernels: sequential_impulses.hpp; source [Catto2005],
 // [Catto2009]. What differs:
 //   - the contacts between two bodies are a group that is swept until it is nearly solved before the next one
 //     is solved: a box then meets its neighbours without the rotation that solving its corners one by one
@@ -19,7 +19,7 @@
 #include "engine/solvers/joints/joint_group.hpp"
 #include "engine/solvers/methods/newton_finish.hpp"
 #include "engine/solvers/natural_map.hpp"
-#include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/sequential_impulses.hpp"
 #include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {

@@ -11,13 +11,13 @@
 // each iteration lowers the energy of the error: it converges, without a relaxation factor to choose.
 //
 // The rows between two bodies (a manifold, a joint with its limits) are one unit, swept until nearly solved
-// with the kernels of row_kernels.hpp: fewer parts per body, hence faster than a split by contact point.
+// with the kernels of sequential_impulses.hpp: fewer parts per body, hence faster than a split by contact point.
 //
 // Cost: iterations * rows * (1..kInnerSweeps), plus a copy of the rows per step. Known limit: information
 // travels one body per iteration and in parts of 1/n: several times the iterations of pgs for the same
 // residual.
 #include "engine/solvers/joints/joint_inverses.hpp"
-#include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/sequential_impulses.hpp"
 #include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {

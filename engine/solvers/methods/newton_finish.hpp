@@ -21,7 +21,10 @@ class NewtonFinish {
   public:
     using Real = typename S::Real;
     /// The rows are others than those of the last attempt.
-    void forget() { assembled_ = false, interiorStarts_ = 0; }
+    void forget() {
+        assembled_ = false;
+        interiorStarts_ = 0;
+    }
     /// From the impulses there are, of natural map `residual` [m/s], towards `goal`, in at most `steps`.
     /// Returns the natural map of the impulses it leaves.
     Real attempt(const SolverInput<S>& input, Real residual, Real goal, int steps = 30);

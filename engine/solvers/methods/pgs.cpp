@@ -3,7 +3,7 @@
 //
 // Projected Gauss-Seidel on velocities, known as sequential impulses [Catto2005]: each iteration solves the
 // rows one after the other, always in the same order, and gives each the impulse that satisfies it alone at
-// the velocities its predecessors have led to (row_kernels.hpp). For the linear complementarity problem
+// the velocities its predecessors have led to (sequential_impulses.hpp). For the linear complementarity problem
 //     w = A lambda + b,   A = J M^-1 J^T,   0 <= lambda _|_ w >= 0
 // this is lambda_i := max(0, lambda_i - w_i / A_ii) in turn, with w kept up to date through the velocities.
 // Friction goes before the normal, with the limit that the normal's impulse of the iteration before sets, so
@@ -15,7 +15,7 @@
 // Known limits: linear convergence, at a rate that falls with the height of stacks and with the mass ratio
 // [Erleben2004]; corners of a box solved one by one leave it turning, which is what makes tall stacks rock.
 #include "engine/solvers/matrix_space.hpp"
-#include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/sequential_impulses.hpp"
 #include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {

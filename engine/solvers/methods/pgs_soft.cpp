@@ -11,7 +11,7 @@
 // Cost: that of pgs. Known limits: the spring's frequency is at most a quarter of the step rate, 15 Hz at 60
 // Hz. A load is carried by an overlap in proportion to it: 1 mm under a box of 1 m, 35 mm in sum in a stack
 // of five of them, 0.3 m under a load of 100 times the mass; joints stretch by millimetres and lose energy.
-#include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/sequential_impulses.hpp"
 #include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {

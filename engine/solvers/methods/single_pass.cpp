@@ -24,7 +24,7 @@
 // collapses whatever corrects its positions; a box slides on a slope that holds it; a pendulum on two rows
 // loses most of its energy.
 #include "engine/solvers/matrix_space.hpp"
-#include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/sequential_impulses.hpp"
 #include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {

@@ -6,7 +6,7 @@
 // of direction fall with the square of the sub-step. Each sub-step (pipeline/step.cpp) is
 //     forces      v += h a
 //     warm start  v += M^-1 J^T lambda of the sub-step before
-//     solve       one row-by-row iteration (row_kernels.hpp) with soft errors, soft.hpp [Catto2011]; all
+//     solve       one row-by-row iteration (sequential_impulses.hpp) with soft errors, soft.hpp [Catto2011]; all
 //                 normals before all friction, which would otherwise have no limit yet where bodies meet, and
 //                 hold on to the rotation that one corner makes and the next takes back
 //     move        x += h v
@@ -23,7 +23,7 @@
 // joint is as soft as its own effective mass says, which on a long arm is mostly the turn's: a small ball on
 // a rod of 1 m gives way by 15 mm at the default 60 Hz, whatever the step (joint_frequency 240: 1 mm; a
 // spring of the masses alone gains energy without bound at 1/60).
-#include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/sequential_impulses.hpp"
 #include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {

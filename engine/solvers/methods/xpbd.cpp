@@ -27,7 +27,7 @@
 // tall stacks keep rocking by centimetres; a load of 100 times the mass squeezes its support out; velocities
 // come from positions that end on the constraint, which damps a swing by (w h)^2 / 2 per sub-step, 18 % of a
 // pendulum's energy in 10 s.
-#include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/sequential_impulses.hpp"
 #include "engine/solvers/traits.hpp"
 
 namespace rigor::engine {

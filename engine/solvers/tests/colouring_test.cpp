@@ -88,7 +88,8 @@ std::size_t expectProperPartitions(const std::vector<PatchDescriptor>& descripto
     for (const Colouring::Partition& partition : colouring.partitions()) {
         EXPECT_EQ(partition.first, nextBlock);
         EXPECT_EQ(partition.firstBody, nextBody);
-        nextBlock = partition.last, nextBody = partition.lastBody;
+        nextBlock = partition.last;
+        nextBody = partition.lastBody;
         for (std::uint32_t block = partition.first; block < partition.last; ++block)
             found += expectIndependent(descriptors, colouring, block, block + 1);
         const auto has = [&](std::uint32_t body) {
@@ -202,7 +203,8 @@ TEST(Colouring, DoesNotAllocateForWhatItHasHadBefore) {
         for (const auto& descriptors : {std::span(sheet), std::span(mixed)})
             colouring.colour(descriptors, kSide * kSide + 1, kWidth, Tasks::one());
     };
-    both(), both();
+    both();
+    both();
     const long before = allocationCount();
     both();
     EXPECT_EQ(allocationCount() - before, 0);
@@ -281,7 +283,8 @@ TEST(Colouring, ChunksOfAllColoursMoveTheSameBodies) {
         for (std::size_t k = 0; k < descriptors.size(); ++k)
             for (const Colouring::Range& range : colouring.ranges())
                 if (const std::size_t chunk = chunkOf(places[k] / kWidth, colouring, range, of); chunk < of) {
-                    ++work[chunk], ++shared;
+                    ++work[chunk];
+                    ++shared;
                     if (descriptors[k].movesA) moved[chunk].insert(descriptors[k].a);
                     if (descriptors[k].movesB) moved[chunk].insert(descriptors[k].b);
                 }

@@ -117,7 +117,8 @@ TYPED_TEST(Direct, SlopeHoldsUpToTheCoefficientAndSlidesByTheRest) {
             const double mu = std::tan(a) * (1 - excess);
             RowProblem<S> p;
             typename S::Vec v = S::Vec::Zero();
-            v[0] = static_cast<R>(h * g * std::sin(a)), v[1] = static_cast<R>(-h * g * std::cos(a));
+            v[0] = static_cast<R>(h * g * std::sin(a));
+            v[1] = static_cast<R>(-h * g * std::cos(a));
             p.addBody(2, 0.3, v);
             // The tangent basis of +y has a tangent along x: pyramids are exact here.
             p.addContact(0, 1, S::Vec::Unit(1), S::Vec::Zero(), S::Vec::Zero(), mu);
@@ -133,7 +134,8 @@ TYPED_TEST(Direct, SlopeHoldsUpToTheCoefficientAndSlidesByTheRest) {
         for (const double muStatic : {1.02 * std::tan(a), 0.98 * std::tan(a)}) {
             RowProblem<S> p;
             typename S::Vec v = S::Vec::Zero();
-            v[0] = static_cast<R>(h * g * std::sin(a)), v[1] = static_cast<R>(-h * g * std::cos(a));
+            v[0] = static_cast<R>(h * g * std::sin(a));
+            v[1] = static_cast<R>(-h * g * std::cos(a));
             p.addBody(2, 0.3, v);
             const double mu = 0.5 * std::tan(a);
             p.addContact(0, 1, S::Vec::Unit(1), S::Vec::Zero(), S::Vec::Zero(), mu, 0, muStatic);
@@ -153,12 +155,14 @@ TYPED_TEST(Direct, RedundantRowsHaveAFiniteSolution) {
     for (const char* name : kPromising) {
         RowProblem<S> p;
         typename S::Vec v = S::Vec::Zero();
-        v[0] = R(0.05), v[1] = R(-0.1);
+        v[0] = R(0.05);
+        v[1] = R(-0.1);
         p.addBody(1, 0.2, v);
         for (const double x : {-0.5, 0.5})
             for (const double z : {-0.5, 0.5}) {
                 typename S::Vec r = S::Vec::Zero();
-                r[0] = R(x), r[1] = R(-0.5);
+                r[0] = R(x);
+                r[1] = R(-0.5);
                 if (S::dim == 3) r[S::dim - 1] = R(z);
                 p.addContact(0, 1, S::Vec::Unit(1), r, r, 0.8);
             }
@@ -256,7 +260,8 @@ TYPED_TEST(Direct, NaturalMapIsZeroOnlyForTheLaw) {
     EXPECT_NEAR(p.residual(), 0.25, 1e-6) << "approaching";
     p.velocities[1].v[1] = R(0.25);
     EXPECT_NEAR(p.residual(), 0.25, 1e-6) << "pressed and separating";
-    p.velocities[1].v[1] = 0, p.rows.blocks[0].friction = R(0.5);
+    p.velocities[1].v[1] = 0;
+    p.rows.blocks[0].friction = R(0.5);
     for (int t = 1; t <= S::tangents; ++t) {
         const R along = rows[t].lin[0];
         rows[t].impulse = -along;  // mu r_n against the slip

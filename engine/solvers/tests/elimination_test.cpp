@@ -18,7 +18,10 @@ using Graph = std::vector<std::vector<std::uint32_t>>;
 
 Graph graphOf(std::size_t nodes, const std::set<std::pair<std::uint32_t, std::uint32_t>>& edges) {
     Graph near(nodes);
-    for (const auto& [a, b] : edges) near[a].push_back(b), near[b].push_back(a);
+    for (const auto& [a, b] : edges) {
+        near[a].push_back(b);
+        near[b].push_back(a);
+    }
     for (auto& list : near) std::sort(list.begin(), list.end());
     return near;
 }

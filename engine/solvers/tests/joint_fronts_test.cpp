@@ -35,7 +35,10 @@ struct Problem {
             const auto a = static_cast<std::uint32_t>(random() % nodes);
             // Near ones, so that there is a band with some order in it.
             const auto b = static_cast<std::uint32_t>((a + 1 + random() % (2 + nodes / 8)) % nodes);
-            if (a != b) near[a].insert(b), near[b].insert(a);
+            if (a != b) {
+                near[a].insert(b);
+                near[b].insert(a);
+            }
         }
         std::vector<std::vector<std::uint32_t>> lists;
         for (const auto& set : near) lists.emplace_back(set.begin(), set.end());
@@ -110,7 +113,8 @@ TYPED_TEST(JointFrontsOf, UnknownsBelowTheirFloorAreLeftOut) {
     const Eigen::Index n = 90;
     for (const std::size_t out : {0u, 31u, 32u, 89u}) {
         const auto i = static_cast<Eigen::Index>(out);
-        p.K.row(i).setZero(), p.K.col(i).setZero();
+        p.K.row(i).setZero();
+        p.K.col(i).setZero();
         p.floor[out] = TypeParam(1e-3);
     }
     p.factor();

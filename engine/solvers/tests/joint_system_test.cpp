@@ -38,17 +38,21 @@ class JointSystems : public testing::Test {
     void join(std::uint32_t a, std::uint32_t b, int count) {
         Block<S> block;
         block.kind = BlockKind::Joint;
-        block.a = a, block.b = b;
+        block.a = a;
+        block.b = b;
         block.rows = static_cast<std::uint8_t>(count);
-        block.invMassA = static_cast<Real>(invMass[a]), block.invMassB = static_cast<Real>(invMass[b]);
+        block.invMassA = static_cast<Real>(invMass[a]);
+        block.invMassB = static_cast<Real>(invMass[b]);
         std::vector<Row<S>> made(static_cast<std::size_t>(count));
         for (Row<S>& row : made) {
             for (int i = 0; i < S::dim; ++i) row.lin[i] = uniform();
-            row.angA = ang(), row.angB = ang();
+            row.angA = ang();
+            row.angB = ang();
             row.invIAngA = Real(3) * block.invMassA * row.angA;
             row.invIAngB = Real(3) * block.invMassB * row.angB;
         }
-        blocks.push_back(block), rows.push_back(made);
+        blocks.push_back(block);
+        rows.push_back(made);
     }
     /// A joint of as many rows as there are dimensions that holds two points together, at `arm` from A and at
     /// `-arm` from B, with unit masses and the inertia of small spheres.
@@ -58,14 +62,16 @@ class JointSystems : public testing::Test {
         for (int i = 0; i < S::dim; ++i) {
             Row<S>& row = rows.back()[static_cast<std::size_t>(i)];
             row.lin = S::Vec::Unit(i);
-            row.angA = -cross(arm, row.lin), row.angB = cross(typename S::Vec(-arm), row.lin);
+            row.angA = -cross(arm, row.lin);
+            row.angB = cross(typename S::Vec(-arm), row.lin);
             row.invIAngA = Real(3) * block.invMassA * row.angA;
             row.invIAngB = Real(3) * block.invMassB * row.angB;
         }
     }
     /// A flat net of side x side bodies that hangs from body 0 by its first row.
     void flatNet(std::uint32_t side) {
-        invMass.assign(side * side + 1, 1), invMass[0] = 0;
+        invMass.assign(side * side + 1, 1);
+        invMass[0] = 0;
         const typename S::Vec right = S::Vec::Unit(0) * Real(0.25), down = S::Vec::Unit(1) * Real(-0.25);
         for (std::uint32_t i = 0; i < side * side; ++i) {
             ball(i < side ? 0 : i + 1 - side, i + 1, down);
@@ -88,12 +94,18 @@ class JointSystems : public testing::Test {
         for (std::size_t k = 0; k < blocks.size(); ++k)
             for (const Row<S>& row : rows[k]) {
                 const Eigen::Index a = blocks[k].a * size, b = blocks[k].b * size;
-                for (int i = 0; i < S::dim; ++i) J(r, a + i) = -row.lin[i], J(r, b + i) = row.lin[i];
+                for (int i = 0; i < S::dim; ++i) {
+                    J(r, a + i) = -row.lin[i];
+                    J(r, b + i) = row.lin[i];
+                }
                 for (int i = 0; i < angular; ++i) {
-                    if constexpr (S::dim == 2)
-                        J(r, a + 2) = row.angA, J(r, b + 2) = row.angB;
-                    else
-                        J(r, a + 3 + i) = row.angA[i], J(r, b + 3 + i) = row.angB[i];
+                    if constexpr (S::dim == 2) {
+                        J(r, a + 2) = row.angA;
+                        J(r, b + 2) = row.angB;
+                    } else {
+                        J(r, a + 3 + i) = row.angA[i];
+                        J(r, b + 3 + i) = row.angB[i];
+                    }
                 }
                 ++r;
             }
@@ -142,15 +154,20 @@ TYPED_TEST(JointSystems, ChainsTreesAndLoopsAreTheDenseSolution) {
     EXPECT_LT(this->residual(system, 3), small);
     for (std::uint32_t i = 8; i < 13; ++i) this->join(i, i / 2, 1);  // branches
     EXPECT_LT(this->residual(system, 3), small);
-    this->join(7, 0, 1), this->join(12, 9, 1), this->join(3, 4, 1);  // loops, and two joints at a pair
+    this->join(7, 0, 1);
+    this->join(12, 9, 1);
+    this->join(3, 4, 1);  // loops, and two joints at a pair
     EXPECT_LT(this->residual(system, 3), small);
 }
 
 TYPED_TEST(JointSystems, RedundantRowsAreNoTrouble) {
     this->bodies(2);
-    this->join(0, 1, 2), this->join(1, 2, 2), this->join(2, 0, 2);
+    this->join(0, 1, 2);
+    this->join(1, 2, 2);
+    this->join(2, 0, 2);
     // The same joint twice, and a row that no body can follow.
-    this->blocks.push_back(this->blocks[1]), this->rows.push_back(this->rows[1]);
+    this->blocks.push_back(this->blocks[1]);
+    this->rows.push_back(this->rows[1]);
     this->join(0, 1, 1);
     Row<TypeParam>& dead = this->rows.back()[0];
     dead = {};
@@ -161,7 +178,8 @@ TYPED_TEST(JointSystems, RedundantRowsAreNoTrouble) {
 /// In the net's plane there are more rows than motions.
 TYPED_TEST(JointSystems, FlatNetsAreNoTrouble) {
     for (const std::uint32_t side : {3u, 5u, 9u, 14u}) {
-        this->blocks.clear(), this->rows.clear();
+        this->blocks.clear();
+        this->rows.clear();
         this->flatNet(side);
         JointSystem<TypeParam> system;
         EXPECT_LT(this->residual(system, 4), isDouble(typename TypeParam::Real()) ? 1e-9 : 1e-3) << side;

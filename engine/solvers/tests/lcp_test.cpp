@@ -24,7 +24,10 @@ std::vector<Vector> allLcpSolutions(const Matrix& M, const Vector& q) {
         Matrix A = Matrix::Identity(n, n);
         Vector b = Vector::Zero(n);
         for (int i = 0; i < n; ++i)
-            if (set >> i & 1) A.row(i) = M.row(i), b[i] = -q[i];
+            if (set >> i & 1) {
+                A.row(i) = M.row(i);
+                b[i] = -q[i];
+            }
         for (int i = 0; i < n; ++i)
             for (int j = 0; j < n; ++j)
                 if ((set >> i & 1) && !(set >> j & 1)) A(i, j) = 0;
@@ -130,9 +133,10 @@ TEST(BoxLcp, FindsTheOneSolution) {
             Vector b(n);
             bool possible = true;
             for (int i = 0, s = set; i < n; ++i, s /= 3) {
-                if (s % 3 == 1)
-                    B.row(i) = whole.row(i), b[i] = -q[i];
-                else
+                if (s % 3 == 1) {
+                    B.row(i) = whole.row(i);
+                    b[i] = -q[i];
+                } else
                     b[i] = s % 3 == 0 ? lower[i] : upper[i];
                 possible = possible && std::isfinite(b[i]);
             }

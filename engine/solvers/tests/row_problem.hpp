@@ -48,7 +48,8 @@ struct RowProblem {
     Block<S>& addContact(std::uint32_t a, std::uint32_t b, const Vec& n, const Vec& rA, const Vec& rB,
                          double mu, double bias = 0, double muStatic = 0) {
         Block<S> block = begin(BlockKind::Contact, a, b);
-        block.friction = static_cast<Real>(mu), block.staticFriction = static_cast<Real>(muStatic);
+        block.friction = static_cast<Real>(mu);
+        block.staticFriction = static_cast<Real>(muStatic);
         push(block, n, rA, rB, bias);
         if (mu > 0 || muStatic > 0)
             for (const Vec& t : tangentBasis<S>(n)) push(block, t, rA, rB, 0);
@@ -73,7 +74,8 @@ struct RowProblem {
         Block<S> block = begin(BlockKind::Bounded, a, b);
         push(block, direction, rA, rB, bias);
         Row<S>& row = rows.rows.back();
-        row.lower = static_cast<Real>(lower), row.upper = static_cast<Real>(upper);
+        row.lower = static_cast<Real>(lower);
+        row.upper = static_cast<Real>(upper);
         row.softness = static_cast<Real>(softness);
         row.invK = Real(1) / rowK<S>(row, block);
         rows.blocks.push_back(block);
@@ -97,15 +99,19 @@ struct RowProblem {
   private:
     Block<S> begin(BlockKind kind, std::uint32_t a, std::uint32_t b) {
         Block<S> block;
-        block.kind = kind, block.a = a, block.b = b;
+        block.kind = kind;
+        block.a = a;
+        block.b = b;
         block.first = static_cast<std::uint32_t>(rows.rows.size());
-        block.invMassA = invMass[a], block.invMassB = invMass[b];
+        block.invMassA = invMass[a];
+        block.invMassB = invMass[b];
         return block;
     }
     void push(Block<S>& block, const Vec& direction, const Vec& rA, const Vec& rB, double bias) {
         Row<S> row;
         row.lin = direction;
-        row.angA = -cross(rA, direction), row.angB = cross(rB, direction);
+        row.angA = -cross(rA, direction);
+        row.angB = cross(rB, direction);
         row.bias = static_cast<Real>(bias);
         completeRow<S>(row, block, invInertia);
         const Real K = rowK<S>(row, block);

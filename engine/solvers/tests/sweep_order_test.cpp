@@ -59,7 +59,10 @@ TEST(SweepOrder, SharedSweepsAreTheSweepForwardsAndBackwards) {
                     most = order.largest<double>(backwards, [&](std::size_t k) {
                         return static_cast<double>(told.tell(blocks[k], k) % 1000003);
                     });
-                if (threads == 1) expected = told.bodies, expectedMost = most;
+                if (threads == 1) {
+                    expected = told.bodies;
+                    expectedMost = most;
+                }
                 EXPECT_EQ(told.bodies, expected) << seed << " " << threads;
                 EXPECT_EQ(most, expectedMost);
             }
@@ -74,7 +77,8 @@ TEST(SweepOrder, LevelsAreAsManyAsTheLongestChain) {
     for (const bool chained : {false, true}) {
         order.begin(tasks, 300, 4);
         for (std::uint32_t k = 0; k < 100; ++k) {
-            blocks[k].a = chained ? k : 2 * k + 1, blocks[k].b = chained ? k + 1 : 2 * k + 2;
+            blocks[k].a = chained ? k : 2 * k + 1;
+            blocks[k].b = chained ? k + 1 : 2 * k + 2;
             blocks[k].invMassA = blocks[k].invMassB = 1;
             order.add<S>({&blocks[k], 1});
         }
@@ -88,7 +92,10 @@ TEST(SweepOrder, LevelsAreAsManyAsTheLongestChain) {
     order.add<S>({blocks.data() + 50, 1});
     order.finish();
     EXPECT_EQ(order.levels(), 2u);
-    for (Block<S>& block : blocks) block.b = 0, block.invMassB = 0;
+    for (Block<S>& block : blocks) {
+        block.b = 0;
+        block.invMassB = 0;
+    }
     order.begin(tasks, 300, 4);
     for (const Block<S>& block : blocks) order.add<S>({&block, 1});
     order.finish();

@@ -21,7 +21,7 @@
 // substeps and velocity_iterations 0 mean 4 and 1. Cost per step: substeps * 2 passes over all patches.
 // Known limits: those of soft contacts, tgs_soft.cpp.
 #include "engine/solvers/joints/joint_group.hpp"
-#include "engine/solvers/row_kernels.hpp"
+#include "engine/solvers/sequential_impulses.hpp"
 #include "engine/solvers/traits.hpp"
 #include "engine/solvers/wide/patch_solver.hpp"
 

@@ -74,7 +74,8 @@ class Touch {
         Real sum = 0;
         for (const Piece& piece : pieces_) {
             const Real part = std::min(p, piece.length);
-            sum += piece.tangential * part, p -= part;
+            sum += piece.tangential * part;
+            p -= part;
         }
         return sum;
     }
@@ -84,7 +85,8 @@ class Touch {
         for (const Piece& piece : pieces_) {
             const Real part = std::min(p, piece.length);
             sum += n * part + piece.slope * part * part / 2;
-            n += piece.slope * part, p -= part;
+            n += piece.slope * part;
+            p -= part;
         }
         return sum;
     }
@@ -179,8 +181,10 @@ class IncrementalImpact : public Reference {
         const auto& s = frame_.setup();
         const Real d = static_cast<Real>(t) - time_;
         PlanarMotion::State at = after_;
-        at.x += at.vx * d + s.pullAlong * d * d / 2, at.z += at.vz * d + s.pullAbove * d * d / 2;
-        at.vx += s.pullAlong * d, at.vz += s.pullAbove * d;
+        at.x += at.vx * d + s.pullAlong * d * d / 2;
+        at.z += at.vz * d + s.pullAbove * d * d / 2;
+        at.vx += s.pullAlong * d;
+        at.vz += s.pullAbove * d;
         at.angle += at.rate * d;
         return at;
     }

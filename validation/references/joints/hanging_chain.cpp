@@ -161,7 +161,8 @@ class HangingChain : public Reference {
             const Real dh = (r1 * a22 - r2 * a12) / det, dv = (r2 * a11 - r1 * a21) / det;
             const Real step = std::min(
                 Real(1), 0.3L * std::max(std::abs(h), std::abs(v)) / std::max(std::abs(dh), std::abs(dv)));
-            h -= step * dh, v -= step * dv;
+            h -= step * dh;
+            v -= step * dv;
             if (norm(m) < 1e-15L * reach) break;
         }
         require(norm(follow(h * e1 + v * e2, nullptr) - goal) < 1e-12L * reach, "the chain finds no balance");

@@ -132,7 +132,8 @@ class SpinningDisc : public Reference {
             const Foot p = turned(foot, y[2]);
             const Foot u{y[3] - y[5] * p.y, y[4] + y[5] * p.x};
             const Real share = -1 / (std::hypot(u.x, u.y) * static_cast<Real>(feet_.size()));
-            fx += share * u.x, fy += share * u.y;
+            fx += share * u.x;
+            fy += share * u.y;
             torque += share * (p.x * u.y - p.y * u.x);
         }
         d = {y[3], y[4], y[5], push_ * fx, push_ * fy, push_ * motion_.mass * torque / motion_.inertia};

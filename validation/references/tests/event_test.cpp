@@ -72,7 +72,9 @@ Vec3 stepped(const Hit& h, const std::string& law) {
         const double hold = (-slip() / dp - m12) / m11;
         if (std::abs(hold) <= h.mu) t = hold;
         const double before = gap();
-        u += t * dp, v += dp, w += (h.rx - h.ry * t) * dp / h.inertia;
+        u += t * dp;
+        v += dp;
+        w += (h.rx - h.ry * t) * dp / h.inertia;
         p += dp;
         work += 0.5 * (before + gap()) * dp;
         if (gap() < 0) {
@@ -202,11 +204,17 @@ TEST(PushedBlock, SchemeValuesAreSteps) {
     const auto r = makeReference(s);
     const Vec3 a = *r->exact(1, 1).velocity;
     Vec3 x = s.bodies[1].pose.position, v{};
-    for (int k = 0; k < 50; ++k) v += 0.01 * a, x += 0.01 * v;
+    for (int k = 0; k < 50; ++k) {
+        v += 0.01 * a;
+        x += 0.01 * v;
+    }
     EXPECT_LT(norm(*r->schemeExact(1, 50, 0.01, adapter::Scheme::SymplecticEuler)->position - x), 1e-14);
     x = s.bodies[1].pose.position;
     v = {};
-    for (int k = 0; k < 50; ++k) x += 0.01 * v, v += 0.01 * a;
+    for (int k = 0; k < 50; ++k) {
+        x += 0.01 * v;
+        v += 0.01 * a;
+    }
     EXPECT_LT(norm(*r->schemeExact(1, 50, 0.01, adapter::Scheme::ExplicitEuler)->position - x), 1e-14);
     EXPECT_FALSE(r->schemeExact(1, 1, 0.01, adapter::Scheme::RungeKutta4).has_value());
 }

@@ -312,7 +312,8 @@ TEST(SpringNetwork, StepsOfTheExplicitSchemeUnderGravityWithADamper) {
     for (int k = 0; k < 60; ++k) {
         const Vec3 d = x - Vec3{0.1, 0.2, 0}, n = unit(d);
         const Vec3 a = 0.8 * s.gravity - ((25 * (norm(d) - 0.7) + 1.2 * dot(v, n)) / 1.6) * n;
-        x += 0.004 * v, v += 0.004 * a;
+        x += 0.004 * v;
+        v += 0.004 * a;
     }
     const auto scheme = r->schemeExact(0, 60, 0.004, adapter::Scheme::ExplicitEuler);
     ASSERT_TRUE(scheme.has_value());

@@ -204,7 +204,8 @@ TEST(TouchingRow, TheLawHoldsAtEveryContact) {
                 // What has been taken from the left is the impulse at the contact on the right.
                 push += masses[i] * (v - after[i]);
                 momentum += masses[i] * (after[i] - v);
-                energy += masses[i] * after[i] * after[i], start += masses[i] * v * v;
+                energy += masses[i] * after[i] * after[i];
+                start += masses[i] * v * v;
                 if (i + 1 == masses.size()) continue;
                 const double apart = after[i + 1] - after[i];
                 const double before = static_cast<int>(i) + 1 == runners ? -1.0 : 0.0;

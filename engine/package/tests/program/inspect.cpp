@@ -19,10 +19,13 @@ int main() {
     body.type = BodyType::Static;
     world.addShape(world.addBody(body), {HalfSpace<S>{{0, 1, 0}, 0}, {}, wood});
     body.type = BodyType::Dynamic;
-    body.mass = 2, body.inertia = S::Inertia::Identity() * 0.3;
-    body.pose.p = {0, 0.5, 0}, body.velocity = {1, 0, 0};
+    body.mass = 2;
+    body.inertia = S::Inertia::Identity() * 0.3;
+    body.pose.p = {0, 0.5, 0};
+    body.velocity = {1, 0, 0};
     world.addShape(world.addBody(body), {Box<S>{{0.5, 0.5, 0.5}}, {}, wood});
-    body.mass = 1, body.pose.p = {0, 1.25, 0};
+    body.mass = 1;
+    body.pose.p = {0, 1.25, 0};
     world.addShape(world.addBody(body), {Sphere<S>{0.25}, {}, wood});
 
     world.observeIterations([](int iteration, const ConstraintRows<S>& rows, double residual) {

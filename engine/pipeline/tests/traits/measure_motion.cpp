@@ -106,7 +106,8 @@ bool ownsRotation(const std::string& integrator) {
     for (const auto& scheme : rotationTable<S>()) {
         if (!scheme.make().gyroscopic) continue;
         WorldDef<S> def;
-        def.integrator = integrator, def.rotation = scheme.name;
+        def.integrator = integrator;
+        def.rotation = scheme.name;
         ends.push_back(topAfter(def, 1, 30));
     }
     return std::all_of(ends.begin(), ends.end(),
@@ -125,7 +126,8 @@ bool isTheSameInBlocks(WorldDef<S> def) {
         run(top.world, 30, 1.0 / 60);
         const Pose<S> X = top.world.pose(top.body);
         Eigen::Matrix<double, 7, 1> all;
-        all << X.p, X.q.coeffs();
+        all << X.p;
+        X.q.coeffs();
         return all;
     };
     const auto usual = end(def.solver);

@@ -45,7 +45,8 @@ double frequencyOf(double sag) {
 
 double contactSpring(const std::string& solver) {
     WorldDef<S> def = earthWith(solver);
-    def.contactFrequency = kAskedContact, def.contactDampingRatio = 1;
+    def.contactFrequency = kAskedContact;
+    def.contactDampingRatio = 1;
     World<S> world(def);
     addGround<S>(world, 0);
     const BodyId ball = addBall<S>(world, 0, 0.5, 0.5, 1, 0);
@@ -56,7 +57,8 @@ double contactSpring(const std::string& solver) {
 /// Hung up at its centre, so that the joint's rows have the mass alone.
 double jointSpring(const std::string& solver, bool curved) {
     WorldDef<S> def = earthWith(solver);
-    def.jointFrequency = kAskedJoint, def.jointDampingRatio = 1;
+    def.jointFrequency = kAskedJoint;
+    def.jointDampingRatio = 1;
     def.relinearizedJoints = curved;
     World<S> world(def);
     const BodyId ball = addBall<S>(world, 0, 0, 0.5, 1, 0);
@@ -114,14 +116,16 @@ bool isDirect(const std::string& solver) {
 }
 
 int iterationsOf(WorldDef<S> def, double change, double residual) {
-    def.velocityTolerance = change, def.residualTolerance = residual;
+    def.velocityTolerance = change;
+    def.residualTolerance = residual;
     def.relinearizedJoints = false;
     World<S> world(def);
     addColumn(world, 6);
     const BodyId bob = addBall<S>(world, 11, 5, 0.2, 1, 0);
     JointDef<S> joint;
     joint.bodyB = bob;
-    joint.anchorA = at<S>(10, 5), joint.anchorB = at<S>(-1, 0);
+    joint.anchorA = at<S>(10, 5);
+    joint.anchorB = at<S>(-1, 0);
     world.addJoint(joint);
     run(world, 2);
     return world.lastStep().iterations;

@@ -85,7 +85,8 @@ double errorWhereSlipTurns(const std::string& solver, const std::string& frictio
     Vec2 u = slip, sum = Vec2::Zero();
     for (int i = 0; i < substeps; ++i) {
         const Vec2 f = coneImpulse(K, u, mu * kGravity * kStep / substeps);
-        u += K.cwiseProduct(f), sum += f;
+        u += K.cwiseProduct(f);
+        sum += f;
     }
     return std::abs(std::atan2(found[0] * sum[1] - found[1] * sum[0], found.dot(sum)));
 }

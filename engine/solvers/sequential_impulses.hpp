@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What iterative solvers do with one row or block, given the velocities that the others have led to. Each
-// kernel finds the impulse that satisfies its equation alone, applies the increment to the velocities, adds
-// it to the accumulated impulse, and returns the velocity error it has removed [m/s or rad/s]:
+// Sequential impulses, the whole method: what is done with one row or block, then a sweep over all of them, then
+// the solver that is nothing else (RowByRow: pgs, pgs_soft and tgs_soft are it in three styles). Other methods
+// use the kernels. A kernel finds the impulse that satisfies its equation alone at the velocities that the others
+// have led to, applies the increment to the velocities, adds it to the accumulated impulse, and returns the
+// velocity error it has removed [m/s or rad/s]:
 //     joint     lambda += -K^-1 (J v + bias + softness lambda)
 //     bounded   lambda := clamp(lambda - (J v + bias + softness lambda) / K, lower, upper)
 //     normal    lambda_n := max(0, lambda_n - (J_n v + bias + softness lambda_n) / K_nn)
