@@ -45,20 +45,7 @@ struct BenchArguments {
 std::vector<std::string> sceneNames(const BenchArguments& a) {
     std::vector<std::string> what = a.what;
     if (what.empty() && a.parts.empty()) what.push_back(kDefaultBenchSuite);
-    std::vector<std::string> names;
-    for (const auto& name : what) {
-        const auto suites = scenario::listSuites();
-        const bool isSuite =
-            scenario::isSuiteFile(name) ||
-            std::any_of(suites.begin(), suites.end(), [&](const auto& suite) { return suite.name == name; });
-        if (!isSuite) {
-            names.push_back(name);
-            continue;
-        }
-        const auto suite = scenario::loadSuite(scenario::findSuite(name));
-        names.insert(names.end(), suite.scenarios.begin(), suite.scenarios.end());
-    }
-    return names;
+    return scenarioNames(what);
 }
 
 /// The command line's overrides, as it takes them again.

@@ -80,6 +80,11 @@ scenario::LoadedScenario loadWithReference(const std::string& nameOrFile,
                                            validation::ReferenceCheck* found = nullptr);
 bool isBrokenReference(const scenario::Problem& problem);
 
+/// Whether a name is that of a suite of the library, or a file that is one.
+bool isSuite(const std::string& name);
+/// The scenarios of `given`, in which suites stand for theirs.
+std::vector<std::string> scenarioNames(const std::vector<std::string>& given);
+
 /// --reference-limit SECONDS
 void addReferenceLimit(CLI::App& command, validation::ReferenceLimits& limits);
 

@@ -34,6 +34,25 @@ const char* expectedOf(ReferenceOutcome outcome) {
 
 }  // namespace
 
+bool isSuite(const std::string& name) {
+    for (const auto& suite : scenario::listSuites())
+        if (suite.name == name || suite.file == name) return true;
+    return scenario::isSuiteFile(name);
+}
+
+std::vector<std::string> scenarioNames(const std::vector<std::string>& given) {
+    std::vector<std::string> names;
+    for (const auto& name : given) {
+        if (!isSuite(name)) {
+            names.push_back(name);
+            continue;
+        }
+        const auto suite = scenario::loadSuite(scenario::findSuite(name));
+        names.insert(names.end(), suite.scenarios.begin(), suite.scenarios.end());
+    }
+    return names;
+}
+
 scenario::LoadedScenario loadWithReference(const std::string& nameOrFile,
                                            const std::vector<std::string>& overrides,
                                            const validation::ReferenceLimits& limits, bool mustHold,

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 #include <unistd.h>
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -57,24 +56,6 @@ void printCase(const results::CaseRow& c, const std::vector<int>& every) {
     }
     const bool ran = c.outcome == results::Outcome::Completed;
     std::printf("  %s\n", ran ? note.c_str() : (results::outcomeName(c.outcome) + (": " + c.reason)).c_str());
-}
-
-/// Suites stand for their scenarios.
-std::vector<std::string> scenarioNames(const std::vector<std::string>& given) {
-    std::vector<std::string> names;
-    for (const auto& name : given) {
-        const auto suites = scenario::listSuites();
-        const bool isSuite =
-            scenario::isSuiteFile(name) ||
-            std::any_of(suites.begin(), suites.end(), [&](const auto& suite) { return suite.name == name; });
-        if (!isSuite) {
-            names.push_back(name);
-            continue;
-        }
-        const auto suite = scenario::loadSuite(scenario::findSuite(name));
-        names.insert(names.end(), suite.scenarios.begin(), suite.scenarios.end());
-    }
-    return names;
 }
 
 int pieces(const PiecesArguments& a) {

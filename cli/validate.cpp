@@ -66,12 +66,6 @@ void addScenario(Selection& selection, const std::string& name, const ValidateAr
     selection.scenarios.emplace_back(std::move(loaded.scenario), std::move(loaded.text));
 }
 
-bool isSuite(const std::string& name) {
-    for (const auto& suite : scenario::listSuites())
-        if (suite.name == name || suite.file == name) return true;
-    return scenario::isSuiteFile(name);
-}
-
 /// A misspelt suite is said as one: what is no file may be meant as either.
 void checkName(const std::string& name) {
     if (fs::exists(name)) return;

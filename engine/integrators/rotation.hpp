@@ -15,15 +15,7 @@ namespace rigor::engine {
 template <class R>
 Eigen::Matrix<R, 3, 3> skew(const Eigen::Matrix<R, 3, 1>& a) {
     Eigen::Matrix<R, 3, 3> m;
-    m << 0;
-    -a.z();
-    a.y();
-    a.z();
-    0;
-    -a.x();
-    -a.y();
-    a.x();
-    0;
+    m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
     return m;
 }
 

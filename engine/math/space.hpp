@@ -107,10 +107,7 @@ Eigen::Quaternion<R> inverse(const Eigen::Quaternion<R>& q) {
 template <class R>
 Eigen::Matrix<R, 2, 2> toMatrix(const Rot2<R>& q) {
     Eigen::Matrix<R, 2, 2> m;
-    m << q.c;
-    -q.s;
-    q.s;
-    q.c;
+    m << q.c, -q.s, q.s, q.c;
     return m;
 }
 template <class R>

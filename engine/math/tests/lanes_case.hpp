@@ -61,15 +61,8 @@ void computeScalar(const LanesInput<S>& in, std::size_t lane, LanesOutput<S>& ou
     } else {
         const auto& m = in.matrix;
         typename S::Mat matrix;
-        matrix << m[0][lane];
-        m[1][lane];
-        m[2][lane];
-        m[1][lane];
-        m[3][lane];
-        m[4][lane];
-        m[2][lane];
-        m[4][lane];
-        m[5][lane];
+        matrix << m[0][lane], m[1][lane], m[2][lane], m[1][lane], m[3][lane], m[4][lane], m[2][lane],
+            m[4][lane], m[5][lane];
         const Vec u(in.u[0][lane], in.u[1][lane], in.u[2][lane]);
         const Vec w(in.w[0][lane], in.w[1][lane], in.w[2][lane]);
         const Vec moment = cross(a, b);

@@ -61,9 +61,8 @@ class TripodSlide : public Reference {
             loads.place.push_back(p);
             loads.slip.push_back({u.x / speed, u.y / speed});
             // (p - H n) x (N (n - mu u)): along the first axis and the second.
-            m.col(static_cast<Eigen::Index>(i)) << 1;
-            p.y - height_* mu_* loads.slip[i].y;
-            -p.x + height_* mu_* loads.slip[i].x;
+            m.col(static_cast<Eigen::Index>(i)) << 1, p.y - height_ * mu_ * loads.slip[i].y,
+                -p.x + height_ * mu_ * loads.slip[i].x;
         }
         const auto normal = solveDense(m, Vector::Unit(3, 0) * (-motion_.mass * pull_[2]));
         // A trial step far off has no loads: the integrator tries a shorter one.

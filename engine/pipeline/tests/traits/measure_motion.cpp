@@ -126,8 +126,7 @@ bool isTheSameInBlocks(WorldDef<S> def) {
         run(top.world, 30, 1.0 / 60);
         const Pose<S> X = top.world.pose(top.body);
         Eigen::Matrix<double, 7, 1> all;
-        all << X.p;
-        X.q.coeffs();
+        all << X.p, X.q.coeffs();
         return all;
     };
     const auto usual = end(def.solver);
