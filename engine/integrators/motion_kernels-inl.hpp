@@ -72,8 +72,7 @@ HWY_INLINE std::array<V, n + 1> cosineAndSines(std::array<V, n> x) {
         for (V& number : x) number = hn::IfThenElse(left, constant<V>(2) * c * number, number);
         c = hn::IfThenElse(left, c2, c);
     }
-    std::array < V;
-    n + 1 > all;
+    std::array<V, n + 1> all;
     for (std::size_t k = 0; k < n; ++k) all[k] = hn::IfThenElse(countless, constant<V>(0), x[k]);
     all[n] = hn::IfThenElse(countless, one, c);
     return all;

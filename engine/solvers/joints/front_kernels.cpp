@@ -56,10 +56,7 @@ template <std::size_t columns, std::size_t lanes, class R>
 HWY_INLINE void multiplyRest(const Product<R>& p, std::size_t i) {
     const hn::CappedTag<R, lanes> d;
     for (; i + lanes <= p.rows; i += lanes) multiplyTile<columns, 1>(d, p, i);
-    if constexpr (lanes > 1) {
-        multiplyRest < columns;
-        lanes / 2 > (p, i);
-    }
+    if constexpr (lanes > 1) multiplyRest<columns, lanes / 2>(p, i);
 }
 
 template <std::size_t columns, class R>
@@ -128,10 +125,7 @@ HWY_INLINE void divideRows(const Columns<R>& t, std::size_t i) {
             hn::StoreU(x[c], d, t.at + c * t.stride + i);
         }
     }
-    if constexpr (lanes > 1) {
-        divideRows < n;
-        lanes / 2 > (t, i);
-    }
+    if constexpr (lanes > 1) divideRows<n, lanes / 2>(t, i);
 }
 
 /// By columns that are scaled last: what one pivot has to wait for of the one before is then a division.

@@ -108,8 +108,7 @@ Step extrapolate(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dyd
 /// Chebyshev-Lobatto point j of [-1, 1], ascending.
 Real chebyshevPoint(int j) {
     static const auto points = [] {
-        std::array < Real;
-        kPanelDegree + 1 > x{};
+        std::array<Real, kPanelDegree + 1> x{};
         for (int i = 0; i <= kPanelDegree; ++i)
             x[static_cast<std::size_t>(i)] = -std::cos(kPi * i / kPanelDegree);
         return x;
