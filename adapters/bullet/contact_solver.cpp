@@ -70,7 +70,7 @@ class BulletSolve final : public adapter::ContactSolve {
         const auto mu = mu_[static_cast<std::size_t>(row / dimension_)];
         return dependentLimits_ ? mu : mu * std::max(0.0, static_cast<double>(x_[row - row % dimension_]));
     }
-    /// With the limits of friction times `share`, those of the impulses there are. Solvers may overwrite
+    /// Solves with the limits of friction of the present normal impulses, times `share`. Solvers may overwrite
     /// their input.
     bool solve(double share, int iterations) {
         for (int i = 0; i < n_; ++i) {

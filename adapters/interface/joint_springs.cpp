@@ -8,6 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "adapters/interface/inverse.hpp"
+
 namespace rigor::adapter {
 namespace {
 
@@ -22,19 +24,6 @@ struct Row {
 };
 Row combined(const Row& row, double scale, const Row& other) {
     return {row.lin + scale * other.lin, row.angA + scale * other.angA, row.angB + scale * other.angB};
-}
-
-/// Inverse of a symmetric matrix.
-Mat3 inverseOf(const Mat3& a) {
-    const auto cofactor = [&](int i, int j) {
-        const int r = (i + 1) % 3, s = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
-        return a(r, c) * a(s, d) - a(r, d) * a(s, c);
-    };
-    const double det = a(0, 0) * cofactor(0, 0) + a(0, 1) * cofactor(0, 1) + a(0, 2) * cofactor(0, 2);
-    Mat3 inverse;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) inverse(i, j) = cofactor(j, i) / det;
-    return inverse;
 }
 
 /// One side of a joint: centre of mass, inverse mass and inertia in the world.

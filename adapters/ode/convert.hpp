@@ -6,10 +6,12 @@
 
 #include <ode/ode.h>
 
+#include "adapters/interface/inverse.hpp"
 #include "adapters/interface/types.hpp"
 
 namespace rigor::ode {
 
+using adapter::inverseOf;
 using adapter::Mat3;
 using adapter::Pose;
 using adapter::Quat;
@@ -31,19 +33,6 @@ inline void toOde(const Quat& q, dReal* out) {
     out[1] = q.x;
     out[2] = q.y;
     out[3] = q.z;
-}
-
-/// Inverse of a symmetric positive definite tensor by cofactors.
-inline Mat3 inverseOf(const Mat3& a) {
-    const auto cofactor = [&](int i, int j) {
-        const int r = (i + 1) % 3, s = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
-        return a(r, c) * a(s, d) - a(r, d) * a(s, c);
-    };
-    const double det = a(0, 0) * cofactor(0, 0) + a(0, 1) * cofactor(0, 1) + a(0, 2) * cofactor(0, 2);
-    Mat3 inverse;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) inverse(i, j) = cofactor(j, i) / det;
-    return inverse;
 }
 
 }  // namespace rigor::ode

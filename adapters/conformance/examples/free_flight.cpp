@@ -5,25 +5,13 @@
 // turns at constant angular velocity. Its "library" is the Body struct below.
 #include "adapters/interface/engine.hpp"
 #include "adapters/interface/input_check.hpp"
+#include "adapters/interface/inverse.hpp"
 
 namespace {
 
 using namespace rigor::adapter;
 using rigor::scenario::BodyType;
 namespace scenario = rigor::scenario;
-
-/// Inverse of a symmetric positive definite tensor by cofactors.
-Mat3 inverseOf(const Mat3& a) {
-    const auto cofactor = [&](int i, int j) {
-        const int r = (i + 1) % 3, s = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
-        return a(r, c) * a(s, d) - a(r, d) * a(s, c);
-    };
-    const double det = a(0, 0) * cofactor(0, 0) + a(0, 1) * cofactor(0, 1) + a(0, 2) * cofactor(0, 2);
-    Mat3 inverse;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) inverse(i, j) = cofactor(j, i) / det;
-    return inverse;
-}
 
 /// What the library keeps: the pose of the centre of mass and its velocities.
 struct Body {

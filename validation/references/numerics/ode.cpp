@@ -251,7 +251,7 @@ DenseSolution::DenseSolution(const OdeRhs& f, Real t0, const OdeState& y0, Real 
     try {
         for (const Real time : breaks) {
             if (!whole_ || !(time > begin && time <= t1)) continue;
-            // At the end of a smooth part f is what it was just before.
+            // The right-hand side at the end of a smooth part is the one just before it.
             const OdeRhs part = [&bounded, time](Real t, const OdeState& state, OdeState& dydt) {
                 bounded(t < time ? t : std::nextafter(time, -kInfinite), state, dydt);
             };

@@ -154,7 +154,7 @@ TEST(IncrementalImpact, NewtonsLawThatAddsEnergyIsRefusedAndTheOthersAreNot) {
 }
 
 TEST(IncrementalImpact, WhatNewtonsLawWouldDoLaterDoesNotMatter) {
-    // Of the law of impulses the same drop is refused: an impact after the first adds energy.
+    // The law of impulses refuses the same drop: an impact after the first adds energy.
     Scenario s = emptyScene(2, {0, -9.81, 0}, 1.5);
     s.materials[0].friction = 0.9;
     s.materials[0].restitution = 1.0;
