@@ -36,7 +36,7 @@ struct Coordinate {
 
 enum class Angle {
     Turn,   ///< about the joint's turning axis: hinge, wheel, six_dof in 2D
-    Twist,  ///< about A's axis, of a wheel its pin, after the swing is taken back, see scenarios/README.md
+    Twist,  ///< about A's axis, of a wheel its pin, after the swing is taken back, see scenarios/FORMAT.md
     Cone,   ///< between the axes of A and B, >= 0
     SwingY,
     SwingZ  ///< components of the swing vector along A's normals

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The page that explains the format: its example loads, and it names every key the schema knows.
+// The example of README.md loads, and FORMAT.md, which explains the format, names every key the schemas know.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -53,8 +53,8 @@ void collectKeys(const nlohmann::json& schema, std::set<std::string>& keys) {
     }
 }
 
-TEST(Readme, NamesEveryKeyOfTheSchemas) {
-    const std::string page = read("scenarios/README.md");
+TEST(Format, NamesEveryKeyOfTheSchemas) {
+    const std::string page = read("scenarios/FORMAT.md");
     for (const char* file :
          {"scenarios/schema/scenario.schema.json", "scenarios/schema/suite.schema.json",
           "scenarios/schema/collision.schema.json", "scenarios/schema/study.schema.json"}) {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The scenario as the view needs it: bodies with shapes, joints with anchors, in file order. Reads scenario files of
-// format 1 as they stand (scenarios/README.md); what a generator makes is expanded, without the random turns of a
+// format 1 as they stand (scenarios/FORMAT.md); what a generator makes is expanded, without the random turns of a
 // pile, which the frames bring. The loader has checked the file: what is wrong here throws an Error.
 import { expandGenerators } from './generators.ts';
 import type { Json } from './json.ts';
