@@ -10,7 +10,7 @@
 
 namespace rigor::report {
 
-/// One row per case x metric and per case x quantity; columns in README.md.
+/// One row per case x metric and per case x quantity; columns in FORMATS.md.
 std::string csvReport(const results::Run& run);
 
 }  // namespace rigor::report

@@ -38,6 +38,7 @@ TEST(Tree, EveryFolderHasAReadme) {
                                "scenarios",
                                "validation",
                                "reports",
+                               "reports/web",
                                "cli",
                                "adapters/rigor",
                                "adapters/bullet",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A report's replay file (reports/README.md, "Replay files"): the thinned frames of all engines of one scenario at one
+// A report's replay file (reports/FORMATS.md, "Replay files"): the thinned frames of all engines of one scenario at one
 // time step. reports/replay/data.cpp writes it.
 import { ArrayBundle } from '../common/arrays.ts';
 import { CodeReader } from './codec.ts';
