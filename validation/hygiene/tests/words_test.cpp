@@ -139,7 +139,7 @@ bool isOldName(const std::string& file, const std::string& message) {
 }
 
 /// Private words left in the references: the number may fall, not rise.
-constexpr std::size_t kMostLeft = 45;
+constexpr std::size_t kMostLeft = 38;
 
 TEST(Words, OfTheTreeAreThoseOfTheField) {
     std::size_t read = 0, left = 0;
