@@ -26,7 +26,7 @@ namespace rigor::engine {
 template <class S>
 struct Candidate {
     using Real = typename S::Real;
-    std::uint32_t a = 0, b = 0, piece = kNullIndex;  ///< as in Contact
+    std::uint32_t a = 0, b = 0, piece = kNullIndex;  ///< index of a surface's piece, as in Contact
     std::uint32_t contact = kNullIndex;              ///< the slot of its contact, or kNullIndex
     bool ridge = false;                              ///< facesDiffer() of the pieces nearby
     std::uint32_t begun = kNullIndex;  ///< index of its new contact in ContactFinder, or kNullIndex
@@ -36,10 +36,12 @@ struct Candidate {
     bool cached = false;
     bool onB = false;                         ///< the normal is fixed to B, else to A
     bool byA = false;                         ///< A is the smaller shape
-    Real radius = 0;                          ///< of the smaller shape [m]; 0: results are not cached
-    Real separationBound = 0;                 ///< without a contact: Manifold::separationLowerBound
+    Real radius = 0;                          ///< bounding radius of the smaller shape [m]; 0: results are
+                                              ///< not cached
+    Real separationBound = 0;                 ///< separation of a pair without a contact:
+                                              ///< Manifold::separationLowerBound
     Pose<S> relative;                         ///< the smaller shape in the frame of the other when queried
-    typename S::Vec normal = S::Vec::Zero();  ///< in the frame of the body that it is fixed to
+    typename S::Vec normal = S::Vec::Zero();  ///< normal in the frame of the body that it is fixed to
 };
 
 /// Distances of the contact search: WorldDef's settings of the same names.

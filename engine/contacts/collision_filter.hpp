@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which bodies may collide: two that both collide, of which one is dynamic at least, and that no joint keeps
-// from it.
+// Rules of collision: two bodies collide if both have collisions enabled, at least one of them is dynamic,
+// and no joint excludes the pair.
 #pragma once
 
 #include <cstdint>

@@ -26,7 +26,7 @@ struct alignas(64) Contact {
     static constexpr std::uint32_t kPatch = 0xfffffffeu;
     struct Impulse {
         Real normal = 0;             ///< [N s], >= 0
-        Vec friction = Vec::Zero();  ///< on B, world frame [N s]
+        Vec friction = Vec::Zero();  ///< impulse on B, world frame [N s]
     };
     /// Input of the rows of one point.
     struct Point {
@@ -38,7 +38,8 @@ struct alignas(64) Contact {
         bool impact = false;  ///< an impact, not a resting contact, in this step
     };
     std::uint32_t bodyA = 0, bodyB = 0;  ///< dense indices
-    bool asleep = false;                 ///< neither body takes impulses: it is not updated and has no rows
+    bool asleep = false;                 ///< true if neither body takes impulses: the point is not updated
+                                         ///< and has no rows
     bool speculative = false;  ///< found on the bodies' way by continuous collision: has rows at any distance
     bool touching = false;     ///< overlapped when found, or had an impulse in the step since
     bool touched = false;      ///< value of `touching` at the end of the step before
@@ -52,12 +53,13 @@ struct alignas(64) Contact {
         return none;
     }();
     Manifold<S> manifold;
-    ManifoldCache<S> cache;  ///< of the manifold choice, or the points of a cached manifold
-    alignas(S::dim == 3 ? 64 : alignof(Real)) PerPoint<Impulse> impulses;  ///< of the last (sub-)step
-    PerPoint<Impulse> totals;                                              ///< of all of the last step
+    ManifoldCache<S> cache;  ///< data of the manifold choice, or the points of a cached manifold
+    alignas(S::dim == 3 ? 64 : alignof(Real)) PerPoint<Impulse> impulses;  ///< impulses of the last
+                                                                           ///< (sub-)step
+    PerPoint<Impulse> totals;                                              ///< sums over the last step
     std::uint32_t shapeA = 0, shapeB = 0;                                  ///< dense indices
     std::uint32_t piece = 0xffffffffu;  ///< segment or triangle of the chain, mesh or field; none of others
-    std::uint32_t firstRow = 0, blocks = 0;  ///< of this step, while rows are made
+    std::uint32_t firstRow = 0, blocks = 0;  ///< place in the rows of this step while rows are made
     PerPoint<Point> points;
 };
 

@@ -41,7 +41,7 @@ class ContactEvents {
              std::vector<Event<S>>& events, const Tasks& tasks);
 
   private:
-    std::vector<std::uint8_t> touchChanged_;  ///< of each contact: 1 where touching has begun or ended
+    std::vector<std::uint8_t> touchChanged_;  ///< flag of each contact: 1 where touching has begun or ended
 };
 
 }  // namespace rigor::engine

@@ -30,7 +30,7 @@ void ContactFinder<S>::run(const ContactUpdate<S>& update, bool exact, Candidate
     const auto updateCandidate = [&](Candidate<S>& candidate) {
         candidate.found = candidate.queried = false;
         if (!exact && !update.shapes.box(candidate.a).overlaps(update.shapes.box(candidate.b))) {
-            candidate.cached = false;  // as for a pair that the broad phase does not list
+            candidate.cached = false;  // treated like pairs that the broad phase does not list
             return;
         }
         if (candidate.contact != kNullIndex) {
@@ -98,7 +98,7 @@ void ContactFinder<S>::commit(const ContactUpdate<S>& update, Candidates<S>& can
     });
 }
 
-/// In a batch of candidates: frees the slots of ended contacts and takes slots for new ones.
+/// Frees the slots of ended contacts of a batch of candidates, and takes slots for new ones.
 template <class S>
 void ContactFinder<S>::changeContacts(const ContactUpdate<S>& update, SlotList<Candidate<S>>& candidates,
                                       ContactList<S>& contacts, std::size_t batch) {
@@ -114,8 +114,7 @@ void ContactFinder<S>::changeContacts(const ContactUpdate<S>& update, SlotList<C
     }
 }
 
-/// For a batch of candidates: writes the slots of their contacts in order, and the new contacts to their
-/// slots.
+/// Writes the slots of a batch's contacts in the order of candidates, and the new contacts to their slots.
 template <class S>
 void ContactFinder<S>::orderContacts(const SlotList<Candidate<S>>& candidates, ContactList<S>& contacts,
                                      std::size_t batch) {

@@ -35,7 +35,7 @@ class ContactFinder {
              const Tasks& tasks);
     /// Narrow-phase queries of the last run.
     std::size_t queries() const { return queries_; }
-    /// In the order of contacts.
+    /// Ended contacts in the order of the list.
     const std::vector<EndedContact>& ended() const { return ended_; }
 
   private:
@@ -72,8 +72,8 @@ class ContactFinder {
     void removeContact(ContactList<S>& contacts, std::uint32_t slot);
     void addContact(const ContactUpdate<S>& update, Candidate<S>& candidate, ContactList<S>& contacts);
 
-    std::vector<Outcome> outcomes_;   ///< of each candidate
-    std::vector<Counters> counters_;  ///< of each batch of candidates
+    std::vector<Outcome> outcomes_;   ///< outcome of each candidate
+    std::vector<Counters> counters_;  ///< counters of each batch of candidates
     std::vector<Contact<S>> begun_;   ///< new contacts of this step
     std::vector<EndedContact> ended_;
     std::size_t queries_ = 0;

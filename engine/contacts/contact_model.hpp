@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the contacts of a step become for the solver. A solver's traits say which model it takes
+// The form in which the solver gets the contacts of a step. A solver's traits say which model it takes
 // (solvers/traits.hpp, ContactForm):
 //     contact_rows.hpp      rows like those of joints, made anew in every sub-step
 //     contact_patches.hpp   patches, made once per step and solved in SIMD (solvers/wide)
@@ -39,7 +39,7 @@ struct ContactStep {
     bool bounces = true;                    ///< false: restitution is off
 };
 
-/// What a model has given the solver in the last sub-step.
+/// Numbers of points and rows that a model has passed to the solver in the last sub-step.
 struct ContactCounts {
     std::size_t points = 0, rows = 0;
 };
@@ -61,8 +61,8 @@ class ContactModel {
                               ConstraintRows<S>& rows, const Tasks& tasks) = 0;
     /// Solves the joints' rows of `input` and all contacts.
     virtual void solve(Solver<S>& solver, const SolverInput<S>& input, const Tasks& tasks) = 0;
-    /// Between two solves: points of speculative contacts that the impact has reached get their rebound.
-    /// Returns whether there are any.
+    /// Called between two solves: gives points of speculative contacts that the impact has reached their
+    /// rebound. Returns whether there are any.
     virtual bool applySpeculativeRestitution(const ContactList<S>& contacts, ConstraintRows<S>& rows) const {
         (void)contacts;
         (void)rows;

@@ -110,7 +110,8 @@ template <class S>
 PatchPass passOf(const ContactStep<S>& step) {
     using Real = typename S::Real;
     const auto number = [](Real x) { return static_cast<PatchReal>(x); };
-    const SoftTerms<Real> terms = softTerms(step.bias.contact, Real(1), step.h);  // of K = 1
+    const SoftTerms<Real> terms = softTerms(step.bias.contact, Real(1), step.h);  // soft constraint of
+                                                                                  // effective mass 1
     PatchPass pass;
     pass.invH = number(Real(1) / step.h);
     pass.biasRate = number(terms.biasRate);

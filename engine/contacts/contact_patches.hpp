@@ -35,7 +35,7 @@ class PatchContacts final : public ContactModel<S> {
 
   private:
     Patches<S> patches_;
-    PatchPass pass_;  ///< of the sub-step
+    PatchPass pass_;  ///< constants of the sub-step
 };
 
 }  // namespace rigor::engine

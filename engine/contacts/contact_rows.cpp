@@ -60,7 +60,7 @@ std::array<typename S::Vec, S::tangents> tangentBasis(const typename S::Vec& n) 
 
 namespace {
 
-/// What this step makes of a point. False: it is let through, without rows.
+/// Prepares a point for this step. False: the point is speculative and gets no rows.
 template <class S>
 bool preparePoint(const BodyArrays<S>& bodies, const ContactStep<S>& step, Contact<S>& contact,
                   std::size_t index) {
@@ -99,7 +99,7 @@ void prepareRows(const BodyArrays<S>& bodies, const ContactStep<S>& step, bool s
     }
 }
 
-/// What the bias rule makes of overlap.
+/// Sets the bias of a penetrating point by the bias rule.
 template <class S>
 void setPenetrationBias(const ContactStep<S>& step, const Block<S>& block, typename S::Real s,
                         Row<S>& normal) {

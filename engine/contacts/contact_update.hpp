@@ -21,7 +21,7 @@
 
 namespace rigor::engine {
 
-/// What contacts are made from in one step.
+/// Input that contacts are made from in one step.
 template <class S>
 struct ContactUpdate {
     const BodyArrays<S>& bodies;

@@ -86,7 +86,7 @@ class Contacts {
     ContactFinder<S> finder_;
     SurfaceSides<S> sides_;
     ContactEvents<S> events_;
-    ContactSearch<S> search_;  ///< of the step
+    ContactSearch<S> search_;  ///< search distances of this step
     /// Revision of the materials that the coefficients of the list are from; 0: some may be from none.
     std::uint64_t coefficientsOf_ = 0;
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What continuous collision may add while contacts are found. The search knows this interface alone; who
-// looks ahead, and how, is in engine/ccd.
+// Interface by which continuous collision adds contacts while contacts are found. The search knows this
+// interface alone; the implementations are in engine/ccd.
 #pragma once
 
 #include <span>

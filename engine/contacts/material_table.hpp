@@ -24,7 +24,7 @@ class MaterialTable {
   public:
     using Real = typename S::Real;
 
-    /// Before materials are added.
+    /// Must be called before materials are added.
     void setCombineRules(CombineRule<Real> friction, CombineRule<Real> restitution) {
         combineFriction_ = friction;
         combineRestitution_ = restitution;

@@ -25,7 +25,7 @@ class PairSearch {
   public:
     using Real = typename S::Real;
 
-    /// At the boxes of `shapes`; `boxMargin`: WorldDef's setting.
+    /// Updates the pairs to the current boxes of `shapes`; `boxMargin` is the setting of WorldDef.
     void update(const ShapeSet<S>& shapes, BroadPhase<S>& broadPhase, Real boxMargin, const Tasks& tasks);
     /// Must be called after shapes have changed.
     void reset() {
@@ -41,7 +41,7 @@ class PairSearch {
     void take();
 
     const std::vector<ProxyPair>& overlapping(const ShapeSet<S>& shapes) const;
-    std::size_t count() const { return count_; }  ///< of overlapping boxes
+    std::size_t count() const { return count_; }  ///< number of pairs of overlapping boxes
     /// Lets edit(pairs) change the pairs of the boxes (faults). Without a box margin.
     template <class Edit>
     void edit(const Edit& edit) {

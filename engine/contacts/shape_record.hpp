@@ -15,7 +15,7 @@ namespace rigor::engine {
 template <class S>
 struct ShapeRecord {
     Shape<S> shape;
-    Pose<S> local;           ///< in the frame at the body's centre of mass
+    Pose<S> local;           ///< pose in the frame at the body's centre of mass
     std::uint32_t body = 0;  ///< dense index
     std::uint32_t material = 0;
     ShapeId id;

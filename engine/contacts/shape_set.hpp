@@ -47,7 +47,7 @@ class ShapeSet {
     const std::vector<Aabb<S>>& boxes() const { return boxes_; }
     const Aabb<S>& box(std::size_t i) const { return boxes_[i]; }
     const std::vector<std::uint8_t>& movable() const { return movable_; }
-    /// Those that are chains, meshes or height fields.
+    /// Indices of the shapes that are chains, meshes or height fields.
     const std::vector<std::uint32_t>& surfaces() const { return surfaces_; }
 
   private:

@@ -98,7 +98,7 @@ class SlotList {
   private:
     std::vector<T> slots_, spare_;
     std::vector<std::uint32_t> order_, free_;
-    std::size_t changes_ = 0;  ///< since the last defragment()
+    std::size_t changes_ = 0;  ///< changes since the last defragment()
 };
 
 }  // namespace rigor::engine

@@ -54,8 +54,8 @@ bool stayOnSide(const ShapeSet<S>& shapes, const CollisionFilter<S>& filter, con
                 std::uint32_t shape, typename S::Vec& now) {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
-    constexpr Real kGap = Real(0.05);  ///< of the inner radius
-    constexpr int kMostRounds = 3;     ///< what one surface sends back may pass another
+    constexpr Real kGap = Real(0.05);  ///< distance kept from the surface, in inscribed radii
+    constexpr int kMostRounds = 3;     ///< a shape moved back by one surface may have crossed another
     const ShapeRecord<S>& record = shapes[shape];
     const Vec before = toWorld<S>(shapes.pose(shape), record.middle);
     bool any = false;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// On which side of a surface a shape is. A chain or a mesh is a sheet without thickness: a shape whose middle
-// is past it overlaps it as much as before, and its contacts would push it out on the wrong side. So no
-// middle ever passes one:
+// Keeps every shape on its side of a surface. A chain or a mesh is a sheet without thickness: a shape whose
+// middle is past it overlaps it as much as before, and its contacts would push it out on the wrong side. So
+// no middle ever passes one:
 //
 //     p   the middle of the shape when the step began,  x  the middle when it ends
 //     Where a piece of the surface is between p and x, x goes back along the normal of the piece until it is
@@ -23,8 +23,8 @@
 
 namespace rigor::engine {
 
-/// In the frame of the surface: takes `now` back to the side of `before`. True: `now` was beyond a piece.
-/// `gap` > 0: small beside the shape [m].
+/// Moves `now` back to the side of `before`; both are in the frame of the surface. True: `now` was beyond a
+/// piece. `gap` > 0: small beside the shape [m].
 template <class S>
 bool stayOnSideOf(const Shape<S>& surface, const typename S::Vec& before, typename S::Vec& now,
                   typename S::Real gap);
@@ -38,7 +38,7 @@ class SurfaceSides {
               const Tasks& tasks);
 
   private:
-    std::vector<std::uint8_t> crossed_;  ///< of each shape: 1 where it has crossed a surface
+    std::vector<std::uint8_t> crossed_;  ///< flag of each shape: 1 if it has crossed a surface
 };
 
 }  // namespace rigor::engine

@@ -13,7 +13,7 @@
 
 namespace rigor::engine {
 
-/// In the place of an index into an array: none.
+/// Index that refers to no element of an array.
 inline constexpr std::uint32_t kNullIndex = 0xffffffffu;
 
 /// index 0 is "none" (for bodies: the world); generation tells re-used slots apart.

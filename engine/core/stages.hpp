@@ -43,8 +43,8 @@ class Stages {
     /// Called by the other threads at any time, `self` in [1, threads). False: there was no new run.
     bool join(std::size_t self);
 
-    /// Between runs: the fraction of the work for each thread such that all finish at the same time; the sum
-    /// is 1. A slow integrator of the times that the threads have waited since the last call.
+    /// Fraction of the work for each thread such that all finish at the same time; the sum is 1. Called
+    /// between runs. A slow integrator of the times that the threads have waited since the last call.
     const std::vector<double>& weights();
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What algorithms declare of themselves. Beside its factory `make`, the file of an algorithm defines a
+// Traits: properties that algorithms declare. Beside its factory `make`, the file of an algorithm defines a
 // function `makeTraits`; the family's table calls both by its .def file, so that a missing one is a link
 // error. Code that depends on what an algorithm does reads its traits, never its name. Each of them is
 // measured (pipeline/tests/traits_test.cpp).
@@ -16,7 +16,7 @@ namespace rigor::engine {
 
 template <class T>
 struct TraitsEntry {
-    const char* name;  ///< as in the family's table of algorithms
+    const char* name;  ///< name in the family's table of algorithms
     T traits;
 };
 

@@ -16,10 +16,10 @@ struct AlgorithmInfo {
 struct AlgorithmFamily {
     std::string name;                       ///< the key of a spec: "solver"
     std::string summary;                    ///< one line
-    std::string defaultChoice;              ///< that of WorldDef
+    std::string defaultChoice;              ///< default of WorldDef
     std::vector<AlgorithmInfo> algorithms;  ///< sorted by name
 };
-/// In the order of the step.
+/// All families, in the order in which the step uses them.
 std::vector<AlgorithmFamily> algorithmFamilies();
 
 }  // namespace rigor::engine

@@ -16,7 +16,7 @@ const char* eventName(EventKind kind);  ///< "contact_begins", ...
 template <class S>
 struct ContactView;
 
-/// How a body is called in the log.
+/// Function that names a body in the log.
 using NameOf = std::function<std::string(BodyId)>;
 /// "body_3" for the body of index 3, "world" for none.
 std::string bodyName(BodyId body);

@@ -36,15 +36,15 @@ class JointSet {
     struct Record {
         Joint<S> joint;
         EvaluateJoint<S> evaluate = nullptr;
-        std::array<Real, kMaxRowsPerJoint> impulse{};  ///< of the last (sub-)step [N s] or [N m s]
-        std::array<Real, kMaxRowsPerJoint> total{};    ///< of all sub-steps of the last step
+        std::array<Real, kMaxRowsPerJoint> impulse{};  ///< impulses of the last (sub-)step [N s] or [N m s]
+        std::array<Real, kMaxRowsPerJoint> total{};    ///< sums over all sub-steps of the last step
         /// Sum of J^T impulse over the last step: on B [N s], and its moment about B's anchor [N m s].
         typename S::Vec reactionImpulse = S::Vec::Zero();
         typename S::Ang reactionAngularImpulse = zeroAng<S>();
         typename S::Vec armB = S::Vec::Zero();   ///< B's anchor from its centre when the rows were made [m]
         std::uint32_t firstRow = 0;              ///< its rows in this step follow each other
         std::uint32_t rows = 0, equalities = 0;  ///< all rows; equality rows, which come first
-        std::uint32_t block = 0;                 ///< of the equality rows; each other row has its own
+        std::uint32_t block = 0;                 ///< block of the equality rows; each other row has its own
     };
 
     std::vector<Record>& records() { return records_; }
@@ -81,7 +81,7 @@ class JointSet {
                 const Block<S>& block, Row<S>& row) const;
 
     std::vector<Record> records_;
-    std::vector<Real> startBias_;  ///< of each row
+    std::vector<Real> startBias_;  ///< initial bias of each row
     std::vector<Real> startImpulses_;
     std::vector<Velocity<S>> startVelocities_;
     JointRows<S> made_;

@@ -33,7 +33,7 @@ class Joints {
     const Record& record(JointId joint) const { return set_.records()[ids_.dense(joint)]; }
     const Joint<S>& joint(JointId joint) const { return record(joint).joint; }
 
-    /// Between the bodies of dense indices a and b. Throws EngineError for values out of range.
+    /// Adds a joint between the bodies of dense indices a and b. Throws EngineError for values out of range.
     JointId add(const JointDef<S>& def, const BodyArrays<S>& bodies, std::uint32_t a, std::uint32_t b);
     void remove(JointId joint);
     /// Removes the joints of body `gone`, whose dense index body `last` takes.

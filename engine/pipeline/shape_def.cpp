@@ -52,7 +52,7 @@ template <class S>
 bool valid(const Segment<S>& s) {
     return s.a.allFinite() && s.b.allFinite() && validSize((s.b - s.a).norm());
 }
-/// Of shapes whose data is checked where it is made (makeHull, makeChain, ...).
+/// Overload for shapes whose data is checked where it is made (makeHull, makeChain, ...).
 template <class Shape>
 requires requires(const Shape& s) {
     s.data != nullptr;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// From the definition of a shape to its record.
+// Conversion of a shape's definition to its record.
 #pragma once
 
 #include "engine/contacts/shape_record.hpp"
@@ -9,8 +9,8 @@
 
 namespace rigor::engine {
 
-/// For a body of these constants and dense index. Throws EngineError for poses and sizes out of range, and for
-/// shapes that need a static body where it is not.
+/// Record of a shape on a body with these constants and this dense index. Throws EngineError for poses and
+/// sizes out of range, and for shapes that need a static body where it is not.
 template <class S>
 ShapeRecord<S> makeShapeRecord(const ShapeDef<S>& def, const BodyConstants<S>& constants, std::uint32_t body);
 

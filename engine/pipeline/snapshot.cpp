@@ -26,7 +26,7 @@ struct Header {
     std::uint32_t version = kVersion, byteOrder = kByteOrder;
     std::uint8_t dimension = 0, realSize = 0;
     std::uint64_t structure = 0;
-    std::vector<JointId> joints;  ///< those that are left: joints may have broken since the world was built
+    std::vector<JointId> joints;  ///< joints of the snapshot: some may have broken since the world was built
 };
 template <class A, class H>
 void visitHeader(A& archive, H& header) {
@@ -104,7 +104,7 @@ void visitState(A& archive, World& world) {
     const std::size_t count = archive.size(contacts.size());
     if constexpr (!std::is_const_v<World>) contacts.reset(count);
     for (auto& contact : contacts) visitContact(archive, contact);
-    // Without cached manifolds the candidates follow from the rest of the state.
+    // If no manifolds are cached, the candidates follow from the rest of the state.
     if (!std::is_same_v<A, HashArchive> || world.def.cacheTolerance > 0)
         visitManifoldCache(archive, world.contacts.candidates());
 }
@@ -239,7 +239,7 @@ void World<S>::restoreSnapshot(std::span<const unsigned char> bytes) {
                         "contacts and pairs that do not belong together");
     restored.islands.changed();
     BodyArrays<S>& bodies = restored.bodies.arrays();
-    for (std::size_t i = 0; i < bodies.size(); ++i) {  // what follows from being asleep
+    for (std::size_t i = 0; i < bodies.size(); ++i) {  // state that follows from the sleep flags
         const BodyConstants<S>& constants = bodies.constants[i];
         const bool awake = constants.type == BodyType::Dynamic && !bodies.asleep[i];
         bodies.invMass[i] = awake ? Real(1) / constants.mass : Real(0);

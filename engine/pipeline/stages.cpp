@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the stages of a step do, in the order of Step::forEachStage (step.cpp).
+// Implementation of the stages of a step, in the order of Step::forEachStage (step.cpp).
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -51,7 +51,7 @@ class StepMonitor final : public IterationMonitor<S> {
     Real tolerance() const override { return tolerance_; }
 
   private:
-    static constexpr Real kSettled = Real(1e-3);  ///< of the largest bias
+    static constexpr Real kSettled = Real(1e-3);  ///< relative to the largest bias
     static constexpr Real kStill = Real(1e3);  ///< tolerances of the iteration: rounding of positions over h
     BiasChange<Real> change_;
     int updates_ = 0;  ///< convergence is not required of two or three
@@ -200,7 +200,7 @@ void Step<S>::solveVelocities(int iterations, bool warmStarted) {
     // step, or where the joints hardly allow the motion, as in a flat net: then the step is solved again with
     // the linearisation at its start.
     const bool ideal =
-        !state_.jointStep.bias.soft && state_.jointStep.bias.baumgarte == 0;  // else joints may do work
+        !state_.jointStep.bias.soft && state_.jointStep.bias.baumgarte == 0;  // other joints may do work
     const bool diverges = mayRestart && ideal && joints_.work(rows_, bodies_.velocity) > Real(kMostWork);
     if (!diverges && monitor.biasConverged()) return;
     state_.jointStep.curvature = 0;
@@ -277,7 +277,8 @@ void Step<S>::correct() {
     world_.clock.lastSubstepSize = h;
 }
 
-/// Where nothing but velocities has moved the bodies, these say by how much.
+/// Advances the contacts' separations: by the corrected poses if positions were corrected, by velocities
+/// otherwise.
 template <class S>
 void Step<S>::advanceContacts() {
     const bool corrected = !algorithms_.style.ownsCorrection || algorithms_.style.positions;

@@ -12,19 +12,19 @@
 
 namespace rigor::engine {
 
-/// What a step keeps from stage to stage. Nothing of it decides the future of a world between steps.
+/// Data that a step keeps from stage to stage. None of it decides the future of a world between steps.
 template <class S>
 struct StepState {
     using Real = typename S::Real;
     // --- how far the step is
     bool active = false;
     int stagesDone = 0;
-    int substep = 0;                 ///< of the stage that runs, or has run last
+    int substep = 0;                 ///< index of the sub-step of the stage that runs, or has run last
     Real size = 0, substepSize = 0;  ///< [s]
     // --- the problem of the sub-step
     JointStep<S> jointStep{};
     ConstraintRows<S> rows;
-    std::size_t jointRows = 0;  ///< of rows, which come first
+    std::size_t jointRows = 0;  ///< number of joint rows; they come first in `rows`
     std::vector<Real> warmStart;
     PositionScratch<S> positions;
     // --- what the result refers to

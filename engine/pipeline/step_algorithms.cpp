@@ -13,7 +13,7 @@
 namespace rigor::engine {
 namespace {
 
-/// What does not go together, by the traits of the choices.
+/// Throws for choices that exclude each other by their traits.
 template <class S>
 void checkChoices(const WorldDef<S>& def, const StepAlgorithms<S>& chosen) {
     const bool solvesImpacts = chosen.restitution->solvesImpacts();

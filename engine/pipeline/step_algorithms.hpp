@@ -25,8 +25,8 @@ template <class S>
 struct StepAlgorithms {
     using Real = typename S::Real;
 
-    /// Those that `def` names. Throws EngineError for unknown names, for settings out of range, and for choices
-    /// that do not go together.
+    /// Makes the algorithms that `def` names. Throws EngineError for unknown names, for settings out of
+    /// range, and for choices that do not go together.
     explicit StepAlgorithms(const WorldDef<S>& def);
 
     Motion<S> motion;

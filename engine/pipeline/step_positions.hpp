@@ -14,7 +14,7 @@ namespace rigor::engine {
 /// Arrays that outlive the step so that it does not allocate.
 template <class S>
 struct PositionScratch {
-    /// Since the rows were made: translation [m], rotation vector [rad].
+    /// Motion of each body since the rows were made: translation [m], rotation vector [rad].
     std::vector<Velocity<S>> motion;
     std::vector<typename S::Ang> turn;    ///< rotation not yet in the pose [rad]
     std::vector<std::uint32_t> turned;    ///< bodies with a turn

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a step tells of itself.
+// Result of a step.
 #pragma once
 
 #include <array>
@@ -33,29 +33,29 @@ const char* phaseName(Phase phase);  ///< "broad_phase", "narrow_phase", ...
 
 enum class ResidualMeasure : std::uint8_t {
     Change,     ///< largest velocity error that the iteration removed from a row or block
-    NaturalMap  ///< how far all rows are from their laws after it (solvers/natural_map.hpp)
+    NaturalMap  ///< residual of the natural map of all rows after the iteration (solvers/natural_map.hpp)
 };
 /// Called after each iteration of the velocity solver with its number in the step, the rows (impulses so far)
 /// and its residual as in StepResult.
 template <class S>
 using IterationObserver = std::function<void(int, const ConstraintRows<S>&, typename S::Real)>;
 
-/// What happened in one step. Spans are valid until the next.
+/// Result of one step. Spans are valid until the next.
 template <class S>
 struct StepResult {
     bool nonFinite = false;     ///< a velocity or pose has become NaN or infinite
     std::size_t pairTests = 0;  ///< boxes that the broad phase compared
     std::size_t pairs = 0, contacts = 0, rows = 0;
     std::size_t narrowPhaseCalls = 0;  ///< narrow-phase queries: pairs, or pieces of surfaces
-    int iterations = 0;                ///< of the solver, in all sub-steps
+    int iterations = 0;                ///< iterations of the solver in all sub-steps
     /// Collisions that continuous_collision = conservative_advancement has put at their time, in its order.
     std::span<const ImpactEvent<S>> impacts;
     std::size_t sleeping = 0;  ///< bodies asleep at the end of the step
     bool impactsCut = false;   ///< a body had too many of them and lost the rest of its time
-    /// What `residuals` holds, one per iteration [m/s or rad/s].
+    /// Quantity in `residuals`, one per iteration [m/s or rad/s].
     ResidualMeasure measure = ResidualMeasure::Change;
     std::span<const typename S::Real> residuals;
-    std::span<const Event<S>> events;  ///< what began and ended, in the order of shapes
+    std::span<const Event<S>> events;  ///< contacts that began and ended, in the order of shapes
     bool solverGaveUp = false;         ///< a solver did not reach what it promises and left the best it had
     std::array<double, kPhases> seconds{};  ///< wall time per phase
     std::span<const JointId> broken;        ///< joints that broke in this step; they are gone
@@ -66,10 +66,11 @@ template <class S>
 struct ContactView {
     BodyId bodyA, bodyB;
     ShapeId shapeA, shapeB;
-    typename S::Vec pointA, pointB, normal;  ///< at the pose where it was found; normal from A to B
+    typename S::Vec pointA, pointB, normal;  ///< in world coordinates, at the pose where it was found; normal
+                                             ///< from A to B
     typename S::Real separation;             ///< [m]; < 0: overlap
     typename S::Real normalImpulse;          ///< [N s], >= 0
-    typename S::Vec frictionImpulse;         ///< on B [N s]
+    typename S::Vec frictionImpulse;         ///< impulse on B [N s]
 };
 
 }  // namespace rigor::engine

@@ -30,7 +30,7 @@ World<S>::World(const WorldDef<S>& def) : parts_(def) {}
 
 template <class S>
 BodyId World<S>::addBody(const BodyDef<S>& def) {
-    islands();  // those of the last step
+    islands();  // finds the islands of the last step
     return parts_.bodies.add(def);
 }
 
@@ -81,7 +81,7 @@ template <class S>
 JointId World<S>::addJoint(const JointDef<S>& def) {
     const std::uint32_t a = parts_.bodies.denseOrWorld(def.bodyA), b = parts_.bodies.denseOrWorld(def.bodyB);
     require(a != b, "joint_bodies", "a joint needs two bodies");
-    islands();  // those of the last step
+    islands();  // finds the islands of the last step
     parts_.wakeIslandOf(a);
     parts_.wakeIslandOf(b);
     const BodyArrays<S>& bodies = parts_.bodies.arrays();

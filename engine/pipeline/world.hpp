@@ -65,7 +65,7 @@ class World {
     Phase nextPhase() const { return Step<S>::next(parts_, step_).phase; }
     int substep() const {
         return Step<S>::next(parts_, step_).substep;
-    }  ///< of the next phase: 0 .. substeps() - 1
+    }  ///< sub-step of the next phase: 0 .. substeps() - 1
     void runPhase();
     /// Sets the observer of the solver, null: none. Copies of the world have the same observer.
     void observeIterations(IterationObserver<S> observer) { step_.observer = std::move(observer); }
@@ -89,7 +89,7 @@ class World {
     void setJointAxis(JointId joint, int axis, const JointAxis<Real>& control);
     /// Motor of a coordinate: its speed [m/s] or [rad/s] and largest force or torque; 0: none.
     void setJointMotor(JointId joint, int axis, Real speed, Real maxForce);
-    /// Where the spring of a coordinate pulls to [m] or [rad].
+    /// Sets the rest value of a coordinate's spring [m] or [rad].
     void setJointTarget(JointId joint, int axis, Real target);
     const JointAxis<Real>& jointAxis(JointId joint, int axis = 0) const {
         return parts_.joints.axis(joint, axis);
@@ -99,9 +99,12 @@ class World {
     std::size_t bodyCount() const { return parts_.bodies.size() - 1; }
     bool contains(BodyId body) const { return parts_.bodies.ids().contains(body); }
     bool contains(ForceId force) const { return parts_.forces.contains(force); }
-    double time() const { return parts_.clock.time; }                           ///< the sum of all steps [s]
-    Pose<S> pose(BodyId body) const { return parts_.bodies.pose(body); }        ///< of the body frame
-    Vec velocity(BodyId body) const { return parts_.bodies.velocity(body).v; }  ///< of the centre of mass
+    double time() const { return parts_.clock.time; }                     ///< the sum of all steps [s]
+    Pose<S> pose(BodyId body) const { return parts_.bodies.pose(body); }  ///< pose of the body frame
+    Vec velocity(BodyId body) const {
+        return parts_.bodies.velocity(body).v;
+    }  ///< velocity of the centre of
+       ///< mass
     Ang angularVelocity(BodyId body) const { return parts_.bodies.velocity(body).w; }
     const BodyConstants<S>& constants(BodyId body) const { return parts_.bodies.constants(body); }
     void setVelocity(BodyId body, const Vec& velocity, const Ang& angularVelocity);
@@ -117,24 +120,24 @@ class World {
     std::span<const Aabb<S>> boxes() const { return parts_.contacts.shapes().boxes(); }
     /// Shapes whose boxes overlapped then, as indices of shapes(), the lower one first.
     std::span<const ProxyPair> pairs() const { return parts_.contacts.pairs(); }
-    /// What the last narrow phase found of them, sorted by shapes: normal, points with their separations and
-    /// features, and the impulses they start with. Also points that the solver has no need of.
+    /// Contacts of the last narrow phase, sorted by shapes: normal, points with their separations and
+    /// features, and the impulses they start with. The list also has points that the solver does not need.
     const ContactList<S>& manifolds() const { return parts_.contacts.list(); }
     /// Replaces `out` by the contacts of the last step: the points that got rows.
     void readContacts(std::vector<ContactView<S>>& out) const;
     /// The rows of the last sub-step, solved or not yet.
     const ConstraintRows<S>& rows() const { return step_.rows; }
-    /// Where a joint's rows stand among them: the first, and how many.
+    /// First row of a joint and the number of its rows.
     std::pair<std::uint32_t, std::uint32_t> jointRows(JointId joint) const {
         return parts_.joints.rows(joint);
     }
     /// Impulses of a joint's rows in the last step, summed over its sub-steps [N s] or [N m s].
     std::span<const Real> jointImpulses(JointId joint) const { return parts_.joints.impulses(joint); }
-    /// Of the contacts and joints of the last step, between dynamic bodies, asleep or not. Found when they
-    /// are asked for, so the first to ask after a step must be alone.
+    /// Islands of the contacts and joints of the last step, between dynamic bodies, asleep or not. They are
+    /// found on demand, so the first call after a step must not be concurrent.
     const Islands& islands() const { return parts_.currentIslands(); }
     bool isAsleep(BodyId body) const { return parts_.bodies.arrays().asleep[parts_.bodies.dense(body)]; }
-    /// Of everything that decides the future (state/state_fields.def).
+    /// Hash of everything that decides the future (state/state_fields.def).
     std::uint64_t stateHash() const;
 
     // --- saving and going on

@@ -32,12 +32,12 @@ class WorldBodies {
     const BodyArrays<S>& arrays() const { return arrays_; }
     IdTable<BodyTag>& ids() { return ids_; }
     const IdTable<BodyTag>& ids() const { return ids_; }
-    std::size_t size() const { return arrays_.size(); }  ///< with the world
+    std::size_t size() const { return arrays_.size(); }  ///< number of bodies, the world's own included
     std::uint32_t dense(BodyId body) const { return ids_.dense(body); }
     /// 0 for no body.
     std::uint32_t denseOrWorld(BodyId body) const { return body ? ids_.dense(body) : 0; }
 
-    Pose<S> pose(BodyId body) const;  ///< of the body frame
+    Pose<S> pose(BodyId body) const;  ///< pose of the body frame
     const Velocity<S>& velocity(BodyId body) const { return arrays_.velocity[ids_.dense(body)]; }
     const BodyConstants<S>& constants(BodyId body) const { return arrays_.constants[ids_.dense(body)]; }
     /// Changes linear and angular momentum at once [N s], [N m s].

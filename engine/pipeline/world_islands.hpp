@@ -17,7 +17,7 @@ namespace rigor::engine {
 template <class S>
 class WorldIslands {
   public:
-    /// What connects the bodies.
+    /// Contacts and joints that connect the bodies.
     struct Links {
         const BodyArrays<S>& bodies;
         const ContactList<S>& contacts;

@@ -28,7 +28,7 @@ void WorldParts<S>::removeBody(BodyId body) {
 
 template <class S>
 void WorldParts<S>::removeJoint(JointId joint) {
-    currentIslands();  // those of the last step
+    currentIslands();  // finds the islands of the last step
     const Joint<S>& gone = joints.joint(joint);
     wakeIslandOf(gone.a);
     wakeIslandOf(gone.b);

@@ -45,7 +45,7 @@ struct WorldParts {
     int velocityIterations() const {
         return def.velocityIterations > 0 ? def.velocityIterations : algorithms.style.iterations.value_or(50);
     }
-    /// Of the last step [s].
+    /// Length of the last step [s].
     Real lastStepSize() const {
         return clock.steps == 0 ? Real(0) : clock.lastSubstepSize * Real(substeps());
     }
@@ -54,9 +54,9 @@ struct WorldParts {
     void removeJoint(JointId joint);
     void jointsChanged() { contacts.setExcluded(joints.exclusions()); }
 
-    /// Of the contacts and joints of the last step.
+    /// Islands of the contacts and joints of the last step.
     const Islands& currentIslands() const { return islands.get(links()); }
-    /// Wakes all of the island of a body, if the body is asleep: what leans on it must see what becomes of it.
+    /// Wakes all of the island of a body, if the body is asleep: bodies that rest on it must react.
     void wakeIslandOf(std::uint32_t body);
     void wakeNeighboursOf(std::uint32_t body);
 

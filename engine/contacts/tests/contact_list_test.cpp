@@ -18,7 +18,7 @@ using S = Space2f;
 TEST(ContactList, KeepsEachContactUntilItIsRemoved) {
     const Tasks tasks(2);
     SlotList<Contact<S>> list;
-    std::vector<std::uint32_t> names;  // by place, the shape that each contact is given
+    std::vector<std::uint32_t> names;  // shape that each contact gets, by its place
     std::mt19937 random(1);
     bool tidied = false;
     for (std::uint32_t round = 0; round < 500; ++round) {

@@ -307,7 +307,7 @@ TYPED_TEST(Reuse, WhatTurnsTogetherKeepsItsWayOut) {
             B.p = rotate<R>(A.q, from);
             ASSERT_EQ(pair.find().size(), 1u);
             ASSERT_EQ(pair.set.queries(), 0u);
-            from = at<S>(1.3 - 0.05, 1.3 - 0.05 + 1e-5);  // by a little y is
+            from = at<S>(1.3 - 0.05, 1.3 - 0.05 + 1e-5);  // the limit is exceeded by the small change of y
             B.p = rotate<R>(A.q, from);
             ASSERT_EQ(pair.find().size(), 1u);
             ASSERT_EQ(pair.set.queries(), 1u);
@@ -378,8 +378,8 @@ TYPED_TEST(Reuse, ASnapshotHoldsWhatIsKept) {
             ASSERT_EQ(other.step(typename S::Real(1.0 / 60)).narrowPhaseCalls, calls) << i;
             ASSERT_EQ(one.stateHash(), other.stateHash()) << i;
         }
-        if (sleeping == std::string("islands")) continue;  // those asleep are not asked about at all
-        // Under other settings nothing that was kept for these holds.
+        if (sleeping == std::string("islands")) continue;  // pairs of sleeping bodies are not queried at all
+        // Cached manifolds of these settings do not hold under other settings.
         World<S> third = stack<S>(2 * kReuse, 0, 1, sleeping);
         third.restoreSnapshot(bytes);
         EXPECT_GE(third.step(typename S::Real(1.0 / 60)).narrowPhaseCalls, 5u);
@@ -397,7 +397,7 @@ TYPED_TEST(Reuse, RemovedBodiesTakeTheirAnswersAlong) {
     double top = 0;
     for (const ShapeRecord<S>& shape : world.shapes())
         top = std::max(top, double(world.shapePose(shape).p[1]));
-    EXPECT_LT(top, 1.8);  // what stood on it has come down
+    EXPECT_LT(top, 1.8);  // the boxes on top have come down
     for (const Contact<S>& contact : world.manifolds()) EXPECT_GT(deepest<S>(contact), -2e-3);
 }
 

@@ -12,7 +12,7 @@ namespace rigor::engine::benchmark_scene {
 class Random {
   public:
     explicit Random(std::uint64_t seed) : state_(seed) {}
-    /// In [0, 1).
+    /// Uniform random number in [0, 1).
     double unit() {
         state_ = state_ * 6364136223846793005u + 1442695040888963407u;
         return static_cast<double>(state_ >> 11) * 0x1p-53;

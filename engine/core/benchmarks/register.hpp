@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What every benchmark program defines: main.cpp beside this is the rest of it.
+// Functions that every benchmark program defines: main.cpp beside this is the rest of it.
 #pragma once
 
 namespace rigor::engine {

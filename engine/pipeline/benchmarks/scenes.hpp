@@ -126,7 +126,7 @@ SceneBuilder<S> chain(int links, const WorldDef<S>& def = onEarth<S>()) {
     return scene;
 }
 
-/// What the solver is given in the step after `settled` steps: rows, and velocities by dense body index.
+/// Input of the solver in the step after `settled` steps: rows, and velocities by dense body index.
 template <class S>
 struct FrozenRows {
     ConstraintRows<S> rows;

@@ -43,7 +43,7 @@ void registerAll(const std::string& space, bool everySolver) {
     const WorldDef<S> standard = benchmark_scene::onEarth<S>();
     for (const auto& entry : solverTable<S>()) {
         const std::string name = entry.name;
-        // What solves hundreds of contacts to a residual takes seconds per step.
+        // A solver that solves hundreds of contacts to a residual takes seconds per step.
         if (solverTraits(name).stops == StopRule::Residual) continue;
         if (!everySolver && name != standard.solver) continue;
         WorldDef<S> def = standard;

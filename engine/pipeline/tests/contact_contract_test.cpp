@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What holds for contacts with every solver and every position correction: who comes first does not matter,
-// what is told is what acted, what is kept is kept, and a gap that closes is closed.
+// Contract of contacts for every solver and every position correction: the order of bodies does not matter,
+// the reported impulses are those that acted, restored state gives the same future, and a gap that closes is
+// closed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -51,8 +52,8 @@ TYPED_TEST(ContactContract, ALeverLiftsABallWhicheverComesFirst) {
     }
 }
 
-/// What a step tells of its contacts is all that they did in it, with sub-steps or without: m dv = m g h +
-/// the impulses, of a block that slides and one that lands.
+/// The impulses that a step reports are all that acted in it, with or without sub-steps: m dv = m g h + the
+/// impulses, of a block that slides and one that lands.
 TYPED_TEST(ContactContract, ReportedImpulsesAreThoseOfTheWholeStep) {
     using S = TypeParam;
     using R = typename S::Real;

@@ -136,7 +136,7 @@ std::uint64_t hashOf(const Scene& scene) {
     return world.stateHash();
 }
 
-/// What libm makes of arguments that the compiler does not know.
+/// Hash of the results of libm for arguments that the compiler does not know.
 std::uint64_t libmHash() {
     Hasher hash;
     const auto probe = [&hash](auto x) {

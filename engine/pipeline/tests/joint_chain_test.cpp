@@ -92,7 +92,7 @@ struct Jointed {
                 if (i > 0) join(left, here, place(i - 0.5, j), place(i - 1, j), p);
             }
     }
-    /// What the fall from 45 degrees to the bottom sets free [J].
+    /// Potential energy released by the fall from 45 degrees to the bottom [J].
     static double fall(int links, double ratio) {
         return (ratio + links / 2.0) * kMass * kGravity * kLink * links * (1 - std::numbers::sqrt2 / 2);
     }
@@ -239,7 +239,7 @@ TYPED_TEST(Chains, ACutChainFallsAsTwo) {
     for (int i = 0; i < 30; ++i) scene.world.step(static_cast<R>(kStep));
     EXPECT_NEAR(momentum(), before - 30 * kStep * weight, 1e-4 * weight);
     EXPECT_LT(scene.gap(), 1e-4);
-    // And joined again, somewhere else.
+    // The bodies are joined again at another point.
     const typename S::Vec half = at<S>(0, kLink / 2);
     const std::size_t joints = scene.joints.size();
     scene.ball(scene.bodies[14],

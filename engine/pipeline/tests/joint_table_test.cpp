@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What every joint of the table must do: conserve momentum, hold what it holds, break where it should; and
-// the joint of six degrees of freedom is each of the others.
+// Tests of every joint of the table: it conserves momentum, constrains its coordinates and breaks at its
+// limit; the joint of six degrees of freedom reproduces each of the others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -235,7 +235,7 @@ TYPED_TEST(JointTable, SixDofIsEachOfTheOthers) {
         const typename S::Vec axis = at3<S>(0.6, 0.8, 0);
         special.axisA = special.axisB = general.axisA = general.axisB = axis;
         for (const int k : c.free) general.axes[static_cast<std::size_t>(k)].mode = AxisMode::Free;
-        // Also driven alike on the first free coordinate.
+        // Both are also driven alike on the first free coordinate.
         if (c.type == JointType::Slider || c.type == JointType::Hinge) {
             JointAxis<R>& one = special.axes[0];
             one = {AxisMode::Limited, R(-0.3), R(0.3)};

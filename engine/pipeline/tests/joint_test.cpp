@@ -181,7 +181,7 @@ TEST(Hinge3d, AxisDoesNotDriftUnderATiltedSpin) {
     j.anchorB = at<S>(-0.5, 0);
     world.addJoint(j);
     for (int i = 0; i < 1200; ++i) {
-        world.applyForce(id, {0, 0, 1}, {0.5, 0.2, 0});  // against the hinge alone
+        world.applyForce(id, {0, 0, 1}, {0.5, 0.2, 0});  // load against the hinge alone
         world.step(1.0 / 120);
         const Eigen::Vector3d axis = world.pose(id).q * Eigen::Vector3d(0, 0, 1);
         ASSERT_LT((axis - Eigen::Vector3d(0, 0, 1)).norm(), 1e-7) << i;

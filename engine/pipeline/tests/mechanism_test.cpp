@@ -37,7 +37,7 @@ struct Mechanism {
         body.pose.q = expMap(spin<S>(std::atan2(d.y(), d.x())));
         return world.addBody(body);
     }
-    /// At a world point; a null body is the ground.
+    /// Adds a hinge at a world point; a null body is the ground.
     JointId hinge(BodyId a, BodyId b, const Point& where, double speed = 0, double torque = 0) {
         const auto local = [&](BodyId id) {
             const typename S::Vec p = at<S>(where.x(), where.y());

@@ -21,7 +21,7 @@ WorldDef<S> reference() {
     return def;
 }
 
-/// What steps of a world have come to.
+/// Summary of the steps of a world.
 struct Record {
     int steps = 0, missed = 0;
     double worst = 0;  ///< residual of the steps that claim to have reached it [m/s]

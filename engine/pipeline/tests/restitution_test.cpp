@@ -35,7 +35,7 @@ TYPED_TEST(Impacts, LawsAgreeWithoutFrictionAndOffMeansOff) {
                 after = world.velocity(ball)[1];
             }
             const double kept = std::string(law) == "none" ? 0 : e;
-            // Without a bounce the contact may close the gap in the step of the impact.
+            // If there is no bounce, the contact may close the gap in the step of the impact.
             EXPECT_NEAR(after, -kept * before, kept > 0 ? tol<S>(1e-13, 1e-5) : 0.25) << law << e;
         }
         // Two spheres, one dimension.

@@ -20,8 +20,8 @@ WorldDef<S> earth() {
     def.gravity[1] = -static_cast<typename S::Real>(kGravity);
     return def;
 }
-/// Where a world's choice of a family of algorithmFamilies() stands. Null for faults, which break what is
-/// tested.
+/// Member of WorldDef that holds the choice of a family of algorithmFamilies(). Null for faults, which break
+/// the tested code.
 template <class S>
 std::string* choiceOf(WorldDef<S>& def, const std::string& family) {
     return family == "broad_phase"            ? &def.broadPhase
@@ -118,7 +118,7 @@ template <class S>
 constexpr double tol(double forDouble, double forFloat) {
     return sizeof(typename S::Real) == 8 ? forDouble : forFloat;
 }
-/// Of what a solver makes of contacts: patches of `wide` have impulses in f32 (solvers/wide/patch.hpp).
+/// Tolerance for the contacts of a solver: patches of `wide` have impulses in f32 (solvers/wide/patch.hpp).
 template <class S>
 constexpr double tol(std::string_view solver, double forDouble, double forFloat) {
     constexpr double kPatch = 1e-6;

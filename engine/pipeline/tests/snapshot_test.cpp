@@ -84,7 +84,7 @@ void savedAndRestored(const WorldDef<S>& def, const std::string& what) {
         saved.saveSnapshot(bytes);
         World<S> fresh = scene<S>(def);
         fresh.restoreSnapshot(bytes);
-        World<S> used = scene<S>(def);  // with a past of its own
+        World<S> used = scene<S>(def);  // has a history of its own
         for (int i = 0; i < 25; ++i) used.step(R(1.0 / 100));
         used.restoreSnapshot(bytes);
         World<S> original = saved;
@@ -168,7 +168,7 @@ TYPED_TEST(Snapshot, DamagedBytesAreRefusedAndChangeNothing) {
     EXPECT_EQ(refusal(world, bytes), "");
 }
 
-/// With a right checksum: what does not fit is found all the same.
+/// The checksum is right; the inconsistent content is found all the same.
 TYPED_TEST(Snapshot, ForgedBytesAreRefused) {
     using S = TypeParam;
     using R = typename S::Real;

@@ -20,16 +20,16 @@ class Solvers : public testing::Test {};
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(Solvers, Spaces);
 
-/// What a solver is known to do; one that is not named here does everything.
+/// Known properties of a solver; a solver that is not named here does everything.
 struct Traits {
     const char* name;
     bool solves = true;     ///< coupled contacts: stacks stand, boxes stick to slopes
-    double sinks = 1e-3;    ///< of the top of a stack of five, at most [m]
+    double sinks = 1e-3;    ///< sinking of the top of a stack of five, at most [m]
     double drifts = 1e-3;   ///< sideways in five seconds, at most [m]
     double slips = 1e-4;    ///< error of the speed of a sliding box, two seconds after its start [m/s]
     double swings = 0.2;    ///< change of a pendulum's energy in ten seconds [J], of 9.81/2 J
     double turns = 1e-12;   ///< angular momentum that an impact changes [kg m^2/s]
-    bool iterates = false;  ///< to a solution, warm started: pgs and its like
+    bool iterates = false;  ///< iterates to a solution, warm started, as pgs does
 };
 Traits traitsOf(const std::string& name) {
     static const Traits known[] = {
@@ -132,7 +132,7 @@ TYPED_TEST(Solvers, BoxOnAnInclineSticksAboveTheThresholdAndSlidesBelow) {
         }
 }
 
-/// Of the top box of a stack of n.
+/// Motion of the top box of a stack of n.
 struct Stood {
     double sunk = 0, drifted = 0;
 };

@@ -78,8 +78,8 @@ TYPED_TEST(WideLaws, AContactDoesNotKnowWhoStandsBesideIt) {
     }
 }
 
-/// In every step of a heap that falls and slides the friction between two bodies is at most its coefficient
-/// times what presses them together, and somewhere it is all of that.
+/// Friction bound: in every step of a heap that falls and slides, the friction impulse between two bodies is
+/// at most the coefficient times the normal impulse, and at some contact it reaches this bound.
 TYPED_TEST(WideLaws, FrictionStaysInItsCone) {
     using S = TypeParam;
     using R = typename S::Real;

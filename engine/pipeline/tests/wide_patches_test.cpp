@@ -208,7 +208,7 @@ void expectHeldWithoutCreeping() {
     addGround<S>(world, wood);
     BodyDef<S> def;
     const double half = 0.25, r2 = 2 * half * half;
-    def.inertia = isotropic<S>(20 * r2);  // of 1 kg
+    def.inertia = isotropic<S>(20 * r2);  // inertia of a sphere of 1 kg
     def.pose.p = at<S>(0, half);
     const BodyId body = world.addBody(def);
     attach<S>(world, body, Box<S>{S::Vec::Constant(static_cast<R>(half))}, wood);

@@ -18,8 +18,8 @@ class WidePrecision : public testing::Test {};
 using Spaces = testing::Types<Space2d, Space3d>;
 TYPED_TEST_SUITE(WidePrecision, Spaces);
 
-/// Without gravity, a row of spheres and cubes that run into each other off their centres, all of them with
-/// the velocity `common` besides, and from `x0` on.
+/// A row of spheres and cubes that collide off their centres, without gravity; all have the velocity `common`
+/// in addition, and the row begins at `x0`.
 template <class S>
 struct Crowd {
     World<S> world;
@@ -58,10 +58,10 @@ TYPED_TEST(WidePrecision, WhatOneGainsTheOtherLoses) {
     const typename S::Vec first = crowd.world.velocity(crowd.bodies[0]);
     crowd.run();
     EXPECT_GT((crowd.world.velocity(crowd.bodies[0]) - first).norm(), 1) << "nothing collided";
-    EXPECT_LT((crowd.momentum() - p).norm(), 2e-6);  // of some 20 N s
+    EXPECT_LT((crowd.momentum() - p).norm(), 2e-6);  // the momenta are about 20 N s
 }
 
-/// In a frame that flies at 10 km/s f32 would know velocities to 1e-3 m/s.
+/// The resolution of f32 velocities in a frame that flies at 10 km/s would be 1e-3 m/s.
 TYPED_TEST(WidePrecision, DoesNotDependOnTheSpeedOfAll) {
     using S = TypeParam;
     Crowd<S> still(0), flying(1e4);

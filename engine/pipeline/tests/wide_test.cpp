@@ -205,7 +205,7 @@ std::string refusal(const WorldDef<S>& def) {
     }
 }
 
-/// What is made for contacts as rows, which there are none of.
+/// The refused settings are for contacts as rows, of which there are none here.
 TYPED_TEST(Wide, SettingsThatItDoesNotHaveAreRefused) {
     using S = TypeParam;
     const WorldDef<S> plain = wideEarth<S>();

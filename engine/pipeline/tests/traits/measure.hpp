@@ -15,7 +15,7 @@
 
 namespace rigor::engine::test {
 
-/// What is measured of a solver beside its traits.
+/// Measured properties of a solver beside its traits.
 struct MeasuredSolver {
     SolverTraits traits;       ///< iterations with relaxation; linearJointBaumgarte: any value for "rigid"
     double contactSpring = 0;  ///< frequency where kAskedContact is asked for [Hz]; 0: rigid
@@ -25,7 +25,7 @@ struct MeasuredSolver {
 };
 inline constexpr double kAskedContact = 10, kAskedJoint = 12;
 
-/// As a law of restitution says of itself (solvers/restitution.hpp).
+/// Measured properties of a law of restitution, as it declares them (solvers/restitution.hpp).
 struct MeasuredRestitution {
     bool bounces = false;
     bool solvesImpacts = false;

@@ -37,7 +37,7 @@ double reboundOfCorner(const std::string& law) {
     const std::uint32_t rubber = world.addMaterial(1, kRestitution);
     addGround<Plane>(world, rubber);
     const double half = 0.5, angle = 0.4;
-    // From the centre to the lowest corner, (-half, -half) in the body.
+    // Vector from the centre to the lowest corner, (-half, -half) in the body.
     const double rx = -half * std::cos(angle) + half * std::sin(angle);
     const double ry = -half * std::sin(angle) - half * std::cos(angle);
     BodyDef<Plane> body;

@@ -114,7 +114,7 @@ bool ownsRotation(const std::string& integrator) {
                        [&](const auto& q) { return q.coeffs() == ends.front().coeffs(); });
 }
 
-/// Whether free flight is the same with a solver that moves bodies in blocks, where these traits allow it, as
+/// True if free flight is the same with a solver that moves bodies in blocks, where these traits allow it, as
 /// with the usual one.
 bool isTheSameInBlocks(WorldDef<S> def) {
     def.gravity = Vec(0, -kGravity, 0);

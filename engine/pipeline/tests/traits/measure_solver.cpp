@@ -26,7 +26,7 @@ void run(World<S>& world, int steps, double h = kStep) {
     for (int i = 0; i < steps; ++i) world.step(h);
 }
 
-/// Of one step of free fall by symplectic Euler in n parts: y = g h^2 (1 + 1 / n) / 2.
+/// Number of sub-steps. The fall of one step by symplectic Euler in n sub-steps is y = g h^2 (1 + 1 / n) / 2.
 int substeps(const std::string& solver) {
     World<S> world(earthWith(solver));
     const BodyId ball = addBall<S>(world, 0, 100, 0.5, 1, 0);
@@ -36,8 +36,8 @@ int substeps(const std::string& solver) {
     return static_cast<int>(std::lround(1 / (2 * fallen - 1)));
 }
 
-/// What a spring of the frequency f gives way by under its own mass is g / (2 pi f)^2. 0: hardly at all.
-/// Where the velocity that errors ask for is relaxed out again, that takes 1 / (h (2 pi f)^2) of time.
+/// Frequency f of a spring by its deflection g / (2 pi f)^2 under its own mass. 0: hardly any deflection.
+/// Where the bias velocity is relaxed out again, reaching the deflection takes 1 / (h (2 pi f)^2) of time.
 constexpr double kSpringStep = 1.0 / 60;
 double frequencyOf(double sag) {
     return sag > 1e-4 ? std::sqrt(kGravity / sag) / (2 * std::numbers::pi) : 0.0;
@@ -69,7 +69,7 @@ double jointSpring(const std::string& solver, bool curved) {
     return frequencyOf(-world.pose(ball).p[1]);
 }
 
-/// Where a sphere is, and how fast, that has begun 1 cm deep in the floor.
+/// Position and velocity of a sphere that has begun with a penetration of 1 cm.
 Eigen::Vector2d afterOverlap(const std::string& solver, const std::string& correction, double gravity) {
     WorldDef<S> def = earthWith(solver);
     def.gravity[1] = -gravity;

@@ -32,9 +32,9 @@ Vec2 level(const S::Vec& v) {
     return {v[0], v[2]};
 }
 
-/// What friction does to a sphere that slides in one direction.
+/// Effect of friction on a sphere that slides in one direction.
 struct Braking {
-    double share;  ///< of mu g
+    double share;  ///< deceleration in units of mu g
     double askew;  ///< angle to the direction against the slip [rad]
 };
 Braking brakingOf(const std::string& solver, const std::string& friction, double direction) {
@@ -142,7 +142,7 @@ bool rubsInPatches(const std::string& solver) {
         const Pose<S> X = world.pose(plate);
         const S::Vec v = world.velocity(plate), w = world.angularVelocity(plate);
         run(world, 1, h);
-        S::Vec force = S::Vec::Zero();  // of all feet, as a share of mu m g
+        S::Vec force = S::Vec::Zero();  // friction of all feet, as a fraction of mu m g
         for (const S::Vec& foot : feet) {
             const S::Vec slip = v + w.cross(rotate(X.q, foot));
             force -= S::Vec(slip[0], 0, slip[2]).normalized() / 3;

@@ -17,8 +17,8 @@ FrictionShape frictionShapeOf(const std::string& solver, const std::string& fric
 /// The law that a solver has whatever the world asks for; empty: it obeys.
 std::optional<FrictionShape> ownFriction(const std::string& solver, int substeps);
 
-/// Whether a plate on three feet that slides and turns at once is slowed down otherwise than its feet would
-/// be each by itself.
+/// True if a plate on three feet that slides and turns at once is decelerated otherwise than by the friction
+/// of each foot alone.
 bool rubsInPatches(const std::string& solver);
 
 }  // namespace rigor::engine::test

@@ -21,8 +21,8 @@ namespace {
 using S = Space3d;
 using Lies = std::vector<std::string>;
 
-/// Of each entry of a table: liars are found out in the trait that their summary begins with, the others in
-/// none.
+/// Compares each entry of a table with its measured traits: deliberately false entries differ in the trait
+/// that their summary begins with, the others in none.
 template <class Table>
 void expectTruth(Table table, Lies (*liesOf)(const std::string&)) {
     int liars = 0;
@@ -67,7 +67,7 @@ TEST(Traits, OfManifoldsAreMeasured) {
     expectTruth(manifoldTable<S>(), &liesOfManifold);
 }
 
-/// What the parity ledger of the engine's adapter says of position corrections.
+/// Statement of the adapter's parity ledger on position corrections.
 TEST(Traits, PositionCorrectionsLeaveVelocityAsTheirBiasSays) {
     for (const auto& entry : positionCorrectionTable<S>()) {
         const auto correction = entry.make();
