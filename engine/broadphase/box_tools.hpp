@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What several broad phases need of boxes.
+// Functions on boxes that several broad phases use.
 #pragma once
 
 #include <algorithm>

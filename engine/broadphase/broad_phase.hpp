@@ -48,7 +48,7 @@ class BroadPhase {
     }
 
   protected:
-    /// Whether two boxes overlap, counted.
+    /// Overlap test of two boxes; every test is counted.
     bool overlap(const Aabb<S>& a, const Aabb<S>& b) const {
         ++tests_;
         return a.overlaps(b);

@@ -133,7 +133,7 @@ class Tree {
   private:
     struct Node {
         Box box;
-        std::uint32_t parent = kNullIndex;  ///< of a free node: the next free one
+        std::uint32_t parent = kNullIndex;  ///< parent; for a free node the next free one
         std::uint32_t child[2] = {kNullIndex, kNullIndex};
     };
 
@@ -298,7 +298,7 @@ class DynamicAabbTree final : public BroadPhase<S> {
     void findTouched(std::span<const Box> boxes, std::span<const std::uint8_t> movable) {
         touched_.clear();
         for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-            const bool sameKind = movable[i] == movable_[i];  // else its pairs begin or end
+            const bool sameKind = movable[i] == movable_[i];  // otherwise its pairs begin or end
             movable_[i] = movable[i];
             if (where_[i] == Where::InTree && sameKind && tree_.box(i).contains(boxes[i])) continue;
             if (where_[i] == Where::Outside && BroadPhase<S>::unbounded(boxes[i])) continue;
@@ -332,7 +332,7 @@ class DynamicAabbTree final : public BroadPhase<S> {
             else
                 fat_[i] = fattened(boxes[i]);
         }
-        leaves_.resize(boxes.size() - outside_.size());  // those without bounds are last in the order
+        leaves_.resize(boxes.size() - outside_.size());  // proxies without bounds are last in the order
         tree_.build(leaves_, fat_);
         newPairs_.clear();
         tree_.selfQuery(this->tests_, [&](std::uint32_t i, std::uint32_t j) {
@@ -388,8 +388,8 @@ class DynamicAabbTree final : public BroadPhase<S> {
     std::vector<ProxyPair> fatPairs_, newPairs_, merged_;  ///< sorted
     PairSort pairSort_;
     SpatialOrder<S> order_{1};
-    std::vector<std::uint32_t> leaves_;  ///< of a rebuild, in their order
-    std::vector<Box> fat_;               ///< of a rebuild, by proxy
+    std::vector<std::uint32_t> leaves_;  ///< leaves of a rebuild, in their order
+    std::vector<Box> fat_;               ///< boxes of a rebuild, by proxy
 };
 
 }  // namespace

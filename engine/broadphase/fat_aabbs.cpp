@@ -32,8 +32,8 @@ bool FatAabbs<S>::update(BroadPhase<S>& broadPhase, std::span<const Aabb<S>> box
     tasks.forRanges(boxes.size(), kBoxGrain, [&](std::size_t first, std::size_t last) {
         std::size_t here = 0;
         for (std::size_t i = first; i < last; ++i) {
-            // With a margin far below the box's rounding the test holds by equality. A box with a NaN is in
-            // no box and is replaced in every update.
+            // If the margin is far below the rounding of the box's coordinates, the test holds by equality. A
+            // box with a NaN is in no box and is replaced in every update.
             if (!resized && movable[i] == movable_[i] && fat_[i].contains(boxes[i])) continue;
             fat_[i] = fatAabb<S>(boxes[i], movable[i] != 0, margin);
             movable_[i] = movable[i];

@@ -67,7 +67,7 @@ class Octree final : public BroadPhase<S> {
         Box content;  ///< bounds of the boxes in it and below
         Vec center = Vec::Zero();
         Real half = 0;                      ///< half an edge of the cell [m]; of its loose bounds: twice that
-        std::uint32_t parent = kNullIndex;  ///< of a free cell: the next free one
+        std::uint32_t parent = kNullIndex;  ///< parent; for a free cell the next free one
         std::uint32_t below = 0;            ///< boxes in it and its descendants
         std::uint32_t first = kNullIndex;   ///< its boxes, linked through Proxy
         std::int32_t level = 0;             ///< half = 2^-level of the first root's

@@ -54,7 +54,7 @@ void PairSort::sort(std::span<const std::vector<ProxyPair>> parts, std::size_t p
     std::size_t total = 0;
     for (const auto& part : parts) total += part.size();
     sorted.resize(total);
-    if (total < proxies / 16) {  // not worth a pass over the proxies
+    if (total < proxies / 16) {  // too few pairs for a pass over the proxies
         auto to = sorted.begin();
         for (const auto& part : parts) to = std::copy(part.begin(), part.end(), to);
         std::sort(sorted.begin(), sorted.end());

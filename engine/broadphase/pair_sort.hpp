@@ -23,13 +23,14 @@ class PairSort {
 
   private:
     struct Range {
-        std::uint32_t begin = 0, end = 0, first = 0, count = 0;  ///< of a; where its pairs go, how many
+        std::uint32_t begin = 0, end = 0, first = 0, count = 0;  ///< proxies a in [begin, end); first place
+                                                                 ///< and number of their pairs
     };
     void count(std::span<const std::vector<ProxyPair>> parts, Range& range);
     void place(std::span<const std::vector<ProxyPair>> parts, const Range& range,
                std::vector<ProxyPair>& sorted);
 
-    std::vector<std::uint32_t> ends_;  ///< by a: the pairs counted; then where the next one goes
+    std::vector<std::uint32_t> ends_;  ///< number of pairs of each a, then the place of its next pair
     std::vector<Range> ranges_;
 };
 

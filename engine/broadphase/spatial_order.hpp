@@ -51,10 +51,10 @@ class SpatialOrder {
 
     typename S::Vec middle_ = S::Vec::Zero(), low_ = S::Vec::Zero();
     Real median_ = 0, perCell_ = 1;  ///< edge [m]; cells per metre
-    int bits_ = 0;                   ///< of a cell's number along an axis
+    int bits_ = 0;                   ///< bits of a cell's number along an axis
     std::vector<Entry> entries_, spare_;
     std::vector<Center> centers_;
-    std::vector<std::size_t> blocks_;  ///< where each begins, and the end of the last
+    std::vector<std::size_t> blocks_;  ///< first element of each block, and the end of the last
     std::vector<Real> edges_;
 };
 

@@ -100,7 +100,7 @@ class SweepAndPrune final : public BroadPhase<S> {
     }
 
     int axis_ = 0;
-    std::vector<Interval> intervals_;  ///< in the order of the last update
+    std::vector<Interval> intervals_;  ///< sorted in the order of the last update
 };
 
 }  // namespace

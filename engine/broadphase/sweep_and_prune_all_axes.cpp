@@ -71,7 +71,7 @@ class SweepAndPruneAllAxes final : public BroadPhase<S> {
                !std::all_of(previous_.begin(), previous_.end(), isBox);
     }
 
-    /// From the lists and pairs of the last update to those of this one. False: gave up half way.
+    /// Updates the lists and pairs from the last update to this one. False: gave up before the end.
     bool updateLists(std::span<const Box> boxes, std::span<const std::uint8_t> movable) {
         begun_.clear();
         ended_.clear();
@@ -142,7 +142,7 @@ class SweepAndPruneAllAxes final : public BroadPhase<S> {
             list.clear();
             list.reserve(2 * boxes.size());
             for (std::uint32_t i = 0; i < n; ++i) {
-                // What is not a number overlaps nothing; it stands at the far end until the next update.
+                // A box with a NaN overlaps nothing; it stays at the far end until the next update.
                 const bool valid = isBox(boxes[i]);
                 constexpr Real kInfinity = std::numeric_limits<Real>::infinity();
                 list.push_back({valid ? boxes[i].min[axis] : kInfinity, 2 * i});
@@ -177,7 +177,7 @@ class SweepAndPruneAllAxes final : public BroadPhase<S> {
         std::sort(overlapping_.begin(), overlapping_.end());
     }
 
-    std::vector<Box> previous_;  ///< of the last update
+    std::vector<Box> previous_;  ///< boxes of the last update
     std::vector<std::uint8_t> movable_;
     List lists_[S::dim];
     std::vector<ProxyPair> overlapping_, begun_, ended_, merged_;  ///< sorted

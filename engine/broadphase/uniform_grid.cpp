@@ -102,7 +102,7 @@ class UniformGrid final : public BroadPhase<S> {
             ++cell[k];
         }
     }
-    /// How many cells forCells would visit.
+    /// Number of cells that forCells would visit.
     double countCells(const Box& box) const {
         double count = 1;
         for (int k = 0; k < S::dim; ++k)
@@ -177,10 +177,10 @@ class UniformGrid final : public BroadPhase<S> {
         });
     }
 
-    Real edge_ = 1, perEdge_ = 1;  ///< of a cell [m], [1/m]
+    Real edge_ = 1, perEdge_ = 1;  ///< edge of a cell [m] and its inverse [1/m]
     std::size_t mask_ = 0;         ///< buckets less one, a power of two less one
     std::vector<std::uint32_t> bucketStart_;
-    std::vector<Entry> entries_, unsorted_;  ///< by bucket; by proxy
+    std::vector<Entry> entries_, unsorted_;  ///< entries by bucket; entries by proxy
     std::vector<std::uint32_t> large_;
     std::vector<std::uint8_t> isLarge_;
     std::vector<Real> scratch_;

@@ -43,7 +43,7 @@ namespace {
 constexpr std::size_t kChildren = 8;
 constexpr std::size_t kNodeGrain = 32;          ///< nodes: some microseconds of work
 constexpr std::uint64_t kGrown = 320;           ///< mean growth of nodes that asks for a sort; 256 is none
-constexpr std::size_t kUnitsWorthSharing = 16;  ///< of 64 boxes each
+constexpr std::size_t kUnitsWorthSharing = 16;  ///< units of 64 boxes each
 
 template <class S>
 class WideTree final : public BroadPhase<S> {
@@ -159,7 +159,7 @@ class WideTree final : public BroadPhase<S> {
         if (!marks.changed) return;
         const float size = top_ > 0 ? bound(node, levels_[1].nodes[g / kChildren], g % kChildren) : 1.0f;
         if (isNew_) size_[g] = size;
-        // Of what has no size or no bounds the quotient is not a number: not grown.
+        // The quotient is NaN for boxes without size or bounds: they count as not grown.
         const float growth = size / size_[g];
         growth_[g] = growth < 8 ? static_cast<std::uint16_t>(growth * 256) : growth >= 8 ? 2048 : 256;
     }
@@ -253,7 +253,7 @@ class WideTree final : public BroadPhase<S> {
         if (firstVisits_ == 0) firstVisits_ = visits + 1;
         isWorn_ = 2 * visits > 3 * firstVisits_;
         pairSort_.sort(pairParts_, proxies_.size(), pairs_, tasks);
-        // For findChanged(), which may be called for the first time long after this.
+        // Input of findChanged(), which may be called for the first time long after this.
         const std::size_t count = pairs_.size();
         hold(found_, count);
         hold(pairs_, 2 * count);
@@ -289,17 +289,18 @@ class WideTree final : public BroadPhase<S> {
     }
 
     SpatialOrder<S> order_;
-    std::vector<std::uint32_t> proxies_;     ///< by leaf
-    std::vector<Box> kept_;                  ///< by leaf: the boxes of the last update
-    std::vector<std::uint8_t> keptMovable_;  ///< by proxy
-    std::vector<Level> levels_;              ///< those up to top_ are in use
+    std::vector<std::uint32_t> proxies_;     ///< proxy of each leaf
+    std::vector<Box> kept_;                  ///< boxes of the last update, by leaf
+    std::vector<std::uint8_t> keptMovable_;  ///< movable flags of the last update, by proxy
+    std::vector<Level> levels_;              ///< levels up to top_ are in use
     std::size_t top_ = 0;
-    typename S::Vec origin_ = S::Vec::Zero();  ///< of the tree's boxes [m]
+    typename S::Vec origin_ = S::Vec::Zero();  ///< origin of the tree's boxes [m]
     bool isNew_ = false;                       ///< sorted since the last refit
-    bool isWorn_ = false;                      ///< to be sorted in the next update
-    std::vector<float> size_;                  ///< by node of level 0: the sum of its edges when built [m]
-    std::vector<std::uint16_t> growth_;        ///< since then, in 1/256
-    std::size_t firstVisits_ = 0;              ///< of the first full search after the sort; 0: none yet
+    bool isWorn_ = false;                      ///< true if the tree is to be sorted in the next update
+    std::vector<float> size_;                  ///< sum of the edges of each node of level 0 when built [m]
+    std::vector<std::uint16_t> growth_;        ///< growth since then in 1/256, by node of level 0
+    std::size_t firstVisits_ = 0;              ///< nodes visited by the first full search after the sort; 0:
+                                               ///< none yet
 
     struct Part {
         std::vector<LeafPair> leaves;
@@ -309,7 +310,7 @@ class WideTree final : public BroadPhase<S> {
     std::vector<std::vector<ProxyPair>> pairParts_;
     PairSort pairSort_;
     std::vector<ProxyPair> pairs_, found_, merged_;  ///< sorted
-    std::vector<std::uint8_t> isChanged_;            ///< by proxy; all 0 between updates
+    std::vector<std::uint8_t> isChanged_;            ///< flag of each proxy; all 0 between updates
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Which of the eight boxes of `node` overlap child i of `other`, as bits.
+/// Bit mask of the eight boxes of `node` that overlap child i of `other`.
 template <int dim>
 HWY_INLINE std::uint32_t overlapBits(const WideNode<dim>& node, const WideNode<dim>& other, std::size_t i) {
     const hn::CappedTag<float, WideNode<dim>::kChildren> lanes;

@@ -26,7 +26,7 @@ struct WideMarks {
     std::uint8_t movable = 0, changed = 0;
 };
 
-/// What a search reads.
+/// Data that a search reads.
 template <int dim>
 struct WideTreeView {
     static constexpr std::size_t kMaxLevels = 12;  ///< 8^11 is more than there are proxies
@@ -43,7 +43,7 @@ struct WideTreeView {
     std::size_t units() const { return levels[unitLevel()].count; }
 };
 
-/// What a search cost.
+/// Cost of a search.
 struct WideSearchCost {
     std::size_t tests = 0;   ///< box tests, eight at a time
     std::size_t visits = 0;  ///< pairs of nodes of level 0 that were compared

@@ -94,13 +94,13 @@ void flip(Manifold<S>& out) {
     for (std::uint32_t& name : memory.names) name = flippedFeature(name);
 }
 
-/// How much less deep than the deepest the points kept may be: what reducePoints may pass over.
+/// Depth below the deepest point that reducePoints may pass over.
 template <class S>
 typename S::Real keepSlack(const ManifoldMemory<S>& memory, typename S::Real size) {
     return memory.count > 0 ? kKeep<typename S::Real> * size : typename S::Real(0);
 }
 
-/// For the next step: what the manifold, complete and in the world, was made of.
+/// Stores the features of a complete manifold in world coordinates for the next step.
 template <class S>
 void remember(Manifold<S>& out) {
     ManifoldMemory<S>& memory = out.memory;
@@ -111,7 +111,7 @@ void remember(Manifold<S>& out) {
     if (out.count == 0) memory = {};
 }
 
-/// From the frame of A's pose to the world.
+/// Transforms a manifold from the frame of A's pose to the world.
 template <class S>
 void toWorldFrame(Manifold<S>& out, const Pose<S>& Xa) {
     out.normal = rotate(Xa.q, out.normal);

@@ -46,8 +46,8 @@ ClosestPoints<S> twoPlanes(const HalfSpace<S>& a, const Pose<S>& Xa) {
     return r;
 }
 
-/// What an unfinished EPA left to gain: descents from its normal and from the lowest of the shapes' own axes,
-/// which are ways out of curved sides.
+/// Improves the result of an EPA that did not converge: descents from its normal and from the lowest of the
+/// shapes' own axes, which are directions out of curved sides.
 template <class S>
 void finishByDescent(const Minkowski<S>& D, CoreContact<S>& r) {
     using R = typename S::Real;

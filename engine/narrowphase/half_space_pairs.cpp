@@ -17,9 +17,9 @@ void verticesAgainstPlane(int count, Vertex vertex, typename S::Real radius, con
                           Manifold<S>& out) {
     using R = typename S::Real;
     using V = typename S::Vec;
-    const V n = rotate(Xb.q, b.normal);              // out of the half-space
+    const V n = rotate(Xb.q, b.normal);              // normal out of the half-space
     const V local = rotateInverse<R>(Xa.q, n);       // the same in the shape's frame
-    const R height = n.dot(Xa.p - Xb.p) - b.offset;  // of the shape's origin
+    const R height = n.dot(Xa.p - Xb.p) - b.offset;  // height of the shape's origin
     const auto separation = [&](int i) { return R(height + local.dot(vertex(i)) - radius); };
     // The first pass counts and numbers the vertices within reach.
     constexpr int kMost = 64;

@@ -15,20 +15,20 @@ namespace rigor::engine {
 
 template <class S>
 struct ManifoldPoint {
-    typename S::Vec pointA, pointB;   ///< on the surfaces of A and B, world frame [m]
+    typename S::Vec pointA, pointB;   ///< points on the surfaces of A and B, world frame [m]
     typename S::Real separation = 0;  ///< (pointB - pointA) . normal [m]
     std::uint32_t feature = 0;  ///< names the touching features; stable from frame to frame while they touch
 };
 
-/// What a narrow phase chose for a pair, for the same pair in the next step: where another axis, or another
-/// choice of points, is better by a hair only (kKeep, kKeepSpread in detail.hpp), the last one stays, and
-/// normals and features do not take turns with rounding. Part of the world's state.
+/// Choices of a narrow phase for a pair, remembered for the same pair in the next step. If another axis, or
+/// another choice of points, is better by less than kKeep or kKeepSpread (detail.hpp), the last one stays, so
+/// that normals and features do not alternate with rounding. Part of the world's state.
 template <class S>
 struct ManifoldMemory {
     enum Axis : std::uint8_t { kNoAxis, kFaceA, kFaceB, kEdges };
-    std::uint8_t axis = kNoAxis;               ///< which features made the axis, where polytopes met
+    std::uint8_t axis = kNoAxis;               ///< features that made the axis of two polytopes
     std::uint32_t featureA = 0, featureB = 0;  ///< their faces; of kEdges their edges
-    typename S::Vec normal = S::Vec::Zero();   ///< as in Manifold
+    typename S::Vec normal = S::Vec::Zero();   ///< normal as in Manifold
     std::uint32_t count = 0;                   ///< 0: nothing remembered
     std::array<std::uint32_t, S::maxManifoldPoints> names{};  ///< features of the points, in their order
 };
@@ -37,8 +37,8 @@ template <class S>
 struct Manifold {
     typename S::Vec normal = S::Vec::Zero();  ///< unit, world frame, A to B
     int count = 0;                            ///< 0: no contact within the speculative distance
-    /// Without a contact: lower bound of the separation of the shapes [m], where the algorithm computes one
-    /// at no extra cost; else 0.
+    /// Lower bound of the separation of shapes without a contact [m], if the algorithm computes one at no
+    /// extra cost; else 0.
     typename S::Real separationLowerBound = 0;
     std::array<ManifoldPoint<S>, S::maxManifoldPoints> points;
     ManifoldMemory<S> memory;

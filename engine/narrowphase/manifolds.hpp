@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What becomes of the points that the narrow phase found: the family "manifold" (manifolds.def).
+// Treatment of the points that the narrow phase found: the family "manifold" (manifolds.def).
 #pragma once
 
 #include <span>
@@ -16,8 +16,9 @@ namespace rigor::engine {
 template <class S>
 struct ManifoldCache {
     struct Point {
-        typename S::Vec onA = S::Vec::Zero(), onB = S::Vec::Zero();  ///< in the frames of the shapes [m]
-        std::uint32_t name = 0;                                      ///< stable while the point is kept
+        /// points in the frames of the shapes [m]
+        typename S::Vec onA = S::Vec::Zero(), onB = S::Vec::Zero();
+        std::uint32_t name = 0;  ///< stable while the point is kept
     };
     int count = 0;
     std::array<Point, S::maxManifoldPoints> points;
@@ -28,7 +29,7 @@ template <class S>
 struct ManifoldPair {
     const Pose<S>& Xa;
     const Pose<S>& Xb;
-    typename S::Real size;                 ///< of the smaller of the two shapes [m]
+    typename S::Real size;                 ///< size of the smaller of the two shapes [m]
     typename S::Real speculativeDistance;  ///< query distance of the narrow phase [m]
 };
 

@@ -72,7 +72,8 @@ class Minkowski {
     V translation_;
 };
 
-/// Up to dim + 1 points of D with the weights of their point nearest to the origin; for EPA, of the facet.
+/// Simplex of up to dim + 1 points of D with the weights of their point nearest to the origin; for EPA, of
+/// the facet.
 template <class S>
 struct Simplex {
     std::array<DifferencePoint<S>, S::dim + 1> points;
@@ -98,16 +99,16 @@ struct Simplex {
 template <class S>
 typename S::Vec reduceSimplex(Simplex<S>& simplex, const typename S::Vec& target);
 
-/// What an algorithm found out about two cores, frame of A.
+/// Result of an algorithm for two cores, in the frame of A.
 template <class S>
 struct CoreContact {
     typename S::Vec normal;         ///< unit, A to B
     typename S::Real distance = 0;  ///< [m]; < 0: minus the depth
-    typename S::Vec onA, onB;       ///< on the cores; onB - onA = distance * normal
+    typename S::Vec onA, onB;       ///< points on the cores; onB - onA = distance * normal
     int iterations = 0;             ///< support points asked for
     bool converged = false;
 };
-/// By GJK, and EPA where the cores overlap.
+/// Closest points of the cores by GJK, and by EPA where the cores overlap.
 template <class S>
 CoreContact<S> closestCores(const Minkowski<S>& D);
 

@@ -28,7 +28,7 @@
 namespace rigor::engine {
 namespace {
 
-/// Where descents begin: of all directions offered those of least support.
+/// Start directions of the descents: of all directions offered, those of least support.
 template <class S>
 class Starts {
   public:

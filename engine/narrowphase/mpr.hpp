@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What Minkowski portal refinement asks of the Minkowski difference, the same in both dimensions: support
-// points of D grown by a margin, and the least support met so far. Private to this folder; the method is told
-// in mpr.cpp.
+// Queries of Minkowski portal refinement to the Minkowski difference, the same in both dimensions: support
+// points of D grown by a margin, and the least support found so far. Private to this folder; the method is
+// described in mpr.cpp.
 #pragma once
 
 #include "engine/narrowphase/minkowski.hpp"

@@ -29,7 +29,7 @@ namespace {
 template <class S>
 inline constexpr std::size_t kKinds = std::variant_size_v<Shape<S>>;
 
-/// Is there a function for kinds A and B in this order?
+/// True if there is a function for kinds A and B in this order.
 template <class S, class A, class B>
 inline constexpr bool kHasPair = requires(const A& a, const B& b, const Pose<S>& X, Manifold<S>& out) {
     collidePair(a, X, b, X, typename S::Real(0), out);

@@ -88,7 +88,7 @@ Nearest<S> onEdges(const Points<S>& s, const std::array<int, 3>& index,
     return r;
 }
 
-/// In 2D a triangle either holds the origin or an edge is nearest.
+/// Nearest point of a triangle in 2D: the triangle either contains the origin or an edge is nearest.
 template <class R>
 Nearest<Space<R, 2>> onTriangle(const Points<Space<R, 2>>& s, int i, int j, int k) {
     using S = Space<R, 2>;

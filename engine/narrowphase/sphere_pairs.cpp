@@ -20,8 +20,8 @@ void collidePair(const Sphere<S>& a, const Pose<S>& Xa, const Sphere<S>& b, cons
     }
 }
 
-/// In the frame of the box: the sphere's centre clamped to the box is the nearest point; a centre inside is
-/// pushed out through the nearest face.
+/// Computed in the frame of the box. The sphere's centre clamped to the box is the nearest point; a centre
+/// inside is pushed out through the nearest face.
 template <class S>
 void collidePair(const Sphere<S>& a, const Pose<S>& Xa, const Box<S>& b, const Pose<S>& Xb,
                  typename S::Real speculative, Manifold<S>& out) {

@@ -70,7 +70,7 @@ R insideBy(const Triangle<Space<R, 3>>& t, const Vec3<R>& n, const Vec3<R>& x) {
 template <class S>
 struct Placed {
     const Shape<S>& convex;
-    Pose<S> X;  ///< in the frame of the surface
+    Pose<S> X;  ///< pose in the frame of the surface
     /// Furthest coordinate along n.
     typename S::Real reach(const typename S::Vec& n) const {
         using R = typename S::Real;
@@ -120,7 +120,7 @@ bool isSurfaceNormal(const Data& data, std::uint32_t piece, const typename S::Ve
     int top = 0;
     for (int i = 1; i < kCorners; ++i)
         if (at(i).dot(n) > at(top).dot(n)) top = i;
-    const auto level = [&](const V& x) {  // as high as the top, by angle
+    const auto level = [&](const V& x) {  // true if x is as high as the top, by angle
         const V d = at(top) - x;
         return n.dot(d) <= kPerpendicular<R> * d.norm();
     };
@@ -137,7 +137,7 @@ bool isSurfaceNormal(const Data& data, std::uint32_t piece, const typename S::Ve
         }
     if (touching == kCorners) return true;
     if (touching == 2) {
-        const int side = (top + 1) % 3 == other ? top : other;  // from corner `side` to the next
+        const int side = (top + 1) % 3 == other ? top : other;  // the side from corner `side` to the next
         return behind(data.across(piece, side));
     }
     bool all = true;
@@ -149,8 +149,8 @@ bool isSurfaceNormal(const Data& data, std::uint32_t piece, const typename S::Ve
 template <class R>
 inline constexpr R kDeep = R(0.1);
 
-/// To the contact along m of a deep shape: what is low of it besides, as seen half-way between -m and each of
-/// its axes.
+/// Adds the other low points of a deep shape to its contact along m: the support points half-way between -m
+/// and each of its axes.
 template <class S, class Data, class Piece>
 void addLowPoints(const Data& data, const Piece& piece, const Placed<S>& placed, typename S::Real s,
                   const typename S::Vec& n, Manifold<S>& along) {

@@ -30,7 +30,7 @@ void collideDeepestPiece(CollideFunction<S> collide, const Shape<S>& surface, co
                          const Shape<S>& convex, const Pose<S>& Xconvex, typename S::Real speculative,
                          Manifold<S>& out);
 
-/// For narrow phases that accept any two shapes: true where one is a chain, mesh or field (`out`
+/// Used by narrow phases that accept any two shapes. True if one of them is a chain, mesh or field (`out`
 /// then is that of its deepest piece) or neither can move (`out` is empty).
 template <class S>
 bool collideSurfaces(CollideFunction<S> collide, const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b,

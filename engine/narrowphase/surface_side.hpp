@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which side of a piece of a surface belongs to a point beside the surface, as a ray from there tells: it
-// changes the side of the sheet with every other piece that it passes. Behind a ridge lies a piece that faces
-// the other way: from its face that looks towards the point nothing may be pushed. However pieces are wound.
-// Private to this folder.
+// Finds the side of a piece of a surface that belongs to a point beside the surface, by a ray from the point:
+// the ray changes the side of the sheet with every other piece that it passes. A piece behind a ridge faces
+// the other way: nothing may be pushed out through its face towards the point. The winding of the pieces does
+// not matter. Private to this folder.
 #pragma once
 
 #include <algorithm>
@@ -87,7 +87,7 @@ template <class S, class Data>
 bool facesItsSide(const Data& data, std::uint32_t index, const typename S::Vec& x) {
     using R = typename S::Real;
     const auto piece = data.piece(index);
-    // Not quite at its border, which neighbours share.
+    // The point is not quite at the border of the piece, which its neighbours share.
     const typename S::Vec on = nearestOn<R>(piece, x);
     const typename S::Vec there = on + R(0.01) * (centerOf<R>(piece) - on);
     return passed<S>(data, x, typename S::Vec(there - x), index) % 2 == 0;

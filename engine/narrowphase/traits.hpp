@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What manifolds declare of themselves (core/traits.hpp).
+// Traits of the manifold choices (core/traits.hpp).
 #pragma once
 
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How two materials' coefficients make one, where the pair has none of its own.
+// Combination of two materials' coefficients into that of the pair, if the pair has none of its own.
 #pragma once
 
 #include <span>

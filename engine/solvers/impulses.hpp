@@ -38,7 +38,8 @@ double setImpulses(const SolverInput<S>& input, const std::vector<Value>& impuls
     return change;
 }
 
-/// To the nearest impulses that the rows allow: bounds, and Coulomb's cone (of static friction).
+/// Projects impulses to the nearest ones that the rows allow: bounds, and Coulomb's cone (of static
+/// friction).
 template <class S>
 void projectImpulses(const ConstraintRows<S>& all, std::vector<typename S::Real>& impulses) {
     using Real = typename S::Real;

@@ -35,8 +35,8 @@ R contactResidual(const Eigen::Matrix<R, 3, 1>& r, const Eigen::Matrix<R, 3, 1>&
     return std::min(sliding, sticking);
 }
 
-/// Where an impulse from outside the rows presses too (Poisson's expansion), normal and friction by
-/// themselves: 0 <= r_n _|_ w_n >= 0 and the disc |r_t| <= mu (r_n + applied).
+/// Natural map of a contact with a normal impulse from outside the rows as well (Poisson's expansion), normal
+/// and friction separately: 0 <= r_n _|_ w_n >= 0 and the disc |r_t| <= mu (r_n + applied).
 template <class R>
 R pressedResidual(const Eigen::Matrix<R, 3, 1>& r, const Eigen::Matrix<R, 3, 1>& w, R mu, R muStatic,
                   R applied, R rho) {

@@ -31,8 +31,8 @@ typename S::Real naturalMapResidual(const ConstraintRows<S>& constraints,
 template <class R>
 Eigen::Matrix<R, 3, 1> projectOnCone(const Eigen::Matrix<R, 3, 1>& r, R mu);
 
-/// What the precision can tell of the rows' velocities: rounding of velocities and impulses of the size that
-/// there are [m/s or rad/s].
+/// Resolution of the rows' velocities in this precision: rounding of velocities and impulses of the size of
+/// the current ones [m/s or rad/s].
 template <class S>
 typename S::Real velocityResolution(const ConstraintRows<S>& constraints,
                                     std::span<const Velocity<S>> velocities);

@@ -14,7 +14,7 @@
 
 namespace rigor::engine {
 
-inline constexpr int kMaxPositionRows = 24;  ///< of one joint
+inline constexpr int kMaxPositionRows = 24;  ///< maximum number of rows of one joint
 
 /// The rows of one joint at the current poses: the held ones first, a block of their own, then limits.
 /// Motors and springs are no position constraints and are left out.
@@ -25,7 +25,7 @@ struct JointPositions {
     std::array<Row<S>, kMaxPositionRows> row;                   ///< error is C now; invK of the row alone
     std::array<bool, kMaxPositionRows> unilateral{};            ///< a limit: only C < 0 is an error
     std::array<std::uint32_t, kMaxPositionRows> velocityRow{};  ///< the same row among those of the step
-    BlockMatrix<S> inverseK;                                    ///< of the held rows
+    BlockMatrix<S> inverseK;                                    ///< inverse K of the equality rows
 };
 
 /// The constraints as position correction sees them, after the bodies have moved.
@@ -55,7 +55,7 @@ class PositionCorrection {
   public:
     virtual ~PositionCorrection() = default;
     virtual std::unique_ptr<PositionCorrection> clone() const = 0;
-    /// How position errors act on the velocity rows of the step; by default not at all.
+    /// Effect of position errors on the velocity rows of the step; by default none.
     virtual BiasRule<typename S::Real> bias() const { return {}; }
     /// Iterations of the velocity solver after the bodies have moved, with relaxed biases; at most as many as
     /// it has before.

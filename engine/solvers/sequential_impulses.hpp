@@ -119,10 +119,10 @@ typename S::Real solveFriction(const SolverInput<S>& input, const Block<S>& bloc
     return residual;
 }
 
-/// Which impulses of contacts have the last word.
+/// Order of the contacts' impulses: the later ones have priority.
 enum class ContactOrder : std::uint8_t {
     FrictionFirst,  ///< contact by contact, its normal
-    FrictionLast,   ///< after everything else, the friction of all contacts
+    FrictionLast,   ///< the friction of all contacts after everything else
 };
 
 /// Sweeps over all blocks in their order. What follows each other between the same two bodies, which has to
@@ -161,7 +161,7 @@ class BlockSweeps {
   private:
     const Tasks* tasks_ = &Tasks::one();
     SweepOrder order_;
-    std::vector<std::uint32_t> starts_;  ///< of the units
+    std::vector<std::uint32_t> starts_;  ///< first block of each unit
 };
 
 /// Projected Gauss-Seidel: iterations over all rows, one after the other. `sweeps` is scratch.

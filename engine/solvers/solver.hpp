@@ -52,30 +52,31 @@ template <class S>
 struct SolverInput {
     using Real = typename S::Real;
     ConstraintRows<S>& constraints;     ///< impulses hold the warm start, and the answer afterwards
-    std::span<Velocity<S>> velocities;  ///< by dense body index; changed in place
+    std::span<Velocity<S>> velocities;  ///< velocities by dense body index; changed in place
     FrictionLaw<S> friction;
     IterationMonitor<S>& monitor;  ///< called around each iteration
-    int iterations = 8;            ///< at most
-    Real h = 0;                    ///< of this (sub-)step [s]
+    int iterations = 8;            ///< maximum number of iterations
+    Real h = 0;                    ///< length of this (sub-)step [s]
     bool warmStarted = false;      ///< the velocities already contain the rows' impulses (relaxation)
     Real residualTolerance = 0;    ///< natural map at which solvers that iterate on it may stop [m/s]
     int pyramidDirections = 4;     ///< generators of the polyhedral friction cone, even (lemke)
 };
 
-/// What a solver asks of the step around it.
+/// Requirements of a solver on the step around it.
 template <class S>
 struct SolverStyle {
     using Real = typename S::Real;
-    int substeps = 1;  ///< where the world does not say (WorldDef::substeps 0)
-    /// Of each sub-step, where the world does not say (WorldDef::velocityIterations 0). A solver with a
-    /// number of its own has no longer first step.
+    int substeps = 1;  ///< used if the world sets none (WorldDef::substeps 0)
+    /// Iterations of each sub-step if the world sets none (WorldDef::velocityIterations 0). A solver with a
+    /// number of its own makes no additional iterations in the first step.
     std::optional<int> iterations;
     /// Iterates on positions: bodies move first, solvePositions() puts them right, velocities are what moved
     /// them, and solve() is the velocity pass after that. Else solve() comes first and bodies move with it.
     bool positions = false;
-    /// How position errors act on the rows, where the solver has its own way; else the position correction's.
+    /// Effect of position errors on the rows if the solver has its own; otherwise that of the position
+    /// correction.
     std::optional<BiasRule<Real>> bias;
-    /// Of joints that are linearised (WorldDef::relinearizedJoints off), where that is not the same.
+    /// Effect for joints that are linearised (WorldDef::relinearizedJoints off), if it is not the same.
     std::optional<BiasRule<Real>> linearJointBias;
     /// Iterations of solve() after the bodies have moved, with relaxed biases.
     int relaxIterations = 0;
@@ -88,14 +89,14 @@ class Solver {
     virtual ~Solver() = default;
     virtual std::unique_ptr<Solver> clone() const = 0;
     virtual SolverStyle<S> style() const { return {}; }
-    /// For solvers that share their sweeps among threads: those of the next solve(). The result does not
-    /// depend on them.
+    /// Sets the threads of the next solve() of solvers that distribute their sweeps among threads. The result
+    /// does not depend on them.
     virtual void useThreads(const Tasks& tasks) { (void)tasks; }
     /// Changes impulses and velocities. No allocation in a steady state.
     virtual void solve(const SolverInput<S>& input) = 0;
     /// The last solve() did not reach what it promises and left the best it had.
     virtual bool gaveUp() const { return false; }
-    /// Only with style().positions: changes poses through `problem`.
+    /// Called only with style().positions: changes poses through `problem`.
     virtual void solvePositions(PositionProblem<S>& problem, const SolverInput<S>& input) {
         (void)problem;
         (void)input;

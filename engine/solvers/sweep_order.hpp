@@ -34,7 +34,7 @@ class SweepOrder {
     /// The next unit: it moves the bodies of these blocks.
     template <class S>
     void add(std::span<const Block<S>> unit);
-    /// After the last unit.
+    /// Must be called after the last unit.
     void finish();
 
     /// Calls work(unit) for every unit.
@@ -72,11 +72,11 @@ class SweepOrder {
     const Tasks* tasks_ = nullptr;
     bool shared_ = false;
     std::size_t units_ = 0, grain_ = 1;
-    std::vector<std::uint32_t> next_;   ///< by body: the level that its next unit may have
-    std::vector<std::uint32_t> level_;  ///< by unit
-    std::vector<std::size_t> start_;    ///< where levels start in order_
+    std::vector<std::uint32_t> next_;   ///< least level of the next unit of each body
+    std::vector<std::uint32_t> level_;  ///< level of each unit
+    std::vector<std::size_t> start_;    ///< first element of each level in order_
     std::vector<std::size_t> order_;    ///< units by level
-    std::vector<double> results_;       ///< by unit
+    std::vector<double> results_;       ///< result of each unit
 };
 
 }  // namespace rigor::engine

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What solvers and friction laws declare of themselves (core/traits.hpp).
+// Traits of solvers and friction laws (core/traits.hpp).
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct FrictionTraits {
 };
 std::span<const TraitsEntry<FrictionTraits>> frictionTraitsTable();
 
-/// What becomes of position errors of contacts and joints.
+/// Treatment of position errors of contacts and joints.
 enum class ErrorHandling : std::uint8_t {
     Correction,  ///< rows are rigid, the world's position correction sees to errors
     Springs,     ///< damped springs of WorldDef::contactFrequency and jointFrequency, at most a quarter of
@@ -37,26 +37,26 @@ enum class ErrorHandling : std::uint8_t {
     Positions,   ///< bodies move first, and the solver puts their positions right
 };
 
-/// When iterations end before there are as many as allowed.
+/// Criterion that ends the iterations before their maximum number.
 enum class StopRule : std::uint8_t {
     Never,     ///< all are made
     Change,    ///< one changes less than WorldDef::velocityTolerance
     Residual,  ///< the problem is solved to WorldDef::residualTolerance
 };
 
-/// What contacts are made for a solver (contacts/contact_model.hpp).
+/// Form of the contacts that a solver takes (contacts/contact_model.hpp).
 enum class ContactForm : std::uint8_t {
     Rows,
     Patches,  ///< it is a PatchSolver (solvers/wide/patch_solver.hpp)
 };
 
 struct SolverTraits {
-    int substeps = 1;                    ///< where WorldDef::substeps is 0
-    std::optional<int> iterations = {};  ///< of a sub-step, where velocityIterations is 0; empty: 50
+    int substeps = 1;                    ///< used if WorldDef::substeps is 0
+    std::optional<int> iterations = {};  ///< iterations of a sub-step if velocityIterations is 0; empty: 50
     int relaxIterations = 0;             ///< more of them after the bodies have moved
     ErrorHandling errors = ErrorHandling::Correction;
-    /// Of Springs: joints that are linearised (WorldDef::relinearizedJoints off) are rigid instead and lose
-    /// this fraction of their error in each sub-step.
+    /// Fraction used with ErrorHandling::Springs: joints that are linearised (WorldDef::relinearizedJoints
+    /// off) are rigid and lose this fraction of their error in each sub-step.
     std::optional<double> linearJointBaumgarte = {};
     std::optional<FrictionShape> friction = {};  ///< a law of its own; empty: that of WorldDef::friction
     ContactForm contacts = ContactForm::Rows;
@@ -77,7 +77,7 @@ inline FrictionShape frictionShape(const std::string& name) {
     return findTraits(frictionTraitsTable(), "friction", name).shape;
 }
 
-/// What a solver of these traits asks of the step around it.
+/// Requirements of a solver with these traits on the step around it.
 template <class S>
 SolverStyle<S> styleOf(const SolverTraits& traits) {
     using Real = typename S::Real;

@@ -37,7 +37,7 @@ class MovingBoxes {
         movable.assign(count, 1);
     }
 
-    /// To where they are at the next update.
+    /// Moves the boxes to their places at the next update.
     void advance() {
         for (std::size_t i = scene_ == "uniform" ? 0 : 1; i < boxes.size(); ++i) {
             if (scene_ == "jump") {

@@ -139,7 +139,7 @@ TYPED_TEST(BroadPhases, AProxyThatBecomesMovableFindsItsPairsAndLosesThemAgain) 
     }
 }
 
-/// What has wandered off costs no more box tests than what has just arrived: nothing stays where it was put.
+/// Boxes that have moved far cost no more box tests than boxes that were just added at the same places.
 TYPED_TEST(BroadPhases, AfterALongWayTheWorkIsThatOfAFreshStart) {
     using S = TypeParam;
     using R = typename S::Real;

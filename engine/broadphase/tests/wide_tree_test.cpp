@@ -52,7 +52,7 @@ class LargeScene : public testing::Test {
             boxes[i].max += d;
         }
     }
-    /// By a sweep along x.
+    /// Pairs found by a sweep along x.
     std::vector<ProxyPair> oracle() const {
         std::vector<std::uint32_t> order(boxes.size());
         for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -228,8 +228,9 @@ TEST(SpatialOrder, EightConsecutiveBoxesLieTogether) {
         const Space3d::Vec low = 2.0 * Space3d::Vec(p % 4, p / 4 % 4, p / 16);
         boxes.push_back({low, low + Space3d::Vec::Ones()});
     }
-    boxes.push_back({Space3d::Vec::Constant(-1e30), Space3d::Vec::Constant(1e30)});  // without bounds: last
-    boxes.push_back({Space3d::Vec::Constant(-1), Space3d::Vec::Constant(40)});       // larger than 8 medians
+    // a box without bounds is last
+    boxes.push_back({Space3d::Vec::Constant(-1e30), Space3d::Vec::Constant(1e30)});
+    boxes.push_back({Space3d::Vec::Constant(-1), Space3d::Vec::Constant(40)});  // larger than 8 medians
     std::vector<std::uint32_t> order;
     SpatialOrder<Space3d>().sort(boxes, order, Tasks::one());
     ASSERT_EQ(order.size(), 66u);

@@ -36,8 +36,8 @@ Vec2<R> corner(const Vec2<R>& half, int i) {
 template <class R>
 struct SeenBox {
     Vec2<R> own;     ///< half extents of the box whose frame it is
-    Vec2<R> center;  ///< of the other
-    Vec2<R> reach;   ///< of the other from its centre along the axes of this one
+    Vec2<R> center;  ///< center of the other box
+    Vec2<R> reach;   ///< half extents of the other box along the axes of this one
 
     R separation(int side) const {
         const int k = axisOf(side);
@@ -56,12 +56,12 @@ struct SidePair {
     bool refIsA;
     int side;
     Vec2<R> refHalf, incHalf;
-    Rot2<R> rotation;  ///< of the incident box in the frame of the reference box
+    Rot2<R> rotation;  ///< rotation of the incident box in the frame of the reference box
     Vec2<R> center;
 
     int axis() const { return axisOf(side); }
     R sign() const { return positive(side) ? R(1) : R(-1); }
-    /// Over the reference side.
+    /// Height over the reference side.
     R height(const Vec2<R>& x) const { return sign() * x[axis()] - refHalf[axis()]; }
     /// The normal of the reference side in the frame of the incident box.
     Vec2<R> towards() const { return rotateInverse<R>(rotation, sign() * Vec2<R>::Unit(axis())); }

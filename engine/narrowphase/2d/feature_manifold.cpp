@@ -23,7 +23,7 @@ template <class R, class Place>
 void loadFeature(const Shape<Space<R, 2>>& shape, const Vec2<R>& local, Place place, Feature<R>& f) {
     using S = Space<R, 2>;
     const auto edge = [&](int count, const auto& vertex) {
-        // Of the two edges at the support vertex the one that faces the direction most.
+        // Edge at the support vertex that faces the direction more than the other one.
         int best = 0;
         for (int i = 1; i < count; ++i)
             if (vertex(i).dot(local) > vertex(best).dot(local)) best = i;

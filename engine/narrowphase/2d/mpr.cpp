@@ -10,7 +10,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr int kMostDiscoveries = 32, kMostRefinements = 80;  ///< as in 3d/mpr.cpp
+constexpr int kMostDiscoveries = 32, kMostRefinements = 80;  ///< same limits as in 3d/mpr.cpp
 
 }  // namespace
 

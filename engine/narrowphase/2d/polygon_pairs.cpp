@@ -117,7 +117,7 @@ void closestVertex(const Polygon<R>& p, const Polygon<R>& q, const Pose<Space<R,
             const R t = e.dot(x - v) / e.squaredNorm();
             const R clamped = std::clamp(t, R(0), R(1));
             const R squared = (x - v - clamped * e).squaredNorm();
-            // On the back edge of a capsule's segment the normal would point the wrong way.
+            // The normal of the back edge of a capsule's segment would point the wrong way.
             if (squared < best.squared && p.normals[i].dot(x - v) >= 0) {
                 best.squared = squared;
                 best.vertex = j;
@@ -129,7 +129,7 @@ void closestVertex(const Polygon<R>& p, const Polygon<R>& q, const Pose<Space<R,
     }
 }
 
-/// Does the sharp core of two capsules' segments cross? Their four side tests disagree strictly.
+/// False if the segments of two capsules cross: then their four side tests disagree strictly.
 template <class R>
 bool coresApart(const Polygon<R>& a, const Polygon<R>& b, const Pose<Space<R, 2>>& X) {
     const Vec2<R> p = a.vertices[0], d = a.vertices[1] - p;
@@ -145,7 +145,7 @@ template <class R>
 struct Reference {
     const Polygon<R>& ref;
     const Polygon<R>& inc;
-    Pose<Space<R, 2>> X;  ///< of the incident polygon in the frame of the reference polygon
+    Pose<Space<R, 2>> X;  ///< pose of the incident polygon in the frame of the reference polygon
     bool refIsA;
     R speculative;
 };
@@ -159,8 +159,8 @@ void emitPoint(const Reference<R>& c, const Vec2<R>& n, const Vec2<R>& onInc, R 
     addPoint<Space<R, 2>>(out, c.refIsA ? pRef : pInc, c.refIsA ? pInc : pRef, separation, feature);
 }
 
-/// Where the clipped points miss the separation of the axis (thin polygons that cross, their normals rounded)
-/// the incident vertex that has it is put back.
+/// Puts back the incident vertex that has the separation of the axis if no clipped point has it (thin
+/// polygons that cross, with rounded normals).
 template <class R>
 void restoreDeepest(const Reference<R>& c, int edge, R separation, R tolerance, Manifold<Space<R, 2>>& out) {
     for (int i = 0; i < out.count; ++i) {
@@ -325,8 +325,8 @@ void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, cons
     toWorldFrame<S>(out, Xb);
 }
 
-/// Over the segment its own normal, exact however near the centre is, and upwards where it lies on it; beside
-/// it the end.
+/// The normal over the segment is the segment's own, exact however near the centre is; it points upwards for
+/// a centre on the segment. Beside the segment the nearest point is its end.
 template <class R>
 void collidePair(const Sphere<Space<R, 2>>& a, const Pose<Space<R, 2>>& Xa, const Segment<Space<R, 2>>& b,
                  const Pose<Space<R, 2>>& Xb, typename Space<R, 2>::Real speculative,

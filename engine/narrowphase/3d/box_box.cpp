@@ -88,8 +88,8 @@ int sideLine(int face, int axis, bool high) {
     return kRefLine + line;
 }
 
-/// Is what lies lower than `near` over the reference face all within its prism? Between corners that are, and
-/// the points where sides of the incident face rise above `near`, so is everything.
+/// True if the part of the incident face lower than `near` over the reference face is all within the prism of
+/// the reference face. It is if its corners are, and the points where its sides rise above `near`.
 template <class R>
 bool withinPrism(const FacePair<R>& m, const FlatPolygon<R>& p, R near) {
     const R u = m.refHalf[m.u()], v = m.refHalf[m.v()];
@@ -163,8 +163,8 @@ R clipFaces(const FacePair<R>& m, const Pose<Space<R, 3>>& ref, R speculative, M
     return least;
 }
 
-/// Of the faces that meet at the vertex furthest along d, the one that faces it most; `last`, that of the
-/// last step or -1, as incidentFace (clip.hpp) has it.
+/// Incident face: of the faces that meet at the vertex furthest along d, the one that faces d most. `last` is
+/// that of the last step or -1, as for incidentFace (clip.hpp).
 template <class R>
 int incidentBoxFace(const Vec3<R>& half, const Vec3<R>& d, int last) {
     int axis = 0;
@@ -301,8 +301,8 @@ void collidePair(const Box<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const B
         return;
     }
     const R least = clipFaces<R>(faces, faces.refIsA ? Xa : Xb, speculative, out);
-    // Of overlapping boxes the deepest point is on both faces; where rounding clipped it away it is put back.
-    // Along an axis that is not the best it can well be beside them.
+    // The deepest point of overlapping boxes is on both faces; if rounding clipped it away it is put back.
+    // Along an axis that is not the best it can be beside them.
     const R size = std::max(a.halfExtents.maxCoeff(), b.halfExtents.maxCoeff());
     if (axis.separation > 0 || (axis.kept && out.count > 0) ||
         least <= axis.separation + R(4) * axisTolerance(size, axis.separation) +

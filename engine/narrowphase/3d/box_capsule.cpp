@@ -63,16 +63,16 @@ R closestOnCore(const Core<R>& core) {
     return low + (high - low) * (atLow / (atLow - atHigh));
 }
 
-/// Where the cores are apart or overlap the least.
+/// Closest points of separate cores, or the least overlap of overlapping ones.
 template <class R>
 struct CoreContact {
     Vec3<R> normal;  ///< unit, out of the box
-    R distance;      ///< of the cores; negative: they overlap [m]
-    Vec3<R> point;   ///< of the segment
+    R distance;      ///< distance of the cores [m]; negative: they overlap
+    Vec3<R> point;   ///< point of the segment
     std::uint32_t feature;
 };
 
-/// Of cores that are apart by more than `tolerance`.
+/// Closest points of cores whose distance is more than `tolerance`.
 template <class R>
 CoreContact<R> closestPoints(const Core<R>& core, R tolerance) {
     const R s = closestOnCore(core);
@@ -169,7 +169,7 @@ CoreContact<R> deepestPoint(const Core<R>& core, const CoreAxis<R>& axis) {
         const bool end = axis.normal.dot(core.d) < 0;
         return {axis.normal, axis.separation, core.at(end ? R(1) : R(0)), vertexFeature(false, end ? 1 : 0)};
     }
-    // Where the core passes the line of the edge, seen along the edge.
+    // Point at which the core passes the line of the edge, seen along the edge.
     Vec3<R> way, across = core.d;
     for (int i = 0; i < 3; ++i)
         way[i] =

@@ -10,7 +10,7 @@
 namespace rigor::engine {
 namespace {
 
-/// In the frame of A, whose segment is (0, -h, 0) to (0, h, 0); B's is c -+ e.
+/// Both segments in the frame of A; A's is (0, -h, 0) to (0, h, 0), B's is c -+ e.
 template <class R>
 struct Segments {
     R h;
@@ -65,7 +65,7 @@ bool sideBySide(const Segments<R>& s, R radiusA, R radiusB, const Vec3<R>& n, R 
         const R separation = n.dot(s.onB(u) - p) - radiusA - radiusB;
         least = std::min(least, separation);
         if (separation > speculative) continue;
-        // Which end of which segment bounds the stretch names the point.
+        // The point is named by the end and the segment that bound the interval.
         const bool endOfA = std::abs(end) >= s.h;
         const int vertex = endOfA ? (end < 0 ? 0 : 1) : (u < 0 ? 0 : 1);
         addPoint<Space<R, 3>>(out, p + radiusA * n, p + (radiusA + separation) * n, separation,

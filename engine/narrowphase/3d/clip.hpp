@@ -125,9 +125,10 @@ void closestOnEdges(const Vec3<R>& p, const Vec3<R>& d, const Vec3<R>& q, const 
     onQ = q + t * e;
 }
 
-/// Of the faces that meet at the vertex furthest along `direction`, the one that faces it most. (The best of
-/// all faces need not hold that vertex: hulls can be sharp.) `last`, the face of the last step or -1, stays
-/// where it faces it as well as that, to a milliradian or so, and holds the vertex within kKeep.
+/// Incident face: of the faces that meet at the vertex furthest along `direction`, the one that faces it
+/// most. (The best of all faces need not hold that vertex: hulls can be sharp.) `last`, the face of the last
+/// step or -1, stays where it faces it as well as that, to a milliradian or so, and holds the vertex within
+/// kKeep.
 template <class R>
 int incidentFace(const Polytope<R>& p, const Vec3<R>& direction, int last = -1) {
     const Vec3<R>& v = p.vertices[deepestAlong(p, direction)];

@@ -128,7 +128,7 @@ class Polytope {
         f.v = {a, b, c};
         f.alive = true;
         const Vec3<R> ab = point(b).w - point(a).w, ac = point(c).w - point(a).w, bc = ac - ab;
-        // From the two shorter edges.
+        // Computed from the two shorter edges.
         const R lab = ab.squaredNorm(), lac = ac.squaredNorm(), lbc = bc.squaredNorm();
         Vec3<R> n = ab.cross(ac);
         if (lab > lac && lab > lbc)

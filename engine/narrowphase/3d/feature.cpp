@@ -77,7 +77,7 @@ template <class R>
 void addDisc(R radius, R y, R outward, const Vec3<R>& d, int firstName, SupportFeature<R>& out) {
     static constexpr std::array<double, 4> kCos{1.0, 0.92387953251128675613, 0.70710678118654752440,
                                                 0.38268343236508977173};
-    const auto cosine = [](int k) {  // of k pi / 8
+    const auto cosine = [](int k) {  // cosine of k pi / 8
         const int quarter = (k / 4) % 4, rest = k % 4;
         const double c = kCos[static_cast<std::size_t>(rest)];
         const double s = rest == 0 ? 0.0 : kCos[static_cast<std::size_t>(4 - rest)];
@@ -130,7 +130,7 @@ void featureOf(const Cone<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     if (rise > -lying) out.add(apex, 33);
 }
 
-/// Either side is its face; else a side or a corner.
+/// The feature is the face on the side of d, or a side or a corner where d lies in the triangle's plane.
 template <class R>
 void featureOf(const Triangle<S3<R>>& s, const Vec3<R>& d, SupportFeature<R>& out) {
     const Vec3<R> n = (s.v[1] - s.v[0]).cross(s.v[2] - s.v[0]).normalized();

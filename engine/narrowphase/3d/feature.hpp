@@ -17,7 +17,7 @@ struct SupportFeature {
     std::array<Vec3<R>, kMost> at;
     std::array<int, kMost> index;  ///< names of the vertices, unique in the shape
     int count = 0;
-    Vec3<R> normal = Vec3<R>::Zero();  ///< of a face: unit, outward
+    Vec3<R> normal = Vec3<R>::Zero();  ///< outward unit normal of a face
 
     void add(const Vec3<R>& x, int name) {
         at[static_cast<std::size_t>(count)] = x;

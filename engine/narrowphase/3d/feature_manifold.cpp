@@ -16,7 +16,7 @@ namespace {
 template <class R>
 struct Feature {
     FaceLoop<R> loop;                  ///< core vertices, frame of A
-    Vec3<R> normal = Vec3<R>::Zero();  ///< of a face: unit, outward
+    Vec3<R> normal = Vec3<R>::Zero();  ///< outward unit normal of a face
 };
 
 /// `direction` and the result in the frame of A; `place` takes points and `turn` vectors there.
@@ -53,7 +53,8 @@ void loadFeature(const Shape<Space<R, 3>>& shape, const Vec3<R>& local, Place pl
     }
 }
 
-/// How flat a feature lies against n: cosine for a face, as if of a face that holds it for a segment.
+/// Alignment of a feature with n: cosine of the angle between the normals for a face, of the best face
+/// through it for a segment.
 template <class R>
 R flatness(const Feature<R>& f, const Vec3<R>& n) {
     if (f.loop.count >= 3) return std::abs(f.normal.dot(n));

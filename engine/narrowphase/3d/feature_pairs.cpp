@@ -34,7 +34,7 @@ template <class R>
 struct FeaturePair {
     const Shape<S3<R>>& a;
     const Shape<S3<R>>& b;
-    Pose<S3<R>> X;  ///< of B
+    Pose<S3<R>> X;  ///< pose of B in the frame of A
     Vec3<R> normal;
     R separation;
     Vec3<R> pointA, pointB;
@@ -242,8 +242,8 @@ void keepWayOut(const Shape<S3<R>>& a, const Shape<S3<R>>& b, const Pose<S3<R>>&
     closest.pointB = contact.onB - rB * contact.normal;
 }
 
-/// What is not in a sequence of steps has the exact depth: the deepest corner of a disc's polygon is
-/// shallower than the rim between two by up to the noise.
+/// Sets the exact depth for pairs that are not in a sequence of steps: the deepest corner of a disc's polygon
+/// is shallower than the rim between two by up to the noise.
 template <class R>
 void deepen(const FeaturePair<R>& m, R least, Manifold<S3<R>>& out) {
     for (int i = 0; i < out.count; ++i) {
@@ -277,7 +277,7 @@ void keepDeepest(const FeaturePair<R>& m, const SupportFeature<R>& fa, const Sup
     const std::uint32_t feature = vertexOnB   ? vertexFeature(false, fb.index[0])
                                   : vertexOnA ? vertexFeature(true, fa.index[0])
                                               : crossingFeature(0, 1);
-    // Both points on one line along the normal.
+    // Both points are on one line along the normal.
     const Vec3<R> middle = R(0.5) * (m.pointA + m.pointB), half = R(0.5) * m.separation * m.normal;
     addPoint<S3<R>>(out, middle - half, middle + half, m.separation, feature);
 }

@@ -11,7 +11,7 @@
 
 namespace rigor::engine {
 
-/// Does not own; lives as long as the shape and the BoxStorage it was made from.
+/// A view that owns nothing and is valid as long as the shape and the BoxStorage it was made from.
 template <class R>
 struct Polytope {
     const Vec3<R>* vertices;

@@ -131,8 +131,8 @@ void polytopeManifold(const Polytope<R>& a, const Polytope<R>& b, const Relative
     }
     clipFaces<R>(refIsA ? loopA : loopB, plane, refIsA ? loopB : loopA, refIsA, axis,
                  std::min(a.size, b.size), speculative, out);
-    // Of overlapping polytopes the deepest point is on both faces; where rounding clipped it away it is put
-    // back. Along an axis that is not the best it can well be beside them.
+    // The deepest point of overlapping polytopes is on both faces; if rounding clipped it away it is put
+    // back. Along an axis that is not the best it can be beside them.
     R least = std::numeric_limits<R>::max();
     for (int i = 0; i < out.count; ++i)
         least = std::min(least, out.points[static_cast<std::size_t>(i)].separation);

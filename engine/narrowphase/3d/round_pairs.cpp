@@ -48,7 +48,7 @@ Nearest<R> nearestOnProfile(const Cone<Space<R, 3>>& s, const Vec2<R>& c) {
     const R t = e.dot(c - rim) / e.squaredNorm();
     const Vec2<R> onSide = rim + std::clamp(t, R(0), R(1)) * e;
     const bool below = (c - onBase).squaredNorm() < (c - onSide).squaredNorm();
-    // Over a face its own normal: exact however near the centre is.
+    // The normal over a face is the face's own: exact however near the centre is.
     if (below && c.x() <= s.radius) return {onBase, {0, -1}, base};
     if (!below && t >= 0 && t <= 1) return {onSide, sideNormal, side};
     const Vec2<R> p = below ? onBase : onSide;
@@ -180,7 +180,7 @@ Vec3<R> nearestOnTriangle(const Triangle<Space<R, 3>>& t, const Vec3<R>& n, cons
 
 }  // namespace
 
-/// Over the face the normal is the face's own: exact however thin the gap, and the same on either side.
+/// The normal over the face is the face's own: exact however thin the gap, and the same on either side.
 template <class R>
 void collidePair(const Sphere<Space<R, 3>>& a, const Pose<Space<R, 3>>& Xa, const Triangle<Space<R, 3>>& b,
                  const Pose<Space<R, 3>>& Xb, typename Space<R, 3>::Real speculative,

@@ -128,7 +128,7 @@ Closest<R> closestFeatures(const Polytope<R>& hull, const Vec3<R>& p, const Vec3
 
 template <class R>
 struct CoreAxis {
-    Vec3<R> normal = Vec3<R>::UnitY();  ///< out of the polytope
+    Vec3<R> normal = Vec3<R>::UnitY();  ///< direction out of the polytope
     R separation = -std::numeric_limits<R>::max();
     int face = -1, edge = -1;
 };

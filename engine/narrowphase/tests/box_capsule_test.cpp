@@ -127,7 +127,7 @@ TYPED_TEST(BoxCapsule, EdgesHaveNames) {
     std::set<std::uint32_t> names;
     for (int k = 0; k < 3; ++k)
         for (unsigned sides = 0; sides < 4; ++sides) {
-            // Out of the edge along axis k; the core lies across it.
+            // `out` points out of the edge along axis k; the core lies across the edge.
             typename S::Vec out = S::Vec::Zero(), edge = S::Vec::Zero();
             const typename S::Vec half = vec<S>(0.5, 0.3, 0.8);
             for (int i = 0; i < 2; ++i) {
@@ -151,7 +151,7 @@ TYPED_TEST(BoxCapsule, EdgesHaveNames) {
     EXPECT_EQ(names.size(), 12u);
 }
 
-/// What a pair that is not touching says of its distance is a bound of it from below.
+/// The separation bound of a pair that does not touch is a lower bound of its distance.
 TYPED_TEST(BoxCapsule, ApartIsABound) {
     using S = TypeParam;
     Random<S> random{std::mt19937(8)};

@@ -60,7 +60,7 @@ TYPED_TEST(BoxPolygon, IsWhatThePolygonsOfItsCornersGive) {
         EXPECT_NEAR(leastSeparation(m), leastSeparation(oracle), eps);
         ++touching;
         two += m.count == 2;
-        // Of sides that are equally deep either may be the reference.
+        // Either of two equally deep sides may be the reference.
         same += m.count == oracle.count && (m.normal - oracle.normal).norm() < eps &&
                 distanceOfPoints<S>(m, oracle) < 4 * eps;
     }
@@ -91,7 +91,7 @@ TYPED_TEST(BoxPolygon, PointsAreNamedByCorners) {
     }
     EXPECT_EQ(names.size(), 4u);
     EXPECT_EQ(swapped.size(), 4u);
-    for (const std::uint32_t name : names) EXPECT_EQ(name >> 30, 2u);  // of B
+    for (const std::uint32_t name : names) EXPECT_EQ(name >> 30, 2u);  // the names are those of B's features
     for (const std::uint32_t name : swapped) EXPECT_EQ(name >> 30, 1u);
 }
 

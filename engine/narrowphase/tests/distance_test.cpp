@@ -16,7 +16,7 @@ namespace {
 template <class S>
 class Distance : public testing::Test {
   protected:
-    /// How far a point stands out of a shape: its distance as a sphere of no size.
+    /// Distance of a point from a shape, computed for a sphere of radius zero.
     static double outside(const typename S::Vec& x, const Shape<S>& s, const Pose<S>& X) {
         const Shape<S> dot = Sphere<S>{typename S::Real(0)};
         return static_cast<double>(closestPoints<S>(dot, pose<S>(x), s, X).distance);

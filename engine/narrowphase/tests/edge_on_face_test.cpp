@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What leans on an edge needs both of its ends: an edge that lies along a face meets it in a stretch,
-// whichever of edges and faces makes the axis. With one point, piles of boxes never come to rest.
+// A body that rests on an edge needs contact points at both ends: an edge that lies along a face meets it in
+// an interval, whether an edge or a face makes the axis. With one point, piles of boxes never come to rest.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -17,11 +17,11 @@ namespace {
 
 struct Rest {
     const char* name;
-    double x, y, z;           ///< of the upper box [m]
-    double yaw, pitch, roll;  ///< of the upper box [rad]
+    double x, y, z;           ///< position of the upper box [m]
+    double yaw, pitch, roll;  ///< orientation of the upper box [rad]
     double lower = 0;         ///< roll of the lower box [rad]
     double gain = 4;          ///< largest turn of the normal over the noise
-    double nameNoise = 1;     ///< up to this noise the names stay
+    double nameNoise = 1;     ///< names stay the same up to this noise
 };
 constexpr double kEdgeOn = std::numbers::pi / 4, kOverEdges = 2 * 0.70710678118654752 - 1e-3;
 constexpr Rest kRests[] = {
@@ -34,7 +34,7 @@ constexpr Rest kRests[] = {
     // Eight corners are equally good for four places; the deepest is kept where it is by more than kKeep.
     {"face on turned face", 0.1, 0.999, 0.05, 0.3, 0, 0, 0, 4, 2e-5},
     {"face on face turned by 45 degrees", 0, 0.999, 0, kEdgeOn, 0, 0, 0, 4, 2e-5},
-    // Which of two lines that lie on each other cuts the other is decided by every bit.
+    // The order in which two coincident lines cut each other depends on every bit.
     {"face on the same face", 0, 0.9999, 0, 0, 0, 0, 0, 4, 0},
 };
 
@@ -107,7 +107,7 @@ template <class S>
 std::vector<EqualDepthPair<S>> equalDepthPairs() {
     using R = typename S::Real;
     const Shape<S> box = Box<S>{vec<S>(0.5, 0.5, 0.5)}, hull = boxHull<S>(vec<S>(0.5, 0.5, 0.5));
-    // In 3D a lean, so that the two axes are not those of the frame.
+    // A lean is added in 3D so that the two axes are not those of the frame.
     std::vector<EqualDepthPair<S>> all{
         {"box in the corner of a box", box, box, pose<S>(vec<S>(0.8, 0.8, 0.1))},
         {"hull in the corner of a box", box, hull, pose<S>(vec<S>(0.8, 0.8, 0.1))},

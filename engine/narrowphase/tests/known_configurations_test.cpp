@@ -98,7 +98,7 @@ TYPED_TEST(Known, BallInsideABoxLeavesByTheNearestFace) {
         // Centre exactly on the surface.
         expectContact<S>(collide<S>(b, this->at(0, 0), this->ball, this->at(0.1, 0.5, -0.2)), this->up(),
                          -0.5, 1);
-        // Over a corner (in 3D an edge).
+        // The sphere is over a corner (an edge in 3D).
         const double s = std::sqrt(0.5), r = 0.5 + 0.3 * s;
         expectContact<S>(collide<S>(b, this->at(0, 0), this->ball, this->at(r, r, 0)), vec<S>(s, s, 0), -0.2,
                          1);

@@ -102,7 +102,7 @@ TYPED_TEST(ManifoldKinds, ThePersistentGrowsByOneAStepUnderNamesOfTheirOwn) {
     }
 }
 
-/// Both bodies move together, by far: the old point is where they have carried it, as deep as before.
+/// Both bodies move together by a large distance: the old point has moved with them and has the same depth.
 TYPED_TEST(ManifoldKinds, ThePersistentCarriesItsPointsAlong) {
     using S = TypeParam;
     using R = typename S::Real;

@@ -38,7 +38,7 @@ class NarrowPhases : public testing::Test {
                 }
             }
     }
-    /// How far a point stands out of a shape.
+    /// Distance of a point from a shape.
     static double outside(const typename S::Vec& x, const Shape<S>& s, const Pose<S>& X) {
         const Shape<S> dot = Sphere<S>{typename S::Real(0)};
         return static_cast<double>(closestPoints<S>(dot, pose<S>(x), s, X).distance);
@@ -93,7 +93,7 @@ TYPED_TEST(NarrowPhases, AgreeWithTheClosestPoints) {
     }
 }
 
-/// What a resting box needs: four points (2D: two) on a box below, whichever algorithm finds the normal.
+/// A resting box has four points (two in 2D) on the box below, whichever algorithm finds the normal.
 TYPED_TEST(NarrowPhases, FaceOnFaceHasAFullManifold) {
     using S = TypeParam;
     const Shape<S> box = Box<S>{vec<S>(0.5, 0.5, 0.5)}, hull = boxHull<S>(vec<S>(0.5, 0.5, 0.5));

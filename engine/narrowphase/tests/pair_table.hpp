@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the narrow phase's tests share: shapes of all kinds, random poses, and a separation by supports alone.
+// Helpers shared by the narrow phase's tests: shapes of all kinds, random poses, and a separation by supports
+// alone.
 #pragma once
 
 #include <cmath>
@@ -148,8 +149,8 @@ Shape<S> shapeOfKind(int kind) {
     }
 }
 
-/// Do the tables of convex pairs ask about these two? Static shapes never meet; composites are no convex
-/// shape (surface_contact_test.cpp).
+/// True if the pair is in the tables of convex pairs. Two static shapes never collide; composites are not
+/// convex (surface_contact_test.cpp).
 template <class S>
 bool isConvexPair(const Shape<S>& a, const Shape<S>& b) {
     return !(isStaticOnly<S>(a) && isStaticOnly<S>(b)) && !isComposite<S>(a) && !isComposite<S>(b);
@@ -159,9 +160,9 @@ bool isRound(const Shape<S>& s) {
     const std::string name = shapeName<S>(s);
     return name == "cylinder" || name == "cone";
 }
-/// What curved sides cost: points of a cap are good to 4e-6 of its radius (kRimNoise); a sphere near the axis
-/// of a cylinder has all directions as ways out, which an iteration over support points meets to 1e-4. 0
-/// without.
+/// Tolerance for curved sides: points of a cap are good to 4e-6 of its radius (kRimNoise); a sphere near the
+/// axis of a cylinder has all directions as penetration directions, which an iteration over support points
+/// meets to 1e-4. The tolerance is 0 for other shapes.
 template <class S>
 double curvedTolerance(const Shape<S>& a, const Shape<S>& b) {
     if (!isRound<S>(a) && !isRound<S>(b)) return 0;

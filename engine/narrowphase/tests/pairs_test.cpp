@@ -61,7 +61,7 @@ TYPED_TEST(Pairs, ManifoldKeepsItsContract) {
     EXPECT_GT(touching, total / 2);
 }
 
-/// For bounded shapes: no direction separates more than the reported normal, which attains the depth.
+/// Property of bounded shapes: no direction separates more than the reported normal, which attains the depth.
 TYPED_TEST(Pairs, DepthIsTheBestOverDirections) {
     using S = TypeParam;
     const double sharp = tol<S>(1e-14, 4e-6);
@@ -92,8 +92,8 @@ TYPED_TEST(Pairs, SwappingAAndBFlipsTheManifold) {
     const double sharp = tol<S>(1e-13, 1e-5);
     this->forEachPair(40, [&](const auto& a, const auto& Xa, const auto& b, const auto& Xb) {
         const double eps = std::max(sharp, 0.05 * curvedTolerance<S>(a, b));
-        // Where both sides are curved the depth has a smooth minimum over directions, whose normal is good to
-        // the root of the rounding, sqrt(2 * 16 * 6e-8 m / 0.4 m): 2e-3 from either side.
+        // The depth of two curved sides has a smooth minimum over directions, whose normal is good to the
+        // root of the rounding, sqrt(2 * 16 * 6e-8 m / 0.4 m): 2e-3 from either side.
         const double across = isRound<S>(a) && isRound<S>(b) ? tol<S>(0, 5e-3) : 0;
         const Manifold<S> ab = collide<S>(a, Xa, b, Xb), ba = collide<S>(b, Xb, a, Xa);
         ASSERT_EQ(ab.count == 0, ba.count == 0);
@@ -135,7 +135,7 @@ TYPED_TEST(Pairs, RigidMotionCarriesTheManifold) {
         const Manifold<S> m = collide<S>(a, Xa, b, Xb);
         const Manifold<S> moved = collide<S>(a, compose<S>(by, Xa), b, compose<S>(by, Xb));
         if (isRound<S>(a) || isRound<S>(b)) {
-            // Which of two equal points of a rim counts may change.
+            // The choice between two equal points of a rim may change.
             ASSERT_EQ(m.count > 0, moved.count > 0);
             if (m.count == 0) return;
             EXPECT_NEAR(leastSeparation(m), leastSeparation(moved), curvedTolerance<S>(a, b));
@@ -143,7 +143,8 @@ TYPED_TEST(Pairs, RigidMotionCarriesTheManifold) {
         } else if (sizeof(typename S::Real) == 8) {
             expectSameMoved<S>(m, moved, by, 1e-11);
         } else if (leastSeparation(m) < -1e-4) {
-            // In float, rounding may add or drop a point at the edge of a patch: depth and normal.
+            // Rounding in float may add or drop a point at the edge of a patch, so only depth and normal are
+            // compared.
             EXPECT_NEAR(leastSeparation(m), leastSeparation(moved), 1e-5);
             EXPECT_LE((rotate(by.q, m.normal) - moved.normal).norm(), 1e-3);
         }

@@ -68,7 +68,7 @@ TYPED_TEST(Round, StandingOnACapHasFourSpreadPoints) {
                 this->expectContact(m, up, -0.01, 4);
                 EXPECT_GT(this->spread(m), 0.5 * std::sqrt(0.5) - 1e-5) << g;
             }
-        // On another cylinder, beside its middle: the common part of the caps.
+        // A cylinder on another one, beside its middle: the points bound the common part of the caps.
         const auto m =
             this->by(entry.name, this->cylinder, this->at(0, -1), this->cylinder, this->at(0.3, 0.99, 0.1));
         this->expectContact(m, up, -0.01, 4);
@@ -165,7 +165,7 @@ TYPED_TEST(Round, BallAgainstASweptSurface) {
         const auto c = vec<S>(x * std::cos(angle), y, x * std::sin(angle));
         const double rho = std::abs(x);
         for (const bool pointed : {false, true}) {
-            double nearest = 1e9;  // over the profile
+            double nearest = 1e9;  // least distance over the profile
             const int n = 20000;
             for (int k = 0; k <= n; ++k) {
                 const double t = static_cast<double>(k) / n, sideR = pointed ? 0.5 * (1 - t) : 0.5;

@@ -23,8 +23,8 @@ namespace {
 using Nodes = std::vector<std::uint32_t>;
 using Ends = std::span<const std::pair<std::uint32_t, std::uint32_t>>;
 
-constexpr std::size_t kLeaf = 4;        ///< so few joints are not divided
-constexpr double kLeastFraction = 0.3;  ///< of the bodies on the smaller side
+constexpr std::size_t kLeaf = 4;        ///< sets of so few joints are not divided
+constexpr double kLeastFraction = 0.3;  ///< least fraction of the bodies on the smaller side
 constexpr std::size_t kLandmarks = 4;
 constexpr std::int32_t kOutside = -1, kUnseen = 0x7fffffff;
 
@@ -122,7 +122,7 @@ class Dissection {
 
     bool cut(const Nodes& bodies, const Nodes& joints) {
         std::uint32_t landmark = measure(bodies.front(), distance_[0]);
-        if (queue_.size() < bodies.size()) {  // not connected: no joint has to run between
+        if (queue_.size() < bodies.size()) {  // the set is not connected: no joint has to run between
             for (const std::uint32_t body : bodies) side_[body] = distance_[0][body] == kUnseen ? 2 : 1;
             return true;
         }
@@ -186,12 +186,13 @@ class Dissection {
         }
     }
     struct AtValue {
-        std::int32_t bodies = 0, cut = 0;  ///< with this coordinate; change of the joints across
+        std::int32_t bodies = 0, cut = 0;  ///< bodies with this coordinate; change of the number of joints
+                                           ///< across
     };
 
     Ends ends_;
     Nodes start_, near_;              ///< bodies joined to a body
-    std::vector<std::int32_t> side_;  ///< of the bodies that are being divided
+    std::vector<std::int32_t> side_;  ///< side of each body that is being divided
     std::array<std::vector<std::int32_t>, kLandmarks> distance_;
     std::vector<AtValue> atValue_;
     Nodes queue_, order_;

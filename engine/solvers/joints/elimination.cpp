@@ -105,7 +105,7 @@ Nodes postorder(const Nodes& order, const std::vector<Nodes>& columns, const Nod
             continue;
         }
         parent[node] = *std::min_element(columns[node].begin(), columns[node].end(), earlier);
-        sibling[node] = child[parent[node]];  // in the order of elimination
+        sibling[node] = child[parent[node]];  // siblings are in the order of elimination
         child[parent[node]] = node;
     }
     std::sort(roots.begin(), roots.end(),
@@ -122,7 +122,7 @@ Nodes postorder(const Nodes& order, const std::vector<Nodes>& columns, const Nod
     return result;
 }
 
-/// From the columns of L, by node, for the order that was found.
+/// Arranges the columns of L, by node, for the order that was found.
 void arrange(std::vector<Nodes>& near, const Nodes& found, const Nodes& component, Elimination& out) {
     const std::size_t n = near.size();
     out.order = postorder(found, near, component);

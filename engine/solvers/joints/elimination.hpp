@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// In which order to eliminate the unknowns of a sparse symmetric system, and where its factor L has entries:
-// see elimination.cpp.
+// Order of elimination of the unknowns of a sparse symmetric system, and the pattern of its factor L: see
+// elimination.cpp.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct Elimination {
     std::vector<std::size_t> start;
     std::vector<std::uint32_t> row;
 
-    /// What making L costs, in products of entries: the sum over the columns of c (c + 3) / 2 for c entries.
+    /// Cost of computing L in products of entries: the sum over the columns of c (c + 3) / 2 for c entries.
     std::size_t products() const;
 };
 

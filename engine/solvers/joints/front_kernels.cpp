@@ -111,7 +111,7 @@ struct Columns {
     std::size_t stride, rows;  ///< rows from the top of the triangle
 };
 
-/// What stands below the triangle T becomes that of the factor: A T^-T, from row i on.
+/// Replaces the rows A below the triangle T by those of the factor, A T^-T, from row i on.
 template <std::size_t n, std::size_t lanes, class R>
 HWY_INLINE void divideRows(const Columns<R>& t, std::size_t i) {
     const hn::CappedTag<R, lanes> d;
@@ -128,7 +128,8 @@ HWY_INLINE void divideRows(const Columns<R>& t, std::size_t i) {
     if constexpr (lanes > 1) divideRows<n, lanes / 2>(t, i);
 }
 
-/// By columns that are scaled last: what one pivot has to wait for of the one before is then a division.
+/// Factors column by column and scales each column last, so that a pivot waits only for one division of the
+/// pivot before.
 template <std::size_t n, class R>
 HWY_INLINE void factorTriangle(const Columns<R>& t, const R* floor) {
     R m[n][n], scale[n];
@@ -155,7 +156,7 @@ void factorAll(const FrontPanel<R>& panel, const R* floor) {
     for (std::size_t first = 0; first < panel.columns; first += kTile) {
         const std::size_t count = std::min(kTile, panel.columns - first), rows = panel.rows - first;
         R* const top = panel.at + first * stride + first;
-        // What the columns before take from these.
+        // Subtract the products of the columns before.
         for (std::size_t j = 0; first > 0 && j < count;) {
             const R* const before = panel.at + first + j;
             j += multiplySome(

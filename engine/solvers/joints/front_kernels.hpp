@@ -25,7 +25,8 @@ void factorPanel(const FrontPanel<R>& panel, const R* floor);
 /// C -= A A^T for what stands below the triangle, A, in the lower triangle of C.
 template <class R>
 void subtractSquare(const FrontPanel<R>& panel, R* C, std::size_t stride);
-/// How many numbers behind a panel's last one, and behind y, the next two functions may read, or write in y.
+/// Number of elements behind a panel's last one, and behind y, that the next two functions may read, or write
+/// in y.
 inline constexpr std::size_t kFrontSlack = 64;
 /// y, a number per row: its upper part becomes the solution for the triangle, whose share is taken from the
 /// rest.

@@ -48,7 +48,7 @@ void JointFronts<R>::findFronts(std::span<const std::size_t> start, std::span<co
     const auto below = [&](std::uint32_t k) { return static_cast<std::uint32_t>(start[k + 1] - start[k]); };
     const auto parentOf = [&](std::uint32_t k) { return below(k) == 0 ? kNullIndex : row[start[k]] - first; };
     // Every column as a front, joined to those before it that it is the parent of.
-    std::vector<std::size_t> entries;  // of a front, in blocks without zeros
+    std::vector<std::size_t> entries;  // entries of a front, in blocks without zeros
     fronts_.clear();
     for (std::uint32_t k = 0; k < columns; ++k) {
         Front front{};
@@ -84,7 +84,7 @@ void JointFronts<R>::findFronts(std::span<const std::size_t> start, std::span<co
     }
 }
 
-/// Where everything stands in memory.
+/// Assigns the memory layout.
 template <class R>
 void JointFronts<R>::layOut() {
     std::size_t panels = 0, top = 0, most = 0, tallest = 0;

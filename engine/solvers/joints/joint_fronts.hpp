@@ -23,8 +23,7 @@ class JointFronts {
     void analyse(std::span<const std::size_t> start, std::span<const std::uint32_t> row, std::uint32_t first,
                  int size);
 
-    /// Where a block of L, or of K before factor(), begins in numbers(); its columns are stride(column)
-    /// apart.
+    /// Offset in numbers() of a block of L, or of K before factor(); its columns are stride(column) apart.
     std::size_t placeOf(std::uint32_t row, std::uint32_t column) const;
     R* numbers() { return panels_.data(); }
     std::size_t stride(std::uint32_t column) const { return fronts_[front_[column]].stride; }
@@ -39,12 +38,13 @@ class JointFronts {
     /// Columns with the same rows below them.
     struct Front {
         std::uint32_t first, width;    ///< columns, in blocks
-        std::uint32_t row, rows;       ///< of rows_: those below, in blocks
-        std::uint32_t run, runs;       ///< of runs_: where those are in its parent
+        std::uint32_t row, rows;       ///< range in rows_ of the rows below, in blocks
+        std::uint32_t run, runs;       ///< range in runs_ of the places of those rows in its parent
         std::uint32_t parent;          ///< kNullIndex: a root
         std::uint32_t child, sibling;  ///< the first that depends on it; the next of its parent
-        std::size_t panel, stride;     ///< in panels_; numbers between its columns
-        std::size_t update, work;      ///< in updates_: what it leaves for its parent, and where that is made
+        std::size_t panel, stride;     ///< offset in panels_; distance between its columns
+        std::size_t update, work;      ///< offsets in updates_ of its update of the parent, and of the work
+                                       ///< space for it
     };
     /// Blocks that follow each other in a front and in its parent.
     struct Run {
@@ -60,7 +60,7 @@ class JointFronts {
 
     std::size_t size_ = 1;
     std::vector<Front> fronts_;
-    std::vector<std::uint32_t> front_;  ///< of a column
+    std::vector<std::uint32_t> front_;  ///< front of each column
     std::vector<std::uint32_t> rows_;
     std::vector<Run> runs_;
     std::vector<R> panels_, updates_, gathered_;

@@ -42,8 +42,8 @@ class JointGroup {
     Real solveEqualities(ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities);
     Real sweep(ConstraintRows<S>& constraints, std::span<Velocity<S>> velocities, bool backwards) const;
 
-    static constexpr int kSweeps = 10;                       ///< at most, per pass
-    static constexpr Real kTolerance = Real(0.01);           ///< of the first sweep's residual
+    static constexpr int kSweeps = 10;                       ///< maximum number of sweeps per pass
+    static constexpr Real kTolerance = Real(0.01);           ///< relative to the first sweep's residual
     std::vector<std::uint32_t> all_, equalities_, bounded_;  ///< blocks, in their order
     std::vector<typename JointSystem<S>::Item> items_;
     JointSystem<S> system_;

@@ -31,8 +31,8 @@ class JointSystem {
     /// dense (more than kMaxFill blocks per item); then there are no factors and solve() may not be called.
     /// Allocates where the items' bodies or numbers of rows are not those of the call before.
     bool factor(std::span<const Item> items);
-    /// Where the right side of an item stands and the solution is left, a number per row, in the order of
-    /// factor(). All have to be set before each solve().
+    /// Right side of an item, replaced by its solution, one number per row, in the order of factor(). All
+    /// right sides have to be set before each solve().
     Real* at(std::size_t item) { return x_.data() + place_[item]; }
     /// K x = right side.
     void solve();
@@ -52,13 +52,13 @@ class JointSystem {
     struct Coupling {
         std::size_t at;                     ///< entry of row_; with fronts where the block stands in them
         std::uint32_t rowItem, columnItem;  ///< the item of the block's rows, and that of its columns
-        bool isRowB, isColumnB;             ///< whether the body is B of these items
+        bool isRowB, isColumnB;             ///< true if the body is B of these items
     };
     /// Items that are connected, as consecutive positions: blocks of one size, that of the largest.
     struct Part {
         std::uint32_t first, last;           ///< positions, the last one excluded
         int size;                            ///< rows of a block
-        std::size_t coupling, lastCoupling;  ///< of its couplings, the last one excluded
+        std::size_t coupling, lastCoupling;  ///< range of its couplings, the last one excluded
         std::size_t lower, diagonal, x;      ///< indices of its first numbers
         std::size_t target;                  ///< likewise
         std::uint32_t fronts;                ///< kNullIndex, or where its fronts are
@@ -95,11 +95,11 @@ class JointSystem {
     /// Blocks below the diagonal, column by column; entries of a column by growing row (positions).
     std::vector<std::size_t> start_;
     std::vector<std::uint32_t> row_;
-    /// For each column and each pair of its entries e < f: the entry of column row_[e] in row row_[f],
+    /// Target of each column and each pair of its entries e < f: the entry of column row_[e] in row row_[f],
     /// counted from its part's first.
     std::vector<std::uint32_t> target_;
     std::vector<Real> lower_;  ///< K, then L
-    /// Of K, then of L, with the reciprocals of its own diagonal.
+    /// Diagonal blocks of K, then of L, with the reciprocals of its own diagonal.
     std::vector<Real> diagonal_;
     std::vector<Real> x_;
     std::vector<JointFronts<Real>> fronts_;  ///< instead of lower_ and diagonal_ where columns are long

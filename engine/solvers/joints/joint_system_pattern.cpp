@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What stays of a system of joints while their bodies are the same: the order of elimination, the pattern of
-// L, and where everything stands in memory. Allocates; joint_system.cpp does not.
+// Part of a joint system that is constant while the joints' bodies are the same: the order of elimination,
+// the pattern of L and the memory layout. Allocates; joint_system.cpp does not.
 #include <algorithm>
 
 #include "engine/solvers/joints/dissection.hpp"
@@ -25,7 +25,7 @@ bool JointSystem<S>::analyse(std::span<const Item> items) {
     const std::size_t n = items.size();
     pattern_.clear();
     for (const Item& item : items) pattern_.push_back(placeOf(item));
-    // Who is at each body, so that neighbours are found without looking at all pairs.
+    // Joints at each body, so that neighbours are found without looking at all pairs.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;
     for (std::uint32_t i = 0; i < n; ++i)
         for (const std::uint32_t body : {pattern_[i].a, pattern_[i].b})
@@ -51,7 +51,8 @@ bool JointSystem<S>::analyse(std::span<const Item> items) {
     return true;
 }
 
-/// By minimum degree, which is best for chains and trees, or by dissection where that makes fewer products.
+/// Finds the order by minimum degree, which is best for chains and trees, or by dissection where that makes
+/// fewer products.
 template <class S>
 bool JointSystem<S>::findOrder(std::vector<std::vector<std::uint32_t>> near, Elimination& order) const {
     const std::size_t n = near.size(), most = kMaxFill * n;
@@ -70,7 +71,7 @@ bool JointSystem<S>::findOrder(std::vector<std::vector<std::uint32_t>> near, Eli
     return true;
 }
 
-/// Where everything stands in memory.
+/// Assigns the memory layout.
 template <class S>
 void JointSystem<S>::layOut(Elimination& order) {
     item_.swap(order.order);
@@ -111,7 +112,7 @@ void JointSystem<S>::layOut(Elimination& order) {
     x_.assign(x, Real(0));
 }
 
-/// Whether the columns of a part are so long that dense fronts are faster than blocks.
+/// True if the columns of a part are so long that dense fronts are faster than blocks.
 template <class S>
 bool JointSystem<S>::needsFronts(std::uint32_t first, std::uint32_t last) const {
     std::size_t products = 0;

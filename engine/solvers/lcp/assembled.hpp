@@ -20,7 +20,7 @@
 
 namespace rigor::engine {
 
-/// What a row's impulse may be.
+/// Admissible set of a row's impulse.
 enum class RowKind : std::uint8_t {
     Free,     ///< w = 0
     Bounded,  ///< lower <= lambda <= upper
@@ -31,7 +31,7 @@ struct AssembledContact {
     std::size_t normal = 0;  ///< row; its tangents follow
     std::size_t tangents = 0;
     double mu = 0, muStatic = 0;  ///< muStatic >= mu
-    double applied = 0;           ///< on top of the normal's impulse in the limit of friction
+    double applied = 0;           ///< impulse applied on top of the normal's impulse in the limit of friction
 };
 
 class AssembledProblem {
@@ -39,7 +39,7 @@ class AssembledProblem {
     std::size_t n = 0;
     std::vector<double> W;  ///< n x n, row by row; a row that no body can follow has a 1 on the diagonal
     std::vector<double> q, lambda;
-    std::vector<double> lower, upper;  ///< of Bounded rows; infinite for Free, [0, inf) for Normal
+    std::vector<double> lower, upper;  ///< bounds of Bounded rows; infinite for Free, [0, inf) for Normal
     std::vector<RowKind> kind;
     std::vector<AssembledContact> contacts;
 
@@ -61,7 +61,7 @@ class AssembledProblem {
     double relaxed(std::size_t i, const std::vector<double>& impulses, double least, double most) const {
         return std::clamp(impulses[i] - velocity(i, impulses) / at(i, i), least, std::max(least, most));
     }
-    /// By how much, as a velocity, lambda_i differs from that: the natural map of the row.
+    /// Natural map of the row: the difference of lambda_i from its projection, as a velocity.
     double defect(std::size_t i, double least, double most) const {
         return at(i, i) * std::abs(lambda[i] - relaxed(i, lambda, least, most));
     }
@@ -75,7 +75,7 @@ class AssembledProblem {
     void coupleBodies(const ConstraintRows<S>& rows, std::size_t bodies);
 
     std::vector<std::uint32_t> start_, entry_;  ///< rows by body; entry = 2 row + side
-    std::vector<double> invMass_;               ///< by body
+    std::vector<double> invMass_;               ///< inverse mass of each body
 };
 
 }  // namespace rigor::engine

@@ -143,7 +143,7 @@ bool BoxLcp::takeIn(const Problem& p, std::size_t d, std::size_t& pieces) {
             return true;
         }
         follow(p, d, direction);
-        // How far? The first to object decides; among equals the one found first.
+        // The step length is that of the first blocking row; among equals the one found first.
         double way = std::abs(w_[d]) / std::max(std::abs(dw_[d]), 1e-300);
         std::size_t blocking = d, place = kNullIndex;
         BoxState becomes = BoxState::Free;

@@ -34,7 +34,7 @@ class BoxLcp {
     /// more.
     bool solve(std::size_t n, const double* A, const double* shift, const double* q, const double* lower,
                const double* upper, double* x);
-    /// Of the last solve.
+    /// States of the last solve.
     const std::vector<BoxState>& states() const { return state_; }
     /// The next solve starts from nothing.
     void forget() { state_.clear(); }

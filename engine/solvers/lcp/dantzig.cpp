@@ -49,7 +49,7 @@ class Dantzig final : public DirectRounds<S> {
     using DirectRounds<S>::problem_;
     using DirectRounds<S>::x_;
 
-    /// At least what rounding of the rows can take from an eigenvalue.
+    /// Regularisation that is at least the change of an eigenvalue by rounding of the rows.
     static constexpr double kSigma = std::max(1e-8, 16.0 * std::numeric_limits<Real>::epsilon());
     static constexpr int kPlainRounds = 15;
     static constexpr int kFallbackSweeps = 200;
@@ -87,7 +87,8 @@ class Dantzig final : public DirectRounds<S> {
     double coefficient(const AssembledContact& contact, std::size_t tangent) const {
         return sticks_[tangent] ? contact.muStatic : contact.mu;
     }
-    /// Of the impulses there are, with the bounds that their own normals set: the natural map of the pyramid.
+    /// Natural map of the friction pyramid for the current impulses, with the bounds of their own normal
+    /// impulses.
     double residual() const override {
         double largest = 0;
         for (std::size_t i = 0; i < problem_.n; ++i) {
@@ -112,7 +113,7 @@ class Dantzig final : public DirectRounds<S> {
         }
     }
 
-    /// Where pivoting gave up: projected Gauss-Seidel from the impulses there are.
+    /// Projected Gauss-Seidel from the current impulses, used if pivoting gave up.
     void sweep() {
         gaveUp_ = true;
         x_.assign(problem_.lambda.begin(), problem_.lambda.end());
@@ -194,7 +195,7 @@ class Dantzig final : public DirectRounds<S> {
     BoxLcp lcp_;
     DenseLu lu_;
     std::vector<double> shift_, q_, limits_, next_, right_;
-    std::vector<std::uint8_t> sticks_;  ///< by row: tangents inside their bounds
+    std::vector<std::uint8_t> sticks_;  ///< flag of each row: 1 for tangents inside their bounds
     std::vector<std::size_t> place_, free_;
 };
 

@@ -53,7 +53,7 @@ class DirectRounds : public Solver<S> {
   private:
     /// problem_ is new; sizes x_.
     virtual void begin(const SolverInput<S>& input) = 0;
-    /// How far problem_.lambda is from a solution [m/s or rad/s].
+    /// Distance of problem_.lambda from a solution [m/s or rad/s].
     virtual double residual() const = 0;
     /// x_ from problem_.
     virtual void improve(const SolverInput<S>& input, int round) = 0;

@@ -41,7 +41,7 @@ struct Variable {
     std::size_t row[2] = {0, 0};
     double coefficient[2] = {0, 0};  ///< lambda_row += coefficient z
     std::size_t of = 0;              ///< UpperMultiplier: its variable; Slip: its contact
-    double scale = 1;                ///< of the impulse
+    double scale = 1;                ///< scale of the impulse
 };
 
 template <class S>
@@ -56,8 +56,8 @@ class Lemke final : public DirectRounds<S> {
     using DirectRounds<S>::problem_;
     using DirectRounds<S>::x_;
 
-    static constexpr double kSigma = 1e-8;  ///< of joints; the square root of the precision
-    static constexpr double kSoft = 1e-6;   ///< of the other rows, where pivoting needs it
+    static constexpr double kSigma = 1e-8;  ///< regularisation of joints; the square root of the precision
+    static constexpr double kSoft = 1e-6;   ///< regularisation of the other rows if pivoting needs it
     enum class Softened : std::uint8_t { No, JustNow, Yes };
     static constexpr int kFallbackSweeps = 200;
 
@@ -106,7 +106,7 @@ class Lemke final : public DirectRounds<S> {
         makeSchur();
         slips_.assign(problem_.contacts.size(), 0);
         softened_ = Softened::No;
-        // In single precision J and M^-1 are only so good, and W has negative eigenvalues of that size.
+        // The rounding of J and M^-1 in single precision gives W negative eigenvalues of that size.
         if (sizeof(Real) < sizeof(double)) {
             soften();
             softened_ = Softened::Yes;
@@ -273,8 +273,8 @@ class Lemke final : public DirectRounds<S> {
             if (problem_.contacts[c].tangents > 0) largest = std::max(largest, frictionResidual(c));
         return largest;
     }
-    /// With s the least that makes all d_k . w_t + s >= 0: beta_k (d_k . w_t + s) and s times the slack of
-    /// the pyramid, as velocities.
+    /// Residual of the friction pyramid. With s the least value that makes all d_k . w_t + s >= 0: beta_k
+    /// (d_k . w_t + s) and s times the slack of the pyramid, as velocities.
     double frictionResidual(std::size_t c) const {
         const AssembledContact& contact = problem_.contacts[c];
         const std::size_t n = contact.normal, first = firstOf_[c] + 1;
@@ -300,7 +300,7 @@ class Lemke final : public DirectRounds<S> {
         if (!slips_[c] && contact.muStatic > contact.mu && slack <= 0) largest = std::max(largest, slip);
         return largest;
     }
-    /// Where pivoting gave up: projected Gauss-Seidel from where it was.
+    /// Projected Gauss-Seidel from the last iterate, used if pivoting gave up.
     void sweep() {
         for (int k = 0; k < kFallbackSweeps; ++k) {
             for (std::size_t i = 0; i < problem_.n; ++i)

@@ -33,7 +33,7 @@ LemkeLcp::Outcome LemkeLcp::solve(std::size_t n, const double* M, const double* 
         nonbasic_[i] = n + i;
         where_[n + i] = n + i;
         scale = std::max(scale, std::abs(q[i]));
-        // Of equal ones the last: with epsilon^k it is the least.
+        // The last of equal values is taken: with epsilon^k it is the least.
         if (q[i] <= q[worst]) worst = i;
     }
     nonbasic_[n] = 2 * n;

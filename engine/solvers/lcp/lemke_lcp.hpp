@@ -46,7 +46,7 @@ class LemkeLcp {
     std::vector<double> dictionary_;  ///< basic = constant + T nonbasic
     std::vector<double> constant_;
     std::vector<std::size_t> basic_, nonbasic_;
-    std::vector<std::size_t> where_;  ///< by variable: row if basic, n + column if not
+    std::vector<std::size_t> where_;  ///< place of each variable: row if basic, n + column if not
     DenseLu lu_;
     std::vector<double> right_, check_;
     std::vector<std::size_t> in_;

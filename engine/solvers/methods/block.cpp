@@ -52,7 +52,7 @@ class BlockGaussSeidel final : public Solver<S> {
   private:
     static bool isJoint(const Block<S>& block) { return block.kind != BlockKind::Contact; }
 
-    /// What sweeps leave of a small problem, Newton's method takes.
+    /// Newton's method solves what sweeps leave of a small problem.
     void finish(const SolverInput<S>& input) {
         const std::size_t n = input.constraints.rows.size();
         const Real tolerance = input.monitor.tolerance();
@@ -110,8 +110,8 @@ class BlockGaussSeidel final : public Solver<S> {
     static constexpr std::size_t kFinishRows = 128;  ///< n^3 / 3 is then less than a millisecond
     static constexpr int kFinishSteps = 12;
     static constexpr int kFinishIterations = 30;         ///< fewer than that are too few to sort contacts by
-    static constexpr int kInnerSweeps = 10;              ///< at most, per solve of a group
-    static constexpr Real kInnerTolerance = Real(0.01);  ///< of the first sweep's residual
+    static constexpr int kInnerSweeps = 10;              ///< maximum number of sweeps per solve of a group
+    static constexpr Real kInnerTolerance = Real(0.01);  ///< relative to the first sweep's residual
     const Tasks* tasks_ = &Tasks::one();
     std::vector<std::uint32_t> groups_;
     SweepOrder sweeps_;

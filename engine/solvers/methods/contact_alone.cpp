@@ -75,7 +75,7 @@ Vec3<R> solveContactAlone(const Mat3<R>& W, const Vec3<R>& b, R mu, R muStatic, 
         return {slip.rn, slip.rt[0], slip.rt[1]};
     if (!(mu > 0)) return {-b[0] / slip.wn, R(0), R(0)};
     R low = 0, high = slip.s11 + slip.s22;
-    constexpr int kDoublings = 200;  // over the whole range of the exponent; f(inf) < 0 ends it before
+    constexpr int kDoublings = 200;  // cover the whole range of the exponent; f(inf) < 0 ends it before
     for (int i = 0; i < kDoublings && slip.evaluate(high) > 0; ++i) {
         low = high;
         high *= R(4);

@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kSigma = 1e-11;
 constexpr int kMostSteps = 60;
-constexpr double kDone = 1e-22;  ///< of the start: in velocities the rounding of the start
+constexpr double kDone = 1e-22;  ///< relative to the start; for velocities this is the rounding of the start
 constexpr double kProgress = 0.9;
 constexpr int kMaxStalled = 8;          ///< steps without progress
-constexpr double kStepFraction = 0.99;  ///< to the boundary of the cones
+constexpr double kStepFraction = 0.99;  ///< fraction of the way to the boundary of the cones
 constexpr double kFar = 0.2;            ///< shorter steps do not pay
 
 double dot(const double* a, const double* b) {

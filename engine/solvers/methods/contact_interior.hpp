@@ -38,7 +38,7 @@ class ContactInterior {
     bool solve(const AssembledProblem& problem, double shift, std::vector<double>& impulses);
 
   private:
-    static constexpr int kDim = 3;  ///< of a cone; in 2D the last component is zero
+    static constexpr int kDim = 3;  ///< dimension of a cone; in 2D the last component is zero
     /// A contact with friction.
     struct Cone {
         std::size_t first = 0, rows = 0;  ///< normal, tangents

@@ -18,7 +18,7 @@ bool ContactNewton::step(const AssembledProblem& p, double sigma, std::vector<do
         double w = p.q[i];
         for (std::size_t j = 0; j < n; ++j) w += W[j] * p.lambda[j];
         w_[i] = w;
-        // As if w = 0 were its equation; changed below where it is not.
+        // The row is set as if w = 0 were its equation, and changed below if it is not.
         std::copy_n(W, n, A + i * n);
         A[i * n + i] *= 1 + sigma;
         right_[i] = -w;

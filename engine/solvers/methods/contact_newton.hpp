@@ -25,7 +25,7 @@ namespace rigor::engine {
 
 class ContactNewton {
   public:
-    /// From problem.lambda (and problem.q) to `next`. False where the equations could not be solved.
+    /// Newton step from problem.lambda (and problem.q) to `next`. False if the equations could not be solved.
     bool step(const AssembledProblem& problem, double sigma, std::vector<double>& next);
 
   private:

@@ -146,19 +146,21 @@ class Jacobi final : public Solver<S> {
         return std::max(residual, solveFriction(split, block, a, b));
     }
 
-    static constexpr int kInnerSweeps = 10;                          ///< at most, per unit and iteration
-    static constexpr Real kInnerTolerance = Real(0.01);              ///< of the first sweep's residual
+    /// maximum number of sweeps per unit and iteration
+    static constexpr int kInnerSweeps = 10;
+    /// relative to the first sweep's residual
+    static constexpr Real kInnerTolerance = Real(0.01);
     static constexpr std::size_t kBlockGrain = 64, kUnitGrain = 16;  ///< some microseconds of work
     struct Result {
-        Velocity<S> a, b;  ///< of the parts of its bodies
+        Velocity<S> a, b;  ///< velocities of the split parts of its bodies
         Real change = 0;
     };
     const Tasks* tasks_ = &Tasks::one();
     ConstraintRows<S> split_;
     std::vector<std::uint32_t> units_;
     std::vector<Real> partners_;
-    std::vector<Result> results_;      ///< by unit
-    std::vector<Velocity<S>> change_;  ///< of the bodies in this iteration
+    std::vector<Result> results_;      ///< result of each unit
+    std::vector<Velocity<S>> change_;  ///< velocity change of the bodies in this iteration
 };
 
 }  // namespace

@@ -25,8 +25,8 @@ class NewtonFinish {
         assembled_ = false;
         interiorStarts_ = 0;
     }
-    /// From the impulses there are, of natural map `residual` [m/s], towards `goal`, in at most `steps`.
-    /// Returns the natural map of the impulses it leaves.
+    /// Iterates from the current impulses, of natural map `residual` [m/s], towards `goal` in at most
+    /// `steps`. Returns the natural map of the impulses it leaves.
     Real attempt(const SolverInput<S>& input, Real residual, Real goal, int steps = 30);
     /// The same from where the interior-point method ends, which starts nearer to the impulses there are with
     /// each call; there are kInteriorStarts of them.

@@ -92,7 +92,7 @@ class Nsgs final : public Solver<S> {
     }
 
   private:
-    static constexpr int kDepth = 10;        ///< of Anderson's history
+    static constexpr int kDepth = 10;        ///< length of Anderson's history
     static constexpr int kFinishEvery = 25;  ///< iterations between attempts to finish
     static constexpr int kMaxStalled = 400;  ///< iterations without halving the residual
 
@@ -119,7 +119,7 @@ class Nsgs final : public Solver<S> {
         previousStep_.resize(n);
         previousMap_.resize(n);
         finish_.forget();
-        // What the impulses have to stop or to bring about.
+        // Largest velocity that the impulses have to stop or to bring about.
         fastest_ = 0;
         for (const Block<S>& block : all.blocks)
             for (std::uint32_t i = block.first; i < block.first + block.rows; ++i)
@@ -275,7 +275,7 @@ class Nsgs final : public Solver<S> {
         }
     }
 
-    static constexpr double kShift = 1e-12;  ///< of a Gram matrix with unit diagonal
+    static constexpr double kShift = 1e-12;  ///< shift of a Gram matrix with unit diagonal
 
     bool gaveUp_ = false;
     std::vector<Mat3<Real>> local_;  ///< W by block; of contacts

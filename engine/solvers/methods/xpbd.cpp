@@ -93,8 +93,8 @@ class Xpbd final : public Solver<S> {
     }
 
   private:
-    static constexpr int kVelocitySweeps = 10;           ///< at most
-    static constexpr Real kSweepTolerance = Real(0.01);  ///< of the first sweep's residual
+    static constexpr int kVelocitySweeps = 10;           ///< maximum number of sweeps
+    static constexpr Real kSweepTolerance = Real(0.01);  ///< relative to the first sweep's residual
 
     /// Moves the bodies of a row by what takes its multiplier to `lambda`; returns the error removed.
     static Real moveTo(PositionProblem<S>& problem, const Block<S>& block, const Row<S>& where, Row<S>& held,
@@ -176,7 +176,7 @@ class Xpbd final : public Solver<S> {
         return removed;
     }
 
-    /// What takes part in the velocity pass: contacts and limits that have pushed, motors.
+    /// Finds the blocks that take part in the velocity pass: contacts and limits that have pushed, motors.
     void findActive(const ConstraintRows<S>& constraints) {
         active_.resize(constraints.blocks.size());
         for (std::size_t k = 0; k < active_.size(); ++k) {
@@ -197,7 +197,7 @@ class Xpbd final : public Solver<S> {
     }
 
     JointPositions<S> joint_;
-    std::vector<std::uint8_t> active_;  ///< by block
+    std::vector<std::uint8_t> active_;  ///< flag of each block
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What iterations are for: every solver of the table comes nearer to the law with more of them, measured by
-// one measure for all, the natural map.
+// Convergence: every solver of the table comes nearer to the law with more iterations, measured for all by
+// the natural map.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +58,8 @@ TYPED_TEST(Convergence, MoreIterationsComeNearerToTheLaw) {
     }
 }
 
-/// By itself, from nothing: as near as the square root of the precision, in a few steps.
+/// The interior-point method alone, from zero impulses, reaches the square root of the precision in a few
+/// steps.
 TYPED_TEST(Convergence, InteriorPointsEndNearTheLaw) {
     using S = TypeParam;
     int near = 0, all = 0;

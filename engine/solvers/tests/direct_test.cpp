@@ -76,8 +76,8 @@ TYPED_TEST(Direct, KeepTheirPromiseOnRandomProblems) {
                     << name << " " << seed;
             }
         }
-        // With friction there are problems without a solution, and neither fixed points nor Gauss-Seidel have
-        // a proof of convergence.
+        // Some problems with friction have no solution, and neither fixed points nor Gauss-Seidel have a
+        // proof of convergence.
         EXPECT_LE(gaveUp, 4) << name;
     }
 }
@@ -170,7 +170,7 @@ TYPED_TEST(Direct, RedundantRowsHaveAFiniteSolution) {
         p.addBody(1, 0.2, v);
         for (int i = 0; i < 2; ++i) p.addBall(0, 2, S::Vec::Unit(1), S::Vec::Zero());
         p.solve(*make<S>(name), 1000);
-        // In single precision nsgs may end a few roundings above its own goal; the residual below still
+        // Nsgs in single precision may end a few roundings above its own goal; the residual below still
         // holds.
         EXPECT_FALSE(p.gaveUp && sizeof(R) == 8) << name;
         ASSERT_TRUE(p.finite()) << name;

@@ -56,7 +56,7 @@ TEST(Dissections, EveryJointIsOrderedOnce) {
             const auto end = [&] {
                 return random() % 10 == 0 ? kNullIndex : std::uint32_t(random() % bodies);
             };
-            joints.push_back({end(), end()});  // also twice the same body, and no body at all
+            joints.push_back({end(), end()});  // includes the same body twice and no body
         }
         expectPermutation(dissectJoints(joints, bodies), joints.size());
     }
@@ -70,7 +70,7 @@ TEST(Dissections, TheLastJointsAreAllThatHoldsTwoHalvesTogether) {
     std::shuffle(joints.begin(), joints.end(), std::mt19937(9));
     const Nodes order = dissectJoints(joints, side * side);
     expectPermutation(order, joints.size());
-    Nodes set(side * side);  // of bodies that hang together
+    Nodes set(side * side);  // connected bodies
     std::iota(set.begin(), set.end(), 0u);
     const auto root = [&](std::uint32_t i) {
         while (set[i] != i) i = set[i];
@@ -85,7 +85,7 @@ TEST(Dissections, TheLastJointsAreAllThatHoldsTwoHalvesTogether) {
     EXPECT_EQ(sizes[1], side * side / 2);
 }
 
-/// Of n joints O(n log n) entries and O(n^1.5) products [George1973].
+/// A net of n joints has O(n log n) entries and O(n^1.5) products [George1973].
 TEST(Dissections, NetsHaveFewProducts) {
     for (const std::uint32_t side : {10u, 20u, 30u}) {
         const Joints joints = netOf(side);

@@ -74,7 +74,7 @@ TYPED_TEST(Friction, PyramidClampsEachTangent) {
     EXPECT_EQ(pyramid(2, 0, 4, Vec2(0, 0), Vec2(R(0.2), R(-0.4)), R(0.5)), Vec2(R(-0.1), R(0.1)));
 }
 
-/// On either side of either tangent alike; the second tangent sees what the first has done.
+/// The limit is the same on both sides of both tangents; the second tangent sees the effect of the first.
 TYPED_TEST(Friction, PyramidIsTheSameOnEverySideAndCouplesItsTangents) {
     using R = TypeParam;
     using Vec2 = Eigen::Matrix<R, 2, 1>;

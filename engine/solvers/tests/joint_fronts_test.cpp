@@ -96,7 +96,7 @@ TYPED_TEST(JointFrontsOf, RandomPatternsAreTheDenseSolution) {
                 Problem<TypeParam> p(size, nodes, degree, static_cast<unsigned>(nodes + size));
                 const auto n = static_cast<Eigen::Index>(nodes * size);
                 const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(n, -1, 2);
-                for (int round = 0; round < 2; ++round) {  // what is there from before does not matter
+                for (int round = 0; round < 2; ++round) {  // the content from before does not matter
                     p.factor();
                     const std::vector<TypeParam> x = p.solve(right);
                     Eigen::VectorXd found(n);

@@ -175,7 +175,7 @@ TYPED_TEST(JointSystems, RedundantRowsAreNoTrouble) {
     EXPECT_LT(this->residual(system, 4), isDouble(typename TypeParam::Real()) ? 1e-10 : 1e-4);
 }
 
-/// In the net's plane there are more rows than motions.
+/// A flat net has more rows than motions in its plane.
 TYPED_TEST(JointSystems, FlatNetsAreNoTrouble) {
     for (const std::uint32_t side : {3u, 5u, 9u, 14u}) {
         this->blocks.clear();

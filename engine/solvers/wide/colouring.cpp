@@ -43,8 +43,8 @@ void Colouring::divide(std::span<const PatchDescriptor> descriptors, std::size_t
         contacts_ += result.contacts;
         points_ += result.points;
     }
-    // As many partitions, a power of two, as have enough contacts and few cut ones. The number of the last
-    // call is tried first.
+    // The number of partitions is the largest power of two with enough contacts in each and few cut ones. The
+    // number of the last call is tried first.
     const std::size_t many = std::clamp<std::size_t>(contacts_ / kPartitionContacts, 1, kMaxPartitions);
     const int most = static_cast<int>(std::bit_width(many)) - 1;
     partitionBits_ = std::min(partitionBits_, most);
@@ -241,7 +241,7 @@ std::uint32_t Colouring::end(const Range& range, std::uint32_t sizeClass, std::u
 /// range, the split moves as far as needed towards an even split of every size class.
 Colouring::Split Colouring::split(const Range& range, double fraction) const {
     constexpr double kUneven = 1.0 / 16;  // a chunk may exceed its size by this fraction of a range
-    constexpr double kLeast = workOf(kSizeClasses) / 2;  // or by half a block
+    constexpr double kLeast = workOf(kSizeClasses) / 2;  // or by half a block, if that is more
     Split at;
     if (range.table == kNullIndex) {
         at.fill(range.last);

@@ -64,7 +64,7 @@ class Colouring {
         std::uint32_t first, last;
         std::uint32_t table;  ///< index of the table of its intervals; kNullIndex: a single overflow block
     };
-    /// Where a range is split between two threads: of each size class, before this block.
+    /// Split of a range between two threads: the block of each size class before which it is.
     using Split = std::array<std::uint32_t, kSizeClasses>;
 
     /// Assigns the contacts of a world of `bodies` bodies to blocks of `lanes` lanes.
@@ -96,8 +96,8 @@ class Colouring {
             std::uint32_t descriptor, bucket;  ///< bucket: by colour, size class and interval
         };
         std::vector<Member> members;
-        std::uint32_t intervals = 1;  ///< in each size class of a colour
-        std::uint32_t colours = 0;    ///< without the overflow
+        std::uint32_t intervals = 1;  ///< intervals in each size class of a colour
+        std::uint32_t colours = 0;    ///< number of colours without the overflow
         std::uint32_t block = 0, blocks = 0;
         std::vector<std::uint32_t> begin;  ///< first lane of each bucket in the group
         std::uint32_t perColour() const { return kSizeClasses * intervals; }
@@ -105,12 +105,12 @@ class Colouring {
     /// Result of one thread on its range of the descriptors. Sums over the threads do not depend on the
     /// ranges.
     struct alignas(64) ThreadResult {
-        std::vector<std::uint32_t> work;  ///< of the bodies of each bin
+        std::vector<std::uint32_t> work;  ///< work of the bodies of each bin
         std::size_t contacts, points;
         std::size_t pairs;                                ///< contacts of two moving bodies
         std::size_t cutPairs;                             ///< pairs of two partitions
         std::size_t finerCutPairs;                        ///< the same if there were twice as many partitions
-        std::vector<std::vector<std::uint32_t>> members;  ///< of each group
+        std::vector<std::vector<std::uint32_t>> members;  ///< members of each group
     };
     /// Bodies are assigned to intervals by bins of 2^binBits_ consecutive bodies; the most bins there are.
     static constexpr std::uint32_t kMaxBins = 1024;
@@ -134,8 +134,8 @@ class Colouring {
     std::uint32_t end(const Range& range, std::uint32_t sizeClass, std::uint32_t interval) const;
 
     int binBits_ = 0;                      ///< log2 of the number of bodies in a bin
-    std::vector<std::uint32_t> interval_;  ///< of each bin
-    std::vector<ThreadResult> results_;    ///< of each thread
+    std::vector<std::uint32_t> interval_;  ///< interval of each bin
+    std::vector<ThreadResult> results_;    ///< result of each thread
     int partitionBits_ = 0;                ///< log2 of the number of partitions
     std::vector<Partition> partitions_ = std::vector<Partition>(1);
     /// Cut contacts; static contacts, if there is one partition; then of each partition its pairs and its

@@ -24,7 +24,8 @@ struct PatchRange {
     /// Translations [m] and rotation vectors [rad] since the step began.
     const Velocity<S>* motions;
     bool shared = false;  ///< several threads work: other cores may hold the velocities in their caches
-    PatchFriction<S>* pointFriction = nullptr;  ///< of each block; for preparePatches, distributeFriction
+    PatchFriction<S>* pointFriction = nullptr;  ///< friction of each point, by block; used by preparePatches
+                                                ///< and distributeFriction
 };
 
 /// Makes rows from normals, arms and the impulses of the last step. Bodies have the velocities of the start

@@ -82,7 +82,7 @@ struct alignas(64) PatchBlock : PatchTorsion<S> {
     std::int32_t points;                 ///< largest number of points of a lane
     std::uint32_t bounces;               ///< one bit per lane: restitution > 0
     alignas(64) Lanes<Real> normal[PatchSize<S>::lin];
-    Lanes<Real> offset[PatchSize<S>::lin];  ///< from the centre of mass of A to that of B [m]
+    Lanes<Real> offset[PatchSize<S>::lin];  ///< vector from the centre of mass of A to that of B [m]
     Lanes<Real> center[PatchSize<S>::lin];  ///< center of pressure, from the centre of mass of B [m]
     Lanes<Real> invMassA, invMassB;
     Lanes<Real> invInertiaA[PatchSize<S>::inertia], invInertiaB[PatchSize<S>::inertia];
@@ -97,7 +97,8 @@ struct alignas(64) PatchBlock : PatchTorsion<S> {
 template <class S>
 struct alignas(64) PatchColdData {
     using Real = typename S::Real;
-    Lanes<Real> armB[PatchSize<S>::points][PatchSize<S>::lin];  ///< from the centre of mass of B [m]
+    Lanes<Real> armB[PatchSize<S>::points][PatchSize<S>::lin];  ///< vectors from the centre of mass of B to
+                                                                ///< the points [m]
     Lanes<Real> restitution;
     // --- of each point, where block.bounces
     Lanes<Real> rebound[PatchSize<S>::points];   ///< bias e J v_0 of a point that hits, < 0 [m/s]; else 0

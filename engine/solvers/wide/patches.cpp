@@ -30,7 +30,7 @@ std::size_t Patches<S>::rows() const {
 template <class S>
 void Patches<S>::assignLanes(const BodyArrays<S>& bodies, const Tasks& tasks) {
     const std::size_t n = bodies.size();
-    if (std::exchange(changed_, false)) {  // in most steps the assignment stays valid
+    if (std::exchange(changed_, false)) {  // false in most steps , in which the assignment stays valid
         colouring_.colour(descriptors_, n, kLanes, tasks);
         fractions_.clear();
         // The arrays never shrink, so that a steady state does not allocate.

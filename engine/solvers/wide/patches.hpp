@@ -99,7 +99,7 @@ class Patches {
     /// class, the blocks from splits_[splits + t] to splits_[splits + t + 1].
     struct Stage {
         std::size_t splits;
-        bool allClasses;  ///< else only the first size class is used
+        bool allClasses;  ///< false: only the first size class is used
     };
     void split(const Tasks& tasks);
     void addRangeStages();
@@ -124,9 +124,10 @@ class Patches {
     Colouring colouring_;
     std::size_t threads_ = 1;
     std::vector<double> fractions_;            ///< fraction of the work before each thread's; last: 1
-    std::vector<std::size_t> firstPartition_;  ///< of each thread; last: the number of partitions
-    std::vector<Stage> stages_;                ///< of the ranges, then of the partitions
-    std::vector<Colouring::Split> splits_;     ///< of all stages
+    std::vector<std::size_t> firstPartition_;  ///< first partition of each thread; last: the number of
+                                               ///< partitions
+    std::vector<Stage> stages_;                ///< stages of the ranges, then of the partitions
+    std::vector<Colouring::Split> splits_;     ///< splits of all stages
     std::vector<PatchBlock<F>> blocks_;
     std::vector<PatchColdData<F>> cold_;
     // --- by body

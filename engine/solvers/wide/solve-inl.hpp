@@ -189,7 +189,7 @@ struct NormalRow {
     AngVec<S> jB;
     Num<S> error;  ///< J v + bias before the pass
     Num<S> factor, leak, lambda;
-    Num<S> change;  ///< of lambda in this pass
+    Num<S> change;  ///< change of lambda in this pass
 
     template <class Group>
     HWY_INLINE NormalRow(const Group& p, const PatchPass& pass, const Along<S>& velocity,
@@ -320,7 +320,7 @@ HWY_INLINE void solveFriction(PatchGroup<S, based>& p, const NormalLoad<S>& load
     }
     const auto sticks = size2 <= sticking * sticking;
     Num<S> scale = one;
-    if (!hn::AllTrue(Tag<S>(), sticks)) {  // where it slides size2 > 0
+    if (!hn::AllTrue(Tag<S>(), sticks)) {  // lanes that slide have size2 > 0
         const Num<S> size = hn::Sqrt(hn::IfThenElse(sticks, one, size2));
         scale = hn::IfThenElse(sticks, one, p.at(block.friction) * load.sum / size);
     }

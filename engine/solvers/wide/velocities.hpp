@@ -72,7 +72,7 @@ class PatchVelocities {
   private:
     Velocity<S>* world_ = nullptr;
     Velocity<F>* data_ = nullptr;
-    std::vector<Velocity<F>> base_, remainder_;  ///< if split
+    std::vector<Velocity<F>> base_, remainder_;  ///< used if the velocities are split
     std::vector<Velocity<F>> before_;            ///< data() before a pass
 };
 
