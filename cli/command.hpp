@@ -35,7 +35,7 @@ enum ExitCode : int {
     kInterrupted = 130  ///< Ctrl-C; `validate --resume` goes on
 };
 
-/// What a sub-command does once its arguments are parsed; returns the exit code.
+/// Work of a sub-command after its arguments are parsed; returns the exit code.
 using Action = std::function<int()>;
 
 void addValidate(CLI::App& app, Action& action);
@@ -57,11 +57,11 @@ void addView(CLI::App& app, Action& action);
 
 /// This program's own file.
 std::filesystem::path ownBinary();
-/// How this program was called, as one would type it: "./rigor validate smoke -j 2".
+/// Command line of this program, as one would type it: "./rigor validate smoke -j 2".
 std::string ownCommandLine();
 
-/// Where a terminal reads, whether it can take back a line (TERM=dumb can not), and whether it wants colours
-/// (NO_COLOR is respected).
+/// Properties of the output: whether it is a terminal, whether it can take back a line (TERM=dumb can not),
+/// and whether it wants colours (NO_COLOR is respected).
 bool isTerminal(int fileDescriptor);
 bool canRewriteLines(int fileDescriptor);
 bool wantsColour(int fileDescriptor);
@@ -80,7 +80,7 @@ scenario::LoadedScenario loadWithReference(const std::string& nameOrFile,
                                            validation::ReferenceCheck* found = nullptr);
 bool isBrokenReference(const scenario::Problem& problem);
 
-/// Whether a name is that of a suite of the library, or a file that is one.
+/// True if a name is that of a suite of the library, or a file that is one.
 bool isSuite(const std::string& name);
 /// The scenarios of `given`, in which suites stand for theirs.
 std::vector<std::string> scenarioNames(const std::vector<std::string>& given);
@@ -88,8 +88,8 @@ std::vector<std::string> scenarioNames(const std::vector<std::string>& given);
 /// --reference-limit SECONDS
 void addReferenceLimit(CLI::App& command, validation::ReferenceLimits& limits);
 
-/// Whether `--set` changed more than the acceptance bounds: simulation and reference follow the new values,
-/// the bounds in the file were measured at its own.
+/// True if `--set` changed more than the acceptance bounds: simulation and reference follow the new values,
+/// the bounds in the file were measured at the file's values.
 bool setsMoreThanBounds(const std::vector<std::string>& overrides);
 
 inline constexpr const char* kBoundsNote =
@@ -99,7 +99,7 @@ inline constexpr const char* kBoundsNote =
 /// Says on stderr what became better or worse in a run since `baseline`: run folders with commas between, or
 /// "recorded". Throws std::invalid_argument where there is no such run.
 bool becameWorseThan(const std::string& baseline, const std::filesystem::path& run);
-/// Where the library keeps what each engine version gave.
+/// Folder in which the library keeps the recorded results of each engine version.
 std::filesystem::path recordedFolder();
 /// Throws std::invalid_argument when `baseline` names no run; empty is fine.
 void checkBaseline(const std::string& baseline);

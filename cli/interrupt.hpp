@@ -10,7 +10,7 @@
 
 namespace rigor::cli {
 
-/// From now on these signals set the flag that is returned, instead of ending the program.
+/// Makes these signals set the flag that is returned, instead of ending the program.
 const std::atomic<bool>& catchInterrupts(std::initializer_list<int> signals = {SIGINT, SIGTERM});
 
 }  // namespace rigor::cli

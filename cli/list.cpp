@@ -38,7 +38,7 @@ Json optionJson(const adapter::Option& option, const std::vector<adapter::Preset
     return json;
 }
 
-/// What is missing goes by whose it is.
+/// Capabilities as JSON; missing features are listed under the adapter or the library that lacks them.
 Json capabilitiesJson(const adapter::Capabilities& c) {
     Json json = adapter::capabilitiesToJson<Json>(c);
     json.erase("library_lacks");
@@ -123,7 +123,7 @@ Json choiceJson(const std::string& stage, const std::string& name, bool isDefaul
             {"spec", std::string(validation::kInHouseEngine) + ":" + stage + "=" + name}};
 }
 
-/// What is asked for by what a scenario (and in C++ the world) is made of, not by a key.
+/// A feature that is requested by the content of a scenario (in C++ of the world), not by a key.
 Json partJson(const char* stage, const std::string& name, const std::string& summary, const char* asked) {
     return {{"name", name}, {"stage", stage}, {"default", false}, {"summary", summary}, {"asked", asked}};
 }
@@ -158,7 +158,7 @@ Json algorithms() {
             list.push_back(choiceJson(family.name, algorithm.name, algorithm.name == family.defaultChoice,
                                       algorithm.summary));
         }
-        // What other engines' modules lend.
+        // Algorithms that other engines' modules provide.
         for (const auto& option : rigor.options)
             if (option.key == family.name)
                 for (const auto& value : option.values)
@@ -210,7 +210,7 @@ struct Listing {
     const char* name;
     const char* help;
     Json (*make)();
-    std::vector<const char*> columns;  ///< of the table for people
+    std::vector<const char*> columns;  ///< columns of the table that is printed
 };
 
 const std::vector<Listing>& listings() {
@@ -260,7 +260,7 @@ void printTable(const Json& list, const std::vector<const char*>& columns) {
     for (const auto& row : list) printRow([&](const char* column) { return cellText(row.at(column)); });
 }
 
-/// What the format can ask for and is refused, the adapters' share and the libraries'.
+/// Prints the features of the format that engines refuse, those of adapters and those of libraries apart.
 void printLacks(const Json& engineList) {
     for (const auto& engine : engineList) {
         if (!engine.at("problem").get<std::string>().empty()) continue;

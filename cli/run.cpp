@@ -48,13 +48,14 @@ void writeCsvRows(std::ostream& out, double time, std::span<const validation::Bo
     }
 }
 
-/// What `--log` asks for.
+/// Content of the log that `--log` requests.
 validation::LogWhat logWhat(const std::string& name) {
     if (name == "contacts") return validation::LogWhat::Contacts;
     return name == "events" ? validation::LogWhat::Events : validation::LogWhat::All;
 }
 
-/// On standard error, whole steps at a time, so that a reader at the other end of a pipe follows the run.
+/// Writes to standard error, whole steps at a time, so that a reader at the other end of a pipe follows the
+/// run.
 void writeLog(const std::string& lines) {
     if (lines.empty()) return;
     std::fwrite(lines.data(), 1, lines.size(), stderr);
@@ -147,7 +148,7 @@ void printCase(const results::CaseRow& row, bool json) {
     if (const auto* step = report::stepTiming(row)) printStep(*step);
 }
 
-/// What a library throws is its own failure, not ours: a red row, as in `validate`.
+/// An exception of a library is a failure of its engine: a red row, as in `validate`.
 validation::LiveCase runEngine(const scenario::Scenario& s, const adapter::EngineSpec& spec, double dt,
                                const validation::LiveOptions& options) {
     (void)adapter::moduleFor(spec);

@@ -39,8 +39,8 @@ struct ValidateArguments {
 
 const std::string kDefaultSuite = "standard";
 
-/// What the positional arguments name, flattened: scenarios with their text, the engines and steps a suite
-/// asks for.
+/// Content of the positional arguments, flattened: scenarios with their text, the engines and steps that a
+/// suite requests.
 struct Selection {
     std::vector<std::pair<scenario::Scenario, std::string>> scenarios;
     std::vector<std::string> engines;
@@ -185,7 +185,7 @@ void printResult(const results::Run& run, const fs::path& directory, bool json) 
         report::terminalSummary(run, 40, terminalColumns(STDOUT_FILENO), wantsColour(STDOUT_FILENO)).c_str());
 }
 
-/// What the run that is resumed was asked for.
+/// Positional arguments of the run that is resumed.
 std::vector<std::string> resumedWhat(const ValidateArguments& arguments) {
     const fs::path directory = chooseRunFolder(arguments.out, arguments.resume, "");
     prepareRunFolder(directory, true);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// From the engines to the page: what the replay draws at the frame that a link of the contact audit opens is
-// the contact that was measured.
+// Test from the engines to the page: the contact that the replay draws at the frame that a link of the
+// contact audit opens is the one that was measured.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ const adapter::ContactPoint& deepestOf(const AuditQuery& q) {
                              [](const auto& a, const auto& b) { return a.depth < b.depth; });
 }
 
-/// Of the shapes that a question is about, the one at the place of the contact that was measured.
+/// The shown contact of the query's shapes that is at the place of the measured contact.
 const ShownContact* shownOf(const AuditQuery& q, const std::vector<ShownContact>& shown) {
     const Vec3 where = deepestOf(q).pointA;
     const ShownContact* nearest = nullptr;

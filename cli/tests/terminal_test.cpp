@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What `rigor validate` shows while it works and at its end: at a terminal, at one that wants no colours, at
+// Output of `rigor validate` while it works and at its end: at a terminal, at one that wants no colours, at
 // one that can not take a line back, and through a pipe.
 #include <gtest/gtest.h>
 #include <pty.h>
@@ -23,7 +23,7 @@ using rigor::cli_test::rigor;
 
 constexpr int kColumns = 100;
 
-/// Whether this place has pseudo-terminals at all: a bare container may not.
+/// True if this system has pseudo-terminals: a bare container may have none.
 bool hasTerminals() {
     int terminal = -1, other = -1;
     if (openpty(&terminal, &other, nullptr, nullptr, nullptr) != 0) return false;

@@ -21,7 +21,7 @@ namespace rigor::view {
 /// The parts of a request that the decision depends on; "" where a header is absent.
 struct Credentials {
     std::string method, path, host, origin, cookie, contentType, fetchSite;
-    std::string token;  ///< of the query
+    std::string token;  ///< token of the query
     int hosts = 1;      ///< number of Host headers
 };
 

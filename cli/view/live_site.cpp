@@ -15,7 +15,7 @@ namespace {
 using validation::CommandError;
 using Json = nlohmann::json;
 
-constexpr int kMostWaiting = 8;  ///< so that there are threads left for commands
+constexpr int kMostWaiting = 8;  ///< limit that leavesthreads for commands
 constexpr double kLongestWait = 20.0;
 
 constexpr const char* kPage =
@@ -33,7 +33,7 @@ Reply scenarios() {
     return json(list.dump());
 }
 
-/// Only what the library lists: the page is no way to read files.
+/// Text of a scenario that the library lists; no other file can be read through the page.
 std::string libraryText(const std::string& name) {
     const auto all = scenario::listScenarios();
     const auto it = std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.name == name; });

@@ -20,9 +20,9 @@ using results::Channel;
 using results::ContactSample;
 using results::TrajectoryFile;
 
-constexpr std::size_t kMostNumbers = 2 << 20;  ///< of an answer: 16 MiB
+constexpr std::size_t kMostNumbers = 2 << 20;  ///< size limit of a response: 16 MiB
 
-/// What a report is made of; everything else of the folder (the store, trajectories) stays where it is.
+/// Types of the files of a report; everything else of the folder (the store, trajectories) stays where it is.
 constexpr std::array<std::pair<const char*, const char*>, 9> kTypes{{
     {".html", "text/html; charset=utf-8"},
     {".js", "text/javascript; charset=utf-8"},

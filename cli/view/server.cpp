@@ -42,7 +42,7 @@ Request requestOf(const httplib::Request& received) {
 
 struct Server::Impl {
     explicit Impl(Site& s) : site(s) {
-        // Without the library's SO_REUSEPORT: no other process may listen on our port.
+        // The library's SO_REUSEPORT is left out, so that no other process can listen on this port.
         http.set_socket_options([](auto) {});
         http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
         http.set_payload_max_length(kMostBody);

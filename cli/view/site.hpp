@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a server serves: requests to answers, without HTTP.
+// Interface from requests to responses, without HTTP.
 #pragma once
 
 #include <map>
@@ -25,13 +25,13 @@ struct Reply {
     std::string body;
 };
 Reply json(const std::string& text);
-Reply problem(int status, const std::string& message);  ///< as {"error": message}
+Reply problem(int status, const std::string& message);  ///< response {"error": message}
 Reply notFound();
 
 class Site {
   public:
     virtual ~Site() = default;
-    /// From any thread. What it throws becomes a 400 (std::invalid_argument) or a 500.
+    /// Called from any thread. An exception becomes a 400 (std::invalid_argument) or a 500.
     virtual Reply answer(const Request& request) = 0;
     /// Sent with every response.
     virtual std::string contentSecurityPolicy() const = 0;

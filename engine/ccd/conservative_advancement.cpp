@@ -42,7 +42,8 @@
 namespace rigor::engine {
 namespace {
 
-constexpr int kMaxImpacts = 32;  // of one body in one (sub-)step: a sphere rattling between two walls
+// maximum number of impacts of one body in one (sub-)step: a sphere rattling between two walls
+constexpr int kMaxImpacts = 32;
 
 template <class S>
 class ConservativeAdvancement final : public ContinuousCollision<S> {
@@ -95,7 +96,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         Velocity<S> velocity;
         Real begin = 0;  ///< [s]
         int impacts = 0;
-        bool changed = false;       ///< by an impact
+        bool changed = false;       ///< true if an impact has changed it
         Vec origin = Vec::Zero();   ///< position at the start of the (sub-)step
         Ang turned = zeroAng<S>();  ///< rotation vectors of the ways before this one, added up
     };
@@ -129,7 +130,8 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
                 way.velocity,  record.boundingRadius, record.inscribedRadius};
     }
 
-    /// If two shapes may pass unseen, at least one of them moves by more than half of its own thickness.
+    /// True if the shape is fast. If two shapes may pass through each other within a step, at least one of
+    /// them moves by more than half of its own thickness.
     bool isFast(const MovedWorld<S>& world, std::uint32_t shape) const {
         const MovingShape<S> m = moving(world, shape, 0);
         return m.motion(world.h) > Real(0.5) * m.inscribedRadius;
@@ -257,7 +259,7 @@ class ConservativeAdvancement final : public ContinuousCollision<S> {
         }
     }
 
-    std::vector<Way> ways_;            ///< by dense body index
+    std::vector<Way> ways_;            ///< motion of each body by dense body index
     std::vector<Vec> kick_;            ///< velocities before the kick, then what forces added to them
     std::vector<std::uint32_t> fast_;  ///< shapes, sorted
     std::vector<Aabb<S>> boxes_;       ///< swept, by shape

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What keeps fast bodies from passing through thin ones: the family `continuous_collision`. A choice may look
-// ahead when contacts are found, or look back at the way the bodies have moved, or both.
+// Continuous collision, which keeps fast bodies from passing through thin ones: the family
+// `continuous_collision`. A choice may add contacts in advance when contacts are found, or examine the motion
+// of the bodies afterwards, or both.
 #pragma once
 
 #include <memory>
@@ -23,7 +24,7 @@ namespace rigor::engine {
 template <class S>
 struct ImpactEvent {
     BodyId a, b;               ///< A is the body of lower dense index
-    typename S::Real time;     ///< since the step began [s]
+    typename S::Real time;     ///< time since the step began [s]
     typename S::Vec point;     ///< halfway between the closest points, world frame [m]
     typename S::Vec normal;    ///< unit, A to B
     typename S::Real impulse;  ///< along the normal [N s], >= 0
@@ -39,8 +40,8 @@ struct MovedWorld {
     const NarrowPhase<S>& narrowPhase;
     FrictionLaw<S> friction;
     Real restitutionThreshold;  ///< [m/s]
-    Real h;                     ///< of the (sub-)step [s]
-    Real begin;                 ///< since the step began [s]
+    Real h;                     ///< length of the (sub-)step [s]
+    Real begin;                 ///< start time of the (sub-)step since the step began [s]
 };
 
 template <class S>
@@ -62,10 +63,10 @@ class ContinuousCollision : public LookAhead<S> {
     // --- around the move, once per sub-step
     /// Where and how fast the bodies are before forces and constraints of the sub-step.
     virtual void remember(const BodyArrays<S>& bodies) { (void)bodies; }
-    /// What forces alone have made of the velocities.
+    /// Stores the velocities after forces alone have acted.
     virtual void rememberKick(const BodyArrays<S>& bodies) { (void)bodies; }
-    /// After the bodies have moved. Events are appended in the order of time; does what it says to poses and
-    /// velocities. False: it had to leave a body behind.
+    /// Called after the bodies have moved. Changes poses and velocities by the impacts; events are appended
+    /// in the order of time. False: the rest of a body's motion in this step was lost.
     virtual bool resolve(const MovedWorld<S>& world, std::vector<ImpactEvent<S>>& events) {
         (void)world;
         (void)events;

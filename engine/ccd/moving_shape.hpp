@@ -21,7 +21,7 @@ typename S::Real inscribedRadiusOf(const Shape<S>& shape);
 template <class S>
 typename S::Vec middleOf(const Shape<S>& shape);
 
-/// How far the shape's core reaches from a point at `local.p` beyond its frame's origin, i.e. from the
+/// Bounding radius of the shape's core about a point at `local.p` beyond its frame's origin, i.e. about the
 /// body's centre of mass [m]. The core is the shape without its rounding radius: the turning of a sphere
 /// about its own centre moves nothing.
 template <class S>
@@ -36,8 +36,8 @@ Pose<S> movedPose(const Pose<S>& X, const Velocity<S>& velocity, typename S::Rea
 template <class S>
 struct MovingShape {
     const Shape<S>* shape = nullptr;
-    Pose<S> local;                         ///< in the frame at the body's centre of mass
-    Pose<S> body;                          ///< of that frame, at time 0
+    Pose<S> local;                         ///< pose in the frame at the body's centre of mass
+    Pose<S> body;                          ///< pose of that frame, at time 0
     Velocity<S> velocity;                  ///< constant
     typename S::Real boundingRadius = 0;   ///< coreBoundingRadius [m]
     typename S::Real inscribedRadius = 0;  ///< inscribedRadiusOf [m]
@@ -57,8 +57,8 @@ Velocity<S> straightVelocity(const Pose<S>& start, const Pose<S>& end, const Vel
     return {(end.p - start.p) / h, used.w + logMap(rest) / h};
 }
 
-/// Both may cross each other within t [s] without an overlap ever being seen at its ends: what they move
-/// relative to each other is more than half of what they are thick together.
+/// True if both may cross each other within t [s] without an overlap at the start or the end: their relative
+/// motion is more than half of the sum of their thicknesses.
 template <class S>
 bool mayPassUnseen(const MovingShape<S>& a, const MovingShape<S>& b, typename S::Real t);
 

@@ -126,8 +126,8 @@ class Speculative final : public ContinuousCollision<S> {
 
   private:
     Real h_ = 0;
-    std::vector<Pose<S>> starts_;         ///< of the (sub-)step
-    std::vector<MovingShape<S>> moving_;  ///< by dense shape index
+    std::vector<Pose<S>> starts_;         ///< start poses of the (sub-)step
+    std::vector<MovingShape<S>> moving_;  ///< motion of each shape by dense shape index
 };
 
 }  // namespace

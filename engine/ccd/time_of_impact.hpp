@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// When do two moving convex shapes meet?
+// Time of impact of two moving convex shapes.
 #pragma once
 
 #include "engine/ccd/moving_shape.hpp"
@@ -14,10 +14,11 @@ template <class S>
 struct TimeOfImpact {
     using Real = typename S::Real;
     bool hit = false;
-    Real time = 0;      ///< where the bodies are put: within the tolerance of each other, not overlapping [s]
-    Real exact = 0;     ///< time extrapolated to a gap of zero [s]
-    Real approach = 0;  ///< closing speed of the closest points then [m/s], > 0 if converged
-    ClosestPoints<S> closest;  ///< at `time`
+    Real time = 0;             ///< time at which the shapes are within the tolerance of each other and do not
+                               ///< overlap [s]
+    Real exact = 0;            ///< time extrapolated to a gap of zero [s]
+    Real approach = 0;         ///< closing speed of the closest points then [m/s], > 0 if converged
+    ClosestPoints<S> closest;  ///< closest points at `time`
     int evaluations = 0;       ///< distance queries
     bool converged = true;     ///< false: gave up; the answer is the last safe time
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What choices of continuous collision declare of themselves (core/traits.hpp).
+// Traits of the choices of continuous collision (core/traits.hpp).
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace rigor::engine {
 
 struct ContinuousCollisionTraits {
     bool acts = true;        ///< fast bodies do not pass through thin ones
-    bool losesRest = false;  ///< what an impact leaves of a step of a fast body is lost
+    bool losesRest = false;  ///< the motion of a fast body in the rest of the step after an impact is lost
 };
 std::span<const TraitsEntry<ContinuousCollisionTraits>> continuousCollisionTraitsTable();
 

@@ -72,7 +72,7 @@ void addOrientationRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& 
     }
 }
 
-// With t1, t2 normal to aA and fixed in A:  C_i = t_i . aB,  C_i_dot = (wB - wA) . (aB x t_i).
+// Rows for t1, t2 normal to aA and fixed in A:  C_i = t_i . aB,  C_i_dot = (wB - wA) . (aB x t_i).
 template <class S>
 void addParallelRows(const Joint<S>& joint, const Pose<S>& A, const Pose<S>& B, JointRows<S>& out) {
     if constexpr (S::dim == 3) {

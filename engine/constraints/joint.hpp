@@ -23,12 +23,12 @@ struct Joint {
     JointType type = JointType::Ball;
     std::uint32_t a = 0, b = 0;  ///< dense body indices
     bool collideConnected = false;
-    Vec anchorA, anchorB;  ///< from the centres of mass, body axes [m]
+    Vec anchorA, anchorB;  ///< vectors from the centres of mass, body axes [m]
     Vec axisA, axisB;      ///< unit, body axes
-    Vec perpA1, perpA2;    ///< with axisA an orthonormal frame of A (2D: perpA1 alone)
+    Vec perpA1, perpA2;    ///< complete axisA to an orthonormal frame of A (2D: perpA1 alone)
     Vec turnA, turnB;      ///< the axis that B turns about: axisA and axisB, but for a wheel
     Vec turnPerpA1, turnPerpA2;
-    Vec turnPerpB1;                ///< in B, parallel to turnPerpA1 at angle zero
+    Vec turnPerpB1;                ///< vector in B, parallel to turnPerpA1 at angle zero
     typename S::Rot relative;      ///< qA^-1 qB when the joint was made
     Real length = 0;               ///< [m]
     int axisCount = 0;             ///< coordinates
@@ -58,7 +58,8 @@ struct RowLaw {
     Softness<Real> softness;          ///< spring where frequency > 0: instead of stiffness and damping
 };
 
-inline constexpr int kMaxRowsPerJoint = 24;  ///< of all roles: two limits, motor and spring per coordinate
+inline constexpr int kMaxRowsPerJoint = 24;  ///< rows of all roles: two limits, motor and spring per
+                                             ///< coordinate
 
 /// Jacobian rows and errors of a joint at given poses; equality rows come first. Only lin, angA and angB of
 /// the rows are filled. The number and the roles of the rows do not depend on the poses. A joint adds its
@@ -73,7 +74,7 @@ struct JointRows {
     /// Coordinates are wanted even where no row needs them.
     bool reading = false;
     int axes = 0;
-    std::array<Real, kMaxJointAxes> value;    ///< of the coordinates [m] or [rad]
+    std::array<Real, kMaxJointAxes> value;    ///< values of the coordinates [m] or [rad]
     std::array<Row<S>, kMaxJointAxes> along;  ///< their rates are J v of these
 
     void clear() { count = equalities = axes = 0; }

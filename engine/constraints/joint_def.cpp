@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// From a joint's definition to the joint: checks, frames, what each coordinate may do.
+// Conversion of a joint's definition to the joint: checks, frames, modes of the coordinates.
 #include "engine/constraints/joint.hpp"
 #include "engine/core/error.hpp"
 
@@ -27,7 +27,7 @@ bool untouched(const JointAxis<R>& axis) {
     return axis.mode == AxisMode::Usual && !axis.hasMotor() && !axis.hasSpring();
 }
 
-/// Whether the joint has an axis of its own that the definition must give.
+/// True if the joint has an axis of its own that the definition must give.
 template <class S>
 bool usesAxis(const JointDef<S>& def) {
     switch (def.type) {

@@ -25,19 +25,19 @@
 
 namespace rigor::engine {
 
-inline constexpr int kMaxJointRows = 6;  ///< of a Joint block
+inline constexpr int kMaxJointRows = 6;  ///< maximum number of rows of a Joint block
 
 template <class S>
 struct Row {
     using Real = typename S::Real;
-    typename S::Vec lin = S::Vec::Zero();  ///< of B; A has -lin
+    typename S::Vec lin = S::Vec::Zero();  ///< linear part of the Jacobian for B; A has -lin
     typename S::Ang angA = zeroAng<S>(), angB = zeroAng<S>();
     typename S::Ang invIAngA = zeroAng<S>(), invIAngB = zeroAng<S>();  ///< world inverse inertia times ang
     Real bias = 0;                                                     ///< [m/s] or [rad/s]
     Real softness = 0;                                                 ///< >= 0 [1/kg] or [1/(kg m^2)]
     Real impulse = 0;                                                  ///< accumulated, [N s] or [N m s]
     Real invK = 0;  ///< effective mass 1 / (J M^-1 J^T + softness) of this row alone
-    Real lower = -std::numeric_limits<Real>::infinity();  ///< of the impulse; read for Bounded blocks
+    Real lower = -std::numeric_limits<Real>::infinity();  ///< bounds of the impulse; read for Bounded blocks
     Real upper = std::numeric_limits<Real>::infinity();
     Real error = 0;  ///< C where the row was made: < 0 for overlap and violated limits [m] or [rad]
     /// Bias and softness once the bodies have moved and the error needs no more velocity

@@ -18,14 +18,14 @@ struct Softness {
     R dampingRatio = 1;
 };
 
-/// What a soft error contributes to its row.
+/// Terms that a soft error contributes to its row.
 template <class R>
 struct SoftTerms {
     R biasRate = 0;  ///< bias per C [1/s]
     R gamma = 0;     ///< Row::softness
 };
 
-/// From frequency and damping ratio, for a row of K = J M^-1 J^T over a step of h [s].
+/// Terms from frequency and damping ratio, for a row of K = J M^-1 J^T over a step of h [s].
 template <class R>
 SoftTerms<R> softTerms(const Softness<R>& s, R K, R h) {
     const R omega = R(6.283185307179586) * s.frequency;
@@ -33,7 +33,7 @@ SoftTerms<R> softTerms(const Softness<R>& s, R K, R h) {
     return {omega / a, K / (h * omega * a)};
 }
 
-/// From stiffness k >= 0 [N/m] (or [N m/rad]) and damping c >= 0 [N s/m], not both 0.
+/// Terms from stiffness k >= 0 [N/m] (or [N m/rad]) and damping c >= 0 [N s/m], not both 0.
 template <class R>
 SoftTerms<R> springTerms(R k, R c, R h) {
     const R gamma = R(1) / (h * (c + h * k));

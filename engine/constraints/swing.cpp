@@ -39,7 +39,8 @@ struct Swing {
         cosine = x.dot(b);
         sine = normal.norm();
         phi = std::atan2(sine, cosine);
-        // Of nearly parallel vectors the product is rounding, in any direction: made normal to x again.
+        // The cross product of nearly parallel vectors is rounding in any direction: it is made normal to x
+        // again.
         const Vec u = normal - x.dot(normal) * x;
         const Real length = u.norm();
         n = length > std::numeric_limits<Real>::min() ? Vec(u / length) : y;

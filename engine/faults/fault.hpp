@@ -24,7 +24,7 @@ template <class S>
 struct ContactRows {
     Block<S>& block;
     std::span<Row<S>> rows;            ///< [0] the normal, then friction
-    typename S::Real restitution = 0;  ///< of the pair of surfaces
+    typename S::Real restitution = 0;  ///< coefficient of the pair of surfaces
     typename S::Real approach = 0;    ///< n . (relative velocity) with this step's forces [m/s], < 0: closing
     typename S::Real separation = 0;  ///< [m], < 0: overlap
 };
@@ -35,16 +35,17 @@ class Fault {
     using Real = typename S::Real;
     virtual ~Fault() = default;
 
-    /// After the broad phase: `movable` by proxy, `pairs` for the narrow phase, sorted.
+    /// Called after the broad phase: `movable` by proxy, `pairs` for the narrow phase, sorted.
     virtual void pairs(std::span<const std::uint8_t> /*movable*/, std::vector<ProxyPair>& /*pairs*/) const {}
-    /// After the narrow phase, for every manifold. `step` counts from 0.
+    /// Called after the narrow phase for every manifold. `step` counts from 0.
     virtual void manifold(const Shape<S>& /*a*/, const Pose<S>& /*Xa*/, const Shape<S>& /*b*/,
                           const Pose<S>& /*Xb*/, std::uint64_t /*step*/, Manifold<S>& /*manifold*/) const {}
-    /// After forces have acted on the velocities and before impulses do, for every contact point with rows.
+    /// Called after forces have acted on the velocities and before impulses do, for every contact point with
+    /// rows.
     virtual void contact(ContactRows<S>& /*rows*/) const {}
-    /// After the velocity solver.
+    /// Called after the velocity solver.
     virtual void solved(BodyArrays<S>& /*bodies*/, const ConstraintRows<S>& /*rows*/) const {}
-    /// After bodies have moved over h [s]; `start` are the orientations before, by dense index.
+    /// Called after bodies have moved over h [s]; `start` are the orientations before, by dense index.
     virtual void moved(BodyArrays<S>& /*bodies*/, std::span<const typename S::Rot> /*start*/,
                        Real /*h*/) const {}
     /// Bodies that stand still for everyone else move: what is kept of them must be found again.

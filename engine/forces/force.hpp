@@ -28,7 +28,7 @@ struct ConstantForce {
 template <class S>
 struct LinearSpring {
     BodyId bodyA, bodyB;  ///< null: the world; at least one is dynamic
-    typename S::Vec anchorA = S::Vec::Zero(), anchorB = S::Vec::Zero();  ///< in the body frames [m]
+    typename S::Vec anchorA = S::Vec::Zero(), anchorB = S::Vec::Zero();  ///< anchors in the body frames [m]
     typename S::Real stiffness = 0;                                      ///< [N/m], >= 0
     typename S::Real damping = 0;                                        ///< [N s/m], >= 0
     typename S::Real restLength = 0;                                     ///< [m], >= 0
@@ -57,7 +57,7 @@ struct ForceMoment {
     std::span<Wrench<S>> wrench;  ///< forces add to it
 };
 
-/// Where a force acts: dense indices and arms from the centres of mass in body axes [m].
+/// Place at which a force acts: dense indices and arms from the centres of mass in body axes [m].
 template <class S>
 struct ForcePlace {
     std::uint32_t a = 0, b = 0;
@@ -84,7 +84,7 @@ using ForceDef = VariantAfterFirst<S
 #include "engine/forces/forces.def"
 #undef FORCE
 
-/// Both of a kind for all spaces; at the end of its file.
+/// Instantiates both functions of a kind of force for all spaces; used at the end of its file.
 #define RIGOR_INSTANTIATE_FORCE_IN(Kind, S)      \
     template void checkForce<S>(const Kind<S>&); \
     template void addForce<S>(const Kind<S>&, const ForcePlace<S>&, const ForceMoment<S>&)

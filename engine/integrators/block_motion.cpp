@@ -68,7 +68,8 @@ void BlockMotion<S>::begin(const BodyArrays<S>& bodies, const typename S::Vec& g
             twisted_.push_back(i);
 }
 
-/// What forces add in a sub-step, but for torques on bodies that are not round.
+/// Computes the velocity change by forces in a sub-step, except by torques on bodies whose inertia is not
+/// isotropic.
 template <class S>
 void BlockMotion<S>::addKick(const BodyArrays<S>& bodies, std::size_t i, const typename S::Vec& gravity,
                              Real h) {

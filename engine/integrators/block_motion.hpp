@@ -27,7 +27,7 @@ class BlockMotion {
     explicit BlockMotion(bool gyroscopic) : gyroscopic_(gyroscopic) {}
     bool gyroscopic() const { return gyroscopic_; }
 
-    /// Before the sub-steps of h [s] of a step; world inertias are those of the bodies' poses.
+    /// Called before the sub-steps of h [s] of a step; world inertias are those of the bodies' poses.
     void begin(const BodyArrays<S>& bodies, const typename S::Vec& gravity, Real h, const Tasks& tasks);
     // --- in each of them, as Motion's
     void kick(BodyArrays<S>& bodies, Real h, const Tasks& tasks);
@@ -40,9 +40,10 @@ class BlockMotion {
 
     bool gyroscopic_ = true;
     std::vector<Velocity<S>> kept_, add_;
-    std::vector<BodyBlock> moving_;           ///< of the bodies 8 k .. 8 k + 7
+    std::vector<BodyBlock> moving_;           ///< blocks of the bodies 8 k .. 8 k + 7
     std::vector<TumblingBlock<S>> tumbling_;  ///< likewise; none where there is no gyroscopic term
-    std::vector<std::uint32_t> twisted_;  ///< by torques, and not round, where there is no gyroscopic term
+    std::vector<std::uint32_t> twisted_;  ///< bodies with torques and an inertia that is not isotropic; used
+                                          ///< without gyroscopic term
 };
 
 }  // namespace rigor::engine

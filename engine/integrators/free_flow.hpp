@@ -13,12 +13,12 @@
 
 namespace rigor::engine {
 
-/// What acts on the bodies besides constraints. The bodies' own wrenches come on top.
+/// Loads on the bodies besides constraints. The bodies' own wrenches come on top.
 template <class S>
 struct Load {
     typename S::Vec gravity = S::Vec::Zero();  ///< [m/s^2]
-    const ForceSet<S>* forces = nullptr;       ///< may be null
-    double time = 0;                           ///< at the start of the step or sub-step [s]
+    const ForceSet<S>* forces = nullptr;       ///< forces; may be null
+    double time = 0;                           ///< time at the start of the step or sub-step [s]
 };
 
 /// Copies of the bodies' states that an integrator may move about.
@@ -60,8 +60,8 @@ class FreeFlow {
 
     // --- what the stages of an integrator share
     struct Rate {
-        Vec p, v;        ///< of position [m/s] and velocity [m/s^2]
-        Ang turn, spin;  ///< of rotation vector [rad/s] and of angular momentum or velocity
+        Vec p, v;        ///< rates of position [m/s] and velocity [m/s^2]
+        Ang turn, spin;  ///< rates of rotation vector [rad/s] and of angular momentum or velocity
     };
     std::vector<Pose<S>> startPose;
     std::vector<Velocity<S>> startVelocity;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What every integrator uses: damping solved exactly over a step, and motion at constant velocity.
+// Functions that every integrator uses: damping solved exactly over a step, and motion at constant velocity.
 #include <cmath>
 
 #include "engine/integrators/integrator.hpp"
@@ -23,7 +23,7 @@ void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, ty
               TurnRotation<S> turn, const Tasks& tasks) {
     tasks.forEach(bodies.size(), kBodyGrain, [&](std::size_t i) {
         if (bodies.constants[i].type == BodyType::Static) return;
-        // Not even the rounding of a rotation by nothing.
+        // A sleeping body does not change, not even by the rounding of a zero rotation.
         if (i < bodies.asleep.size() && bodies.asleep[i]) return;
         bodies.pose[i].p += h * velocities[i].v;
         bodies.pose[i].q = turn(bodies.pose[i].q, typename S::Ang(h * velocities[i].w));

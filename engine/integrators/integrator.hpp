@@ -13,7 +13,7 @@
 
 namespace rigor::engine {
 
-/// What a damping factor and a force do to a velocity in one step of h:  v' = kept v + kick a.
+/// Effect of a damping factor and a force on a velocity in one step of h:  v' = kept v + kick a.
 template <class R>
 struct DampedStep {
     R kept = 1;  ///< factor on the velocity
@@ -62,12 +62,13 @@ void moveWith(BodyArrays<S>& bodies, std::span<const Velocity<S>> velocities, ty
 /// The gyroscopic term of one body. 2D: nothing to do.
 template <class S>
 struct RotationScheme {
-    /// Before the constraints: from the angular velocity w (forces already in it) the one that constraints
-    /// act on and that moves the body.
+    /// Called before the constraints: computes from the angular velocity w, with forces already applied, the
+    /// one that constraints act on and that moves the body.
     typename S::Ang (*predict)(const BodyConstants<S>& body, const typename S::Rot& q,
                                const typename S::Ang& w, typename S::Real h);
-    /// After the move from q0 to q1: the angular velocity at the end of the step. w is the one given to
-    /// predict, predicted what it returned, solved what constraints made of that. Null: `solved` stays.
+    /// Called after the move from q0 to q1: returns the angular velocity at the end of the step. w is the
+    /// argument of predict, `predicted` its result, `solved` that result after the constraints. Null:
+    /// `solved` stays.
     typename S::Ang (*finish)(const BodyConstants<S>& body, const typename S::Rot& q0,
                               const typename S::Rot& q1, const typename S::Ang& w,
                               const typename S::Ang& predicted, const typename S::Ang& solved);

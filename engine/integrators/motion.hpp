@@ -31,16 +31,16 @@ class Motion {
     /// Constraints of a step already act on the motion of that step.
     bool movesWithSolvedVelocity() const { return integrator_.movesWithSolvedVelocity; }
 
-    /// From now on bodies move in blocks (block_motion.hpp). For those choices alone that it can do, and not
-    /// with interrupt().
+    /// Makes bodies move in blocks from now on (block_motion.hpp). Allowed only for the choices that block
+    /// motion supports, and not with interrupt().
     void moveInBlocks(bool gyroscopic) {
         blocks_ = BlockMotion<S>(gyroscopic);
         inBlocks_ = true;
     }
-    /// Before the first kick() of a step, which may be of several.
+    /// Must be called before the first kick() of a step, which may be of several.
     void beginStep() { begun_ = false; }
 
-    /// After a kick(): the world inertia of the beginning of the step is all that the other sub-steps need.
+    /// True after a kick() if the other sub-steps need only the world inertia of the beginning of the step.
     bool inertiaHolds() const { return kickedInBlocks_ && blocks_.gyroscopic(); }
 
     /// World inertia of every body at its present pose. Before rows are made and before kick().
@@ -54,14 +54,14 @@ class Motion {
     std::span<const Velocity<S>> used() const { return used_; }
     /// Orientations before the last move(), by dense index.
     std::span<const typename S::Rot> startRotations() const { return startRotations_; }
-    /// After poses have changed for the last time, by move() of h and position correction.
+    /// Called after poses have changed for the last time, by move() of h and position correction.
     void finish(BodyArrays<S>& bodies, Real h, const Tasks& tasks = Tasks::one());
 
     // --- a body that collides on its way
     /// Between move() and finish(): the body's angular velocity where it is now, part of the way.
     void interrupt(BodyArrays<S>& bodies, std::size_t i);
-    /// After its velocity has changed: `rest` [s] of the way are still to go, which the caller does with the
-    /// velocity it finds then; finish() is for that rest.
+    /// Called after a body's velocity has changed with `rest` [s] of its motion left. The caller moves the
+    /// body with its new velocity; finish() then refers to that rest.
     void resume(BodyArrays<S>& bodies, std::size_t i, Real rest);
     /// used() as it would be for the way that the body has taken in the end.
     void replaceUsed(std::size_t i, const Velocity<S>& velocity) { used_[i] = velocity; }
@@ -77,10 +77,10 @@ class Motion {
     RotationScheme<S> rotation_{};
     TurnRotation<S> turn_ = nullptr;
     // --- recomputed every sub-step
-    std::vector<Velocity<S>> start_;  ///< before kick()
+    std::vector<Velocity<S>> start_;  ///< velocities before kick()
     std::vector<Velocity<S>> used_;
-    std::vector<Ang> kicked_;     ///< with forces, without the gyroscopic term
-    std::vector<Ang> predicted_;  ///< with the gyroscopic term, before constraints
+    std::vector<Ang> kicked_;     ///< angular velocities with forces, without the gyroscopic term
+    std::vector<Ang> predicted_;  ///< angular velocities with the gyroscopic term, before constraints
     std::vector<typename S::Rot> startRotations_;
     std::vector<Wrench<S>> wrench_;
     FreeFlow<S> flow_;

@@ -61,7 +61,7 @@ HWY_INLINE std::array<V, n + 1> cosineAndSines(std::array<V, n> x) {
         for (V& number : x) number = hn::IfThenElse(large, number * half, number);
         halvings = hn::IfThenElse(large, halvings + one, halvings);
     }
-    const auto countless = dot(x, x) > limit;  // beyond what can be counted: no rotation
+    const auto countless = dot(x, x) > limit;  // angle too large for its turns to be counted: no rotation
     V c, sinc;
     cosSinc(dot(x, x), c, sinc);
     for (V& number : x) number = number * sinc;

@@ -11,7 +11,7 @@ namespace rigor::engine {
 
 /// Any eight bodies.
 struct BodyBlock {
-    std::uint32_t index[kLanes] = {};  ///< of lanes without a body 0
+    std::uint32_t index[kLanes] = {};  ///< body of each lane; 0 for lanes without a body
     std::uint32_t moves = 0;           ///< bit of each lane: there is a body
 };
 
@@ -22,7 +22,7 @@ struct alignas(64) TumblingBlock : BodyBlock {
     alignas(64) Lanes<Real> inertia[6], invInertia[6];  ///< body axes: xx xy xz yy yz zz [kg m^2]
     Lanes<Real> kick[3];       ///< angular impulse of torques in a sub-step, world axes [N m s]
     Lanes<Real> kicked[3];     ///< angular velocity with forces [rad/s]
-    Lanes<Real> predicted[3];  ///< and with the gyroscopic term, before constraints
+    Lanes<Real> predicted[3];  ///< angular velocity with the gyroscopicterm as well, before constraints
     Lanes<Real> start[4];      ///< orientation before the move, x y z w
 };
 
@@ -35,7 +35,7 @@ void moveBodies(const BodyBlock* blocks, std::size_t count, Pose<S>* poses, cons
 template <class S>
 void predictTumbling(TumblingBlock<S>* blocks, std::size_t count, const Pose<S>* poses,
                      Velocity<S>* velocities, typename S::Real h);
-/// And after the move: the angular velocity of the angular momentum in the new orientation.
+/// Called after the move: computes the angular velocity of the angular momentum in the new orientation.
 template <class S>
 void finishTumbling(const TumblingBlock<S>* blocks, std::size_t count, const Pose<S>* poses,
                     Velocity<S>* velocities);

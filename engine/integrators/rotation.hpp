@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the files of the family `rotation` share: a law of free rotation is written in the body frame, and
-// for space alone; in 2D there is nothing to do.
+// Functions shared by the files of the family `rotation`. A law of free rotation is written in the body
+// frame, and for 3D alone; in 2D there is nothing to do.
 #pragma once
 
 #include <limits>
@@ -19,7 +19,7 @@ Eigen::Matrix<R, 3, 3> skew(const Eigen::Matrix<R, 3, 1>& a) {
     return m;
 }
 
-/// Whether the velocity w and its angular momentum Pi are parallel up to rounding (a sphere, a principal
+/// True if the velocity w and its angular momentum Pi are parallel up to rounding (a sphere, a principal
 /// axis): the velocity stays, nothing is to be solved, and no rounding added.
 template <class R>
 bool turnsAboutItself(const Eigen::Matrix<R, 3, 1>& w, const Eigen::Matrix<R, 3, 1>& Pi) {

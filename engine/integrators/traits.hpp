@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What integrators, rotation schemes and orientation updates declare of themselves (core/traits.hpp).
+// Traits of integrators, rotation schemes and orientation updates (core/traits.hpp).
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,12 @@ namespace rigor::engine {
 /// A scheme of free flight that is known by name, to compare with an ideal run of it.
 enum class FlightScheme : std::uint8_t { Other, SymplecticEuler, ExplicitEuler, VelocityVerlet, RungeKutta4 };
 
-/// When in a step the forces are looked at.
+/// Times in a step at which the forces are evaluated.
 enum class ForceTimes : std::uint8_t { Start, StartAndEnd, Stages };
 
 struct IntegratorTraits {
     FlightScheme scheme = FlightScheme::Other;
-    int order = 1;  ///< of smooth motion without constraints
+    int order = 1;  ///< order for smooth motion without constraints
     ForceTimes forces = ForceTimes::Start;
     bool ownsRotation = false;  ///< integrates the gyroscopic term itself, where the rotation scheme has one
     bool inBlocks = false;      ///< block_motion.hpp has the same law
@@ -28,15 +28,15 @@ struct IntegratorTraits {
 std::span<const TraitsEntry<IntegratorTraits>> integratorTraitsTable();
 
 struct RotationTraits {
-    int order = 1;               ///< of free rotation; 0: another law
+    int order = 1;               ///< order for free rotation; 0: another law
     bool keepsMomentum = false;  ///< angular momentum of free rotation, to rounding
-    bool keepsEnergy = false;    ///< of free rotation, to rounding
+    bool keepsEnergy = false;    ///< keeps the energy of free rotation, to rounding
     bool inBlocks = false;       ///< block_motion.hpp has the same law
 };
 std::span<const TraitsEntry<RotationTraits>> rotationTraitsTable();
 
 struct OrientationTraits {
-    bool exact = false;     ///< for a constant angular velocity
+    bool exact = false;     ///< exact for a constant angular velocity
     bool inBlocks = false;  ///< block_motion.hpp has the same law
 };
 std::span<const TraitsEntry<OrientationTraits>> orientationTraitsTable();

@@ -16,7 +16,7 @@ HWY_BEFORE_NAMESPACE();
 namespace rigor::engine::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As many lanes as a register has, at most eight.
+/// Tag of as many lanes as a register has, at most eight.
 template <class R>
 using LanesTag = hn::CappedTag<R, 8>;
 
@@ -71,7 +71,8 @@ HWY_INLINE void storeParts(D d, hn::Vec<D> v, const At& at, std::size_t first, s
     }
 }
 
-/// at(lane): the four numbers of that lane. In 32 bits a part holds all four, in 64 two.
+/// Gathers four numbers per lane. at(lane): address of the four numbers of that lane. A part holds all four
+/// in 32 bits, two in 64.
 template <class D, class At>
 HWY_INLINE Quad<D> gatherQuads(D d, const At& at) {
     if constexpr (sizeof(hn::TFromD<D>) == 4) {

@@ -15,7 +15,7 @@ inline constexpr std::size_t kLanes = 8;
 template <class R>
 using Lanes = R[kLanes];
 
-/// Of lambdas in kernels: what they take by reference stays in registers.
+/// Attribute of lambdas in kernels: variables that they take by reference stay in registers.
 #define RIGOR_INLINE_LAMBDA __attribute__((always_inline))
 
 }  // namespace rigor::engine

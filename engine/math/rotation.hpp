@@ -34,7 +34,7 @@ Rot2<R> expMap(R v) {
         x *= R(0.5);
         ++halvings;
     }
-    if (x * x > R(1.0 / 16)) return {};  // beyond what can be counted
+    if (x * x > R(1.0 / 16)) return {};  // too large for its turns to be counted
     R c, s;
     cosSinc(x * x, c, s);
     s *= x;
@@ -54,7 +54,7 @@ Eigen::Quaternion<R> expMap(const Eigen::Matrix<R, 3, 1>& v) {
         u *= R(0.5);
         ++halvings;
     }
-    if (u.squaredNorm() > R(1.0 / 16)) return Eigen::Quaternion<R>::Identity();  // beyond what can be counted
+    if (u.squaredNorm() > R(1.0 / 16)) return Eigen::Quaternion<R>::Identity();  // too large to be counted
     R c, s;
     cosSinc(u.squaredNorm(), c, s);
     u *= s;

@@ -37,7 +37,7 @@ Aabb<S> swept(Aabb<S> box, const typename S::Vec& translation) {
     return box;
 }
 
-/// Is the lowest point of the shape in the solid under a height field?
+/// True if the lowest point of the shape is in the solid under a height field.
 template <class S>
 bool underField(const Shape<S>& field, const Pose<S>& Xf, const Shape<S>& shape, const Pose<S>& X) {
     if constexpr (S::dim == 3) {

@@ -22,7 +22,7 @@
 
 namespace rigor::engine {
 
-/// Which shape of which body; `piece` of a chain, mesh or height field.
+/// A shape of a body; `piece` of a chain, mesh or height field.
 struct ShapeRef {
     BodyId body;
     ShapeId shape;
@@ -31,7 +31,7 @@ struct ShapeRef {
 
 template <class S>
 struct WorldRayHit : ShapeRef {
-    typename S::Real fraction = 0;  ///< of the translation, in [0, 1]
+    typename S::Real fraction = 0;  ///< fraction of the translation, in [0, 1]
     typename S::Vec point, normal;  ///< world frame; normal out of the shape, unit
     bool startsInside = false;
 };
@@ -39,8 +39,9 @@ struct WorldRayHit : ShapeRef {
 /// First touch of a shape moved without turning.
 template <class S>
 struct ShapeCastHit : ShapeRef {
-    typename S::Real fraction = 0;  ///< of the translation, in [0, 1]
-    typename S::Vec point, normal;  ///< where they touch; unit, from the moved shape to the one it meets
+    typename S::Real fraction = 0;  ///< fraction of the translation, in [0, 1]
+    typename S::Vec point, normal;  ///< contact point; unit normal from the moved shape to the one that it
+                                    ///< touches
     bool startsTouching = false;    ///< they overlap or touch at once: fraction 0
     bool converged = true;          ///< false: the fraction is early by more than rounding
 };
@@ -50,7 +51,7 @@ template <class S>
 struct NearestHit : ShapeRef {
     typename S::Real distance = 0;  ///< [m]; < 0: overlap (of a surface: with its nearest piece)
     typename S::Vec point, onShape,
-        normal;  ///< on the query shape, on the world's shape; first to second
+        normal;  ///< points on the query shape and on the world's shape; normal from the first to the second
 };
 
 template <class S>
@@ -71,8 +72,8 @@ class WorldQueries {
     /// One hit for every shape that the ray meets, nearest first.
     std::vector<WorldRayHit<S>> castRayAll(const Vec& origin, const Vec& translation,
                                            const Filter& filter = {}) const;
-    /// Where `shape` touches first on its way from X along `translation`. Throws EngineError "query_shape"
-    /// for half-spaces, chains, meshes and fields (also below), "query_ray" as above.
+    /// First contact of `shape` on its way from X along `translation`. Throws EngineError "query_shape" for
+    /// half-spaces, chains, meshes and fields (also below), "query_ray" as above.
     std::optional<ShapeCastHit<S>> castShape(const Shape<S>& shape, const Pose<S>& X, const Vec& translation,
                                              const Filter& filter = {}) const;
     /// Shapes that overlap or touch the posed shape, in the order they were added; of a surface the first

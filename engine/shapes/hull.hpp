@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a convex hull holds, per dimension. Immutable; made by makeHull (shape.hpp).
+// Data of a convex hull, per dimension. Immutable; made by makeHull (shape.hpp).
 #pragma once
 
 #include <span>

@@ -55,7 +55,7 @@ struct Interval {
     }
 };
 
-/// Both roots of a t^2 + 2 b t + c = 0, smaller first; false without.
+/// Computes both roots of a t^2 + 2 b t + c = 0, smaller first; false if there are none.
 template <class R>
 bool roots(R a, R b, R c, R& t0, R& t1) {
     const R disc = b * b - a * c;

@@ -8,12 +8,12 @@
 
 namespace rigor::engine {
 
-/// Where a ray x(t) = origin + t translation, 0 <= t <= 1, first meets a shape.
+/// First intersection of a ray x(t) = origin + t translation, 0 <= t <= 1, with a shape.
 template <class S>
 struct RayHit {
     typename S::Real fraction = 0;  ///< t
     typename S::Vec point, normal;  ///< world frame; the normal is unit, out of the shape, towards the origin
-    std::uint32_t piece = 0xffffffffu;  ///< of a chain, mesh or height field: which
+    std::uint32_t piece = 0xffffffffu;  ///< index of the piece of a chain, mesh or height field
     bool startsInside = false;          ///< the origin is in the solid: fraction 0, normal against the ray
 };
 

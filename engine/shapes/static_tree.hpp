@@ -17,7 +17,7 @@
 
 namespace rigor::engine {
 
-/// Does the ray o + t d, t in [0, limit], meet the box? By the slab method [Ericson2005, ch. 5.3.3].
+/// True if the ray o + t d, t in [0, limit], intersects the box; by the slab method [Ericson2005, ch. 5.3.3].
 template <class S>
 bool rayMeetsBox(const typename S::Vec& o, const typename S::Vec& d, typename S::Real limit,
                  const Aabb<S>& box) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What chains, triangle meshes and height fields hold: pieces (segments, triangles) numbered from 0, their
+// Data of chains, triangle meshes and height fields: pieces (segments, triangles) numbered from 0, their
 // vertices, their neighbours, and a way to find the pieces near a box or a ray. Immutable.
 //
 // All three have the same members, so that code is written once over them:

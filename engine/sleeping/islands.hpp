@@ -25,7 +25,7 @@ class Islands {
     void finish(std::span<const std::uint8_t> member, std::span<const BodyId> ids);
 
     std::size_t count() const { return starts_.size() - 1; }
-    /// Of island k, in ascending dense order.
+    /// Members of island k, in ascending dense order.
     std::span<const std::uint32_t> members(std::size_t k) const {
         return {members_.data() + starts_[k], starts_[k + 1] - starts_[k]};
     }

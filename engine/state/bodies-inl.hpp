@@ -22,7 +22,7 @@ struct Twist {
     AngVec<S> w;
 };
 
-/// Where bodies are: the numbers of Pose::q are c, s in 2D and x, y, z, w in 3D.
+/// Poses of bodies: the numbers of Pose::q are c, s in 2D and x, y, z, w in 3D.
 template <class S>
 struct Place {
     LinVec<S> p;

@@ -52,14 +52,14 @@ struct Wrench {
     typename S::Ang torque = zeroAng<S>();
 };
 
-/// What does not change while a body lives.
+/// Properties that are constant while a body exists.
 template <class S>
 struct BodyConstants {
     BodyType type = BodyType::Static;
     bool collides = true;
     typename S::Real mass = 0;                       ///< [kg]; 0 unless dynamic
     typename S::Inertia inertia = zeroInertia<S>();  ///< about the centre of mass, body axes [kg m^2]
-    typename S::Vec centerOfMass = S::Vec::Zero();   ///< in the body frame [m]
+    typename S::Vec centerOfMass = S::Vec::Zero();   ///< centre of mass in the body frame [m]
     typename S::Real gravityScale = 1;               ///< factor on the world's gravity
     typename S::Real linearVelocityKept = 1;         ///< v(t) = v0 kept^t, (0, 1], per second
     typename S::Real angularVelocityKept = 1;        ///< likewise for the angular velocity
@@ -72,7 +72,7 @@ struct BodyArrays {
     std::vector<Velocity<S>> velocity;
     std::vector<Wrench<S>> wrench;            ///< acts during the next step, then cleared
     std::vector<std::uint8_t> asleep;         ///< 1: left out of the step (sleep.hpp)
-    std::vector<typename S::Real> stillTime;  ///< how long at rest, where bodies may sleep [s]
+    std::vector<typename S::Real> stillTime;  ///< time at rest, if bodies may sleep [s]
     // --- constant
     std::vector<BodyConstants<S>> constants;
     std::vector<typename S::Real> invMass;             ///< [1/kg]; 0 unless dynamic and awake

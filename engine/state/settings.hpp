@@ -17,7 +17,7 @@ struct SettingInfo {
     std::string key;  ///< "velocity_iterations"
     SettingKind kind = SettingKind::Real;
     std::string byDefault;    ///< a name, a number as it is written in settings.def, or "on", "off"
-    double min = 0, max = 0;  ///< of numbers, inclusive
+    double min = 0, max = 0;  ///< range of numbers, inclusive
     std::string help;
 };
 

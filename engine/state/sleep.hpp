@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What it means for a body to be asleep.
+// Definition of a sleeping body.
 #pragma once
 
 #include "engine/state/body_arrays.hpp"
 
 namespace rigor::engine {
 
-/// At rest from now on, and like a wall to the others.
+/// Puts a body at rest; other bodies collide with it as with a static body.
 template <class S>
 void putToSleep(BodyArrays<S>& bodies, std::uint32_t i) {
     bodies.asleep[i] = 1;

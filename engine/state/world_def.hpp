@@ -33,7 +33,7 @@ struct WorldDef {
 #define REAL(member, key, byDefault, min, max, help) Real member = static_cast<Real>(byDefault);
 #define SWITCH(member, key, byDefault, help) bool member = byDefault;
 #include "engine/state/settings.def"
-    /// In place of `narrowPhase` where set; shared by copies of the world.
+    /// Narrow phase used in place of `narrowPhase` if set; shared by copies of the world.
     std::shared_ptr<const NarrowPhase<S>> customNarrowPhase;
 };
 
@@ -41,15 +41,16 @@ template <class S>
 struct BodyDef {
     using Real = typename S::Real;
     BodyType type = BodyType::Dynamic;
-    Pose<S> pose;                                    ///< of the body frame, world frame
-    typename S::Vec velocity = S::Vec::Zero();       ///< of the centre of mass, world frame [m/s]
+    Pose<S> pose;                                    ///< pose of the body frame in the world frame
+    typename S::Vec velocity = S::Vec::Zero();       ///< velocity of the centre of mass in the world frame
+                                                     ///< [m/s]
     typename S::Ang angularVelocity = zeroAng<S>();  ///< world frame [rad/s]
     Real mass = 1;                                   ///< [kg], > 0; read for dynamic bodies only
-    typename S::Vec centerOfMass = S::Vec::Zero();   ///< in the body frame [m]
+    typename S::Vec centerOfMass = S::Vec::Zero();   ///< centre of mass in the body frame [m]
     typename S::Inertia inertia =
         identityInertia();         ///< about the centre of mass, body axes; positive definite
-    Real linearVelocityKept = 1;   ///< in (0, 1], per second
-    Real angularVelocityKept = 1;  ///< in (0, 1], per second
+    Real linearVelocityKept = 1;   ///< fraction kept per second, in (0, 1]
+    Real angularVelocityKept = 1;  ///< fraction kept per second, in (0, 1]
     Real gravityScale = 1;         ///< factor on the world's gravity
     bool collides = true;          ///< false: no contacts for any of its shapes
 
@@ -65,21 +66,21 @@ template <class S>
 struct ShapeDef {
     Shape<S> shape;
     Pose<S> pose;                ///< shape frame in the body frame
-    std::uint32_t material = 0;  ///< from World::addMaterial; 0 is frictionless and inelastic
+    std::uint32_t material = 0;  ///< index from World::addMaterial; 0 is frictionless and inelastic
 };
 
-/// What two touching surfaces share.
+/// Coefficients of a pair of touching surfaces.
 template <class S>
 struct PairCoefficients {
     typename S::Real friction = 0;     ///< Coulomb, >= 0
-    typename S::Real restitution = 0;  ///< in [0, 1]
+    typename S::Real restitution = 0;  ///< coefficient in [0, 1]
     /// Contacts stick up to this and slide at `friction`; 0: at `friction` too. Else >= friction.
     typename S::Real staticFriction = 0;
 };
 
 enum class JointType : std::uint8_t { Ball, ConeTwist, Distance, Fixed, Hinge, SixDof, Slider, Wheel };
 
-/// What a coordinate of a joint may do.
+/// Mode of a joint's coordinate.
 enum class AxisMode : std::uint8_t {
     Usual,  ///< the joint's own: locked for distance and six_dof, else free
     Free,
@@ -94,7 +95,7 @@ struct JointAxis {
     R lower = -std::numeric_limits<R>::infinity();  ///< Limited: <= upper; infinite for one-sided limits [u]
     R upper = std::numeric_limits<R>::infinity();
     R motorSpeed = 0;     ///< the motor drives the coordinate's rate to this [u/s]
-    R motorMaxForce = 0;  ///< with at most this [N] or [N m]; 0: no motor
+    R motorMaxForce = 0;  ///< maximum force or torque of the motor [N] or [N m]; 0: no motor
     /// Spring to `target` [u]: by frequency [Hz] and damping ratio on the effective mass of the coordinate,
     /// or by stiffness [N/m, N m/rad] and damping [N s/m, N m s/rad]. All zero: no spring.
     R target = 0, frequency = 0, dampingRatio = 0, stiffness = 0, damping = 0;

@@ -49,7 +49,7 @@ Generated generateTumbler(const Node& node);
 class PortableRandom {
   public:
     explicit PortableRandom(std::uint64_t seed) : engine_(seed) {}
-    /// In [0, 1), 53 random bits.
+    /// Uniform random number in [0, 1), 53 random bits.
     double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
     double between(double a, double b) { return a + (b - a) * unit(); }
 
@@ -60,7 +60,8 @@ class PortableRandom {
 /// A uniformly distributed orientation: "orientation" in 3D (Shoemake, Graphics Gems III, 1992), "angle" in
 /// 2D.
 void turnAtRandom(Json& body, PortableRandom& random, int dimension);
-/// What `pile` does with its templates; also for generators that make their own. The caller has read "seed".
+/// Piles up bodies from templates, as `pile` does; also used by generators that make their own templates. The
+/// caller has read "seed".
 Generated pileUp(const Node& node, const std::vector<Json>& templates, PortableRandom& random);
 /// A box shape of these half extents at `position` in its body, of the node's "material" where it has one.
 Json boxShape(const Node& node, const Vec3& halfExtents, const Vec3& position);

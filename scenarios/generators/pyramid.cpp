@@ -14,7 +14,8 @@ Generated generatePyramid(const Node& node) {
                spacing = node.require("spacing");
     Generated made;
     if (!name || !body || !rowsNode || !spacing) return made;
-    const int rows = rowsNode->scaledInteger(1, node.dimension() == 2 ? 315 : 52);  // both below kMaxBodies
+    // both limits are below kMaxBodies
+    const int rows = rowsNode->scaledInteger(1, node.dimension() == 2 ? 315 : 52);
     const Vec3 step = spacing->scaledVector(),
                origin = node.has("origin") ? node["origin"].scaledVector() : Vec3{};
     if (!node.context().problems.empty()) return made;

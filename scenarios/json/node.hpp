@@ -19,14 +19,14 @@ namespace rigor::scenario {
 /// Larger magnitudes are mistakes, and overflow when squared in single precision.
 inline constexpr double kLargestNumber = 1e15;
 
-/// What the nodes of one file share.
+/// Data shared by the nodes of one file.
 struct ReadContext {
     std::string file;
     const JsonDocument* document = nullptr;
     std::vector<Problem> problems;
     int dimension = 3;
-    Vec3 gravity{};             ///< of the scene, for generators [m/s^2]
-    std::optional<int> size{};  ///< of the scene, for Node::scaled
+    Vec3 gravity{};             ///< gravity of the scene, for generators [m/s^2]
+    std::optional<int> size{};  ///< size of the scene, for Node::scaled
 };
 
 class Node {
@@ -54,8 +54,10 @@ class Node {
     std::optional<Node> find(const char* key) const;
     /// The member, or null (reported) when it is missing.
     std::optional<Node> require(const char* key) const;
-    std::vector<Node> items() const;                            ///< of an array (reported otherwise)
-    std::vector<std::pair<std::string, Node>> members() const;  ///< of an object (reported otherwise)
+    std::vector<Node> items() const;                            ///< elements of an array; anything else is
+                                                                ///< reported as a problem
+    std::vector<std::pair<std::string, Node>> members() const;  ///< members of an object; anything else is
+                                                                ///< reported as a problem
 
     double number(double min, double max) const;
     double positive() const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is wrong with a file: a list of problems, and the exception that carries it.
+// Problems of a file: a list of them, and the exception that carries it.
 #pragma once
 
 #include <stdexcept>

@@ -54,7 +54,7 @@ int Node::scaledInteger(int min, int max) const {
 
 Vec3 Node::scaledVector() const {
     const auto count = static_cast<std::size_t>(dimension());
-    if (!value_->is_array() || value_->size() != count) return vector();  // which reports it
+    if (!value_->is_array() || value_->size() != count) return vector();  // vector() reports it
     const auto component = [&](std::size_t i) { return (*this)[i].scaled(-kLargestNumber, kLargestNumber); };
     return {component(0), component(1), count == 3 ? component(2) : 0.0};
 }

@@ -15,13 +15,13 @@
 
 namespace rigor::scenario {
 
-/// What a file says of the answer. Everything may be missing.
+/// Expected result in a file. Everything may be missing.
 struct ExpectedContact {
     std::optional<double> signedDistance;  ///< [m]; < 0: minus the penetration depth
-    std::optional<bool> overlap;           ///< none: touching, or not said
+    std::optional<bool> overlap;           ///< none: touching, or not stated
     std::vector<Vec3> normals;             ///< unit, A to B; all that are equally good
     double accuracy = 0.0;                 ///< error bound of signedDistance [m]
-    double normalTolerance = 0.0;          ///< how well the normal itself is known [rad]
+    double normalTolerance = 0.0;          ///< uncertainty of the expected normal [rad]
 };
 
 struct CollisionCase {
@@ -31,7 +31,7 @@ struct CollisionCase {
     ExpectedContact expected;
     std::vector<std::string> tags;
     std::string unsupported;  ///< why the case cannot be asked (a kind of shape we do not have); else ""
-    int line = 0;             ///< of the file, 1-based
+    int line = 0;             ///< line of the file, 1-based
     std::string text;         ///< the case by itself, JSON in its file's format: see readCollisionCase
 };
 

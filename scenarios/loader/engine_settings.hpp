@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a scenario file may ask of engines by name: settings as in a spec. They are no part of the scenario
+// Settings that a scenario file may give for engines by name, as in a spec. They are no part of the scenario
 // model, which knows no engine.
 #pragma once
 

@@ -161,7 +161,7 @@ Scenario readScenario(const JsonDocument& document, const std::string& file) {
                    "time_limit"});
     std::deque<Json> made;  // generated nodes refer to it
     if (document.value.is_object()) {
-        // Without a dimension nothing else can be understood.
+        // Nothing else can be read if the dimension is missing.
         if (const auto n = root.require("dimension")) s.dimension = context.dimension = n->integer(2, 3);
         if (!context.problems.empty()) throw LoadError(std::move(context.problems));
         readHeader(root, s);

@@ -36,10 +36,10 @@ struct Suite {
     std::vector<std::string> engines;    ///< specs; empty: all installed
     std::vector<double> timeSteps;       ///< empty: each scenario's own
     int maxTimeSteps = 0;                ///< take only the first n of each scenario; 0: all
-    int orders = 1;                      ///< of insertion, that each case is run in
+    int orders = 1;                      ///< number of insertion orders in which each case is run
 };
 Suite loadSuite(const std::filesystem::path& file);
-/// Whether there is such a file and it says that it is a suite.
+/// True if the file exists and declares that it is a suite.
 bool isSuiteFile(const std::filesystem::path& file);
 
 struct LibraryEntry {

@@ -37,7 +37,7 @@ Json* locate(Json& at, const std::string& path) {
     return nullptr;
 }
 
-/// What stands at the furthest place that `path` leads to: "names in bodies: floor, ball".
+/// Names at the furthest place that `path` leads to: "names in bodies: floor, ball".
 std::string furthest(const Json& document, const std::string& path) {
     const Json* at = &document;
     std::string where;

@@ -126,7 +126,7 @@ void readControl(const Node& node, const std::string& name, const Joint& joint, 
     if (const auto n = node.find("limits")) readLimits(*n, axis);
     if (const auto n = node.find("motor")) readMotor(*n, isAngle(name), axis);
     if (const auto n = node.find("spring")) readJointSpring(*n, axis);
-    // Where something drives it, a coordinate is no longer locked by itself.
+    // A coordinate with a motor or a spring is not locked by default.
     if (axis.mode == AxisMode::Usual && (axis.hasMotor() || axis.hasSpring())) axis.mode = AxisMode::Free;
     if (axis.mode == AxisMode::Limited && axis.lower == axis.upper && (axis.hasMotor() || axis.hasSpring()))
         node.problem("joint.limits", "lower < upper where there is a motor or spring");

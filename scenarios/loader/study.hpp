@@ -62,7 +62,8 @@ struct StudyPart {
     std::vector<std::string> metrics;     ///< columns; "name" or "name:subject"
     std::vector<std::string> symmetries;  ///< names of validation's table, or "*"; each row is also run so
     std::optional<StudyEnsemble> ensemble;
-    double divergenceThreshold = 0.01;  ///< of the scene's length: above it two runs are two
+    double divergenceThreshold = 0.01;  ///< fraction of the scene's length: runs with a larger distance have
+                                        ///< diverged
     std::optional<StudySymptom> symptom;
     std::vector<StudyFinding> findings;
 };

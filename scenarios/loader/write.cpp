@@ -68,7 +68,8 @@ class Writer {
         if (solid_)
             out["orientation"] = {q.w, q.x, q.y, q.z};
         else
-            out["angle"] = 2.0 * std::atan2(q.z, q.w);  // beyond a turn: q and -q are distinguished
+            // angles may exceed a turn: q and -q are distinguished
+            out["angle"] = 2.0 * std::atan2(q.z, q.w);
     }
 
     template <class Surface>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How a scene is timed, and what its run has to look like for the timing to count. Quantities are measured by
-// the harness, from states and contacts, the same way for every engine.
+// Timing of a scene, and the bounds that its run has to keep for the timing to count. Quantities are measured
+// by the harness, from states and contacts, the same way for every engine.
 #pragma once
 
 #include <limits>
@@ -12,20 +12,20 @@
 
 namespace rigor::scenario {
 
-/// What a bound of a timing is about.
+/// Quantity that a timing's bound limits.
 enum class Quality {
     MaxPenetration,   ///< largest depth of the contacts [m]
     MeanPenetration,  ///< mean depth of the contacts that overlap [m]
-    KineticEnergy,    ///< of all dynamic bodies [J]
+    KineticEnergy,    ///< kinetic energy of all dynamic bodies [J]
     EnergyGain,    ///< most that kinetic and potential energy rose above the start, in any step looked at [J]
     JointGap,      ///< largest distance between the two anchors of a joint, in any step looked at [m]
-    TopHeight,     ///< of the highest dynamic body's centre of mass, against gravity [m]
-    LowestHeight,  ///< of the lowest: what fell through the floor shows here [m]
+    TopHeight,     ///< height of the highest dynamic body's centre of mass, against gravity [m]
+    LowestHeight,  ///< height of the lowest one: bodies that fell through the floor show here [m]
     ContactPairs,  ///< pairs of bodies in touch
 };
 struct QualityName {
     Quality quantity;
-    std::string_view key;   ///< in files: "max_penetration", ...
+    std::string_view key;   ///< name in files: "max_penetration", ...
     std::string_view unit;  ///< "m", "J" or ""
 };
 /// All of them, in the order of the enum.
@@ -48,7 +48,7 @@ struct BenchPlan {
     int warmUpSteps = 0;                ///< >= 0
     int timedSteps = 1;                 ///< >= 1
     int qualityStep = 1;                ///< >= warmUpSteps + timedSteps
-    std::vector<int> sizes;             ///< of Scenario::size for a growth curve, rising; empty: none
+    std::vector<int> sizes;             ///< values of Scenario::size for a growth curve, rising; empty: none
     std::vector<QualityBound> quality;  ///< each quantity once
 };
 

@@ -32,7 +32,7 @@ Mat3 pointInertia(double m, Vec3 d) {
     return r;
 }
 
-/// From the second moments C = integral of x x^T dm about the centre: I = trace(C) 1 - C.
+/// Inertia from the second moments C = integral of x x^T dm about the centre: I = trace(C) 1 - C.
 Mat3 inertiaFromCovariance(const Mat3& c) {
     const double trace = c(0, 0) + c(1, 1) + c(2, 2);
     Mat3 r = scaled(c, -1.0);

@@ -114,7 +114,7 @@ struct MaterialPair {
     double staticFriction = 0.0;
 };
 
-/// What two touching surfaces share. Every adapter makes its engine use exactly these.
+/// Coefficients of a pair of touching surfaces. Every adapter makes its engine use exactly these.
 struct PairCoefficients {
     double friction = 0.0;
     double restitution = 0.0;
@@ -127,7 +127,7 @@ enum class BodyType { Static, Kinematic, Dynamic };
 /// About the centre of mass, axes of the body frame.
 struct MassProperties {
     double mass = 0.0;  ///< [kg]; 0 for static and kinematic bodies
-    Vec3 centerOfMass;  ///< in the body frame [m]
+    Vec3 centerOfMass;  ///< centre of mass in the body frame [m]
     Mat3 inertia;       ///< [kg m^2]; in 2D only inertia(2,2) is meaningful
 };
 
@@ -135,7 +135,7 @@ struct Body {
     std::string name;
     BodyType type = BodyType::Dynamic;
     Pose pose;             ///< initial pose of the body frame in the world
-    Vec3 velocity;         ///< of the centre of mass, world frame [m/s]
+    Vec3 velocity;         ///< velocity of the centre of mass, world frame [m/s]
     Vec3 angularVelocity;  ///< world frame [rad/s]
     std::vector<Shape> shapes;
     MassProperties massProperties;     ///< complete after loading: given, or computed from the shapes
@@ -156,7 +156,7 @@ enum class AxisMode {
     Usual,  ///< the joint's own: locked for distance and six_dof, else free
     Free,
     Locked,
-    Limited,  ///< within [lower, upper]
+    Limited,  ///< limited to [lower, upper]
 };
 /// Stops, motor and spring along one coordinate of a joint; u is [m] or [rad].
 struct JointAxis {
@@ -164,10 +164,10 @@ struct JointAxis {
     double lower = -1e300, upper = 1e300;  ///< Limited; beyond 1e299: none [u]
     double motorSpeed = 0.0;               ///< [u/s]
     double motorMaxForce = 0.0;            ///< [N] or [N m]; 0: no motor
-    double target = 0.0;                   ///< of the spring [u]
-    double frequency = 0.0;  ///< of the spring, undamped, on the coordinate's effective mass [Hz]
+    double target = 0.0;                   ///< rest value of the spring [u]
+    double frequency = 0.0;  ///< undamped frequency of the spring on the coordinate's effective mass [Hz]
     double dampingRatio = 0.0;
-    double stiffness = 0.0, damping = 0.0;  ///< or these [N/m, N s/m] or [N m/rad, N m s/rad]
+    double stiffness = 0.0, damping = 0.0;  ///< spring given by these [N/m, N s/m] or [N m/rad, N m s/rad]
 
     bool hasMotor() const { return motorMaxForce > 0.0; }
     bool hasSpring() const { return frequency > 0.0 || stiffness > 0.0 || damping > 0.0; }
@@ -186,8 +186,8 @@ struct Joint {
     JointType type = JointType::Ball;
     int bodyA = kNone;  ///< kNone: the world
     int bodyB = kNone;
-    Vec3 anchorA;               ///< in A's body frame (world frame when bodyA is kNone) [m]
-    Vec3 anchorB;               ///< in B's body frame [m]
+    Vec3 anchorA;               ///< anchor in A's body frame (world frame when bodyA is kNone) [m]
+    Vec3 anchorB;               ///< anchor in B's body frame [m]
     Vec3 axisA{0.0, 0.0, 1.0};  ///< unit; hinge and slider; A's body frame
     Vec3 axisB{0.0, 0.0, 1.0};  ///< the same world direction initially; B's body frame
     double length = 0.0;        ///< distance joint: rod length between the anchors [m], > 0
@@ -213,7 +213,7 @@ struct ConstantForce {
 /// Linear spring and damper between two anchors (bodyA kNone: the world).
 struct SpringForce {
     int bodyA = kNone, bodyB = 0;
-    Vec3 anchorA, anchorB;    ///< in the body frames (world frame for kNone) [m]
+    Vec3 anchorA, anchorB;    ///< anchors in the body frames (world frame for kNone) [m]
     double stiffness = 0.0;   ///< [N/m], >= 0
     double damping = 0.0;     ///< [N s/m], >= 0
     double restLength = 0.0;  ///< [m], >= 0
@@ -255,7 +255,7 @@ struct Bound {
 /// A recorded deviation: where `metric` misses its bound but stays below `max`, the verdict is "known
 /// deviation".
 struct KnownDeviation {
-    std::string engine, preset, metric;  ///< as in Bound
+    std::string engine, preset, metric;  ///< selection as in Bound
     double max = 0.0;
     std::string reason;
 };
@@ -275,14 +275,14 @@ struct Scenario {
     std::vector<Force> forces;
     std::vector<Event> events;
     std::vector<int> observed;  ///< bodies whose trajectories are compared; never empty after loading
-    std::optional<ReferenceSpec> reference;  ///< none: cross-engine comparison only
+    std::optional<ReferenceSpec> reference;  ///< reference; none: cross-engine comparison only
     std::vector<std::string>
-        metrics;  ///< that matter here, in order of importance; never empty after loading
+        metrics;  ///< metrics that matter here, in order of importance; never empty after loading
     std::vector<Bound> accept;
     std::vector<KnownDeviation> knownDeviations;
     double timeLimit = 60.0;         ///< [s] wall time for one case
     std::optional<int> size;         ///< N of a scene that grows with it; bodies are those of this N
-    std::optional<BenchPlan> bench;  ///< of scenes that are timed
+    std::optional<BenchPlan> bench;  ///< plan for scenes that are timed
 };
 
 /// Friction and restitution of two materials: the pair table's, else sqrt(mu_a mu_b) and min(e_a, e_b).

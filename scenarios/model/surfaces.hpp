@@ -14,8 +14,9 @@ namespace rigor::scenario {
 /// Shapes of static bodies only: half-spaces, segments, chains, meshes and height fields.
 bool isStaticOnly(const Geometry& geometry);
 
-/// What is wrong, or an empty text: too few vertices, numbers that are not finite, neighbours of a chain at
-/// one place, triangles without area or of unknown vertices, a count of heights that does not fit the grid.
+/// Description of what is wrong, or an empty text: too few vertices, numbers that are not finite, neighbours
+/// of a chain at one place, triangles without area or of unknown vertices, a count of heights that does not
+/// fit the grid.
 std::string surfaceProblem(const Chain& chain);
 std::string surfaceProblem(const TriangleMesh& mesh);
 std::string surfaceProblem(const HeightField& field);

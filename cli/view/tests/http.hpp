@@ -25,7 +25,7 @@ class Browser {
         const std::string all = answer->get_header_value("Set-Cookie");
         cookie_ = all.substr(0, all.find(';'));
     }
-    int status() const { return status_; }  ///< of the link itself
+    int status() const { return status_; }  ///< status of the link itself
     const std::string& origin() const { return origin_; }
     const std::string& cookie() const { return cookie_; }
 

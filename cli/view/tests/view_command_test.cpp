@@ -140,7 +140,7 @@ TEST_F(View, LiveFromTheLinkToCtrlC) {
     for (const pid_t pid : instances) EXPECT_NE(kill(pid, 0), 0) << "an instance outlived the program";
 }
 
-/// What is saved is a scenario for every other command, and its future is that of the live run.
+/// A saved scenario is valid for every other command, and its run continues like the live run.
 TEST_F(View, WhatIsSavedIsCheckedAndRuns) {
     Program program({"view", "slide_and_stop", "--engines", "rigor", "--json", "--dt", "1/240", "--save-to",
                      scratch_.path().string()});

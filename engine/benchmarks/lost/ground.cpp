@@ -11,7 +11,7 @@ namespace rigor::engine::lost {
 namespace {
 
 constexpr double kBody = 0.3;     ///< mean size of the bodies [m]
-constexpr double kRimFrom = 0.8;  ///< where the rim begins, over the half extent
+constexpr double kRimFrom = 0.8;  ///< start of the rim in half extents
 
 int verticesOver(double extent, double spacing) {
     return 1 + std::max(2, static_cast<int>(std::lround(extent / spacing)));

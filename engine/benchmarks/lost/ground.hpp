@@ -26,7 +26,7 @@ class Heights {
         double slopeX = 0, slopeZ = 0;
         return at(x, z, slopeX, slopeZ);
     }
-    /// How far a point is under the plane of the piece that is over or under it; < 0: above [m].
+    /// Depth of a point under the plane of the piece that is over or under it; < 0: above [m].
     double depth(double x, double y, double z) const;
     bool holds(double x, double z) const { return std::abs(x) < halfX() && std::abs(z) <= halfZ(); }
     double halfX() const { return 0.5 * (columns_ - 1) * dx_; }

@@ -15,7 +15,7 @@
 namespace rigor::engine::lost {
 namespace {
 
-constexpr double kSpacing = 0.6;  ///< of the places that bodies start from: none of them touch [m]
+constexpr double kSpacing = 0.6;  ///< distance of the start positions, such that no bodies touch [m]
 
 using Random = std::mt19937;
 double between(Random& random, double low, double high) {
@@ -95,7 +95,7 @@ class Rain {
         int index = 0;
         std::string shape;
         double radius = 0;  ///< no point is further from the centre of mass [m]
-        double inner = 0;   ///< of a sphere inside the shape [m]
+        double inner = 0;   ///< radius of a sphere inside the shape [m]
         bool done = false;  ///< lost, or away
     };
 
@@ -169,7 +169,7 @@ class Rain {
             body.angularVelocity = any(spin);
     }
 
-    /// Under the ground [m], of the centre of mass.
+    /// Depth of the centre of mass under the ground [m].
     double depthOf(const Body& body, double& x, double& z) const {
         const Pose<S> pose = world_.pose(body.id);
         const V center = toWorld<S>(pose, world_.constants(body.id).centerOfMass);

@@ -12,7 +12,8 @@
 namespace rigor::engine::lost {
 
 enum class Ground : std::uint8_t { Mesh, Field, Chain };
-/// What bodies do: fall from a height; fall into a heap; roll; slide over the edges between triangles.
+/// Motion of the bodies: they fall from a height, fall into a heap, roll, or slide over the edges between
+/// triangles.
 enum class Motion : std::uint8_t { Drop, Pile, Roll, Slide };
 /// Heights of the ground over the side c of its squares: none; random, up to 0.3 c; a slope of 20 degrees;
 /// ridges and gullies of 45 degrees; random over rectangles of 1 : 20, whose triangles are slivers.
@@ -34,7 +35,7 @@ struct Case {
 /// A body that was more than twice its radius under the ground.
 struct Loss {
     int body = 0;  ///< its place in the order of bodies, from 0
-    int step = 0;  ///< after which it was found there first
+    int step = 0;  ///< first step after which it was found there
     std::string shape;
 };
 
@@ -51,7 +52,7 @@ struct Outcome {
 /// every step; -1: none.
 Outcome run(const Case& what, int follow = -1);
 
-/// In the form that count_lost_bodies reads: "ground=mesh motion=drop ...".
+/// Description in the form that count_lost_bodies reads: "ground=mesh motion=drop ...".
 std::string describe(const Case& what);
 /// The form and the size of squares that belong to a seed: all combinations of them in 25 seeds.
 void setGroundOfSeed(Case& what);

@@ -106,7 +106,7 @@ TYPED_TEST(Impacts, OfTurningBoxesIsTheFirstTouchOfAFineSampling) {
         (found.hit ? hits : misses)++;
         if (found.hit) {
             EXPECT_LE(double(found.time), sampled) << i;
-            // Not more than a sample early, less what the touching gap takes.
+            // The time is at most one sample early, less the time that the touching gap takes.
             EXPECT_GE(double(found.exact), sampled - 0.1 / samples - 1e-4) << i;
         }
     }

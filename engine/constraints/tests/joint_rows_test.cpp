@@ -78,7 +78,7 @@ TYPED_TEST(JointRowsOf, RowsAreTheGradientsOfWhatTheyMeasure) {
             const Pose<S> A = this->pose();
             Pose<S> B;
             const Joint<S> joint = this->joint(entry.type, A, B);
-            // To where the joint holds: turned and moved along its coordinates, anchors together.
+            // B is placed so that the joint holds: turned and moved along its coordinates, anchors together.
             const bool turns = entry.type != JointType::Slider && entry.type != JointType::Fixed;
             const bool travels = entry.type == JointType::Slider || entry.type == JointType::Wheel ||
                                  entry.type == JointType::SixDof || entry.type == JointType::Distance;
@@ -141,7 +141,7 @@ TYPED_TEST(JointRowsOf, RowsPushBothBodiesOppositely) {
         const Velocity<S> a{cross(w, A.p), w}, b{cross(w, B.p), w};
         for (int i = 0; i < rows.count; ++i) {
             if (i < rows.equalities)
-                continue;  // where anchors are apart, equality rows are exact at C = 0 only
+                continue;  // if the anchors differ, equality rows are exact at C = 0 only
             const Row<S>& row = rows.row[static_cast<std::size_t>(i)];
             EXPECT_NEAR(rowVelocity<S>(row, a, b), 0, 1e-12) << "row " << i;
         }

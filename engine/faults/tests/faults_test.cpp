@@ -67,7 +67,7 @@ TYPED_TEST(Faults, UnknownNamesAreRefused) {
     EXPECT_THROW(World<TypeParam>{def}, EngineError);
 }
 
-/// Of the table: each changes the future of some scene, the same way twice and in a copy.
+/// Test of every fault of the table: it changes the future of some scene, the same way twice and in a copy.
 TYPED_TEST(Faults, EachIsVisibleAndDeterministic) {
     using S = TypeParam;
     using R = typename S::Real;
@@ -131,7 +131,7 @@ TYPED_TEST(Faults, FlippedNormalLetsBodiesThrough) {
     EXPECT_NEAR(this->height(world), 0.5 - 0.5 * kGravity * t * (t + kStep), 1e-3);
 }
 
-/// With a bias velocity the wrong way the overlap grows geometrically: faster than free fall.
+/// A bias velocity of the wrong sign makes the overlap grow geometrically: faster than free fall.
 TYPED_TEST(Faults, FlippedNormalIsPulledByPositionCorrection) {
     auto world = this->cubeOnGround("flipped_normal", "baumgarte");
     this->run(world, 30);

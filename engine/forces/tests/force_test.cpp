@@ -72,7 +72,7 @@ TYPED_TEST(Forces, SpringAgainstAHandComputation) {
     spring.bodyA = a;
     spring.bodyB = b;
     spring.anchorA = at<S>(0, 0.5);
-    spring.anchorB = at<S>(0, -0.25);  // both at height 0.5, 3 apart
+    spring.anchorB = at<S>(0, -0.25);  // both anchors are at height 0.5, 3 apart
     spring.stiffness = 10;
     spring.damping = 2;
     spring.restLength = 1;

@@ -168,7 +168,7 @@ struct Problem {
     Build<Space2d> build2;
     Build<Space3d> build3;
     double duration;
-    int steps;  ///< of the coarsest run; small enough to be in the asymptotic range
+    int steps;  ///< steps of the coarsest run; small enough to be in the asymptotic range
 };
 const Problem kProblems[] = {
     {"drag", &thrownInAMedium<Space2d>, &thrownInAMedium<Space3d>, 2, 32},

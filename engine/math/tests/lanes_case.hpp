@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What lanes_test.cpp computes for eight things side by side, and the same for one of them.
+// Computations of lanes_test.cpp, in eight lanes side by side and for one of them.
 #pragma once
 
 #include <algorithm>
@@ -37,11 +37,11 @@ struct alignas(kLaneAlignment) LanesOutput {
     alignas(kLaneAlignment) Number moment[angular];   ///< a x b
     alignas(kLaneAlignment) Number turning[S::dim];   ///< w x a
     alignas(kLaneAlignment) Number times[angular];    ///< matrix u
-    alignas(kLaneAlignment) Number inverse;           ///< of x
+    alignas(kLaneAlignment) Number inverse;           ///< inverse of x
     LanesOutput() { std::fill_n(reinterpret_cast<unsigned char*>(this), sizeof *this, 0); }
 };
 
-/// By Eigen and the functions of space.hpp.
+/// Computed by Eigen and the functions of space.hpp.
 template <class S>
 void computeScalar(const LanesInput<S>& in, std::size_t lane, LanesOutput<S>& out) {
     using Real = typename S::Real;

@@ -16,7 +16,7 @@ class RandomValues {
     using Real = typename S::Real;
     using Vec = typename S::Vec;
 
-    /// In [-size, size].
+    /// Uniform random number in [-size, size].
     Real uniform(double size) {
         return static_cast<Real>(std::uniform_real_distribution<double>(-size, size)(random_));
     }

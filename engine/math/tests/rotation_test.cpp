@@ -27,7 +27,7 @@ TEST(ExpMap, AgreesWithAxisAngleInSpaceAndLogInvertsIt) {
     for (int i = 0; i < 5000; ++i) {
         Eigen::Vector3d axis(normal(random), normal(random), normal(random));
         axis.normalize();
-        const double angle = std::pow(10.0, -8 + 8.49 * (i / 5000.0));  // up to 3.09 rad
+        const double angle = std::pow(10.0, -8 + 8.49 * (i / 5000.0));  // angles up to 3.09 rad
         const Eigen::Quaterniond q = expMap(Eigen::Vector3d(angle * axis));
         const Eigen::Quaterniond expected(Eigen::AngleAxisd(angle, axis));
         ASSERT_NEAR((q.coeffs() - expected.coeffs()).norm(), 0, 2e-15);
@@ -52,7 +52,7 @@ TEST(ExpMap, SeriesAreExactToRoundingUpToAQuarter) {
     }
 }
 
-/// What cannot be counted in turns is no rotation at all, and never a NaN.
+/// An angle whose turns cannot be counted gives no rotation, and never a NaN.
 TEST(ExpMap, OfHugeAnglesIsARotation) {
     for (const double size : {1e3, 1e6, 1e12, 1e30, 1e300, std::numeric_limits<double>::infinity()}) {
         const Rot2<double> q = expMap(size);

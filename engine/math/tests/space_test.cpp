@@ -16,7 +16,7 @@ class EverySpace : public testing::Test, public RandomValues<S> {
   public:
     using Vec = typename S::Vec;
     static constexpr int kTrials = 2000;
-    static constexpr double kSize = 5;  ///< of random vectors [m]
+    static constexpr double kSize = 5;  ///< size of random vectors [m]
     /// Rounding of a few products of numbers up to kSize.
     static constexpr double kRounding = 32 * kSize * std::numeric_limits<typename S::Real>::epsilon();
     static double distance(const Vec& a, const Vec& b) { return static_cast<double>((a - b).norm()); }

@@ -130,7 +130,7 @@ TYPED_TEST(Questions, NearestAndOverlaps) {
             EXPECT_FALSE(queries.nearest(probe, X, best * R(0.99)).has_value());
         }
         std::vector<std::uint32_t> found;
-        std::vector<std::uint32_t> solid;  // under a height field counts though no piece touches
+        std::vector<std::uint32_t> solid;  // shapes under a height field count although no piece touches
         for (const ShapeRef& r : queries.overlapping(probe, X)) {
             std::uint32_t i = 0;
             for (const ShapeRecord<S>& record : this->world.shapes()) {

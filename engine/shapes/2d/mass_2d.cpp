@@ -35,8 +35,8 @@ template <class R>
 Moments moments(const Capsule<Space<R, 2>>& s) {
     const double r = s.radius, h = s.halfLength, pi = std::numbers::pi;
     const double rectangle = 4.0 * r * h, disc = pi * r * r;
-    // Both half discs: about the full disc's centre r^2/2; shifted apart by h each, with centroids
-    // 4r/(3 pi) further out: mean square distance to the capsule's centre r^2/2 + h^2 + 2h 4r/(3 pi).
+    // The two half discs: about the full disc's centre r^2/2; shifted apart by h each, with centroids 4r/(3
+    // pi) further out: mean square distance to the capsule's centre r^2/2 + h^2 + 2h 4r/(3 pi).
     const double ends = disc * (0.5 * r * r + h * h + 8.0 * h * r / (3.0 * pi));
     return {rectangle + disc, V::Zero(), rectangle * (r * r + h * h) / 3.0 + ends};
 }

@@ -66,7 +66,7 @@ TYPED_TEST(Rays, MeetWhereTheDistanceEnds) {
             }
             if (start < eps) continue;
             const double t = marched<S>(shape, X, o, d, eps);
-            // Within reach of the ray's end, or of a tangent, either answer is right.
+            // Either result is right near the ray's end and for a tangent.
             if (met != (t <= 1)) {
                 const double gap = distanceOf<S>(o + R(met ? hit.fraction : t) * d, shape, X);
                 EXPECT_NEAR(gap, 0, 3 * eps) << i;

@@ -32,7 +32,8 @@ typename S::Vec vec(double x, double y, double z = 0) {
     }
 }
 
-/// Is the point in the shape? Written from the definition of each shape, apart from the code under test.
+/// True if the point is in the shape. Written from the definition of each shape, apart from the code under
+/// test.
 template <class S>
 bool contains(const Shape<S>& shape, const typename S::Vec& x) {
     if (const auto* s = std::get_if<Sphere<S>>(&shape)) return x.norm() <= s->radius;

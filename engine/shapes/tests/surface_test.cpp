@@ -98,7 +98,8 @@ void expectFindsAll(const Data& data, double size) {
     EXPECT_GT(hits, 50);
 }
 
-/// By definition: the vertex beyond a side belongs to the one other piece with both corners of the side.
+/// Test of the definition: the vertex beyond a side belongs to the one other piece with both corners of the
+/// side.
 template <class S, class Data>
 void expectNeighbours(const Data& data) {
     for (std::uint32_t i = 0; i < data.pieceCount(); ++i)

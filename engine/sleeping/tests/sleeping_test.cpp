@@ -304,7 +304,7 @@ TYPED_TEST(Sleeping, OnlyRestWithoutInterruptionCounts) {
     }
 }
 
-/// Either velocity keeps a body awake, each by its own threshold.
+/// The linear and the angular velocity each keepa body awake, by a threshold of their own.
 TYPED_TEST(Sleeping, WhatOnlySpinsOrOnlyDriftsIsAwake) {
     using S = TypeParam;
     using R = typename S::Real;

@@ -52,7 +52,7 @@ void expectEveryByteCounts(const T& value, T other, std::size_t size) {
         std::vector<unsigned char> changed = bytes;
         changed[i] ^= 1;
         T read = value;
-        if (!readInto(read, changed).empty()) continue;  // such as a length
+        if (!readInto(read, changed).empty()) continue;  // the changed byte may be of a length
         EXPECT_EQ(bytesOf(read), changed) << "byte " << i;
         EXPECT_NE(hashOf(read), hashOf(value)) << "byte " << i;
     }

@@ -46,7 +46,7 @@ const std::string kDynamic =
 const std::string kDynamic2d =
     R"(, {"grid": {"name": "g", "counts": [1, 1], "spacing": [1, 1], "body": {"shapes": [{"circle": {"radius": 0.1}}]}}})";
 
-/// Of a body whose shapes are boxes along the axes.
+/// Extent of a body whose shapes are boxes along the axes.
 struct Span {
     Vec3 low, high;
 };
@@ -67,7 +67,8 @@ bool inside(const Span& box, const Vec3& p, int dimension) {
            (dimension == 2 || (p.z > box.low.z && p.z < box.high.z));
 }
 
-/// Whether every ray from `from` in the directions given meets a box within `reach`, and `from` is in none.
+/// Expects that every ray from `from` in the given directions hits a box within `reach`, and that `from` is
+/// in none.
 void expectEnclosed(const std::vector<Span>& walls, const Vec3& from, int dimension, bool top, double reach) {
     for (int k = 0; k < 400; ++k) {
         const double a = 0.0157079632679 * k, e = dimension == 2 ? 0.0 : 1.5 * std::sin(2.39996 * k);
@@ -135,7 +136,7 @@ TEST(HullPile, AllPointsAreCornersAndTheKindsTakeTurns) {
         EXPECT_EQ(corners(s, i), corners(s, i % 5));
         EXPECT_EQ(corners(s, i), corners(again, i));
         EXPECT_EQ(corners(s, i) == corners(s, 0), i % 5 == 0);
-        // Between the ball inside any such hull and the ball around it.
+        // Bounds: the sphere inside any such hull and the sphere around it.
         const MassProperties& m = s.bodies[i].massProperties;
         EXPECT_LT(m.mass, 1000 * 4.18879 * std::pow(0.55, 3));
         EXPECT_GT(m.mass, 500 * 4.18879 * std::pow(0.55, 3));

@@ -120,7 +120,7 @@ TEST_P(BenchLibrary, StartsApart) {
 INSTANTIATE_TEST_SUITE_P(Files, BenchLibrary, testing::ValuesIn(listBenchScenarios()),
                          [](const auto& each) { return each.param.name; });
 
-/// What the issue of the bench asks for, by number.
+/// Required numbers of bodies of the bench's scenes.
 TEST(BenchScenes, HaveTheBodiesTheySay) {
     const std::map<std::string, std::size_t> counts{
         {"bench_box_pyramid", 1240},   {"bench_box_pyramid_drop", 1240}, {"bench_sphere_pile", 2000},

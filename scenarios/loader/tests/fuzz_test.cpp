@@ -214,7 +214,7 @@ TEST(Fuzz, MutationsAreRefusedWithAPlaceOrLoadWhole) {
             }
         }  // anything else thrown fails the test
     }
-    // Both ways out are really taken.
+    // Both outcomes really occur.
     EXPECT_GT(refused, kRounds / 3);
     EXPECT_GT(loaded, kRounds / 50);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the coordinates of joints may do: read as written, refused where it makes no sense.
+// Modes of the coordinates of joints: read as written, refused where they make no sense.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a bad file gets to read: a good file with one defect each, and the whole first message.
+// Error messages for bad files: a good file with one defect each, and the whole first message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

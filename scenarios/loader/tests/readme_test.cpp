@@ -36,7 +36,8 @@ TEST(Readme, ItsExampleLoads) {
 TEST(Readme, ItsExampleIsTheSmallest) {
     const auto json = nlohmann::json::parse(example());
     for (const auto& [key, value] : json.items()) {
-        if (key == "materials" || key == "reference" || key == "accept") continue;  // what it shows
+        // parts that the example shows
+        if (key == "materials" || key == "reference" || key == "accept") continue;
         auto less = json;
         less.erase(key);
         EXPECT_THROW((void)loadScenarioText(less.dump(), "less"), LoadError) << key;

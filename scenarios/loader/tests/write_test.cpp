@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is written is read back as the same scenario, for every scenario of the library.
+// Every scenario of the library that is written is read back as the same scenario.
 #include "scenarios/loader/write.hpp"
 
 #include <gtest/gtest.h>

@@ -18,8 +18,9 @@ Vec3 corner(const HullMesh& mesh, int i) {
     return mesh.vertices[i];
 }
 
-/// What makes a mesh the convex hull of the points: every face lies in a plane with all points behind it,
-/// loops turn outwards, every edge is shared by two faces in opposite directions, and Euler's formula holds.
+/// Conditions for a mesh to be the convex hull of the points: every face lies in a plane with all points
+/// behind it, loops turn outwards, every edge is shared by two faces in opposite directions, and Euler's
+/// formula holds.
 void expectIsHull(const HullMesh& mesh, const std::vector<Vec3>& points, double tolerance) {
     std::map<std::pair<int, int>, int> edges;
     for (const auto& face : mesh.faces) {

@@ -32,7 +32,7 @@ bool insidePolygon(const std::vector<Vec3>& loop, Vec3 p) {
     return true;
 }
 
-/// Is the point, in the shape's frame, inside? Written from the definitions in scenario.hpp.
+/// True if the point, in the shape's frame, is inside. Written from the definitions in scenario.hpp.
 struct Inside {
     Vec3 p;
     int dimension;

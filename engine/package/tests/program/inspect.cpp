@@ -12,7 +12,7 @@ using S = Space3d;
 int main() {
     WorldDef<S> def;
     def.gravity = {0, -9.81, 0};
-    def.measureResiduals = true;  // how far the rows are from their laws, not the change an iteration makes
+    def.measureResiduals = true;  // residuals are natural maps of the rows, not changes by an iteration
     World<S> world(def);
     const auto wood = world.addMaterial(0.5, 0.0);
     BodyDef<S> body;
