@@ -93,7 +93,7 @@ class Box2dBroadPhase final : public adapter::TimedBroadPhase {
     std::unique_ptr<b2BroadPhase> tree_ = std::make_unique<b2BroadPhase>();
     std::vector<int32> proxies_;
     std::vector<Move> moves_;
-    std::vector<Pair> reported_;  ///< since held() was last asked
+    std::vector<Pair> reported_;  ///< pairs since the last call of held()
     std::vector<Pair> kept_;
 };
 

@@ -121,7 +121,7 @@ struct Side {
     }
 };
 
-/// What is asked about for one shape: itself, or every link of a chain from both of its sides.
+/// Sides of a shape that a query covers: the shape itself, or every link of a chain from both of its sides.
 std::vector<Side> sidesOf(const PosedShape& posed, const Frame& frame) {
     std::vector<Side> sides;
     if (!std::holds_alternative<scenario::Chain>(*posed.geometry)) {
@@ -240,7 +240,7 @@ std::vector<ContactPoint> shapeContacts(const Side& a, const Side& b, const Fram
 }
 
 struct Closest {
-    double distance = 0.0;  ///< of the surfaces, < 0 where the radii overlap [m]
+    double distance = 0.0;  ///< distance of the surfaces, < 0 where the radii overlap [m]
     bool coresApart = false;
     Vec3 onA, onB, normal;
 };

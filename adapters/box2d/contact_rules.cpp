@@ -77,7 +77,7 @@ float ContactRules::restitutionFor(b2Contact& contact, float restitution) const 
         before += separationSpeed(a, nowA, b, nowB, manifold.points[i], manifold.normal);
         after += separationSpeed(a, nextA, b, nextB, manifold.points[i], manifold.normal);
     }
-    if (before >= 0.0f || after >= 0.0f) return 0.0f;  // not approaching of its own: nothing to return
+    if (before >= 0.0f || after >= 0.0f) return 0.0f;  // the point was not approaching by itself: no rebound
     return restitution * before / after;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Between the scenario's metres and doubles and Box2D's floats, in a world whose lengths are S times larger.
-// Time and mass stay; velocities, accelerations, forces and impulses scale with S, inertia and torque with
-// S^2, angles not at all.
+// Conversion between the scenario's metres and doubles and Box2D's floats, in a world whose lengths are S
+// times larger. Time and mass stay; velocities, accelerations, forces and impulses scale with S, inertia and
+// torque with S^2, angles not at all.
 #pragma once
 
 #include <box2d/box2d.h>
@@ -17,7 +17,7 @@ using adapter::Vec3;
 
 inline constexpr const char* kTwoDimensions =
     "manual v2.4, Overview: \"Box2D is a 2D rigid body simulation library\"";
-/// What says that Box2D counts in single precision.
+/// Declaration that shows that Box2D computes in single precision.
 inline constexpr const char* kSinglePrecision = "b2_math.h, struct b2Vec2: float x, y";
 
 inline b2Vec2 toBox2d(const Vec3& v, double scale) {

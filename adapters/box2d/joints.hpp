@@ -22,7 +22,7 @@ using Parts = std::vector<b2Joint*>;
 Parts addJoint(b2World& world, const scenario::Joint& joint, const JointEnd& a, const JointEnd& b,
                double scale);
 
-/// What a joint did to its bodies in the last step of dt, on average.
+/// Reaction of a joint on its bodies in the last step of dt, averaged.
 struct Reaction {
     double force = 0.0;   ///< [N]
     double torque = 0.0;  ///< about B's anchor [N m]

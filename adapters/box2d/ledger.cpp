@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What was asked of Box2D and what it really does. Reasons are measured properties of Box2D 2.4.1.
+// Ledger of the requested settings and what Box2D really does. Reasons are measured properties of Box2D
+// 2.4.1.
 #include <algorithm>
 
 #include "adapters/box2d/world.hpp"

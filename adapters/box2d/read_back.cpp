@@ -25,14 +25,14 @@ void Box2dWorld::readStates(std::span<BodyState> states) const {
     for (std::size_t i = 0; i < records_.size(); ++i) states[i] = stateOf(*records_[i]);
 }
 
-/// After a step Box2D's manifolds are still those found at its start; bodies have moved on, so the manifold
-/// is placed with the poses kept from then.
+/// The manifolds of Box2D after a step are still those found at its start; bodies have moved on, so the
+/// manifold is placed with the poses kept from then.
 void Box2dWorld::appendContact(const b2Contact& contact, std::vector<ContactPoint>& contacts) const {
     if (!contact.IsTouching() || !contact.IsEnabled()) return;
     auto* fixtureA = const_cast<b2Fixture*>(contact.GetFixtureA());
     auto* fixtureB = const_cast<b2Fixture*>(contact.GetFixtureB());
     const auto awake = [](const b2Body* body) { return body->IsAwake() && body->GetType() != b2_staticBody; };
-    // Between sleeping bodies the contact stays, but the step did not solve it.
+    // A contact between sleeping bodies stays, but the step did not solve it.
     const bool solved = awake(fixtureA->GetBody()) || awake(fixtureB->GetBody());
     const auto& tagA = *reinterpret_cast<const FixtureTag*>(fixtureA->GetUserData().pointer);
     const auto& tagB = *reinterpret_cast<const FixtureTag*>(fixtureB->GetUserData().pointer);

@@ -17,7 +17,7 @@ struct Skin {
     float polygon = b2_polygonRadius;  ///< m_radius of polygons and edges
     float circle = 0.0f;               ///< added to the radius of circles
 };
-/// As the library ships: 2 slops around polygons.
+/// Skin of the library as it ships: 2 slops around polygons.
 Skin librarySkin();
 /// Half a slop around everything: Box2D lets shapes rest one slop inside each other's skins, so that their
 /// true surfaces touch.
@@ -37,7 +37,7 @@ struct ShapeSettings {
 std::vector<std::unique_ptr<b2Shape>> buildGeometry(const adapter::Geometry& geometry, const Pose& inBody,
                                                     const Pose& bodyPose, const ShapeSettings& settings);
 
-/// How far the surface that Box2D works with lies outside the shape's own [Box2D lengths].
+/// Distance by which Box2D's surface lies outside the shape's own [Box2D lengths].
 float skinOf(const b2Shape& shape, const Skin& skin);
 
 }  // namespace rigor::box2d

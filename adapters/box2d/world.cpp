@@ -97,7 +97,7 @@ void Box2dWorld::addBody(int index) {
     if (source.collides) addFixtures(*record, index);
     if (source.type == BodyType::Dynamic) setMass(*record->body, source);
     if (source.type != BodyType::Static) {
-        // After the mass: setting that moves the velocity with the centre of mass.
+        // Set after the mass: setting the mass moves the velocity with the centre of mass.
         record->body->SetLinearVelocity(toBox2d(source.velocity, scale_));
         record->body->SetAngularVelocity(static_cast<float>(source.angularVelocity.z));
     }
@@ -150,7 +150,7 @@ void Box2dWorld::addJoint(const scenario::Joint& joint) {
     joints_.push_back(box2d::addJoint(*world_, joint, endOf(joint.bodyA), endOf(joint.bodyB), scale_));
 }
 
-/// As the manual does it: after a step the reaction is compared with the strength, and the joint destroyed.
+/// This follows the manual: after a step the reaction is compared with the strength, and the joint destroyed.
 void Box2dWorld::breakJoints() {
     bool any = false;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
@@ -165,8 +165,8 @@ void Box2dWorld::breakJoints() {
     if (any) collidePairsOfBrokenJoints();
 }
 
-/// What a joint kept apart may touch once it has broken. Box2D looks for new pairs of fixtures that have
-/// moved, or were told to be filtered again.
+/// Lets bodies that a joint kept from colliding collide once it has broken. Box2D finds new pairs only of
+/// fixtures that have moved or are marked to be filtered again.
 void Box2dWorld::collidePairsOfBrokenJoints() {
     adapter::Scenario left = scenario_;
     left.joints.clear();

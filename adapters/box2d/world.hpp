@@ -63,9 +63,9 @@ class Box2dWorld final : public adapter::World, public adapter::StateSetting {
     adapter::PairTable pairs_;
     std::vector<std::unique_ptr<BodyRecord>> records_;
     std::unique_ptr<ContactRules> rules_;
-    std::unique_ptr<b2World> world_;   // after what its bodies and callbacks point at
-    b2Body* ground_ = nullptr;         ///< what joints to the world hold on to
-    std::vector<Parts> joints_;        ///< by the scenario's index; empty once broken
+    std::unique_ptr<b2World> world_;   // declared after the objects that its bodies and callbacks point at
+    b2Body* ground_ = nullptr;         ///< body that joints to the world are attached to
+    std::vector<Parts> joints_;        ///< joints by the scenario's index; empty once broken
     std::vector<b2Transform> before_;  ///< poses at the start of the last step, by body
 };
 

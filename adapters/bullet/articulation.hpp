@@ -22,7 +22,7 @@ namespace rigor::bullet {
 struct ArticulationSettings {
     double dt = 0.0;               ///< [s]
     double damping = 0.0;          ///< btMultiBody's, linear and angular
-    double maximalVelocity = 1e9;  ///< of a coordinate; Bullet clamps it [m/s] or [rad/s]
+    double maximalVelocity = 1e9;  ///< limit of a coordinate's speed; Bullet clamps it [m/s] or [rad/s]
     bool rungeKutta = false;       ///< RK4 instead of semi-implicit Euler
     bool gyroscopic = true;
     bool maySleep = false;
@@ -31,7 +31,7 @@ struct ArticulationSettings {
 
 class Articulations {
   public:
-    /// What a link needs of its body's record.
+    /// Data of a body's record that its link needs.
     struct LinkSource {
         adapter::Pose comFrame;  ///< centre of mass and principal axes, in the body frame
         btVector3 moments;       ///< [kg m^2]
@@ -40,8 +40,8 @@ class Articulations {
         btScalar contactProcessingThreshold = btScalar(BT_LARGE_FLOAT);
     };
 
-    /// Which bodies become links: the dynamic ones that a joint names. Throws Unsupported where btMultiBody
-    /// lacks what their joints ask for.
+    /// Bodies that become links: the dynamic ones that a joint names. Throws Unsupported if btMultiBody lacks
+    /// a feature of their joints.
     static std::vector<bool> linkedBodies(const adapter::Scenario& scenario);
 
     /// Adds the multibodies to the world; `sources` is indexed by body.
@@ -52,12 +52,13 @@ class Articulations {
     bool has(int body) const { return links_[static_cast<std::size_t>(body)].multiBody != nullptr; }
     /// Forward kinematics of all links: Bullet's cached poses are those of the start of its step.
     void update();
-    btTransform pose(int body) const;  ///< of the centre-of-mass frame
+    btTransform pose(int body) const;  ///< pose of the centre-of-mass frame
     btVector3 velocity(int body) const;
     btVector3 angularVelocity(int body) const;
     double mass(int body) const;
     btVector3 moments(int body) const;
-    void addForce(int body, const btVector3& force, const btVector3& torque);  ///< of the next step
+    /// force and torque of the next step
+    void addForce(int body, const btVector3& force, const btVector3& torque);
     /// Torques and forces of the joints' springs and dampers at the present state, for the next step.
     void pullSprings();
     bool asleep(int body) const;
@@ -93,7 +94,7 @@ class Articulations {
     std::vector<LinkSource> sources_;
     btMultiBodyDynamicsWorld& world_;
     ArticulationSettings settings_;
-    std::vector<Link> links_;  ///< by body
+    std::vector<Link> links_;  ///< link of each body
     std::vector<std::unique_ptr<btMultiBody>> multiBodies_;
     std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
     std::vector<std::unique_ptr<btMultiBodyConstraint>> constraints_;

@@ -65,7 +65,8 @@ Geometry lifted(const Geometry& geometry, double halfDepth) {
     return solid;
 }
 
-/// Those of a world with these settings, half-spaces apart; without settings the ones of the matched preset.
+/// Shape settings of a world with these settings, except for half-spaces; without settings those of the
+/// matched preset.
 ShapeSettings shapeSettings(const adapter::Settings* given) {
     ShapeSettings settings;
     settings.polyhedralFeatures = given == nullptr || given->at("sat") == "on";
@@ -177,8 +178,8 @@ class BulletBatch final : public adapter::CollisionBatch {
 /// Contacts of the stepping path: every manifold point, overlapping or not.
 class ContactFinder {
   public:
-    /// With `wholeFaces` a polyhedron on a plane, which gets one point per call, is asked about in slightly
-    /// turned poses too: with eight directions each corner of a square face is met at least once.
+    /// `wholeFaces`: a polyhedron on a plane, which gets one point per call, is also queried in slightly
+    /// turned poses: with eight directions each corner of a square face is found at least once.
     explicit ContactFinder(bool wholeFaces) : configuration_(smallPools()), dispatcher_(&configuration_) {
         if (wholeFaces) configuration_.setPlaneConvexMultipointIterations(8, 5);
     }
@@ -270,7 +271,7 @@ Closest planeDistance(const Side& plane, const Side& convex, bool planeIsA) {
     return {static_cast<double>(distance), planeIsA ? foot : tip, planeIsA ? tip : foot};
 }
 
-/// None of a surface: GJK is of convex shapes.
+/// Closest points of two sides; empty for a surface, since GJK needs convex shapes.
 std::optional<Closest> closestPoints(const Side& a, const Side& b) {
     if (a.surface || b.surface) return std::nullopt;
     if (a.isPlane()) return planeDistance(a, b, true);

@@ -14,11 +14,11 @@
 
 namespace rigor::bullet {
 
-/// What Bullet's callbacks find behind a collision object's user pointer.
+/// Data behind a collision object's user pointer, read by Bullet's callbacks.
 struct BodyTag {
     const adapter::PairTable* table = nullptr;
     int body = 0;
-    std::vector<int> materials;  ///< by shape index
+    std::vector<int> materials;  ///< material by shape index
     int materialOf(int shape) const;
 };
 

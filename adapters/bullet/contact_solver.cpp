@@ -90,7 +90,7 @@ class BulletSolve final : public adapter::ContactSolve {
             constexpr int kPivots = 1000;
             found.gaveUp = !solve(1.0, kPivots);
             found.iterations = k + 1;
-            double change = 0.0;  // as a velocity
+            double change = 0.0;  // change as a velocity
             for (int i = 0; i < n_; ++i)
                 change = std::max(change, std::abs(static_cast<double>(A_(i, i) * (x_[i] - before[i]))));
             if (found.gaveUp || change <= tolerance) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Between the scenario's doubles and Bullet's scalars.
+// Conversion between the scenario's doubles and Bullet's scalars.
 #pragma once
 
 #include <LinearMath/btTransform.h>

@@ -14,7 +14,7 @@ void Damper::update() const {
     const btVector3 axis = frame.getBasis().getColumn(coordinate % 3);
     btVector3 rate = b.getAngularVelocity() - a.getAngularVelocity();
     if (coordinate < 3) {
-        // Of B's anchor as A sees it.
+        // B's anchor in the frame of A.
         const btVector3 anchor = b.getCenterOfMassTransform() * joint->getFrameOffsetB().getOrigin();
         rate = b.getVelocityInLocalPoint(anchor - b.getCenterOfMassPosition()) -
                a.getVelocityInLocalPoint(anchor - a.getCenterOfMassPosition());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What was asked of Bullet and what it really does. Numbers are of this build's world; reasons are measured
-// properties of Bullet 3.24.
+// Ledger of the requested settings and what Bullet really does. Numbers are of this build's world; reasons
+// are measured properties of Bullet 3.24.
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 
 #include <algorithm>

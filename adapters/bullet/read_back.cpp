@@ -40,7 +40,7 @@ void BulletWorld::readStates(std::span<BodyState> states) const {
 
 namespace {
 
-/// In 2D the two ends of a prism's edge are one contact: same bodies, shapes and place.
+/// Merges the two ends of a prism's edge, which are one contact in 2D: same bodies, shapes and place.
 void addPlanarContact(ContactPoint contact, std::vector<ContactPoint>& contacts, std::size_t first) {
     contact.pointA.z = contact.pointB.z = 0.0;
     contact.frictionImpulse.z = 0.0;
@@ -77,7 +77,7 @@ void BulletWorld::appendManifold(const btPersistentManifold& manifold,
                                  std::vector<ContactPoint>& contacts) const {
     const btCollisionObject& object0 = *manifold.getBody0();
     const btCollisionObject& object1 = *manifold.getBody1();
-    // Between sleeping bodies the contact stays, but the step did not solve it.
+    // A contact between sleeping bodies stays, but the step did not solve it.
     const auto awake = [](const btCollisionObject& o) { return o.isActive() && !o.isStaticObject(); };
     const bool solved = awake(object0) || awake(object1);
     const int body0 = static_cast<const BodyTag*>(object0.getUserPointer())->body;

@@ -21,9 +21,9 @@ inline constexpr double kHalfSpaceDepth = 10.0;
 
 struct ShapeSettings {
     bool polyhedralFeatures = false;         ///< faces and edges for the SAT path of hulls and boxes
-    double boxMargin = kLibraryMargin;       ///< of boxes; inside the shape [m]
-    double cylinderMargin = kLibraryMargin;  ///< of cylinders; inside the shape [m]
-    double hullMargin = kLibraryMargin;      ///< of hulls and cones; grows a hull [m]
+    double boxMargin = kLibraryMargin;       ///< margin of boxes; inside the shape [m]
+    double cylinderMargin = kLibraryMargin;  ///< margin of cylinders; inside the shape [m]
+    double hullMargin = kLibraryMargin;      ///< margin of hulls and cones; grows a hull [m]
     bool halfSpaceAsBox = false;
     double halfSpaceReach = 100.0;  ///< half width of that box [m]
     adapter::Vec3 halfSpaceCenter;  ///< its middle is the projection of this world point

@@ -51,7 +51,7 @@ int gyroscopicFlags(const std::string& treatment) {
     if (treatment == "explicit") return BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT;
     if (treatment == "implicit_world") return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD;
     if (treatment == "implicit_body") return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
-    return 0;  // none, external
+    return 0;  // no gyroscopic torque, or an external one
 }
 
 }  // namespace
@@ -230,7 +230,7 @@ void BulletWorld::addBody(int index) {
         return;
     }
     world_->addRigidBody(&rigid);
-    // After adding: the world overwrites a body's own gravity.
+    // Set after adding the body: the world overwrites a body's own gravity.
     if (dynamic) rigid.setGravity(toBullet(body.gravityScale * scenario_.gravity));
     records_.push_back(std::move(record));
 }
@@ -252,7 +252,7 @@ void BulletWorld::addJoint(const scenario::Joint& joint) {
     auto record = std::make_unique<JointRecord>();
     record->built = buildJoint(joint, endOf(joint.bodyA), endOf(joint.bodyB), settings);
     setBreaking(joint, *record);
-    // Whether the two collide is the pair filter's business.
+    // The pair filter decides whether the two collide.
     for (const auto& part : record->built.parts) world_->addConstraint(part.get(), false);
     joints_.push_back(std::move(record));
 }
@@ -278,7 +278,8 @@ bool BulletWorld::JointRecord::holds() const {
                        [](const auto& part) { return part->isEnabled(); });
 }
 
-/// As Bullet's threshold: what broke in this step acts no more from the next one on; with one part all.
+/// Follows Bullet's threshold: a joint that broke in this step does not act from the next one on; if one part
+/// breaks, all do.
 void BulletWorld::breakJoints() {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
         JointRecord& record = *joints_[i];

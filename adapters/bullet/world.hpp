@@ -43,22 +43,23 @@ class BulletWorld final : public adapter::World, public adapter::StateSetting {
     bool jointHolds(int joint) const override;
 
   private:
-    /// What one scenario body is in Bullet. Addresses are stable: Bullet keeps pointers to all of it.
+    /// Objects of one scenario body in Bullet. Addresses are stable: Bullet keeps pointers to all of it.
     struct BodyRecord {
         adapter::Pose
             comFrame;  ///< Bullet's frame (origin: centre of mass, principal axes) in the body frame
         std::unique_ptr<BodyShape> shape;
         std::unique_ptr<btRigidBody> body;
         BodyTag tag;
-        btVector3 velocity{0, 0, 0}, angularVelocity{0, 0, 0};  ///< of a kinematic body
+        btVector3 velocity{0, 0, 0}, angularVelocity{0, 0, 0};  ///< velocities of a kinematic body
         bool linked = false;                                    ///< a link of articulations_
     };
     struct JointRecord {
         BuiltJoint built;
-        std::vector<btJointFeedback> feedback;  ///< of each part: mean force and torque of the last step
+        std::vector<btJointFeedback> feedback;  ///< feedback of each part: mean force and torque of the last
+                                                ///< step
         bool watched = false;                   ///< broken by its feedback
 
-        bool holds() const;  ///< none of its parts is broken
+        bool holds() const;  ///< true if none of its parts is broken
     };
     class PairFilter;
 
@@ -83,7 +84,7 @@ class BulletWorld final : public adapter::World, public adapter::StateSetting {
     static void beforeStep(btDynamicsWorld* world, btScalar dt);
     bool is(const std::string& key, const std::string& value) const;
 
-    adapter::Scenario original_;  ///< as given
+    adapter::Scenario original_;  ///< scenario as given
     adapter::Scenario scenario_;  ///< three-dimensional
     adapter::Settings settings_;
     double dt_ = 0.0;
@@ -95,8 +96,9 @@ class BulletWorld final : public adapter::World, public adapter::StateSetting {
     std::vector<bool> linked_;  ///< bodies that are links; see Articulations::linkedBodies
     std::vector<std::unique_ptr<BodyRecord>> records_;
     std::unique_ptr<btEmptyShape> groundShape_;
-    std::unique_ptr<btRigidBody> ground_;  ///< what joints to the world hold on to; not in the world
-    std::vector<std::unique_ptr<JointRecord>> joints_;  ///< by scenario index
+    std::unique_ptr<btRigidBody> ground_;  ///< body that joints to the world are attached to; not in the
+                                           ///< world
+    std::vector<std::unique_ptr<JointRecord>> joints_;  ///< joints by scenario index
 
     std::unique_ptr<btDefaultCollisionConfiguration> configuration_;
     std::unique_ptr<btCollisionDispatcher> dispatcher_;

@@ -65,7 +65,8 @@ TEST_P(BroadPhases, MovingBoxesMeetTheSamePartnersAsByBruteForce) {
     compare(frames);
 }
 
-/// As it is timed: no pairs are read in between, and the engine may hold more than those that overlap.
+/// The broad phase runs as when it is timed: no pairs are read in between, and the engine may hold more than
+/// those that overlap.
 TEST_P(BroadPhases, WhatIsHeldAfterManyRunsHasAllPairs) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> place(-5.0, 5.0), move(-0.05, 0.05);
@@ -124,7 +125,8 @@ TEST_P(BroadPhases, NothingMeetsNothing) {
 }
 
 TEST_P(BroadPhases, UnknownNamesAreRefused) {
-    // Either of the interface's two refusals; a std::runtime_error of the library's own would not do.
+    // One of the interface's two refusals is required; a std::runtime_error of the library's own would not
+    // do.
     try {
         engine().broadPhase()->create("no such algorithm", GetParam());
         ADD_FAILURE() << "created something";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What an adapter says about itself and its world, and what it refuses.
+// Declarations of an adapter about itself and its world, and its refusals.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

@@ -82,7 +82,7 @@ class Collision : public testing::TestWithParam<int> {
         const auto shapes = engine().capabilities().shapes;
         return std::find(shapes.begin(), shapes.end(), shape) != shapes.end();
     }
-    /// Where the whole scene is put: turns that leave nothing aligned with the axes.
+    /// Poses of the whole scene: turns that leave nothing aligned with the axes.
     std::vector<Pose> stages() const {
         if (dimension() == 2) return {{}, {{0.3, -0.7, 0}, fromAxisAngle({0, 0, 1}, 2.1)}};
         return {{}, {{0.3, -0.7, 0.5}, fromAxisAngle(Vec3{1, 2, -2} / 3.0, 2.1)}};

@@ -41,7 +41,7 @@ class ContactInstant : public DynamicsTest {
     struct Seen {
         std::size_t contacts = 0;
         double surface = 0.0;  ///< largest distance of a point from its surface, at the start of the step [m]
-        double surfaceAtEnd = 0.0;  ///< and at the poses after the step
+        double surfaceAtEnd = 0.0;  ///< surface at the poses after the step
         double normal = 0.0;        ///< largest angle to the nearest of what `normals` gives [rad]
     };
     using Normals = std::vector<Vec3> (*)(const Pose& a, const Pose& b);
@@ -83,7 +83,7 @@ std::vector<Vec3> alongCenters(const Pose& a, const Pose& b) {
     const Vec3 apart = b.position - a.position;
     return {apart / norm(apart)};
 }
-/// Up on the plank, out of any face of the box on it.
+/// Normals of the plank's top and of all faces of the box on it.
 std::vector<Vec3> facesOfEither(const Pose& a, const Pose& b) {
     std::vector<Vec3> all = upOfA(a, b);
     for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})

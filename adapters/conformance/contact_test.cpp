@@ -226,7 +226,7 @@ TEST_P(Contact, SegmentsAndChainsBearFromBothSides) {
                            std::abs(state.position.y - 0.2 * side), 2e-3);
                     within("line_creep", std::abs(state.position.x - (body == box ? 0.55 : -0.95)), 2e-3);
                 }
-                // From the line to the body.
+                // The normal points from the line to the body.
                 for (const ContactPoint& c : contactsOf(*world))
                     within("line_normal", norm(c.normal - Vec3{0, side, 0}), 1e-3);
             }

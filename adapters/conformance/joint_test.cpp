@@ -238,8 +238,8 @@ TEST_P(Joints, AHingeStopsAtItsLimits) {
     }
 }
 
-/// Against no load a motor reaches its speed at its torque over the inertia, in its sense; overloaded it
-/// yields.
+/// A motor without load accelerates by its torque over the inertia up to its speed, in its sense; overloaded
+/// it yields.
 TEST_P(Joints, AHingeMotorTurnsAtItsSpeedWithItsTorque) {
     if (!hasJoint("hinge.motor")) GTEST_SKIP() << "no hinge motors";
     for (const double load : {0.0, -1.5}) {
@@ -255,7 +255,7 @@ TEST_P(Joints, AHingeMotorTurnsAtItsSpeedWithItsTorque) {
             world->applyForce(b, {}, {0, 0, load});
             world->step();
         }
-        // After 0.5 s: 1 N m / 0.5 kg m^2 gives 1 rad/s; with the load -0.5 N m / 0.5 kg m^2.
+        // Speeds after 0.5 s: 1 N m / 0.5 kg m^2 gives 1 rad/s; with the load -0.5 N m / 0.5 kg m^2.
         within("hinge_motor_start",
                std::abs(stateOf(*world, s, b).angularVelocity.z - (load == 0.0 ? 1.0 : -0.5)), 2e-2);
         if (load != 0.0) continue;
@@ -404,7 +404,7 @@ TEST_P(Joints, ARopeIsSlackThenTaut) {
     within("rope_rest", norm(stateOf(*world, s, b).velocity), 2e-2);
 }
 
-/// In 3D a pin need not be normal to its strut.
+/// A pin in 3D need not be normal to its strut.
 TEST_P(Joints, AWheelHasASpringAlongItsAxisAndAMotorAboutItsPin) {
     if (!hasJoint("wheel.spring") || !hasJoint("wheel.motor")) GTEST_SKIP() << "no driven wheels";
     for (const Vec3& pin : {Vec3{0, 0, 1}, Vec3{0, 0.6, 0.8}}) {

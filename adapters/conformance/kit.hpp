@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What every test of the kit stands on: the engine under test, the arenas it is tested in (preset, dimension,
+// Base of every test of the kit: the engine under test, the arenas it is tested in (preset, dimension,
 // precision), scenarios of one or two bodies, and comparisons that know the documented deviations.
 #pragma once
 
@@ -42,7 +42,7 @@ const adapter::EngineSpec& engineSpec();
 /// One way to run the engine.
 struct Arena {
     std::string preset;     ///< one of presetNames()
-    int dimension = 3;      ///< of the scenarios
+    int dimension = 3;      ///< dimension of the scenarios
     std::string precision;  ///< "f32", "f64"
     bool f64() const { return precision == "f64"; }
 };

@@ -39,7 +39,7 @@ class StateSettingTest : public DynamicsTest {
     }
     /// A floor whose surface is y = 0.
     int addFloor(Scenario& s) const { return addStatic(s, block({10.0, 0.5, 10.0}), {0.0, -0.5, 0.0}); }
-    /// Within the largest skin that an engine leaves between resting shapes [m].
+    /// True if the distance is within the largest skin that an engine leaves between resting shapes [m].
     bool touches(const adapter::World& world, int a, int b) const {
         for (const ContactPoint& c : contactsOf(world))
             if (c.bodyA == a && c.bodyB == b && c.depth > -0.03) return true;
@@ -49,7 +49,7 @@ class StateSettingTest : public DynamicsTest {
 INSTANTIATE_TEST_SUITE_P(Kit, StateSettingTest, testing::ValuesIn(dynamicsArenas()), arenaName);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(StateSettingTest);
 
-/// With a centre of mass away from the body's origin, before the first step and later.
+/// The centre of mass is away from the body's origin; states are set before the first step and later.
 TEST_P(StateSettingTest, WhatIsSetIsReadBack) {
     Scenario s = scene();
     const int still = addStatic(s, ball(0.2), {5, 5, 0}), b = addBody(s, ball(0.5), {}, 2.0);

@@ -58,8 +58,8 @@ bool addPair(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* found) {
     if (a != b) static_cast<std::vector<Pair>*>(found)->push_back({a, b});
     return false;  // go on
 }
-/// Of the hash, which hands over all that share a bucket, and all that left its region, without a look at
-/// their bounds: that is left to the callback.
+/// Callback of the hash, which passes all objects of a bucket, and all that left its region, without a test
+/// of their bounds: the callback tests them.
 bool addPairInTouch(fcl::CollisionObjectd* p, fcl::CollisionObjectd* q, void* found) {
     return p->getAABB().overlap(q->getAABB()) && addPair(p, q, found);
 }

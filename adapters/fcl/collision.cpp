@@ -30,8 +30,8 @@ using adapter::Vec3;
 
 /// More than any pair gives: with fewer, FCL drops contacts in no particular order.
 constexpr std::size_t kMostContacts = 64;
-/// Where libccd's iteration on a distance stops, FCL's own value: it leaves errors of 2e-4 m at round shapes
-/// that are apart, but with a smaller one the assertions of its EPA fail and end the process.
+/// Tolerance of libccd's distance iteration, FCL's own value: it leaves errors of 2e-4 m at round shapes that
+/// are apart, but with a smaller one the assertions of its EPA fail and end the process.
 constexpr double kDistanceTolerance = 1e-6;
 /// Overlaps [m] below which EPA is not asked; it failed at exact touch.
 constexpr double kLeastDepth = 1e-7;
@@ -68,8 +68,8 @@ bool isPolytope(const Geometry& geometry) {
     return is<scenario::Box>(geometry) || is<scenario::ConvexHull>(geometry);
 }
 
-/// Whether libccd's EPA is asked about an overlap: only about polytopes (two boxes have SAT with clipping),
-/// and not about touching ones. Of 2 million queries around the first touch some 40 with a round shape failed
+/// True if libccd's EPA may be called for an overlap: only for polytopes (two boxes have SAT with clipping),
+/// and not for touching ones. Of 2 million queries around the first touch some 40 with a round shape failed
 /// an assertion in it, which ends the process; coaxial capsules and coinciding cylinders keep it busy for
 /// ever.
 bool mayAskEpa(const Geometry& a, const Geometry& b, double depth) {
@@ -116,7 +116,7 @@ std::vector<ContactPoint> contactsOf(const fcl::CollisionResultd& result, const 
     return contacts;
 }
 
-/// Also of contacts that had no direction. Negative where FCL's own solver says so.
+/// Largest depth, including contacts that had no direction. Negative if FCL's own solver reports it so.
 double deepest(const fcl::CollisionResultd& result) {
     if (result.numContacts() == 0) return 0.0;
     double depth = result.getContact(0).penetration_depth;
@@ -139,7 +139,7 @@ void answerDistance(const FclShape& a, const FclShape& b, bool unbounded, bool e
         if (unbounded) return;
         found = separation(a, b, false, solver);
         if (!found) return;
-        // Within its tolerance GJK may see an overlap where fcl::collide saw none.
+        // GJK may find an overlap within its tolerance where fcl::collide saw none.
         found->distance = std::max(found->distance, 0.0);
     }
     answer.signedDistance = found->distance;
@@ -154,7 +154,8 @@ void bringIntoPlane(std::vector<ContactPoint>& contacts) {
     std::vector<ContactPoint> flat;
     for (ContactPoint c : contacts) {
         c.normal.z = c.pointA.z = c.pointB.z = 0.0;
-        if (norm(c.normal) < 0.5) continue;  // out of the plane: deeper than the prisms are thick
+        // the normal is out of the plane: deeper than the prisms are thick
+        if (norm(c.normal) < 0.5) continue;
         c.normal = c.normal / norm(c.normal);
         const bool known = std::any_of(flat.begin(), flat.end(), [&](const ContactPoint& f) {
             return norm(f.pointA - c.pointA) < kSamePoint && norm(f.pointB - c.pointB) < kSamePoint;

@@ -24,7 +24,7 @@ using adapter::Pose;
 using adapter::Vec3;
 
 struct ToGeometry {
-    Vec3 origin;          ///< of FCL's frame in the shape's frame
+    Vec3 origin;          ///< origin of FCL's frame in the shape's frame
     bool alongZ = false;  ///< FCL's z axis is our y axis
 
     std::shared_ptr<fcl::CollisionGeometryd> operator()(const scenario::Sphere& s) {

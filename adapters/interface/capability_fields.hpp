@@ -34,7 +34,7 @@ void forEachCapability(C& capabilities, Visit&& visit) {
     visit("library_lacks", libraryLacks);
 }
 
-/// As an object of a JSON library like nlohmann's, one key for each field.
+/// Capabilities as an object of a JSON library like nlohmann's, one key for each field.
 template <class Json>
 Json capabilitiesToJson(const Capabilities& capabilities) {
     Json json = Json::object();

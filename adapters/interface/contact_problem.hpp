@@ -20,7 +20,8 @@
 
 namespace rigor::adapter {
 
-/// By columns: those of column j stand at start[j] .. start[j + 1] - 1, sorted by row, each entry once.
+/// Sparse matrix by columns: the entries of column j are at start[j] .. start[j + 1] - 1, sorted by row, each
+/// entry once.
 struct SparseMatrix {
     int rows = 0, columns = 0;
     std::vector<int> start;  ///< columns + 1
@@ -30,7 +31,7 @@ struct SparseMatrix {
 
 struct ContactProblem {
     int dimension = 3;       ///< 2 or 3: components per contact
-    std::vector<double> mu;  ///< by contact, >= 0
+    std::vector<double> mu;  ///< coefficient of each contact, >= 0
     std::vector<double> W;   ///< n x n, row by row, n = dimension * contacts; may be unsymmetric
     std::vector<double> q;   ///< n
     bool hasBodies = false;  ///< the following is known; W and q are made from it
@@ -42,7 +43,7 @@ struct ContactProblem {
     std::size_t size() const { return q.size(); }
 };
 
-/// What friction a solver really solves for. The first tangent is at angle 0.
+/// Friction model that a solver really solves. The first tangent is at angle 0.
 struct FrictionModel {
     enum class Kind {
         Cone,    ///< |r_T| <= mu r_N

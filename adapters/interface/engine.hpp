@@ -29,8 +29,8 @@ class World {
     /// the next step only. Calls accumulate.
     virtual void applyForce(int body, const Vec3& force, const Vec3& torque) = 0;
 
-    /// Whether the world evaluates the scenario's force elements itself, so that no caller applies them: only
-    /// an engine that looks at forces more than once in a step needs to.
+    /// True if the world evaluates the scenario's force elements itself, so that no caller applies them: only
+    /// an engine that evaluates forces more than once in a step needs to.
     virtual bool evaluatesForces() const { return false; }
 
     /// Changes linear [N s] and angular [N m s] momentum of a dynamic body at once. False: the engine leaves
@@ -60,13 +60,13 @@ class World {
     virtual StepCounters counters() const { return {}; }
     virtual Scheme scheme() const = 0;
 
-    /// Whether a joint still holds: false once it has broken.
+    /// True while a joint holds, false once it has broken.
     virtual bool jointHolds(int joint) const {
         (void)joint;
         return true;
     }
 
-    /// Whether the engine has put a body to sleep: stopped it and leaves it out of its steps.
+    /// True if the engine has put a body to sleep: stopped it and leaves it out of its steps.
     virtual bool isAsleep(int body) const {
         (void)body;
         return false;
@@ -124,7 +124,7 @@ class Engine {
     virtual EngineInfo info() const = 0;
     virtual Capabilities capabilities() const = 0;
     virtual std::vector<Option> options()
-        const = 0;  ///< without "preset"; "precision" only where one module has several
+        const = 0;  ///< keys without "preset"; "precision" only where one module has several
     virtual const DynamicsEngine* dynamics() const { return nullptr; }
     virtual const CollisionEngine* collision() const { return nullptr; }
     virtual const BroadPhaseEngine* broadPhase() const { return nullptr; }

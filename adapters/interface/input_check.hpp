@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What must hold before a scenario or a query may reach a library: several of them abort or fall into a
-// loop on NaN, zero mass or degenerate shapes.
+// Conditions that a scenario or a query must meet before it is passed to a library: several of them abort or
+// fall into a loop on NaN, zero mass or degenerate shapes.
 #pragma once
 
 #include "adapters/interface/engine.hpp"

@@ -18,7 +18,7 @@ using scenario::Body;
 using scenario::Joint;
 using scenario::JointType;
 
-/// How a coordinate changes with the velocities: u = lin.(vB - vA) + angA.wA + angB.wB, world frame.
+/// Jacobian row of a coordinate: u = lin.(vB - vA) + angA.wA + angB.wB, world frame.
 struct Row {
     Vec3 lin, angA, angB;
 };
@@ -155,7 +155,7 @@ class Rows {
     bool isFlat_;
     Side a_, b_;
     Vec3 anchorA_, anchorB_;      ///< world
-    Vec3 axis_, normal_, third_;  ///< of the joint, unit, world
+    Vec3 axis_, normal_, third_;  ///< unit axes of the joint, world frame
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the scenario format can ask for and an engine does not do, for people who want to know before a run.
+// Features of the scenario format that an engine does not have, listed for users before a run.
 #pragma once
 
 #include <string>

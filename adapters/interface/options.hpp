@@ -34,7 +34,7 @@ inline Option integer(const char* key, double min, double max, const char* byDef
 /// Six significant digits, for ledger lines.
 std::string shown(double value);
 
-/// Whether a shape of one of the kinds may touch something in the scenario.
+/// True if a shape of one of the kinds may touch something in the scenario.
 template <class... Kinds>
 bool hasCollidingShape(const Scenario& scenario) {
     for (const auto& body : scenario.bodies)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Who may touch whom, with which coefficients: looked up by adapters from inside engine callbacks.
+// Table of the pairs that may collide, with their coefficients: looked up by adapters from inside engine
+// callbacks.
 #pragma once
 
 #include <utility>
@@ -21,7 +22,7 @@ class PairTable {
         return table_[static_cast<std::size_t>(materialA) * materials_ + static_cast<std::size_t>(materialB)];
     }
 
-    /// As scenario::mayCollide; bodies without shapes never collide.
+    /// Same as scenario::mayCollide; bodies without shapes never collide.
     bool mayCollide(int bodyA, int bodyB) const;
 
     /// One shape of one body.
@@ -31,7 +32,7 @@ class PairTable {
     /// Two shapes that may touch.
     struct Example {
         int materialA = 0, materialB = 0;  ///< materialA <= materialB
-        ShapeRef a, b;                     ///< of materialA and of materialB
+        ShapeRef a, b;                     ///< shapes of materialA and of materialB
     };
     /// One example for every unordered pair of materials that can meet, sorted by materials.
     std::vector<Example> examples() const;
@@ -43,7 +44,7 @@ class PairTable {
     std::size_t materials_ = 0;
     std::vector<scenario::PairCoefficients> table_;
     std::vector<bool> collides_, dynamic_;
-    std::vector<std::vector<int>> materialsOf_;   ///< by body and shape
+    std::vector<std::vector<int>> materialsOf_;   ///< materials by body and shape
     std::vector<std::pair<int, int>> connected_;  ///< sorted pairs that a joint keeps from colliding
 };
 

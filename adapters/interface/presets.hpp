@@ -18,7 +18,8 @@ namespace rigor::adapter {
 /// A preset of an engine's own.
 struct Preset {
     std::string name;                           ///< snake_case, not one of usualPresets()
-    std::map<std::string, std::string> values;  ///< by key of Option; other keys have their matched values
+    std::map<std::string, std::string> values;  ///< values by key of Option; other keys have their matched
+                                                ///< values
 };
 
 class EngineWithPresets : public Engine {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How far a scenario spreads: engines without a suitable half-space get a box in its place, which has to be
-// large enough, and in single precision no larger than that.
+// Bound on the extent of a scenario: engines without a suitable half-space get a box in its place, which has
+// to be large enough, and in single precision no larger than that.
 #pragma once
 
 #include "adapters/interface/types.hpp"

@@ -32,8 +32,8 @@ EngineSpec parseSpec(const std::string& text);
 /// before it).
 std::vector<EngineSpec> parseSpecList(const std::string& text);
 
-/// Where modules are looked for, first hit wins: RIGOR_ADAPTER_PATH (colon separated), then `adapters/`
-/// beside the binary's folder and in it.
+/// Folders that are searched for modules, in this order: RIGOR_ADAPTER_PATH (colon separated), then
+/// `adapters/` beside the binary's folder and in it.
 std::vector<std::filesystem::path> adapterPath();
 /// Engine names with a module on the path, sorted.
 std::vector<std::string> availableEngines();

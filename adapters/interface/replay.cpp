@@ -49,7 +49,7 @@ class Reader {
     std::size_t at_ = 0;
 };
 
-/// Does to a world what the log says; returns where the steps that end the log are counted.
+/// Applies the calls of the log to a world; returns the offset of the count of the steps that end the log.
 std::size_t replay(const std::vector<unsigned char>& log, World& world, StateSetting& setter) {
     Reader in(log);
     std::size_t at = 0, stepsAt = log.size();
@@ -103,7 +103,7 @@ void ReplayWorld::put(const void* data, std::size_t size) {
     if (size > 0) std::memcpy(log_.data() + at, data, size);
 }
 
-/// Before an entry other than steps: whether it is to be written down.
+/// Called before an entry other than steps; true if the entry is to be recorded.
 bool ReplayWorld::recording() {
     if (!records_) lost_ = true;
     return records_;

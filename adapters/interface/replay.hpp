@@ -53,7 +53,7 @@ class ReplayWorld final : public World, public Snapshots, public StateSetting {
     std::unique_ptr<World> world_;
     StateSetting* setter_ = nullptr;  ///< world_
     std::vector<unsigned char> log_;
-    std::size_t stepsAt_ = 0;  ///< where log_ holds the count of the steps that end it; log_.size(): none
+    std::size_t stepsAt_ = 0;  ///< offset in log_ of the count of the steps that end it; log_.size(): none
     bool records_ = false;     ///< snapshots() has been called
     bool lost_ = false;        ///< something was done before that
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a world may offer beyond whole steps: a step in stages that can be looked into, and its state to go
-// back to. Both are optional; see World::staged and World::snapshots.
+// Optional interfaces of a world beyond whole steps: steps in stages whose data can be read, and snapshots of
+// its state. See World::staged and World::snapshots.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct ShapeName {
     friend auto operator<=>(const ShapeName&, const ShapeName&) = default;
 };
 
-/// What the broad phase compared for a shape; world frame, sides may be infinite.
+/// Box that the broad phase compared for a shape; world frame, sides may be infinite.
 struct ShapeBox {
     ShapeName of;
     Aabb box;
@@ -27,16 +27,16 @@ struct ShapePair {
     ShapeName a, b;  ///< a.body < b.body
 };
 
-/// What the narrow phase found for a pair. A is the body of lower index, the normal points from A to B.
+/// Result of the narrow phase for a pair. A is the body of lower index, the normal points from A to B.
 struct StagedManifold {
     ShapeName a, b;
     Vec3 normal;
     struct Point {
-        Vec3 pointA, pointB;         ///< on the surfaces [m]
+        Vec3 pointA, pointB;         ///< points on the surfaces [m]
         double depth = 0.0;          ///< [m], < 0: apart, found because it was near
         std::uint32_t feature = 0;   ///< names the touching features, stable from step to step
-        double normalImpulse = 0.0;  ///< what it starts with, of the last step [N s]
-        int row = scenario::kNone;   ///< of its normal among the rows; kNone: it has none (yet)
+        double normalImpulse = 0.0;  ///< initial impulse, of the last step [N s]
+        int row = scenario::kNone;   ///< index of its normal row; kNone: it has no rows (yet)
     };
     std::vector<Point> points;
 };
@@ -46,11 +46,11 @@ struct StagedRow {
     enum class Kind { Normal, Friction, Joint, Limit };  ///< Limit: what has bounds: stops, motors, springs
     Kind kind = Kind::Normal;
     int bodyA = scenario::kNone, bodyB = scenario::kNone;  ///< kNone: the world
-    int joint = scenario::kNone;                           ///< that it belongs to; kNone: a contact
+    int joint = scenario::kNone;                           ///< joint that it belongs to; kNone: a contact
     double impulse = 0.0;                                  ///< accumulated [N s] or [N m s]
     double bias = 0.0;                                     ///< [m/s] or [rad/s]
     double softness = 0.0;                                 ///< [1/kg] or [1/(kg m^2)]
-    double error = 0.0;  ///< of the positions; < 0: overlap, a limit overrun [m] or [rad]
+    double error = 0.0;  ///< position error; < 0: overlap, a limit overrun [m] or [rad]
     double effectiveMass = 0.0;
 };
 const char* rowKindName(StagedRow::Kind kind);  ///< "normal", "friction", "joint", "limit"
@@ -58,7 +58,7 @@ const char* rowKindName(StagedRow::Kind kind);  ///< "normal", "friction", "join
 struct StagedIteration {
     int substep = 0;
     double residual = 0.0;         ///< the engine's own measure
-    std::vector<double> impulses;  ///< of all rows after it [N s] or [N m s]
+    std::vector<double> impulses;  ///< impulses of all rows after it [N s] or [N m s]
 };
 
 /// A step in stages. World::step and these must not be mixed within a step. What is read is that of the last
@@ -67,11 +67,11 @@ class StagedWorld {
   public:
     virtual ~StagedWorld() = default;
 
-    virtual void beginStep() = 0;  ///< of the world's time step; not while stepping()
+    virtual void beginStep() = 0;  ///< begins a step of the world's time step; not while stepping()
     virtual bool stepping() const = 0;
     virtual std::string nextStage() const = 0;  ///< "broad_phase", ...; "" when not stepping()
-    virtual int substep() const = 0;            ///< that the next stage belongs to, from 0
-    virtual void runStage() = 0;                ///< only while stepping()
+    virtual int substep() const = 0;            ///< sub-step that the next stage belongs to, from 0
+    virtual void runStage() = 0;                ///< to be called only while stepping()
 
     virtual std::vector<ShapeBox> boxes() const = 0;
     virtual std::vector<ShapePair> pairs() const = 0;
@@ -90,8 +90,8 @@ class Snapshots {
     virtual ~Snapshots() = default;
     /// Replaces `bytes`. Not between the stages of a step.
     virtual void save(std::vector<unsigned char>& bytes) const = 0;
-    /// Into the same world, or one built alike: the same future, bit for bit. False: the world has since
-    /// become another (a joint is gone), and stays as it is.
+    /// Restores the state of the same world, or one built alike; its future is the same bit for bit. False:
+    /// the structure of the world has changed since (a joint is gone); then it stays as it is.
     virtual bool restore(const std::vector<unsigned char>& bytes) = 0;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a world may offer beside running on: being put somewhere else. A world that offers it is one of these
-// as well (dynamic_cast).
+// Optional interface of a world: its state can be set. A world that offers it is one of these as well
+// (dynamic_cast).
 #pragma once
 
 #include <span>
@@ -20,8 +20,8 @@ class StateSetting {
     /// and the next step finds its contacts where the bodies are now.
     virtual void setStates(std::span<const BodyState> states) = 0;
 
-    /// What the next step starts from: "discarded" when nothing is left of the impulses of contacts and
-    /// joints of the step before, "contacts discarded" when joints keep theirs, "kept".
+    /// Warm start of the next step after a state is set: "discarded" if nothing is kept of the impulses of
+    /// contacts and joints of the step before, "contacts discarded" if joints keep theirs, "kept".
     virtual const char* warmStart() const = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// For libraries that report one point per contact and not where between the two surfaces it lies.
+// Helper for libraries that report one point per contact and not where between the two surfaces it lies.
 #pragma once
 
 #include "adapters/interface/types.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What an engine's broad phase and narrow phase offer besides, so that their own work can be timed without
-// what the interface does around it. Optional: a BroadPhaseEngine that is a TimedBroadPhaseEngine, a
-// CollisionEngine that is a TimedCollisionEngine (dynamic_cast tells) takes part in the bench of parts.
+// Optional interfaces of an engine's broad phase and narrow phase, by which their own work is timed without
+// the work of the interface around it: a BroadPhaseEngine that is a TimedBroadPhaseEngine, a CollisionEngine
+// that is a TimedCollisionEngine (found by dynamic_cast) takes part in the bench of parts.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,8 @@ std::vector<Pair> bruteForcePairs(std::span<const Aabb> boxes);
 /// A broad phase in three parts, of which update() is made.
 class TimedBroadPhase : public BroadPhase {
   public:
-    /// Where the boxes are now, kept in the engine's own numbers: rounded outwards, not handed over yet.
+    /// Takes the current boxes and stores them in the engine's own precision, rounded outwards, without
+    /// passing them on yet.
     virtual void take(std::span<const Aabb> boxes) = 0;
     /// Tells the engine of every box that it has moved, and has it find its pairs, which stay in its own
     /// form.
@@ -61,8 +62,8 @@ class CollisionBatch {
 
 class TimedCollisionEngine : public CollisionEngine {
   public:
-    /// At least one query; their geometries need not outlive the call. All have the same dimension, algorithm
-    /// and settings. Throws as collide() does.
+    /// Makes a batch of at least one query; their geometries need not outlive the call. All have the same
+    /// dimension, algorithm and settings. Throws as collide() does.
     virtual std::unique_ptr<CollisionBatch> batch(std::span<const CollisionQuery> queries) const = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What goes to and comes from an engine. SI units, world frame unless said, double precision throughout.
+// Data passed to and from an engine. SI units, world frame unless said, double precision throughout.
 #pragma once
 
 #include <cstdint>
@@ -36,15 +36,15 @@ struct BodyState {
 struct ContactPoint {
     int bodyA = 0, bodyB = 0;    ///< scenario indices
     int shapeA = 0, shapeB = 0;  ///< index within Body::shapes; 0 where the engine does not tell
-    Vec3 pointA, pointB;         ///< on the surfaces of A and B [m]
+    Vec3 pointA, pointB;         ///< points on the surfaces of A and B [m]
     Vec3 normal;                 ///< unit, from A to B
     double depth = 0.0;          ///< penetration [m], > 0 when overlapping; minus the signed distance
-    bool hasImpulse = false;     ///< whether the engine told the impulses of the last step
+    bool hasImpulse = false;     ///< true if the engine reported the impulses of the last step
     double normalImpulse = 0.0;  ///< [N s], >= 0, pushes B along +normal
     Vec3 frictionImpulse;        ///< [N s] on B, tangential
 };
 
-/// How well a requested setting was realised.
+/// Degree to which a requested setting was realised.
 enum class Realisation { Exact, Approximate, Unsupported };
 const char* realisationName(Realisation r);
 
@@ -57,20 +57,21 @@ struct LedgerEntry {
     std::string reason;  ///< empty when Exact
 };
 
-/// What the engine says it was given, read from the engine's own objects after the build.
+/// Properties of a body as the engine has them, read from the engine's own objects after the build.
 struct BodyReadBack {
     double mass = 0.0;  ///< [kg]; 0 for bodies the engine does not move
-    Vec3 centerOfMass;  ///< in the body frame [m]
+    Vec3 centerOfMass;  ///< centre of mass in the body frame [m]
     Mat3 inertia;       ///< about the centre of mass, body axes [kg m^2]; in 2D only (2,2)
     BodyState state;
     Vec3 gravity;  ///< acceleration acting on this body [m/s^2]
 };
 struct PairReadBack {
     int materialA = 0, materialB = 0;
-    double friction = 0.0, restitution = 0.0;  ///< as the engine will use them between these two materials
+    double friction = 0.0, restitution = 0.0;  ///< coefficients as the engine will use them between these two
+                                               ///< materials
 };
 struct ReadBack {
-    std::vector<BodyReadBack> bodies;  ///< by scenario index
+    std::vector<BodyReadBack> bodies;  ///< bodies by scenario index
     std::vector<PairReadBack> pairs;   ///< every pair of materials that can meet
 };
 
@@ -78,7 +79,7 @@ struct ReadBack {
 struct StepCounters {
     std::int64_t pairTests = -1;  ///< box tests of the broad phase
     std::int64_t pairs = -1, contacts = -1, islands = -1, solverIterations = -1;
-    double residual = -1.0;                      ///< of the velocity solver, engine's own measure
+    double residual = -1.0;                      ///< residual of the velocity solver, engine's own measure
     std::map<std::string, double> phaseSeconds;  ///< wall time by phase name, where the engine measures it
 };
 
@@ -89,7 +90,7 @@ enum class Scheme { Unknown, SymplecticEuler, ExplicitEuler, VelocityVerlet, Run
 const char* schemeName(Scheme s);
 bool isEuler(Scheme s);  ///< one evaluation per step, at its start
 
-/// What an engine can do. Names are those of the scenario format.
+/// Features of an engine. Names are those of the scenario format.
 struct Capabilities {
     bool dynamics = false, collision = false, broadPhase = false;
     std::vector<int> dimensions;  ///< native: {2}, {3} or {2,3}
@@ -106,10 +107,10 @@ struct Capabilities {
     bool kinematicBodies = false, damping = false, gravityScale = false, centerOfMassOffset = false;
     bool contactSolvers = false;  ///< solves contact problems (contact_problem.hpp)
     bool staticFriction = false;  ///< contacts that stick up to a coefficient above that of sliding
-    /// What the library itself does not have, and the document of its authors that says so (manual and
-    /// chapter, or header and declaration), by name: of `shapes` and `joints` as above, "dynamics", "2D",
-    /// "3D", or a flag above in snake_case ("static_friction"). Everything else that is missing is missing
-    /// in the adapter.
+    /// Features that the library itself does not have, each with the document of its authors that says so
+    /// (manual and chapter, or header and declaration), by name: of `shapes` and `joints` as above,
+    /// "dynamics", "2D", "3D", or a flag above in snake_case ("static_friction"). Everything else that is
+    /// missing is missing in the adapter.
     std::map<std::string, std::string> libraryLacks;
 };
 
@@ -119,12 +120,12 @@ struct Option {
     std::vector<std::string> values;  ///< allowed values; empty: a number
     double min = 0.0, max = 0.0;      ///< range of a number
     bool integer = false;
-    std::string defaultValue;  ///< of preset=default
-    std::string matchedValue;  ///< of preset=matched
+    std::string defaultValue;  ///< value of preset=default
+    std::string matchedValue;  ///< value of preset=matched
     std::string help;
 };
 
-/// Who the engine is, read from the library itself where it tells.
+/// Identity of the engine, read from the library itself if it reports it.
 struct EngineInfo {
     std::string name;        ///< "bullet"
     std::string version;     ///< "3.24"
@@ -158,8 +159,8 @@ struct CollisionQuery {
     int dimension = 3;
     int maxContacts = 8;
     std::string algorithm;  ///< one of CollisionEngine::algorithms(); empty: the engine's default
-    /// Of a spec, where the query is to be answered as its worlds are simulated; null: as exactly as can be.
-    /// Capabilities::queryOptions tells which keys matter.
+    /// Settings of a spec for a query in the way its worlds are simulated; null: as exactly as possible.
+    /// Capabilities::queryOptions lists the keys that matter.
     const Settings* settings = nullptr;
 };
 

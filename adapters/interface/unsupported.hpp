@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How an adapter refuses, and which of two things a refusal is: something that the adapter has not been
-// taught yet, or something that the library does not have. Only the library's own documentation can say the
-// second.
+// Refusals of an adapter, of two kinds: a feature that is not in the adapter yet, or one that the library
+// does not have. Only the library's own documentation can prove the second.
 #pragma once
 
 #include <stdexcept>
@@ -28,7 +27,7 @@ class Unsupported : public std::runtime_error {
 
     Refusal refusal() const { return refusal_; }
     const std::string& lacking() const { return lacking_; }              ///< "joint 'six_dof'"
-    const std::string& documentation() const { return documentation_; }  ///< of the library; "" else
+    const std::string& documentation() const { return documentation_; }  ///< document of the library, or ""
 
   private:
     Refusal refusal_ = Refusal::NotInAdapter;

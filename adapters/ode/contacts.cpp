@@ -21,7 +21,7 @@ void bringIntoPlane(std::vector<FoundPoint>& points) {
     for (FoundPoint p : points) {
         p.position.z = p.normal.z = 0.0;
         const double length = norm(p.normal);
-        if (length < 0.5) continue;  // out of the plane: deeper than the prisms are thick
+        if (length < 0.5) continue;  // the normal is out of the plane: deeper than the prisms are thick
         p.normal = p.normal / length;
         const auto same = std::find_if(flat.begin(), flat.end(), [&](const FoundPoint& q) {
             return norm(q.position - p.position) < kSamePoint && dot(q.normal, p.normal) > 1.0 - 1e-9;
@@ -96,7 +96,7 @@ void mergeNormals(double cosine, std::vector<FoundPoint>& points) {
 
 dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bounceThreshold, double cfm) {
     dSurfaceParameters surface{};
-    // Without the approximation mu would be a force and not a coefficient.
+    // If the approximation were off, mu would be a force and not a coefficient.
     surface.mode = dContactApprox1;
     surface.mu = pair.friction;
     if (pair.restitution > 0.0) {

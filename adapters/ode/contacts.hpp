@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// From two geoms to the points a step acts upon.
+// Contact points of two geoms that a step uses.
 #pragma once
 
 #include <ode/ode.h>
@@ -14,7 +14,7 @@ namespace rigor::ode {
 
 /// One point of dCollide in our convention.
 struct FoundPoint {
-    adapter::Vec3 position;  ///< as ODE gives it: on either surface or between them [m]
+    adapter::Vec3 position;  ///< position as ODE reports it: on either surface or between them [m]
     adapter::Vec3 normal;    ///< unit, from the first geom to the second (ODE's own points the other way)
     double depth = 0.0;      ///< [m], >= 0
 };
@@ -26,11 +26,12 @@ void collideGeoms(dGeomID a, dGeomID b, bool planar, std::vector<FoundPoint>& po
 /// Keeps at most `count` points: the deepest, then again and again the one farthest from those kept.
 void reducePoints(std::size_t count, std::vector<FoundPoint>& points);
 
-/// Of one ball's points on facets keeps those whose normal differs from every deeper one's by more than the
-/// angle of this cosine: ODE reports each triangle that a ball dips into, and those ahead of it act as walls.
+/// Merges one sphere's points on facets: keeps those whose normal differs from every deeper one's by more
+/// than the angle of this cosine: ODE reports each triangle that a sphere penetrates, and those ahead of it
+/// act as walls.
 void mergeNormals(double cosine, std::vector<FoundPoint>& points);
 
-/// How ODE treats one contact between surfaces of these coefficients. `cfm` > 0 softens the normal of a
+/// ODE's parameters of one contact between surfaces of these coefficients. `cfm` > 0 softens the normal of a
 /// contact that does not bounce; a bounce would lose speed in proportion to it.
 dSurfaceParameters surfaceFor(const scenario::PairCoefficients& pair, double bounceThreshold, double cfm);
 

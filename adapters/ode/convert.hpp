@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Between the scenario's types and ODE's arrays. ODE's quaternions are w, x, y, z like ours.
+// Conversion between the scenario's types and ODE's arrays. ODE's quaternions are w, x, y, z like the
+// scenario's.
 #pragma once
 
 #include <ode/ode.h>

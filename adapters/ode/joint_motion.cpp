@@ -62,7 +62,7 @@ JointMotion::JointMotion(const scenario::Joint& joint, const JointEnd& a, const 
     localTurning_ = joint.axisA;
     if (joint.type == JointType::Wheel)
         localTurning_ = rotateInverse(a.pose.orientation, rotate(b.pose.orientation, joint.spinAxisB));
-    if (joint.type == JointType::SixDof) localTurning_ = localAxes_[2];  // in 2D its one angle
+    if (joint.type == JointType::SixDof) localTurning_ = localAxes_[2];  // the one angle in 2D
     localTurningNormal_ = anyNormal(localTurning_);
     const bool turnsAboutPin = joint.type == JointType::Wheel;
     localTurnAxes_[0] = turnsAboutPin ? localTurning_ : localAxes_[0];
@@ -91,7 +91,7 @@ void JointMotion::update() {
     centerB_ = b_.center();
 }
 
-/// How far B's anchor is from A's along a direction fixed in A.
+/// Distance of B's anchor from A's along a direction fixed in A.
 Coordinate JointMotion::point(const Vec3& direction) const {
     return {dot(direction, anchorB_ - anchorA_),
             {direction, -cross(anchorB_ - centerA_, direction), cross(anchorB_ - centerB_, direction)}};

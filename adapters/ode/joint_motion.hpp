@@ -17,12 +17,12 @@ namespace rigor::ode {
 /// One end of a joint.
 struct JointEnd {
     dBodyID body = nullptr;  ///< null for the world and for static bodies
-    adapter::Pose pose;      ///< of the body frame at the start; for ever where `body` is null
+    adapter::Pose pose;      ///< initial pose of the body frame; constant if `body` is null
     adapter::Vec3 com;       ///< centre of mass in the body frame [m]
 
-    adapter::Pose now() const;     ///< of the body frame
+    adapter::Pose now() const;     ///< pose of the body frame
     adapter::Vec3 center() const;  ///< centre of mass in the world [m]
-    bool hasMass() const;          ///< whether forces move it: neither static nor kinematic
+    bool hasMass() const;          ///< true if forces move it: it is neither static nor kinematic
 };
 
 /// The rate of a coordinate: lin . (vB - vA) + angA . wA + angB . wB, of the centres of mass, world axes.
@@ -37,7 +37,7 @@ struct Coordinate {
 enum class Angle {
     Turn,   ///< about the joint's turning axis: hinge, wheel, six_dof in 2D
     Twist,  ///< about A's axis, of a wheel its pin, after the swing is taken back, see scenarios/FORMAT.md
-    Cone,   ///< between the axes of A and B, >= 0
+    Cone,   ///< angle between the axes of A and B, >= 0
     SwingY,
     SwingZ  ///< components of the swing vector along A's normals
 };
@@ -48,11 +48,12 @@ class JointMotion {
     JointMotion(const scenario::Joint& joint, const JointEnd& a, const JointEnd& b);
 
     void update();                       ///< takes the poses of the bodies as they are now
-    Coordinate travel(int k) const;      ///< of B's anchor along A's axis (0) and its normals (1, 2)
+    Coordinate travel(int k) const;      ///< displacement of B's anchor along A's axis (0) and its normals
+                                         ///< (1, 2)
     Coordinate length() const;           ///< distance of the anchors
     Coordinate angle(Angle kind) const;  ///< Turn and Twist in (-pi, pi]
     adapter::Vec3 axis(int k) const { return axes_[k]; }    ///< A's axis and normals, world
-    adapter::Vec3 turningAxis() const { return turning_; }  ///< of Angle::Turn, fixed in A, world
+    adapter::Vec3 turningAxis() const { return turning_; }  ///< axis of Angle::Turn, fixed in A, world
     adapter::Vec3 anchorA() const { return anchorA_; }      ///< world [m]
     adapter::Vec3 anchorB() const { return anchorB_; }
     adapter::Vec3 centerA() const { return centerA_; }  ///< centre of mass, world [m]
@@ -64,7 +65,7 @@ class JointMotion {
 
     scenario::Joint joint_;
     JointEnd a_, b_;
-    adapter::Vec3 localAxes_[3], localTurnAxes_[3], localTurning_, localTurningNormal_;  ///< in A
+    adapter::Vec3 localAxes_[3], localTurnAxes_[3], localTurning_, localTurningNormal_;  ///< axes in A
     adapter::Vec3 axisInB_, normalInB_, turningNormalInB_;  ///< the same at the start, in B
     adapter::Vec3 axes_[3], turnAxes_[3], turning_, turningNormal_, axisOfB_, normalOfB_, turningNormalOfB_;
     adapter::Vec3 anchorA_, anchorB_, centerA_, centerB_;

@@ -64,7 +64,7 @@ void OdeJoint::softenSpring(const JointAxis& axis, dJointID id, SetParam set, in
     set(id, cfm, terms.cfm);
 }
 
-/// What is asked of an angle: held, or stops and a motor in one AMotor, a spring in another.
+/// Adds an angle of the joint: locked, or with stops and a motor in one AMotor, a spring in another.
 void OdeJoint::addTurn(const JointAxis& axis, Angle kind) {
     if (axis.mode != AxisMode::Free || axis.hasMotor()) addAngleMotor(axis, kind, false);
     if (axis.hasSpring()) addAngleMotor(axis, kind, true);
@@ -138,7 +138,8 @@ void OdeJoint::driveAt(const Coordinate& now, const PointJoint& row, dContact& c
     surface.mode = dContactSoftCFM | dContactFDir1 | dContactMu2 | dContactMotion1 | dContactSlip1;
     surface.soft_cfm = 1e30;
     surface.mu = drives ? odeBound(row.axis.motorMaxForce) : dInfinity;
-    surface.motion1 = b_.body != nullptr ? speed : -speed;  // of the joint's first body that is one
+    // motion of the joint's first body that is not null
+    surface.motion1 = b_.body != nullptr ? speed : -speed;
     surface.slip1 = drives ? dWorldGetCFM(world_) : terms.cfm;
 }
 

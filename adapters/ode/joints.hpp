@@ -15,9 +15,9 @@ namespace rigor::ode {
 /// objects belong to the world and go with it.
 class OdeJoint {
   public:
-    /// Between bodies at their initial poses, for steps of dt, in a world whose ERP and CFM are set.
-    /// `planar`: lifted from two dimensions. Throws adapter::Unsupported for what ODE or this adapter does
-    /// not have.
+    /// Makes a joint between bodies at their initial poses, for steps of dt, in a world whose ERP and CFM are
+    /// set. `planar`: lifted from two dimensions. Throws adapter::Unsupported for features that ODE or this
+    /// adapter does not have.
     OdeJoint(dWorldID world, const scenario::Joint& joint, const JointEnd& a, const JointEnd& b, double dt,
              bool planar);
     OdeJoint(const OdeJoint&) = delete;
@@ -37,7 +37,7 @@ class OdeJoint {
   private:
     struct Part {
         dJointID id = nullptr;   ///< null: at present none
-        bool firstForce = true;  ///< whether f1 is the force on B (on A where B does not move), else f2
+        bool firstForce = true;  ///< true: f1 is the force on B (on A if B does not move); false: f2 is
         dJointFeedback feedback{};
     };
     /// One AMotor about one axis in user mode: stops (or a spring, which is two stops in one place) and
@@ -49,7 +49,7 @@ class OdeJoint {
         bool spring = false;
         double seen = 0.0;  ///< last angle, counted over turns
     };
-    /// What a row along the line of B's anchor does.
+    /// Kind of a row along the line of B's anchor.
     enum class PointRow { Holds, Stops, Drives, Springs };
     /// One row that acts at B's anchor: a contact joint, made anew before each step.
     struct PointJoint {
@@ -58,7 +58,7 @@ class OdeJoint {
         scenario::JointAxis axis;
         PointRow does = PointRow::Holds;
     };
-    static constexpr int kAlongLine = -1;  ///< from A's anchor to B's
+    static constexpr int kAlongLine = -1;  ///< direction from A's anchor to B's
     using SetParam = void (*)(dJointID, int, dReal);
 
     void build();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What was asked of ODE and what it really does. Reasons are measured properties of ODE 0.16.2.
+// Ledger of the requested settings and what ODE really does. Reasons are measured properties of ODE 0.16.2.
 #include <algorithm>
 
 #include "adapters/interface/options.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What ODE keeps once per process: its initialisation, its error handlers and its random numbers.
+// State that ODE has once per process: its initialisation, its error handlers and its random numbers.
 #pragma once
 
 #include <cstdint>

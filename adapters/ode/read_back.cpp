@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What ODE says it was given.
+// Properties of the world as ODE has them.
 #include "adapters/ode/convert.hpp"
 #include "adapters/ode/world.hpp"
 
@@ -17,7 +17,8 @@ adapter::ReadBack OdeWorld::readBack() const {
         body.state = stateOf(static_cast<int>(i));
         body.centerOfMass = record.com;
         if (record.body != nullptr && !record.geoms.empty()) {
-            // Where the first shape sits relative to the centre of mass tells where that is in the body.
+            // The place of the first shape relative to the centre of mass gives the centre of mass in the
+            // body.
             const Geom& geom = *record.geoms.front();
             const scenario::Pose& shape = scenario_.bodies[i].shapes.front().pose;
             const Vec3 offset = fromOde(dGeomGetOffsetPosition(geom.id()));

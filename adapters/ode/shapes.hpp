@@ -11,10 +11,10 @@
 
 namespace rigor::ode {
 
-/// Which shape of which body a geom is; what ODE's user pointer of a geom points to.
+/// Shape and body of a geom; ODE's user pointer of the geom points to it.
 struct GeomTag {
     int body = 0, shape = 0, material = 0;
-    bool back = false;  ///< of a triangle mesh: its triangles the other way round
+    bool back = false;  ///< true for a triangle mesh with reversed triangles
 };
 
 /// One shape as an ODE geom. Owns the geom and what ODE keeps pointers to.
@@ -31,7 +31,7 @@ class Geom {
     /// The back of a triangle mesh: ODE's spheres, capsules and cylinders pass through triangles from behind.
     /// Null for other shapes.
     dGeomID back() const { return back_; }
-    /// Whether a geom has to be tried against the backs of meshes too: boxes find triangles from both sides,
+    /// True if a geom has to be tested against the backs of meshes too: boxes find triangles from both sides,
     /// and hulls find wrong normals from behind.
     static bool meetsBacks(dGeomID geom);
     /// Hands the geom to a body whose frame has the shape at `inBody`.

@@ -84,7 +84,7 @@ void OdeWorld::breakJoints() {
     if (any) collidePairsOfBrokenJoints();
 }
 
-/// What a joint kept apart may touch once it has broken.
+/// Lets bodies that a joint kept from colliding collide once it has broken.
 void OdeWorld::collidePairsOfBrokenJoints() {
     Scenario left = scenario_;
     left.joints.clear();

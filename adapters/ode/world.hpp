@@ -44,13 +44,13 @@ class OdeWorld final : public adapter::World, public adapter::Snapshots, public 
   private:
     enum class Friction { PyramidWorld, PyramidVelocity };
 
-    /// What one scenario body is in ODE. Addresses are stable: ODE keeps pointers into it.
+    /// Objects of one scenario body in ODE. Addresses are stable: ODE keeps pointers into it.
     struct BodyRecord {
         dBodyID body = nullptr;  ///< null for static bodies
         bool dynamic = false;
         bool ownGravity = false;  ///< gravityScale != 1: given as a force
         adapter::Vec3 gravity;    ///< acceleration [m/s^2]
-        adapter::Vec3 com;        ///< in the body frame [m]
+        adapter::Vec3 com;        ///< centre of mass in the body frame [m]
         adapter::Mat3 inertia, inverseInertia;
         std::vector<std::unique_ptr<Geom>> geoms;
         /// gyroscopic=external: orientation whose angular momentum the next step has to start from
@@ -61,9 +61,9 @@ class OdeWorld final : public adapter::World, public adapter::Snapshots, public 
     struct StepContact {
         GeomTag a, b;
         FoundPoint point;
-        adapter::Pose poseA, poseB;  ///< of the two shapes, when found
+        adapter::Pose poseA, poseB;  ///< poses of the two shapes when the contact was found
         dJointFeedback feedback;
-        bool feedbackOnA = false;  ///< whether f1 is the force on A (else on B)
+        bool feedbackOnA = false;  ///< true: f1 is the force on A; false: on B
     };
 
     void configureWorld();
@@ -89,7 +89,7 @@ class OdeWorld final : public adapter::World, public adapter::Snapshots, public 
     bool is(const std::string& key, const std::string& value) const;
     void appendGeometryLedger(std::vector<adapter::LedgerEntry>& lines) const;
 
-    adapter::Scenario original_;  ///< as given
+    adapter::Scenario original_;  ///< scenario as given
     adapter::Scenario scenario_;  ///< three-dimensional
     adapter::Settings settings_;
     double dt_ = 0.0;
@@ -105,7 +105,7 @@ class OdeWorld final : public adapter::World, public adapter::Snapshots, public 
     dSpaceID space_ = nullptr;
     dJointGroupID contactGroup_ = nullptr;
     std::vector<std::unique_ptr<BodyRecord>> records_;
-    std::vector<std::unique_ptr<OdeJoint>> joints_;  ///< by scenario index
+    std::vector<std::unique_ptr<OdeJoint>> joints_;  ///< joints by scenario index
     std::vector<std::pair<dGeomID, dGeomID>> near_;
     std::vector<FoundPoint> found_;
     std::vector<StepContact> contacts_;

@@ -18,7 +18,7 @@
 namespace rigor::adapter {
 namespace {
 
-/// What engine::preferSpeed sets, with the solver's own number of iterations.
+/// Settings of engine::preferSpeed, with the solver's own number of iterations.
 Preset fastPreset() {
     engine::WorldDef<engine::Space3d> def;
     engine::preferSpeed(def);
@@ -34,7 +34,7 @@ Preset fastPreset() {
              {"curved_joints", def.relinearizedJoints ? "on" : "off"}}};
 }
 
-/// What `matched` sets otherwise than `default`.
+/// Settings of `matched` that differ from `default`.
 const std::map<std::string, std::string> kMatched{{"velocity_iterations", "50"},
                                                   {"restitution_threshold", "0"}};
 

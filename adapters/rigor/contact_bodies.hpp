@@ -16,7 +16,7 @@ namespace rigor::adapter {
 /// along are the problem's own.
 struct ProblemBody {
     double mass = 0.0;
-    std::array<std::array<double, 3>, 3> inertia{};  ///< in 2D (0,0) alone
+    std::array<std::array<double, 3>, 3> inertia{};  ///< only (0,0) is used in 2D
     std::array<double, 6> freeVelocity{};            ///< M^-1 f
 };
 /// A contact's rows: row i is lin . (vB - vA) + angA . wA + angB . wB.

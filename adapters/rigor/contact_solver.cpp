@@ -25,7 +25,7 @@ using engine::Space2d;
 using engine::Space3d;
 using engine::Velocity;
 
-/// What a solver does elsewhere than in one velocity-level problem; null: nothing.
+/// Reason why a solver cannot be run on one velocity-level problem; null: it can.
 const char* whyNotSolvable(const engine::SolverTraits& traits) {
     if (traits.errors == engine::ErrorHandling::Positions)
         return "solves positions; a contact problem has none";
@@ -95,11 +95,11 @@ class EngineSolve : public ContactSolve {
 
   private:
     engine::FrictionLaw<S> friction_;
-    engine::FrictionShape shape_;  ///< of the law that is really solved
+    engine::FrictionShape shape_;  ///< shape of the law that is really solved
     int directions_;
 };
 
-/// What every contact block has, its rows being complete.
+/// Sets the data that every contact block has, after its rows are complete.
 template <class S>
 void finishContact(Block<S>& block, std::vector<Row<S>>& rows, double mu) {
     block.kind = engine::BlockKind::Contact;
@@ -127,7 +127,7 @@ class OnBodies final : public EngineSolve<S> {
                                        .make()) {
         const auto none = static_cast<std::uint32_t>(given.bodies.size());
         for (const ProblemBody& body : given.bodies) addBody(body);
-        this->start_.emplace_back();  // what does not move
+        this->start_.emplace_back();  // body of everything that does not move
         for (std::size_t c = 0; c < given.contacts.size(); ++c) {
             const ProblemContact& contact = given.contacts[c];
             Block<S> block;

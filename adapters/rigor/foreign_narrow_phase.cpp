@@ -46,7 +46,7 @@ template <class S>
 Pose toPose(const engine::Pose<S>& X) {
     Pose pose;
     pose.position = fromEngineVec(X.p);
-    // In double the rounding of a float quaternion is no rotation any more.
+    // A rounded float quaternion is not a unit quaternion in double.
     pose.orientation = scenario::normalized(Quat{static_cast<double>(X.q.w()), static_cast<double>(X.q.x()),
                                                  static_cast<double>(X.q.y()), static_cast<double>(X.q.z())});
     return pose;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the settings mean, line by line. What an algorithm does is read from its traits
+// Meaning of the settings, line by line. The behaviour of an algorithm is read from its traits
 // (engine/core/traits.hpp) and from the object that its table makes, never from its name.
 #include <algorithm>
 #include <cmath>
@@ -199,7 +199,8 @@ class Ledger {
                 "depths are off by up to twice that, normals of edges by 0.02 rad");
     }
 
-    /// What removes errors of position, and whether the velocity that it takes stays in the bodies.
+    /// Adds the method that removes position errors, and whether the velocity that it uses stays in the
+    /// bodies.
     void addErrors() {
         const char* asked = "no change of velocity";
         const char* stays = "the velocities that remove overlap stay in the bodies";

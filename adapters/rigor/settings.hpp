@@ -39,8 +39,8 @@ engine::WorldDef<S> toWorldDef(const Scenario& scenario, const Settings& setting
     return def;
 }
 
-/// Whether the combine rules of the settings are those of the scenario format, sqrt(mu_a mu_b) and
-/// min(e_a, e_b).
+/// True if the combine rules of the settings are those of the scenario format, sqrt(mu_a mu_b) and min(e_a,
+/// e_b).
 bool combinesAsScenarios(const Settings& settings);
 
 /// The ledger that follows from the settings. `bounces`: some pair has a restitution above zero; `substep`:

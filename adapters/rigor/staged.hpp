@@ -14,11 +14,11 @@
 
 namespace rigor::adapter {
 
-/// What of the scenario is what in the engine. Bodies are never removed: a dense index is the scenario's plus
-/// one, 0 the engine's own body, the world.
+/// Indices of the scenario's objects in the engine. Bodies are never removed: a dense index is the scenario's
+/// plus one, 0 the engine's own body, the world.
 struct ScenarioIndices {
-    std::vector<int> shape;              ///< by engine shape id: index within its body
-    std::vector<engine::JointId> joint;  ///< by scenario joint
+    std::vector<int> shape;              ///< index of each shape within its body, by engine shape id
+    std::vector<engine::JointId> joint;  ///< joint id by scenario joint
     static int body(std::uint32_t dense) { return static_cast<int>(dense) - 1; }
 };
 

@@ -364,7 +364,7 @@ class RigorWorld final : public World, public StateSetting {
     Settings settings_;
     PairTable pairs_;
     R dt_;
-    double elapsed_ = 0.0;  ///< when world_ was built anew [s]
+    double elapsed_ = 0.0;  ///< time when world_ was built anew [s]
     engine::World<S> world_;
     std::vector<engine::BodyId> bodies_;
     ScenarioIndices indices_;

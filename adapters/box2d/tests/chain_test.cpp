@@ -30,7 +30,7 @@ Scenario onFloor(const scenario::Chain& chain, const Geometry& geometry, const V
     return s;
 }
 
-/// From above and from below, whichever way the vertices run.
+/// Bodies touch the chain from above and from below, for both orders of the vertices.
 TEST(Box2dChain, HasTwoSides) {
     for (const bool reversed : {false, true})
         for (const double side : {1.0, -1.0})
@@ -77,7 +77,7 @@ TEST(Box2dChain, AFreeEndIsACorner) {
     EXPECT_TRUE(beyond);
 }
 
-/// In a closed chain from within, and on it from without.
+/// Bodies rest in a closed chain and on it.
 TEST(Box2dChain, ALoopHoldsFromWithinAndWithout) {
     scenario::Chain loop{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, true};
     for (const bool within : {true, false}) {

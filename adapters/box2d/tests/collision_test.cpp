@@ -89,7 +89,8 @@ TEST(Box2dCollisionDistance, IsExactForSeparatedShapes) {
     EXPECT_NEAR(gap(Sphere{0.5}, Sphere{0.25}, {2, 0, 0}), 1.25, 1e-5);
     EXPECT_NEAR(gap(Box{{0.5, 0.5, 0}}, square(0.5), {2, 2, 0}), std::sqrt(2.0), 1e-5);
     EXPECT_NEAR(gap(Capsule{0.2, 0.5}, Box{{0.5, 0.5, 0}}, {1, 0, 0}), 0.3, 1e-5);
-    EXPECT_NEAR(gap(HalfSpace{{0, 1, 0}, 0}, Sphere{0.5}, {0, 0.505, 0}), 0.005, 1e-5);  // within the skins
+    // the gap is within the skins
+    EXPECT_NEAR(gap(HalfSpace{{0, 1, 0}, 0}, Sphere{0.5}, {0, 0.505, 0}), 0.005, 1e-5);
 }
 
 TEST(Box2dCollisionInput, WhatItCanNotAnswerIsRefused) {

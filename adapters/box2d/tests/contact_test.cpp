@@ -104,7 +104,7 @@ TEST(Box2dFriction, FeetOfOneBodyHaveTheirOwnMaterials) {
     EXPECT_NEAR(friction[1], -0.6 * normal[1], 1e-3 * normal[1]);
 }
 
-/// With the 3D inertia a slipping ball ends at 5/7 of its speed.
+/// A slipping ball with the 3D inertia ends at 5/7 of its speed.
 TEST(Box2dFriction, SlippingBallEndsWithFiveSevenths) {
     Scenario s = onGround(Sphere{0.5}, 0.5, 0.3, 0.0);
     s.bodies[1].massProperties.inertia = Mat3::diagonal(0.1, 0.1, sphereMoment(1.0, 0.5));
@@ -134,7 +134,7 @@ TEST(Box2dSkin, ShapesRestOnTheirSurfacesInMatched) {
         EXPECT_NEAR(byDefault.state(1).position.y, 0.5 + gap, 1e-3);
         double sum = 0.0;
         for (const auto& c : matched.contacts()) {
-            EXPECT_NEAR(c.depth, 0.0, 1e-5);  // of the surfaces, not of the skins
+            EXPECT_NEAR(c.depth, 0.0, 1e-5);  // depth of the surfaces, not of the skins
             sum += c.normalImpulse;
         }
         EXPECT_NEAR(sum, kG / 240, 1e-4 * kG / 240);
@@ -160,7 +160,7 @@ TEST(Box2dContacts, PointFromAToBWhicheverBodyComesFirst) {
             EXPECT_EQ(c.bodyA, 0);
             EXPECT_EQ(c.bodyB, 1);
             EXPECT_NEAR(norm(c.normal - Vec3{0, discFirst ? -1.0 : 1.0, 0}), 0.0, 1e-6);
-            EXPECT_NEAR(c.depth, 0.05, 1e-6);  // at the pose the step began with
+            EXPECT_NEAR(c.depth, 0.05, 1e-6);  // depth at the pose the step began with
             EXPECT_NEAR(dot(c.pointA - c.pointB, c.normal), c.depth, 1e-6);
             EXPECT_NEAR((discFirst ? c.pointA : c.pointB).y, -0.05, 1e-6);
             EXPECT_NEAR(c.normalImpulse, 2.0, 1e-5);

@@ -134,7 +134,7 @@ TEST(Box2dBreaks, WhereTheTorqueIsAboveTheStrength) {
     }
 }
 
-/// What a joint kept apart meets again after it broke, though it lies where it lay.
+/// Bodies that a joint kept from colliding collide after it broke, although they have not moved.
 TEST(Box2dBreaks, BodiesThatAJointKeptApartTouchAfterwards) {
     for (const bool breaks : {false, true}) {
         Scenario s = plane();
@@ -201,7 +201,7 @@ TEST(Box2dSixDof, MovesWhatIsFreeAlone) {
     }
 }
 
-/// What no joint of the library leaves is refused: a spring along one of two travels.
+/// A motion that no joint of the library leaves free is refused: a spring along one of two travels.
 TEST(Box2dSixDof, TwoTravelsAreFreeOrRefused) {
     Scenario s = plane();
     const int b = addBody(s, Sphere{0.1}, {}, 2.0, even(0.5));

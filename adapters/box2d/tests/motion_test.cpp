@@ -20,7 +20,7 @@ TEST(Box2dInfo, NamesVersionAndPrecisionOfTheLibrary) {
     const auto info = engine().info();
     EXPECT_EQ(info.name, "box2d");
     EXPECT_TRUE(info.version.starts_with("2.")) << info.version;
-    // What the library says, and beside it the package where that is another.
+    // Version that the library reports, and that of the package if it is another.
     EXPECT_TRUE(info.package.empty() || info.package.starts_with("2.")) << info.package;
     EXPECT_NE(info.package, info.version);
     EXPECT_EQ(info.precision, "f32");

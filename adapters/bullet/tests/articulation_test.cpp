@@ -88,7 +88,7 @@ TEST(BulletArticulation, AJointRunsBackwardsWhereItsFirstBodyIsTheChild) {
         axis.motorMaxForce = 0.1;
         Simulation motor(s, 1.0 / 240, kMatched);
         motor.seconds(1);
-        const double sign = turned ? -1.0 : 1.0;  // of the rod against the post
+        const double sign = turned ? -1.0 : 1.0;  // the motor turns the rod relative to the post
         EXPECT_NEAR(motor.state(0).angularVelocity.z, sign * 0.3, tol(1e-6, 1e-4));
         axis.motorMaxForce = 0.0;
         axis.mode = scenario::AxisMode::Limited;
@@ -111,7 +111,7 @@ TEST(BulletArticulation, DampingByDefaultTakesFromEveryMotion) {
             run.steps(1);
             if (i > 240) highest = std::max(highest, run.state(0).position.y);
         }
-        return highest;  // of the second half period, which ideally ends level again
+        return highest;  // height in the second half period, which ideally ends at the level of the start
     };
     EXPECT_GT(height(kMatched), -0.02);
     EXPECT_LT(height("preset=default,articulation=multibody"), -0.05);

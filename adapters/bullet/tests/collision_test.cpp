@@ -29,7 +29,7 @@ struct Case {
     const char* name;
     Geometry a, b;
     Vec3 at;      ///< position of b; a is at the origin
-    Vec3 normal;  ///< from a to b
+    Vec3 normal;  ///< normal from a to b
     double depth;
     std::size_t contacts;  ///< least number
 };
@@ -99,7 +99,8 @@ TEST(BulletCollisionDistance, IsExactForSeparatedShapes) {
     EXPECT_NEAR(gap(cube, cube, {2, 2, 0}), std::sqrt(2.0), tol(1e-6, 1e-4));
     EXPECT_NEAR(gap(boxHull({0.5, 0.5, 0.5}), Capsule{0.2, 0.5}, {1.5, 0, 0}), 0.8, tol(1e-6, 1e-4));
     EXPECT_NEAR(gap(HalfSpace{{0, 1, 0}, 0.0}, cube, {0, 0.75, 0}), 0.25, tol(1e-9, 1e-5));
-    EXPECT_NEAR(gap(cube, Sphere{0.1}, {0.5001 + 0.1, 0, 0}), 0.0001, tol(1e-6, 1e-4));  // within the margins
+    // the gap is within the margins
+    EXPECT_NEAR(gap(cube, Sphere{0.1}, {0.5001 + 0.1, 0, 0}), 0.0001, tol(1e-6, 1e-4));
 }
 
 TEST(BulletCollisionPlanar, PrismsAnswerInThePlaneHoweverDeep) {

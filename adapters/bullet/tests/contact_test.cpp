@@ -39,7 +39,7 @@ TEST(BulletRestitution, RatioIsThePairsCoefficientInMatched) {
 }
 
 TEST(BulletRestitution, SpeculativeContactsOrBaumgarteWouldSpoilIt) {
-    // Where the last step before the impact leaves a gap, gap/dt is missing from the rebound. (On a plane:
+    // If the last step before the impact leaves a gap, gap/dt is missing from the rebound. (Case of a plane:
     // the box in its place is the child of a compound, whose boxes have to overlap first.)
     double with = 1.0, without = 1.0;
     for (const double height : {1.0, 1.003, 1.006, 1.009, 1.012}) {
@@ -191,7 +191,7 @@ struct Resting {
     const char* name;
     Geometry geometry;
     double height;
-    double tolerance;  ///< in double precision [m]
+    double tolerance;  ///< tolerance in double precision [m]
 };
 void PrintTo(const Resting& r, std::ostream* out) {
     *out << r.name;

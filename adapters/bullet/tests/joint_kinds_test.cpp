@@ -406,7 +406,7 @@ TEST(BulletHinge, OnATurningShaftItStaysWithItsOwnAnchors) {
     EXPECT_LT(own, 0.2 * weighted);
 }
 
-/// What a slider's spring or damper gives in one step of 0.1 s, beside what another force does [N].
+/// Force of a slider's spring or damper in one step of 0.1 s, in addition to another force [N].
 double springForce(double stiffness, double damping, double travel, double speed, double other) {
     Scenario s = scene();
     s.gravity = {};

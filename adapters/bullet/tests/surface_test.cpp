@@ -71,7 +71,7 @@ TEST(BulletSurfaces, CellsAreSplitAsTheFormatSays) {
     EXPECT_GT(depthAt(valley, 0.1), 0.0);
 }
 
-/// Without friction nothing may slow the box; inner edges do, where they are left as they are.
+/// Nothing may decelerate the box without friction; inner edges do if they are left as they are.
 TEST(BulletSurfaces, ABoxSlidesOverASheetOfTrianglesAsOverAFloor) {
     Scenario s = scene(0.0);
     addStatic(s, sheet(8, 8.0));

@@ -13,7 +13,7 @@ using namespace rigor::adapter;
 using rigor::scenario::BodyType;
 namespace scenario = rigor::scenario;
 
-/// What the library keeps: the pose of the centre of mass and its velocities.
+/// State that the library keeps: the pose of the centre of mass and its velocities.
 struct Body {
     bool moves = false;
     double mass = 0.0;

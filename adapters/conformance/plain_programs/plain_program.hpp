@@ -60,7 +60,7 @@ inline Trajectory adapterRun(const std::string& specText, const Scenario& scene,
 /// up to the quaternion's sign: libraries that keep matrices give them with a rounding of their own.
 struct Bounds {
     double position = 0.0;         ///< [m]
-    double orientation = 0.0;      ///< of a quaternion's component [1]
+    double orientation = 0.0;      ///< bound of a quaternion's component [1]
     double velocity = 0.0;         ///< [m/s]
     double angularVelocity = 0.0;  ///< [rad/s]
 };
@@ -111,7 +111,7 @@ inline ::testing::AssertionResult same(const Trajectory& plain, const Trajectory
     return ::testing::AssertionFailure() << first << "; " << text;
 }
 
-/// How far a body moves over a run [m]: a comparison of scenes in which nothing happens proves nothing.
+/// Distance that a body moves over a run [m]: a comparison of scenes in which nothing happens proves nothing.
 inline double travel(const Trajectory& trajectory, std::size_t body) {
     double most = 0.0;
     for (const auto& states : trajectory)

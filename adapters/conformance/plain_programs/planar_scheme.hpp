@@ -215,7 +215,7 @@ inline double energyDrift(const Scenario& scene, const Trajectory& trajectory) {
     return most;
 }
 
-/// How far bodies come from where they are in another run, at most [m]; the other one has `every` steps for one.
+/// Largest distance of bodies from their places in another run [m]; the other one has `every` steps for one.
 inline double farthest(const Trajectory& run, const Trajectory& other, std::size_t every = 1) {
     double most = 0.0;
     for (std::size_t i = 0; i < run.size(); ++i)

@@ -49,7 +49,7 @@ Scenario goodScenario() {
 
 struct Fault {
     const char* name;
-    const char* mentions;  ///< what the message must name
+    const char* mentions;  ///< text that the message must contain
     std::function<void(Scenario&)> plant;
 };
 

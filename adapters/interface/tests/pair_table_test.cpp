@@ -94,7 +94,7 @@ TEST(Reach, CoversFreeFlight) {
     s.bodies[1].pose.position = {0, 50, 0};
     const Reach reach = reachOf(s, 1.0, 1e6);
     EXPECT_EQ(reach.middle.y, 40.0);
-    // After 2 s the first body is at (80, 10): 85.4 m from the middle.
+    // The bound holds: after 2 s the first body is at (80, 10): 85.4 m from the middle.
     EXPECT_GE(reach.distance, 85.4);
     EXPECT_EQ(reachOf(s, 1.0, 60.0).distance, 60.0);
 }

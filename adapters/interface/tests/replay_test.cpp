@@ -71,7 +71,7 @@ TEST(Replay, EveryKindOfEntryComesBack) {
     elsewhere.position.z = 5.0;
     w->setStates({&elsewhere, 1});
     steps(*w, 4);
-    w->applyForce(0, {0, 0, 2}, {});  // not yet stepped
+    w->applyForce(0, {0, 0, 2}, {});  // the world has not stepped yet
     const auto bytes = saved(*w);
     const Vec3 future = after(*w, 10);
     ASSERT_TRUE(w->snapshots()->restore(bytes));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What broad phases are tested against, by counting.
+// Tests of bruteForcePairs(), the oracle of broad phases, by counting.
 #include "adapters/interface/timed.hpp"
 
 #include <gtest/gtest.h>

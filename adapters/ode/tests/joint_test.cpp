@@ -195,7 +195,7 @@ TEST(OdeJoints, SixDofTurnsStopAtTheirLimits) {
         simulation.steps(1);
     }
     const BodyState state = simulation.state(b);
-    // Without twist the rotation vector is the swing vector.
+    // The rotation vector is the swing vector, since there is no twist.
     const Vec3 v{state.orientation.x, state.orientation.y, state.orientation.z};
     const Vec3 turned = 2.0 * std::atan2(norm(v), state.orientation.w) / norm(v) * v;
     EXPECT_NEAR(turned.x, 0.0, 2e-3);

@@ -99,7 +99,7 @@ TEST(OdeSurfaces, AHeightFieldStandsWhereItsFrameSays) {
     const double above = 0.1 * std::sqrt(1.0 + 0.09);
     EXPECT_NEAR(heightUnder(10.0, -1.2), 1.0 + 0.3 * 3.2 + above, 3e-3);
     EXPECT_NEAR(heightUnder(10.3, 1.2), 1.0 + 0.3 * 0.8 + above, 3e-3);
-    // Neither wraps round nor goes on: 0.5 m along z to either side.
+    // The field neither wraps round nor goes on: it ends 0.5 m along z to either side.
     EXPECT_LT(heightUnder(11.0, 0.0), 0.5);
 }
 

@@ -55,7 +55,7 @@ TEST(OdeErrors, AnErrorInsideOdeIsAnExceptionAndOtherWorldsGoOn) {
 
 TEST(OdeFriction, TheSquareFollowsTheSlidingInMatched) {
     EXPECT_NEAR(slidingRatio("preset=matched"), 1.0, 1e-2);
-    // On fixed axes both of them brake with mu: 1 / sqrt(2).
+    // Both tangents brake with mu if their axes are fixed: 1 / sqrt(2).
     EXPECT_NEAR(slidingRatio("preset=matched,friction=pyramid_world"), std::sqrt(0.5), 1e-2);
 }
 

@@ -28,10 +28,10 @@ struct Posed {
     Pose pose;
 };
 
-/// What is allowed, as a share of the size: verdict, depth and support along the normal.
+/// Tolerance as a fraction of the size: verdict, depth and support along the normal.
 template <class S>
 inline constexpr double kExact = sizeof(typename S::Real) == 8 ? 1e-13 : 2e-5;
-/// Of mpr where the overlap is below 1/20 of the size, and of any overlap.
+/// Tolerances of mpr for overlaps below 1/20 of the size, and for any overlap.
 template <class S>
 inline constexpr double kShallow = sizeof(typename S::Real) == 8 ? 1e-8 : 1e-3;
 constexpr double kDeep = 0.15;
@@ -77,7 +77,7 @@ struct Kind {
     double turned = -1;              ///< relative rotation [rad]; -1: any
     double reach = 1.5;              ///< distance of the centres over the size
     bool same = false;
-    double place = 0;   ///< from the world's origin [m]
+    double place = 0;   ///< distance from the world's origin [m]
     double gap = -1e9;  ///< moved along the normal until the distance is this share of the size
 };
 constexpr Kind kKinds[] = {

@@ -63,7 +63,7 @@ struct Worst {
     int overlapping = 0, apart = 0;
 };
 
-/// How far outside of its shape a point stands; 0 inside.
+/// Distance of a point outside its shape; 0 inside.
 double outside(Vec3 x, const Geometry& g, const Pose& X, int dimension) {
     const Geometry dot = scenario::Sphere{0.0};
     return std::max(0.0, validation::exactContact(dot, {x, {}}, g, X, dimension)->signedDistance);
@@ -144,7 +144,7 @@ TYPED_TEST(NarrowPhaseAgainstOracle, EveryPairOfKinds) {
                 const Pose Xa{0.5 * random.direction(), random.rotation()};
                 const double far = ka == 3 || kb == 3 ? 1.2 : (i % 3 == 0 ? 0.6 : 1.6);
                 const Pose Xb{Xa.position + random.uniform(0.0, far) * random.direction(), random.rotation()};
-                // What the engine sees after rounding to its own precision is what the oracle is asked.
+                // The oracle is queried with the values that the engine has after rounding to its precision.
                 this->check(a, Xa, b, Xb, worst);
             }
             const std::string pair = std::string(kKinds[ka]) + " " + kKinds[kb];

@@ -24,7 +24,7 @@ TEST(PlainBox2d, MechanismsAreProjected) {
              {std::pair{"box2d:preset=matched", 0.005 / 4.0}, std::pair{"box2d:preset=default", 0.005}}) {
             const Trajectory written = PlanarScheme(scene, Hold::Projection, 0.0, slop).run(kStep, kSteps);
             const Trajectory found = adapterRun(spec, scene, kStep, kSteps);
-            // Which joint is moved last, and how far below the slop, is Box2D's own.
+            // Box2D decides which joint is moved last, and how far below the slop.
             EXPECT_LT(farthest(found, written), 1.3 * slop + 5e-4) << spec;
             const double lost = energyDrift(scene, written);
             EXPECT_NEAR(energyDrift(scene, found), lost, 0.012 * lost) << spec;
@@ -33,7 +33,7 @@ TEST(PlainBox2d, MechanismsAreProjected) {
                       0.12 * lost);
             EXPECT_LT(energyDrift(scene, PlanarScheme(scene, Hold::Velocities, 0.8).run(kStep, kSteps)),
                       0.2 * lost);
-            // Without any correction: moving bodies back takes no energy out.
+            // The run is without any correction: moving bodies back takes no energy out.
             EXPECT_GT(energyDrift(scene, PlanarScheme(scene, Hold::Velocities, 0.0).run(kStep, kSteps)),
                       lost);
         }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What every Box2D program here does around its scene: the loop of the manual's "Hello Box2D", with 8
-// velocity and 3 position iterations, and the bodies' states after each step.
+// Code of every Box2D program here around its scene: the loop of the manual's "Hello Box2D", with 8 velocity
+// and 3 position iterations, and the bodies' states after each step.
 #pragma once
 
 #include <box2d/box2d.h>

@@ -82,7 +82,7 @@ class MultiDofDemo {
     btMultiBodyDynamicsWorld world;
 };
 
-/// Without the static body that the scenario has first.
+/// Trajectory without the static body that the scenario has first.
 Trajectory moving(Trajectory all) {
     for (auto& states : all) states.erase(states.begin());
     return all;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What Bullet's own examples share: an empty world as it ships, bodies by mass, pose and shape. No adapter
-// code and no scenario; numbers are those of the scene's program.
+// Common part of Bullet's own examples: an empty world as it ships, bodies by mass, pose and shape. No
+// adapter code and no scenario; numbers are those of the scene's program.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>

@@ -112,7 +112,7 @@ btDbvtNode* copyNode(const btDbvtNode& node, btDbvtNode* parent, Pile& from, Pil
     return copy;
 }
 
-/// Both trees of the broad phase, the lists of its stages, and its counters.
+/// Copies both trees of the broad phase, the lists of its stages, and its counters.
 void copyBroadPhase(Pile& from, Pile& to) {
     const btDbvtBroadphase& a = from.broadphase();
     btDbvtBroadphase& b = to.broadphase();

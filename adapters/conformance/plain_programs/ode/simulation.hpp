@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the demos of ODE share (the manual's "how to use", chapter 3.10): a world, a space, a group for
+// Common part of the demos of ODE (the manual's "how to use", chapter 3.10): a world, a space, a group for
 // contact joints, a near callback, and the loop collide, step, empty the group. No adapter code and no
 // scenario. Pairs are taken in the order in which their geoms were made: spaces have orders of their own, and
 // with the library's CFM of 1e-10 a stack's result depends on it. Moments that dMassSetBox and the scenario
@@ -100,7 +100,7 @@ class OdeSimulation {
 
     dWorldID world = nullptr;
     dSpaceID space = nullptr;
-    dSurfaceParameters surface{};  ///< of every contact
+    dSurfaceParameters surface{};  ///< surface of every contact
     std::vector<dBodyID> bodies;
 
   private:

@@ -53,7 +53,7 @@ TEST(PlainOde, WhatTouchesIsFoundByTheKindOfFloorAndTheOrder) {
     for (const dGeomID floor : {plane, box, field}) dGeomDestroy(floor);
 }
 
-/// How deep the block gets below the height at which it starts.
+/// Largest depth of the block below the height at which it starts.
 double deepest(const Trajectory& run, std::size_t block) {
     double depth = 0.0;
     for (const auto& states : run) depth = std::max(depth, 0.05 - states[block].position.y);
