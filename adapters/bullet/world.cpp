@@ -51,7 +51,7 @@ int gyroscopicFlags(const std::string& treatment) {
     if (treatment == "explicit") return BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT;
     if (treatment == "implicit_world") return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD;
     if (treatment == "implicit_body") return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
-    return 0;  // no gyroscopic torque, or an external one
+    return 0;  // no gyroscopic torque by Bullet
 }
 
 }  // namespace

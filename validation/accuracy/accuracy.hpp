@@ -14,8 +14,8 @@
 
 namespace rigor::validation {
 
-/// What an error is measured against. All of it comes from the scenario and its exact solution over the time
-/// for which that is known, never from a run.
+/// Scale that an error is measured against. All of it comes from the scenario and its exact solution over the
+/// time for which that is known, never from a run.
 enum class ScaleKind {
     One,            ///< the metric is relative as it is: to the exact quantity, to the momentum at the start
     Distance,       ///< farthest that a compared body gets from its start; where none moves: Size
@@ -30,7 +30,7 @@ enum class ScaleKind {
     JointTravel,  ///< 1 rad where all limits are angles, Size where all are lengths, else the smaller number
 };
 
-/// What of the ideal run the metric reads.
+/// Part of the ideal run that the metric reads.
 enum class IdealKind { Unknown, Position, Orientation, Velocity, Spin, WholeState, Quantities };
 
 /// Scales of one scene. Empty where there is none: no gravity and nothing moves.
@@ -60,7 +60,7 @@ struct IdealRun {
 };
 IdealRun idealRun(const MetricInput& input);
 
-/// What a metric is measured against; null for one without a line in scales.def.
+/// Scale and ideal of a metric; null for one without a line in scales.def.
 struct ScaleEntry {
     const char* metric;
     ScaleKind scale;

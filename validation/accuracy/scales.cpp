@@ -77,7 +77,7 @@ double weightsOf(const Scenario& scenario) {
     return sum;
 }
 
-/// How far apart along gravity the bodies are at the start, and at least the size of one of them [m].
+/// Largest initial distance of bodies along gravity, at least the size of one of them [m].
 double heightOf(const Scenario& scenario) {
     const double g = norm(scenario.gravity);
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, reach = 0.0;

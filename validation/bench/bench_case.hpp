@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What can be timed by `rigor bench`: whole scenes and isolated parts alike. A part of a bench is a family
+// Cases that `rigor bench` can time: whole scenes and isolated parts alike. A part of a bench is a family
 // that plans its cases in the parent, without loading an engine, and makes one of them in a child process of
 // its own for each repetition. Order, repetitions, statistics, store and report are the bench's; a family
 // only does the work.
@@ -15,30 +15,30 @@
 
 namespace rigor::validation {
 
-/// What the command line asks of a family.
+/// Request of the command line to a family.
 struct BenchRequest {
     std::vector<std::string> engines;  ///< specs as given; empty: every engine that can take part
     std::vector<std::string> only;     ///< names of cases, usual or not; empty: all of them
     std::vector<double> sizes;         ///< instead of the family's own; empty: its own
     bool full = false;                 ///< everything there is; else what tells most in some minutes
-    std::vector<int> threads{1};       ///< of engines that have threads
-    unsigned long long seed = 1;       ///< of what is random in the work
-    std::string preset;  ///< of specs that name none, where it matters; empty: each one's default
+    std::vector<int> threads{1};       ///< thread counts of engines that have threads
+    unsigned long long seed = 1;       ///< seed of the random parts of the work
+    std::string preset;  ///< preset of specs that name none, if it matters; empty: each one's default
     std::string binary;  ///< this program, to describe engines with (describeEngine)
 };
 
 /// One case before it is run. Cases of the same part, name, size and threads are compared with each other.
 struct PlannedBench {
     std::string part;      ///< the family's name
-    std::string name;      ///< what is timed: "box-box face"
+    std::string name;      ///< name of the timed work: "box-box face"
     std::string engine;    ///< spec, or the name of what does the work
     std::string sizeUnit;  ///< "boxes"; "" where there is no size
     double size = 0.0;
     int threads = 1;
-    std::string operation = "step";  ///< what one operation is
+    std::string operation = "step";  ///< name of one operation
     std::string parameters = "{}";   ///< JSON, for make(); part of the identity of the case
     std::string command;             ///< runs this case alone again: "./rigor bench ..."
-    double timeLimit = 120.0;        ///< of one repetition [s], wall
+    double timeLimit = 120.0;        ///< wall-time limit of one repetition [s]
 };
 
 /// Work that is ready to be done, in the child.

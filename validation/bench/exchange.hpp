@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What goes to a child of the bench and comes back, as JSON.
+// Request to a child of the bench and its result, as JSON.
 #pragma once
 
 #include <filesystem>

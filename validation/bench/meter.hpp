@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a piece of work costs beside its time: what it asks of the allocator, and the memory that it takes.
+// Cost of a piece of work beside its time: its allocations and the memory that it takes.
 #pragma once
 
 #include <algorithm>

@@ -39,7 +39,7 @@ std::string inWords(std::string name) {
     return name;
 }
 
-/// What times of a group are shown in.
+/// Unit in which the times of a group are shown.
 struct Unit {
     const char* name = "ms";
     double seconds = 1e-3;
@@ -90,8 +90,8 @@ std::string rate(double perSecond) {
     return number(perSecond) + prefixes[thousands];
 }
 
-/// What a table tells of the cases of a group: of scenes their contacts, of isolated parts how much work an
-/// operation was, and how well it was done.
+/// Columns of the table of a group: contacts of scenes; work per operation and its quality for isolated
+/// parts.
 struct Columns {
     bool scene = true, threads = true, wall = true, rated = false, memory = true, allocations = true;
     std::string operation;
@@ -120,7 +120,7 @@ Columns columnsOf(const std::vector<const BenchCase*>& group) {
         return columns;
     }
     columns.threads = any([](const BenchCase& c) { return c.threads > 1; });
-    columns.rated = columns.operation == "pair";  // what people know as so many a second
+    columns.rated = columns.operation == "pair";  // operations that are usually given per second
     columns.wall = any([](const BenchCase& c) { return c.summary.clock == "wall"; });
     columns.memory = any([](const BenchCase& c) { return memory(c) != "-"; });
     columns.allocations = any([](const BenchCase& c) { return allocations(c) != "-"; });
@@ -201,7 +201,8 @@ std::string titleOf(const BenchCase& c, const Unit& unit) {
     return text + ": " + unit.name + (vowel ? " an " : " a ") + c.operation;
 }
 
-/// What all rows of a part have in common leaves the table and is returned for its title: ", pairs 1000".
+/// Removes the columns that are equal in all rows of a part and returns them for the table's title: ", pairs
+/// 1000".
 std::string takeCommon(Row& head, std::vector<Row>& rows) {
     const auto found = [&](const char* name) {
         return std::find(head.begin(), head.end(), name) - head.begin();
@@ -210,7 +211,7 @@ std::string takeCommon(Row& head, std::vector<Row>& rows) {
     for (auto i = found("ratio") + 2; rows.size() > 1 && i < found("runs");) {
         std::set<std::string> values;
         for (const Row& row : rows) values.insert(row[i]);
-        values.erase("-");  // of who did nothing
+        values.erase("-");  // value of an engine that did nothing
         if (values.size() != 1) {
             ++i;
             continue;
@@ -247,7 +248,8 @@ Labels labelsOf(const Bench& bench) {
     return results::specLabels(specs);
 }
 
-/// What short names stand for; "" where every spec stands as it is. Specs are not broken: they can be copied.
+/// Legend of the short names; "" if every spec is written out. Specs are not wrapped, so that they can be
+/// copied.
 std::string keyText(const Labels& labels) {
     std::size_t width = 0;
     for (const auto& [spec, label] : labels)
@@ -333,7 +335,7 @@ std::string changesText(const results::Run& run, const std::string& baseline,
     std::string text =
         "Against " + baseline + " (after / before, 95 % by bootstrap, Mann and Whitney's p):\n";
     const Labels labels = labelsOf(run.bench);
-    Labels named;  // those of them that are named here
+    Labels named;  // labels that occur here
     std::vector<Row> rows;
     for (const char* verdict : {"slower", "faster", "same", "not compared"})
         for (const BenchChange& c : run.bench.changes) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Whether a timed run was any good: what a fast engine may not trade for its speed. Computed from states and
-// from the contacts that the engine reports, in double, with one implementation for all engines.
+// Quality of a timed run, which a fast engine may not trade for its speed. Computed from states and from the
+// contacts that the engine reports, in double, with one implementation for all engines.
 #pragma once
 
 #include <span>

@@ -122,7 +122,7 @@ class BenchInProgress {
         const std::vector<std::string> known = adapter::availableEngines();
         for (const BenchWork& w : work_) {
             const std::string name = w.planned.engine.substr(0, w.planned.engine.find(':'));
-            // What does the work of an isolated part need not be an engine.
+            // The work of an isolated part need not be done by an engine.
             const bool isEngine =
                 w.planned.part == kScenePart || std::find(known.begin(), known.end(), name) != known.end();
             if (isEngine && std::find(engines.begin(), engines.end(), name) == engines.end())

@@ -27,12 +27,12 @@ struct BenchOptions {
     std::string suite, command;
 };
 
-/// What the progress line is made of.
+/// Data of the progress line.
 struct BenchProgress {
     std::int64_t done = 0, coming = 0;             ///< repetitions; `coming` is a guess
     double etaSeconds = -1.0;                      ///< -1: not known
-    std::string current;                           ///< what runs now
-    const results::BenchCase* finished = nullptr;  ///< whose repetition (the last) has just ended, or null
+    std::string current;                           ///< name of the case that runs now
+    const results::BenchCase* finished = nullptr;  ///< case whose last repetition has just ended, or null
 };
 
 /// This build is worth timing: optimised, without sanitizers; else what is wrong with it.
@@ -47,7 +47,7 @@ results::Run runBench(const std::vector<BenchWork>& work, const BenchOptions& op
                       const std::function<void(const BenchProgress&)>& onProgress,
                       const std::atomic<bool>& interrupted);
 
-/// What a stored bench was asked for, to go on with or to summarise again.
+/// Target of a stored bench, for going on with it or for a new summary.
 BenchTarget targetOf(const results::Bench& bench);
 
 }  // namespace rigor::validation

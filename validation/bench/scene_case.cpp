@@ -27,7 +27,7 @@ using results::BenchRepetition;
 /// median step is none of those. The look reads after every step.
 constexpr std::size_t kReadEvery = 10;
 
-/// What the engine's own counters and the contacts say of the timed steps.
+/// Work in the timed steps by the engine's own counters and the contacts.
 class WorkMeter {
   public:
     void count(const adapter::StepCounters& c) {

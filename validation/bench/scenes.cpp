@@ -27,7 +27,7 @@ bool hasThreads(const EngineDescription& engine) {
 }
 
 bool couldRun(const EngineDescription& engine, const scenario::Scenario& scenario) {
-    if (!engine.problem.empty()) return true;  // that is said when it runs
+    if (!engine.problem.empty()) return true;  // the problem is reported when it runs
     const auto& c = engine.capabilities;
     const bool native =
         std::find(c.dimensions.begin(), c.dimensions.end(), scenario.dimension) != c.dimensions.end();

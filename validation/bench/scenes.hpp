@@ -18,29 +18,29 @@ namespace rigor::validation {
 
 /// Numbers of steps from the start.
 struct SceneSteps {
-    std::size_t warmUp = 0;   ///< that come before the timed ones
+    std::size_t warmUp = 0;   ///< steps before the timed ones
     std::size_t timed = 1;    ///< >= 1
-    std::size_t quality = 1;  ///< after so many the quality is read; >= warmUp + timed
+    std::size_t quality = 1;  ///< number of steps after which the quality is read; >= warmUp + timed
 };
-/// As the scenario says; else its last third is timed.
+/// Steps to time as the scenario gives them, by default its last third.
 SceneSteps sceneSteps(const scenario::Scenario& scenario, double dt);
 
 /// A case with what its child needs.
 struct BenchWork {
     PlannedBench planned;
-    std::string text;             ///< of a scene: its scenario, as loaded
-    scenario::Scenario scenario;  ///< of a scene
+    std::string text;             ///< scenario of a scene, as loaded
+    scenario::Scenario scenario;  ///< scenario of a scene
 };
 
 struct SceneRequest {
     struct Scene {
         scenario::Scenario scenario;
         std::string text;
-        std::string arguments;  ///< that name it on the command line: "box_pyramid --size 10"
+        std::string arguments;  ///< arguments that name it on the command line: "box_pyramid --size 10"
     };
     std::vector<Scene> scenes;
     std::vector<adapter::EngineSpec> specs;
-    std::string preset = "matched";  ///< of specs that name none
+    std::string preset = "matched";  ///< preset of specs that name none
     std::vector<int> threads{1};
     double dt = 0.0;  ///< [s]; 0: the first of each scenario
 };

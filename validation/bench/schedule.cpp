@@ -73,7 +73,7 @@ std::vector<double> timesBefore(const BenchCase& c, const std::string& clock, st
     return times;
 }
 
-/// As it was when the round began.
+/// True if the case was converged when the round began.
 bool wasConverged(const BenchCase& c, const BenchTarget& target, std::int64_t round) {
     const auto times = timesBefore(c, clockOf(c, target), round);
     if (static_cast<int>(times.size()) < target.least) return false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which repetition comes next. A function of what is stored and nothing else, so that a bench that was killed
-// goes on as if nothing had been.
+// Choice of the next repetition. It is a function of the stored repetitions alone, so that a bench that was
+// killed goes on as if it had not been interrupted.
 //
 // Cases of the same part, name and size are a group. A round runs every group once, groups in random order,
 // and inside a group its cases (engines, threads) in random order one right after the other: whatever the
@@ -22,9 +22,9 @@ namespace rigor::validation {
 struct BenchTarget {
     double width = 0.05;     ///< (high - low) / median that is narrow enough; 95 % interval of the median
     int least = 6;           ///< timed repetitions of every case; below six there is no interval
-    int most = 30;           ///< and no more than these
+    int most = 30;           ///< maximum number of repetitions
     double budget = 1800.0;  ///< [s] of all processes together; no round but the first two begins beyond it
-    std::uint64_t seed = 1;  ///< of the order
+    std::uint64_t seed = 1;  ///< seed of the order
     std::string clock = "auto";  ///< "cpu", "wall", or "auto": cpu for one thread, wall for more
 };
 
@@ -34,17 +34,17 @@ std::string clockOf(const results::BenchCase& c, const BenchTarget& target);
 /// Times [s] of the completed repetitions that count (rounds 1, 2, ...), by round.
 std::vector<double> timesOf(const results::BenchCase& c, const std::string& clock);
 
-/// Whether the interval of the median is narrow enough.
+/// True if the interval of the median is narrow enough.
 bool isConverged(const results::BenchCase& c, const BenchTarget& target);
 
 struct NextRepetition {
-    std::size_t index = 0;  ///< of the case
+    std::size_t index = 0;  ///< index of the case
     std::int64_t round = 0;
 };
-/// None: the bench is at its end.
+/// Next repetition; empty at the end of the bench.
 std::optional<NextRepetition> nextRepetition(const results::Bench& bench, const BenchTarget& target);
 
-/// How many repetitions are still to come and how long they take, a guess: as many as make the widest
+/// Estimate of the number of repetitions still to come and of their time: the number that makes the widest
 /// interval of each group narrow if it shrinks with the root of their number, within the budget.
 struct BenchForecast {
     std::int64_t repetitions = 0;

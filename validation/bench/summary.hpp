@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the repetitions of a bench say: medians with intervals, validity, ratios to a base, changes since
+// Summary of the repetitions of a bench: medians with intervals, validity, ratios to a base, changes since
 // another run.
 #pragma once
 
@@ -22,7 +22,7 @@ void summarise(results::Bench& bench, const BenchTarget& target, const std::stri
 
 struct BaselineOptions {
     double threshold = 0.05;  ///< slower by a smaller share is not held against an engine
-    double level = 0.05;      ///< of the tests, all cases together
+    double level = 0.05;      ///< significance level of the tests, all cases together
 };
 
 /// Cases of `after` against the same cases of `before` (equal id: same work, same spec), valid on both sides.
@@ -32,7 +32,7 @@ std::vector<results::BenchChange> changesSince(const results::Bench& before, con
                                                const BaselineOptions& options);
 bool becameSlower(const std::vector<results::BenchChange>& changes);
 
-/// What differs between the machines and builds of two runs and makes times incomparable: "cpu: A -> B".
+/// Differences between the machines and builds of two runs that make times incomparable: "cpu: A -> B".
 std::vector<std::string> otherMachine(const results::Run& before, const results::Run& after);
 
 }  // namespace rigor::validation

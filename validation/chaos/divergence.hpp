@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// When two runs of a scene part. In a chaotic scene a distance of rounding grows exponentially until it is as
-// large as the scene; from then on a distance between trajectories says nothing of either.
+// Divergence time of two runs of a scene. A distance of rounding in a chaotic scene grows exponentially until
+// it is as large as the scene; from then on a distance between trajectories says nothing of either.
 #pragma once
 
 #include <optional>
@@ -35,17 +35,17 @@ struct ContactSplit {
 };
 
 struct Divergence {
-    double length = 0.0;  ///< of the scene [m]
+    double length = 0.0;  ///< length of the scene [m]
     std::optional<double>
         divergenceTime;          ///< [s] first frame with a body farther than threshold * length from itself
     int body = scenario::kNone;  ///< the farthest then
     double largest = 0.0;        ///< [m] of a body, over the run
-    std::optional<Growth> growth;  ///< none without ten frames and a growth tenfold
+    std::optional<Growth> growth;  ///< growth rate; empty without ten frames and a tenfold growth
     std::optional<ContactSplit> split;
 };
 
 struct DivergenceOptions {
-    double threshold = 0.01;                     ///< of the length
+    double threshold = 0.01;                     ///< threshold as a fraction of the length
     int contactStrideA = 1, contactStrideB = 1;  ///< frames between those that have contacts
 };
 

@@ -34,11 +34,11 @@ std::vector<int> groupsOf(const Scenario& s) {
     return parent;
 }
 
-/// How a group may move as a whole.
+/// Motions of a group as a whole.
 struct Freedom {
     bool shifts = true, turns = true;
     Vec3 pivot;
-    Vec3 axis;  ///< of a hinge; zero: any
+    Vec3 axis;  ///< axis of a hinge; zero: any
 };
 
 Vec3 centerOf(const Scenario& s, const std::vector<int>& group, int root) {

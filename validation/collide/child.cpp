@@ -49,7 +49,8 @@ CollideAnswer fromEngine(const CollisionAnswer& found) {
     return answer;
 }
 
-/// With the settings of the spec, and by the algorithm that its narrow_phase names where there is a choice.
+/// Result of a query with the settings of the spec, and by the algorithm that its narrow_phase names if there
+/// is a choice.
 CollisionAnswer answerBy(const adapter::CollisionEngine& engine, const adapter::Settings& settings,
                          const adapter::CollisionQuery& query) {
     const std::vector<std::string> known = engine.algorithms();

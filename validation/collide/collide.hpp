@@ -16,12 +16,13 @@
 
 namespace rigor::validation {
 
-/// What still counts as right.
+/// Tolerances of a correct result.
 struct CollideTolerance {
     double touch = 1e-9;  ///< shapes nearer to touching than this may be called either way [m]
     double relative =
-        1e-6;             ///< of depth and distance, relative to their size; `touch` is allowed in any case
-    double angle = 1e-6;  ///< of the normal from the nearest minimiser [rad]
+        1e-6;             ///< tolerance of depth and distance, relative to their size; `touch` is allowed in
+                          ///< any case
+    double angle = 1e-6;  ///< angle of the normal from the nearest minimiser [rad]
 };
 
 /// Judgement of one answer. Order: the first that applies.
@@ -29,7 +30,7 @@ enum class CollideVerdict {
     Ok,
     WrongOverlap,  ///< says apart where they overlap, or the reverse
     WrongDepth,    ///< depth or distance off by more than the tolerance
-    WrongNormal,   ///< not among the minimising directions
+    WrongNormal,   ///< the normal is not among the minimising directions
     NoNormal,      ///< an overlap without any contact
     Undecided,     ///< the truth of this pair is unknown
     Unsupported,   ///< the engine does not have the pair of shapes
@@ -41,15 +42,16 @@ const char* collideVerdictName(CollideVerdict verdict);  ///< "ok", "wrong overl
 /// The engine gave an answer that is wrong, or none where it should have.
 bool isFailure(CollideVerdict verdict);
 
-/// What is known of a case before any engine is asked.
+/// Exact results of a case, known before any engine is queried.
 struct CollideTruth {
     std::string source;  ///< "oracle", "file" (the oracle lacks the shapes), "none"
     double signedDistance = 0.0;
     std::vector<scenario::Vec3> normals;  ///< equally good, A to B; may be empty
     bool continuum = false;               ///< infinitely many; `normals` holds samples
     std::optional<scenario::Vec3> witnessA, witnessB;
-    double accuracy = 0.0, normalTolerance = 0.0;  ///< what the file's own value is good to
-    std::string conflict;  ///< where file and oracle disagree beyond the file's accuracy; "" when they agree
+    double accuracy = 0.0, normalTolerance = 0.0;  ///< accuracy of the file's own value
+    std::string conflict;  ///< message if file and oracle disagree beyond the file's accuracy; "" if they
+                           ///< agree
 };
 
 /// One engine's answer to one case.
@@ -59,18 +61,19 @@ struct CollideAnswer {
     bool overlap = false;
     std::optional<double> signedDistance;  ///< [m]; minus the depth where they overlap
     std::optional<scenario::Vec3> normal;  ///< A to B: of the deepest contact, or between the witnesses
-    std::optional<scenario::Vec3> witnessA, witnessB;  ///< of the deepest contact or the closest points
+    std::optional<scenario::Vec3> witnessA, witnessB;  ///< points of the deepest contact or the closest
+                                                       ///< points
     int contacts = 0;
     double seconds = 0.0;  ///< wall time of the call
     std::string message;   ///< why there is no answer
 
     std::optional<double> distanceError;  ///< |signedDistance - truth| [m]
-    std::optional<double> normalAngle;    ///< to the nearest minimiser [rad]
-    /// How much shallower than along its normal the shapes overlap (or farther apart they are) [m]: 0 for
-    /// every minimiser, even where they are a continuum.
+    std::optional<double> normalAngle;    ///< angle to the nearest minimiser [rad]
+    /// Excess of the overlap along the result's normal over the least overlap (or lack of distance) [m]: 0
+    /// for every minimiser, even where they are a continuum.
     std::optional<double> normalExcess;
-    /// How far the points are from being the answer [m]: the largest of their distances from the surfaces and
-    /// of |pointB - pointA - signed distance * normal|.
+    /// Error of the witness points [m]: the largest of their distances from the surfaces and of |pointB -
+    /// pointA - signed distance * normal|.
     std::optional<double> pointError;
 };
 
@@ -78,7 +81,7 @@ struct CollideCase {
     scenario::CollisionCase asked;
     std::string file;
     CollideTruth truth;
-    std::vector<CollideAnswer> answers;  ///< by spec
+    std::vector<CollideAnswer> answers;  ///< results by spec
 };
 
 struct CollideSummary {
@@ -87,11 +90,11 @@ struct CollideSummary {
         failed = 0;                       ///< failed: error, crash, timeout
     int missed = 0, spurious = 0;         ///< wrong overlap verdicts, by kind
     int wrongDepth = 0, wrongNormal = 0;  ///< cases; a case counts at the first thing that is wrong
-    std::optional<double> depthErrorMax, depthErrorMedian;  ///< over the overlapping [m]
+    std::optional<double> depthErrorMax, depthErrorMedian;  ///< errors over the overlapping pairs [m]
     std::optional<double> depthRelativeMax;                 ///< error / max(depth, touch)
-    std::optional<double> distanceErrorMax;                 ///< over the separated [m]
+    std::optional<double> distanceErrorMax;                 ///< error over the separated pairs [m]
     std::optional<double> normalAngleMax, normalExcessMax;
-    std::optional<double> pointErrorMax, pointErrorMedian;  ///< over the overlapping [m]
+    std::optional<double> pointErrorMax, pointErrorMedian;  ///< errors over the overlapping pairs [m]
     double microsecondsMedian = 0.0;
 };
 
@@ -99,14 +102,14 @@ struct CollideSummary {
 struct CollideKind {
     std::string kind;
     int asked = 0;
-    std::vector<int> answered, wrong;  ///< by spec; wrong: every failure, crashes included
+    std::vector<int> answered, wrong;  ///< numbers by spec; wrong: every failure, crashes included
 };
 
 struct CollideRun {
     std::vector<adapter::EngineSpec> specs;
     CollideTolerance tolerance;
     std::vector<CollideCase> cases;
-    std::vector<CollideSummary> summaries;  ///< by spec
+    std::vector<CollideSummary> summaries;  ///< summaries by spec
     bool complete = true;                   ///< false: interrupted
 };
 
@@ -138,7 +141,7 @@ void judgeAnswer(const scenario::CollisionCase& c, const CollideTruth& truth,
 /// Tallies the answers of one spec.
 CollideSummary summarise(const CollideRun& run, std::size_t spec);
 
-/// By first tag, in the order they come up; cases without a tag do not count.
+/// Counts by first tag, in the order of their first occurrence; cases without a tag do not count.
 std::vector<CollideKind> countKinds(const CollideRun& run);
 
 /// 0 failures of the in-house engine in double precision; see the README for what counts.

@@ -230,7 +230,7 @@ CollisionFile makeRandomPairs(const RandomPairs& request) {
     file.title = std::to_string(request.count) + " random pairs, seed " + std::to_string(request.seed);
     for (int i = 0; i < request.count; ++i) {
         file.cases.push_back(maker.make(kinds[static_cast<std::size_t>(i) % kinds.size()], i));
-        file.cases.back().line = i + 4;  // where writeCollisionFile puts it
+        file.cases.back().line = i + 4;  // line at which writeCollisionFile writes it
     }
     return file;
 }

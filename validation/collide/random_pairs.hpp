@@ -16,8 +16,9 @@ struct RandomPairs {
     int count = 100;  ///< > 0; kinds take turns, pairs are drawn
     std::uint64_t seed = 1;
     int dimension = 3;                ///< 2 or 3
-    std::vector<std::string> kinds;   ///< of randomPairKinds(); empty: all
-    std::vector<std::string> shapes;  ///< of randomPairShapes(dimension); empty: all. Pairs of any two
+    std::vector<std::string> kinds;   ///< names of randomPairKinds(); empty: all
+    std::vector<std::string> shapes;  ///< names of randomPairShapes(dimension), in pairs of any two; empty:
+                                      ///< all
     std::vector<std::string> pairs;   ///< "box-hull", A first; not beside `shapes`
 };
 

@@ -43,7 +43,7 @@ std::vector<Cases> casesOf(const std::vector<Run>& runs) {
     return all;
 }
 
-/// From good to bad; known deviations and what an engine lacks are as good as passing.
+/// Rank from good to bad; known deviations and unsupported cases rank as passing.
 int badness(Verdict verdict) {
     switch (verdict) {
         case Verdict::Pass:

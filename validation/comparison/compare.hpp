@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What changed between two runs, or two sets of runs: case by case, and per engine with statistics.
+// Changes between two runs, or two sets of runs: case by case, and per engine with statistics.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct CompareOptions {
     PairBy pairBy = PairBy::Nothing;
 };
 
-/// Which case stands beside which.
+/// Pair of compared cases.
 struct ComparedPlace {
     std::string scenario, spec, specAfter;
     double dt = 0.0, dtAfter = 0.0;
@@ -62,9 +62,10 @@ struct RunComparison {
     PairBy pairBy = PairBy::Nothing;
     std::vector<SpecChange> specs;
     std::vector<VerdictChange> verdicts;
-    std::vector<MetricChange> metrics;               ///< by size of the change, largest first
+    std::vector<MetricChange> metrics;               ///< changes by size, largest first
     std::vector<std::string> onlyBefore, onlyAfter;  ///< "scenario spec dt"
-    std::vector<std::string> changedScenarios;       ///< whose physics differ: their numbers are not compared
+    std::vector<std::string> changedScenarios;       ///< scenarios whose physics differ: their numbers are
+                                                     ///< not compared
     std::vector<std::string> environment;            ///< "key: before -> after"
     int runsBefore = 0, runsAfter = 0;
 };
@@ -79,7 +80,7 @@ RunComparison compareRuns(const std::vector<results::Run>& before, const std::ve
 /// returned as it is.
 std::string physicsOf(const std::string& scenarioText);
 
-/// Whether a verdict or an error became worse. Times do not count.
+/// True if a verdict or an error became worse. Times do not count.
 bool becameWorse(const RunComparison& comparison);
 
 std::string comparisonText(const RunComparison& comparison, const CompareOptions& options, std::size_t most);

@@ -10,7 +10,7 @@ namespace rigor::validation {
 namespace {
 
 struct DescendingPoints {
-    std::vector<RefinementPoint> points;  ///< from fine to coarse
+    std::vector<RefinementPoint> points;  ///< points from fine to coarse
     int roundOff = 0, flat = 0;
 };
 

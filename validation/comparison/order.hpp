@@ -19,7 +19,7 @@ struct RefinementPoint {
 struct ObservedOrder {
     double order = 0.0;                   ///< its slope
     std::optional<double> low, high;      ///< 95 % interval of the slope; none for two points
-    int points = 0;                       ///< that the line goes through
+    int points = 0;                       ///< number of points that the line is fitted to
     double finest = 0.0, coarsest = 0.0;  ///< time steps of the first and last of them [s]
     std::string note;                     ///< points left out, and why; "" when none were
 };

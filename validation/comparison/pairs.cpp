@@ -29,7 +29,7 @@ bool arePaired(const CaseRow& a, const CaseRow& b, PairBy by) {
     return false;
 }
 
-/// Whether no third case has a time step between those of the two; `a` is the coarser one.
+/// True if no third case has a time step between those of the two; `a` is the coarser one.
 bool areNeighbours(const CaseRow& a, const CaseRow& b, const std::vector<const CaseRow*>& all) {
     return a.dt > b.dt && std::none_of(all.begin(), all.end(), [&](const CaseRow* c) {
                return c->spec == a.spec && c->dt < a.dt && c->dt > b.dt;

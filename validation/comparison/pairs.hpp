@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which case of one run stands beside which case of another, or of the same run.
+// Pairs of cases of two runs, or of the same run.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace rigor::validation {
 
-/// What the two cases of a pair differ in on purpose; everything else of scenario, spec and time step is
+/// Deliberate difference of the two cases of a pair; everything else of scenario, spec and time step is
 /// equal.
 enum class PairBy {
     Nothing,  ///< the same case of two runs
@@ -31,7 +31,7 @@ struct CasePair {
 /// same folder) each pair appears once, the case that the run has first as `before`.
 std::vector<CasePair> pairCases(const results::Run& before, const results::Run& after, PairBy by);
 
-/// What a run has, for the message that says why nothing can be compared: its scenarios, specs and steps.
+/// Content of a run, for the message if nothing can be compared: its scenarios, specs and steps.
 std::string contentsOf(const results::Run& run);
 
 }  // namespace rigor::validation

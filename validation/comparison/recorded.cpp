@@ -187,7 +187,7 @@ Run readRecorded(const fs::path& folder, const Run& run, std::vector<std::string
     Run recorded;
     recorded.suite = "recorded";
     std::set<std::string> known;
-    for (const CaseRow& row : run.cases) {  // what this run did not run is no change
+    for (const CaseRow& row : run.cases) {  // cases that this run does not have are no change
         const RecordedCase* old = record.find(row.scenario, row.spec, row.dt);
         if (old == nullptr) continue;
         CaseRow& c = recorded.cases.emplace_back();

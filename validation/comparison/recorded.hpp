@@ -21,10 +21,10 @@ struct RecordedMetric {
     std::vector<double> values;
 };
 struct RecordedCase {
-    std::string scenarioHash;  ///< of the scenario's physics (physicsOf() in compare.hpp)
+    std::string scenarioHash;  ///< hash of the scenario's physics (physicsOf() in compare.hpp)
     results::Outcome outcome = results::Outcome::Completed;
     results::Verdict verdict = results::Verdict::Pass;
-    std::vector<RecordedMetric> metrics;  ///< of the whole scene, those that the scenario names
+    std::vector<RecordedMetric> metrics;  ///< metrics of the whole scene that the scenario names
 };
 
 class Record {

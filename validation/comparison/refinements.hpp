@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a run says beyond its single cases: orders of convergence, and engines compared in four labelled ways.
+// Results of a run beyond its single cases: orders of convergence, and engines compared in four labelled
+// ways.
 #pragma once
 
 #include <string>
@@ -14,14 +15,14 @@ namespace rigor::validation {
 /// A case as a point of the error-against-cost plane.
 struct WorkPoint {
     const results::CaseRow* row = nullptr;
-    std::string competitor;  ///< who runs it
-    double error = 0.0;      ///< of the metric asked for
+    std::string competitor;  ///< spec without its numeric options, see competitorOf()
+    double error = 0.0;      ///< error in the requested metric
     double cost = 0.0;       ///< [s] wall time of all steps (results::steppingTime)
     bool best = false;       ///< no other point of its competitor has less error at no more cost
 };
 
-/// Who competes: the spec without its numeric options. `rigor:solver=pgs,velocity_iterations=8` and the same
-/// with 64 are one competitor with two settings; another solver is another competitor.
+/// Competitor of a spec: the spec without its numeric options. `rigor:solver=pgs,velocity_iterations=8` and
+/// the same with 64 are one competitor with two settings; another solver is another competitor.
 std::string competitorOf(const std::string& spec);
 
 /// Completed cases of one scenario with a finite value of `metric` (whole scene), by competitor and cost.

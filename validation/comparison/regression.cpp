@@ -19,7 +19,7 @@ using results::Regression;
 
 struct Change {
     Regression state = Regression::Unchanged;
-    double size = 0.0;  ///< how much of the scale, to name the largest
+    double size = 0.0;  ///< size as a fraction of the scale, to find the largest
     std::string text;
 };
 

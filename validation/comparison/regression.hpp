@@ -12,8 +12,8 @@ namespace rigor::validation {
 /// A run on one machine comes back bit for bit; a change of the code that means to change nothing moves
 /// errors by rounding, which the floor holds, and what follows of it, which the tolerance holds.
 inline constexpr double kSameShare = 0.01;
-/// Of the metric's scale (1 in its unit where it has none): rounding over the steps of a run, in double and
-/// single precision (2^-53 and 2^-24 over some 1e4 to 1e6 operations that depend on each other).
+/// Rounding as a fraction of the metric's scale (1 in its unit if it has none), over the steps of a run, in
+/// double and single precision (2^-53 and 2^-24 over some 1e4 to 1e6 operations that depend on each other).
 inline constexpr double kRoundingDouble = 1e-9, kRoundingSingle = 1e-6;
 
 /// Sets regression, regressionReason and the `recorded` of the metrics. A number is unchanged within the

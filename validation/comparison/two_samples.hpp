@@ -23,8 +23,8 @@ struct RatioOfMedians {
     Interval interval;   ///< 95 %, percentile bootstrap
 };
 
-/// Both samples positive and not empty. The interval is that of bootstrap.hpp; the same seed gives the same
-/// one.
+/// Both samples must be positive and not empty. The interval is that of bootstrap.hpp; the same seed gives
+/// the same one.
 RatioOfMedians ratioOfMedians(const std::vector<double>& one, const std::vector<double>& other,
                               std::uint64_t seed, int resamples = 4000);
 

@@ -124,7 +124,7 @@ void condense(ExportedProblem& exported) {
     p.q = p.w;
     multiplyTransposedAdd(p.H, free, p.q);
     p.W.assign(n * n, 0.0);
-    // By group: the columns of H that touch it.
+    // Columns of H that touch each group.
     std::vector<std::vector<int>> touching(dynamics.groups());
     for (const Triplet& e : toTriplets(p.H)) {
         auto& columns = touching[dynamics.groupOf(e.row)];

@@ -179,7 +179,7 @@ class StepExporter {
     const Scenario& s_;
     const RecordedStep& step_;
     int dofs_, bodies_ = 0;
-    std::vector<int> first_;  ///< by scenario body: its first unknown, or kNone
+    std::vector<int> first_;  ///< first unknown of each scenario body, or kNone
     std::vector<Triplet> mass_, direction_, bilateral_;
     std::vector<double> impulses_;
     ExportedProblem problem_;

@@ -33,9 +33,9 @@ struct AppliedLoad {
 /// One step as an engine told it.
 struct RecordedStep {
     double dt = 0.0;
-    std::vector<BodyState> before, after;  ///< by scenario index
+    std::vector<BodyState> before, after;  ///< states by scenario index
     std::vector<ContactPoint> contacts;
-    std::vector<AppliedLoad> loads;  ///< by scenario index
+    std::vector<AppliedLoad> loads;  ///< loads by scenario index
 };
 
 /// The problem of a step, complete, with the engine's own answer as the stored solution (r where it told all
@@ -43,7 +43,7 @@ struct RecordedStep {
 /// BadInput where there are no contacts.
 ExportedProblem exportStep(const scenario::Scenario& scenario, const RecordedStep& step);
 
-/// What the scenario's forces and events do during the step from step * dt.
+/// Loads of the scenario's forces and events during the step from step * dt.
 std::vector<AppliedLoad> loadsOf(const scenario::Scenario& scenario, std::size_t step, double dt,
                                  std::span<const BodyState> states);
 
@@ -58,7 +58,7 @@ RecordedStep runToStep(const scenario::Scenario& scenario, const ExportRequest& 
 
 struct ExportSummary {
     std::size_t contacts = 0, bodies = 0;
-    double time = 0.0;           ///< at which the step ends
+    double time = 0.0;           ///< time at which the step ends
     double storedResidual = -1;  ///< relative natural map of the engine's own answer; -1: told no impulses
 };
 /// The same in a child process, to `file`. Throws Unsupported, BadInput, and std::runtime_error for a crash.

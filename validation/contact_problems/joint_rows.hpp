@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What joints hold, as rows on velocities:
+// Constraints of joints as rows on velocities:
 //     d . (vB + wB x rB - vA - wA x rA) + t . (wB - wA) = 0
 // with the arms r from the centres of mass to the anchor. Source: Haug, Computer Aided Kinematics and
 // Dynamics of Mechanical Systems, 1989, chapters 3 and 9.

@@ -20,7 +20,7 @@ struct ExportedProblem {
     std::string title, description, mathInfo;
     ContactProblem problem;
     bool isGlobal = false;  ///< the file gives M, H, f, w; else W and q
-    SparseMatrix G;         ///< of m rows; no columns: no bilateral constraints
+    SparseMatrix G;         ///< matrix of m rows; no columns: no bilateral constraints
     std::vector<double> b;
     /// The solution stored with the problem; each may be empty.
     std::vector<double> storedV, storedU, storedR;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How well impulses solve a contact problem, by the criterion of Siconos and of the papers on FCLIB:
+// Residual of impulses in a contact problem, by the criterion of Siconos and of the papers on FCLIB:
 //     e(r) = || r - P_K( r - (u + mu |u_T| e_N) ) ||_2,   u = W r + q,   relative: e / max(|q|, |r|, |u|)
 // with P_K the projection onto K = {|r_T| <= mu r_N}, contact by contact: zero exactly where the contact law
 // holds (the natural map of its variational inequality after De Saxce's change of variable). It mixes
@@ -26,7 +26,7 @@ struct ContactResidual {
     double own = 0.0;
 };
 
-/// Not-a-number anywhere makes all of them infinite.
+/// A NaN anywhere makes all of the residuals infinite.
 ContactResidual contactResidual(const adapter::ContactProblem& problem, const std::vector<double>& r,
                                 const adapter::FrictionModel& model = {});
 

@@ -53,7 +53,7 @@ SolveStep judge(const json& line, const ExportedProblem& exported, const adapter
     return step;
 }
 
-/// What the child had written when it ended, whole lines.
+/// Reads the whole lines that the child had written when it ended.
 void readAnswer(const std::filesystem::path& file, const ExportedProblem& exported, SolveAnswer& answer) {
     std::ifstream in(file);
     for (std::string text; std::getline(in, text);) {

@@ -20,8 +20,8 @@ namespace rigor::validation {
 struct SolveOptions {
     std::filesystem::path binary;  ///< this program, run again as `rigor __solve ...`
     std::vector<int> iterations{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000};  ///< ascending
-    double tolerance = 1e-14;  ///< at which a solver may stop, relative to max |q_i|
-    double seconds = 10.0;     ///< after which no larger number of iterations is tried
+    double tolerance = 1e-14;  ///< residual at which a solver may stop, relative to max |q_i|
+    double seconds = 10.0;     ///< time after which no larger number of iterations is tried
     int jobs = 1;              ///< times are meant for 1
 };
 
@@ -30,11 +30,11 @@ struct SolveStep {
     int allowed = 0, done = 0;  ///< iterations
     bool gaveUp = false;
     double seconds = 0.0;  ///< median wall time of a solution from r = 0
-    int runs = 0;          ///< that the median is of
+    int runs = 0;          ///< number of runs of the median
     ContactResidual residual;
     double velocityError = -1.0;  ///< max |u - stored u| / max |stored u|; -1: nothing stored
 };
-/// What one solver made of one problem.
+/// Solutions of one problem by one solver.
 struct SolveAnswer {
     std::string solver;  ///< spec, "rigor:solver=nsgs", or "stored"
     adapter::FrictionModel model;

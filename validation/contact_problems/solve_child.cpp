@@ -22,7 +22,7 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMostRuns = 15;          ///< of which the median is taken
+constexpr int kMostRuns = 15;          ///< maximum number of runs of which the median is taken
 constexpr double kTimeOfARung = 0.25;  ///< [s] worth repeating for
 
 double since(Clock::time_point start) {

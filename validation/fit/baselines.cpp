@@ -36,7 +36,7 @@ Trajectory told(const Scenario& s, double dt, int body, const std::function<Body
 struct Slide {
     int body = kNone;
     Vec3 normal;
-    double landing = 0.0;  ///< when its centre is half a width above the floor [s]
+    double landing = 0.0;  ///< time at which its centre is half a width above the floor [s]
     double friction = 0.0, gravity = 0.0;
     Vec3 start, velocity, along;  ///< along: unit, of the tangential velocity
     double fallen = 0.0, speed = 0.0;

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What all cases of a batch share.
+/// Data shared by all cases of a batch.
 struct Shared {
     adapter::EngineSpec spec;
     adapter::LoadedEngine engine;

@@ -25,14 +25,14 @@ struct FitParameter {
     double low = 0.0, high = 1.0, start = 0.0;
 };
 
-enum class Summary { Mean, Median };  ///< of the metric over the recordings: what is minimised
+enum class Summary { Mean, Median };  ///< summary of the metric over the recordings that is minimised
 const char* summaryName(Summary summary);
 
 /// A fit file with its scenarios loaded.
 struct FitTask {
     std::string name, title;
     std::vector<scenario::LoadedScenario> train, test;
-    std::vector<adapter::EngineSpec> specs;  ///< with presets
+    std::vector<adapter::EngineSpec> specs;  ///< specs with presets
     std::vector<FitParameter> parameters;
     std::string metric;                ///< minimised; smaller is better
     std::vector<std::string> metrics;  ///< reported, `metric` among them
@@ -94,7 +94,7 @@ struct FitOptions {
     std::filesystem::path directory, binary;
     int jobs = 1;
     bool resume = false;
-    bool runs = true;  ///< also a run folder with the fitted test scenarios of each engine
+    bool runs = true;  ///< true: also writes a run folder with the fitted test scenarios of each engine
     std::string command;
 };
 struct FitProgress {
@@ -107,13 +107,13 @@ struct FitProgress {
 struct FitOutcome {
     FitResult result;
     bool complete = false;
-    std::vector<std::filesystem::path> runFolders;  ///< that want reports
+    std::vector<std::filesystem::path> runFolders;  ///< run folders to make reports of
 };
 FitOutcome runFit(const FitTask& task, const FitOptions& options,
                   const std::function<void(const FitProgress&)>& onProgress,
                   const std::atomic<bool>& interrupted);
 
-std::string fitText(const FitResult& result);      ///< for the terminal
+std::string fitText(const FitResult& result);      ///< text for the terminal
 std::string fitMarkdown(const FitResult& result);  ///< fit.md
 std::string fitCsv(const FitResult& result);
 nlohmann::ordered_json fitToJson(const FitResult& result);

@@ -124,7 +124,8 @@ EvaluationLog::EvaluationLog(const fs::path& file, bool resume) {
             known_[keyOf(line.at("spec"), line.at("part"), line.at("point").get<FitPoint>())] =
                 std::move(values);
         }
-    // What was half written when the fit was interrupted goes: the whole lines are written again.
+    // A line that was half written when the fit was interrupted is dropped: the whole lines are written
+    // again.
     std::vector<json> whole = resume ? readJsonLines(file) : std::vector<json>{};
     out_ = std::make_unique<LineWriter>(file.string());
     for (const json& line : whole) out_->add(line);

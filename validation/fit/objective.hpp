@@ -15,12 +15,12 @@
 
 namespace rigor::validation {
 
-/// What a scenario gave at a point: one value per metric, or why there is none.
+/// Values of a scenario at a point: one per metric, or the reason why there is none.
 struct CaseValues {
     std::vector<double> values;  ///< infinite where the run broke
     std::string problem;         ///< "" when it did not
 };
-/// Of all scenarios of a part, in their order.
+/// Values of all scenarios of a set, in their order.
 using PointValues = std::vector<CaseValues>;
 
 /// Every evaluation of a fit, on the disk the moment it is whole.

@@ -15,7 +15,7 @@ namespace rigor::validation {
 namespace {
 
 constexpr int kResamples = 2000;
-constexpr double kFinest = 1.0 / 400;  // of a range: far below what any recording resolves
+constexpr double kFinest = 1.0 / 400;  // fraction of a range: far below the resolution of any recording
 constexpr double kSearchShare = 2.0 / 3, kGridShare = 0.4;
 
 Interval meanInterval(const Losses& losses, std::uint64_t seed) {

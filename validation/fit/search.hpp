@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Where the fit looks, and how sure it is.
+// Search points of the fit and the uncertainty of its result.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace rigor::validation {
 using Losses = std::vector<double>;
 
 double summarise(const Losses& losses, Summary summary);
-/// With 95 % intervals; `seed` for the bootstrap.
+/// Scores with 95 % intervals; `seed` for the bootstrap.
 ScoreSummary scoreOf(const Losses& losses, std::uint64_t seed);
 /// Mean of b - a over the recordings at which both are finite, with its bootstrap interval.
 std::pair<double, Interval> meanChange(const Losses& a, const Losses& b, std::uint64_t seed);

@@ -12,8 +12,8 @@ namespace rigor::validation {
 
 struct ArmModel {
     double gravity = 0.0;  ///< [m/s^2]
-    /// Of each arm: mass [kg], joint to centre of mass and to the next joint [m], inertia about the centre of
-    /// mass [kg m^2], braking of its joint per relative rate [N m s].
+    /// Properties of each arm: mass [kg], joint to centre of mass and to the next joint [m], inertia about
+    /// the centre of mass [kg m^2], braking of its joint per relative rate [N m s].
     std::vector<double> mass, com, length, inertia, braking;
     std::size_t arms() const { return mass.size(); }
 };

@@ -19,19 +19,19 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kRodLength = 1.0;    // of the rod [m]
-constexpr double kHalfWidth = 0.01;   // of its picture [m]
+constexpr double kRodLength = 1.0;    // length of the rod [m]
+constexpr double kHalfWidth = 0.01;   // half width of its picture [m]
 constexpr double kRodMass = 1.0;      // [kg]; the period does not know it
 constexpr double kRodCoverage = 2.0;  // standard uncertainties
 
 struct Pivot {
     std::string name;
-    double distance = 0.0, distanceUncertainty = 0.0;  ///< of the middle [m]
+    double distance = 0.0, distanceUncertainty = 0.0;  ///< distance from the middle [m]
     double period = 0.0, periodUncertainty = 0.0;      ///< [s]
-    bool dropped = false;                              ///< by the authors
+    bool dropped = false;                              ///< left out by the authors
 };
 
-/// Of the period, with what the pivot's place does to it: dT/T = (2 h/(l^2/12 + h^2) - 1/h) dh/2.
+/// Uncertainty of the period, including that of the pivot's place: dT/T = (2 h/(l^2/12 + h^2) - 1/h) dh/2.
 double uncertaintyOf(const Pivot& p) {
     const double gyration = kRodLength * kRodLength / 12.0 + p.distance * p.distance;
     const double byPlace =

@@ -35,14 +35,16 @@ namespace fs = std::filesystem;
 using namespace scenario;
 using nlohmann::ordered_json;
 
-constexpr double kTableGravity = 9.81;                             // [m/s^2]
-constexpr double kHalf = 0.0375, kPushedMass = 0.0884;             // of the cube, as the source simulates it
+constexpr double kTableGravity = 9.81;  // [m/s^2]
+// half width and mass of the cube, as the source simulates it
+constexpr double kHalf = 0.0375, kPushedMass = 0.0884;
 constexpr double kFingerMass = 1e5;                                // [kg]
 constexpr double kFingerRadius = 0.005, kFingerHalfLength = 0.02;  // a capsule across the push [m]
-constexpr double kFingerClearance = 0.005;                         // of the table, at its lowest [m]
-constexpr double kFingerFriction = 0.3;                            // not given: a start for a fit
-constexpr double kStartGap = 0.002;                                // between finger and cube, at least [m]
-constexpr double kCalm = 0.3;                                      // [s] of rest at the end
+// clearance of the finger above the table, at its lowest [m]
+constexpr double kFingerClearance = 0.005;
+constexpr double kFingerFriction = 0.3;  // not given: initial value for a fit
+constexpr double kStartGap = 0.002;      // least gap between finger and cube [m]
+constexpr double kCalm = 0.3;            // [s] of rest at the end
 constexpr int kPushStepsPerFrame = 10;
 // MuJoCo's published displacement, 0.1137 m, against the mean of the measured ones, 0.0962 m: the farther of
 // the two of seven published configurations that push the cube at all.
@@ -50,10 +52,11 @@ constexpr double kPublishedMiss = 0.0175;
 constexpr double kSmooth = 0.02;  // friction of a table on which the cube has to slide too far
 constexpr std::array kPushEngines{results::kInHouseEngine, "bullet:preset=matched", "ode:preset=matched"};
 
-/// What all recordings of a folder have in common.
+/// Data common to all recordings of a folder.
 struct Common {
     PushPoint point;
-    double friction = 0.0, frictionScatter = 0.0;          ///< of the cube on the table: mean and deviation
+    double friction = 0.0, frictionScatter = 0.0;          ///< friction of the cube on the table: mean and
+                                                           ///< deviation
     double displacement = 0.0, displacementScatter = 0.0;  ///< [m]
 };
 
@@ -211,7 +214,7 @@ ordered_json partOf(const char* name, const std::string& statement, const char* 
             {"findings", findings}};
 }
 
-/// Of the recordings that nothing was taken from.
+/// Study of the recordings that no parameter was taken from.
 ordered_json studyOf(const Imported& imported, const Common& common) {
     ordered_json files = ordered_json::array();
     const bool any = std::any_of(imported.scenarios.begin(), imported.scenarios.end(),

@@ -14,8 +14,8 @@ using nlohmann::ordered_json;
 using scenario::LoadError;
 
 namespace {
-constexpr double kUnitTolerance = 1e-3;  // of |q|
-constexpr double kTimeTolerance = 0.01;  // of a frame
+constexpr double kUnitTolerance = 1e-3;  // tolerance of |q|
+constexpr double kTimeTolerance = 0.01;  // tolerance as a fraction of a frame
 }  // namespace
 
 std::map<int, fs::path> numberedRecordings(const fs::path& from, const std::string& prefix,

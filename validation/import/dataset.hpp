@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What importers share: finding numbered recordings in a folder, reading their columns, names, and scenarios
-// as JSON text.
+// Functions shared by importers: finding numbered recordings in a folder, reading their columns, names, and
+// scenarios as JSON text.
 #pragma once
 
 #include <filesystem>

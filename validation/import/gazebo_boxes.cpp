@@ -87,7 +87,7 @@ std::string scenarioOf(const Motion& motion, const std::vector<double>& steps) {
 /// A column of the published table beside the metric that it is.
 struct Column {
     const char *published, *metric;
-    double factor;  ///< from the published number to the metric
+    double factor;  ///< factor from the published number to the metric
 };
 
 std::vector<Column> columnsOf(const Motion& motion) {
@@ -117,7 +117,7 @@ std::vector<Published> rowsOf(const CsvTable& table, const std::string& engine, 
     return rows;
 }
 
-/// How many times the published error today's engine has.
+/// Ratios of today's errors of an engine to the published ones.
 struct Factors {
     double least, most;
 };

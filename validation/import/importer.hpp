@@ -30,7 +30,7 @@ struct ImportRequest {
 };
 
 struct ImportedScenario {
-    std::string name;  ///< also of the file
+    std::string name;  ///< name, also of the file
     std::string text;  ///< JSON
     bool train = false;
 };
@@ -41,19 +41,19 @@ struct FitProposal {
 };
 /// A study of the scenarios with judged findings, ready for `rigor study`.
 struct ImportedStudy {
-    std::string name;  ///< also of the file
+    std::string name;  ///< name, also of the file
     std::string text;  ///< JSON; names the scenarios by their files
 };
 struct Imported {
     std::string title;
-    std::vector<ImportedScenario> scenarios;  ///< at least one
-    std::vector<FitProposal> parameters;      ///< none: there is nothing to fit
-    std::string metric;                       ///< what a fit minimises
-    std::vector<std::string> report;          ///< what it scores besides
+    std::vector<ImportedScenario> scenarios;  ///< scenarios, at least one
+    std::vector<FitProposal> parameters;      ///< parameters; none: there is nothing to fit
+    std::string metric;                       ///< metric that a fit minimises
+    std::vector<std::string> report;          ///< other metrics that it scores
     std::vector<std::string> engines{results::kInHouseEngine, "bullet",
-                                     "ode"};  ///< that a fit is proposed for
+                                     "ode"};  ///< engines that a fit is proposed for
     std::vector<ImportedStudy> studies;
-    std::filesystem::path licence;  ///< to keep with what is made of the data; may be empty
+    std::filesystem::path licence;  ///< licence to keep with everything made from the data; may be empty
 };
 
 struct ImporterEntry {
@@ -76,9 +76,9 @@ std::filesystem::path dataFolder(const std::string& dataSet, const std::filesyst
 std::map<std::string, std::string> resolveChoices(const ImporterEntry& importer,
                                                   const std::map<std::string, std::string>& given);
 
-/// Which of `ids` the request selects, and which of these are for the fit: those that it lists, or a share of
-/// them spread evenly, half without a word. Throws LoadError for ids that a list names and the data set does
-/// not have, or that it names twice.
+/// Recordings of `ids` that the request selects, and those of them for the fit: the listed ones, or a
+/// fraction of them spread evenly, half by default. Throws LoadError for ids that a list names and the data
+/// set does not have, or that it names twice.
 struct Chosen {
     int id;
     bool train;

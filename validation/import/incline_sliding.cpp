@@ -24,8 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kSlideSteps = 2000;                            // of a run: first order is 5e-4 of the way
-constexpr double kBoxHalfLength = 0.02, kBoxHalfHeight = 0.01;  // of the box [m]
+// steps of a run: the first-order error is 5e-4 of the way
+constexpr double kSlideSteps = 2000;
+constexpr double kBoxHalfLength = 0.02, kBoxHalfHeight = 0.01;  // half extents of the box [m]
 constexpr double kSliderMass = 0.1;                             // [kg]; the motion does not know it
 constexpr double kSlideCoverage = 2.0;                          // published uncertainties
 

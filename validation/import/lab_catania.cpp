@@ -16,7 +16,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kAmplitude =
     5.0 * kPi / 180.0;           // [rad]; the compound pendulum's report says below 7 degrees
-constexpr double kSteps = 2000;  // of a period
+constexpr double kSteps = 2000;  // steps of a period
 }  // namespace
 
 std::string sourceText(const std::string& changed) {

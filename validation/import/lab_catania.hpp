@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the experiments of lab1-dfa share: a body that is timed from one place to another, scenarios of the
-// plane that every engine can run, and findings that hold each engine to the measured time. Source: D.
-// Angemi, F. Ingrassia, G. Di Silvestre, G. De Luca, lab1-dfa, Physics Laboratory 1, University of Catania,
-// CC-BY 4.0.
+// Common part of the experiments of lab1-dfa: a body that is timed from one place to another, 2D scenarios
+// that every engine can run, and findings that hold each engine to the measured time. Source: D. Angemi, F.
+// Ingrassia, G. Di Silvestre, G. De Luca, lab1-dfa, Physics Laboratory 1, University of Catania, CC-BY 4.0.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -45,15 +44,15 @@ double positive(const CsvTable& table, std::size_t row, const std::string& colum
 struct Pendulum {
     std::string name, title, description, source;
     double mass = 1.0;             ///< [kg]
-    double distance = 0.0;         ///< of the centre of mass from the axis [m]
+    double distance = 0.0;         ///< distance of the centre of mass from the axis [m]
     double inertia = 0.0;          ///< about the centre of mass [kg m^2]
     double period = 0.0;           ///< measured [s]
-    nlohmann::ordered_json shape;  ///< of the body, around its centre of mass
+    nlohmann::ordered_json shape;  ///< shape of the body, around its centre of mass
 };
 /// Starts at the lowest place with the speed of a swing of 5 degrees; after the measured period it is to be
 /// there again, moving the same way. Five degrees make a period 0.05 % longer than small ones.
 std::string swingText(const Pendulum& pendulum);
-/// How far from its lowest place a pendulum is that is `late` by so much [s], in bodies' widths.
+/// Distance from the lowest place of a pendulum that is `late` by a time [s], in widths of the body.
 double lateness(const Pendulum& pendulum, double late, double width);
 
 }  // namespace rigor::validation::lab

@@ -41,8 +41,8 @@ constexpr std::array kArmEngines{results::kInHouseEngine, "ode:preset=matched", 
 constexpr double kRate = 1000.0;               // samples per second
 constexpr double kSampleTimeTolerance = 1e-6;  // [s]
 constexpr std::size_t kFitSamples = 100;       // 0.1 s: rates to 4 mrad/s with encoders of 1 mrad
-constexpr std::size_t kLeastSamples = 20;      // of a span whose start is fitted
-constexpr double kHalfThickness = 0.01;        // of the picture of an arm [m]
+constexpr std::size_t kLeastSamples = 20;      // least number of samples of a span whose start is fitted
+constexpr double kHalfThickness = 0.01;        // half thickness of the picture of an arm [m]
 constexpr double kFineStep = 1.0 / 16000;  // [s] of the judged study: well below the noise of the encoders
 // Two codes that integrate one model differ by rounding of the record (1e-5 rad), of its first velocity and
 // by the first order of a time step: half a milliradian of an RMS of 2 to 220.
@@ -57,7 +57,7 @@ struct Swing {
 /// A recording or a part of it.
 struct Span {
     fs::path file;
-    std::string name;  ///< of the scenario
+    std::string name;  ///< name of the scenario
     bool whole = true;
     double start = 0.0, end = 0.0;  ///< [s] of the column t
 };
@@ -150,7 +150,7 @@ Swing readSwing(const Span& span, const ArmModel& model, bool fitted) {
     return swing;
 }
 
-/// How far the source's model is from a segment that its list has: the largest RMS of an angle [rad].
+/// Error of the source's model for a segment of its list: the largest RMS of an angle [rad].
 std::optional<double> publishedError(const fs::path& from, const std::string& kind, const std::string& file,
                                      std::size_t arms) {
     const fs::path list = from / (kind + "_segments.csv");
@@ -192,7 +192,7 @@ std::vector<Span> spansOf(const CsvTable& list, const std::map<int, fs::path>& f
     return spans;
 }
 
-/// With four digits.
+/// Value with four digits.
 std::string shown(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.4g", value);
@@ -271,7 +271,7 @@ std::string scenarioOf(const std::string& name, const std::string& kind, bool tr
          {"metrics", {"measured_orientation_rms", "measured_orientation_mean", "measured_orientation_max"}}});
 }
 
-/// With the published parameters every engine has to be as far from the record as the published model is.
+/// Findings: with the published parameters every engine must have the error of the published model.
 ordered_json findingsOf(const std::string& name, double published) {
     const double slack = std::max(kSameModel, kSameModelShare * published);
     ordered_json findings = ordered_json::array();
@@ -314,7 +314,7 @@ Imported importMultiArmPendulum(const ImportRequest& request) {
     const bool fitted = request.choices.at("start") == "fit";
     const auto files = numberedRecordings(request.from, kind, "", "segments");
     const ArmModel model = readModel(request.from, kind);
-    std::vector<std::pair<Span, bool>> chosen;  // and whether it is to fit on
+    std::vector<std::pair<Span, bool>> chosen;  // each span, and true if it is for the fit
     const bool isList = request.select != "all" && CsvTable(request.select, {}).has("file");
     if (isList) {
         const std::vector<Span> spans = spansOf(CsvTable(request.select, {"file", "start", "end"}), files);

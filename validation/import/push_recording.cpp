@@ -60,14 +60,14 @@ void findStages(Push& push, Refuse refuse) {
         refuse("a cube that is not at rest at the end");
 }
 
-/// What seven equally spaced values tell of the parabola through them: its middle and its curvature (second
-/// difference). Source: Savitzky and Golay, Analytical Chemistry 36 (1964) 1627.
+/// Parabola fitted to seven equally spaced values: its middle and its curvature (second difference). Source:
+/// Savitzky and Golay, Analytical Chemistry 36 (1964) 1627.
 struct Parabola {
     double middle = 0.0, curvature = 0.0;
 };
 template <class Value>
 Parabola fitParabola(Value value) {
-    constexpr double kMeanSquare = 4.0, kFourth = 84.0;  // of -3 .. 3: mean i^2, sum (i^2 - 4)^2
+    constexpr double kMeanSquare = 4.0, kFourth = 84.0;  // sums over i = -3 .. 3: mean i^2, sum (i^2 - 4)^2
     double mean = 0.0, bent = 0.0;
     for (std::ptrdiff_t i = -kReach; i <= kReach; ++i) {
         const double y = value(i);

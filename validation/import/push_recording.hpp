@@ -38,12 +38,12 @@ Push readPush(const std::filesystem::path& file);
 /// the largest speed. Least squares over all frames of all pushes, along the push alone.
 struct PushPoint {
     scenario::Vec3 inHand;  ///< [m]
-    double rms = 0.0;       ///< of what is left [m]
+    double rms = 0.0;       ///< RMS of the residual [m]
 };
 PushPoint fitPushPoint(const std::vector<Push>& pushes, double halfWidth);
 
-/// Where a point of the hand is at each frame: smoothed by least-squares parabolas over seven frames, since
-/// the tracker's noise of 0.04 mm would be 4 mm/s between neighbours.
+/// Path of a point of the hand, one position per frame: smoothed by least-squares parabolas over seven
+/// frames, since the tracker's noise of 0.04 mm would be 4 mm/s between neighbours.
 std::vector<scenario::Vec3> pathOf(const Push& push, scenario::Vec3 inHand);
 
 /// Deceleration over the seven frames up to `stopped`, the last of the slide, when nothing pushes [m/s^2].

@@ -10,7 +10,7 @@ namespace {
 
 using namespace scenario;
 
-constexpr std::size_t kLeadFrames = 3;   // before the first possible contact
+constexpr std::size_t kLeadFrames = 3;   // frames before the first possible contact
 constexpr std::size_t kLeastFlight = 4;  // frames: fewer say too little of a velocity
 
 std::size_t startFrame(const Recording& recording, double halfWidth) {

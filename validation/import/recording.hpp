@@ -15,15 +15,15 @@ namespace rigor::validation {
 struct RecordedFrame {
     scenario::Vec3 position;     ///< [m]
     scenario::Quat orientation;  ///< body to world, unit
-    scenario::Vec3 velocity;     ///< as recorded, world [m/s]
-    scenario::Vec3 spinBody;     ///< as recorded, body frame [rad/s]
+    scenario::Vec3 velocity;     ///< velocity as recorded, world frame [m/s]
+    scenario::Vec3 spinBody;     ///< angular velocity as recorded, body frame [rad/s]
 };
 struct Recording {
     double rate = 0.0;  ///< frames per second
     std::vector<RecordedFrame> frames;
 };
 
-/// Where and how a simulation starts.
+/// Initial state of a simulation.
 struct StartState {
     std::size_t frame = 0;
     scenario::Vec3 position, velocity, spin;  ///< spin: world frame [rad/s]
@@ -39,7 +39,7 @@ std::size_t firstFrameBelow(const Recording& recording, double height);
 /// First frame at which a sharp cube of this half width [m] would touch z = 0; frames.size() if never.
 std::size_t firstContact(const Recording& recording, double halfWidth);
 
-/// How many frames are free flight: up to the first contact, or to a bounce between two frames.
+/// Number of frames of free flight: up to the first contact, or to a bounce between two frames.
 std::size_t flightFrames(const Recording& recording, double halfWidth, double gravity);
 
 /// The rule of the simulator study: three frames before the centre first falls to halfWidth sqrt(3); from

@@ -29,12 +29,13 @@ namespace fs = std::filesystem;
 using namespace scenario;
 using nlohmann::ordered_json;
 
-constexpr double kCartGravity = 9.81;     // [m/s^2]; only its product with the slope's sine matters
-constexpr double kWay = 1.0;              // [m]
-constexpr double kCartSteps = 2000;       // of a run: the first order of a time step is 5e-4 of the way
+constexpr double kCartGravity = 9.81;  // [m/s^2]; only its product with the slope's sine matters
+constexpr double kWay = 1.0;           // [m]
+// steps of a run: the first-order error of a time step is 5e-4 of the way
+constexpr double kCartSteps = 2000;
 constexpr double kRollingFriction = 0.5;  // enough to roll: a tenth would do
 constexpr double kFrameHalfLength = 0.15, kFrameHalfHeight = 0.05,
-                 kAxle = 0.1;  // of the picture of the frame [m]
+                 kAxle = 0.1;  // dimensions in the picture of the frame [m]
 
 struct Cart {
     double frame = 0.0, discs = 0.0;               ///< masses [kg]; the two discs together
@@ -44,7 +45,7 @@ struct Cart {
 
 struct CartTimes {
     double atRest = 0.0, turning = 0.0;  ///< means [s]
-    double standardError = 0.0;          ///< of the mean ratio turning/at rest
+    double standardError = 0.0;          ///< standard error of the mean ratio turning/at rest
 };
 
 double valueOf(const CsvTable& table, const std::string& description) {

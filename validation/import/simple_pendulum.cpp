@@ -16,8 +16,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double kPeriods = 10;        // in the recorded time
-constexpr double kRadius = 0.005;      // of the bob [m]; its own turning adds 0.01 % to the period
+constexpr double kPeriods = 10;        // periods in the recorded time
+constexpr double kRadius = 0.005;      // radius of the bob [m]; its rotation adds 0.01 % to the period
 constexpr double kBobMass = 0.1;       // [kg]; the period does not know it
 constexpr double kBobCoverage = 2.0;   // published uncertainties
 constexpr double kOtherGravity = 8.8;  // [m/s^2], a tenth less

@@ -13,8 +13,8 @@ using namespace scenario;
 constexpr double kUsualFrequency = 2.0;  ///< [Hz]
 constexpr double kTwoPi = 6.283185307179586;
 
-/// What the body's mass and inertia feel like at the end of `arm`, at worst over directions: the lightest
-/// principal moment is not above the smallest diagonal element.
+/// Effective mass at the end of `arm`, the least over directions: the lightest principal moment is not above
+/// the smallest diagonal element.
 double feltMass(const Body& body, int dimension, const Vec3& arm) {
     const MassProperties& m = body.massProperties;
     const double lightest =

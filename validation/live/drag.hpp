@@ -13,7 +13,7 @@
 namespace rigor::validation {
 
 struct DragPull {
-    scenario::Vec3 force, torque;  ///< at the centre of mass, world frame [N], [N m]
+    scenario::Vec3 force, torque;  ///< force and torque at the centre of mass, world frame [N], [N m]
 };
 DragPull dragForce(const scenario::Scenario& scenario, const Drag& drag,
                    std::span<const adapter::BodyState> states, double dt);

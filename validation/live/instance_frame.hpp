@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What an instance shows of itself, as packets: the state after every answer, and what a stage has made. The
-// keys stand in README.md.
+// Packets that an instance sends: the state after every request, and the result of a stage. The keys are
+// described in README.md.
 #pragma once
 
 #include "scenarios/model/scenario.hpp"

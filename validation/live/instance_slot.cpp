@@ -13,7 +13,8 @@ using Clock = std::chrono::steady_clock;
 using Kind = InstanceProcess::Answer::Kind;
 
 constexpr double kBatchSeconds = 0.03;  ///< wall time of a batch of steps: 30 frames a second at the least
-constexpr auto kTimeLimit = std::chrono::milliseconds(500);  ///< before the others go on without an instance
+constexpr auto kTimeLimit = std::chrono::milliseconds(500);  ///< time after which the others go on without an
+                                                             ///< instance
 constexpr int kMostStages = 1000;
 
 InstanceSlot::State stateOf(const InstanceProcess::Answer& answer) {
@@ -102,7 +103,7 @@ std::future<StateReply> InstanceSlot::requestState() {
     return future;
 }
 
-/// In steps of the session.
+/// Target in steps of the session.
 std::size_t InstanceSlot::target() const {
     return static_cast<std::size_t>(std::max(0.0, std::floor(clock_.target + 1e-9)));
 }

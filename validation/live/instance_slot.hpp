@@ -19,11 +19,11 @@
 
 namespace rigor::validation {
 
-/// What all instances of a session share, under one lock.
+/// Data shared by all instances of a session, under one lock.
 struct SessionClock {
     std::mutex mutex;
     std::condition_variable changed;
-    double target = 0.0;         ///< where the instances are to be, in steps from the start of the session
+    double target = 0.0;         ///< target of the instances in steps from the start of the session
     std::uint64_t sequence = 0;  ///< counts every change that a client may want to see
     bool stages = false;         ///< frames carry what stages have made
 };
@@ -33,14 +33,14 @@ struct InstanceLimits {
     std::size_t memoryMiB = 4096;
 };
 
-/// What an instance runs. Steps of the session are those of its first scenario; a branch starts at a later
-/// one.
+/// Scenario and engine of an instance. Steps of the session are those of its first scenario; a branch starts
+/// at a later one.
 struct InstancePlan {
     int id = 0;
-    std::string title;           ///< for people
+    std::string title;           ///< title that is displayed
     std::string text, original;  ///< the scenario it runs; the one that the session opened
-    adapter::EngineSpec asked;   ///< as given by the user
-    adapter::EngineSpec spec;    ///< with what the scenario says of its engine
+    adapter::EngineSpec asked;   ///< spec as given by the user
+    adapter::EngineSpec spec;    ///< spec with the engine settings of the scenario
     double dt = 0.0;
     std::size_t startStep = 0;
     std::optional<int> branchOf;
@@ -50,7 +50,7 @@ struct InstancePlan {
 struct StateReply {
     std::string text, error;
     std::vector<std::string> notes;
-    std::size_t step = 0;  ///< of the session
+    std::size_t step = 0;  ///< step of the session
 };
 
 class InstanceSlot {
@@ -66,14 +66,17 @@ class InstanceSlot {
     State state() const { return state_; }
     bool alive() const { return state_ == State::Ready || state_ == State::NonFinite; }
     const std::string& message() const { return message_; }
-    std::size_t step() const { return step_; }  ///< of the session
+    std::size_t step() const { return step_; }  ///< step of the session
     bool inStep() const { return inStep_; }
     bool hasStages() const { return description_.value("has_stages", false); }
     const nlohmann::json& description() const { return description_; }
     const Packet& frame() const { return frame_; }
-    std::uint64_t sequence() const { return sequence_; }  ///< of the clock when the frame came
-    std::uint64_t frames() const { return frames_; }      ///< that came so far
-    /// Whether the session's clock waits for it: not while it loads, catches up, or has not answered for
+    std::uint64_t sequence() const {
+        return sequence_;
+    }                                                 ///< sequence number of the clock when the frame
+                                                      ///< arrived
+    std::uint64_t frames() const { return frames_; }  ///< number of frames that have arrived
+    /// True if the session's clock waits for it: not while it loads, catches up, or has not responded for
     /// long.
     bool setsThePace() const;
 

@@ -139,7 +139,7 @@ void InstanceWorld::keep() {
     }
 }
 
-/// Into the last snapshot up to there. False: there is none, or the world takes it no more.
+/// Restores the last snapshot up to `steps`. False: there is none, or the world does not accept it any more.
 bool InstanceWorld::restore(std::size_t steps) {
     if (world_->snapshots() == nullptr) return false;
     const auto after = snapshots_.upper_bound(steps);

@@ -20,8 +20,8 @@ namespace rigor::validation {
 /// A spring with a damper from a point of a dynamic body to a point of the world, as a pointer holds it.
 struct Drag {
     int body = 0;
-    scenario::Vec3 point;    ///< in the body frame [m]
-    scenario::Vec3 target;   ///< in the world [m]
+    scenario::Vec3 point;    ///< point in the body frame [m]
+    scenario::Vec3 target;   ///< target in the world frame [m]
     double stiffness = 0.0;  ///< [N/m]; <= 0: such that it swings at 2 Hz. Less where a step is too long
     friend bool operator==(const Drag&, const Drag&) = default;
 };
@@ -51,13 +51,13 @@ class InstanceWorld {
     /// Impulses of the rows before the first iteration of the solver in this step of stages; empty before it.
     const std::vector<double>& startImpulses() const { return startImpulses_; }
     const std::string& lastStage() const { return lastStage_; }  ///< run by stage() in this step; "" none
-    /// To the state after `steps` steps from the start, the drags of the time between repeated.
+    /// Goes to the state after `steps` steps from the start and repeats the drags in between.
     void goTo(std::size_t steps);
 
-    /// What acts from the next step on; none: nothing. Throws adapter::BadInput.
+    /// Sets the drag that acts from the next step on; empty: none. Throws adapter::BadInput.
     void drag(const std::optional<Drag>& drag);
     const std::optional<Drag>& drag() const { return drag_; }
-    /// Where the spring holds the body now [m] and its force [N]; none without one.
+    /// Point of the body that the spring acts on [m] and its force [N]; empty without a spring.
     struct Pull {
         scenario::Vec3 point, force;
     };
@@ -87,15 +87,15 @@ class InstanceWorld {
     adapter::Settings settings_;
     std::unique_ptr<adapter::World> world_;
     std::optional<Stepper> stepper_;
-    std::vector<adapter::BodyState> before_;  ///< at which the last whole step began
-    std::vector<adapter::BodyState> start_;   ///< at which the one under way began
+    std::vector<adapter::BodyState> before_;  ///< states at which the last whole step began
+    std::vector<adapter::BodyState> start_;   ///< states at which the step under way began
     JointCoordinates coordinates_;
     std::string nonFinite_, lastStage_;
     bool watched_ = false;  ///< the iterations of the solver
     std::vector<double> startImpulses_;
 
     std::optional<Drag> drag_;
-    std::map<std::size_t, std::optional<Drag>> drags_;  ///< in force from that step on
+    std::map<std::size_t, std::optional<Drag>> drags_;  ///< drags by the step from which they act
     std::map<std::size_t, StoredSnapshot> snapshots_;   ///< snapshots by steps taken
     std::size_t keptBytes_ = 0, keepEvery_ = 1;
 };

@@ -18,7 +18,7 @@ std::string inSeconds(double time) {
     return text;
 }
 
-/// As a file has it: a number where the option is one.
+/// Value of an option as in a file: a number if the option is one.
 Json optionValue(const std::string& text) {
     const Json parsed = Json::parse(text, nullptr, false);
     return parsed.is_number() ? parsed : Json(text);
@@ -27,7 +27,7 @@ Json optionValue(const std::string& text) {
 }  // namespace
 
 std::string savedName(const std::string& scenario, double time) {
-    constexpr std::size_t kMost = 64;  // of a name in the format
+    constexpr std::size_t kMost = 64;  // maximum length of a name in the format
     const std::string end = "_at_" + inSeconds(time) + "s";
     return scenario.substr(0, kMost - end.size()) + end;
 }

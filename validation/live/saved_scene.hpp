@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is seen, as a scenario file: named for where it comes from, with the settings that its engine ran
-// with.
+// Writes the displayed scene as a scenario file: named after its origin, with the settings of its engine.
 #pragma once
 
 #include <string>
@@ -14,8 +13,8 @@ namespace rigor::validation {
 
 struct SeenScene {
     std::string text;                ///< the scene of the moment (scene_now.hpp) as a scenario
-    std::vector<std::string> notes;  ///< what it could not keep
-    adapter::EngineSpec spec;        ///< that ran it
+    std::vector<std::string> notes;  ///< properties that could not be kept
+    adapter::EngineSpec spec;        ///< spec of the engine that ran it
     double time = 0.0;               ///< [s] since the start of the scenario
 };
 

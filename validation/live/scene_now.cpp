@@ -109,7 +109,7 @@ class Rewriter {
             else if (!isCone(joint, k))
                 shift(joint.axes[k], at);
         }
-        // Where it slides, A's anchor follows B's: along the axis only, but for what the joint has drifted.
+        // A's anchor of a sliding joint follows B's: along the axis only, except for the drift of the joint.
         joint.anchorA = inverse(a) * onB;
         // The loader makes B's axes of A's and the poses: the same directions as long as the joint holds.
         joint.axisB = rotateInverse(b.orientation, rotate(a.orientation, joint.axisA));

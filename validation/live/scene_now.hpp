@@ -19,7 +19,7 @@ class JointCoordinates {
   public:
     /// All at their values at the scenario's own poses.
     explicit JointCoordinates(const scenario::Scenario& scenario);
-    /// After a step: `states` of all bodies.
+    /// Updates the coordinates after a step; `states` are of all bodies.
     void follow(std::span<const adapter::BodyState> states);
     /// Coordinate k of a joint; NaN where it is not known (see jointCoordinate).
     double value(std::size_t joint, std::size_t k) const {
@@ -37,14 +37,14 @@ class JointCoordinates {
 struct Moment {
     double dt = 0.0;                             ///< [s]
     std::size_t steps = 0;                       ///< taken so far
-    std::span<const adapter::BodyState> states;  ///< of all bodies, finite
+    std::span<const adapter::BodyState> states;  ///< states of all bodies, finite
     const JointCoordinates* coordinates = nullptr;
-    std::vector<bool> holds;  ///< by joint: false once broken; empty: all hold
+    std::vector<bool> holds;  ///< flag of each joint: false once broken; empty: all hold
 };
 
 struct SceneNow {
     scenario::Scenario scenario;
-    std::vector<std::string> notes;  ///< what could not be kept, one sentence each
+    std::vector<std::string> notes;  ///< properties that could not be kept, one sentence each
 };
 
 /// Bodies that move have the poses and velocities of the moment. Joints keep their meaning: anchors are where

@@ -20,7 +20,7 @@ namespace rigor::validation {
 
 struct SessionOptions {
     std::filesystem::path binary;      ///< the program itself, run again as `rigor __instance`
-    std::filesystem::path saveFolder;  ///< where scenarios are saved
+    std::filesystem::path saveFolder;  ///< folder in which scenarios are saved
     InstanceLimits limits;
     double dt = 0.0;  ///< [s]; 0: the scenario's first
 };
@@ -44,7 +44,7 @@ class Session {
     /// scenario::LoadError.
     void open(const std::string& text);
 
-    /// Does {"command": ..., ...}; returns what it answers. Throws CommandError.
+    /// Executes {"command": ..., ...}; returns its response. Throws CommandError.
     nlohmann::json command(const nlohmann::json& request);
 
     /// All that is newer than `after`, as an encoded packet: the session's state and the last frame of every

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a session can be told to do.
+// Commands of a session.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -21,7 +21,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr long kMostSteps = 100000;  ///< of one command
+constexpr long kMostSteps = 100000;  ///< maximum number of steps of one command
 constexpr double kSlowest = 1e-3, kFastest = 1e3;
 
 long wholeNumber(const json& request, const char* key, long otherwise) {
@@ -136,7 +136,7 @@ void Session::step(long by) {
         clock_.target = now + static_cast<double>(by);
         return;
     }
-    // Out of a step that has begun, back is its start.
+    // Going back from a step that has begun leads to its start.
     const bool inStep = std::any_of(instances_.begin(), instances_.end(),
                                     [](const auto& instance) { return instance->inStep(); });
     now = std::max(0.0, now + static_cast<double>(by) + (inStep ? 1.0 : 0.0));

@@ -15,7 +15,7 @@ namespace {
 
 using namespace scenario;
 
-/// What holds a shape without a closed form to a half-space: the box about it.
+/// Bound of a shape without a closed form against a half-space: the box about it.
 Geometry boundOf(const Geometry& geometry) {
     const auto round = [](double radius, double halfLength) { return Box{{radius, halfLength, radius}}; };
     if (const auto* c = std::get_if<Cylinder>(&geometry)) return round(c->radius, c->halfLength);

@@ -41,7 +41,7 @@ namespace {
 
 using namespace scenario;
 
-/// What one contact did in one step.
+/// Data of one contact in one step.
 struct ContactStep {
     const Scenario& scenario;
     const ContactPoint& contact;

@@ -13,7 +13,7 @@ using namespace scenario;
 
 namespace {
 
-/// By cofactors; a singular matrix (a body of no extent) gives zero: it does not turn.
+/// Inverse by cofactors; a singular matrix (a body of no extent) gives zero: it does not turn.
 Mat3 inverseOf(const Mat3& m) {
     const auto row = [&](int i) { return Vec3{m(i, 0), m(i, 1), m(i, 2)}; };
     const Vec3 a = row(0), b = row(1), c = row(2);

@@ -36,9 +36,9 @@ class PointOfContact {
                    std::span<const BodyState> states);
 
     const scenario::Vec3& normal() const { return normal_; }  ///< unit, A to B
-    const scenario::Vec3& armA() const { return armA_; }      ///< from A's centre of mass, world axes [m]
+    const scenario::Vec3& armA() const { return armA_; }      ///< arm from A's centre of mass, world axes [m]
     const scenario::Vec3& armB() const { return armB_; }
-    /// Of B's surface against A's [m/s], with the arms kept and the velocities of `states`.
+    /// Velocity of B's surface relative to A's [m/s], with the arms kept and the velocities of `states`.
     scenario::Vec3 velocity(std::span<const BodyState> states) const;
     /// Change of that velocity for an impulse on B [N s].
     scenario::Vec3 response(const scenario::Vec3& impulse) const;
@@ -56,9 +56,10 @@ class PointOfContact {
 /// Two unit vectors that make a right-handed frame with the unit normal. In 2D the first has z = 0.
 std::array<scenario::Vec3, 2> tangentsOf(const scenario::Vec3& normal, int dimension);
 
-/// Whether the contact names two different bodies of the scenario, one of them dynamic, and its shapes.
+/// True if the contact names two different bodies of the scenario, one of them dynamic, and its shapes.
 bool isKnownContact(const scenario::Scenario& scenario, const ContactPoint& contact);
-/// Of the two shapes' materials; of the first shapes where the engine does not tell which touched.
+/// Coefficients of the two shapes' materials; those of the first shapes if the engine does not report which
+/// touched.
 scenario::PairCoefficients coefficientsOf(const scenario::Scenario& scenario, const ContactPoint& contact);
 
 }  // namespace rigor::validation

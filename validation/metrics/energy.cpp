@@ -62,7 +62,8 @@ bool contactsAreLossless(const Scenario& scenario) {
     return true;
 }
 
-/// What a stop takes out, and whether it is reached, only the exact solution knows.
+/// True if a joint has stops: the energy that a stop removes, and whether it is reached, is known only from
+/// the exact solution.
 bool hasStops(const Scenario& scenario) {
     for (const auto& joint : scenario.joints)
         for (const auto& axis : joint.axes)

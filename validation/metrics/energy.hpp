@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// When energy is a measure of quality, and beside what.
+// Conditions for energy as a measure of quality, and its scale.
 #pragma once
 
 #include <optional>
@@ -24,9 +24,9 @@ bool isPassive(const scenario::Scenario& scenario);
 /// impacts).
 bool conservesEnergy(const MetricInput& input);
 
-/// What energies are measured against [J]: the largest kinetic energy of the exact solution where it is known
-/// in full, else of the run, at least that at the start; where nothing moves, sum of m |g| times the bodies'
-/// size. 0 when there is neither motion nor gravity.
+/// Scale of energies [J]: the largest kinetic energy of the exact solution if it is known in full, otherwise
+/// of the run, at least that at the start; if nothing moves, the sum of m |g| times the bodies' size. 0 when
+/// there is neither motion nor gravity.
 double energyScale(const MetricInput& input);
 
 }  // namespace rigor::validation

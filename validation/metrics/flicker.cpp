@@ -17,7 +17,7 @@ namespace {
 using scenario::Vec3;
 
 using PairKey = std::array<int, 4>;       ///< bodies and shapes of A and B
-using Normals = std::map<PairKey, Vec3>;  ///< of the deepest contact of each pair
+using Normals = std::map<PairKey, Vec3>;  ///< normals of the deepest contact of each pair
 using ByBody = std::map<int, std::pair<Worst, std::vector<double>>>;
 
 Normals deepestNormals(const std::vector<ContactPoint>& contacts) {

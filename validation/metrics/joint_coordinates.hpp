@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Where a joint stands, from the poses of its bodies alone.
+// Coordinates of a joint, from the poses of its bodies alone.
 #pragma once
 
 #include <cmath>

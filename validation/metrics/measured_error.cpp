@@ -20,7 +20,7 @@ using namespace scenario;
 
 struct Errors {
     std::vector<double> position, orientation;  ///< [m], [rad]; as many as known
-    std::vector<double> times;                  ///< of the samples
+    std::vector<double> times;                  ///< times of the samples
 };
 
 Errors errorsOf(const MetricInput& input, int body) {
@@ -57,7 +57,7 @@ std::vector<MetricValue> rowsOfRecorded(const MetricInput& input, Value value) {
     return withWorst(std::move(rows));
 }
 
-/// Of bodies whose position was recorded and whose shapes have a width [m] to compare it with.
+/// Rows of the bodies whose position was recorded and whose shapes have a width [m] to compare it with.
 template <class Value>
 std::vector<MetricValue> positionRows(const MetricInput& input, Value value) {
     return rowsOfRecorded(input, [&](int body, const Errors& errors, Worst& worst) {
@@ -66,7 +66,7 @@ std::vector<MetricValue> positionRows(const MetricInput& input, Value value) {
     });
 }
 
-/// Of bodies whose attitude was recorded.
+/// Rows of the bodies whose orientation was recorded.
 template <class Value>
 std::vector<MetricValue> orientationRows(const MetricInput& input, Value value) {
     return rowsOfRecorded(input, [&](int, const Errors& errors, Worst& worst) {

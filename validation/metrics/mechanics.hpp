@@ -24,12 +24,12 @@ scenario::Vec3 spinMomentum(const scenario::Scenario& scenario, const scenario::
 double reachOf(const scenario::Body& body);
 
 struct Mechanics {
-    double mass = 0.0;               ///< of all dynamic bodies [kg]
+    double mass = 0.0;               ///< mass of all dynamic bodies [kg]
     double kinetic = 0.0;            ///< [J]
     double potential = 0.0;          ///< gravity (gravityScale included) and springs [J]
     scenario::Vec3 momentum;         ///< [kg m/s]
     scenario::Vec3 weight;           ///< sum of the gravity forces [N]
-    scenario::Vec3 centerOfMass;     ///< of all dynamic bodies [m]
+    scenario::Vec3 centerOfMass;     ///< centre of mass of all dynamic bodies [m]
     scenario::Vec3 angularMomentum;  ///< about the common centre of mass [kg m^2/s]
     double momentumScale = 0.0;      ///< sum m |v| [kg m/s]
     double angularScale = 0.0;       ///< sum m |x - X||v - V| + |R I R^T w| [kg m^2/s]

@@ -14,8 +14,8 @@
 
 namespace rigor::validation {
 
-/// What the number is compared with. Outcome: with nothing; what came of a scene without an exact solution,
-/// whose distribution over many starts is what engines can share.
+/// Object that the number is compared with. Outcome: nothing; the value belongs to the result of a scene
+/// without an exact solution, and engines can agree on its distribution over many starts.
 enum class MetricKind { Exact, SchemeExact, Measured, Invariant, Contact, Joint, Rest, Outcome };
 const char* metricKindName(MetricKind kind);  ///< "exact", "scheme_exact", "measured", ...
 
@@ -28,7 +28,7 @@ struct MetricValue {
 struct MetricInput {
     const scenario::Scenario& scenario;
     const Trajectory& trajectory;
-    const Reference* reference;  ///< may be null
+    const Reference* reference;  ///< reference; may be null
     adapter::Scheme scheme;
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What metrics share: rows with the worst first, the bodies that are compared, errors between states.
+// Functions shared by metrics: rows with the worst first, the bodies that are compared, errors between
+// states.
 #pragma once
 
 #include <functional>
@@ -37,7 +38,7 @@ const std::string& bodyName(const MetricInput& input, int body);
 /// Number of frames that the reference answers for.
 std::size_t validFrames(const MetricInput& input);
 
-/// What an error of the quantity is measured against: its own scale, else |expected|; 1 where both are zero.
+/// Scale of an error of the quantity: its own scale, or |expected| if it has none; 1 if both are zero.
 double scaleOf(const Quantity& quantity, double expected);
 
 /// Angle between two directions [rad, 0..pi]; they need not be unit. Small angles keep their digits.

@@ -14,7 +14,7 @@ namespace {
 
 using namespace scenario;
 
-/// Only internal forces and gravity act on the dynamic bodies.
+/// True if only internal forces and gravity act on the dynamic bodies.
 bool isIsolated(const Scenario& scenario) {
     for (const auto& body : scenario.bodies)
         if (body.type == BodyType::Dynamic &&

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What came of a scene that no reference knows: numbers of a heap that depend on every impact before, so that
-// one run of them is neither right nor wrong. Engines can agree on their distribution over many starts.
+// Outcome of a scene without a reference: numbers of a heap that depend on every impact before, so that one
+// run of them is neither right nor wrong. Engines can agree on their distribution over many starts.
 // Quantities as in Radjai and Dubois (eds.), Discrete-element Modeling of Granular Materials, 2011, ch. 8.
 #include <algorithm>
 #include <cmath>
@@ -75,7 +75,7 @@ void eachDynamic(const MetricInput& input, std::size_t frame, Visit visit) {
 }
 
 bool isSettled(const MetricInput& input, std::size_t frame) {
-    constexpr double kSlow = 0.05;  // of the speed that a fall by the body's own size gives
+    constexpr double kSlow = 0.05;  // fraction of the speed after a fall by the body's own size
     bool settled = true;
     eachDynamic(input, frame, [&](const Body& body, const BodyState& state) {
         const double R = reachOf(body);

@@ -159,7 +159,7 @@ CoreContact coreContact(const Core& a, const Core& b, int dimension, Real tie) {
         contact.onA = touching.onA;
         contact.onB = touching.onB - out;
     }
-    // Of a tie the one that the points belong to comes first.
+    // The normal of a tie that the points belong to comes first.
     const scenario::Vec3 first = narrow(contact.normal);
     const auto nearer = [&](const scenario::Vec3& m, const scenario::Vec3& n) {
         return scenario::norm(m - first) < scenario::norm(n - first);

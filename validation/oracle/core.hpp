@@ -41,7 +41,7 @@ inline Real norm(Vec a) {
 
 /// A facet of a core: a maximal set of vertices in one supporting plane.
 struct Face {
-    std::vector<int> vertices;  ///< in no order
+    std::vector<int> vertices;  ///< vertices in no particular order
     std::vector<std::array<int, 2>> edges;
     Vec normal;  ///< unit; either sign
 };

@@ -22,7 +22,7 @@ struct Disc {
 /// second term is constant.
 struct DirectionCircle {
     Vec axis;         ///< unit
-    Real height = 0;  ///< in (-1, 1)
+    Real height = 0;  ///< height in (-1, 1)
     Vec anchor;
     Real radius = 0;
 };
@@ -33,7 +33,7 @@ struct Solid {
     std::vector<DirectionCircle> circles;
     std::vector<Vec> faceNormals;  ///< unit; of faces and caps, either sign
     Real radius = 0;
-    Real size = 0;  ///< at least the diameter
+    Real size = 0;  ///< size, at least the diameter
 };
 
 /// Solid of a posed shape relative to `origin`; empty for shapes without bounds and those that are no solid.
@@ -48,11 +48,12 @@ Real supportOf(const Solid& solid, Vec n);
 
 /// The contact of two solids. Both have their `core` where they are polyhedra, capsules or balls.
 struct SolidContact {
-    Real distance = 0;  ///< of the solids, radii included
+    Real distance = 0;  ///< distance of the solids, radii included
     std::vector<Vec> normals;
     bool continuum = false;
     Vec onA, onB;
-    Real residual = 0;  ///< how far the witness points are from being `distance` apart along the first normal
+    Real residual = 0;  ///< deviation of the witness points' difference from `distance` times the first
+                        ///< normal
 };
 SolidContact solidContact(const Solid& a, const Core* coreA, const Solid& b, const Core* coreB, Real tie);
 

@@ -27,9 +27,9 @@
 namespace rigor::validation::oracle {
 namespace {
 
-/// What supports a solid within this belongs to the supporting face. Relative to the size.
+/// Tolerance for points of the supporting face, relative to the size.
 constexpr Real kOnFace = 1e-12L;
-constexpr std::size_t kMostNormals = 64;  ///< of a tie or a continuum
+constexpr std::size_t kMostNormals = 64;  ///< maximum number of normals of a tie or a continuum
 
 Vec unit(Vec v) {
     return (1 / norm(v)) * v;
@@ -177,7 +177,7 @@ void addRings(const Solid& a, const Solid& minusB, Real least, SolidContact& con
 
 // ------------------------------------------------------------------------------------------ witness points
 
-/// What supports a solid along a direction: a disc, else what the core says.
+/// Supporting set of a solid along a direction: a disc, otherwise that of the core.
 struct Patch {
     std::optional<Disc> disc;
     std::optional<Disc> rim;  ///< one of the points is on the rim of it

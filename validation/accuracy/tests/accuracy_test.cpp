@@ -87,7 +87,7 @@ struct Flight {
 
 TEST(RelativeError, OfAPositionIsOverTheWayGone) {
     Flight flight;
-    flight.last().position.z += 0.05;  // of 5 m
+    flight.last().position.z += 0.05;  // the fall is 5 m
     const auto rows = flight.rows("position_final");
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_NEAR(*rows[0].relative, 0.01, 1e-12);

@@ -23,9 +23,10 @@ using nlohmann::json;
 /// Updates before the clock, and with it at least.
 constexpr int kWarmUp = 5;
 constexpr std::size_t kLeast = 3;
-/// After so much time of updates no further one is begun [s].
+/// Time of updates after which no further one is begun [s].
 constexpr double kTimeLimit = 0.3;
-/// After so much, not even one of the least [s]: rounds, of which intervals are made, tell more.
+/// Time after which not even one of the minimum number is begun [s]: more rounds, from which intervals are
+/// computed, are worth more.
 constexpr double kEnough = 1.0;
 constexpr const char *kRandom = "random", *kSpatial = "spatial";
 /// A case whose first two updates would take longer than this is not begun [s].
@@ -81,7 +82,7 @@ class BroadPhaseBench final : public BenchCase {
     }
 
   private:
-    /// What the engine holds against the boxes as they are, once or after every update.
+    /// Comparison of the engine's pairs with the current boxes, once or after every update.
     struct Checks {
         PairCheck sum;
         int count = 0;
@@ -125,7 +126,8 @@ class BroadPhaseBench final : public BenchCase {
         });
         return watch.samples().cpu.front();
     }
-    /// From the growth between two smaller numbers of boxes. Throws Unsupported.
+    /// Predicts the time from the growth between two smaller numbers of boxes. Throws Unsupported if it is
+    /// too long.
     void refuseEndless() const {
         if (count_ < 5000) return;
         const double small = trial(count_ / 20), larger = trial(count_ / 10);
@@ -164,7 +166,7 @@ bool couldRun(const adapter::Capabilities& c, int dimension) {
     return std::find(c.dimensions.begin(), c.dimensions.end(), dimension) != c.dimensions.end() ||
            (dimension == 2 && c.planar);
 }
-/// What the order of boxes in memory does is seen where they are many.
+/// Numbers of boxes; the effect of their order in memory shows for large numbers.
 std::vector<double> sizesOf(const BenchRequest& request, const std::string& order) {
     if (!request.sizes.empty()) return request.sizes;
     if (order == kSpatial) return {1e5};

@@ -18,7 +18,7 @@ using nlohmann::json;
 using scenario::Vec3;
 
 constexpr double kStep = 1.0 / 60.0;  ///< [s]
-constexpr double kPitch = 1.05;       ///< of neighbours in a layer [m]
+constexpr double kPitch = 1.05;       ///< distance of neighbours in a layer [m]
 
 struct Block {
     Vec3 center;
@@ -62,7 +62,7 @@ Blocks struck(Blocks blocks, std::uint64_t seed) {
     return blocks;
 }
 
-/// As a scenario file: body 0 is the floor.
+/// Scenario as of a file: body 0 is the floor.
 scenario::Scenario scenarioOf(const Blocks& blocks, const std::string& name) {
     const auto vector = [&](const Vec3& v) {
         return blocks.dimension == 2 ? json{v.x, v.y} : json{v.x, v.y, v.z};

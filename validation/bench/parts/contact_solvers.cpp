@@ -22,8 +22,8 @@ using nlohmann::json;
 
 constexpr int kIterationCounts[] = {1,  2,   3,   4,   5,   7,   10,  14,  20,   28,   40,  56,
                                     80, 113, 160, 226, 320, 453, 640, 905, 1280, 1810, 2560};
-constexpr double kTimeLimit = 2.0;  ///< after which no larger number of iterations is tried [s]
-constexpr double kEnough = 1.0;     ///< after which no further solution is timed [s]
+constexpr double kTimeLimit = 2.0;  ///< time after which no larger number of iterations is tried [s]
+constexpr double kEnough = 1.0;     ///< time after which no further solution is timed [s]
 constexpr const char *kTargets[] = {"1e-3", "1e-6", "1e-9"}, *kUsualTarget = kTargets[1];
 
 class ContactSolverBench final : public BenchCase {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the isolated parts of a bench have in common: which engines take part, and clocks for short work.
+// Functions common to the isolated parts of a bench: choice of the engines that take part, and clocks for
+// short work.
 #pragma once
 
 #include <functional>
@@ -15,7 +16,7 @@
 
 namespace rigor::validation {
 
-/// In place of an engine: what the interface around engines costs by itself.
+/// Name in place of an engine, for the cost of the interface itself.
 inline constexpr const char* kInterface = "interface";
 
 struct PartEngine {
@@ -34,7 +35,7 @@ std::string broadPhaseOption(const adapter::EngineSpec& spec);
 /// where `key` is empty.
 std::vector<adapter::EngineSpec> everyChoice(const PartEngine& engine, const std::string& key);
 
-/// Whether a case of that name is asked for: by its name, or because everything is, or all that is `usual`.
+/// True if a case of that name is requested: by its name, or because all cases are, or all `usual` ones.
 bool isWanted(const BenchRequest& request, const std::string& name, bool usual = true);
 
 /// The command that runs one case again; the interface alone is not to be had.

@@ -46,7 +46,7 @@ class Baseline final : public adapter::CollisionBatch {
     };
     static std::size_t far(const Poses& poses) { return poses.b.position.x - poses.a.position.x > 1e9; }
     std::vector<Poses> pairs_;
-    std::size_t (*volatile ask_)(const Poses&) = far;  ///< not inlined, as no engine's function is
+    std::size_t (*volatile ask_)(const Poses&) = far;  ///< not inlined, like any engine's function
 };
 
 struct Judgement {

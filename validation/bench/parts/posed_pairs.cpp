@@ -101,8 +101,9 @@ class PairMaker {
         if (kind_.dimension == 2) hull.vertices = convexHull2d(hull.vertices);
         return hull;
     }
-    /// Where B touches A on its way in along -d: Newton's method on the signed distance, which is convex
-    /// along the way and grows by the minimising normal's share of d, from outside.
+    /// Position of B at which it touches A when moved along -d: Newton's method on the signed distance, which
+    /// is convex along the way; its slope is the minimising normal's component along d. Iterates from
+    /// outside.
     Vec3 touch(const Geometry& a, const Pose& Xa, const Geometry& b, Pose Xb, const Vec3& d) const {
         double t = 3.0;
         for (int k = 0; k < 50; ++k) {

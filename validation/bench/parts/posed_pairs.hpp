@@ -26,7 +26,7 @@ struct PairKind {
 const std::vector<PairKind>& pairKinds();
 
 struct PosedPairs {
-    std::deque<scenario::Geometry> shapes;  ///< those of pair i at 2 i and 2 i + 1
+    std::deque<scenario::Geometry> shapes;  ///< shapes of pair i are at 2 i and 2 i + 1
     std::vector<adapter::CollisionQuery> queries;
     std::vector<double> depths;  ///< exact, < 0: apart [m]; of the first ones that were asked for
 };

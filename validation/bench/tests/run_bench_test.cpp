@@ -104,7 +104,7 @@ TEST_F(RunBench, TheLookCountsAllocations) {
         EXPECT_FALSE(three[i].allocations) << "counting takes time";
 }
 
-/// Who sleeps is not slow: the table says so.
+/// Sleeping bodies are not work: the table reports their number.
 TEST_F(RunBench, TellsHowManyBodiesSleep) {
     const auto done = run(plan("double_free_flight,double_free_flight:asleep=1"));
     EXPECT_EQ(countOf(done.bench.cases.at(0), "asleep"), 0.0);

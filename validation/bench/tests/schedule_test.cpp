@@ -31,7 +31,7 @@ Bench benchOf(const std::vector<std::string>& scenes, const std::vector<std::str
     return bench;
 }
 
-/// What a made-up repetition takes, by case and round.
+/// Time of a synthetic repetition, by case and round.
 using Clock = std::function<double(const BenchCase&, std::int64_t round)>;
 
 BenchRepetition repetition(double seconds, std::int64_t round) {

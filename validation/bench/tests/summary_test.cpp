@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What made-up repetitions say: medians, validity, ratios, changes.
+// Summaries of synthetic repetitions: medians, validity, ratios, changes.
 #include "validation/bench/summary.hpp"
 
 #include <gmock/gmock.h>
@@ -185,7 +185,7 @@ TEST(Changes, RarelyCryWolf) {
         summarise(after, {}, "");
         alarms += becameSlower(changesSince(before, after, {0.0, 0.05})) ? 1 : 0;
     }
-    EXPECT_LT(alarms, 7);  // in 5 % of the 60 at most, half of those of the other sign
+    EXPECT_LT(alarms, 7);  // expected: at most 5 % of the 60, half of them of the other sign
 }
 
 TEST(Changes, AreOfValidTimingsAlone) {

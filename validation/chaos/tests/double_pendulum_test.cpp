@@ -31,8 +31,8 @@ scenario::Scenario continuedFrom(const scenario::Scenario& s, const Reference& r
     return next;
 }
 
-/// Of the exact solution, in pieces of which each begins where the last has ended: a reference does not answer
-/// for a time in which neighbours part by as much as here.
+/// Motion of the exact solution, in pieces of which each begins where the last has ended: a reference is not
+/// valid over a time in which neighbours diverge by as much as here.
 Trajectory exactMotion(const scenario::Scenario& s) {
     constexpr int kPiece = 90;  // frames; neighbours part twenty times as far in it
     Trajectory t;

@@ -112,7 +112,7 @@ TEST(Judge, KindsAreTallied) {
     EXPECT_EQ(kinds[1].wrong, (std::vector<int>{0, 1}));
 }
 
-/// Within the tolerance of touching both verdicts are right; beyond it one is.
+/// Both verdicts are right within the tolerance of touching; beyond it only one is.
 TEST(Judge, TouchingMayBeCalledEitherWay) {
     for (const double gap : {-0.5e-9, 0.0, 0.5e-9}) {
         EXPECT_EQ(judged(boxes({2 + gap, 0, 0}), answer(-1e-12, Vec3{1, 0, 0})), CollideVerdict::Ok) << gap;

@@ -109,7 +109,7 @@ TEST_P(RandomKinds, AreWhatTheySay) {
     EXPECT_GT(thin, 30);  // all but capsules and balls
 }
 
-/// Both verdicts, every pair of shapes, ties and continua come up.
+/// Random pairs cover both verdicts, every pair of shapes, ties and continua.
 TEST(RandomPairs, CoverTheField) {
     for (int dimension : {2, 3}) {
         const auto file = makeRandomPairs({1500, 9, dimension, {}, {}, {}});

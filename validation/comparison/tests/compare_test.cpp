@@ -58,7 +58,7 @@ TEST(Compare, ErrorsInBothDirections) {
     Stored after = exampleRun();
     after.cases[0].metrics[0].value = 0.2;
     after.cases[1].metrics[0].value = 0.01;
-    after.cases[2].metrics[0].value = 0.1005;  // within 1 %
+    after.cases[2].metrics[0].value = 0.1005;  // a change within 1 %
     const auto c = compareRuns({exampleRun()}, {after});
     EXPECT_EQ(c.specs[0].worse, 1);
     EXPECT_EQ(c.specs[0].better, 1);

@@ -67,7 +67,7 @@ TEST(Competitor, IsTheSpecWithoutNumbers) {
 
 TEST(Refinements, OrdersOfEachSpecAndExactMetric) {
     const auto orders = observedOrders(twoEngines());
-    ASSERT_EQ(orders.size(), 2u);  // not of one body, not of what need not shrink
+    ASSERT_EQ(orders.size(), 2u);  // no order for one body and for metrics that need not shrink
     EXPECT_EQ(orders[0].spec, "fast:preset=default");
     EXPECT_EQ(orders[0].metric, "position_max");
     EXPECT_EQ(orders[0].unit, "m");

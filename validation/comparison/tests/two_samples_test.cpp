@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Against tables, and against samples of known distributions: how often a test cries wolf, how often an
-// interval holds the truth.
+// Tests against tables, and against samples of known distributions: the rate of false alarms of a test, the
+// coverage of an interval.
 #include "validation/comparison/two_samples.hpp"
 #include "validation/statistics/quantile.hpp"
 

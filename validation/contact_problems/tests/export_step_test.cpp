@@ -66,7 +66,7 @@ TEST(ExportStep, ABlockOnASlopePressesByItsWeight) {
             const ContactSolution found = solveNsgs(exported);
             EXPECT_LT(contactResidual(exported.problem, found.r).relative, 1e-10);
             const double weight = kMass * kGravity * kDt;
-            // to_string keeps six digits
+            // to_string writes six digits
             EXPECT_NEAR(total(found.r, 3, 0), weight * c, 2e-6);
             const double along = std::hypot(total(found.r, 3, 1), total(found.r, 3, 2));
             EXPECT_NEAR(along, std::min(0.5, mu * c) * weight, 2e-6);

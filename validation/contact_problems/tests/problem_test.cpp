@@ -92,7 +92,7 @@ TEST(Fclib, ThereAndBackToTheBitInEveryArrangement) {
                 } else {
                     EXPECT_TRUE(again.problem.hasBodies);
                     ExportedProblem plain = global;
-                    plain.G = again.G;  // without columns, or without anything
+                    plain.G = again.G;  // a matrix without columns, or without anything
                     expectSame(plain, again);
                 }
                 ExportedProblem local = global;

@@ -43,7 +43,7 @@ TEST(Residual, WrongAnswersHaveTheSizeOfTheirError) {
     EXPECT_EQ(contactResidual(p, {std::nan(""), 0, 0}).relative, std::numeric_limits<double>::infinity());
 }
 
-/// Both pyramids solved exactly: their own residual vanishes, that of the cone is their model's error.
+/// The residual of both pyramids' exact solutions vanishes; their residual for the cone is the model error.
 TEST(Residual, APerfectPyramidIsSeenAsSuch) {
     const auto p = massPoint(1, 0.5, {-2, 3, -4}).problem;
     const ContactResidual box = contactResidual(p, {2, -1, 1}, {FrictionModel::Kind::Box});
@@ -65,7 +65,7 @@ TEST(Residual, ProjectsOntoTheConesNearestPoint) {
     for (int k = 0; k < 60; ++k) {
         const double mu = 0.1 + 0.03 * k, n = std::sin(1.7 * k), t1 = std::cos(2.3 * k),
                      t2 = std::sin(3.1 * k);
-        // With W = 0 and q = 0 the map is r - P(r).
+        // The map for W = 0 and q = 0 is r - P(r).
         ExportedProblem exported = massPoint(1, mu, {0, 0, 0});
         exported.problem.W.assign(9, 0.0);
         const double defect = contactResidual(exported.problem, {n, t1, t2}).absolute;

@@ -21,7 +21,7 @@ namespace {
 struct OneContact {
     const char* name;
     std::vector<double> v;  ///< free velocity, normal first; mu = 0.5, m = 2 kg
-    std::vector<double> r;  ///< by hand
+    std::vector<double> r;  ///< solution by hand
 };
 const std::vector<OneContact>& oneContacts() {
     static const std::vector<OneContact> table{
@@ -56,7 +56,7 @@ TEST(OneContact, EveryConeSolverFindsIt) {
     }
 }
 
-/// In 2D a pyramid is the cone; in 3D each finds its own law's answer.
+/// The pyramid is the cone in 2D; each solver finds its own law's solution in 3D.
 TEST(OneContact, PyramidSolversFindTheirOwn) {
     const auto rigorEngine = loadEngineOfBuild("rigor");
     std::vector<std::pair<const adapter::LoadedEngine*, std::string>> solvers{
@@ -170,7 +170,7 @@ TEST(Refusals, SayWhatIsMissing) {
     for (const char* solver : {"pgs_soft", "tgs_soft", "xpbd"})
         EXPECT_THAT(reason(solver, global.problem), ::testing::HasSubstr("a contact problem has no"))
             << solver;
-    // Not the masses of rigid bodies.
+    // These are not the masses of rigid bodies.
     ExportedProblem odd = global;
     odd.problem.M.value[0] *= 2;
     EXPECT_THAT(reason("block", odd.problem), ::testing::HasSubstr("is not one mass and one inertia"));

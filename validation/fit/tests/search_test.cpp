@@ -33,7 +33,7 @@ class Rough {
                                  (1 + std::sin(90 * p[0] + 1e3 * a) * std::cos(31 * p[1] + 1e3 * b)));
         return losses;
     }
-    /// Where the mean over these recordings has its minimum, without the roughness.
+    /// Minimum of the mean over these recordings without the roughness.
     FitPoint center() const {
         FitPoint c{0, 0};
         for (const auto& [a, b] : minima_) {
@@ -126,7 +126,8 @@ TEST(Search, RunsThatBreakAreAvoided) {
     EXPECT_EQ(scoreOf(mean->all.front().losses, 1).broken, mean->all.front().point[0] < 0.45 ? 1 : 0);
 }
 
-/// Of many made-up data sets the intervals hold the true value (0.37, 0.61) about as often as they say.
+/// Intervals of many synthetic data sets contain the true value (0.37, 0.61) about as often as their level
+/// says.
 TEST(Search, IntervalsCoverTheTruth) {
     constexpr int kSets = 60;
     int covered[2] = {}, informative = 0;

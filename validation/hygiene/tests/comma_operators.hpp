@@ -17,7 +17,7 @@
 namespace rigor::hygiene {
 
 struct CommaOperator {
-    std::size_t line = 0;   ///< from 1
+    std::size_t line = 0;   ///< line, from 1
     std::string statement;  ///< the tokens around it, separated by blanks
 };
 

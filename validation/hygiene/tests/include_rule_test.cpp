@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Who may include whom. The layers are a table; every #include "..." of the tree is held against it.
+// Rule of includes between folders. The layers are a table; every #include "..." of the tree is checked
+// against it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ namespace rigor::hygiene {
 namespace {
 
 struct Rule {
-    std::string folder;                ///< of the including file; the longest match counts
+    std::string folder;                ///< folder of the including file; the longest match counts
     std::vector<std::string> allowed;  ///< prefixes of the paths it may include, besides its own folder
 };
 
@@ -50,7 +51,7 @@ const std::vector<Rule>& rules() {
         {"engine/queries", {"engine/"}},
         {"engine/benchmarks", {"engine/"}},
         {"engine/package", {"engine/"}},
-        {"engine", {"engine/"}},  // of engine/engine.hpp alone
+        {"engine", {"engine/"}},  // rule of engine/engine.hpp alone
         {"scenarios/model", {}},
         {"scenarios/json", {"scenarios/model/"}},
         {"scenarios/generators", {"scenarios/json/", "scenarios/model/"}},
@@ -181,7 +182,7 @@ std::string folderOf(const std::string& path) {
     return path.substr(0, path.rfind('/'));
 }
 
-/// Which folder includes which others. Tests and benchmarks are left out.
+/// Graph of the includes between folders. Tests and benchmarks are left out.
 FolderGraph folderGraph() {
     FolderGraph graph;
     for (const auto& file : sourceFiles({".hpp", ".cpp", ".def"})) {

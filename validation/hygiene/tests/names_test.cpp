@@ -16,7 +16,7 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// Of every table of the engine.
+/// Names of every table of the engine.
 Names algorithmNames() {
     Names names;
     static const std::regex line(R"(\nALGORITHM\((\w+),)");
@@ -76,7 +76,8 @@ TEST(Names, TheRuleFindsComparisons) {
               (Names{"nsgs", "rk4"}));
 }
 
-/// What is no engine: the program, the scenario format, folders of an installation.
+/// Removes names with other meanings than engines: the program, the scenario format, folders of an
+/// installation.
 std::string withoutOtherMeanings(std::string code) {
     static const std::regex other(
         R"re(\{"rigor", ?1\}|\{"rigor", RIGOR_VERSION\}|require\("rigor"\)|isObject\(\{"rigor"|app\.name\("rigor"\)|/ "rigor" /|"rigor: )re");
@@ -85,7 +86,7 @@ std::string withoutOtherMeanings(std::string code) {
 
 TEST(Names, OfTheInHouseEngineIsSpeltOnce) {
     const std::string once = "validation/results/judgement.hpp";
-    // What each engine is known not to do, ours as the others.
+    // List of the known deviations of every engine.
     const std::string deviations = "adapters/conformance/deviations.cpp";
     static const std::regex spelt(R"re("rigor[":])re");
     for (const std::string& file : sourceFiles({".cpp", ".hpp"})) {

@@ -80,7 +80,7 @@ const std::vector<Word> kWordsOutsideTheEngine{
     {{"anybody", "Anybody"}, "which object, which user, which engine"},
     {{"spoilers", "Spoiled", "manieth"}, "injected fault, defect, n-th"}};
 
-/// What a phrase of geometry may go on with: "in the plane z = 0" names a plane, "in the plane" alone a
+/// Continuations of a phrase of geometry: "in the plane z = 0" names a plane, "in the plane" alone a
 /// dimension.
 const std::vector<std::string> kNamesAPlane{" z", " of ", " through ", " across "};
 

@@ -26,8 +26,8 @@ constexpr double kHalf = 0.0375, kFriction = 0.25, kGravity = 9.81, kRate = 100;
 /// its pushing point, from the largest speed on it slides alone and the hand stays where it then is.
 struct MadeUpPush {
     double start = 2.0, acceleration = 0.5, reach = 0.5;  // [s], [m/s^2], [s]
-    Vec3 point{0, -0.04, -0.14};                          // of the hand
-    double rear = 0.462;                                  // of the cube, at rest [m]
+    Vec3 point{0, -0.04, -0.14};                          // position of the hand
+    double rear = 0.462;                                  // rear face of the cube at rest [m]
 
     double tip(double t) const {
         const double s = std::clamp(t - start, 0.0, reach);
@@ -109,7 +109,7 @@ TEST(CubePush, TheFingerIsDrivenAlongTheHandsPath) {
         place += (event.time - now) * velocity;
         now = event.time;
         velocity += event.impulse / s.bodies[body].massProperties.mass;
-        if (begin + now < 2.46) {  // where the path has no kink
+        if (begin + now < 2.46) {  // times at which the path has no kink
             EXPECT_NEAR(place.x + 0.005, MadeUpPush{}.tip(begin + now), 1e-4) << now;
         }
         EXPECT_GE(place.z, 0.01 - 1e-9) << "clear of the table";

@@ -47,7 +47,7 @@ TEST(CompoundPendulum, PeriodAndPlaceMakeTheBound) {
     EXPECT_NEAR(s.bodies[0].velocity.x, 0.4 * kAmplitude * 2 * kPi / 1.6, 1e-12);
     EXPECT_LT(norm(s.joints[0].anchorB - Vec3{0, 0.4, 0}), 1e-15) << "the axis is the origin";
     EXPECT_EQ(makeReference(s)->measured(0, 1.6)->position->x, 0.0);
-    // How the period of a rod changes with its pivot, by differences.
+    // Derivative of a rod's period by the place of its pivot, by differences.
     const auto period = [](double h) { return 2 * kPi * std::sqrt((1.0 / 12 + h * h) / (9.7996 * h)); };
     const double byPlace = (period(0.405) - period(0.395)) / 0.01 * 0.005 * 1.6 / period(0.4);
     const double late = 2 * std::hypot(0.05, byPlace);

@@ -211,7 +211,7 @@ TEST(GazeboBoxes, PublishedErrorsBecomeBounds) {
     EXPECT_THAT(refusal("gazebo-boxes", folder), HasSubstr("no line of bullet"));
 }
 
-/// With RIGOR_DATA: every scenario and study of a data set loads, and its references answer.
+/// Test with RIGOR_DATA: every scenario and study of a data set loads, and its references have solutions.
 void expectWhole(const std::string& dataSet, const std::string& inside,
                  const std::map<std::string, std::string>& options, std::size_t least) {
     const fs::path folder = fs::path(std::getenv("RIGOR_DATA")) / inside;

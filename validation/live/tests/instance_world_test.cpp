@@ -41,8 +41,8 @@ class Instances : public testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(Engines, Instances, testing::Values("rigor", "bullet", "ode"),
                          [](const auto& one) { return std::string(one.param); });
 
-/// By snapshots of the state (rigor, ode) and of the log (bullet): every earlier state comes back, bit for
-/// bit, and the future after it, a drag in between included.
+/// Every earlier state is restored bit for bit, by snapshots of the state (rigor, ode) or of the log
+/// (bullet), and so is the future after it, with a drag in between.
 TEST_P(Instances, GoBackToTheSameBits) {
     const auto world = instance(GetParam());
     std::vector<std::vector<double>> states{bits(*world)};

@@ -81,7 +81,7 @@ TEST(SceneNow, AnglesAreCountedOverTurns) {
                                    kRod + R"(}],
         "joints": [{"name": "pivot", "type": "hinge", "a": "world", "b": "arm", "anchor": [0, 0, 0],
         "axis": [0, 0, 1], "limits": [null, 12]}])");
-    // At step 150 it has turned by 7.5 rad, at step 240 it meets its stop.
+    // The body has turned by 7.5 rad at step 150 and reaches its stop at step 240.
     EXPECT_LT(divergenceOf(text, "rigor", 0.005, 150, 150), 1e-6);
 }
 
@@ -133,14 +133,14 @@ TEST(SceneNow, ForcesAndEventsAreThoseToCome) {
         "events": [{"time": 0.2, "body": "stone", "impulse": [0, 0, 3]},
                    {"time": 0.5, "body": "stone", "impulse": [0, 0, 1]},
                    {"time": 0.6, "body": "stone", "impulse": [0, 2, 0]}])");
-    // After 100 steps, at 0.5 s: the first event is over, the second is that of the step that comes.
+    // The first event is over after 100 steps, at 0.5 s; the second is that of the next step.
     EXPECT_LT(divergenceOf(text, "rigor", 0.005, 100, 100), 1e-9);
     if (fixtures::hasEngine("ode")) {
         EXPECT_LT(divergenceOf(text, "ode", 0.005, 100, 100), 1e-9);
     }
 }
 
-/// What the solver remembers is lost; a resting stack stays at rest all the same.
+/// The warm start is lost; a resting stack stays at rest all the same.
 TEST(SceneNow, AStackStaysAStack) {
     const auto loaded = scenario::loadScenario(scenario::findScenario("box_stack"));
     EXPECT_LT(divergenceOf(loaded.text, "rigor", loaded.scenario.timeSteps.front(), 60, 60), 1e-2);

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What a page knows: the last state and the last frame of every instance.
+/// State of a page: the last state and the last frame of every instance.
 class Viewer {
   public:
     explicit Viewer(Session& session) : session_(session) {}
@@ -148,7 +148,7 @@ TEST_F(Sessions, StagesStopInsideAStep) {
     EXPECT_FALSE(viewer_->frames_[0]["stage"]["in_step"].get<bool>());
 }
 
-/// Both branches are seen: the original goes on as it was, the branch with other physics from there.
+/// Both branches are displayed: the original goes on unchanged, the branch from there with other physics.
 TEST_F(Sessions, ABranchLeavesFromWhereItsOriginIs) {
     open("rigor");
     tell({{"command", "step"}, {"steps", 40}});

@@ -93,7 +93,7 @@ TEST(Signorini, AGapMayBeClosedWithinTheStepAndNoFaster) {
     EXPECT_NEAR(step.signorini(), 0.05, 1e-15);
     step.after().velocity = {};  // held at its gap
     EXPECT_EQ(step.signorini(), 0.0);
-    step.contact().normalImpulse = 0;  // not acted upon: not counted
+    step.contact().normalImpulse = 0;  // a contact without impulse is not counted
     EXPECT_EQ(step.signorini(), -1.0);
 }
 
@@ -117,7 +117,7 @@ TEST(Signorini, ImpactsReboundByNewtonsLaw) {
     EXPECT_NEAR(step.signorini(), 0.5, 1e-15);
     step.after().velocity = {0, 2.25, 0};
     EXPECT_NEAR(step.signorini(), 0.25, 1e-15);
-    // With gravity the approach may or may not contain that of the step: 0.5 x 0.1 m/s either way.
+    // The approach under gravity may or may not contain that of the step: 0.5 x 0.1 m/s either way.
     step.scenario.gravity = {0, -10, 0};
     step.after().velocity = {0, 2.05, 0};
     EXPECT_NEAR(step.signorini(), 0.0, 1e-12);
@@ -163,7 +163,7 @@ TEST(Dissipation, FrictionIsOppositeToTheSlipAndAtItsLimit) {
     EXPECT_NEAR(pull(most, 0), 0.2, 1e-15);           // drives it
     EXPECT_NEAR(pull(-0.95, 0), 0.05 * 1.75, 1e-14);  // nearly enough
     EXPECT_GT(pull(0, most), 0.19);                   // sideways
-    // Beyond the cone is Coulomb's residual alone.
+    // The part beyond the cone is Coulomb's residual alone.
     EXPECT_NEAR(pull(-1.1, 0), 0.0, 1e-15);
     EXPECT_NEAR(step.coulomb(), 0.175, 1e-14);
 }

@@ -205,11 +205,11 @@ constexpr double kEnergy = 37.564;
 
 struct Row {
     const char* metric;
-    const char* subject;  ///< of the row that shows the error
+    const char* subject;  ///< subject of the row that shows the error
     std::unique_ptr<Case> (*make)();
     std::function<void(Case&)> injectFault;
     double expected;
-    double unspoiled = 0.0;  ///< of the exact run; what came of a scene is no error
+    double unspoiled = 0.0;  ///< value for the exact run; an outcome is no error
 };
 const std::vector<Row>& rows() {
     static const std::vector<Row> table{
@@ -306,7 +306,7 @@ const std::vector<Row>& rows() {
                  for (auto& touch : contacts) touch.depth = -touch.depth;
          },
          2.0},
-        // out and back in one of the 98 triples of frames with contacts
+        // the normal turns out and back in one of the 98 triples of frames with contacts
         {"normal_flicker", "ball", resting,
          [](Case& c) {
              c.run.contacts[10][0].normal = {std::sin(0.02), std::cos(0.02), 0};

@@ -402,7 +402,7 @@ TEST(Joints, InjectedLimitViolation) {
         EXPECT_EQ(rows[i + 1].subject, subjects[i]);
         EXPECT_NEAR(rows[i + 1].value, expected[i], 1e-12) << subjects[i];
     }
-    // What is free of a six_dof joint does not count as drift.
+    // The free coordinates of a six_dof joint do not count as drift.
     c.scenario.joints[6].axes[0].mode = AxisMode::Free;
     c.state(7, 6).position += {0.4, 0.003, 0.004};
     const auto drift = c.rows("joint_drift");

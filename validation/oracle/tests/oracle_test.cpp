@@ -129,7 +129,7 @@ TEST(Oracle, Plane2d) {
     const Geometry square = Box{{0.5, 0.5, 0}}, segment = Segment{{-2, 0, 0}, {2, 0, 0}};
     EXPECT_NEAR(distanceOf(square, at(0, 0, 0), square, at(0.2, 0.9, 0), 2), -0.1, 1e-15);
     EXPECT_NEAR(distanceOf(square, at(0, 0.6, 0), segment, {}, 2), 0.1, 1e-15);
-    // In 2D two crossing capsules can only be separated as a whole: 2 capsules like plus signs.
+    // Two crossing capsules in 2D can only be separated as a whole: 2 capsules like plus signs.
     const Geometry capsule = Capsule{0.1, 1.0};
     EXPECT_NEAR(distanceOf(capsule, {}, capsule, at(0, 0, 0, kTurnZ90), 2), -1.2, 1e-15);
     EXPECT_NEAR(distanceOf(ball(0.3), at(2.3, 0.4, 0), segment, {}, 2), 0.2, 1e-15);

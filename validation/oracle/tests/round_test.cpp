@@ -150,7 +150,7 @@ Vec3 farthest(const Geometry& g, const Pose& X, Vec3 d) {
 }
 
 struct Bracket {
-    double low, high;  ///< of the signed distance
+    double low, high;  ///< bounds of the signed distance
 };
 
 /// A triangle of directions, with the points of K = A - B that support its corners. Every point x of K bounds
@@ -253,8 +253,8 @@ struct Random {
                 return round();
         }
     }
-    /// Of B against a solid in its own frame: anything, or turned by quarter turns and little more, and moved
-    /// along no, one or all axes.
+    /// Pose of B in the frame of the other solid: any pose, or turned by quarter turns and little more, and
+    /// moved along no, one or all axes.
     Pose pose() {
         static const double kTilts[] = {0.0, 0.0, 1e-9, 1e-4};
         Quat q = rotation();
@@ -286,9 +286,9 @@ TEST(RoundOracle, IsBracketedByTheSearchOverDirections) {
         for (const Vec3& n : answer.normals)
             EXPECT_NEAR(*separationAlong(a, Xa, b, Xb, 3, n), answer.signedDistance, 3e-9) << i;
         EXPECT_NEAR(*separationAlong(a, Xa, b, Xb, 3, answer.normals[0]), answer.signedDistance, 1e-14) << i;
-        // From below by the direction, from above by the points.
+        // The distance is bounded from below by the direction, from above by the points.
         const Vec3 gap = answer.witnessB - answer.witnessA;
-        // Where a value is flat over directions they are known to half its digits.
+        // Directions are known to half the digits of a value that is flat over them.
         EXPECT_LE(norm(gap - answer.signedDistance * answer.normals[0]), 2e-10) << i;
         const double dot = 1e-9;  // the points are on the surfaces
         EXPECT_NEAR(distanceOf(a, Xa, Sphere{dot}, {answer.witnessA, {}}), -dot, 2e-10) << i;

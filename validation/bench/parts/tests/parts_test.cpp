@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the isolated parts of a bench are made of, and what they say: the work is what it claims to be, and
-// wrong answers are seen.
+// Tests of the isolated parts of a bench and their output: the work is the declared one, and wrong results
+// are detected.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -218,7 +218,7 @@ TEST(PosedPairs, AreAsDeepAsTheyClaim) {
     }
 }
 
-/// What is timed is what the engine answers a single query with.
+/// The timed batch gives the same results as single queries.
 TEST(NarrowPhasePart, ABatchSaysWhatSingleQueriesSay) {
     request({});
     for (const std::string spec :
