@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a run recorded: the input of references, metrics, audit and store alike.
+// Record of a run: the input of references, metrics, audit and store alike.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,8 @@ struct Trajectory {
     std::vector<double> times;      ///< [s], one per frame
     std::vector<BodyState> states;  ///< frame-major: states[frame * bodyCount + body]
     std::vector<std::vector<ContactPoint>>
-        contacts;  ///< of the step that begins at each frame, at the frame's poses; last frame: empty
+        contacts;  ///< contacts of the step that begins at each frame, at the frame's poses; last frame:
+                   ///< empty
 
     std::size_t frames() const { return times.size(); }
     const BodyState& state(std::size_t frame, int body) const {

@@ -19,9 +19,9 @@
 namespace rigor::validation {
 namespace {
 
-constexpr double kUnitTolerance = 1e-3;  // of |q|: rounded to six digits and then some
+constexpr double kUnitTolerance = 1e-3;  // tolerance of |q|: rounding to six digits, with some head-room
 constexpr double kStartTolerance =
-    0.05;  // of the body's size, and in rad: a fitted start beside a recorded one
+    0.05;  // tolerance relative to the body's size, and in rad, of a fitted start against a recorded one
 constexpr double kTimeTolerance = 1e-9;  // [s]: k dt and the recorded time round differently
 
 using scenario::ReferenceSpec;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What references share: reading parameters, the bodies that play the parts, checks of assumptions, and the
-// way from the centre of mass to the body frame. No physics of a particular problem.
+// Functions shared by references: reading parameters, the bodies with a role in the problem, checks of
+// assumptions, and the way from the centre of mass to the body frame. No physics of a particular problem.
 #pragma once
 
 #include <initializer_list>
@@ -78,9 +78,9 @@ Quat turned(Quat q, Vec3 w, double t);
 /// |a| is negligible beside `scale` (1e-9 relative; the scenario's own numbers have 16 digits).
 bool negligible(double a, double scale);
 
-/// Until when references that integrate prepare answers [s]: the duration and room for the last step of a
-/// run, for steps of the scenario's list and any up to an eighth of the duration. Nothing is decided by what
-/// lies between the duration and this time: what may still happen after the end is a question of its own.
+/// End time of references that integrate [s]: the duration and room for the last step of a run, for steps of
+/// the scenario's list and any up to an eighth of the duration. Events between the duration and this time
+/// decide nothing: whether something happens after the end is tested separately.
 double runEnd(const Scenario& scenario);
 
 /// The coefficient up to which a contact that does not slide holds: the static one, never below that of
@@ -123,7 +123,7 @@ struct Plane {
 /// The side of `floor` that faces the point `from`. Throws AssumptionViolated for other shapes.
 Plane planeOf(const Scenario& scenario, int floor, Vec3 from);
 
-/// How a body stands on a plane at its initial pose.
+/// Support of a body on a plane at its initial pose.
 struct Footing {
     double gap = 0.0;          ///< height of the lowest point [m]
     std::vector<Vec3> points;  ///< lowest points of the body (vertices of the contact area) [m]

@@ -39,8 +39,8 @@
 
 namespace rigor::validation {
 
-/// What a reference says of one body at one time; parts it does not determine are empty.
-/// Position and orientation are of the body frame, velocity of the centre of mass, as in BodyState.
+/// Solution of a reference for one body at one time; parts it does not determine are empty. Position and
+/// orientation are of the body frame, velocity of the centre of mass, as in BodyState.
 struct PartialState {
     std::optional<scenario::Vec3> position;  ///< [m]
     std::optional<scenario::Quat> orientation;
@@ -54,8 +54,8 @@ struct Quantity {
     std::string name;  ///< snake_case, unique within the reference
     std::string unit;
     double exact = 0.0;
-    std::optional<double> schemeExact;  ///< at the dt asked for
-    /// What an error of this quantity is measured against; 0: |exact|. Set where the exact value can be zero.
+    std::optional<double> schemeExact;  ///< value at the requested dt
+    /// Scale of an error of this quantity; 0: |exact|. It is set if the exact value can be zero.
     double scale = 0.0;
     /// The same number taken from a trajectory; empty when it does not show there (no second bounce).
     std::function<std::optional<double>(const Trajectory&)> measure;
@@ -74,9 +74,9 @@ class Reference {
     /// Scenario indices of the bodies whose states this reference knows; may be empty.
     virtual std::vector<int> bodies() const { return {}; }
 
-    /// Until when exact() answers [s]. At least 1e300: to the end of any run of the scenario, which is half a
-    /// step after the duration at most, for steps of the scenario's list and any up to an eighth of the
-    /// duration. Less: up to the first event that the reference does not resolve.
+    /// Time until which exact() is valid [s]. At least 1e300: to the end of any run of the scenario, which is
+    /// half a step after the duration at most, for steps of the scenario's list and any up to an eighth of
+    /// the duration. Less: up to the first event that the reference does not resolve.
     virtual double validUntil() const { return 1e300; }
 
     /// The exact state of a body of bodies() at time t in [0, validUntil()] and of a run; outside of these
@@ -89,8 +89,8 @@ class Reference {
 
     virtual std::vector<Quantity> quantities(double dt, adapter::Scheme scheme) const;
 
-    /// What was recorded of a body of bodies() at time t; empty unless the reference is a measurement. Such a
-    /// reference has no exact answers.
+    /// Recorded state of a body of bodies() at time t; empty unless the reference is a measurement. Such a
+    /// reference has no exact solution.
     virtual std::optional<PartialState> measured(int body, double t) const;
 };
 

@@ -72,7 +72,7 @@ class LinearDrag : public Reference {
         if (scheme == adapter::Scheme::Unknown || d.rate != d.dragRate) return std::nullopt;
         const auto n = static_cast<double>(step);
         const double z = d.dragRate * dt;
-        // What a step makes of v - vinf: the exponential series up to the order of the scheme.
+        // Factor on v - vinf in one step: the exponential series up to the order of the scheme.
         double factor = 1.0 - z;
         if (scheme == adapter::Scheme::VelocityVerlet) factor += z * z / 2;
         if (scheme == adapter::Scheme::RungeKutta4) factor += z * z / 2 - z * z * z / 6 + z * z * z * z / 24;

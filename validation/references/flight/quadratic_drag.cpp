@@ -86,7 +86,7 @@ class QuadraticDragFlight : public Reference {
     const Scenario& scenario_;
     int index_;
     const Body& body_;
-    Real linear_ = 0, quadratic_ = 0;  ///< over the mass
+    Real linear_ = 0, quadratic_ = 0;  ///< coefficients over the mass
     Real3 gravity_;
     OdeState start_;
     DenseSolution solution_;

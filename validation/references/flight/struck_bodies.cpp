@@ -207,9 +207,9 @@ class StruckBodies : public Reference {
   private:
     struct Struck {
         int index = 0;
-        Body body;  ///< with the mass properties of this file
+        Body body;  ///< body with the mass properties of this file
         double time = 0.0;
-        Vec3 com, velocity, spin;  ///< after the blow
+        Vec3 com, velocity, spin;  ///< state after the blow
         std::shared_ptr<TorqueFreeMotion> rotation;
     };
 
@@ -226,7 +226,7 @@ class StruckBodies : public Reference {
         const auto& shape = body.shapes[0];
         const Mass mass = massOf(shape.geometry, scenario_.dimension, who);
         const double given = body.massProperties.mass,
-                     scale = given / mass.amount;  // by density, or by the mass that was given
+                     scale = given / mass.amount;  // scale by density, or by the given mass
         const Mat3 turn = toMatrix(shape.pose.orientation);
         MassOf mine{given, shape.pose * mass.center, turn * mass.moments * transpose(turn)};
         for (int i = 0; i < 3; ++i)

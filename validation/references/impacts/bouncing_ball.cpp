@@ -64,8 +64,7 @@ class BouncingBall : public Reference {
             velocity = speed_ - g_ * t;
         } else {
             double time = first_, up = e_ * impact_;
-            // Beyond the accumulation point, and where flights are shorter than rounding, the ball lies
-            // still.
+            // The ball lies still beyond the accumulation point, and where flights are shorter than rounding.
             bool resting = e_ < 1.0 && t >= first_ + 2.0 * e_ * impact_ / (g_ * (1.0 - e_));
             while (!resting && time + 2.0 * up / g_ <= t) {
                 resting = 2.0 * up / g_ < 1e-15 * t;

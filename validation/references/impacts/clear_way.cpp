@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Whether anything stands in the way of the exact motion: a wall before the sliding block, a third ball, the
-// box under the falling one. The motion is sampled; at each sample points and balls that surely lie inside a
-// body must not lie inside another. A motion that runs into something is found, one that only grazes it may
-// not be; one that is clear is never refused.
+// Test of the exact motion for obstacles: a wall before the sliding block, a third ball, the box under the
+// falling one. The motion is sampled; at each sample points and balls that surely lie inside a body must not
+// lie inside another. A motion that runs into something is found, one that only grazes it may not be; one
+// that is clear is never refused.
 #include <algorithm>
 #include <cmath>
 
@@ -49,7 +49,7 @@ std::vector<Inner> innerOf(const Body& body, const Pose& pose, int dimension) {
     return result;
 }
 
-/// How deep the ball is in a solid; negative outside. Shapes without a simple distance count as far away.
+/// Depth of the sphere in a solid; negative outside. Shapes without a simple distance count as far away.
 double depthIn(const Body& body, const Pose& pose, const Inner& ball, int dimension) {
     double deepest = -1e300;
     for (const auto& shape : body.shapes) {

@@ -36,8 +36,8 @@ class Collision1d : public Reference {
                    g = line_.gravity();
         const double sign = dot(d, line_.direction()),
                      closing = std::abs(line_.velocityBefore(a_) - line_.velocityBefore(b_));
-        // Where the straight lines before and after meet: exact for uniform motion, whatever the step. For e
-        // = 1 and equal bodies too, because it is the relative coordinate that turns.
+        // Time at which the straight lines before and after meet: exact for uniform motion and any step. It
+        // also holds for e = 1 and equal bodies, because the relative coordinate is the one that reverses.
         Quantity time{"impact_time", "s", start, {}, start > 0.0 ? 0.0 : scenario_.duration, {}};
         time.measure = [this, d](const Trajectory& run) -> std::optional<double> {
             const std::size_t end = run.frames() - 1;
@@ -102,7 +102,7 @@ class Collision1d : public Reference {
 
 std::unique_ptr<Reference> makeCollision1d(const Scenario& scenario, const scenario::ReferenceSpec& spec) {
     const Parts parts(scenario, spec, {"a", "b"});
-    // With both left out the two bodies of the scenario play the parts, in their order.
+    // If both are left out they are the two bodies of the scenario, in their order.
     const bool both =
         !spec.parameters.count("a") && !spec.parameters.count("b") && scenario.bodies.size() == 2;
     const int a = both ? 0 : parts.anyBody("a");

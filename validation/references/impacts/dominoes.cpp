@@ -103,7 +103,7 @@ class Dominoes : public Reference {
     std::vector<int> bodies_;
     PlanarFrame frame_;
     PlanarMotion motion_;
-    std::vector<Vec3> corners_;  ///< of the first, body frame
+    std::vector<Vec3> corners_;  ///< corners of the first, body frame
     Vec3 way_;
     double face_ = 0.0, time_ = 1e300;
     PlanarMotion::Real turn_ = 0;

@@ -15,7 +15,7 @@ namespace rigor::validation {
 /// Throws AssumptionViolated where the static coefficient of the pair would make it stick and mu would not.
 /// Source: Brach, Mechanical Impact Dynamics, 1991; Walton 1993 (beta0 = 0).
 struct ImpactImpulse {
-    Vec3 impulse;  ///< on the ball [N s]
+    Vec3 impulse;  ///< impulse on the ball [N s]
     bool sticks = true;
 };
 ImpactImpulse frictionalImpact(Vec3 contactVelocity, Vec3 n, const scenario::PairCoefficients& pair,

@@ -53,7 +53,7 @@ class Touch {
 
   private:
     struct Piece {
-        Real length = 0, tangential = 0, slope = 0;  ///< of p; dp_t/dp; dn/dp
+        Real length = 0, tangential = 0, slope = 0;  ///< length in p; dp_t/dp; dn/dp
     };
     void add(Real length, Real t, Real slope) {
         require(slope > 0, "the corner jams: friction drives it into the floor");
@@ -188,7 +188,7 @@ class IncrementalImpact : public Reference {
         at.angle += at.rate * d;
         return at;
     }
-    /// How deep the deepest corner is in the floor at time t, beyond rounding [m].
+    /// Depth of the deepest corner in the floor at time t, beyond rounding [m].
     double depthAt(double t) const {
         const auto at = flown(t);
         Real lowest = 1e300L;
@@ -198,7 +198,7 @@ class IncrementalImpact : public Reference {
     }
     void findNextTouch() {
         const double end = runEnd(scenario_), span = end - time_;
-        // At least fifty looks a turn; of a body too fast for that, only as far as the looks go.
+        // At least fifty samples a turn; a body too fast for that is followed only as far as the samples go.
         constexpr int kMostLooks = 100000;
         const double looks =
             std::max(2000.0, std::ceil(8.0 * std::abs(static_cast<double>(after_.rate)) * span));

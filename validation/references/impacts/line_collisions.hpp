@@ -21,13 +21,13 @@ class LineCollisions {
     };
     LineCollisions(const Scenario& scenario, std::vector<int> bodies, bool gapsNeeded);
 
-    const std::vector<int>& bodies() const { return bodies_; }  ///< in order along the line
+    const std::vector<int>& bodies() const { return bodies_; }  ///< bodies in order along the line
     Vec3 direction() const { return direction_; }
     Vec3 gravity() const { return gravity_; }
     const std::vector<Impact>& impacts() const { return impacts_; }
     double validUntil() const { return validUntil_; }
     PartialState exact(int body, double t) const;
-    /// Whether the last impact of all is within the duration: no neighbours run into each other later either.
+    /// True if the last impact of all is within the duration: no neighbours collide later either.
     bool isOver() const;
     /// Along the line after the last impact of those that a run comes to, relative to the fall [m/s].
     double velocityAfter(int body) const;

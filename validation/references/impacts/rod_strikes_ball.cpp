@@ -60,7 +60,7 @@ class RodStrikesBall : public Reference {
         if (ahead < 0.0) ahead += kFullTurn;
         const double rate = norm(turn_);
         time_ = (ahead - delta) / rate;
-        // Where on the rod, and along which normal.
+        // The point on the rod and the normal of the impact.
         const Vec3 tip = rotate(scenario::fromAxisAngle(axis, rate * time_), arm_);
         const double along = std::clamp(dot(to, tip) / (L * L), 0.0, 1.0);
         const Vec3 normal = unit(to - along * tip);
@@ -97,7 +97,7 @@ class RodStrikesBall : public Reference {
     }
 
   private:
-    /// Until the rod, going round, comes as near to the ball again.
+    /// Finds the end: the time when the rod, going round, comes as near to the ball again.
     void findEnd(double reach) {
         const Vec3 axis = unit(turn_);
         constexpr int kSamples = 20000;

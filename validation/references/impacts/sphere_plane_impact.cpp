@@ -99,7 +99,8 @@ class SpherePlaneImpact : public Reference {
                    t = s - dot(s, n) * n;
         return norm(t) > 0.0 ? unit(t) : perpendicular(n);
     }
-    /// Where the flights before (from frame 0) and after (from the last usable frame) meet along the normal.
+    /// Time at which the flights before (from frame 0) and after (from the last usable frame) meet along the
+    /// normal.
     Quantity impactTime() const {
         Quantity q{"impact_time", "s", time_, {}, time_ > 0.0 ? 0.0 : duration_, {}};
         q.measure = [this](const Trajectory& run) -> std::optional<double> {

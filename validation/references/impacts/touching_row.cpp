@@ -157,7 +157,7 @@ class TouchingRow : public Reference {
         }
         violated("the impact of the row has no solution");
     }
-    /// How fast contact i parts by a unit impulse at contact j.
+    /// Delassus matrix: the separation speed of contact i by a unit impulse at contact j.
     Real coupling(std::size_t i, std::size_t j) const {
         if (i == j) return 1 / static_cast<Real>(row_[i].mass) + 1 / static_cast<Real>(row_[i + 1].mass);
         if (i + 1 == j) return -1 / static_cast<Real>(row_[j].mass);

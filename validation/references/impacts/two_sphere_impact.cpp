@@ -21,7 +21,7 @@ namespace {
 struct Partner {
     Ball ball;
     const Body* body = nullptr;
-    Vec3 contact, velocity, spin;  ///< at and after the impact
+    Vec3 contact, velocity, spin;  ///< contact at the impact and velocities after it
 };
 
 class TwoSphereImpact : public Reference {

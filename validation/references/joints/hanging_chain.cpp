@@ -63,7 +63,7 @@ class HangingChain : public Reference {
         int body = 0;
         Real length = 0, part = 0, mass = 0;
         Vec3 tip;          ///< second hinge, body frame
-        Vec3 center, end;  ///< where they hang
+        Vec3 center, end;  ///< places where they hang
     };
     bool isFixed(int body) const {
         return body == kNone ||
@@ -118,7 +118,7 @@ class HangingChain : public Reference {
         links_.push_back(link);
     }
 
-    /// Where the chain ends for the pull T at its start; the places of its links go to `links`.
+    /// End of the chain for the pull T at its start; the places of its links go to `links`.
     Real3 follow(Real3 pull, std::vector<Link>* links) const {
         Real3 at = real3(start_);
         for (std::size_t i = 0; i < links_.size(); ++i) {
@@ -148,7 +148,8 @@ class HangingChain : public Reference {
         const Vec3 g = gravityOn(scenario_, links_.front().body);
         const Vec3 span = end_ - start_, side = span - (dot(span, g) / dot(g, g)) * g;
         require(norm(side) > 1e-6 * norm(span), "the ends of the chain are above each other");
-        // In the plane of gravity and the ends; start: half the weight at each, as much across.
+        // Axes of the plane of gravity and the ends. The iteration starts with half the weight at each end,
+        // and as much across.
         const Real3 e1 = real3(unit(side)), e2 = real3(-1.0 * unit(g));
         Real h = weight / 2, v = -weight / 2;
         for (int k = 0; k < 200; ++k) {

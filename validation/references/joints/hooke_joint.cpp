@@ -123,7 +123,7 @@ class HookeJoint : public Reference {
     Motion motionAt(double t) const {
         Motion m;
         m.c = rotate(scenario::fromAxisAngle(e_, rate_ * t), c_);
-        // Both signs of (sin, cos) solve c.d = 0; the one with the sign of the start follows it all the time.
+        // Two signs of (sin, cos) solve c.d = 0; the motion keeps the sign of the start.
         const double sign = dot(c_, cross(f_, d_)) < 0.0 ? -1.0 : 1.0;
         const double turns = std::round(rate_ * t / kTurn) * (dot(e_, f_) < 0.0 ? -1.0 : 1.0);
         m.angle = std::atan2(-sign * dot(m.c, d_), sign * dot(m.c, cross(f_, d_)));

@@ -128,7 +128,8 @@ void solve(Coordinate& x, double end) {
         Coordinate::Phase phase{t, q, held ? 0.0 : v, x.load + force, !steady};
         x.phases.push_back(phase);
         if (held) return;
-        // Until a stop, or until the motor has its speed. At a stop that is being left nothing is wrong yet.
+        // The phase ends at a stop, or when the motor has its speed. A stop that is being left does not end
+        // it.
         const auto inside = [&](double s) {
             const auto [a, b] = inPhase(x, phase, s);
             double room = std::min(a - x.lower, x.upper - a);
@@ -260,7 +261,7 @@ class JointCoordinate : public Reference {
         if (body == scenario::kNone) return local;
         return rotate(scenario_.bodies[static_cast<std::size_t>(body)].pose.orientation, local);
     }
-    /// Of the file, also in the plane where axisOf() is +z.
+    /// Axis as in the file, also in 2D where axisOf() is +z.
     Vec3 axisOf3d() const { return unit(inWorld(joint_.bodyA, joint_.axisA)); }
 
     void add(bool turn, Vec3 direction, const JointAxis& axis, double q0) {

@@ -35,7 +35,7 @@ class MechanismMotion {
     /// A point or a direction fixed in a body (index) or in the world (-1).
     struct Fixed {
         int body = -1;
-        Real3 local;  ///< from the centre of mass, body axes
+        Real3 local;  ///< arm from the centre of mass, body axes
     };
     /// One scalar equation between two bodies.
     struct Equation {
@@ -49,7 +49,7 @@ class MechanismMotion {
         Fixed a, b;  ///< points; directions for Direction
         Real3 axis;  ///< e, or t_a in body axes of a
         Real length = 0;
-        int joint = 0;  ///< whose it is
+        int joint = 0;  ///< joint that the equation belongs to
     };
     struct Spring {
         Fixed a, b;
@@ -76,9 +76,9 @@ class MechanismMotion {
     /// distance `size`.
     Real gap(const numerics::OdeState& y, Real size) const;
     Real gapRate(const numerics::OdeState& y, Real size) const;
-    /// How many motions are left free: 6 (planar: 3) per body less the independent equations.
+    /// Number of free motions: 6 (planar: 3) per body less the independent equations.
     std::size_t freedom() const;
-    /// What one call of derivative() takes, in units of about one multiplication.
+    /// Cost of one call of derivative(), in units of about one multiplication.
     std::size_t operations() const;
 
   private:
@@ -105,7 +105,7 @@ class MechanismMotion {
     std::vector<std::vector<Real>> gram(const std::vector<Pose>& poses, const std::vector<Row>& rows,
                                         std::vector<Row>& inverse) const;
 
-    std::vector<Real33> inverses_;  ///< of the inertias, body axes
+    std::vector<Real33> inverses_;  ///< inverse inertias, body axes
     std::vector<std::size_t> chosen_;
     Real rate_ = 0;
 };

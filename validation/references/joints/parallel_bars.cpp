@@ -135,7 +135,7 @@ class ParallelBars : public Reference {
         moment += mass * dot(arm, arm) + (crank ? own : 0.0);
         weighted += mass * arm;
         const Vec3 v = rate_ * cross(axis_, arm);
-        // What is at rest may still carry rounding, small beside the speed of a fall over the arm.
+        // A velocity at rest may be rounding, small beside the speed of a fall over the arm.
         const double falling = std::sqrt(norm(gravityOn(scenario_, index)) * norm(arm_));
         const double turning = 1e-6 * std::abs(rate_) + 1e-12 * falling / norm(arm_);
         require(norm(body.velocity - v) <= 1e-6 * std::max(norm(v), norm(body.velocity)) + 1e-12 * falling &&

@@ -31,7 +31,7 @@ constexpr std::size_t kChainOperations = 2'500'000'000;  // 2.5 s; see the deriv
 struct Link {
     int body = 0;
     Real mass = 0, inertia = 0;
-    Point toNext{}, toCenter{};  ///< from the hinge before, initial pose, in the plane
+    Point toNext{}, toCenter{};  ///< vectors from the hinge before, in the initial pose
     Vec3 offPlaneCenter;         ///< part of the centre of mass along the axis, from the first anchor
 };
 

@@ -172,8 +172,8 @@ class PhysicalPendulum : public Reference {
     FixedJoint hinge_;
     Vec3 along_, across_, down_;
     double angle0_ = 0.0, rate0_ = 0.0;
-    double stop_ = 1e300;  ///< when it reaches a limit [s]
-    bool stays_ = true;    ///< and gravity holds it there
+    double stop_ = 1e300;  ///< time when it reaches a limit [s]
+    bool stays_ = true;    ///< true if gravity holds it there
     Swing swing_;
 };
 

@@ -28,7 +28,7 @@ namespace {
 using numerics::OdeState;
 using numerics::Real;
 using scenario::JointType;
-using PlanePoint = std::complex<Real>;  ///< in the plane of motion
+using PlanePoint = std::complex<Real>;  ///< a point of the plane of motion
 
 constexpr PlanePoint kTurn{0, 1};  // k x p
 Real planeDot(PlanePoint a, PlanePoint b) {

@@ -105,7 +105,7 @@ class SphericalPendulum : public Reference {
     const Body& body_;
     FixedJoint joint_;
     Vec3 arm_;  ///< joint to centre of mass, body frame
-    Vec3 up_;   ///< against gravity
+    Vec3 up_;   ///< direction against gravity
     double duration_ = 0.0;
     FixedPointMotion motion_;
 };

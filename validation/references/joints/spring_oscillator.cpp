@@ -226,7 +226,7 @@ class SpringOscillator : public Reference {
         if (count < 2) return {};
         return {(*last - *first) / (count - 1), std::log(firstSpeed / lastSpeed) / (count - 1)};
     }
-    /// What linear interpolation of a cosine of rate w0 misses next to its top, relative to it.
+    /// Error of linear interpolation of a cosine of rate w0 next to its top, relative to it.
     double curvature(double part, double step) const {
         return 0.5 * stiffness_ / mass_ * part * (1.0 - part) * step * step;
     }

@@ -27,7 +27,7 @@ class Swing {
     Real frequency() const { return W_; }
     Real parameter() const { return m_; }  ///< m; below 1 it swings, above it turns over
     Real period() const { return period_; }
-    Real amplitude() const;  ///< of a swing [rad]
+    Real amplitude() const;  ///< amplitude of a swing [rad]
     /// First passage through the lowest point after the start, towards growing angle [s].
     double firstPassage() const;
 

@@ -12,7 +12,7 @@ namespace rigor::validation::numerics {
 namespace {
 
 constexpr Real kCost = 1e-14L;      // beside the multipliers: which reduced costs count as negative
-constexpr Real kFeasible = 1e-15L;  // how far below zero the ratio test lets an unknown go
+constexpr Real kFeasible = 1e-15L;  // largest negative value of an unknown that the ratio test allows
 constexpr Real kPivot = 1e-10L;     // beside the largest entry of its column
 constexpr int kRefactor = 100;      // pivots on one inverse
 
@@ -101,7 +101,7 @@ std::size_t LinearProgram::entering(Phase phase, const std::vector<Real>& cost, 
 
 Eigen::Index LinearProgram::leaving(Phase phase, const Vector& direction) const {
     const Real small = kPivot * direction.cwiseAbs().maxCoeff();
-    // In the second phase an artificial unknown stays zero: it leaves before it would move.
+    // An artificial unknown stays zero in the second phase: it leaves before it would move.
     const auto pinned = [&](Eigen::Index i) {
         return phase == Phase::Cost && basis_[static_cast<std::size_t>(i)].artificial;
     };

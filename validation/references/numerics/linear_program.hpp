@@ -78,9 +78,9 @@ class LinearProgram {
     std::vector<Column> columns_;
     std::vector<bool> inBasis_;
     std::vector<Basic> basis_;
-    std::vector<Real> sign_;  ///< of the artificial unknown of each row
-    Matrix inverse_;          ///< of the basis
-    Vector value_;            ///< of the basic unknowns
+    std::vector<Real> sign_;  ///< sign of the artificial unknown of each row
+    Matrix inverse_;          ///< inverse of the basis
+    Vector value_;            ///< values of the basic unknowns
     Vector y_;
     std::mt19937 random_{20};
 };

@@ -22,7 +22,7 @@ constexpr Real kInfinite = std::numeric_limits<Real>::infinity();
 constexpr std::size_t kMostPanels = 4000;
 constexpr int kGrowAfter = 4;     // panels of one length, before a longer one is tried
 constexpr int kPanelDegree = 15;  // 16 nodes
-// Between two nodes of a panel that 16 nodes resolve the order of 16 needs a step or two. A trial panel that
+// A panel that 16 nodes resolve needs one or two steps of order 16 between two nodes. A trial panel that
 // needs many is far too long, and is given up before the rest of it is integrated.
 constexpr int kMostStepsToNode = 24;
 
@@ -68,7 +68,7 @@ OdeRhs counted(const OdeRhs& f, std::size_t& left) {
 struct Step {
     OdeState y;
     Real error = 0;  ///< relative to the tolerance
-    int column = 0;  ///< where it converged
+    int column = 0;  ///< column in which it converged
 };
 
 Step extrapolate(const OdeRhs& f, Real t, const OdeState& y, const OdeState& dydt, Real step, Real tolerance,

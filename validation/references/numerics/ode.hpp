@@ -34,14 +34,15 @@ Real lastTimeOf(const std::function<bool(const OdeState&)>& holds, const OdeRhs&
                 Real t1, int looks, const std::function<Real(const OdeState&)>& pace, const OdeState& scale,
                 std::size_t evaluations = 2'000'000);
 
-/// What ends a DenseSolution before t1. All bounds are counts, so that every machine gives the same answer.
+/// Limits that end a DenseSolution before t1. All bounds are counts, so that every machine gives the same
+/// solution.
 struct OdeLimits {
     /// Evaluations of f, by the neighbour as well.
     std::size_t evaluations = 5'000'000;
     /// Tolerance of a neighbour, a second integration from the same start; 0: none. The distance between the
     /// two shows how much of the accuracy is left where neighbouring motions part.
     Real neighbour = 0;
-    /// Whether solution and neighbour still agree.
+    /// True while solution and neighbour agree.
     std::function<bool(const OdeState& y, const OdeState& neighbour)> agrees;
 
     /// No neighbour.
@@ -65,7 +66,7 @@ class DenseSolution {
 
     /// y(t); t is clamped to [t0, end()].
     OdeState at(Real t) const;
-    /// To which time it goes: t1 unless the neighbour or the bounds ended it before.
+    /// End of the solution: t1 unless the neighbour or the bounds ended it before.
     Real end() const { return panels_.empty() ? Real(0) : panels_.back().end; }
     bool isWhole() const { return whole_; }
     /// The times of its nodes, ascending: as dense as the motion is quick, for looking at all of it.
@@ -77,7 +78,7 @@ class DenseSolution {
   private:
     struct Panel {
         Real begin = 0, end = 0;
-        std::vector<OdeState> nodes;  ///< at the Chebyshev-Lobatto points of [begin, end]
+        std::vector<OdeState> nodes;  ///< values at the Chebyshev-Lobatto points of [begin, end]
     };
     void append(const OdeRhs& f, Real t0, OdeState& y, OdeState& neighbour, Real t1, Real tolerance,
                 const OdeState& scale, const OdeLimits& limits);

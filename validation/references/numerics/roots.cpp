@@ -37,7 +37,7 @@ std::optional<Real> firstDescent(Real a, Real b, Real c) {
     const Real discriminant = b * b - 4 * a * c;
     if (discriminant < 0) return std::nullopt;
     const Real root = std::sqrt(discriminant);
-    // With c > 0 the first positive root is where the value descends through zero.
+    // The case c > 0: the first positive root is where the value descends through zero.
     if (a < 0) return b <= 0 ? 2 * c / (root - b) : (-b - root) / (2 * a);
     if (b >= 0) return std::nullopt;
     return discriminant == 0 ? std::nullopt : std::optional<Real>(2 * c / (root - b));

@@ -79,15 +79,16 @@ class PlanarPart {
         return kindBefore(t) == Kind::Flight && kindAfter(t) == Kind::Flight &&
                kindAfter(startOf(k)) == Kind::Flight;
     }
-    /// In contact on both sides of the impact, turning the same way or lying flat (a rate of nothing but
-    /// rounding).
+    /// True if the body is in contact on both sides of the impact, turning the same way or lying flat (a rate
+    /// that is only rounding).
     bool isRocking(std::size_t k) const {
         const double t = impacts_[k].time;
         return kindBefore(t) != Kind::Flight && kindAfter(t) != Kind::Flight &&
                impacts_[k].after.rate / impacts_[k].before.rate > -1e-12L;
     }
 
-    /// Where the parabolas of the free flights before and after meet, whatever the steps in between did.
+    /// Time at which the parabolas of the free flights before and after meet, independent of the steps in
+    /// between.
     std::optional<double> meetingTime(const Trajectory& run, std::size_t k) const {
         const double t = impacts_[k].time;
         const auto a = k == 0 ? std::optional<std::size_t>(0)
@@ -198,7 +199,7 @@ class PlanarContact : public Reference {
         for (const auto& part : parts_) {
             const std::size_t first = result.size();
             part->addQuantities(result);
-            // Of several bodies each quantity says whose it is.
+            // The name of a quantity contains the body's if there are several bodies.
             for (std::size_t i = first; i < result.size() && parts_.size() > 1; ++i)
                 result[i].name += "_" + scenario_.bodies[static_cast<std::size_t>(part->body())].name;
         }

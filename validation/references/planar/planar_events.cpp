@@ -15,8 +15,8 @@ namespace {
 using numerics::Real;
 
 constexpr int kLooks = 64;        // samples of the event functions in a piece
-constexpr int kHalvings = 30;     // of the first sample, for motions that come back at once
-constexpr int kMinimumBits = 24;  // of the time of a least value
+constexpr int kHalvings = 30;     // halvings of the first sample, for motions that come back at once
+constexpr int kMinimumBits = 24;  // bits of the time of a least value
 
 /// The time in [low, high], with f(high) < 0, at which f becomes negative. At the start of a piece f may be
 /// zero by the event that led there; then f has to have moved before it counts.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// From a scenario to a planar body over a floor and back; see planar_motion.hpp.
+// Conversion of a scenario to a planar body over a floor and back; see planar_motion.hpp.
 #include <algorithm>
 #include <cmath>
 

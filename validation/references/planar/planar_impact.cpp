@@ -19,7 +19,7 @@ using numerics::Real;
 
 constexpr Real kSettling = 1e-5L;   // rocking beside its natural rate from which the limit is extrapolated
 constexpr Real kChatter = 1e-6L;    // the same of bounces, beside the natural speed
-constexpr Real kGeometric = 1e-3L;  // how far the ratios of bounces may be from one another
+constexpr Real kGeometric = 1e-3L;  // largest difference of the ratios of bounces
 
 /// Limit of a sequence whose differences form a geometric series, from three members.
 Real limitOf(Real a, Real b, Real c) {
@@ -175,7 +175,7 @@ PlanarMotion::Mode PlanarMotion::impact(double& t, State& s, const std::vector<i
             }
         }
         const auto solution = numerics::solveDense(std::move(matrix), std::move(right));
-        // Both corners stick, see below: how they share the tangential impulse is left open.
+        // If both corners stick, see below, the distribution of the tangential impulse is undetermined.
         if (!solution) continue;
         std::array<Real, 2> push{}, drag{};
         for (std::size_t i = 0; i < n; ++i) {

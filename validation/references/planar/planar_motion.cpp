@@ -22,12 +22,13 @@ constexpr Real kStill = 1e-10L;  // beside the speeds of the scene: rounding of 
 constexpr int kChunks = 48;      // pieces of the duration that are integrated at a time
 constexpr int kShorter = 10;     // times that a piece is cut to a quarter
 constexpr std::size_t kMostEvents = 200;
-constexpr Real kZero = 1e-15L;  // of the event functions beside lengths, speeds and forces of the scene
-constexpr Real kNear = 1e-3L;   // beside the size: a corner that may land soon
+// tolerance of the event functions relative to lengths, speeds and forces of the scene
+constexpr Real kZero = 1e-15L;
+constexpr Real kNear = 1e-3L;  // beside the size: a corner that may land soon
 constexpr std::size_t kMostPhases = 5000;
 constexpr int kMostStops = 8;                        // changes of the mode in a row in which no time passes
-constexpr std::size_t kMostEvaluations = 1'500'000;  // of the equations of motion: 1.5 s
-constexpr std::size_t kMostInPiece = 100'000;        // of these, 100 times what a piece takes
+constexpr std::size_t kMostEvaluations = 1'500'000;  // evaluations of the equations of motion: 1.5 s
+constexpr std::size_t kMostInPiece = 100'000;        // evaluations in a piece, 100 times the usual number
 
 OdeState pack(const PlanarMotion::State& s) {
     return {s.x, s.z, s.angle, s.vx, s.vz, s.rate};
@@ -68,7 +69,7 @@ Real PlanarMotion::slipOf(int corner, const State& s) const {
     return s.vx - s.rate * armOf(corner, s.angle).cz;
 }
 
-/// What the normal force per newton does to the gap's acceleration: Painleve's p over m.
+/// Acceleration of the gap per newton of normal force: Painleve's p over m.
 Real PlanarMotion::leverOf(const Mode& mode, const State& s) const {
     const Arm a = armOf(mode.corner, s.angle);
     return 1 / setup_.mass + a.x * (a.cx + setup_.friction * signOf(mode.kind) * a.cz) / setup_.inertia;
@@ -120,7 +121,7 @@ PlanarMotion::PlanarMotion(Setup setup, State start, double duration, double end
         followTo(duration_, t, s, mode);
         followTo(end, t, s, mode);
     } catch (const AssumptionViolated& violation) {
-        // What the laws leave open after the duration takes nothing from what is before.
+        // A motion that the laws leave open after the duration does not affect the time before.
         if (t < duration_) open.emplace(violation);
         validUntil_ = std::min(validUntil_, t);
     }
@@ -164,7 +165,7 @@ PlanarMotion::Mode PlanarMotion::contactMode(int corner, const State& s) const {
     return {f->load.tangential > 0 ? Kind::SlipBackward : Kind::SlipForward, corner};
 }
 
-/// Whether forces inside the cones of two corners hold the body: the line of the load crosses the base.
+/// True if forces inside the cones of two corners hold the body: the line of the load crosses the base.
 bool PlanarMotion::restsOn(const std::vector<int>& corners, const State& s) const {
     if (corners.size() != 2 || setup_.pullAbove >= 0) return false;
     const Arm a = armOf(corners[0], s.angle), b = armOf(corners[1], s.angle);
@@ -176,7 +177,7 @@ bool PlanarMotion::restsOn(const std::vector<int>& corners, const State& s) cons
     return na >= 0 && nb >= 0;
 }
 
-/// Whether the friction of a side that slides leaves a pressing force at both of its ends.
+/// True if the friction of a side that slides leaves a positive normal force at both of its ends.
 bool PlanarMotion::slidesOn(const std::vector<int>& corners, const State& s, Real sign) const {
     if (corners.size() != 2 || setup_.pullAbove >= 0) return false;
     const Arm a = armOf(corners[0], s.angle), b = armOf(corners[1], s.angle);
@@ -197,7 +198,7 @@ PlanarMotion::Mode PlanarMotion::flatMode(const std::vector<int>& corners, State
     }
     const bool moves = s.vx != 0 || std::abs(setup_.pullAlong) > -setup_.friction * setup_.pullAbove;
     if (moves && slidesOn(corners, s, sign)) return {sign > 0 ? Kind::SlideForward : Kind::SlideBackward, -1};
-    // Not held: it tips over one of its ends.
+    // The body is not held: it tips over one of its ends.
     for (const int i : corners) {
         const int other = i == corners[0] ? corners[1] : corners[0];
         const Mode mode = contactMode(i, s);
@@ -226,8 +227,8 @@ PlanarMotion::Mode PlanarMotion::startMode(State& s) const {
     return flatMode(touching, s);
 }
 
-/// How far to integrate at a time: a part of the duration, or a few times the flight of a corner that is
-/// near.
+/// Length of one piece of the integration: a part of the duration, or a few times the flight of a corner that
+/// is near.
 double PlanarMotion::pieceFrom(const State& s, const Mode& mode) const {
     Real piece = static_cast<Real>(duration_) / kChunks;
     const Real pull = std::hypot(setup_.pullAlong, setup_.pullAbove);

@@ -39,8 +39,8 @@ class PlanarMotion {
   public:
     using Real = numerics::Real;
     struct Corner {
-        Real along = 0, above = 0;  ///< from the centre of mass, body frame of the plane at phi = 0 [m]
-        Real radius = 0;            ///< of a cap; 0: a point [m]
+        Real along = 0, above = 0;  ///< coordinates from the centre of mass, 2D body frame at phi = 0 [m]
+        Real radius = 0;            ///< radius of a cap; 0: a point [m]
     };
     struct Setup {
         std::vector<Corner> corners;
@@ -67,7 +67,7 @@ class PlanarMotion {
         double time = 0.0;
         EventKind kind = EventKind::Impact;
         int corner = -1;
-        int other = -1;  ///< of an impact in which a second corner takes part
+        int other = -1;  ///< second corner that takes part in an impact
         State before, after;
     };
     struct Load {
@@ -85,9 +85,9 @@ class PlanarMotion {
     /// Contact force at time t; zero in flight, empty on two corners.
     std::optional<Load> loadAt(double t) const;
     Mode modeAt(double t) const;
-    /// Those after validUntil() mean nothing.
+    /// Events of the motion; those after validUntil() have no meaning.
     const std::vector<Event>& events() const { return events_; }
-    /// Until when the motion is known [s]; 1e300 where it is to `end`.
+    /// Time until which the motion is known [s]; 1e300 if that is `end`.
     double validUntil() const { return validUntil_; }
 
   private:
@@ -98,8 +98,8 @@ class PlanarMotion {
     struct Phase {
         double begin = 0.0, end = 0.0;
         Mode mode;
-        State held;             ///< at `from`: rest, and sliding on a flat side
-        Real acceleration = 0;  ///< of x, of the same
+        State held;             ///< state at `from`: rest, and sliding on a flat side
+        Real acceleration = 0;  ///< acceleration of x in the same phase
         double from = 0.0;
         numerics::DenseSolution solution;
     };
@@ -145,11 +145,11 @@ class PlanarMotion {
 
     Setup setup_;
     double duration_ = 0.0, validUntil_ = 1e300;
-    double end_ = 0.0;          ///< to which it is being followed [s]
-    numerics::OdeState scale_;  ///< of x, z, angle and their rates
+    double end_ = 0.0;          ///< time to which it is followed [s]
+    numerics::OdeState scale_;  ///< scales of x, z, angle and their rates
     std::vector<Phase> phases_;
     std::vector<Event> events_;
-    std::size_t evaluations_ = 0;  ///< of the equations of motion
+    std::size_t evaluations_ = 0;  ///< evaluations of the equations of motion
 };
 
 /// The body of a scenario as a planar body over a plane, with the way between the coordinates.

@@ -14,8 +14,8 @@ namespace {
 
 using numerics::Real;
 
-constexpr Real kBeside = 1e-12L;  // how far the neighbour is from the motion
-constexpr Real kApart = 1e-8L;    // where the two have parted
+constexpr Real kBeside = 1e-12L;  // initial distance of the neighbour from the motion
+constexpr Real kApart = 1e-8L;    // distance at which the two have diverged
 constexpr int kLooksApart = 8;    // comparisons in a phase
 
 }  // namespace
@@ -58,7 +58,7 @@ double PlanarMotion::partingFrom(const PlanarMotion& neighbour, double end) cons
         const double last = std::min(phase.end, end);
         for (int k = 1; k <= kLooksApart; ++k) {
             const double t = k == kLooksApart ? last : phase.begin + (last - phase.begin) * k / kLooksApart;
-            // Where both end at one time, they end for one reason.
+            // If both end at one time, they end for one reason.
             if (t > neighbour.validUntil_)
                 return end - neighbour.validUntil_ <= kApart * duration_ ? end : agreed;
             const State a = at(t);

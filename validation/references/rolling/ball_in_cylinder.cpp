@@ -126,7 +126,7 @@ class BallInCylinder : public Reference {
     Hollow hollow_;
     Vec3 up_, out_, along_;
     double gravity_ = 0.0, reach_ = 0.0, rate_ = 0.0, rise_ = 0.0, spin_ = 0.0, nu_ = 0.0;
-    double middle_ = 0.0;  ///< of the swing up and down, above the start [m]
+    double middle_ = 0.0;  ///< middle of the vertical swing, above the start [m]
     DenseSolution attitude_;
 };
 

@@ -111,7 +111,7 @@ class BallInTrough : public Reference {
     const Body& body_;
     Hollow hollow_;
     Vec3 down_, side_;
-    double reach_ = 0.0;  ///< of the ball's centre from the axis [m]
+    double reach_ = 0.0;  ///< distance of the ball's centre from the axis [m]
     bool rolls_ = true;
     Swing swing_;
 };

@@ -122,9 +122,9 @@ class BallOffBall : public Reference {
     Real loadOf(const OdeState& y) const { return pull_ * std::cos(y[0]) - distance_ * y[1] * y[1]; }
     Real slipOf(const OdeState& y) const { return distance_ * y[1] - ball_.radius * y[3]; }
 
-    /// What friction has to do per mass where it rolls, signed like `sign` in follow().
+    /// Friction per mass that rolling needs, signed like `sign` in follow().
     Real needOf(const OdeState& y) const { return ball_.k / (1 + ball_.k) * pull_ * std::sin(y[0]); }
-    /// By how much the friction of a contact that rolls is enough.
+    /// Margin of friction of a contact that rolls.
     Real spareOf(const OdeState& y) const { return holds_ * loadOf(y) - std::abs(needOf(y)); }
 
     /// y = theta, theta', angle turned, spin. From the start to the separation, rolling or slipping.
@@ -136,7 +136,7 @@ class BallOffBall : public Reference {
                    spin = distance_ / ball_.radius * natural + std::abs(y[3]);
         const bool slips = std::abs(slipOf(y)) > 1e-9L * ball_.radius * spin;
         bool rolls = !slips && spareOf(y) >= 0;
-        // Where nothing slips yet and nothing holds, gravity says which way it goes.
+        // If the ball does not slip yet and does not stick, gravity gives the direction of its slip.
         Real sign = slips ? (slipOf(y) > 0 ? 1 : -1) : (y[0] >= 0 ? 1 : -1);
         int stops = 0;
         while (t < end) {
@@ -146,7 +146,8 @@ class BallOffBall : public Reference {
                 d = {s[1], (pull_ * std::sin(s[0]) - friction) / distance_, s[3],
                      friction / (ball_.k * ball_.radius)};
             };
-            // In pieces: beyond the separation the equations of the contact soon mean nothing.
+            // The integration goes in pieces: soon beyond the separation the equations of the contact have no
+            // meaning.
             const double until = std::min({end, t + end / 48, t + static_cast<double>(1 / natural)});
             Phase phase{t, until, DenseSolution(rhs, t, y, until, 1e-14L, {}, {1, natural, 1, spin})};
             // Rolls while friction holds; slips until the slip is gone; either until the load is.

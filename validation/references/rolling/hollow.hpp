@@ -14,10 +14,10 @@ namespace rigor::validation {
 struct Hollow {
     Vec3 axis;            ///< unit; +z in 2D
     Vec3 center;          ///< a point on the axis
-    double radius = 0.0;  ///< to the middles of the facets [m]
+    double radius = 0.0;  ///< distance to the middles of the facets [m]
     double facet = 0.0;   ///< largest angle between neighbouring facets [rad]
     int material = 0;
-    /// From the axis, across it.
+    /// Vector from the axis, perpendicular to it.
     Vec3 across(Vec3 p) const {
         const Vec3 d = p - center;
         return d - dot(d, axis) * axis;

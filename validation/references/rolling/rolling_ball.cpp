@@ -108,7 +108,7 @@ std::optional<PartialState> RollingBall::schemeExact(std::size_t step, double dt
     State s = fromSlip({slip.displacement, slip.velocity}, t);
     const double shift = scheme == adapter::Scheme::SymplecticEuler ? dt : -dt;
     s.center += (0.5 * t * shift / (1.0 + ball_.k)) * pull_;
-    // With old velocities the slip sums start at u0, with new ones at u1: both are in `slip`.
+    // The slip sums start at u0 for old velocities, at u1 for new ones: both are in `slip`.
     PartialState state = stateOf(*body_, s.center, s.velocity);
     state.angularVelocity = s.spin;
     return state;

@@ -9,7 +9,7 @@
 
 namespace rigor::validation {
 
-/// With u the slip velocity at the contact, k = I/(m r^2), g_t the pull along the plane, N/m = g_n:
+/// Equations with u the slip velocity at the contact, k = I/(m r^2), g_t the pull along the plane, N/m = g_n:
 ///   slipping: u' = g_t - (1 + 1/k) mu g_n u/|u|, a sliding point with a friction coefficient (1 + 1/k) mu;
 ///   v = v0 + g_t t/(1+k) + k/(1+k) (u - u0), which holds while rolling too (u = 0);
 ///   k r w' = n x f, f = g_t - v'; the spin about n stays.

@@ -125,7 +125,7 @@ class RollingBody : public Reference {
         }
     }
 
-    /// From the centre of mass to the lowest point, body axes.
+    /// Vector from the centre of mass to the lowest point, body axes.
     Real3 contactArm(Real3 gamma) const {
         if (ball_) return center_ - radius_ * gamma;
         const Real along = dot(gamma, axis_);
@@ -215,7 +215,7 @@ class RollingBody : public Reference {
             d[11] = rate.y;
             d[12] = rate.z;
         };
-        // In pieces, so that it may end where the slip ends.
+        // The integration goes in pieces, so that it can end where the slip ends.
         const double whole = runEnd(scenario_);
         double end = whole;
         const Real turns = (fast + std::sqrt(norm(gravity_) * radius_)) / radius_ + 1 / whole,

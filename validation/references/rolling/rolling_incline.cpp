@@ -46,7 +46,7 @@ class RollingIncline : public Reference {
         spin.measure = [index](const Trajectory& run) -> std::optional<double> {
             return norm(run.state(run.frames() - 1, index).angularVelocity);
         };
-        // With a constant direction of slip the velocities of the scheme are those of the exact motion.
+        // If the direction of slip is constant the velocities of the scheme are those of the exact motion.
         if (rolling_.initialSlip() > 0.0) {
             speed.schemeExact.reset();
             spin.schemeExact.reset();

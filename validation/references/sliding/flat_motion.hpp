@@ -26,7 +26,7 @@ struct FlatMotion {
 
     const Body& body;
     Vec3 normal, along, across;  ///< unit
-    Vec3 centre;                 ///< of mass, at the start [m]
+    Vec3 centre;                 ///< centre of mass at the start [m]
     Footing footing;
     numerics::Real mass = 0, inertia = 0;  ///< [kg], about the normal [kg m^2]
     numerics::Real friction = 0;           ///< coefficient of the pair

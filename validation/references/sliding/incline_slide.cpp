@@ -27,7 +27,7 @@ class InclineSlide : public Reference {
     }
     std::vector<Quantity> quantities(double dt, adapter::Scheme scheme) const override {
         std::vector<Quantity> result;
-        // Where the block sticks from the start, errors are measured against the fall without friction.
+        // If the block sticks from the start, errors are measured against the fall without friction.
         const auto end = sliding_.slide().at(duration_);
         const double scale = 0.5 * sliding_.pull() * duration_ * duration_ + sliding_.speed() * duration_;
         if (scale == 0.0) return result;

@@ -31,9 +31,9 @@ class PlanarSlide {
     PlanarSlide(Vec3 pull, double friction, Vec3 velocity, double holding);
 
     State at(double t) const;
-    /// When it comes to rest for good [s]; empty if it never does. 0 when it sticks from the start.
+    /// Time at which it comes to rest for good [s]; empty if it never does, 0 if it sticks from the start.
     std::optional<double> stopTime() const { return stop_; }
-    /// Whether it ends up sticking rather than sliding on.
+    /// True if it ends sticking and does not slide on.
     bool sticks() const { return stop_.has_value(); }
 
     /// Times at which the acceleration jumps [s].

@@ -31,7 +31,7 @@ namespace {
 using namespace numerics;
 
 struct Friction {
-    Real force = 0, torque = 0;  ///< over mu m g and over mu m g R
+    Real force = 0, torque = 0;  ///< force over mu m g and torque over mu m g R
 };
 
 /// F and T of a disc of even pressure.
@@ -166,7 +166,7 @@ class SpinningDisc : public Reference {
     int index_;
     const Body& body_;
     FlatMotion motion_;
-    std::vector<Foot> feet_;  ///< none: a disc
+    std::vector<Foot> feet_;  ///< feet; none: a disc
     Real radius_ = 0, push_ = 0;
     DenseSolution solution_;
     double validUntil_ = 1e300;

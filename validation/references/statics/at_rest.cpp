@@ -99,7 +99,7 @@ class AtRest : public Reference {
         return box;
     }
 
-    /// Whether the bodies are close enough to touch: by bounding boxes, or exactly for half-spaces.
+    /// True if the bodies are close enough to touch: by bounding boxes, or exactly for half-spaces.
     bool near(int a, int b) const {
         const Body& other = scenario_.bodies[static_cast<std::size_t>(b)];
         const double slack = 1e-2 * sizeOf(scenario_.bodies[static_cast<std::size_t>(a)]);

@@ -16,8 +16,8 @@ using numerics::Real;
 using numerics::Real3;
 
 constexpr int kSides = 8;           // rays of a cone in space at first
-constexpr int kRounds = 60;         // in which rays are added
-constexpr Real kInside = 1e-17L;    // how much rays in space stay inside the round cone, for rounding
+constexpr int kRounds = 60;         // rounds in which rays are added
+constexpr Real kInside = 1e-17L;    // margin of rays in 3D inside the round cone, for rounding
 constexpr Real kViolated = 1e-13L;  // beside the velocities: which rays are added
 constexpr double kAgree = 1e-9;     // beside all loads: the least and the greatest force agree
 

@@ -53,7 +53,7 @@ class ContactForces {
     std::vector<Ray> rays_;
     Verdict verdict_ = Verdict::Undecided;
     double loads_ = 0.0;
-    std::map<int, std::pair<double, double>> range_;  ///< of the forces of the points seen, by pair
+    std::map<int, std::pair<double, double>> range_;  ///< range of the forces of the points visited, by pair
 };
 
 }  // namespace rigor::validation

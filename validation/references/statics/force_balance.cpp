@@ -14,8 +14,8 @@ using numerics::Real;
 using numerics::Real3;
 using Rational = boost::multiprecision::cpp_rational;
 
-const Rational kBalanced(1, 100000000000);  // of a body's load
-const Rational kUnbalanced(1, 1000000000);  // of a body's load
+const Rational kBalanced(1, 100000000000);  // tolerance as a fraction of a body's load
+const Rational kUnbalanced(1, 1000000000);  // threshold as a fraction of a body's load
 const Rational kMostForce(1000000);         // beside all loads
 
 struct RationalVector {
@@ -74,7 +74,7 @@ Rational shortfall(const LoadedBodies& problem, const LoadedBodies::Contact& con
         velocityAt(problem, motion, contact.b, point) - velocityAt(problem, motion, contact.a, point);
     const Rational opening = dot(u, n) + cost * dot(n, n);
     if (problem.dimension == 2) {
-        // Both rays of the cone: n + mu t and n - mu t.
+        // The two rays of the cone: n + mu t and n - mu t.
         const Rational slip = abs(u.y * n.x - u.x * n.y) * Rational(contact.friction);
         return std::max(Rational(0), Rational((slip - opening) / dot(n, n)));
     }

@@ -26,9 +26,9 @@ namespace rigor::validation {
 /// Bodies that may move, numbered from 0, their loads and the points where they touch.
 struct LoadedBodies {
     struct LoadedBody {
-        Vec3 center;         ///< of mass, world [m]
+        Vec3 center;         ///< centre of mass, world frame [m]
         Vec3 force, torque;  ///< load, torque about the centre of mass [N], [N m]
-        double size = 1.0;   ///< that torques are divided by to be compared with forces [m]
+        double size = 1.0;   ///< length that torques are divided by for comparison with forces [m]
         double load = 1.0;   ///< magnitude of the load [N]
     };
     struct Contact {
@@ -50,7 +50,8 @@ struct VirtualMotion {
 /// The forces, one for each contact, on its body b, lie in their cones and balance the loads.
 bool balance(const LoadedBodies& problem, const std::vector<numerics::Real3>& forces);
 
-/// In this motion the loads gain more than any contact forces can take: nothing balances the loads.
+/// True if the loads gain more energy in this motion than any contact forces can take: nothing balances the
+/// loads.
 bool gainsEnergy(const LoadedBodies& problem, const VirtualMotion& motion);
 
 /// A number that the sum of cost_c times the normal force of contact c is not below, for all forces that

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Do bodies that lean on each other stand? Stacks, overhangs, pyramids, ladders, arches: a force f_c at every
-// touching point, inside the friction cone, must balance gravity and torque on every body:
+// Static equilibrium of bodies that rest on each other: stacks, overhangs, pyramids, ladders, arches: a force
+// f_c at every touching point, inside the friction cone, must balance gravity and torque on every body:
 //   sum f_c + m g + F = 0,  sum (p_c - x) x f_c + T = 0,  f_c in the cone of Coulomb.
-// Where such forces exist everything rests, and the exact solution is the start (the law of maximal
-// dissipation allows other answers only to bodies already moving). Where none do, something must move. A
-// linear program looks for the forces or for a virtual motion in which the loads gain energy
-// (contact_forces.hpp); each answer is checked on its own in exact rational arithmetic (force_balance.hpp),
-// and where neither check holds the scene is refused as undecided. The total force between two bodies is
-// determinate where certified bounds from below and above agree. Source: Heyman, The Stone Skeleton, 1966;
-// Livesley, Int. J. Numer. Meth. Eng. 12 (1978) 1853; Gilbert and Melbourne, Struct. Eng. 72 (1994) 356;
-// Milankovitch 1907 (arch); Paterson and Zwick, Am. Math. Mon. 116 (2009) 19 (overhang). Assumes: rest at
-// the start; shapes of touching.hpp; gravity, constant forces and contact only. Quantities: moves (0 or 1; a
-// run shows 1 where a body moved by 2 % of its size or turned by 0.05 rad); where they rest and it is
-// determinate, force_<a>_<b>: the normal force between two bodies [N], from the impulses of the last quarter
-// of the run.
+// If such forces exist everything rests, and the exact solution is the start (the law of maximal dissipation
+// allows other solutions only for bodies already moving). If none do, something must move. A linear program
+// looks for the forces or for a virtual motion in which the loads gain energy (contact_forces.hpp); each
+// result is checked separately in exact rational arithmetic (force_balance.hpp), and where neither check
+// holds the scene is refused as undecided. The total force between two bodies is determinate where certified
+// bounds from below and above agree. Source: Heyman, The Stone Skeleton, 1966; Livesley, Int. J. Numer. Meth.
+// Eng. 12 (1978) 1853; Gilbert and Melbourne, Struct. Eng. 72 (1994) 356; Milankovitch 1907 (arch); Paterson
+// and Zwick, Am. Math. Mon. 116 (2009) 19 (overhang). Assumes: rest at the start; shapes of touching.hpp;
+// gravity, constant forces and contact only. Quantities: moves (0 or 1; a run shows 1 where a body moved by 2
+// % of its size or turned by 0.05 rad); where they rest and it is determinate, force_<a>_<b>: the normal
+// force between two bodies [N], from the impulses of the last quarter of the run.
 #include <algorithm>
 #include <cmath>
 #include <map>

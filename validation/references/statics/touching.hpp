@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Where the bodies of a scenario touch at its start: the corner points of every contact area, in closed form.
+// Contacts of the bodies of a scenario at its start: the corner points of every contact area, in closed form.
 #pragma once
 
 #include <vector>

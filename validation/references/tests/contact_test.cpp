@@ -154,7 +154,7 @@ TEST(BouncingBall, CatalogueQuantitiesAndAccumulation) {
         EXPECT_NEAR(findQuantity(quantities, "bounce_time_" + std::to_string(n))->exact, times[n - 1], 1e-9);
     EXPECT_NEAR(findQuantity(quantities, "apex_height_1")->exact, 0.1 + 0.64, 1e-12);
     EXPECT_GT(reference->exact(0, 4.06).position->y, 0.1);
-    EXPECT_NEAR(reference->exact(0, 4.07).position->y, 0.1, 1e-15);  // after t = 4.063712769
+    EXPECT_NEAR(reference->exact(0, 4.07).position->y, 0.1, 1e-15);  // the ball rests after t = 4.063712769
     for (const double dt : {0.01, 0.013}) {
         const Trajectory run = exactRun(s, *reference, dt, static_cast<int>(5 / dt));
         for (const auto& q : quantities) EXPECT_NEAR(q.measure(run).value(), q.exact, 1e-9) << q.name;
@@ -242,7 +242,7 @@ TEST(SpherePlaneImpact, CatalogueSlipAndStick) {
         const auto after = reference->exact(0, 1);
         EXPECT_NEAR(after.velocity->x, mu < 0.3 ? 2.28 : 15.0 / 7, 1e-12);
         EXPECT_NEAR(after.velocity->y, 1.6, 1e-14);
-        // With y up a ball that rolls along +x turns about -z.
+        // A ball that rolls along +x turns about -z if y is up.
         EXPECT_NEAR(after.angularVelocity->z, mu < 0.3 ? -18 : -150.0 / 7, 1e-12);
         EXPECT_NEAR(after.position->y, 0.1 + 1.6 * 0.8, 1e-12);
         const Trajectory run = exactRun(s, *reference, 0.01, 100);

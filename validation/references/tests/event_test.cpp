@@ -124,7 +124,7 @@ TEST(IncrementalImpact, RefusesWhatItDoesNotKnow) {
     s = cornerHit({0.1, 0.2, -0.4, 0, -2, 0.2, 0.5}, "impact_poisson");
     s.bodies[1].shapes[0].geometry = ConvexHull{{{0.2, -0.4, 0}, {-0.2, -0.4, 0}, {0, 0.4, 0}}};
     EXPECT_THROW(makeReference(s), AssumptionViolated);
-    // So steep and rough that friction drives the corner in while it slips.
+    // The rod is so steep and the floor so rough that friction drives the corner in while it slips.
     s = cornerHit({0.01, 0.4, -0.5, 2, -1, 3, 0.5}, "impact_newton");
     EXPECT_THROW(makeReference(s), AssumptionViolated);
 }

@@ -155,8 +155,9 @@ TEST(ForceBalance, ForcesAreCheckedForBalanceConeAndSign) {
     LoadedBodies pulled = problem;
     pulled.contacts.push_back({-1, 0, 0, {0, 0.5, 0}, {0, -1, 0}, 0.4});
     EXPECT_TRUE(balance(pulled, {{0, 2, 0}, {0, 2, 0}, {0, -2, 0}}));
-    EXPECT_FALSE(balance(pulled, {{0, 0.5L, 0}, {0, 0.5L, 0}, {0, 1, 0}}));          // a pull
-    EXPECT_FALSE(balance(pulled, {{0, 4e6L, 0}, {0, 4e6L, 0}, {0, -8e6L + 2, 0}}));  // beyond all measure
+    EXPECT_FALSE(balance(pulled, {{0, 0.5L, 0}, {0, 0.5L, 0}, {0, 1, 0}}));  // a pull
+    // forces far above any load
+    EXPECT_FALSE(balance(pulled, {{0, 4e6L, 0}, {0, 4e6L, 0}, {0, -8e6L + 2, 0}}));
 }
 
 TEST(ForceBalance, MotionsAreCheckedForGainAndContacts) {

@@ -40,8 +40,8 @@ TEST(HandValues, AForceOnAFlyingBodyIsDividedByItsMass) {
     s.forces.push_back(ConstantForce{0, {6, 0, 0}, {}, 0.5, 1.5});
     setReference(s, "free_flight");
     const auto state = makeReference(s)->exact(0, 2);
-    EXPECT_NEAR(state.velocity->x, 6.0 / 4, 1e-14);                // for one second
-    EXPECT_NEAR(state.position->x, 0.5 * 1.5 + 1.5 * 0.5, 1e-14);  // then half a second on
+    EXPECT_NEAR(state.velocity->x, 6.0 / 4, 1e-14);                // state after one second
+    EXPECT_NEAR(state.position->x, 0.5 * 1.5 + 1.5 * 0.5, 1e-14);  // state half a second later
     EXPECT_NEAR(state.position->y, 50 - 5.0 * 4, 1e-12);
 }
 
@@ -57,7 +57,7 @@ TEST(HandValues, TheDeflectionOfASlidingBlockIsItsWayAsideOverItsWay) {
     const Quantity& deflection = quantity(quantities, "deflection_block");
     EXPECT_NEAR(deflection.measure(run).value(), 0, 1e-14);
     EXPECT_EQ(deflection.scale, 1.0);
-    for (const double aside : {0.09, -0.09}) {  // of 0.9 m
+    for (const double aside : {0.09, -0.09}) {  // offsets from the arm of 0.9 m
         run.states.back() = run.states[1];
         const auto stopped = reference->exact(1, 1.0);
         run.states.back() = {*stopped.position + Vec3{0, 0, aside}, {}, {}, {}};
@@ -117,7 +117,8 @@ TEST(HandValues, ARopeBesideTheOriginIsAsLongAsItsAnchorsAreApart) {
 }
 
 TEST(HandValues, LittleDragIsASmallCorrectionNotAJump) {
-    for (const double rate : {9.9e-4, 1.01e-3}) {  // at 1 s: on both sides of where the series takes over
+    // rates at 1 s on both sides of the threshold of the series
+    for (const double rate : {9.9e-4, 1.01e-3}) {
         Scenario s = emptyScene(3, {0, -10, 0}, 2);
         addBall(s, "ball", 0.1, 2, 0.4, {}, {});
         s.forces.push_back(DragForce{0, 2 * rate});
@@ -253,7 +254,7 @@ TEST(HandValues, AMotorThatBrakesIsMeasuredLikeOneThatDrives) {
         s.joints = {hinge};
         setReference(s, "motor_pair");
         const auto quantities = makeReference(s)->quantities(0.01, Scheme::Unknown);
-        // Up to speed in 6/(3/2 + 3/1) s: b turns by 4 rad/s, a by -2.
+        // The motor reaches its speed in 6/(3/2 + 3/1) s: b turns by 4 rad/s, a by -2.
         EXPECT_NEAR(quantity(quantities, "ramp_time").exact, 4.0 / 3, 1e-12);
         EXPECT_NEAR(quantity(quantities, "spin_b").exact, speed * 4 / 6, 1e-12);
         EXPECT_NEAR(quantity(quantities, "spin_a").exact, -speed * 2 / 6, 1e-12);

@@ -71,8 +71,8 @@ const Drive kDrives[] = {
     {2.0, 7.0, 80.0, 1.0, 0.9, -0.1, 0.35, 0, 0, 0, 0},       // a spring that stays at its stop
     {2.0, 0.0, 0, 0, 0, -kFar, kFar, 1.5, 6.0, 0, 0},         // motor, then its speed
     {2.0, 0.0, 0, 0, 0, -kFar, kFar, -1.5, 6.0, 0, 0.4},      // backwards, from a speed
-    {2.0, -4.0, 0, 0, 0, -kFar, kFar, 1.5, 6.0, 0, 0},        // against a load it can hold
-    {2.0, -9.0, 0, 0, 0, -kFar, kFar, 1.5, 6.0, 0, 0},        // against one it can not
+    {2.0, -4.0, 0, 0, 0, -kFar, kFar, 1.5, 6.0, 0, 0},        // motor against a load it can hold
+    {2.0, -9.0, 0, 0, 0, -kFar, kFar, 1.5, 6.0, 0, 0},        // motor against a load it can not hold
     {2.0, 0.0, 0, 0, 0, -0.2, 0.4, 1.5, 6.0, 0, 0},           // motor into a stop
     {2.0, -9.0, 0, 0, 0, -0.2, 0.4, 0, 0, 0, 1.8},            // thrown up, falls on the lower stop
 };
@@ -235,7 +235,7 @@ TEST(RodPendulum, CatalogueAndEnergyAndVerticalMomentum) {
 }
 
 TEST(RodPendulum, ARopeGoesSlackWhereItsTensionEnds) {
-    // From the lowest point at v0^2 = 3.5 g l: slack at cos(theta) = (2 - 3.5)/3.
+    // Start at the lowest point with v0^2 = 3.5 g l: slack at cos(theta) = (2 - 3.5)/3.
     const Scenario s = onRod(0.0, {std::sqrt(3.5 * 9.81), 0, 0}, true);
     const auto reference = makeReference(s);
     ASSERT_LT(reference->validUntil(), 2.0);
@@ -261,7 +261,7 @@ TEST(PhysicalPendulum, RestsAtAStopOfItsHingeOrCone) {
         s.reference = unlimited.reference = {"physical_pendulum", {}};
         addJoint(unlimited, JointType::Hinge, kNone, b, {});
         const auto stopped = makeReference(s), swinging = makeReference(unlimited);
-        // Until the angle is 0.7 both are the same; then it stays: sin(0.7) below the pivot.
+        // The two motions are the same until the angle is 0.7; then the body stays: sin(0.7) below the pivot.
         double hit = 0;
         while (turnAboutZ(*swinging->exact(0, hit).orientation) > -0.7) hit += 1e-5;
         for (const double t : {0.1, 0.2, hit - 1e-5})
@@ -272,7 +272,7 @@ TEST(PhysicalPendulum, RestsAtAStopOfItsHingeOrCone) {
         }
         EXPECT_GT(stopped->validUntil(), 1e299);
     }
-    // Beyond the lowest point gravity takes it back from the stop: the answer ends there.
+    // Gravity moves it back from a stop beyond the lowest point: the solution ends there.
     Scenario s = emptyScene(2, {0, -9.81, 0}, 2);
     const int b = addRod(s, "rod", {}, {1, 0, 0}, 2);
     Joint& j = addJoint(s, JointType::Hinge, b, kNone, {});  // B is the world: the angle has the other sign
@@ -399,7 +399,8 @@ TEST(PlanarLinkage, DrivenByAMotorFromRestAndAtItsSpeed) {
 }
 
 TEST(PlanarLinkage, CatalogueKinematicsOfASteadyCrank) {
-    // At phi = 1.5: coupler and rocker angles and rates for a crank of 1 rad/s; slider and rod for 2 rad/s.
+    // Values at phi = 1.5: coupler and rocker angles and rates for a crank of 1 rad/s; slider and rod for 2
+    // rad/s.
     Scenario s = fourBar(1.0);
     const auto steady = [](Scenario& scene, double w) {
         scene.joints[0].axes[0].mode = AxisMode::Free;
@@ -408,7 +409,7 @@ TEST(PlanarLinkage, CatalogueKinematicsOfASteadyCrank) {
     };
     steady(s, 1);
     const auto bar = makeReference(s);
-    const double spinUp = 1.0 - wrapped(crankAngle(*bar, 1.0) - 1.0);  // what the start costs, about 1e-8
+    const double spinUp = 1.0 - wrapped(crankAngle(*bar, 1.0) - 1.0);  // angle lost by the start, about 1e-8
     EXPECT_LT(std::abs(spinUp), 1e-7);
     const double t = 0.5 + spinUp;
     EXPECT_NEAR(turnAboutZ(*bar->exact(1, t).orientation), 0.5166225646, 1e-8);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// In every reference positions and orientations move as its velocities and spins say: one contract, with
+// Contract of every reference: positions and orientations move by its velocities and angular velocities, with
 // masses, radii and moments that are not 1, before, between and after the events.
 #include <gtest/gtest.h>
 

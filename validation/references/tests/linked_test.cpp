@@ -205,7 +205,7 @@ TEST(RotatingHinge, CatalogueValueAndPitchfork) {
     };
     const Scenario s = hoop(4, 0.5, 0);
     EXPECT_NEAR(tilt(*makeReference(s), 1), 1.194209336, 1e-8);
-    // At rest on the hoop at acos(g/(R W^2)) above the critical rate sqrt(g/R), at the bottom below it.
+    // Equilibrium on the hoop at acos(g/(R W^2)) above the critical rate sqrt(g/R), at the bottom below it.
     const Scenario balanced = hoop(4, 0.9107860127, 0);
     EXPECT_NEAR(tilt(*makeReference(balanced), 3), 0.9107860127, 1e-8);
     const Scenario slow = hoop(3.13, 0.05, 0), fast = hoop(3.3, 0.05, 0);

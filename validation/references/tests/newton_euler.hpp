@@ -19,13 +19,13 @@ inline void expectNear(Vec3 a, Vec3 b, double tolerance) {
     EXPECT_NEAR(a.z, b.z, tolerance);
 }
 
-/// What acts on a body at time t beside gravity, from finite differences of the reference's velocities.
+/// Wrench on a body at time t beside gravity, from finite differences of the reference's velocities.
 struct Wrench {
     Vec3 com;
     Vec3 force;         ///< m (dv/dt - g) [N]
     Vec3 torque;        ///< dL/dt about the centre of mass [N m]
     Vec3 acceleration;  ///< dv/dt [m/s^2]
-    /// What is left of the torque when `force` acts at `point` [N m].
+    /// Rest of the torque if `force` acts at `point` [N m].
     Vec3 remainder(Vec3 point) const { return torque - cross(point - com, force); }
 };
 

@@ -112,13 +112,13 @@ TEST(PlanarContact, SlenderRodFromUprightSticksAndThenSlipsBackOrForth) {
         return std::atan2(up.x, up.y);
     };
     EXPECT_NEAR(lean(*stuck, 0.5), 0.173706764, 1e-9);
-    // From a start at (almost) rest upright the ratio of friction to load depends on the lean alone.
+    // The ratio of friction to load depends on the lean alone after a start at (almost) rest upright.
     const PlanarFrame frame(s, 1, 0);
     const PlanarMotion motion(frame.setup(), frame.start(), 1.0);
     for (const double t : {0.6, 0.8, 0.9}) {
         const auto load = motion.loadAt(t);
         const double a = lean(*stuck, t), c = std::cos(a), si = std::sin(a), c0 = std::cos(0.05);
-        // With start from rest at 0.05: N = m g (1 - 3/4 s^2 - 3/2 c (c0 - c)), F = 3/4 m g s (3 c - 2 c0).
+        // A start from rest at 0.05 gives N = m g (1 - 3/4 s^2 - 3/2 c (c0 - c)), F = 3/4 m g s (3 c - 2 c0).
         EXPECT_NEAR(static_cast<double>(load->normal), 9.81 * (1 - 0.75 * si * si - 1.5 * c * (c0 - c)),
                     1e-8);
         EXPECT_NEAR(static_cast<double>(load->tangential), 9.81 * 0.75 * si * (3 * c - 2 * c0), 1e-8);
@@ -240,7 +240,7 @@ TEST(PlanarContact, PainleveRodSlidesBelowTheThresholdAndJamsAboveIt) {
     const PlanarMotion slides(f.setup(), f.start(), 0.05);
     const auto load = slides.loadAt(0);
     const double c = std::cos(1.0), si = std::sin(1.0);
-    // Both leading and trailing: p = 1 + 3 c (c -+ mu s); 8.2174 is the catalogue's with p = 1.1938.
+    // Leading and trailing corner: p = 1 + 3 c (c -+ mu s); 8.2174 is the catalogue's with p = 1.1938.
     const double p = 9.81 / static_cast<double>(load->normal);
     EXPECT_TRUE(std::abs(p - (1 + 3 * c * (c - 0.5 * si))) < 1e-9 ||
                 std::abs(p - (1 + 3 * c * (c + 0.5 * si))) < 1e-9);
@@ -251,7 +251,7 @@ TEST(PlanarContact, PainleveRodSlidesBelowTheThresholdAndJamsAboveIt) {
     ASSERT_FALSE(jams.events().empty());
     EXPECT_EQ(jams.events()[0].kind, PlanarMotion::EventKind::Jam);
     EXPECT_EQ(jams.events()[0].time, 0.0);
-    // After it the foot stands still and the momentum about the foot is what it was.
+    // The foot stands still after the impact, and the momentum about the foot is unchanged.
     const auto& e = jams.events()[0];
     const double hx = 0.5 * std::cos(1.1), hy = 0.5 * std::sin(1.1), moment = 0.25 / 3;
     const double about =
@@ -262,7 +262,7 @@ TEST(PlanarContact, PainleveRodSlidesBelowTheThresholdAndJamsAboveIt) {
                     hy * static_cast<double>(after.vx),
                 about, 1e-10);
     EXPECT_NEAR(static_cast<double>(after.vx) + hy * static_cast<double>(after.rate), 0.0, 1e-10);
-    // At an unchanged friction the threshold is (1 + 3 c^2)/(3 s c).
+    // The threshold for an unchanged friction is (1 + 3 c^2)/(3 s c).
     const double threshold = (1 + 3 * std::cos(1.1) * std::cos(1.1)) / (3 * std::sin(1.1) * std::cos(1.1));
     for (const double mu : {0.999 * threshold, 1.001 * threshold}) {
         const Scenario near = scene(mu, 1.1);
@@ -286,7 +286,7 @@ TEST(PlanarContact, TippingThresholds) {
     const double tips = 9.81 * 0.4 / (2 * 0.8);
     EXPECT_NEAR(pushed(0.999 * tips, 0.8).orientation->z, 0.0, 1e-15);
     EXPECT_LT(pushed(1.001 * tips, 0.8).orientation->z, -1e-6);
-    // On a slope (gravity leans instead): tan(slope) against b/h.
+    // Case of a slope (gravity leans instead): tan(slope) against b/h.
     for (const double factor : {0.99, 1.01}) {
         Scenario s = onFloor(0.3, 0.9, 0);
         addBox(s, "box", {0.2, 0.5, 0}, 1, {0, 0.5, 0});
@@ -305,14 +305,14 @@ TEST(PlanarContact, TippingThresholds) {
 }
 
 TEST(PlanarContact, ABoxThatSlidesOnItsSideStopsOrTipsOver) {
-    // From 2 m/s against friction 0.3 it stands after v/(mu g), v^2/(2 mu g) on.
+    // A start at 2 m/s against friction 0.3 ends after the time v/(mu g) and the distance v^2/(2 mu g).
     Scenario s = onFloor(2, 0.3, 0);
     addBox(s, "box", {0.2, 0.5, 0}, 1, {0, 0.5, 0}, {2, 0, 0});
     const auto r = makeReference(s);
     EXPECT_NEAR(r->exact(1, 0.4).velocity->x, 2 - 0.4 * 0.3 * 9.81, 1e-14);
     EXPECT_NEAR(r->exact(1, 1.9).position->x, 2.0 / (0.3 * 9.81), 1e-14);
     EXPECT_EQ(r->exact(1, 1.9).velocity->x, 0.0);
-    // With friction above b/h the same box tips forward over its leading edge at once.
+    // The same box tips forward over its leading edge at once if friction is above b/h.
     for (const double mu : {0.39, 0.41}) {
         Scenario tips = onFloor(0.2, mu, 0);
         addBox(tips, "box", {0.2, 0.5, 0}, 1, {0, 0.5, 0}, {2, 0, 0});
@@ -347,7 +347,7 @@ TEST(PlanarContact, RockingOnASmoothFloorEndsFlatAfterAFiniteTime) {
             EXPECT_LE(now, before + 1e-9) << mu << " at " << 0.005 * k;
             before = now;
         }
-        // What the impacts and the loads between them give in momentum is the weight over the time.
+        // The momentum given by the impacts and the loads between them is the weight times the time.
         double settled = 0.0, given = 0.0;
         for (const auto& e : motion.events())
             if (e.kind == PlanarMotion::EventKind::Impact) {

@@ -201,7 +201,7 @@ TEST(TouchingRow, TheLawHoldsAtEveryContact) {
             double push = 0.0, momentum = 0.0, energy = 0.0, start = 0.0;
             for (std::size_t i = 0; i < masses.size(); ++i) {
                 const double v = static_cast<int>(i) < runners ? 1.0 : 0.0;
-                // What has been taken from the left is the impulse at the contact on the right.
+                // The momentum taken from the left is the impulse at the contact on the right.
                 push += masses[i] * (v - after[i]);
                 momentum += masses[i] * (after[i] - v);
                 energy += masses[i] * after[i] * after[i];
@@ -293,7 +293,7 @@ Scenario chain(int dimension, const std::vector<double>& length, const std::vect
         }
         return points;
     };
-    // For each h the height of the end grows with v; the span grows with h: two nested bisections.
+    // The height of the end grows with v for each h; the span grows with h: two nested bisections.
     const auto level = [&](double h) {
         double low = -1e3, high = 1e3;
         for (int k = 0; k < 200; ++k) {

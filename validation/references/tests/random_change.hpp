@@ -25,7 +25,7 @@ class Change {
     double decades(double reach) { return std::pow(10.0, uniform(-reach, reach)); }
 
     void apply(Scenario& s) {
-        const bool many = chance(0.5);  // else one thing at a time
+        const bool many = chance(0.5);  // false: one property at a time
         const int one = static_cast<int>(uniform(0, 9));
         const auto picks = [&](int which) { return many ? chance(0.3) : one == which; };
         if (picks(0)) changeFriction(s);

@@ -119,7 +119,7 @@ TEST(RollingBody, TippeTopSlips) {
 }
 
 TEST(RollingBody, ALoadThatVanishesBetweenWideSamplesIsSeen) {
-    // At 300 turns a second the weight beside the axis lifts the ball off within the first turn.
+    // The weight beside the axis lifts the ball off within the first turn at 300 turns a second.
     const Quat q = fromAxisAngle({0, 1, 0}, 0.4);
     const Scenario s =
         ball(0.1, {0, 0, 0.015}, 1, Mat3::diagonal(0.0042, 0.0042, 0.0038), q, {0, 0, 5000}, 0.6, false, 0.3);
@@ -368,8 +368,7 @@ TEST(RollingBody, AChiralBallTurnsItsSpinRoundAndItsMirrorImageDoesNot) {
         const Vec3 touch{e.position->x, 0, e.position->z};
         EXPECT_LT(norm(*e.velocity + cross(*e.angularVelocity, touch - centerAt(s, *r, ball, t))), 1e-10);
     }
-    // With the inertia mirrored (x to -x) but the start kept, it is another ball and does not turn the same
-    // way.
+    // A ball with the inertia mirrored (x to -x) and the same start is another ball and turns in another way.
     Scenario mirrored = s;
     Mat3& inertia = mirrored.bodies[static_cast<std::size_t>(ball)].massProperties.inertia;
     for (const auto& [i, j] : {std::pair{0, 1}, std::pair{1, 0}, std::pair{0, 2}, std::pair{2, 0}})

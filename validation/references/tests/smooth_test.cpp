@@ -46,7 +46,7 @@ TEST(FreeFlight, CatalogueAndBothSchemes) {
     expectVec(*reference->schemeExact(0, 200, 0.01, Scheme::SymplecticEuler)->position, {6, 0, 0.2819},
               1e-12);
     EXPECT_FALSE(reference->schemeExact(0, 1, 0.01, Scheme::Unknown).has_value());
-    // Both schemes stepped by hand.
+    // The two schemes are stepped by hand.
     Vec3 xs{0, 0, 10}, xe = xs, v{3, 0, 5};
     for (int k = 0; k < 137; ++k) {
         xe += 0.01 * v;
@@ -202,7 +202,7 @@ TEST(TorqueFreeTop, AgreesWithIntegrationForAnyTensorAndStart) {
                           {general, {-0.2, 0.1, 2}},
                           {Mat3::diagonal(2, 2, 2), {1, 2, 3}},
                           {Mat3::diagonal(1, 2, 3), {0, 0, 4}},
-                          // On the separatrix L^2 = 2 T I2: w1^2 I1 (I2 - I1) = w3^2 I3 (I3 - I2).
+                          // The separatrix L^2 = 2 T I2: w1^2 I1 (I2 - I1) = w3^2 I3 (I3 - I2).
                           {Mat3::diagonal(1, 2, 3), {std::sqrt(3.0), 1, 1}}};
     for (const auto& c : cases) {
         const Scenario s = top(c.inertia, c.rates, start, 6);

@@ -36,7 +36,7 @@ Vec3 uphill(double slope) {
 }
 
 TEST(StaticFriction, ABlockThrownUpASlopeStaysWhereItStops) {
-    const double g = 9.81 / std::sqrt(1.25);  // of slope 1/2: g cos; g sin is half of it
+    const double g = 9.81 / std::sqrt(1.25);  // g cos for the slope 1/2; g sin is half of it
     for (const double holding : {0.45, 0.6}) {
         Scenario s = onSlope(0.5, 0.4, holding, false);
         s.bodies[1].velocity = 2.0 * uphill(0.5);
@@ -44,7 +44,7 @@ TEST(StaticFriction, ABlockThrownUpASlopeStaysWhereItStops) {
         const double stop = 2.0 / (0.9 * g), top = 0.5 * 2.0 * stop;
         const Vec3 from = s.bodies[1].pose.position;
         EXPECT_NEAR(norm(*r->exact(1, stop).position - from), top, 1e-13);
-        // Not held it comes back with g (sin - mu cos).
+        // A block that is not held comes back with g (sin - mu cos).
         const double back = holding < 0.5 ? 0.1 * g : 0.0, later = 1.5 - stop;
         EXPECT_NEAR(dot(*r->exact(1, 1.5).velocity, uphill(0.5)), -back * later, 1e-13);
         EXPECT_NEAR(dot(*r->exact(1, 1.5).position - from, uphill(0.5)), top - 0.5 * back * later * later,

@@ -60,7 +60,7 @@ TEST(StaticEquilibrium, PyramidOfThreeCylinders) {
     };
     EXPECT_NEAR(threshold(0.2, 0.4, [&](double mu) { return scene(mu, 1); }), 0.2679491924, 1e-5);
     EXPECT_NEAR(threshold(0.05, 0.4, [&](double mu) { return scene(1, mu); }), 0.1339745962, 1e-5);
-    // With W below and w on top the floor carries W + w/2 each.
+    // The floor carries W + w/2 at each place for W below and w on top.
     const Scenario rough = scene(0.5, 0.5);
     const auto r = makeReference(rough);
     const auto all = r->quantities(0.01, Scheme::Unknown);
@@ -123,7 +123,8 @@ double criticalThickness(int n) {
     const auto widest = [n](double thickness) {
         const Scenario s = arch(n, thickness);
         const auto gap = [&](double thrust) {
-            double low = -1e300, high = 1e300, weight = 0, moment = 0;  // of the stones above the joint
+            // extent, weight and moment of the stones above the joint
+            double low = -1e300, high = 1e300, weight = 0, moment = 0;
             for (int i = n / 2; i >= 0; --i) {
                 const double angle = pi * i / n;
                 const auto at = [&](double r) { return Vec3{r * std::cos(angle), r * std::sin(angle), 0}; };

@@ -113,8 +113,8 @@ std::optional<Vec3> centerAt(const Scenario& s, const Reference& r, int body, do
     return *x.position + rotate(*x.orientation, b.massProperties.centerOfMass);
 }
 
-/// How far the velocity is from the rate of change of the position, differences h apart; zero within what
-/// rounding and the differences leave open, empty where the reference does not tell them.
+/// Deviation of the velocity from the rate of change of the position, by differences h apart; zero within the
+/// error of rounding and differences, empty if the reference does not determine them.
 std::optional<double> rateMiss(const Scenario& s, const Reference& r, int body, double t, double end,
                                double h) {
     const auto v = r.exact(body, t).velocity;
@@ -142,7 +142,7 @@ std::string checkRate(const Scenario& s, const Reference& r, double end, unsigne
             if (!coarse) continue;
             ++told;
             if (*coarse <= 0.0) continue;
-            // Of hundreds of swings in the run the wide difference itself is too coarse.
+            // The wide difference itself is too coarse for hundreds of swings in the run.
             const auto fine = rateMiss(s, r, body, t, end, 2e-6 * end);
             if (fine && *fine <= 0.0) continue;
             worst = std::max(worst, *coarse);
@@ -233,7 +233,7 @@ std::string checkUnits(const Scenario& s, const Reference& r, double end) {
     return "";
 }
 
-/// What came of a set: "" where all holds, "refused: ..." or what failed.
+/// Result of a set: "" if all holds, "refused: ..." or what failed.
 struct Judged {
     std::string text;
     double seconds = 0.0;  ///< processor time of making the reference, its last state and its quantities

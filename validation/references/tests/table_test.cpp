@@ -20,7 +20,7 @@ class Scan {
   public:
     explicit Scan(const std::string& tex) : tex_(tex) {}
 
-    /// What is wrong with it; "" when braces, environments and delimiters close what they open.
+    /// Description of an error; "" if braces, environments and delimiters close what they open.
     std::string fault() {
         while (at_ < tex_.size() && fault_.empty()) {
             const char c = tex_[at_++];

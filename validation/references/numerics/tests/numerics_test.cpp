@@ -18,7 +18,7 @@
 namespace rigor::validation::numerics {
 namespace {
 
-/// Of a smooth function, panel by panel.
+/// Integral of a smooth function, panel by panel.
 template <class Function>
 Real integral(const Function& f, Real a, Real b) {
     constexpr int kPanels = 64;
@@ -70,7 +70,7 @@ TEST(Elliptic, JacobiFunctionsInvertTheIntegralAndSolveTheirEquations) {
             if (m < 0.9999L) {
                 EXPECT_NEAR(static_cast<double>(ellipticF(f.am, m)), static_cast<double>(u), 1e-15);
             }
-            if (m < 1) {  // at the quarter period, where other forms of dn are 0/0
+            if (m < 1) {  // values at the quarter period, where other forms of dn are 0/0
                 const Jacobi quarter = jacobi(ellipticK(m), m);
                 EXPECT_NEAR(static_cast<double>(quarter.dn), static_cast<double>(std::sqrt(1 - m)), 1e-12);
                 EXPECT_NEAR(static_cast<double>(quarter.am - kPi / 2), 0.0, 1e-12);
