@@ -31,14 +31,15 @@ class ArrayBundle {
 
     /// The whole bundle; `meta` is any JSON value.
     std::string bytes(const nlohmann::ordered_json& meta) const;
-    /// What bytes() made, its meta apart. Throws std::runtime_error for anything else.
+    /// Parses the output of bytes() and returns its meta separately. Throws std::runtime_error for anything
+    /// else.
     static ArrayBundle parse(std::string_view bytes, nlohmann::ordered_json& meta);
 
     bool has(std::string_view name) const { return find(name) != nullptr; }
     /// Throw std::runtime_error where there is no array of this name and type.
     std::vector<double> doubles(std::string_view name) const;
     std::vector<std::int32_t> integers(std::string_view name) const;
-    std::size_t size() const { return body_.size(); }  ///< of all arrays [bytes]
+    std::size_t size() const { return body_.size(); }  ///< size of all arrays [bytes]
 
   private:
     struct Entry {

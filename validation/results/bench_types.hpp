@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a bench measured, as it is stored and reported: cases, their repetitions, and what the repetitions
-// say.
+// Results of a bench as they are stored and reported: cases, their repetitions, and the summary of the
+// repetitions.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace rigor::results {
 
-/// How much work an operation was ("contacts", "pairs", "iterations"), a mean over the timed operations.
+/// Amount of work of an operation ("contacts", "pairs", "iterations"), a mean over the timed operations.
 struct BenchCount {
     std::string name;
     double value = 0.0;
@@ -30,34 +30,36 @@ struct BenchQuality {
     std::string name, unit;
     double value = 0.0;
     std::optional<double> min, max;  ///< bounds; neither: told, not judged
-    bool ok = true;                  ///< within the bounds; not-a-number never is
+    bool ok = true;                  ///< true if the value is within the bounds; NaN never is
 };
 
 /// One repetition: one process, one timing.
 struct BenchRepetition {
     std::int64_t round = 0;             ///< 0: the look, which counts allocations and enters no statistic
-    std::int64_t order = 0;             ///< when it ran: place among all repetitions of the run
-    std::string outcome = "completed";  ///< as of a case (types.hpp)
-    std::string reason;                 ///< of another outcome
+    std::int64_t order = 0;             ///< time of the run: place among all repetitions of the run
+    std::string outcome = "completed";  ///< outcome as of a case (types.hpp)
+    std::string reason;                 ///< reason of another outcome
     double wall = 0.0;                  ///< [s] an operation, median over the timed ones
     double cpu = 0.0;                   ///< [s] of all threads together, likewise
     std::int64_t samples = 0;           ///< timed operations
-    std::string stateHash;              ///< of what came out, "" where nothing does
-    std::int64_t peakMemoryKiB = 0;     ///< of the process, to the last timed operation
-    std::int64_t ownMemoryKiB = 0;      ///< of that, what came since the engine began to build its world
+    std::string stateHash;              ///< hash of the result, "" if there is none
+    std::int64_t peakMemoryKiB = 0;     ///< peak memory of the process, to the last timed operation
+    std::int64_t ownMemoryKiB = 0;      ///< part of it that was added since the engine began to build its
+                                        ///< world
     std::optional<double>
         allocations;  ///< calls of the system's allocator in an operation, mean; the look alone
     std::optional<double> allocatedBytes;  ///< asked for by these calls [B], mean
     double processSeconds = 0.0;           ///< wall time of the whole process
-    double load = -1.0;                    ///< of the machine (mean of the last minute) before it; -1 unknown
+    double load = -1.0;                    ///< load of the machine (mean of the last minute) before it; -1
+                                           ///< unknown
     std::vector<BenchCount> counts;
     std::vector<BenchPhase> phases;
     std::vector<BenchQuality> quality;
 };
 
-/// What the repetitions of a case say together; statistics over rounds 1, 2, ...
+/// Summary of the repetitions of a case; statistics over rounds 1, 2, ...
 struct BenchSummary {
-    std::int64_t repetitions = 0;  ///< that count
+    std::int64_t repetitions = 0;  ///< number of repetitions that count
     std::string clock;             ///< "cpu" or "wall": which of the two the intervals and ratios are of
     double wall = 0.0, cpu = 0.0;  ///< medians [s]
     std::optional<double> low,
@@ -72,17 +74,17 @@ struct BenchSummary {
 
 struct BenchCase {
     std::string id;             ///< stable hash of all that makes the work
-    std::int64_t position = 0;  ///< in the plan
+    std::int64_t position = 0;  ///< place in the plan
     std::string part;           ///< "scene", or an isolated part: "broad_phase", ...
-    std::string name;           ///< what is timed: the scenario, "box-box face", ...
+    std::string name;           ///< name of the timed work: the scenario, "box-box face", ...
     std::string engine;         ///< spec with all that was asked for
-    std::string sizeUnit;       ///< what `size` counts: "bodies", "boxes"; "" where there is no size
+    std::string sizeUnit;       ///< unit of `size`: "bodies", "boxes"; "" if there is no size
     double size = 0.0;
     std::int64_t threads = 1;
-    std::string operation;                     ///< what one operation is: "step", "pair", ...
+    std::string operation;                     ///< name of one operation: "step", "pair", ...
     std::string command;                       ///< runs this case alone again
-    std::string parameters;                    ///< of the part, JSON
-    std::vector<BenchRepetition> repetitions;  ///< by round
+    std::string parameters;                    ///< parameters of the part, JSON
+    std::vector<BenchRepetition> repetitions;  ///< repetitions by round
     BenchSummary summary;
 };
 
@@ -90,7 +92,7 @@ struct BenchCase {
 struct BenchChange {
     std::string caseId;
     double before = 0.0, after = 0.0;           ///< medians [s]
-    double ratio = 1.0, low = 1.0, high = 1.0;  ///< after / before with its 95 % interval (bootstrap)
+    double ratio = 1.0, low = 1.0, high = 1.0;  ///< ratio after / before with its 95 % interval (bootstrap)
     double p = 1.0;       ///< Mann and Whitney, corrected for the number of cases (Holm)
     std::string verdict;  ///< "slower", "faster", "same", "not compared"
     std::string reason;   ///< why not compared
@@ -100,7 +102,7 @@ struct BenchChange {
 struct Bench {
     std::map<std::string, std::string> settings;  ///< seed, target, budget, baseline, build, ...
     std::vector<BenchCase> cases;
-    std::vector<BenchChange> changes;  ///< against settings["baseline"], when it was given
+    std::vector<BenchChange> changes;  ///< changes against settings["baseline"], if it was given
     bool empty() const { return cases.empty(); }
 };
 

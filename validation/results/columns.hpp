@@ -201,7 +201,7 @@ class Taker {
     }
 
   private:
-    /// What follows "NAME is " of the current column; "" where it is not named.
+    /// Text after "NAME is " of the current column; "" if it is not named.
     std::string reasonHere() const {
         const std::string begin = std::string(statement_.getColumnName(next_)) + " is ";
         const std::string all = "; " + nonFinite_;

@@ -106,7 +106,7 @@ void eachField(Row& t, Use&& use) {
     use("real_time_factor", t.realTimeFactor, 8);
 }
 
-/// Of the case alone; its lists are tables of their own.
+/// Calls `use` for each field of the case alone; its lists are tables of their own.
 template <RowOf<CaseRow> Row, class Use>
 void eachField(Row& c, Use&& use) {
     use("id", c.id);

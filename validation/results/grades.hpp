@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How near a run is to the physics: one scale for every engine. A relative error is an error over the
+// Grade of a run's nearness to the physics: one scale for every engine. A relative error is an error over the
 // scenario's own scale of that error (validation/accuracy); its grade is the decade pair it falls into. No
 // number here comes from a result.
 #pragma once

@@ -198,7 +198,8 @@ std::string Hdf5File::readText(const std::string& path) const {
 
 void Hdf5File::setText(const std::string& path, const char* name, const std::string& text) {
     const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "make a string type");
-    check(H5Tset_size(type, text.size() + 1), "make a string type");  // at least the terminating zero
+    // size with the terminating zero, at least 1
+    check(H5Tset_size(type, text.size() + 1), "make a string type");
     check(H5Tset_cset(type, H5T_CSET_UTF8), "make a string type");
     setAttribute(id_, path, name, type, text.c_str());
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What we need of HDF5, with handles that close themselves and failures that are exceptions.
+// Wrapper of the HDF5 functions in use, with handles that close themselves and failures that are exceptions.
 #pragma once
 
 #include <cstdint>

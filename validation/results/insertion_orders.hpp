@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What of a case depends on the order in which bodies, shapes, joints and forces were handed to the engine.
-// One definition, for the store and for every report.
+// Dependence of a case on the order in which bodies, shapes, joints and forces are passed to the engine. One
+// definition, for the store and for every report.
 #pragma once
 
 #include "validation/results/types.hpp"

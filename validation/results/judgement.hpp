@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What makes a run red, for exit codes and every report alike. How near a case is to the physics does not:
-// that is its grade.
+// Conditions that make a run red, for exit codes and every report alike. The nearness of a case to the
+// physics is not one of them: it is its grade.
 #pragma once
 
 #include "validation/results/types.hpp"

@@ -67,7 +67,7 @@ CREATE INDEX cases_by_scenario ON cases (scenario, engine, preset, dt);
 CREATE INDEX metrics_by_name ON metrics (name, subject);
 )sql";
 
-/// Since schema 2: what is computed from all cases of a run together.
+/// Tables since schema 2: results computed from all cases of a run together.
 constexpr const char* kAnalysisTables = R"sql(
 CREATE TABLE orders (
     position INTEGER PRIMARY KEY, scenario TEXT, spec TEXT, metric TEXT, unit TEXT, observed_order, low, high,

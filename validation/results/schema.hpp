@@ -18,7 +18,7 @@ SQLite::Database createDatabase(const std::filesystem::path& file);
 /// newer schema. Opened for writing, an older one is brought up to date.
 SQLite::Database openDatabase(const std::filesystem::path& file, bool forWriting);
 
-/// What the open file says of itself: kSchemaVersion, or that of an older rigor.
+/// Schema version in the open file: kSchemaVersion, or that of an older rigor.
 int schemaVersionOf(SQLite::Database& database);
 
 }  // namespace rigor::results

@@ -42,7 +42,7 @@ std::string inWords(const std::string& option) {
     return word && !unspoken.contains(value) ? value : option;
 }
 
-/// What tells one spec of the list from the others.
+/// Options that distinguish each spec of the list from the others.
 class Differences {
   public:
     explicit Differences(const std::vector<Spec>& specs) : specs_(specs) {
@@ -104,7 +104,7 @@ std::map<std::string, std::string> specLabels(const std::vector<std::string>& sp
     std::map<std::string, int> numbers;  // per engine
     for (const Spec& spec : list) {
         std::string label;
-        for (const bool words : {false, true}) {  // in words where that is unique
+        for (const bool words : {false, true}) {  // words are used if they are unique
             const std::string candidate = joined(spec.engine, differences.of(spec), words);
             if (candidate.size() <= kLongest && used[candidate] == 1) label = candidate;
         }

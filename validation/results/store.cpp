@@ -74,7 +74,7 @@ fs::path createdFolder(const fs::path& directory) {
     return directory;
 }
 
-/// What the folder is, for people and for programs that do not read SQLite.
+/// Writes a description of the folder, for people and for programs that do not read SQLite.
 void writeManifest(const fs::path& directory, const Run& run) {
     const nlohmann::ordered_json manifest{
         {"rigor_run", kSchemaVersion},   {"suite", run.suite},

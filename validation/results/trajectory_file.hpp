@@ -50,13 +50,13 @@ struct TrajectoryFile {
     std::vector<BodyChannels>
         reference;  ///< exact states of the bodies that the reference knows; NaN where unknown
     std::vector<SeriesChannel> series;
-    std::vector<ContactSample> contacts;  ///< in time order
+    std::vector<ContactSample> contacts;  ///< contacts in time order
     /// False for a file of before format 3: its contacts stand at the frame after their step, and what poses
     /// they belong to is not known.
     bool contactInstantsKnown = true;
 };
 
-/// Whether the contacts of the step that begins at this frame are stored; the last frame begins none.
+/// True if the contacts of the step that begins at this frame are stored; the last frame begins none.
 bool contactsStored(const TrajectoryFile& file, std::size_t frame);
 
 /// Replaces `file` at once: it is the old one or the whole new one, never a part. What was read from an older

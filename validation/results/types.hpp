@@ -16,7 +16,7 @@
 
 namespace rigor::results {
 
-/// What became of a case. Text in the store is the snake_case name.
+/// End of a case. Text in the store is the snake_case name.
 enum class Outcome { Completed, Unsupported, Crashed, Timeout, NonFinite, OutOfMemory, Error };
 /// Judgement of a case, derived from the outcome and its metrics.
 /// NoReference: it ran, and nothing that could be judged is missed, but its reference could not be computed.
@@ -33,7 +33,7 @@ const char* regressionName(Regression regression);  ///< "no record", "unchanged
 Regression parseRegression(const std::string& name);
 
 struct MetricRow {
-    std::string name;     ///< of validation/metrics' table
+    std::string name;     ///< name in the table of validation/metrics
     std::string subject;  ///< body, joint, quantity; "" the whole scene
     std::string unit;
     std::string kind;  ///< "exact", "scheme_exact", "measured", "invariant", "contact", "joint", "rest"
@@ -43,8 +43,8 @@ struct MetricRow {
     std::optional<double> expectation;  ///< recorded expectation of a known deviation at this dt
     Verdict verdict = Verdict::Pass;    ///< Pass, Fail or KnownDeviation; Pass where there is no bound
     std::string note;                   ///< reason of a known deviation, or why there is no value
-    /// What the value is measured against, in its unit: of the scenario and its exact solution alone. None
-    /// where nothing is (validation/accuracy).
+    /// Scale of the value, in its unit: from the scenario and its exact solution alone. Empty if the metric
+    /// has none (validation/accuracy).
     std::optional<double> scale = std::nullopt;
     std::optional<double> relative = std::nullopt;  ///< error over scale, >= 0, infinite for no number
     std::optional<double> ideal = std::nullopt;     ///< the same of an ideal run of the engine's scheme
@@ -58,14 +58,14 @@ struct MetricRow {
 /// The worst relative error over the metrics that the scenario names: what its grade rests on.
 struct AccuracyRow {
     Grade grade = Grade::None;
-    std::string metric;              ///< that decides; "" for None
-    std::optional<double> relative;  ///< of that metric
+    std::string metric;              ///< metric that decides; "" for None
+    std::optional<double> relative;  ///< relative error of that metric
     std::optional<double> ideal;     ///< likewise, of an ideal run of the scheme; none: unknown
     std::string note;                ///< why there is no grade
 };
 
-/// What of a case depends on the order of insertion, the gravest alone: the verdict (or how it ends), the
-/// grade, the value of a metric beyond rounding. Unknown: run in one order.
+/// Property of a case that depends on the order of insertion, the gravest alone: the verdict (or how it
+/// ends), the grade, the value of a metric beyond rounding. Unknown: run in one order.
 enum class OrderDependence { Unknown, None, Value, Grade, Verdict };
 const char* orderDependenceName(OrderDependence d);  ///< "", "no", "value", "grade", "verdict"
 OrderDependence parseOrderDependence(const std::string& name);
@@ -74,13 +74,14 @@ OrderDependence parseOrderDependence(const std::string& name);
 /// An order whose reference broke down counts in `run` alone.
 struct InsertionOrders {
     std::optional<std::int64_t> run;        ///< orders, the one as written included; none: that one alone
-    std::optional<std::int64_t> completed;  ///< of them, those that ended as a completed case
-    /// Of the orders; one that does not complete counts as E. None: the case is not graded, or run.
+    std::optional<std::int64_t> completed;  ///< number of them that ended as a completed case
+    /// Grades over the orders; one that does not complete counts as E. None: the case is not graded, or run.
     Grade best = Grade::None, worst = Grade::None;
     std::string note;  ///< why there is no other order, or how others ended; "" also where none was asked for
-    /// Of them, those with the verdict fail, crashed, timeout or non-finite; none in runs before schema 10.
+    /// Number of them with the verdict fail, crashed, timeout or non-finite; none in runs before schema 10.
     std::optional<std::int64_t> failed = std::nullopt;
-    std::string verdicts = {};  ///< of the orders, counted: "pass 3, fail 2"; "" in runs before schema 10
+    std::string verdicts = {};  ///< counted verdicts of the orders: "pass 3, fail 2"; "" in runs before
+                                ///< schema 10
     OrderDependence dependence = OrderDependence::Unknown;
 };
 
@@ -132,33 +133,33 @@ struct TimingRow {
     double meanContacts = 0.0;
     /// 95 % interval of the median; none for fewer than six samples and in runs before schema 3.
     std::optional<double> low = std::nullopt, high = std::nullopt;
-    std::int64_t bodies = 0;  ///< that move; 0 in runs before schema 3
+    std::int64_t bodies = 0;  ///< number of moving bodies; 0 in runs before schema 3
     /// The first sample apart from the others: caches are cold and nothing is warm-started. Mean, quantiles
     /// and greatest of all others; none for fewer than two samples and in runs before schema 8.
     std::optional<double> first = std::nullopt, mean = std::nullopt, p95 = std::nullopt, p99 = std::nullopt,
                           worst = std::nullopt;
-    std::optional<double> realTimeFactor = std::nullopt;  ///< of the step: dt over the mean
+    std::optional<double> realTimeFactor = std::nullopt;  ///< speed of the step: dt over the mean
 };
 
 struct CaseRow {
     std::string id;             ///< stable hash of scenario text, spec, preset and dt
-    std::int64_t position = 0;  ///< in the plan: the order of Run::cases
+    std::int64_t position = 0;  ///< place in the plan: the order of Run::cases
     std::string scenario;
-    std::string spec;    ///< as asked for, with the preset: "ode:preset=matched,stepper=quickstep"
+    std::string spec;    ///< spec as requested, with the preset: "ode:preset=matched,stepper=quickstep"
     std::string engine;  ///< "ode"
     std::string preset;  ///< "default" or "matched"
     double dt = 0.0;
     Outcome outcome = Outcome::Completed;
     Verdict verdict = Verdict::Pass;
     std::string reason;  ///< message of the failure, missing capability, signal name, ...
-    /// Of an unsupported case "adapter" (not in the adapter yet) or "library" (the library does not have it,
-    /// by its documentation); "" in runs before schema 6.
+    /// Kind of refusal of an unsupported case: "adapter" (not in the adapter yet) or "library" (the library
+    /// does not have it, by its documentation); "" in runs before schema 6.
     std::string refusal;
     double wallSeconds = 0.0;  ///< whole child process
     double cpuSeconds = 0.0;
     std::int64_t steps = 0;
     std::int64_t peakMemoryKiB = 0;
-    std::string stateHash;                        ///< of the final states
+    std::string stateHash;                        ///< hash of the final states
     std::string trajectoryFile;                   ///< relative to the run folder, "" when none
     std::string command;                          ///< reproduces the numbers of this case
     std::map<std::string, std::string> settings;  ///< resolved
@@ -170,18 +171,18 @@ struct CaseRow {
     std::vector<TimingRow> timings;
     AccuracyRow accuracy = {};
     Regression regression = Regression::NoRecord;
-    std::string regressionReason = {};  ///< what changed most, or why there is no record
+    std::string regressionReason = {};  ///< largest change, or the reason why there is no record
     InsertionOrders orders = {};
 };
 
 /// Observed order of convergence of a metric over a time-step refinement: slope of ln error on ln dt.
 struct OrderRow {
     std::string scenario, spec, metric, unit;
-    std::optional<double> order;          ///< none: round-off at every step
+    std::optional<double> order;          ///< order; empty: round-off at every step
     std::optional<double> low, high;      ///< 95 % interval; none for two points
     std::int64_t points = 0;              ///< time steps that count
-    double finest = 0.0, coarsest = 0.0;  ///< of those [s]
-    std::string note;                     ///< what was left out
+    double finest = 0.0, coarsest = 0.0;  ///< time steps of those [s]
+    std::string note;                     ///< data that were left out
 };
 
 /// One competitor's place in one of the four ways to compare.
@@ -214,8 +215,7 @@ struct ScenarioRow {
 struct EngineRow {
     std::string name, title, version, precision, buildNotes;
     std::string problem;  ///< "not installed", or why the module could not be loaded
-    /// What it says that it can do, JSON: {"capabilities": {...}, "options": [...]}; "" in runs before
-    /// schema 4.
+    /// Declared features, JSON: {"capabilities": {...}, "options": [...]}; "" in runs before schema 4.
     std::string capabilities = {};
     /// Version of its package, where that is another than the library says; "" in runs before schema 6.
     std::string package = {};
@@ -231,7 +231,7 @@ struct Run {
     std::vector<CaseRow> cases;
     std::vector<OrderRow> orders;       ///< written when the run has ended
     std::vector<FairnessRow> fairness;  ///< likewise
-    Bench bench;                        ///< of `rigor bench`
+    Bench bench;                        ///< results of `rigor bench`
     std::int64_t plannedCases = 0;
 };
 

@@ -30,7 +30,7 @@ const char* nonFiniteWords(double value) {
 }
 
 std::string exactText(double value) {
-    if (std::isnan(value)) return "nan";  // to_chars tells its sign
+    if (std::isnan(value)) return "nan";  // to_chars writes its sign
     char text[32];
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }

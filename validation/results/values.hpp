@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is often asked of a case, and numbers as text.
+// Queries of a case in frequent use, and numbers as text.
 #pragma once
 
 #include <initializer_list>
@@ -33,7 +33,7 @@ std::string exactText(double value);
 std::string finiteText(double value);
 std::string finiteText(const std::optional<double>& value);
 
-/// What finiteText left out of a row, "value is not a number; high is infinite"; "" for nothing.
+/// Values that finiteText left out of a row, "value is not a number; high is infinite"; "" for none.
 using NamedNumber = std::pair<const char*, std::optional<double>>;
 std::string nonFiniteNote(std::initializer_list<NamedNumber> numbers);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a child process hands to its parent, as JSON files that are either whole or not there.
+// Results of a child process for its parent, as JSON files that are either whole or not there.
 #pragma once
 
 #include <filesystem>

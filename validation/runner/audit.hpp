@@ -29,14 +29,13 @@ struct AuditQuery {
     double time = 0.0;      ///< [s] of a recorded frame
     std::int64_t step = 0;  ///< steps taken up to that frame
     int bodyA = 0, bodyB = 0, shapeA = 0, shapeB = 0;
-    scenario::Pose poseA, poseB;  ///< of the shapes, in the world
-    bool decided = false;         ///< whether the oracle has an exact method for this pair
+    scenario::Pose poseA, poseB;  ///< poses of the shapes in the world
+    bool decided = false;         ///< true if the oracle has an exact method for this pair
     double signedDistance = 0.0;
     std::vector<scenario::Vec3> normals;  ///< all minimising directions, A to B
-    bool actedUpon = false;  ///< whether the contacts of the step that began at the frame are known
+    bool actedUpon = false;  ///< true if the contacts of the step that began at the frame are known
     std::vector<adapter::ContactPoint> own;  ///< the contacts of that step
-    std::vector<int>
-        ownPlaces;  ///< of each of them: its place among all stored contacts of the frame, from 0
+    std::vector<int> ownPlaces;  ///< place of each of them among all stored contacts of the frame, from 0
 };
 
 /// The questions of one case, from its recorded trajectory.
@@ -49,7 +48,7 @@ struct AuditCase {
 AuditCase findQueries(const scenario::Scenario& scenario, const std::string& caseId,
                       const std::filesystem::path& trajectory);
 
-/// What one collision engine said to one question.
+/// Result of one collision engine for one query.
 struct AuditAnswer {
     bool answered = false;  ///< false: it does not have such shapes
     bool overlap = false;
@@ -60,7 +59,7 @@ struct AuditAnswer {
 };
 struct AuditAnswers {
     results::AuditRow row;             ///< held against the oracle
-    std::vector<AuditAnswer> answers;  ///< by question
+    std::vector<AuditAnswer> answers;  ///< results by query
 };
 AuditAnswers askAuditor(const scenario::Scenario& scenario, const AuditCase& questions,
                         const adapter::CollisionEngine& engine, const std::string& auditor);
@@ -82,7 +81,7 @@ std::vector<std::pair<double, double>> normalErrors(const AuditCase& questions);
 /// The oracle's own row: how many questions there were, how many it could decide.
 results::AuditRow oracleRow(const AuditCase& questions);
 
-/// Whether any two bodies may ever touch.
+/// True if any two bodies may ever touch.
 bool hasAuditablePairs(const scenario::Scenario& scenario);
 
 /// The parent's side: queues the children of the audits in a pool and hands back the rows of each case.

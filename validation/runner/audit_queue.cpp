@@ -40,7 +40,7 @@ struct AuditQueue::Batch {
     std::string scenario, text;
     std::map<std::string, std::string> cases;  ///< id to trajectory
     std::filesystem::path questions;
-    std::map<std::string, std::map<std::string, AuditRow>> rows;  ///< by case, by auditor
+    std::map<std::string, std::map<std::string, AuditRow>> rows;  ///< rows by case and auditor
     std::map<std::string, std::map<std::string, std::vector<AuditAnswer>>> answers;
     int pending = 0;
 };

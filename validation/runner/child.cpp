@@ -59,7 +59,8 @@ CaseRow refusedRow(const json& request, const adapter::EngineSpec& spec, const a
     return row;
 }
 
-/// From the mark on, what ends this process is the reference, which has a time of its own.
+/// Options of a run. After the mark, the end of this process is due to the reference, which has a time limit
+/// of its own.
 LiveOptions optionsOf(const json& request, const ReferenceMaker& make) {
     LiveOptions options;
     options.makeReference = make;

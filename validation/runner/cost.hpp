@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the steps of a run took, by the engine's own counters: rows of kind "cost" beside the metrics, so that
+// Cost of the steps of a run by the engine's own counters: rows of kind "cost" beside the metrics, so that
 // work can be compared without a clock.
 #pragma once
 

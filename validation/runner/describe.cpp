@@ -63,7 +63,7 @@ void readDescription(const json& j, EngineDescription& d) {
         d.presets.push_back({p.at("name"), p.at("values").get<std::map<std::string, std::string>>()});
 }
 
-/// What resolveSettings asks of an engine, from its description: the library stays out of this process.
+/// The engine that resolveSettings reads, made from its description: the library stays out of this process.
 class DescribedEngine final : public adapter::EngineWithPresets {
   public:
     explicit DescribedEngine(const EngineDescription& d) : d_(d) {}

@@ -7,8 +7,8 @@
 
 namespace rigor::validation {
 
-/// What a timing needs beside it: processor, cores, caches, how its clock is governed, load (mean number of
-/// running processes in the minute before), kernel, system, compiler, flags, libraries, version, date.
+/// Environment of a timing: processor, cores, caches, how its clock is governed, load (mean number of running
+/// processes in the minute before), kernel, system, compiler, flags, libraries, version, date.
 std::map<std::string, std::string> describeEnvironment();
 
 /// Now, UTC, "2026-01-31T12:00:00Z".

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a recorded trajectory says: metrics with verdicts, quantities of the reference, curves.
+// Evaluation of a recorded trajectory: metrics with verdicts, quantities of the reference, curves.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,8 @@ struct ReferenceOrProblem {
     std::unique_ptr<Reference> reference;
     std::string problem;  ///< "" when the reference holds, or the scenario has none
 };
-/// In this process and without a limit: for a process that has one. An empty `make` is makeReference.
+/// Makes the reference in this process and without a limit, for a process that has one. An empty `make` is
+/// makeReference.
 ReferenceOrProblem referenceOf(const scenario::Scenario& scenario, const ReferenceMaker& make = {});
 
 /// Fills metrics (those that matter to the scenario first), accuracy and quantities of `row`, whose engine,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What happens in a run, as lines that can be followed and searched while it goes on. The same words for
-// every engine: all but sleeping and breaking is seen from outside, in contacts and states.
+// Log of the events of a run, as lines that can be followed and searched while it goes on. The words are the
+// same for every engine: all but sleeping and breaking is found from outside, in contacts and states.
 //
 //   t=<s> step=<n> begin contact a=<body> b=<body> n=(..) depth=.. [jn=.. jt=(..)] points=.. p=(..) <ids>
 //   t=<s> step=<n> persist contact ...          the same, in every further step
@@ -35,16 +35,17 @@
 
 namespace rigor::validation {
 
-/// Which events are wanted.
+/// Events that are logged.
 enum class LogWhat {
     Contacts,  ///< contacts alone: begin, persist, end
-    Events,    ///< what changes: begin, end, impact, break, sleep, wake
+    Events,    ///< changes: begin, end, impact, break, sleep, wake
     All
 };
 
 class EventLog {
   public:
-    /// What an engine tells of bodies and joints, by scenario index; an empty function: it does not tell.
+    /// Functions that report the state of bodies and joints by scenario index; an empty function: the engine
+    /// does not report it.
     struct EngineReports {
         std::function<bool(int body)> asleep;
         std::function<bool(int joint)> holds;

@@ -17,7 +17,7 @@ namespace rigor::validation {
 void applyForces(const scenario::Scenario& scenario, std::size_t step, double dt,
                  std::span<const adapter::BodyState> states, adapter::World& world);
 
-/// Whether applyForces needs states.
+/// True if applyForces needs states.
 bool forcesNeedStates(const scenario::Scenario& scenario, const adapter::World& world);
 
 }  // namespace rigor::validation

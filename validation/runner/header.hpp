@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a run says of itself before its first case: engines, scenarios, environment, commands.
+// Header of a run, before its first case: engines, scenarios, environment, commands.
 #pragma once
 
 #include "validation/runner/runner.hpp"
 
 namespace rigor::validation {
 
-/// What there is to know of the reference of every scenario of a plan, by its name: what the options have,
-/// and for the others what a child finds.
+/// Checks of the references of all scenarios of a plan, by scenario name: those of the options, and for the
+/// others the results of a child.
 std::map<std::string, ReferenceCheck> plannedReferences(const std::vector<CasePlan>& plan,
                                                         const RunOptions& options);
 
@@ -22,7 +22,7 @@ results::Run runHeader(const std::vector<CasePlan>& plan, const RunOptions& opti
 /// that name, otherwise the file stored with the run is named.
 std::string reproduceCommand(const CasePlan& plan, const std::filesystem::path& run, bool fromLibrary);
 
-/// Whether loading `name` from the library gives exactly this text.
+/// True if loading `name` from the library gives exactly this text.
 bool isLibraryScenario(const std::string& name, const std::string& text);
 
 /// Writes <run>/scenarios/<name>.json for every scenario of the plan.

@@ -46,7 +46,7 @@ bool isJudgedByScenario(const std::string& preset) {
     return std::find(usual.begin(), usual.end(), preset) != usual.end();
 }
 
-/// What holds wherever it has a value, in every scenario that says nothing else.
+/// Bound of a metric in every scenario that gives none.
 const scenario::Bound* boundEverywhere(const std::string& metric) {
     static const std::vector<scenario::Bound> bounds = [] {
         std::vector<scenario::Bound> all(2);

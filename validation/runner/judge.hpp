@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// From numbers to verdicts.
+// Verdicts from numbers.
 #pragma once
 
 #include <string>
@@ -36,7 +36,8 @@ void judgeMetric(results::MetricRow& row, const scenario::Scenario& scenario, co
 /// one.
 void judgeCase(results::CaseRow& row, const scenario::Scenario& scenario);
 
-/// After judgeCase: a case that misses nothing, but whose reference broke down, is neither a pass nor a fail.
+/// To be called after judgeCase: a case that misses no bound, but whose reference failed, is neither a pass
+/// nor a fail.
 void judgeWithoutReference(results::CaseRow& row, const ReferenceCheck& check);
 
 }  // namespace rigor::validation

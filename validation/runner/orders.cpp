@@ -79,7 +79,7 @@ std::string failuresOnlyOf(const CaseRow& other, const CaseRow& asWritten) {
     return text;
 }
 
-/// What another order adds to the note; "" where it ended as the one as written and fails nothing else.
+/// Addition to the note by another order; "" if it ended like the order as written and fails nothing else.
 std::string noteOf(const OrderEnd& end, const CaseRow& asWritten) {
     const std::string order = "order " + std::to_string(end.number + 1) + ": ";
     if (!end.reference.empty()) return order + end.reference;

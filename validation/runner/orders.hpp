@@ -20,7 +20,7 @@ namespace rigor::validation {
 /// Orders beside the one as written that `--orders N` runs a scenario in: N - 1, or as many as there are.
 int otherOrders(const scenario::Scenario& scenario, int asked);
 
-/// How another order ended.
+/// End of a run in another order.
 struct OrderEnd {
     int number = 0;         ///< 1 for the first of otherListings()
     results::CaseRow row;   ///< outcome, reason, metrics and grade; of the scenario as written
@@ -48,7 +48,7 @@ class OpenOrders {
         int missing = 0;
         std::vector<OrderEnd> ends;
     };
-    std::map<std::size_t, Case> cases_;  ///< by place in the plan
+    std::map<std::size_t, Case> cases_;  ///< cases by place in the plan
 };
 
 }  // namespace rigor::validation

@@ -32,7 +32,7 @@ struct Truth {
     std::string name;  ///< "the reference free_flight", "a run at dt/16"
 };
 
-/// Of every dynamic body at every step; nothing where one part of one is unknown.
+/// States of every dynamic body at every step; empty if one part of one is unknown.
 std::optional<Truth> truthOfReference(const Scenario& s, double dt, const Reference& reference) {
     const auto known = reference.bodies();
     const std::size_t steps = stepCount(s, dt);
@@ -79,7 +79,7 @@ double angleBetween(const scenario::Quat& a, const scenario::Quat& b) {
     return 2.0 * std::atan2(norm(scenario::Vec3{q.x, q.y, q.z}), std::abs(q.w));
 }
 
-/// What the pieces of one length miss the truth by, one value for each piece.
+/// Errors of the pieces of one length, one value for each piece.
 struct PieceErrors {
     std::vector<double> ways, turns, ends;  ///< [m], [rad], when the piece ends [s]
 };

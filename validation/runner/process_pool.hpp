@@ -29,7 +29,7 @@ inline constexpr double kMostWaiting = 20.0;
 
 struct ProcessResult {
     bool timedOut = false;
-    int status = 0;          ///< as of waitpid
+    int status = 0;          ///< status as of waitpid
     std::string outputTail;  ///< last few KiB of stdout and stderr together
     double wallSeconds = 0.0, cpuSeconds = 0.0;
     std::int64_t peakMemoryKiB = 0;
@@ -42,8 +42,8 @@ struct ProcessResult {
 struct ProcessTask {
     std::vector<std::string> arguments;  ///< the first is the program's file
     ProcessLimits limits;
-    std::string name;                                ///< for the progress line
-    std::function<void(const ProcessResult&)> done;  ///< may add tasks
+    std::string name;                                ///< name for the progress line
+    std::function<void(const ProcessResult&)> done;  ///< called at the end; may add tasks
 };
 
 class ProcessPool {
@@ -54,7 +54,7 @@ class ProcessPool {
     ProcessPool& operator=(const ProcessPool&) = delete;
 
     void add(ProcessTask task) { waiting_.push_back(std::move(task)); }
-    /// Before everything that waits.
+    /// Adds a task before all waiting ones.
     void addNext(ProcessTask task) { waiting_.push_front(std::move(task)); }
 
     /// Runs until nothing is left (true), or until `interrupted` (false; all children are dead then).
@@ -69,7 +69,7 @@ class ProcessPool {
         int output = -1;
         Clock::time_point started, deadline;
         double cpuSeen = 0.0;        ///< processor time when it was last looked at after the deadline [s]
-        Clock::time_point workedAt;  ///< when that had grown
+        Clock::time_point workedAt;  ///< time at which that had grown
         ProcessResult result;
     };
     void start(ProcessTask task);

@@ -18,7 +18,7 @@ using scenario::Body;
 using scenario::BodyType;
 using scenario::Scenario;
 
-constexpr std::size_t kFewBodies = 12;       ///< up to here every body has its rows
+constexpr std::size_t kFewBodies = 12;       ///< number of bodies up to which every body has its rows
 constexpr std::size_t kMostMismatches = 50;  ///< rows of mismatches in larger scenes
 
 /// `scale` turns the relative tolerance into an absolute one; not below 1e-3 of an SI unit, so that values
@@ -87,7 +87,7 @@ std::vector<ReadBackRow> bodyRows(const Scenario& s, const Body& body, const Bod
     return rows;
 }
 
-/// For a scene of many bodies: the worst row of each quantity, and the mismatches.
+/// Rows for a scene of many bodies: the worst row of each quantity, and the mismatches.
 std::vector<ReadBackRow> condensed(const std::vector<ReadBackRow>& all) {
     std::map<std::string, ReadBackRow> worst;
     std::vector<ReadBackRow> rows;

@@ -35,8 +35,8 @@ std::string shownSeconds(double seconds) {
     return text;
 }
 
-/// What the metrics will ask of a reference may be where it does its work. An exception here is for the
-/// metric that meets it.
+/// A reference may do its work only when the metrics evaluate it, so its end is evaluated here. An exception
+/// here is left to the metric that meets it.
 void askForItsEnd(const scenario::Scenario& s, const Reference& reference) {
     const double end = std::min(s.duration, reference.validUntil());
     try {

@@ -17,7 +17,7 @@ namespace rigor::validation {
 
 class Reference;
 
-/// How a reference is made; `makeReference` but in tests.
+/// Function that makes a reference; `makeReference` except in tests.
 using ReferenceMaker = std::function<std::unique_ptr<Reference>(const scenario::Scenario&)>;
 
 enum class ReferenceOutcome {
@@ -52,7 +52,7 @@ struct ReferenceLimits {
 /// A scenario as the child loads it: its text, overrides applied, and its name for messages.
 struct ReferenceQuestion {
     std::string text, name;
-    bool hasReference = false;  ///< without one no child is started
+    bool hasReference = false;  ///< if there is none no child is started
 };
 
 /// One answer per question, in order, `jobs` children at a time. `binary` is the program itself, run again as

@@ -177,7 +177,8 @@ class RunInProgress {
         return others == 0 ? !stored.orders.note.empty() : stored.orders.run == others + 1;
     }
 
-    /// How many runs of the scenario a case takes: short pieces are one of each length, and a finer one.
+    /// Number of runs of the scenario that a case takes: short pieces are one of each length, and a finer
+    /// one.
     double runsOfCase() const {
         if (options_.pieces.empty()) return 1.0;
         return static_cast<double>(1 + kConvergedSteps + 2 * options_.pieces.size());
@@ -265,7 +266,7 @@ class RunInProgress {
 
     static std::string trajectoryName(const std::string& id) { return "trajectories/" + id + ".h5"; }
 
-    /// What a child gave, or why it gave nothing; its answer is forgotten.
+    /// Row of a child's result, or of the reason why there is none; the result file is removed.
     CaseRow rowOf(std::size_t index, const std::string& name, const ProcessResult& result) {
         const CasePlan& c = plan_[index];
         const auto json = result.exitedWith(0) ? readJsonFile(answerOf(name)) : std::nullopt;
@@ -317,13 +318,13 @@ class RunInProgress {
         closed(plan_[index], row);
     }
 
-    /// What a killed child may have left half-written.
+    /// Removes a file that a killed child may have left half-written.
     void removePart(const std::string& id) {
         std::error_code ignored;
         fs::remove(directory_ / (trajectoryName(id) + ".part"), ignored);
     }
 
-    /// After the last case of a scenario its audit begins, before the next scenario's cases.
+    /// Begins the audit of a scenario after its last case, before the next scenario's cases.
     void closed(const CasePlan& c, const CaseRow& row) {
         if (!row.trajectoryFile.empty() && row.audit.empty()) unaudited_[c.scenario.name][row.id] = row;
         if (--open_[c.scenario.name] > 0 || !audits_ || !hasAuditablePairs(c.scenario)) return;
@@ -376,8 +377,8 @@ class RunInProgress {
     std::map<std::string, bool> fromLibrary_;
     std::map<std::string, results::ScenarioRow> scenarios_;
     Record record_;
-    std::map<std::string, ReferenceCheck> references_;  ///< by scenario
-    /// Of cases whose child died over a reference that had held, by place in the plan.
+    std::map<std::string, ReferenceCheck> references_;  ///< checks by scenario
+    /// Checks of cases whose child died in a reference that had passed its check, by place in the plan.
     std::map<std::size_t, ReferenceCheck> brokenReferences_;
     OpenOrders openOrders_;
     std::map<std::string, int> open_;  ///< cases of a scenario still to come

@@ -28,7 +28,7 @@ struct CasePlan {
     std::string id;
     std::string scenarioText;  ///< JSON, overrides applied: what the child loads
     scenario::Scenario scenario;
-    adapter::EngineSpec spec;  ///< with its preset
+    adapter::EngineSpec spec;  ///< spec with its preset
     double dt = 0.0;
 };
 
@@ -41,14 +41,14 @@ struct RunOptions {
     std::size_t memoryLimitMiB = 4096;  ///< per child
     std::filesystem::path records;      ///< folder of what engine versions gave; "": nothing is on record
     std::string suite, command;
-    std::vector<int> pieces;  ///< also measure short pieces of so many steps (pieces.hpp)
+    std::vector<int> pieces;  ///< lengths in steps of short piecesthat are measured as well (pieces.hpp)
     int orders = 1;           ///< orders of insertion, the one as written included (orders.hpp)
     ReferenceLimits referenceLimits;
     /// References that have been checked already, by scenario; the others are when the run begins.
     std::map<std::string, ReferenceCheck> references;
 };
 
-/// What the progress line is made of.
+/// Data of the progress line.
 struct Progress {
     std::int64_t done = 0, total = 0, failed = 0, crashed = 0, skipped = 0;
     double etaSeconds = -1.0;
@@ -68,7 +68,7 @@ results::Run runCases(const std::vector<CasePlan>& plan, const RunOptions& optio
                       const std::function<void(const Progress&)>& onProgress,
                       const std::atomic<bool>& interrupted);
 
-/// What a child does for a request file; returns its exit code.
+/// Functions of a child by name, each for a request file; they return its exit code.
 using ChildEntries = std::map<std::string, std::function<int(const std::filesystem::path&)>>;
 
 /// Entry point of the child: `rigor __case <request.json>`; writes its answer where the request says. `more`:
@@ -98,7 +98,7 @@ struct LiveCase {
 struct LiveOptions {
     int stride = 0;  ///< 0: chosen from size and duration
     std::function<void(double time, std::span<const BodyState>, const std::vector<ContactPoint>&)>
-        onStep;  ///< may be empty
+        onStep;  ///< called after each step; may be empty
     /// Called before each onStep with the world, for what only the engine can tell; may be empty.
     std::function<void(const adapter::World&)> onWorld;
     /// Called when the engine is done and the reference is about to be made and asked; may be empty.
@@ -106,8 +106,8 @@ struct LiveOptions {
     /// Why the reference is not made: found before. Empty: it is.
     std::optional<ReferenceCheck> withoutReference;
     ReferenceMaker makeReference;  ///< empty: validation::makeReference
-    /// What the engine gets in place of the scenario. Its run is seen back and measured as one of the
-    /// scenario; `onStep` sees it as it is.
+    /// Scenario that the engine gets in place of the original. Its run is transformed back and measured as
+    /// one of the original; `onStep` gets it untransformed.
     std::optional<Transformed> given;
 };
 LiveCase runInProcess(const scenario::Scenario& scenario, const adapter::EngineSpec& spec, double dt,
@@ -115,7 +115,7 @@ LiveCase runInProcess(const scenario::Scenario& scenario, const adapter::EngineS
 
 /// No case is red (validation/results/judgement.hpp), and no reference broke down.
 bool runIsGreen(const results::Run& run);
-/// Not green, for no other reason than references that could not be computed.
+/// True if the run is not green for no other reason than references that could not be computed.
 bool lacksReferencesAlone(const results::Run& run);
 
 }  // namespace rigor::validation

@@ -143,7 +143,7 @@ Simulation simulate(const Scenario& scenario, double dt, adapter::World& world, 
         if (options.onWorld) options.onWorld(world);
         if (options.onStep) options.onStep(stepper.time(), stepper.states(), contacts);
     }
-    t.contacts.back().clear();  // of steps that no frame ends
+    t.contacts.back().clear();  // contacts of steps that no frame ends
     if (run.nonFinite.empty()) run.nonFinite = stepper.nonFinite();
     run.steps = stepper.steps();
     run.stateHash = stepper.stateHash();

@@ -18,10 +18,11 @@ namespace rigor::validation {
 struct Simulation {
     Trajectory trajectory;
     std::size_t steps = 0;                    ///< taken
-    std::string nonFinite;                    ///< what was not finite and when; "" when all was
+    std::string nonFinite;                    ///< description of the first value that was not finite and its
+                                              ///< time; "" if all were
     std::string stateHash;                    ///< FNV-1a over the bits of the last states
     std::vector<results::TimingRow> timings;  ///< "step" and the engine's phases
-    std::vector<results::MetricRow> costs;    ///< what the engine's counters say, kind "cost"
+    std::vector<results::MetricRow> costs;    ///< values of the engine's counters, kind "cost"
 };
 
 /// Number of steps of a case: the duration rounded to whole steps, at least one.

@@ -26,7 +26,7 @@ constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(th
 constexpr bool kSanitized = false;
 #endif
 
-/// Between fork and exec only calls that are safe there.
+/// Runs between fork and exec, with calls only that are safe there.
 [[noreturn]] void becomeProgram(char* const* argv, int output, pid_t parent, std::size_t memoryMiB,
                                 int keepOpen) {
     setpgid(0, 0);
@@ -65,7 +65,7 @@ pid_t startProgram(const std::vector<std::string>& arguments, int output, std::s
     const pid_t pid = fork();
     if (pid == 0) becomeProgram(argv.data(), output, self, memory, keepOpen);
     if (pid < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
-    setpgid(pid, pid);  // in parent and child, whichever comes first
+    setpgid(pid, pid);  // called in parent and child, whichever comes first
     return pid;
 }
 

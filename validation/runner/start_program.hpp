@@ -26,7 +26,7 @@ pid_t startProgram(const std::vector<std::string>& arguments, int output, std::s
 /// Appends what is there to read of a child's output, of which the last few KiB are kept; false at its end.
 bool drainOutput(int file, std::string& tail);
 
-/// What a child said last: the last line of its output that is not blank, or "".
+/// Last message of a child: the last line of its output that is not blank, or "".
 std::string lastLine(const std::string& output);
 
 /// "SIGSEGV (Segmentation fault)", "exit code 3" for a status as of waitpid.

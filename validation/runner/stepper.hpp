@@ -28,11 +28,11 @@ class Stepper {
 
     std::size_t steps() const { return steps_; }                       ///< taken
     double time() const { return static_cast<double>(steps_) * dt_; }  ///< [s]
-    /// Of now; read from the world when asked for.
+    /// Current states; read from the world on demand.
     std::span<const adapter::BodyState> states();
-    /// What of the states is not finite, in a sentence; "" when all are.
+    /// Sentence on the first state that is not finite; "" if all are finite.
     std::string nonFinite();
-    /// Of the bits of states(): two runs that end in the same have the same.
+    /// Hash of the bits of states(): equal for two runs that end in the same states.
     std::string stateHash();
 
   private:

@@ -13,7 +13,7 @@
 
 namespace rigor::validation {
 
-/// Of each sample, in the order given, the indices drawn.
+/// Indices drawn from each sample, in the order given.
 using Picks = std::vector<std::vector<std::size_t>>;
 
 /// 95 % intervals of the numbers that `statistic` makes of resampled data: the quantiles 2.5 % and 97.5 %

@@ -11,8 +11,8 @@ namespace rigor::validation {
 namespace {
 
 struct Place {
-    std::size_t low = 0;  ///< of the value below, from 0
-    double part = 0.0;    ///< of the way to the next
+    std::size_t low = 0;  ///< index of the value below, from 0
+    double part = 0.0;    ///< fraction of the way to the next
 };
 Place placeOf(std::size_t n, double q) {
     const double place = q * static_cast<double>(n - 1);

@@ -10,8 +10,8 @@
 
 namespace rigor::validation {
 
-/// Of a list that is not empty and has no NaN, in any order; 0 <= q <= 1. Between a finite value and an
-/// infinite one it is the infinite one.
+/// Quantile of a list that is not empty and has no NaN, in any order; 0 <= q <= 1. Between a finite value and
+/// an infinite one it is the infinite one.
 double quantile(std::vector<double> values, double q);
 
 /// The same of a list that ascends.

@@ -41,8 +41,8 @@ KolmogorovSmirnov kolmogorovSmirnov(std::vector<double> one, std::vector<double>
         while (j < other.size() && other[j] <= x) ++j;
         largest = std::max(largest, std::abs(static_cast<long long>(i) * m - static_cast<long long>(j) * n));
     }
-    // beyond[j]: share of the paths to (i, j) that have been as far from the diagonal; no difference from one
-    // is taken, so that small probabilities keep their digits.
+    // beyond[j] is the fraction of the paths to (i, j) that have been as far from the diagonal; no difference
+    // from one is taken, so that small probabilities keep their digits.
     std::vector<double> beyond(other.size() + 1, 0.0);
     for (long long i = 0; i <= n; ++i)
         for (long long j = 0; j <= m; ++j) {

@@ -13,7 +13,7 @@ struct Interval {
     double low = 0.0, high = 0.0;
 };
 
-/// At least 95 % interval of the median from order statistics: x(k) .. x(n + 1 - k) with the largest k for
+/// Interval of the median, of at least 95 %, from order statistics: x(k) .. x(n + 1 - k) with the largest k for
 /// which P(Bin(n, 1/2) < k) <= 0.025 (Conover, Practical Nonparametric Statistics, 1999, 3.2). Empty below
 /// six values.
 std::optional<Interval> medianInterval(std::vector<double> values);

@@ -51,7 +51,7 @@ bool isOfCase(const std::string& metric) {
     return isCostMetric(name) || findMetric(name) != nullptr;
 }
 
-/// What is wrong with a column of the part; "" nothing.
+/// Problem of a column of the part; "" if there is none.
 std::string columnProblem(const scenario::StudyPart& part, const Column& column) {
     const auto listed = [](const auto& list, const auto& is) {
         return std::any_of(list.begin(), list.end(), is);

@@ -16,7 +16,7 @@ inline constexpr const char* kOldDivergenceTime = "onset";
 
 struct Column {
     enum class Kind {
-        OfCase,      ///< of the row's own case: metric, quantity.NAME, time.PHASE
+        OfCase,      ///< value of the row's own case: metric, quantity.NAME, time.PHASE
         Order,       ///< order.METRIC
         Symmetry,    ///< symmetry.NAME, symmetry.NAME.angle, .frames, .from, .divergence_time
         Divergence,  ///< divergence_time, growth, split of two runs: of the members, or growth:VARIANT

@@ -257,7 +257,7 @@ class Filler {
     const results::Run& run_;
     std::map<std::string, const CaseRow*> cases_;
     std::map<std::string, const CasePlan*> planned_;
-    // Of the row that is being filled.
+    // Stored cases of the row that is being filled.
     std::map<std::string, std::shared_ptr<const Stored>> recent_;
     std::map<std::string, std::optional<Compared>> differences_;
     std::map<std::string, Divergences> divergences_;

@@ -48,7 +48,7 @@ double growthExponent(const std::vector<std::pair<int, double>>& points) {
     return spread > 0.0 ? (n * sxy - sx * sy) / spread : kNaN;
 }
 
-/// What a variant shows: its worst row, or how its rows grow.
+/// Value of a variant: its worst row, or how its rows grow.
 double shownBy(const StudyResult& result, std::size_t part, const std::string& variant) {
     const scenario::StudySymptom& symptom = *result.study.parts[part].symptom;
     const auto& metrics = result.study.parts[part].metrics;
@@ -86,7 +86,7 @@ const CaseRow* caseOf(const std::map<std::string, const CaseRow*>& cases, const 
     return nullptr;
 }
 
-/// Same place of the grid but for the time step.
+/// True if both rows are at the same place of the grid except for the time step.
 bool sameRefinement(const StudyRow& a, const StudyRow& b) {
     return a.part == b.part && a.base == b.base && a.parameters == b.parameters && a.variant == b.variant;
 }

@@ -161,7 +161,7 @@ std::string parameterText(const StudyRow& row) {
     return text;
 }
 
-/// What the metric has to say, and which of its numbers are none.
+/// Note of the metric, and the names of its values that are not finite.
 std::string noteOf(const StudyValue& value) {
     const std::string nonFinite =
         results::nonFiniteNote({{"value", value.value}, {"low", value.low}, {"high", value.high}});

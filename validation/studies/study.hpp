@@ -29,11 +29,11 @@ struct SymmetricCase {
 struct StudyRow {
     std::size_t part = 0;
     std::string scenario;                                         ///< name as run: unique for its values
-    std::string base;                                             ///< as the file names it
+    std::string base;                                             ///< name in the file
     std::vector<std::pair<std::string, std::string>> parameters;  ///< scenario and spec keys of this place
     std::string variant, spec, caseId;
     double dt = 0.0;
-    int bodies = 0;  ///< of the scenario that move
+    int bodies = 0;  ///< number of moving bodies of the scenario
     /// The scenario written in full: what symmetric cases are held against, so that the bits are comparable.
     std::string plainCase;
     std::vector<SymmetricCase> symmetric;  ///< several of a name: the worst counts
@@ -71,7 +71,7 @@ results::Run runStudyCases(StudyPlan& plan, RunOptions options,
 struct StudyValue {
     std::optional<double> value;
     std::string unit;
-    std::string note = {};                      ///< who, an interval, or why there is no value
+    std::string note = {};                      ///< subject, an interval, or the reason why there is no value
     std::optional<double> low = {}, high = {};  ///< 95 % interval, where it is a median over runs
 };
 
@@ -80,10 +80,10 @@ struct StudyResultRow {
     results::Outcome outcome = results::Outcome::Completed;
     bool ran = false;  ///< false: interrupted before its case
     std::string reason;
-    std::vector<StudyValue> values;  ///< by metric of the part
+    std::vector<StudyValue> values;  ///< values by metric of the part
 };
 
-/// What became of a symptom.
+/// Result of a symptom.
 struct SymptomVerdict {
     std::size_t part = 0;
     double fault = 0.0,
@@ -92,10 +92,10 @@ struct SymptomVerdict {
     std::vector<std::string> switched;  ///< settings in which the two differ: "solver: single_pass -> pgs"
 };
 
-/// What became of a finding.
+/// Result of a finding.
 struct FindingVerdict {
     std::size_t part = 0, finding = 0;      ///< index into the part's findings
-    std::optional<double> least, greatest;  ///< of the rows it is about; infinite where a run broke
+    std::optional<double> least, greatest;  ///< values of the rows it is about; infinite if a run broke
     bool holds = false;                     ///< false also when a row has no value or there is no row
 };
 

@@ -78,7 +78,7 @@ Listing reversed(const Scenario& s) {
 Listing shuffled(const Scenario& s, std::uint32_t seed) {
     std::mt19937 random(seed);
     return changed(s, [&](std::vector<int>& places) {
-        // With the engine alone: the distributions of the library differ between machines.
+        // Uses the random engine alone: the distributions of the library differ between machines.
         for (std::size_t i = places.size(); i-- > 1;) std::swap(places[i], places[random() % (i + 1)]);
     });
 }

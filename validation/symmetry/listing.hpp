@@ -13,10 +13,10 @@
 
 namespace rigor::validation {
 
-/// Where each element of a list of the scenario goes: element i to place [i].
+/// Permutation of each list of the scenario: element i goes to place [i].
 struct Listing {
     std::vector<int> bodies, joints, forces;
-    std::vector<std::vector<int>> shapes;  ///< of each body, bodies as the scenario has them
+    std::vector<std::vector<int>> shapes;  ///< shapes of each body, bodies as the scenario has them
 
     friend bool operator==(const Listing&, const Listing&) = default;
 };
@@ -26,10 +26,10 @@ Listing reversed(const scenario::Scenario& scenario);
 /// Every list shuffled (Fisher and Yates with a Mersenne twister), the same on every machine.
 Listing shuffled(const scenario::Scenario& scenario, std::uint32_t seed);
 
-/// How many orders there are, at most `most` of them counted: 1 where every list has one element at most.
+/// Number of orders, counted up to `most`: 1 if every list has one element at most.
 std::size_t listingCount(const scenario::Scenario& scenario, std::size_t most);
 
-/// Up to `count` orders beside the one as written, all different: everything reversed, then shuffles from
+/// At most `count` orders beside the one as written, all different: everything reversed, then shuffles from
 /// seeds 1, 2, .... The k-th is the same for every count. Fewer where there are not so many.
 std::vector<Listing> otherListings(const scenario::Scenario& scenario, std::size_t count);
 

@@ -39,7 +39,7 @@ Vec3 boostOf(const Scenario& s) {
     return v;
 }
 
-/// Whether anything could feel that a static body stays while it moves along itself.
+/// True if nothing depends on whether a static body stays while the scene moves along it.
 bool isFrictionless(const Scenario& s, const Body& fixed) {
     for (const Shape& shape : fixed.shapes)
         for (const Body& b : s.bodies)

@@ -18,14 +18,14 @@ namespace rigor::validation {
 
 /// A scenario that must move like another, and its trajectory seen from there.
 struct Transformed {
-    scenario::Scenario scenario;  ///< without reference and bounds
+    scenario::Scenario scenario;  ///< scenario without reference and bounds
     double timeFactor = 1.0;      ///< its time steps beside those of the first
     /// Bodies in the order of the first scenario, times and states in its frame and units. Contacts too: A is
     /// the body with the lower index there.
     std::function<Trajectory(const Trajectory&)> back;
 };
 
-/// What is run a second time.
+/// Run that is made a second time.
 enum class Rerun {
     Transformed,  ///< another scenario
     Reversed,     ///< another scenario, made from how the first run ended
@@ -46,19 +46,19 @@ struct SymmetryEntry {
     Transformed (*apply)(const scenario::Scenario&, const Trajectory* firstRun);
 };
 
-/// In the order of symmetries.def.
+/// All symmetries in the order of symmetries.def.
 const std::vector<SymmetryEntry>& symmetryTable();
 const SymmetryEntry* findSymmetry(const std::string& name);
 std::string symmetryNames();  ///< "galilean, rotation, ..."
 
-/// How far two trajectories of the same bodies are from each other.
+/// Difference of two trajectories of the same bodies.
 struct Difference {
     double position = 0.0;      ///< [m] largest distance of a body's origin, over all bodies that may move
     double positionAt = 0.0;    ///< [s]
-    int body = 0;               ///< whose
+    int body = 0;               ///< body of the largest difference
     double angle = 0.0;         ///< [rad] largest angle between the orientations
     std::size_t frames = 0;     ///< compared
-    std::size_t differing = 0;  ///< of them, frames whose states are not the same bits
+    std::size_t differing = 0;  ///< number of frames whose states are not the same bits
     std::optional<double> firstDiffering;  ///< [s]
 };
 /// Frames are compared by their times: those that both have. Throws std::invalid_argument for other bodies or

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Without friction and losses the film runs backwards. Impulses of -2 m v and -2 I w turn all velocities
-// round at the end of the first run, in the same world, so that nothing the engine remembers is lost.
+// Time reversal: a motion without friction and losses runs backwards. Impulses of -2 m v and -2 I w turn all
+// velocities round at the end of the first run, in the same world, so that no state of the engine is lost.
 // Symmetric schemes come back to rounding; symplectic Euler, whose adjoint is its reverse, to first order: a
 // body in free flight for T comes back g dt T beside its start. Source: Hairer, Lubich, Wanner, Geometric
 // Numerical Integration, 2006, ch. V.
@@ -43,7 +43,7 @@ std::string jointObstacle(const Joint& j) {
     return "";
 }
 
-/// Where states at T + t and T - t are both recorded, as they would be seen in the film.
+/// Trajectory backwards in time, at the times t for which states at T + t and T - t are both recorded.
 Trajectory backwards(const Trajectory& trajectory) {
     const std::size_t frames = trajectory.frames();
     if (frames % 2 == 0) throw std::invalid_argument("the moment of reversal is not a frame");
@@ -55,7 +55,7 @@ Trajectory backwards(const Trajectory& trajectory) {
     for (std::size_t k = 0; k <= half; ++k)
         for (std::size_t i = 0; i < n; ++i) {
             BodyState s = trajectory.state(frames - 1 - k, static_cast<int>(i));
-            // At the reversal itself the velocities are still those of the way there.
+            // The velocities at the reversal itself are still those before it.
             if (k < half) {
                 s.velocity = -s.velocity;
                 s.angularVelocity = -s.angularVelocity;

@@ -125,7 +125,7 @@ TEST(BenchStore, EveryFieldSurvives) {
     ASSERT_EQ(read.cases[1].repetitions.size(), 2u);
     expectSame(repetition(0), read.cases[1].repetitions[0]);
     expectSame(repetition(1), read.cases[1].repetitions[1]);
-    ASSERT_EQ(read.changes.size(), 2u);  // in the order of the plan
+    ASSERT_EQ(read.changes.size(), 2u);  // changes are in the order of the plan
     EXPECT_EQ(read.changes[0].reason, "crashed");
     const BenchChange &c = asked.changes[0], &d = read.changes[1];
     EXPECT_EQ(std::tie(c.caseId, c.before, c.after, c.ratio, c.low, c.high, c.p, c.verdict, c.reason),

@@ -121,7 +121,7 @@ TEST_P(RoundTrip, IsBitExact) {
 }
 INSTANTIATE_TEST_SUITE_P(Frames, RoundTrip, testing::Values(1u, 7u, 20000u));
 
-/// Before format 3 contacts stood at the frame after their step: they are read, and said to be of an unknown
+/// Formats before 3 stored contacts at the frame after their step: they are read and marked as of an unknown
 /// instant, also after the file was written anew.
 TEST(TrajectoryFile, ContactsOfAnOlderFormatAreOfAnUnknownInstant) {
     const TemporaryFolder folder;

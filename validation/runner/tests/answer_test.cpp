@@ -14,7 +14,7 @@
 namespace rigor::validation {
 namespace {
 
-/// Through JSON text and back nothing changes: the stored form of both is the same to the last bit.
+/// Nothing changes through JSON text and back: the stored form of both is the same to the last bit.
 TEST(Answer, CasesSurviveTheJourney) {
     const results::CaseRow sent = results::sample::caseRow("a", 3);
     const results::CaseRow received = caseFromJson(nlohmann::json::parse(caseToJson(sent).dump()));
@@ -59,7 +59,7 @@ TEST(Answer, HalfAFileIsNone) {
     EXPECT_FALSE(readJsonFile(file).has_value());
 }
 
-/// What a library printed may be no UTF-8.
+/// The output of a library need not be UTF-8.
 TEST(Answer, AnyBytesCanBeSent) {
     const results::sample::TemporaryFolder folder;
     results::CaseRow row = results::sample::caseRow("a", 0);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a run acted upon against the oracle: recorded contacts of known faults, each seen in the number meant
-// for it. Two balls fly through each other; the contacts of a step are those of the poses it began at.
+// Tests of the contacts that acted in a run against the oracle: recorded contacts of known faults, each
+// detected by the number meant for it. Two spheres fly through each other; the contacts of a step are those
+// of the poses it began at.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -152,7 +153,7 @@ TEST_F(InRun, ForgottenAndInvented) {
     EXPECT_EQ(audited().spurious, 0);
 }
 
-/// Where contacts were not stored, nothing can be said, and nothing is.
+/// No result is given for frames whose contacts were not stored.
 TEST_F(InRun, FramesWithoutStoredContactsAreNotAsked) {
     file_.contactStride = 4;
     std::erase_if(file_.contacts,

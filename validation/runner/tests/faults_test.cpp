@@ -140,7 +140,7 @@ struct Fault {
     const char* name;
     const std::string* scene;
     const char* metric;   ///< the one meant for it, or the start of the reason
-    const char* subject;  ///< whose row is from `least` to `most`
+    const char* subject;  ///< subject whose row is from `least` to `most`
     double least, most;
     const char* also = "";         ///< other metrics that cannot but miss their bounds
     const char* spared = nullptr;  ///< subject of the metric that the fault does not touch
@@ -206,7 +206,7 @@ const Fault kFaults[] = {
     {"jitter", &kRest, "rest_jitter", "block", 0.99e-3, 1.01e-3},
     {"shapes_shrunk", &kRest, "overlap_max", "", 1e-3, 3e-3,
      "rest_sink penetration_max contact_inconsistency"},
-    // out and back again; one step of four
+    // the normal turns out and back again; one step of four
     {"normal_flickers", &kRest, "normal_flicker", "block", 0.0199, 0.0201},
     {"contacts_blink", &kRest, "contact_flicker", "block", 0.24, 0.26},
     {"creeping", &kHinge, "joint_drift", "pivot", 0.99e-4, 1.01e-4},

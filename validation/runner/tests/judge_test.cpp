@@ -54,8 +54,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Row{"box2d", "default", "drift", 0.1, 1.0, Verdict::Pass},        // exactly at the bound
                     Row{"box2d", "default", "drift", 0.1, 1.0000001, Verdict::Fail},  // "*" binds the unnamed
                     Row{"ode", "default", "drift", 0.1, 1.9, Verdict::Pass},          // named beats "*"
-                    Row{"ode", "default", "drift", 0.1, 2.1, Verdict::KnownDeviation},  // over, but recorded
-                    Row{"ode", "default", "drift", 0.1, 5.1, Verdict::Fail},            // beyond the record
+                    // over the bound, but recorded
+                    Row{"ode", "default", "drift", 0.1, 2.1, Verdict::KnownDeviation},
+                    // over the recorded value
+                    Row{"ode", "default", "drift", 0.1, 5.1, Verdict::Fail},
                     Row{"ode", "matched", "drift", 0.1, 0.6, Verdict::KnownDeviation},  // preset beats name
                     Row{"ode", "matched", "drift", 0.1, 0.4, Verdict::Pass},
                     Row{"ode", "default", "drift", 0.1, kNaN, Verdict::Fail},  // NaN is never within
@@ -88,7 +90,7 @@ TEST(MetricVerdict, SinglePrecisionIsHeldToEveryonesBound) {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-/// Without a bound a deviation is one of wrong physics: its grade decides, not an amount.
+/// A deviation without a bound is one of wrong physics: its grade decides, not an amount.
 TEST(MetricVerdict, ADeviationWithoutABoundIsOneOfGradeE) {
     Scenario s;
     s.timeSteps = {0.1};

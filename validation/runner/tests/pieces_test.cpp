@@ -94,7 +94,7 @@ TEST(Pieces, ErrorsOfFreeFlightAreThoseOfThePieceAlone) {
     EXPECT_GT(g, 3.0);
 }
 
-/// Without a reference the truth is a run of sixteen steps for one, whose own error is a sixteenth.
+/// The truth without a reference is a run with sixteen steps for one, whose own error is a sixteenth.
 TEST(Pieces, WithoutAReferenceTheTruthIsAFinerRun) {
     const auto loaded = fixtures::load(fixtures::thrownBall("ball"));
     const scenario::Scenario& s = loaded.first;

@@ -23,7 +23,7 @@ namespace rigor::doubles {
     for (;;) std::memset(::operator new(kBlock), 1, kBlock);
 }
 
-/// At rest for ever; asked for the first half of the run, it breaks down.
+/// Reference at rest for ever; it fails when it is evaluated in the first half of the run.
 class BreaksWhenAsked final : public validation::Reference {
   public:
     BreaksWhenAsked(double duration, void (*fault)()) : duration_(duration), fault_(fault) {}

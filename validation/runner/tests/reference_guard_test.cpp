@@ -21,9 +21,9 @@ using testing::StartsWith;
 
 class ReferenceGuard : public fixtures::RunnerTest {
   protected:
-    /// For a reference that never ends: it runs over the limit however slow the machine is.
+    /// Limits for a reference that never ends: it runs over the limit however slow the machine is.
     static constexpr ReferenceLimits kBrief{1.0, 512};
-    /// For one that has to end in time, on a machine with other work as well.
+    /// Limits for one that has to end in time, also on a machine with other work.
     static constexpr ReferenceLimits kWide{120.0, 512};
 
     static std::string ballWith(const std::string& reference, const std::string& extra = "") {
@@ -44,7 +44,7 @@ class ReferenceGuard : public fixtures::RunnerTest {
         o.referenceLimits = limits;
         return run(plan({text}, "double_free_flight:preset=default"), o);
     }
-    /// Whether anything was compared with a reference.
+    /// True if anything was compared with a reference.
     static bool hasExact(const results::CaseRow& row) {
         return std::any_of(row.metrics.begin(), row.metrics.end(),
                            [](const auto& m) { return m.kind == "exact" || m.kind == "scheme_exact"; });

@@ -221,7 +221,7 @@ TEST_F(RunCases, AccuracyIsGradedAndChangesAreSeenAgainstTheRecord) {
     for (const auto& c : second.cases)
         EXPECT_EQ(c.regression, results::Regression::Unchanged) << c.regressionReason;
 
-    auto better = first;  // of another day
+    auto better = first;  // record of another day
     for (auto& c : better.cases)
         for (auto& m : c.metrics) m.value *= 0.01;
     (void)writeRecorded(better, again.records);
@@ -322,7 +322,7 @@ TEST_F(RunCases, AKilledRunIsResumedToTheSameResults) {
         usleep(10000);
         try {
             stored = results::readRun(o.directory).cases.size();
-        } catch (const std::runtime_error&) {  // not yet there
+        } catch (const std::runtime_error&) {  // the file is not there yet
         }
     }
     kill(parent, SIGKILL);

@@ -15,7 +15,7 @@ using fixtures::load;
 using fixtures::thrownBall;
 using scenario::Vec3;
 
-/// Of the double, every option as it is by default.
+/// Settings of the double, every option at its default.
 adapter::Settings plainSettings() {
     return adapter::resolveSettings(adapter::parseSpec("double_free_flight"),
                                     doubles::DoubleEngine<doubles::FreeFlightWorld>());
@@ -143,7 +143,7 @@ TEST(Simulate, TimesStepsAndPhases) {
     EXPECT_NEAR(collide.total, 0.25 * 50 * 51 / 2, 1e-9);
     EXPECT_NEAR(collide.median, 0.25 * 25.5, 1e-9);
     EXPECT_NEAR(collide.p90, 0.25 * (1 + 0.9 * 49), 1e-9);
-    // Of fifty samples the 18th and the 33rd: P(Bin(50, 1/2) < 18) = 0.0164, < 19: 0.0325.
+    // The bounds are the 18th and the 33rd of fifty samples: P(Bin(50, 1/2) < 18) = 0.0164, < 19: 0.0325.
     ASSERT_TRUE(collide.low && collide.high);
     EXPECT_NEAR(*collide.low, 0.25 * 18, 1e-9);
     EXPECT_NEAR(*collide.high, 0.25 * 33, 1e-9);

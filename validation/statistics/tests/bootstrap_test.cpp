@@ -34,7 +34,7 @@ TEST(Bootstrap, TheMeanOfZerosAndOnesIsBinomial) {
     }
 }
 
-/// Of a mean of n values of variance s^2 the interval is 1.96 s / sqrt(n) to either side; of the difference
+/// The interval of a mean of n values of variance s^2 is 1.96 s / sqrt(n) to either side; of the difference
 /// of two independent means the variances add.
 TEST(Bootstrap, MeansHaveTheirStandardErrors) {
     constexpr std::size_t kOne = 400, kOther = 900;

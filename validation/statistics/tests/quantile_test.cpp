@@ -18,7 +18,7 @@ TEST(Quantile, Median) {
     EXPECT_EQ(median({4.0, 1.0, 3.0, 2.0}), 2.5);
 }
 
-/// Of 0, 1, ..., n - 1 the quantile of type 7 is (n - 1) q: types 1 to 6, 8 and 9 give something else.
+/// The quantile of type 7 of 0, 1, ..., n - 1 is (n - 1) q: types 1 to 6, 8 and 9 give something else.
 TEST(Quantile, IsLinearInThePlace) {
     std::mt19937_64 random(3);
     for (const int n : {1, 2, 3, 7, 10, 100}) {

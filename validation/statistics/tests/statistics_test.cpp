@@ -52,7 +52,8 @@ TEST(Statistics, SignTest) {
     EXPECT_EQ(signTest(9, 1), signTest(1, 9));
 }
 
-/// Against all ways to deal the ranks into two hands: the definition of the probability.
+/// Compared with the definition of the probability: the count over all ways to divide the ranks into two
+/// samples.
 TEST(Statistics, KolmogorovSmirnovIsExact) {
     constexpr int kOne = 4, kAll = 9;
     const auto distanceOf = [&](unsigned hand) {

@@ -24,7 +24,7 @@ inline std::filesystem::path newFolder() {
     return name;
 }
 
-/// What `rigor study` prints as JSON; its exit code in `code`.
+/// JSON output of `rigor study`; its exit code in `code`.
 inline nlohmann::json runStudy(const std::string& study, int& code) {
     const auto folder = newFolder();
     const std::string command = std::string(RIGOR_BINARY_DIR) + "/bin/rigor study " + study +

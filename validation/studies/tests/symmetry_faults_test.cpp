@@ -32,7 +32,8 @@ const char* const kScene = R"({"rigor": 1, "name": "apart", "title": "Two balls 
     {"name": "right", "mass": 1, "inertia": [0.004, 0.006, 0.005], "position": [1, 2, 3], "velocity": [4.3, 2.1, -6.1],
      "angular_velocity": [2, 1, -1], "shapes": [{"sphere": {"radius": 0.2}}]}]})";
 
-/// What the honest engine keeps to rounding, but for its own order, which follows the pull on the bodies.
+/// Deviations of the engine without a fault: rounding, except for its own order, which follows the pull on
+/// the bodies.
 const std::map<std::string, double> kKept{{"galilean", 1e-12},
                                           {"translation", 1e-11},
                                           {"rotation", 1e-12},
@@ -52,7 +53,7 @@ struct Fault {
 };
 const Fault kFaults[] = {
     {"none", {}},
-    // Against the air at rest; it takes energy, at a rate per second of its own.
+    // A drag against the air at rest; it removes energy at a rate per second of its own.
     {"absolute_drag", {"galilean", "time_reversal", "froude"}},
     // A turn about x itself does not show it.
     {"preferred_axis", {"rotation", "rotation_vertical"}},
@@ -112,7 +113,7 @@ TEST_F(SymmetryFaults, EachIsFoundByTheColumnMeantForIt) {
             if (!(value(f.name, "symmetry." + symmetry) <= kept)) broken.insert(symmetry);
         EXPECT_EQ(broken, f.broken) << f.name;
     }
-    // What closed forms say of them: a T (T - h)/2 of the pull, turned by 22.5 degrees against itself.
+    // Closed forms of the deviations: a T (T - h)/2 of the pull, turned by 22.5 degrees against itself.
     const double pulled = 0.5 * 0.1 * 0.5 * (0.5 - 1.0 / 128.0);
     EXPECT_NEAR(value("preferred_axis", "symmetry.rotation_vertical"),
                 pulled * 2.0 * std::sin(std::acos(-1.0) / 16.0), 1e-9);

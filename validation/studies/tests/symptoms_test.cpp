@@ -35,7 +35,7 @@ TEST(Symptoms, EveryFaultIsVisibleAndEveryCureWorks) {
     EXPECT_TRUE(out.at("green"));
 }
 
-/// What a first engine is known for: each has its part.
+/// Known symptoms of a first engine: each has its part.
 TEST(Symptoms, TheClassicOnesAreThere) {
     const auto study = scenario::loadStudy(scenario::findStudy("symptoms"));
     std::set<std::string> names;

@@ -54,7 +54,7 @@ std::string nameOf(const Scenario& s, int body) {
     return s.bodies[body].name;
 }
 
-/// What an index names is the same body or joint.
+/// Expects that indices name the same bodies and joints.
 void expectSameConnections(const Scenario& a, const Scenario& b) {
     ASSERT_EQ(a.bodies.size(), b.bodies.size());
     for (const auto& joint : b.joints) {

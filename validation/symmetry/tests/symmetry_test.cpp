@@ -58,7 +58,7 @@ Trajectory exactTrajectory(const Scenario& s, const scenario::ReferenceSpec& spe
 struct Case {
     const char* scenario;
     std::set<std::string> obstacles;  ///< symmetries it has not
-    std::set<std::string> unasked;    ///< whose transformed scenario the reference does not take
+    std::set<std::string> unasked;    ///< symmetries whose transformed scenario the reference does not accept
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class EveryScenario : public testing::TestWithParam<scenario::LibraryEntry> {};
 
-/// What is made of it can be said in a file, and the way back from its start is the start.
+/// The transformed scenario can be written to a file, and its start transformed back is the original start.
 TEST_P(EveryScenario, CanBeTransformedAndStartsAlike) {
     const Scenario s = scenario::loadScenario(GetParam().file).scenario;
     for (const SymmetryEntry& entry : symmetryTable()) {

@@ -45,7 +45,7 @@ struct OrderDependent : AsymmetricWorld {
         return (1.0 + 0.1 * before) * RigidWorld::gravityOn(i);
     }
 };
-/// What is listed first is the ground, whatever it is.
+/// The body that is listed first is taken as the ground.
 struct InsertionDependent : AsymmetricWorld {
     using AsymmetricWorld::AsymmetricWorld;
     Vec3 gravityOn(std::size_t i) const override {

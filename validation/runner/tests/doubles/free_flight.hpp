@@ -73,7 +73,7 @@ class FreeFlightWorld : public World {
     Scheme scheme() const override { return Scheme::SymplecticEuler; }
 
   protected:
-    /// What a faulty engine does at the end of each step.
+    /// Fault of an engine at the end of each step.
     virtual void misbehave() {}
     bool isDue() const { return steps_ == 5; }
 

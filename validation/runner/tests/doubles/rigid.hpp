@@ -88,10 +88,10 @@ class RigidWorld : public World {
 
   protected:
     struct Moving {
-        Vec3 position;  ///< of the centre of mass
+        Vec3 position;  ///< position of the centre of mass
         Quat orientation;
         Vec3 velocity, momentum;  ///< angular momentum about the centre of mass, world frame
-        Vec3 velocityBefore;      ///< at the start of the step
+        Vec3 velocityBefore;      ///< velocity at the start of the step
     };
     struct Contact {
         ContactPoint point;
@@ -100,7 +100,7 @@ class RigidWorld : public World {
         Vec3 friction;
     };
 
-    // What faulty engines do otherwise.
+    // Functions that faulty engines override.
     virtual Vec3 gravityOn(std::size_t i) const {
         return scenario_.bodies[i].gravityScale * scenario_.gravity;
     }
@@ -117,7 +117,7 @@ class RigidWorld : public World {
         const double size = norm(impulse);
         return size > limit ? (limit / size) * impulse : impulse;
     }
-    /// What B gets where A gets -impulse.
+    /// Impulse on B if A gets -impulse.
     virtual Vec3 reaction(const Vec3& impulse) const { return impulse; }
     virtual double gapSeen(double gap) const { return gap; }
     virtual void movePosition(Moving& m) const { m.position += stepOf() * m.velocity; }
