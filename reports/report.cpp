@@ -27,7 +27,7 @@ namespace rigor::report {
 namespace fs = std::filesystem;
 namespace {
 
-/// What `rigor study` left beside the run, if it was one.
+/// Result of `rigor study` beside the run, if it was one.
 std::optional<nlohmann::ordered_json> readStudy(const fs::path& file) {
     std::ifstream in(file);
     if (!in) return std::nullopt;

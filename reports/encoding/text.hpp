@@ -29,7 +29,7 @@ std::string durationLabel(double seconds);
 
 /// The character at the start of UTF-8 text.
 struct Utf8Character {
-    std::size_t length = 0;  ///< of its bytes; 0: the text starts with no well-formed character
+    std::size_t length = 0;  ///< number of its bytes; 0: the text starts with no well-formed character
     char32_t point = 0;
 };
 Utf8Character firstCharacter(std::string_view text);

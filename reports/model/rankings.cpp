@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How engines did over sets of scenarios: counted here once, for terminal, summary, tables and page.
+// Ranking of engines over sets of scenarios: counted here once, for terminal, summary, tables and page.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,7 +45,7 @@ bool isGraded(const ViewModel& view, std::size_t scenario) {
     return false;
 }
 
-/// What Ratios compare, at least what counts as rounding (of one unit where a metric has no scale); NaN where
+/// Error that Ratios compare, at least the size of rounding (of one unit if a metric has no scale); NaN if
 /// there is none.
 double errorOf(const ViewModel& view, std::size_t scenario, const CaseRow& row) {
     if (row.outcome != Outcome::Completed) return kNoNumber;
@@ -153,8 +153,8 @@ std::map<const CaseRow*, Ratios> ratiosOf(const ViewModel& view) {
     for (const CaseRow& row : view.run().cases) all[&row] = {};
     for (std::size_t s = 0; s < view.run().scenarios.size(); ++s) {
         if (view.run().scenarios[s].reference.empty())
-            continue;                   // without a reference no engine is known to be right
-        std::map<double, double> best;  // by time step
+            continue;                   // no engine is known to be right without a reference
+        std::map<double, double> best;  // best error by time step
         for (std::size_t c = 0; c < view.columns().size(); ++c)
             for (const CaseRow* row : view.cell(s, c).cases) {
                 const double error = errorOf(view, s, *row);
@@ -197,7 +197,7 @@ Mechanism rankingsOver(const ViewModel& view, const std::vector<std::size_t>& sc
 
 namespace {
 
-/// What of the timing of a step is gathered over scenarios.
+/// Value of a step's timing that is gathered over scenarios.
 struct CostField {
     double StepCost::*to;
     std::optional<double> (*of)(const results::TimingRow&);

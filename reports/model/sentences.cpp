@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What verdicts say in words: each names what was compared with what, and claims nothing else.
+// Sentences of verdicts: each names the two things that were compared, and claims nothing else.
 #include <cmath>
 #include <sstream>
 

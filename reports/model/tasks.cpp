@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What people want to simulate, in their words, and the scenarios that speak to it: by what these isolate,
-// and by their names where the words are too wide. A scenario may belong to several.
+// Tasks of users, in their words, and the scenarios for each: chosen by the mechanism that they isolate, and
+// by their names if the words are too wide. A scenario may belong to several.
 #include <algorithm>
 #include <regex>
 
@@ -14,7 +14,7 @@ namespace {
 struct Task {
     const char *key, *title, *about;
     std::vector<std::string> isolates;  ///< any of these
-    const char* names;                  ///< of scenarios, besides; "" none
+    const char* names;                  ///< names of further scenarios; "" none
     const char* except;                 ///< "" none
 };
 

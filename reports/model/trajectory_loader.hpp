@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How writers get the trajectory of a case.
+// Function by which writers load the trajectory of a case.
 #pragma once
 
 #include <functional>

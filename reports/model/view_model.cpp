@@ -36,13 +36,13 @@ SpecColumn describe(const CaseRow& row) {
     return column;
 }
 
-/// What all engines are brought near to each other by is solid, and so is what stands alone; as shipped is dashed;
-/// an engine's own presets and options take the next patterns.
+/// The preset that brings all engines near to each other is solid, and so is an engine's only one; the
+/// shipped one is dashed; an engine's own presets and options take the next patterns.
 void chooseDashes(std::vector<SpecColumn>& columns) {
     static const std::vector<std::vector<double>> patterns{{2, 3}, {8, 3, 2, 3}, {12, 3}, {1, 5}};
     const bool alone = std::all_of(columns.begin(), columns.end(),
                                    [&](const SpecColumn& c) { return c.preset == columns.front().preset; });
-    std::map<std::string, std::size_t> further;  // by engine
+    std::map<std::string, std::size_t> further;  // number of further patterns by engine
     for (SpecColumn& c : columns) {
         const bool usual = c.preset.empty() || c.preset == results::kMatchedPreset || alone;
         if (c.options.empty() && usual) continue;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What every report format says about a run: columns, main metrics, cell verdicts, who to trust for what,
-// worst offenders, the parity ledger over everything. Computed once, so that page, summary and terminal
-// agree.
+// Content of every report format: columns, main metrics, cell verdicts, rankings by mechanism, worst
+// offenders, the parity ledger over everything. Computed once, so that page, summary and terminal agree.
 #pragma once
 
 #include <array>
@@ -22,7 +21,8 @@ struct SpecColumn {
     std::string spec, engine, preset;
     std::string options;       ///< the spec without engine and preset, "stepper=quickstep"; often empty
     std::string label;         ///< "ode matched stepper=quickstep"
-    std::vector<double> dash;  ///< of its lines, no two of an engine's first six alike; empty: solid
+    std::vector<double> dash;  ///< dash pattern of its lines, no two of an engine's first six alike; empty:
+                               ///< solid
 };
 
 /// The number shown in the scoreboard: the first metric that the scenario says matters and any case has.
@@ -30,8 +30,8 @@ struct MainMetric {
     std::string name, unit, kind;  ///< empty name: no case of this scenario has a metric
 };
 
-/// How a case ended as shown. A completed case that nothing was demanded of is not shown as a pass; how near
-/// it is to the physics is its grade, and whether it changed its regression.
+/// End of a case as shown. A completed case without bounds is not shown as a pass; its nearness to the
+/// physics is its grade, and its change against the record its regression.
 enum class Shown {
     Pass,
     NoBound,
@@ -49,7 +49,7 @@ struct ShownText {
     const char* word;    ///< "pass", "no bound", ...
 };
 ShownText shownText(Shown shown);
-/// Of CaseRow::refusal, which is not empty: "not in the adapter yet" or "not in the library".
+/// Text of CaseRow::refusal, which is not empty: "not in the adapter yet" or "not in the library".
 std::string refusalText(const std::string& refusal);
 
 /// "scenario: reference_timeout: the reference did not finish within 20 s" for every scenario with cases that
@@ -58,8 +58,8 @@ std::vector<std::string> missingReferences(const results::Run& run);
 
 /// All cases of one scenario on one spec.
 struct Cell {
-    std::vector<const results::CaseRow*> cases;  ///< by time step, finest first; empty: not in the plan
-    Shown worst = Shown::Unsupported;            ///< over all time steps
+    std::vector<const results::CaseRow*> cases;  ///< cases by time step, finest first; empty: not in the plan
+    Shown worst = Shown::Unsupported;            ///< worst end over all time steps
 };
 
 inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
@@ -68,19 +68,19 @@ inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 /// engine has a grade, the main metric. Errors within grade A count as its limit: what is exact to rounding
 /// does not make the next one look 1e9 times worse.
 struct Ratios {
-    double toBest = kNoNumber;  ///< over the smallest
-    double toOurs = kNoNumber;  ///< over the in-house engine's in the same preset, else in its default one
+    double toBest = kNoNumber;  ///< ratio to the smallest
+    double toOurs = kNoNumber;  ///< ratio to the in-house engine's in the same preset, or in its default one
 };
 
-/// How a spec did over some scenarios, each at the finest time step that any engine completed there.
+/// Results of a spec over some scenarios, each at the finest time step that any engine completed there.
 struct Ranking {
-    int scenarios = 0;            ///< that it could take part in
+    int scenarios = 0;            ///< number of scenarios that it could take part in
     int lost = 0;                 ///< crashed, timed out, not finite or failed, at any time step
     std::array<int, 5> grades{};  ///< scenarios of grade A to E
     int ungraded = 0;             ///< ran, without an exact answer
     int known = 0;                ///< wrong physics with a reason on file
     int farther = 0;              ///< farther from the exact solution than its own scheme
-    int red = 0;                  ///< with a red case at any time step
+    int red = 0;                  ///< scenarios with a red case at any time step
     double toBest = kNoNumber;    ///< geometric means of Ratios
     double toOurs = kNoNumber;
     double cost = kNoNumber;       ///< median over the scenarios of the median of a step [s]
@@ -91,13 +91,13 @@ struct Ranking {
     int graded() const { return within() + grades[3] + grades[4]; }
 };
 
-/// What a step took on one spec, each scenario at the finest time step that any engine completed there:
-/// medians over the scenarios [s].
+/// Cost of a step on one spec, each scenario at the finest time step that any engine completed there: medians
+/// over the scenarios [s].
 struct StepCost {
     int scenarios = 0;  ///< timed
     double median = kNoNumber;
-    /// Of all steps but the first, which stands apart: a first step that builds everything up hides in a
-    /// median.
+    /// Statistics of all steps but the first, which is separate: a first step that builds everything up is
+    /// hidden by a median.
     double mean = kNoNumber, p95 = kNoNumber, p99 = kNoNumber, worst = kNoNumber;
     double first = kNoNumber;
     double realTimeFactor = kNoNumber;                      ///< dt over the mean
@@ -106,8 +106,8 @@ struct StepCost {
 
 /// Scenarios that speak to one mechanism, or to one thing that people simulate.
 struct Mechanism {
-    std::string name;          ///< as scenarios say what they isolate; of a task its key
-    std::string title, about;  ///< of a task
+    std::string name;          ///< name as in the scenarios' `isolates`; for a task its key
+    std::string title, about;  ///< title and description of a task
     std::vector<std::string> scenarios;
     std::vector<Ranking> rankings;   ///< per column
     std::vector<std::size_t> order;  ///< columns that took part, the most trusted first
@@ -128,8 +128,8 @@ struct GatheredLedger {
     std::vector<std::string> scenarios;
 };
 
-/// What each auditor found in the runs of one scenario, pairs of auditors left out: numbers added up, errors
-/// the greatest.
+/// Results of each auditor in the runs of one scenario, without pairs of auditors: sums of numbers, maxima of
+/// errors.
 struct GatheredAudit {
     std::string scenario;
     std::vector<results::AuditRow> rows;
@@ -138,11 +138,11 @@ struct GatheredAudit {
 struct Totals {
     std::map<Shown, int> cases;
     std::map<std::string, int> refusals;   ///< unsupported cases by CaseRow::refusal, where it is known
-    std::map<results::Grade, int> grades;  ///< of completed cases; None: no exact answer
+    std::map<results::Grade, int> grades;  ///< counts of completed cases; None: no exact solution
     std::map<results::Regression, int> regressions;
     int total = 0, red = 0;
 };
-/// What a count of `shown` consists of: "68 not in the adapter yet, 220 not in the library"; mostly "".
+/// Parts of a count of `shown`: "68 not in the adapter yet, 220 not in the library"; mostly "".
 std::string detailOf(const Totals& totals, Shown shown);
 
 class ViewModel {
@@ -160,9 +160,9 @@ class ViewModel {
     const Ratios& ratios(const results::CaseRow& row) const { return ratios_.at(&row); }
     /// One for each word that scenarios isolate, the most frequent first.
     std::vector<Mechanism> mechanisms() const;
-    /// What people simulate (tasks.cpp); only those that the run has scenarios for.
+    /// Tasks of users (tasks.cpp); only those that the run has scenarios for.
     std::vector<Mechanism> tasks() const;
-    /// Over all scenarios of the run.
+    /// Ranking over all scenarios of the run.
     Mechanism overall() const;
     /// Cases that make the run red, worst first.
     std::vector<Offender> offenders() const;
@@ -181,7 +181,7 @@ class ViewModel {
 std::string runTitle(const results::Run& run);
 /// "standard: 12 of 1430 cases are red" (results::isRed). Text of the run, unescaped.
 std::string verdictSentence(const ViewModel& view);
-/// What was counted, in one line each: accuracy, regression, endings. Every report says the same.
+/// Totals in one line each: accuracy, regression, endings. Every report shows the same.
 std::vector<std::pair<std::string, std::string>> totalsText(const ViewModel& view);
 /// "C 0.0023", "E△ 1.2", "C▼ 0.004", "!": grade, known deviation, change against the record, and the relative
 /// error that the grade rests on; "✓ 0.3" where there is no grade: how it ended, and the scenario's main
@@ -192,7 +192,7 @@ std::string accuracySentence(const results::CaseRow& row);
 std::string regressionSentence(const results::CaseRow& row);
 /// The same over several scenarios: rankings, who comes first, from the indices of scenarios.
 Mechanism rankingsOver(const ViewModel& view, const std::vector<std::size_t>& scenarios);
-/// By column.
+/// Costs of a step by column.
 std::vector<StepCost> stepCosts(const ViewModel& view);
 /// Columns with a cost, the cheapest by the mean ratio first.
 std::vector<std::size_t> byCost(const std::vector<StepCost>& costs);
@@ -210,7 +210,7 @@ std::string verdictsText(const results::CaseRow& row);
 std::string orderRangeText(const results::MetricRow& metric);
 struct OrderDependent {
     const results::CaseRow* row = nullptr;
-    const results::MetricRow* metric = nullptr;  ///< that varies most; null where endings alone do
+    const results::MetricRow* metric = nullptr;  ///< metric that varies most; null if only endings vary
 };
 /// Cases that depend on the order of insertion: those that do so in their verdict, then the widest range over
 /// its scale first.

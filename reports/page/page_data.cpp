@@ -121,7 +121,7 @@ Json timingsJson(const CaseRow& row) {
     return list;
 }
 
-/// What a step cost, with the medians of what the engine told of its parts.
+/// Cost of a step, with the medians of the stages that the engine reports.
 Json stepJson(const CaseRow& row, const results::TimingRow& step) {
     Json phases = Json::object();
     for (const auto& t : row.timings)
@@ -155,7 +155,7 @@ Json worstMiss(const CaseRow& row) {
             {"value", number(worst->value)}, {"bound", number(worst->bound)}, {"at", number(worst->at)}};
 }
 
-/// What the order of insertion makes of it; null where it was run in one.
+/// Dependence on the order of insertion; null if it was run in one order.
 Json ordersOfCaseJson(const CaseRow& row) {
     if (!row.orders.run) return nullptr;
     return {{"run", *row.orders.run},
@@ -167,7 +167,7 @@ Json ordersOfCaseJson(const CaseRow& row) {
             {"says", orderSentence(row)}};
 }
 
-/// How near it is to the physics, and whether it changed.
+/// Grade of a case and its change against the record.
 Json judgementJson(const ViewModel& view, const CaseRow& row) {
     const auto& a = row.accuracy;
     const Ratios& ratios = view.ratios(row);
@@ -248,7 +248,7 @@ Json rankingJson(const Ranking& s) {
             {"toOurs", number(s.toOurs)}, {"cost", number(s.cost)}, {"costRatio", number(s.costRatio)}};
 }
 
-/// By column, as the page's columns.
+/// Costs by column, as the page's columns.
 Json costsJson(const ViewModel& view) {
     Json list = Json::array();
     for (const StepCost& c : stepCosts(view))
@@ -412,7 +412,7 @@ void readOlderPresets(Json& described) {
         for (const char* name : kNames) option["presets"][name] = option.value(name, "");
 }
 
-/// What an engine says that it can do; null where that was not stored, or not as JSON.
+/// Declared features of an engine; null if they were not stored, or not as JSON.
 Json described(const results::EngineRow& engine) {
     Json found = Json::parse(engine.capabilities, nullptr, false);
     if (!found.is_object()) return nullptr;

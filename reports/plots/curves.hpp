@@ -13,11 +13,11 @@ namespace rigor::report {
 
 inline constexpr std::size_t kCurvePoints = 200;
 
-/// At most `most` of 0..count-1, evenly spread, first and last among them.
+/// Indices, at most `most` of 0..count-1, evenly spread, first and last among them.
 std::vector<std::size_t> evenIndices(std::size_t count, std::size_t most);
 
-/// At most `most` indices that keep the outline of a curve: first, last, and the least and greatest finite
-/// value of each of (most - 2) / 2 equal stretches, so that a spike of one sample stays visible.
+/// Indices, at most `most`, that keep the outline of a curve: first, last, and the least and greatest finite
+/// value of each of (most - 2) / 2 equal intervals, so that a spike of one sample stays visible.
 std::vector<std::size_t> outlineIndices(std::span<const double> values, std::size_t most);
 
 /// Little-endian IEEE singles in base64: how curves are stored in the page.

@@ -15,12 +15,12 @@ namespace rigor::report {
 
 /// One row of a part in one of its columns.
 struct StudyPoint {
-    std::string label;                ///< of the bar, or of the line it belongs to
-    std::optional<double> x;          ///< on the axis; none in a chart of bars
-    std::optional<double> value;      ///< none where the run gave none
-    std::optional<double> low, high;  ///< of its interval, where it has one
-    std::string note;                 ///< who, or why there is no value
-    std::string outcome;              ///< how the run ended
+    std::string label;                ///< label of the bar, or of its line
+    std::optional<double> x;          ///< place on the axis; none in a chart of bars
+    std::optional<double> value;      ///< value; none if the run gave none
+    std::optional<double> low, high;  ///< bounds of its interval, if it has one
+    std::string note;                 ///< subject, or the reason why there is no value
+    std::string outcome;              ///< end of the run
 };
 
 /// One column of a part, for one scenario where the part's axis is something else.
@@ -28,13 +28,13 @@ struct StudyChart {
     std::string part, scenario, metric, unit;
     std::string axis;  ///< "time step [s]", a parameter's key, "bodies"; empty: a bar for each row
     bool logarithmic = false, logarithmicX = false;
-    std::vector<StudyPoint> points;  ///< of a line: together, by x
+    std::vector<StudyPoint> points;  ///< points; those of a line are together, by x
 };
 
-/// From `study.json`. Where a part with an axis has a column of time, its other columns are drawn over that,
-/// too: error against cost. A part's axis is what takes the most numbers in its grid, three at least: a
-/// parameter or an option, the number of bodies, the time step. Values over more than two decades are drawn
-/// by their logarithms.
+/// Charts of `study.json`. If a part with an axis has a column of time, its other columns are also drawn over
+/// that: error against cost. The axis of a part is the quantity with the most values in its grid, at least
+/// three: a parameter or an option, the number of bodies, the time step. Values over more than two decades
+/// are drawn by their logarithms.
 std::vector<StudyChart> studyCharts(const nlohmann::ordered_json& study);
 
 /// The study with its charts, for the page.

@@ -13,7 +13,7 @@
 namespace rigor::report {
 namespace {
 
-constexpr std::size_t kLeastPlaces = 3;  ///< on an axis
+constexpr std::size_t kLeastPlaces = 3;  ///< least number of places on an axis
 
 std::optional<double> asNumber(const Json& value) {
     if (value.is_number()) return value.get<double>();
@@ -86,7 +86,8 @@ std::string labelOf(const Json& rows, const Json& row, const std::vector<Way>& w
     return label;
 }
 
-/// By logarithms where the values that have one span more than two decades, and none is below zero.
+/// True if the positive values span more than two decades, and none is below zero; the axis is then
+/// logarithmic.
 bool spansDecades(const std::vector<StudyPoint>& points) {
     double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
     for (const auto& p : points) {

@@ -15,7 +15,7 @@ namespace rigor::report {
 struct PlotLine {
     std::string label, colour;
     std::vector<double> dash;  ///< empty: solid
-    std::vector<double> x, y;  ///< same length; a non-finite y is a gap
+    std::vector<double> x, y;  ///< points of the line, of the same length; a non-finite y is a gap
 };
 
 struct Plot {
@@ -36,7 +36,7 @@ std::vector<double> niceTicks(double least, double greatest, int about);
 std::string plotCsv(const Plot& plot);
 
 struct NamedPlot {
-    std::string name;  ///< of its files, without an ending
+    std::string name;  ///< name of its files, without an ending
     std::string svg, csv;
 };
 /// The picture and its data.

@@ -48,7 +48,8 @@ void appendSeries(Bytes& out, std::span<const double> values, std::size_t column
 
 void appendLinked(Bytes& out, std::span<const double> values, std::span<const std::int64_t> previous,
                   double quantum) {
-    std::vector<std::int64_t> kept(values.size(), 0);  // of what is not finite: its predecessor's
+    // integers of the values; a value that is not finite gets its predecessor's
+    std::vector<std::int64_t> kept(values.size(), 0);
     for (std::size_t i = 0; i < values.size(); ++i) {
         const std::int64_t predicted = previous[i] < 0 ? 0 : kept[previous[i]];
         if (rounded(values[i], quantum, kept[i])) {

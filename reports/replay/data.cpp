@@ -22,7 +22,7 @@ using results::CaseRow;
 using results::TrajectoryFile;
 using Indices = std::vector<std::size_t>;
 
-/// From everything to the marked frames alone: the first that fits the allowance is taken.
+/// Thinnings from all frames to the marked ones alone: the first that fits the allowance is taken.
 constexpr std::array<Thinning, 12> kThinnings{{{kMostReplayFrames, 20, 16, true, 1},
                                                {kMostReplayFrames, 17, 14, true, 1},
                                                {200, 16, 13, true, 1},
@@ -38,7 +38,7 @@ constexpr std::array<Thinning, 12> kThinnings{{{kMostReplayFrames, 20, 16, true,
 /// A thinning that would need more than this part of what is allowed too much, judged by how well the one
 /// before was compressed, is not tried: compressing costs far more time than encoding.
 constexpr double kHopeless = 1.35;
-/// For estimates: a few percent larger than the strongest and several times faster.
+/// Compression level for estimates: a few percent larger than the strongest and several times faster.
 constexpr int kQuick = 4;
 
 struct CaseFrames {
@@ -62,7 +62,7 @@ Json eventJson(const ReplayEvent& e) {
     return json;
 }
 
-/// As the data file will be, but for what bodies of other cases have in common with these.
+/// Estimated size in the data file, without the savings by bodies that are equal in other cases.
 std::size_t compressedSize(const EncodedFrames& frames) {
     std::string all;
     for (const Bytes* bytes :

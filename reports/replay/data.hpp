@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the replay beside a report shows: the thinned frames of all cases of one scenario at one time step, as
-// one ArrayBundle (FORMATS.md, "Replay files"). web/src/replay/replay_file.ts reads it.
+// Data of the replay beside a report: the thinned frames of all cases of one scenario at one time step, as
+// one ArrayBundle (README.md, "Replay files"). web/src/replay/replay_file.ts reads it.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace rigor::report {
 
 /// Bytes that a case may take once it is compressed, on average over a run.
 inline constexpr double kReplayBytesPerCase = 24e3;
-/// What one case may take at most, where others left theirs.
+/// Most bytes of one case, if others left theirs.
 inline constexpr double kReplayBytesAtMost = 240e3;
 /// More frames than this are not stored, however small.
 inline constexpr std::size_t kMostReplayFrames = 300;
@@ -27,13 +27,13 @@ inline constexpr std::size_t kMostReplayFrames = 300;
 using FullTrajectoryLoader =
     std::function<std::optional<results::TrajectoryFile>(const results::CaseRow& row)>;
 
-/// What is left of the run's budget: a case that needs less than its share leaves the rest to those after it.
+/// Rest of the run's budget: a case that needs less than its fraction leaves the rest to those after it.
 class ReplayBudget {
   public:
-    /// For the next case [bytes].
+    /// Allowance of the next case [bytes].
     double allowance() const;
     void spend(double bytes) { saved_ += kReplayBytesPerCase - bytes; }
-    /// What no case accounts for: a reference.
+    /// Spends bytes that belong to no case: a reference.
     void spendBeside(double bytes) { saved_ -= bytes; }
 
   private:

@@ -74,8 +74,7 @@ std::size_t frameOf(const TrajectoryFile& file, const std::string& worst, std::s
     return std::min(frame, file.times.size() - 1);
 }
 
-/// Which contact of the frame "... at t=0.25, step 15, contact 3 (normal)" speaks of; -1 where it tells of
-/// none.
+/// Contact of the frame that "... at t=0.25, step 15, contact 3 (normal)" names; -1 if it names none.
 long contactOf(const std::string& worst) {
     constexpr std::string_view kContact = ", contact ";
     const auto at = worst.rfind(kContact);
@@ -145,7 +144,7 @@ void addChanges(const TrajectoryFile& file, std::size_t frame, const Pairs& befo
     add(before, now, "contact_end");
 }
 
-/// What touches in the first frame that has contacts begins there.
+/// Pairs that touch in the first frame with contacts begin there.
 void addContactEvents(const TrajectoryFile& file, std::vector<ReplayEvent>& out) {
     std::vector<ReplayEvent> found;
     Pairs before;

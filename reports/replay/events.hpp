@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a viewer jumps to: where a run leaves its reference or another engine's run, the largest errors, what
-// the audit found worst, contacts that begin and end, the first number that is not finite.
+// Events that a viewer jumps to: divergence of a run from its reference or another engine's run, the largest
+// errors, the worst results of the audit, contacts that begin and end, the first number that is not finite.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@
 namespace rigor::report {
 
 struct ReplayEvent {
-    std::size_t frame = 0;  ///< of the trajectory
+    std::size_t frame = 0;  ///< frame of the trajectory
     double time = 0.0;      ///< [s] of that frame
     std::string
         kind;  ///< "divergence", "engine_divergence", "largest", "audit", "contact_begin", "contact_end", "nonfinite"
     std::string what;        ///< metric, auditor or other engine's spec; else ""
     std::string subject;     ///< body, "a|b", "" the whole scene
     double value = 0.0;      ///< error, angle or distance; NaN where there is none
-    std::string unit;        ///< of the value
+    std::string unit;        ///< unit of the value
     double threshold = 0.0;  ///< divergence and engine_divergence: the distance that was passed [m]
     std::string text;        ///< audit: its own words
     long contact = -1;       ///< audit: which of the contacts of the frame, -1: not told

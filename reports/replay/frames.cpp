@@ -20,8 +20,8 @@ using results::TrajectoryFile;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kVelocityBits = 12, kDepthBits = 10, kImpulseBits = 10;
-/// What is drawn and what the audit measured agree to 1e-6 rad: rounding turns a normal by at most sqrt(3) /
-/// 2^22 = 4e-7, single precision in the page by 1e-7 more.
+/// Bits of a normal. The drawn normal and the audited one agree to 1e-6 rad: rounding turns a normal by at
+/// most sqrt(3) / 2^22 = 4e-7, single precision in the page by 1e-7 more.
 constexpr int kNormalBits = 21;
 constexpr double kLeastVelocity = 1e-9, kLeastDepth = 1e-12, kLeastImpulse = 1e-12;
 
@@ -134,7 +134,7 @@ Picked pickContacts(const TrajectoryFile& file, const Indices& kept, const Indic
     return out;
 }
 
-/// For each contact the one before with the same bodies and the same place among theirs, or -1.
+/// Predecessor of each contact: the one before with the same bodies and the same place among theirs, or -1.
 std::vector<std::int64_t> predecessors(const Picked& picked) {
     std::map<std::array<int, 3>, std::int64_t> latest;
     std::vector<std::int64_t> out;

@@ -13,7 +13,7 @@
 
 namespace rigor::report {
 
-/// How much of a trajectory is kept.
+/// Amount of a trajectory that is kept.
 struct Thinning {
     std::size_t frames;   ///< evenly spaced ones, at most; marked ones come on top
     int positionBits;     ///< quantum: scene length / 2^this

@@ -114,7 +114,7 @@ std::string environmentLine(const results::Run& run) {
     return line;
 }
 
-/// What was refused, the same thing of one engine once: what its adapter has not been taught comes first.
+/// Refused features, each of one engine once: those that its adapter lacks come first.
 std::string refusalSection(const ViewModel& view) {
     std::map<std::tuple<std::string, std::string, std::string, std::string>, int> cases;
     for (const auto& row : view.run().cases)
@@ -135,7 +135,7 @@ std::string times(double ratio) {
     return shortNumber(std::round(10 * ratio) / 10) + "x";
 }
 
-/// Who to trust for what: the first choice of every mechanism and who comes next.
+/// Ranking: the first and the next engine of every mechanism.
 std::string trustSection(const ViewModel& view) {
     std::string rows;
     for (const auto& m : view.mechanisms()) {
@@ -178,7 +178,7 @@ std::string headline(const ViewModel& view) {
            (run.finished.empty() ? " (**unfinished**)\n" : "\n");
 }
 
-/// As code, whatever stands in it.
+/// Text as code, with any content.
 std::string code(std::string text) {
     std::erase_if(text, [](char c) { return c == '`' || c == '\n' || c == '\r'; });
     return "`" + text.substr(0, kMostCommand) + "`";
@@ -200,7 +200,7 @@ std::string markdownSummary(const ViewModel& view) {
     const std::string end = whereSection(view.run()) + "\n" + environmentLine(view.run()) +
                             "\n\nThe authors of this comparison wrote one of the engines in it (rigor).\n";
     std::string out = headline(view);
-    // What tells most comes first, and takes its room first; the scoreboard gets what is left.
+    // The most important sections come first and take their room first; the scoreboard gets the rest.
     for (const auto& section :
          {benchMarkdown(view.run()), withoutReferences(view), trustSection(view), offenderList(view),
           insertionOrdersMarkdown(view), costMarkdown(view), refusalSection(view), ordersMarkdown(view)})

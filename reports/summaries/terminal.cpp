@@ -49,7 +49,7 @@ const char* colourOf(Shown shown) {
     }
 }
 
-/// What went wrong has the colour of its ending; a number the colour of its grade.
+/// Colour of a cell: that of its ending if it failed, otherwise that of its grade.
 const char* colourOf(const Cell& cell) {
     const bool ran =
         cell.worst == Shown::Pass || cell.worst == Shown::NoBound || cell.worst == Shown::KnownDeviation;
@@ -130,7 +130,7 @@ Names namesOf(const ViewModel& view) {
     return names;
 }
 
-/// What the numbers stand for, in lines that fit.
+/// Legend of the numbers, in lines that fit.
 std::vector<std::string> keyLines(const Names& names, std::size_t width) {
     std::vector<std::string> lines;
     for (const auto& entry : names.key) {
@@ -148,7 +148,7 @@ std::vector<std::string> keyLines(const Names& names, std::size_t width) {
     return lines;
 }
 
-/// How a table of this run fits the terminal.
+/// Layout of a table of this run in the terminal.
 struct Layout {
     std::size_t nameWidth = 8, cellWidth = 0;
     bool letters = false;  ///< columns headed a, b, ... with a key below
@@ -163,7 +163,7 @@ Layout layoutOf(const ViewModel& view, const Names& names, std::size_t columns) 
     std::size_t widest = 4;
     for (const auto& c : names.columns)
         widest = std::max({widest, displayWidth(c.engine), displayWidth(c.preset)});
-    std::size_t number = 10;  // of a cell with its number
+    std::size_t number = 10;  // width of a cell with its number
     for (std::size_t s = 0; s < view.run().scenarios.size(); ++s)
         for (std::size_t c = 0; c < view.columns().size(); ++c)
             number = std::max(number, displayWidth(cellText(view, s, c, true)));
@@ -234,7 +234,7 @@ std::string scenarioLine(const ViewModel& view, std::size_t s, const Layout& lay
     return line;
 }
 
-/// In the order of the run where all fit, else scenarios with something to say first.
+/// Order of the scenarios: that of the run if all fit, otherwise those with something to report first.
 std::vector<std::size_t> order(const ViewModel& view, std::size_t room) {
     std::vector<std::size_t> chosen = byTrouble(view);
     if (chosen.size() <= room) {
@@ -265,7 +265,7 @@ std::vector<std::string> totalsLines(const ViewModel& view, std::size_t width) {
     return lines;
 }
 
-/// Who to trust for what: a line for each mechanism, its engines from the most trusted on, as many as fit.
+/// Rankings: a line for each mechanism, its engines from the best on, as many as fit.
 std::vector<std::string> trustLines(const ViewModel& view, const Names& names, std::size_t most,
                                     std::size_t width, const Painter& paint) {
     std::vector<std::string> lines;
@@ -317,8 +317,8 @@ std::vector<std::string> offenderLines(const ViewModel& view, const Names& names
     return lines;
 }
 
-/// What a step costs, the cheapest first: by median and by mean, the first step apart, with the accuracy of
-/// the same runs.
+/// Costs of a step, the cheapest first: by median and by mean, the first step apart, with the accuracy of the
+/// same runs.
 std::vector<std::string> costLines(const ViewModel& view, const Names& names, std::size_t most,
                                    std::size_t width, const Painter& paint) {
     std::vector<std::string> lines;
@@ -384,7 +384,7 @@ std::vector<std::string> verdictLines(const ViewModel& view, std::size_t width, 
     return lines;
 }
 
-/// Where the whole story stands. Never cut: a path must stay one that can be used.
+/// Paths of the complete results. They are never cut, so that they can be used.
 std::vector<std::string> whereLines(const results::Run& run) {
     if (run.directory.empty()) return {};
     return {"Report: " + plain(run.directory) + "/index.html",
@@ -418,7 +418,7 @@ std::string terminalSummary(const results::Run& run, int lines, int columns, boo
     const auto width = static_cast<std::size_t>(std::max(columns, 40));
     const auto most = static_cast<std::size_t>(std::max(lines, 6));
 
-    // What must be there, then the sections in the order of what they tell for their lines.
+    // The required lines come first, then the sections in the order of their importance per line.
     auto head = verdictLines(view, width, paint);
     for (const auto& line : missingReferences(run))
         if (head.size() + 4 < most) head.push_back(paint(cut("no reference: " + plain(line), width), "1;33"));
@@ -427,7 +427,7 @@ std::string terminalSummary(const results::Run& run, int lines, int columns, boo
     std::size_t room = most - std::min(most, head.size() + where.size());
     const auto reserve = [&](std::vector<std::string> section) {
         if (section.size() + 1 > room) section.clear();
-        room -= section.empty() ? 0 : section.size() + 1;  // and an empty line before it
+        room -= section.empty() ? 0 : section.size() + 1;  // one more for the empty line before it
         return section;
     };
     Names names = namesOf(view);

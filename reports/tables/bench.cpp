@@ -128,7 +128,7 @@ Json caseJson(const BenchCase& c, const std::string& label) {
             {"quality", qualityJson(c)}};
 }
 
-/// What was timed, in tables without a column for the part.
+/// Name of the timed work, in tables without a column for the part.
 std::string subjectOf(const BenchCase& c) {
     return c.part == "scene" ? c.name : c.part + ": " + c.name;
 }

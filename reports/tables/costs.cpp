@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a step costs each engine, beside how near its runs are to the physics.
+// Cost of a step for each engine, beside the accuracy of its runs.
 #include "reports/tables/costs.hpp"
 
 #include <cmath>

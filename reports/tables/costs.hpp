@@ -10,7 +10,7 @@
 
 namespace rigor::report {
 
-/// What a step costs each engine, by median and by mean, first step apart; empty where nothing was timed.
+/// Cost of a step for each engine, by median and by mean, the first step apart; empty if nothing was timed.
 std::string costMarkdown(const ViewModel& view);
 
 }  // namespace rigor::report

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Where scenarios were run at several time steps: orders of convergence, error against cost, and engines
+// Tables of scenarios run at several time steps: orders of convergence, error against cost, and engines
 // compared in four labelled ways, as CSV, JSON and Markdown.
 #include "reports/tables/refinements.hpp"
 

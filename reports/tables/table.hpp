@@ -12,7 +12,7 @@
 
 namespace rigor::report {
 
-/// How the numbers of a column are meant, which decides how people see them; CSV has SI numbers throughout.
+/// Kind of the numbers of a column, which decides their format; CSV has SI numbers throughout.
 enum class ColumnKind {
     Text,
     Number,    ///< a number in the column's unit
@@ -27,7 +27,7 @@ struct TableColumn {
     std::string unit = "";  ///< "" where the rows have different ones or none
 };
 
-/// What stands in a column of its kind. A cell with neither number nor text is empty.
+/// Content of a column of its kind. A cell with neither number nor text is empty.
 struct TableCell {
     TableCell() = default;
     TableCell(std::string words) : text(std::move(words)) {}
@@ -38,16 +38,16 @@ struct TableCell {
     TableCell(std::int64_t count) : number(static_cast<double>(count)) {}
 
     std::string text;              ///< instead of a number
-    std::optional<double> number;  ///< may be NaN or infinite
-    std::optional<Shown> verdict;  ///< of a Judged cell
-    std::optional<double> bound;   ///< of a Judged cell
+    std::optional<double> number;  ///< number; may be NaN or infinite
+    std::optional<Shown> verdict;  ///< verdict of a Judged cell
+    std::optional<double> bound;   ///< bound of a Judged cell
 };
 
 struct Table {
-    std::string name;     ///< of its files, without an ending; "/" makes a folder
+    std::string name;     ///< name of its files, without an ending; "/" makes a folder
     std::string caption;  ///< one line: what it says and how to read it
     std::vector<TableColumn> columns;
-    std::vector<std::vector<TableCell>> rows;  ///< as many cells as columns
+    std::vector<std::vector<TableCell>> rows;  ///< rows with as many cells as columns
 };
 
 /// RFC 4180 with a header line. A Judged column "x" becomes "x", "x verdict", "x bound".

@@ -38,7 +38,7 @@ inline std::vector<std::vector<std::string>> parseCsv(const std::string& text) {
         }
     }
     EXPECT_FALSE(quoted);
-    rows.pop_back();  // after the last line end
+    rows.pop_back();  // the part after the last line end is no row
     return rows;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What every format says of cases whose result depends on the order of insertion, and of what steps cost.
+// Tests of every format: cases whose result depends on the order of insertion, and the costs of steps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -230,7 +230,7 @@ TEST_F(ReplayFiles, TheFrameOfAnAuditIsThatOfItsStep) {
     for (auto& row : run_.cases) row.dt = 1.0 / 60.0;
     run_.scenarios[0].timeSteps = {1.0 / 60.0};
     for (std::size_t i = 0; i < files_.size(); ++i) files_[i] = makeFile(run_.cases[i], 3, 401);
-    audit.worst = "floor|b1 at t=2.61, step 157, contact 3 (normal)";  // as if it had even fewer digits
+    audit.worst = "floor|b1 at t=2.61, step 157, contact 3 (normal)";  // a time with even fewer digits
     run_.cases[0].audit.push_back(audit);
     Bundle bundle = write();
     const auto c = caseOf(bundle, run_.cases[0].spec);

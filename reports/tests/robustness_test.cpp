@@ -107,7 +107,7 @@ TEST(Robustness, AReportIsMadeOfARunThatWentBadly) {
          {"completed", "crashed", "timeout", "out_of_memory", "non_finite", "error", "unsupported"})
         EXPECT_TRUE(outcomes.contains(outcome)) << outcome;
 
-    // What the page says comes from the store as it was written: the same cases with the same endings.
+    // The page shows the store as it was written: the same cases with the same endings.
     const auto read = results::readRun(folder);
     ASSERT_EQ(read.cases.size(), run.cases.size());
     for (const int width : {60, 120})

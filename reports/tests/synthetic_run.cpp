@@ -333,7 +333,7 @@ Run makeRun(int scenarios) {
 Run makeHardRun() {
     Run run = makeRun(10);
     run.finished.clear();
-    // What ended before its time, each once for sure; then a scenario that no engine survives and one that
+    // Cases that ended early, each kind at least once; then a scenario that no engine survives and one that
     // was not reached.
     const struct {
         Outcome outcome;

@@ -27,7 +27,7 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
-/// How often `mark` stands in LaTeX without a backslash before it.
+/// Number of occurrences of `mark` in LaTeX without a backslash before it.
 int countBare(const std::string& text, char mark) {
     int count = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -39,7 +39,7 @@ int countBare(const std::string& text, char mark) {
     return count;
 }
 
-/// What pdflatex would refuse: "" when nothing.
+/// Text that pdflatex would refuse: "" if there is none.
 std::string latexFault(const std::string& tex, std::size_t columns) {
     std::vector<std::string> open;
     for (std::size_t i = 0; i < tex.size(); ++i) {
@@ -134,14 +134,14 @@ TEST(Table, LatexIsWellFormedAndEscaped) {
 }
 
 TEST(Tables, AreWellFormedInEveryFormat) {
-    const auto run = synthetic::makeRun(26);  // with the hostile name
+    const auto run = synthetic::makeRun(26);  // the run has the hostile name
     const ViewModel view(run);
     const auto tables = allTables(view);
     std::set<std::string> names;
     for (const auto& table : tables) {
         EXPECT_TRUE(names.insert(table.name).second) << table.name << " twice";
         EXPECT_FALSE(table.caption.empty());
-        std::size_t csvColumns = table.columns.size() + 1;  // and what is not finite
+        std::size_t csvColumns = table.columns.size() + 1;  // one more column for values that are not finite
         for (const auto& column : table.columns) csvColumns += column.kind == ColumnKind::Judged ? 2 : 0;
         for (const auto& row : table.rows) ASSERT_EQ(row.size(), table.columns.size()) << table.name;
         const auto csv = parseCsv(tableCsv(table));
@@ -199,7 +199,7 @@ TEST(Tables, SayWhatTheRunSays) {
     }
 }
 
-/// Where there is a pdflatex, it reads what we write.
+/// If there is a pdflatex, it compiles the tables.
 TEST(Tables, CompileWhereThereIsAPdflatex) {
     if (std::system("command -v pdflatex > /dev/null 2>&1") != 0) GTEST_SKIP() << "no pdflatex here";
     const auto run = synthetic::makeRun(26);

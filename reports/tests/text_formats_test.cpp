@@ -187,7 +187,7 @@ TEST(Summary, FitsAPullRequestComment) {
     }
 }
 
-/// What an adapter has not been taught is not said of the library; both are counted by one code.
+/// A feature that an adapter lacks is not reported as missing in the library; both are counted by one code.
 TEST(Summary, RefusalsAreToldApart) {
     const auto run = synthetic::makeRun();
     std::map<std::string, int> count;
@@ -210,7 +210,7 @@ TEST(Summary, RefusalsAreToldApart) {
     EXPECT_NE(overviewJson(view).find(both), std::string::npos);
 }
 
-/// Where not all scenarios fit, those with trouble are there, and the others are counted.
+/// If not all scenarios fit, those with trouble are listed, and the others are counted.
 TEST(Summary, LeavesOutWhatIsNoTrouble) {
     auto run = synthetic::makeRun(1000);
     for (auto& c : run.cases) {
@@ -237,7 +237,7 @@ TEST(Svg, IsWellFormedWithCurvesInsideTheFrame) {
     }
 }
 
-/// What the picture shows, with all digits.
+/// Data of the picture, with all digits.
 TEST(Svg, ComesWithItsData) {
     Plot plot;
     plot.title = "x";
@@ -302,7 +302,7 @@ TEST(Terminal, KeepsToItsLinesAndColumns) {
             }
 }
 
-/// Who to trust for what, what fails, the scoreboard, where to look.
+/// The terminal shows the rankings, the failures, the scoreboard and the paths.
 TEST(Terminal, TellsTheStory) {
     const auto run = synthetic::makeRun(190);
     const auto text = terminalSummary(run, 40, 160, false);

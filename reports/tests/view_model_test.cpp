@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the reports claim about a run, on small runs whose answer is known.
+// Tests of the reports' statements about a run, on small runs whose results are known.
 #include "reports/model/view_model.hpp"
 
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@ export interface Measured {
   contacts: number;
   frames: number;
   own: number[]; // seconds of each drawing: placing, colouring, overlays
-  all: number[]; // with three.js and the driver
+  all: number[]; // all threads, with three.js and the driver
   calls: number; // draw calls of one drawing
   heap: number; // bytes more after all drawings; negative: garbage was collected
 }

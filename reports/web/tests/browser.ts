@@ -41,7 +41,8 @@ export function makeRunOf(name: string, ...what: string[]): string {
 /** This call of the test runner, which starts a process for each file of tests. */
 const session = (): string => {
   const stat = readFileSync(`/proc/${process.ppid}/stat`, 'utf8');
-  return `${process.ppid}-${stat.slice(stat.lastIndexOf(')') + 2).split(' ')[19]}`; // since when it runs: ids come again
+  // start time of the process, since ids are used again
+  return `${process.ppid}-${stat.slice(stat.lastIndexOf(')') + 2).split(' ')[19]}`;
 };
 
 /**
@@ -131,12 +132,12 @@ export async function watched(browser: Browser, options: BrowserContextOptions =
   return { page, faults, close: () => context.close() };
 }
 
-/** What a suite about one report works with; there before its first test. */
+/** Tools of a suite about one report; ready before its first test. */
 export interface Opened extends Watched {
   run: string;
   browser: Browser;
   open: (hash?: string) => Promise<void>;
-  text: (selector: string) => Promise<string>; // of the first one
+  text: (selector: string) => Promise<string>; // text of the first one
   clean: () => void; // asserts that there were no faults
 }
 

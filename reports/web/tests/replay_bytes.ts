@@ -43,7 +43,7 @@ export function linkedCodes(values: number[], previous: number[], quantum: numbe
 
 type Arrays = Record<string, Float64Array | Int32Array | Uint8Array>;
 
-/** As validation/results/array_bundle.cpp writes it. */
+/** Bundle as validation/results/array_bundle.cpp writes it. */
 export function bundleOf(meta: unknown, arrays: Arrays): ArrayBuffer {
   const types = { Float64Array: 'f64', Int32Array: 'i32', Uint8Array: 'u8' } as Record<string, string>;
   const pad = (n: number) => Math.ceil(n / 8) * 8;

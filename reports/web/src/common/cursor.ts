@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What curves, tables and the replay of one scenario share: the time looked at, the engine and pair looked at, and
-// which engines are switched off. Each part reads, sets and follows the same observables and knows no other part.
+// State shared by curves, tables and the replay of one scenario: the selected time, engine and pair, and the engines
+// that are switched off. Each part reads, sets and follows the same observables and knows no other part.
 
 /** A value that tells when it changes. `source`: who set it, so that a listener can leave its own changes alone. */
 export class Observable<T> {
@@ -31,11 +31,11 @@ export class Observable<T> {
   }
 }
 
-/** What a link of a table asks to be shown: of one engine, and of two bodies where the row is about a pair. */
+/** Selection of a table's link: one engine, and two bodies if the row is about a pair. */
 export interface Focus {
   spec: string;
   bodies: string[]; // names; empty: the whole scene
-  contact: number | null; // which of the contacts of the frame; null: the deepest of the two bodies
+  contact: number | null; // index of the contact in the frame; null: the deepest of the two bodies
 }
 
 export interface Cursor {

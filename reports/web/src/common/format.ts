@@ -25,7 +25,7 @@ export function format(value: Maybe | undefined, digits = 4): string {
 }
 const minus = (text: string) => text.replace(/^-/, '−');
 
-/** Of an axis: as many digits as neighbouring ticks need, no more. */
+/** Label of an axis, with as many digits as neighbouring ticks need. */
 export function tick(value: number): string {
   const short = Number(value.toPrecision(7));
   const far = short !== 0 && (Math.abs(short) < 1e-3 || Math.abs(short) >= 1e5);
@@ -61,7 +61,7 @@ export function timeStep(dt: Maybe): string {
 export const angle = (radians: Maybe): string =>
   radians === null ? '—' : `${format((toNumber(radians) * 180) / Math.PI)}°`;
 
-/** How many times the best: "×1", "×2.4", "×130", "×2e4"; "" for what is no number. */
+/** Ratio to the best: "×1", "×2.4", "×130", "×2e4"; "" for a value that is no number. */
 export function ratio(value: Maybe): string {
   const r = toNumber(value);
   if (!Number.isFinite(r)) return '';

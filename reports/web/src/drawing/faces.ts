@@ -9,7 +9,7 @@ export interface Face {
   corners: Vec3[];
   closed: boolean; // false: a line
 }
-/** What is drawn of a shape: faces, or a ball, which is a disc from everywhere. */
+/** Drawing of a shape: faces, or a sphere, which is a disc from everywhere. */
 export type Solid = { faces: Face[] } | { ball: { center: Vec3; radius: number } };
 
 const around = 24; // corners of a circle

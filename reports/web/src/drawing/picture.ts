@@ -14,18 +14,18 @@ import { type Solid, solidsOf } from './faces.ts';
 export interface PictureOptions {
   width: number;
   height: number;
-  paths: Vec3[][]; // of bodies through the world
+  paths: Vec3[][]; // paths of bodies through the world
   labels: boolean;
 }
 
 type Point = [x: number, y: number];
 
-/** From the world to the picture [px], and how far a point is from the eye. */
+/** Projection from the world to the picture [px], and distance of a point from the eye. */
 interface Projection {
   at: (p: Vec3) => Point;
   depth: (p: Vec3) => number;
   scale: number; // [px/m]
-  towards: Vec3; // from the scene to the eye
+  towards: Vec3; // direction from the scene to the eye
 }
 
 const yaw = (28 * Math.PI) / 180;
@@ -48,7 +48,7 @@ function projection(planar: boolean, middle: Vec3, radius: number, width: number
   };
 }
 
-/** What moves, with its way; without anything that moves, everything. */
+/** Frame of the moving bodies with their paths, or of everything if nothing moves. */
 function framing(scene: Scene, paths: Vec3[][]): { middle: Vec3; radius: number } {
   const moving = scene.bodies.flatMap((b, i) => (b.type === 'static' ? [] : [i]));
   const shown = moving.length ? moving : scene.bodies.map((_, i) => i);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the page asks of `rigor view`: cli/view/README.md has the questions, validation/live/README.md the commands
-// and the arrays of a frame.
+// Requests of the page to `rigor view`: cli/view/README.md has the requests, validation/live/README.md the commands and
+// the arrays of a frame.
 import { ArrayBundle } from '../common/arrays.ts';
 import type { Json } from '../replay/json.ts';
 
@@ -27,7 +27,7 @@ export interface InstanceState {
   step: number;
   start_step: number;
   has_stages: boolean;
-  frames: number; // that it has made so far
+  frames: number; // frames that it has made so far
   branch_of?: number;
 }
 
@@ -92,7 +92,7 @@ export interface Engine {
   title: string;
   version: string;
   precisions: string[];
-  presets: string[]; // of which the first is the one of a spec that names none
+  presets: string[]; // presets; the first is that of a spec that names none
   options: Option[];
 }
 

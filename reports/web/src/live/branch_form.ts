@@ -7,7 +7,7 @@ import { el } from '../common/elements.ts';
 import type { Engine, InstanceState, Option } from './api.ts';
 import type { SessionView } from './session_view.ts';
 
-/** What the resolved settings of an instance have for an option, or its default. */
+/** Values of options in the resolved settings of an instance, or their defaults. */
 export type Settings = Record<string, string>;
 
 /** Options of the form that differ from what the instance has. */

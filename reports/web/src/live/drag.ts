@@ -9,11 +9,11 @@ import type { Aim, Pick } from '../replay/view.ts';
 
 export interface Held {
   body: number;
-  point: Vec3; // in the body's frame [m]
+  point: Vec3; // point in the body's frame [m]
   target: Vec3; // [m]
 }
 
-/** Where a ray meets the plane through `point` across `normal`; null where it does not, ahead. */
+/** Intersection of a ray with the plane through `point` normal to `normal`; null if there is none ahead. */
 export function meet(aim: Aim, point: Vec3, normal: Vec3): Vec3 | null {
   const along = dot(aim.direction, normal);
   if (Math.abs(along) < 1e-9) return null;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How the solver gets there: the impulse of each row after every iteration, and the residual on a logarithmic axis.
-// Of many rows those are drawn whose impulses are largest.
+// Convergence of the solver: the impulse of each row after every iteration, and the residual on a logarithmic axis. If
+// there are many rows those with the largest impulses are drawn.
 import uPlot from 'uplot';
 import { cssValue, el } from '../common/elements.ts';
 import { tick } from '../common/format.ts';
@@ -13,7 +13,7 @@ export const mostCurves = 8;
 const colours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8a6fd1', '#a0791a'];
 
 export interface Curves {
-  rows: number[]; // that are drawn, by their place
+  rows: number[]; // drawn rows by their place
   data: (number | null)[][]; // iterations from 0, the start; one list for each row; the residuals
 }
 

@@ -8,7 +8,7 @@ import type { Contacts, Frame, FrameSource, ReplayEvent } from '../replay/frames
 import type { FrameHead } from './api.ts';
 import { manifoldContacts } from './stage_data.ts';
 
-const mostFrames = 240; // for trails
+const mostFrames = 240; // number of frames for trails
 const mostBytes = 48 << 20;
 
 export class InstanceSource implements FrameSource {

@@ -82,7 +82,7 @@ export class InstancesPanel {
     }
   }
 
-  /** Does something with an instance as it is now, not as it was when its row was made. */
+  /** Calls `action` with the current state of an instance, not with that of when its row was made. */
   #with(id: number, action: (instance: InstanceState) => void): () => void {
     return () => {
       const now = this.#session.state?.instances.find((instance) => instance.id === id);

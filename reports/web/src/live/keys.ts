@@ -48,7 +48,7 @@ export function helpDialog(): HTMLDialogElement {
   );
 }
 
-/** What a key does; null: it is not ours. */
+/** Action of a key; null: the key has none. */
 export function keyAction(key: string, shift: boolean, actions: KeyActions): (() => void) | null {
   const steps = shift ? 10 : 1;
   const simple: Record<string, () => void> = {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Over each picture: which instance it is, where it stands, and what it does.
+// Labels over each picture: the instance, its time, and its state.
 import { el } from '../common/elements.ts';
 import { duration, format } from '../common/format.ts';
 import type { ReplayView } from '../replay/view.ts';

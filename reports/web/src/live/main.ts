@@ -75,7 +75,7 @@ async function openBranch(instance: api.InstanceState): Promise<void> {
   branch.open(instance, { ...(description.settings as Settings) });
 }
 
-/** Into the folder that `rigor view` was given, or as a download where it is there already. */
+/** Saves to the folder that was passed to `rigor view`, or as a download if the name exists there. */
 async function save(instance: api.InstanceState): Promise<void> {
   const answer = await session.tell({ command: 'save', instance: instance.id, write: true });
   if (!answer) return;

@@ -26,7 +26,7 @@ export class Picture {
   readonly #ends: (() => void)[] = [];
   readonly #scene: Scene;
   #sources: InstanceSource[] = [];
-  #lookAgain = 0; // when the camera may move by itself [ms]
+  #lookAgain = 0; // time from which the camera may move by itself [ms]
   #hover: Pick | null = null;
   #pinned: { source: InstanceSource; body: number } | null = null;
   /** The user has moved the camera. */
@@ -38,7 +38,7 @@ export class Picture {
   constructor(parent: HTMLElement, scene: Scene, drag: (held: Held | null) => Promise<unknown>) {
     this.#scene = scene;
     this.element = el('div', { class: 'stage' });
-    parent.replaceChildren(this.element); // before the view looks how large it is
+    parent.replaceChildren(this.element); // inserted before the view reads its size
     this.view = new ReplayView(this.element, scene);
     this.#inspector = new Inspector(scene);
     this.#dragger = new Dragger(this.view, (body) => scene.bodies[body]?.type === 'dynamic', drag);
@@ -113,7 +113,7 @@ export class Picture {
     this.#ends.push(followPointer(this.view, actions));
   }
 
-  /** What is under the pointer, else the body that was clicked, with the numbers of the newest frame. */
+  /** Shows the object under the pointer, or the body that was clicked, with the numbers of the newest frame. */
   #inspect(): void {
     if (this.#hover) {
       const now = this.view.frameOf(this.#hover.source);

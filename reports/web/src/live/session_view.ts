@@ -12,7 +12,7 @@ const palette = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9
 export class SessionView {
   state: SessionState | null = null;
   readonly sources = new Map<number, InstanceSource>();
-  /** After everything the server told; `instances`: there are others than before. */
+  /** Called after every report of the server; `instances`: the set of instances has changed. */
   onNews: ((instances: boolean) => void) | null = null;
   /** Something to be read by the person; "" takes it away. */
   onSay: ((text: string) => void) | null = null;

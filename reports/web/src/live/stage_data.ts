@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the stages of a step have made, out of the arrays of a frame.
+// Results of the stages of a step, read from the arrays of a frame.
 import type { ArrayBundle } from '../common/arrays.ts';
 import type { Contacts } from '../replay/frames.ts';
 import type { FrameHead } from './api.ts';
@@ -39,7 +39,7 @@ export interface Row {
 export interface Iteration {
   substep: number;
   residual: number;
-  impulses: Float64Array; // by row
+  impulses: Float64Array; // impulses by row
 }
 
 export interface StageData {

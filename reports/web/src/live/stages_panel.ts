@@ -10,7 +10,7 @@ import { ImpulsePlot } from './impulse_plot.ts';
 import type { InstanceSource } from './instance_source.ts';
 import { type Row, type ShapeRef, type StageData, stageData } from './stage_data.ts';
 
-const mostRows = 200; // of a table; the rest is counted
+const mostRows = 200; // most rows of a table; the rest is counted
 const words = (name: string) => name.replaceAll('_', ' ');
 
 export class StagesPanel {
@@ -19,7 +19,7 @@ export class StagesPanel {
   readonly #steps = el('ol', { class: 'stages' });
   readonly #made = el('div', { class: 'made' });
   readonly #plot = new ImpulsePlot();
-  #names: string[] = []; // of the stages of a step, as far as they were seen
+  #names: string[] = []; // names of the stages of a step, as far as they have occurred
   #instances: InstanceSource[] = [];
   #shown: unknown = null;
   scene: Scene | null = null;

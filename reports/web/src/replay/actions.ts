@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the buttons and the keys of a replay ask of it. The stage implements ReplayActions and the controls
-// ControlActions; buttons and keys know these interfaces alone.
+// Actions of the buttons and keys of a replay. The stage implements ReplayActions and the controls ControlActions;
+// buttons and keys know these interfaces alone.
 import type { FrameSource } from './frames.ts';
 import type { LayerName } from './layers.ts';
 import type { Player } from './player.ts';

@@ -52,7 +52,7 @@ interface Batch {
 
 export interface ShapeOfLayer {
   body: number;
-  index: number; // among the shapes of its body
+  index: number; // index among the shapes of its body
   geometry: Geometry;
 }
 
@@ -75,7 +75,7 @@ export class BodyLayer {
   readonly #local: Float64Array; // pose of every shape in its body
   readonly #scale: Float32Array;
   readonly #surface: Material;
-  readonly #glass: Material; // of walls before the scene
+  readonly #glass: Material; // material of walls before the scene
   readonly #line: LineBasicMaterial;
 
   /** `skip`: bodies that another layer draws; `glass`: those that are seen through. */
@@ -128,7 +128,7 @@ export class BodyLayer {
       faces.instanceColor = colours;
       faces.count = n;
       faces.frustumCulled = false;
-      faces.boundingSphere = everywhere; // else a stale one hides shapes from the pointer
+      faces.boundingSphere = everywhere; // a stale one would hide shapes from the pointer
       faces.renderOrder = flat ? 1 : material === this.#glass ? 3 : 0;
       this.group.add(faces);
     }

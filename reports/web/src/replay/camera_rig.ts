@@ -16,9 +16,9 @@ export interface CameraState {
   zoom: number;
 }
 
-const halfAngle = (15 * Math.PI) / 180; // of what the camera sees, upwards
+const halfAngle = (15 * Math.PI) / 180; // half of the camera's vertical field of view
 
-/** Of the camera, while its picture has the focus: how far to the right, up and nearer. */
+/** Motions of the camera while its picture has the focus: to the right, up and nearer. */
 const cameraKeys: Record<string, [right: number, up: number, nearer: number]> = {
   ',': [-1, 0, 0],
   '.': [1, 0, 0],
@@ -56,7 +56,7 @@ export class CameraRig {
       : new PerspectiveCamera((360 / Math.PI) * halfAngle, 1, 0.01, 1000);
     const against = new Vector3(...scene.gravity).negate();
     if (!this.#flat && against.lengthSq() > 1e-12) this.#up.copy(against.normalize());
-    this.#camera.up.copy(this.#up); // before the controls are made: they turn about it
+    this.#camera.up.copy(this.#up); // set before the controls are made: they turn about it
     this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.enableRotate = !this.#flat;
     this.#controls.screenSpacePanning = true;
@@ -104,7 +104,7 @@ export class CameraRig {
   get position(): Vec3 {
     return this.#camera.position.toArray() as Vec3;
   }
-  /** What it is meant to see: everything, or what the user has turned it to. */
+  /** The framing of the camera: everything, or the one chosen by the user. */
   get looking(): Framing {
     if (!this.#byHand) return this.framing;
     const center = this.#controls.target.toArray() as Vec3;
@@ -140,7 +140,7 @@ export class CameraRig {
     this.wide = Math.min(4, Math.max(0.3, wide / high));
   }
 
-  /** As near as a picture of this form still shows the framed box below its label. */
+  /** Moves the camera as near as a picture of this form still shows the framed box below its label. */
   fit(rect: Rect): void {
     if (this.#byHand || this.#flat) return;
     const tangent = Math.tan(halfAngle);

@@ -31,10 +31,10 @@ export function distinguishable(colours: readonly string[]): string[] {
 export interface Theme {
   dark: boolean;
   background: string;
-  gap: string; // between pictures
+  gap: string; // colour between pictures
   ground: string;
-  ink: string; // of outlines
-  still: string; // of bodies that never move
+  ink: string; // colour of outlines
+  still: string; // colour of bodies that never move
   ghost: string;
   contact: string;
   normal: string;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What a picture follows, in the replay and in the live view: the pointer, and light or dark. Each returns what ends it.
+// Inputs that a picture follows, in the replay and in the live view: the pointer, and the light or dark theme. Each
+// function returns the one that ends it.
 import { darkTheme, lightTheme } from './colours.ts';
 import type { Pick, ReplayView } from './view.ts';
 
 export interface PointerActions {
   cursor: string; // CSS, over what can be picked
   hover(pick: Pick | null): void; // once a frame at most; null: nothing is there, or a button is down
-  click(pick: Pick | null): void; // not after a drag
+  click(pick: Pick | null): void; // called for a click, not after a drag
 }
 
 const dragged = 4; // [CSS px] between press and click

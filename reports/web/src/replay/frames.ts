@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the 3D view shows, wherever it comes from: a report's replay file, a stored trajectory, a live run.
-// World frame, SI units; quaternions w x y z; bodies by their place in the scenario.
+// Data of the 3D view from every source: a report's replay file, a stored trajectory, a live run. World frame, SI
+// units; quaternions w x y z; bodies by their place in the scenario.
 
 /**
  * Contacts of one frame, `count` of each; vectors have three numbers a contact. They belong to the poses of the frame:
@@ -21,7 +21,7 @@ export interface Contacts {
   depth: ArrayLike<number>; // [m], > 0: overlap
   normalImpulse: ArrayLike<number>; // [N s]; NaN where the engine does not tell
   frictionImpulse: ArrayLike<number>; // [N s] on B
-  instant?: string; // what else there is to say of the poses that they belong to
+  instant?: string; // note on the poses that they belong to
   carriedA?: ArrayLike<number>; // [m] where points on A are drawn
   carriedB?: ArrayLike<number>;
 }
@@ -39,7 +39,7 @@ export interface Frame {
   boxes?: ArrayLike<number> | null;
 }
 
-/** What the view can jump to. */
+/** Event that the view can jump to. */
 export interface ReplayEvent {
   time: number; // [s]
   kind: 'divergence' | 'engine_divergence' | 'largest' | 'audit' | 'contact_begin' | 'contact_end' | 'nonfinite';
@@ -58,8 +58,8 @@ export interface FrameSource {
   spec: string; // engine spec, "" for the reference
   colour: string; // CSS
   ghost: boolean; // drawn translucent over the others
-  note: string; // what is missing: "every 4 steps", "crashed: SIGSEGV"; "" nothing
-  events: readonly ReplayEvent[]; // in time order
+  note: string; // note on missing frames: "every 4 steps", "crashed: SIGSEGV"; "" nothing
+  events: readonly ReplayEvent[]; // events in time order
   times: ArrayLike<number>; // [s], ascending; of a live run: those known so far; empty: nothing to show
   /** The frame at an index of `times`. May reuse memory: valid until the next call. */
   frame(index: number): Frame;
@@ -78,7 +78,7 @@ export function indexAt(times: ArrayLike<number>, t: number): number {
   return low;
 }
 
-/** Where a contact is drawn: in the middle between its points [m]. */
+/** Point at which a contact is drawn: the middle between its points [m]. */
 export function middleOf(contacts: Contacts, i: number): [number, number, number] {
   const { pointA, pointB, carriedA = pointA, carriedB = pointB } = contacts;
   const middle = (k: number) => ((carriedA[3 * i + k] as number) + (carriedB[3 * i + k] as number)) / 2;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Where the camera stands at first: so that what moves is seen all the time, without one body that flies away making
-// everything else small; and what arrows are measured against.
+// Initial camera: it shows the moving bodies all the time, but one body that flies away does not make everything else
+// small. Also the size that arrows are scaled by.
 import { type Bounds, boundsOf, reachOf } from './bounds.ts';
 import type { FrameSource } from './frames.ts';
 import { composeInto } from './matrices.ts';

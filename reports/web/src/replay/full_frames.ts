@@ -17,8 +17,8 @@ interface Part {
   dt: number;
   stride: number;
   contact_stride: number;
-  contact_instants: boolean; // whether contacts belong to the poses of their frames
-  frames: number; // of the whole trajectory
+  contact_instants: boolean; // true if contacts belong to the poses of their frames
+  frames: number; // frames of the whole trajectory
   from: number;
   count: number;
   bodies: string[];

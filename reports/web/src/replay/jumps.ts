@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Where "first divergence", "largest error", "next contact" and "worst normal" are, among the sources that are shown.
+// Targets of "first divergence", "largest error", "next contact" and "worst normal" among the sources that are shown.
 import type { FrameSource, ReplayEvent } from './frames.ts';
 
 export interface Jump {
@@ -21,12 +21,14 @@ const all = (sources: readonly FrameSource[], kinds: Kinds): Jump[] =>
 const earliest = (jumps: Jump[]): Jump | null =>
   jumps.reduce<Jump | null>((best, j) => (best === null || j.event.time < best.event.time ? j : best), null);
 
-/** From the reference; where no run leaves it, or there is none, from another engine. */
+/** First divergence from the reference, or from another engine if no run leaves the reference or there is none. */
 export function firstDivergence(sources: readonly FrameSource[]): Jump | null {
   return earliest(all(sources, ['divergence'])) ?? earliest(all(sources, ['engine_divergence']));
 }
 
-/** Of the metric that comes first in `metrics` and that any case has; of the whole scene before that of one body. */
+/**
+ * Largest error in the first metric of `metrics` that any case has; that of the whole scene before that of one body.
+ */
 export function largestError(sources: readonly FrameSource[], metrics: readonly string[]): Jump | null {
   const found = all(sources, ['largest']);
   const named = metrics.find((name) => found.some((j) => j.event.what === name));

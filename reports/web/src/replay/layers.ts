@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What can be switched on and off in the view, and how it is written into a link.
+// Layers that can be switched on and off in the view, and their text in a link.
 
 export const layerNames = {
   faces: 'Faces',
@@ -27,7 +27,7 @@ export interface ViewOptions {
   layers: Layers;
   colouring: Colouring;
   overlaid: boolean; // all in one picture; else side by side
-  exaggeration: number; // of penetrations
+  exaggeration: number; // exaggeration of penetrations
   arrows: number; // length of arrows, 1: as framed
 }
 

@@ -127,7 +127,7 @@ export class FatLines {
   readonly heads: InstancedMesh;
   readonly #segments = new Segments(32);
   #headCount = 0;
-  #stems: number[] = []; // of each head, its line
+  #stems: number[] = []; // line of each head
   #geometry = new LineSegmentsGeometry();
   readonly #lineMaterial: LineMaterial;
 
@@ -160,7 +160,7 @@ export class FatLines {
     this.#segments.add(ax, ay, az, bx, by, bz, c);
   }
 
-  /** From a point along a vector; the head is `head` long, at most half of the arrow. */
+  /** Arrow from a point along a vector; the head is `head` long, at most half of the arrow. */
   arrow(x: number, y: number, z: number, dx: number, dy: number, dz: number, head: number, c: Color): void {
     const length = Math.sqrt(dx * dx + dy * dy + dz * dz);
     if (!(length > 0) || !Number.isFinite(length + x + y + z)) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is seen, as text for the part of the address behind "#": time, engines, layers, camera. Unknown or damaged
+// State of the view as text for the part of the address behind "#": time, engines, layers, camera. Unknown or damaged
 // parts are left out, never an error: links live longer than pages.
 
 import type { CameraState } from './camera_rig.ts';
@@ -17,7 +17,7 @@ export interface LinkState {
   speed?: number;
   body?: number; // pinned in the inspector
   of?: string; // spec whose body that is
-  contact?: number; // of that frame, pinned in the inspector
+  contact?: number; // contact of that frame, pinned in the inspector
 }
 
 /** Five digits are enough for a camera, nine for a time. */

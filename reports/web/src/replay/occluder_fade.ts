@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which walls stand between the camera and what moves: they are drawn as glass.
+// Finds the walls between the camera and the moving bodies: they are drawn as glass.
 import type { Framing } from './framing.ts';
 import type { Pose, Scene } from './scene.ts';
 import { add, conjugate, rotate, sub, type Vec3 } from './vectors.ts';
 
-/** Does the way from a to b pass through a box of these half extents around the origin? Its ends may lie outside. */
+/**
+ * True if the segment from a to b passes through a box of these half extents around the origin. Its ends may lie
+ * outside.
+ */
 export function crossesBox(a: Vec3, b: Vec3, half: Vec3): boolean {
   let [enter, leave] = [0, 1];
   for (let k = 0; k < 3; ++k) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is drawn over the bodies of one source: contacts, arrows, joints, boxes, trails. Rebuilt when the frame or a
-// switch changes, in buffers that are kept.
+// Overlays of the bodies of one source: contacts, arrows, joints, boxes, trails. Rebuilt when the frame or a switch
+// changes, in buffers that are kept.
 import { Color, Group } from 'three';
 import type { BodyLayer } from './body_layer.ts';
 import type { Bounds } from './bounds.ts';
@@ -15,9 +15,9 @@ import { type Quat, rotate, type Vec3 } from './vectors.ts';
 
 /** Lengths that belong to the scene, not to a frame: arrows of two frames can be compared. */
 export interface ArrowScales {
-  size: number; // of the picture [m]
+  size: number; // size of the picture [m]
   body: number; // reach of a typical body [m]
-  speed: number; // that a full arrow stands for [m/s]
+  speed: number; // speed of an arrow of full length [m/s]
   spin: number; // [rad/s]
   impulse: number; // [N s]
 }
@@ -64,7 +64,7 @@ export class Overlays {
     if (!source.ghost) {
       if (layers.bounds) this.#drawBounds(bodies, frame, theme);
       if (layers.joints) this.#drawJoints(frame, theme, scales);
-      // in one picture, whose contact it is matters more than that it is one
+      // colours show the source of a contact if all sources are in one picture
       const own = options.overlaid ? { ...theme, contact: source.colour, normal: source.colour } : theme;
       if (frame.contacts) this.#drawContacts(frame.contacts, options, own, scales);
       if (layers.velocities) this.#drawVectors(frame, frame.velocity, theme.velocity, scales.speed, scales, options);
@@ -131,7 +131,7 @@ export class Overlays {
     }
   }
 
-  /** On B: along the normal and across it. */
+  /** Impulse on B along the normal and perpendicular to it. */
   #drawImpulse(c: Contacts, i: number, x: number, y: number, z: number, theme: Theme, s: ArrowScales, arrows: number) {
     const normal = c.normalImpulse[i] as number;
     if (!Number.isFinite(normal) || !(s.impulse > 0)) return;
@@ -176,7 +176,7 @@ export class Overlays {
         if (center) this.#thin.line(...this.#pointOf(frame, body, center), ...anchor, this.#c);
         this.#dots.dot(...anchor, this.#c);
       }
-      this.#fat.line(...a, ...b, this.#c); // what holds them apart, or how far they have drifted
+      this.#fat.line(...a, ...b, this.#c); // line between the anchors: the joint's length or its drift
       if (joint.axis && this.#scene.dimension === 3 && joint.type !== 'ball') {
         const d = this.#turned(frame, joint.b, joint.axis);
         const h = 0.05 * scales.size;

@@ -9,7 +9,7 @@ import type { ReplayView } from './view.ts';
 const short = (x: number) => String(Number(x.toPrecision(5)));
 
 const asked = new WeakMap<FrameSource, boolean>();
-/** Whether any frame has contacts, so that their absence is worth a word. */
+/** True if any frame has contacts, so that their absence is reported. */
 function hasContacts(source: FrameSource): boolean {
   let known = asked.get(source);
   if (known === undefined) {

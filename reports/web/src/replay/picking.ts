@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// From the pointer to what it points at: which picture of the canvas, where in it, which contact is nearest.
+// Picking by the pointer: the picture of the canvas, the place in it, and the nearest contact.
 import { type Contacts, middleOf } from './frames.ts';
 
-/** In pixels of the page, from the upper left corner of the canvas. */
+/** Rectangle in pixels of the page, from the upper left corner of the canvas. */
 export interface Rect {
   x: number;
   y: number;

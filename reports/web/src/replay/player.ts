@@ -38,7 +38,7 @@ export class Player {
     this.speed = speeds[Math.min(speeds.length - 1, Math.max(0, (at < 0 ? speeds.length - 1 : at) + by))] as number;
   }
 
-  /** From the start where it has come to the end. */
+  /** Plays on, from the start if the end is reached. */
   play(): void {
     if (this.playing) return;
     if (this.#time.value >= this.end - 1e-9) this.#time.set(0, this);

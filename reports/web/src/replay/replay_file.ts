@@ -22,7 +22,7 @@ interface FramesHead {
   turns: boolean;
   velocities: boolean;
   contacts: number | null;
-  contactInstants?: boolean; // whether contacts belong to the poses of their frames
+  contactInstants?: boolean; // true if contacts belong to the poses of their frames
   contactQuantum?: { point: number; offset: number; normal: number; depth: number; impulse: number };
   stride: number;
 }
@@ -49,7 +49,7 @@ export interface ReplayHead {
 
 export interface Replay {
   head: ReplayHead;
-  sources: StoredSource[]; // of all cases, in the order of the report's columns; without frames: times is empty
+  sources: StoredSource[]; // sources of all cases, in the order of the report's columns; without frames: times is empty
   reference: StoredSource | null;
 }
 
@@ -115,7 +115,7 @@ function readContacts(bundle: ArrayBundle, prefix: string, head: FramesHead): Co
   return table;
 }
 
-/** For each contact the one before with the same bodies and the same place among theirs, or -1. */
+/** Predecessor of each contact: the one before with the same bodies and the same place among theirs, or -1. */
 function predecessors(table: ContactTable, frames: number): Int32Array {
   const out = new Int32Array(table.ids.length / idColumns);
   const latest = new Map<string, number>();

@@ -25,15 +25,15 @@ export type Geometry =
 
 export interface SceneShape {
   geometry: Geometry;
-  name: string; // as the file calls it: "sphere", "circle", ...
-  pose: Pose; // in the body frame
+  name: string; // kind as in the file: "sphere", "circle", ...
+  pose: Pose; // pose in the body frame
 }
 
 export interface SceneBody {
   name: string;
   type: 'dynamic' | 'static' | 'kinematic';
   first: Pose;
-  center: Vec3; // of mass as given, or the middle of its shapes; body frame
+  center: Vec3; // centre of mass as given, or the middle of its shapes; body frame
   shapes: SceneShape[];
   collides: boolean;
 }
@@ -43,9 +43,9 @@ export interface SceneJoint {
   type: string;
   a: number; // body, -1: the world
   b: number;
-  anchorA: Vec3; // in A's frame
+  anchorA: Vec3; // anchor in A's frame
   anchorB: Vec3;
-  axis: Vec3 | null; // in B's frame
+  axis: Vec3 | null; // axis in B's frame
 }
 
 export interface Scene {
@@ -130,7 +130,7 @@ function readShape(json: Json): SceneShape {
   };
 }
 
-/** Where arrows of a body begin when the file names no centre of mass: the mean of its shapes' places. */
+/** Start of a body's arrows if the file has no centre of mass: the mean of its shapes' positions. */
 function middle(shapes: SceneShape[]): Vec3 {
   let sum: Vec3 = [0, 0, 0];
   for (const { geometry, pose } of shapes) {

@@ -110,7 +110,7 @@ function cone(round: number): Template {
   return { faces: new ConeGeometry(1, 2, round), edges: lines(edges) };
 }
 
-/** Of radius 1. */
+/** Capsule of radius 1. */
 function capsule(round: number, ratio: number): Template {
   const edges: number[] = [];
   for (const y of [ratio, -ratio]) arc(round, edges, (c, s) => [c, y, s]);

@@ -67,7 +67,7 @@ export class SourceLayer {
     return this.#shown;
   }
 
-  /** What is in the picture, as numbers: read from the buffers that are drawn. */
+  /** Content of the picture as numbers, read from the buffers that are drawn. */
   get drawn(): Drawn {
     return { bodies: this.bodies.drawn, arrows: this.#overlays.arrows };
   }

@@ -34,12 +34,12 @@ import { type Pick, ReplayView } from './view.ts';
 /** More pictures than this make each too small to begin with. */
 const mostShownAtFirst = 4;
 
-/** What the inspector goes on showing. */
+/** Selection that the inspector goes on showing. */
 interface Pinned {
   spec: string;
   body: number;
   other?: number; // body, of a contact looked at
-  contact?: { index: number; step: number }; // that one, as long as the frame of that step is shown
+  contact?: { index: number; step: number }; // contact that is shown as long as the frame is that of its step
 }
 
 /** The contact that is looked at: the one that was named, else the deepest of the two bodies; -1 where there is none. */
@@ -140,7 +140,7 @@ export class ReplayStage implements ReplayActions {
     this.#choose();
   }
 
-  /** Whether there are frames that are not here yet. */
+  /** True if there are frames that are not loaded yet. */
   get canLoadMore(): boolean {
     return this.shown.some((s) => this.#thinned?.has(s));
   }
@@ -264,7 +264,7 @@ export class ReplayStage implements ReplayActions {
     this.#ends.push(followPointer(this.view, actions));
   }
 
-  /** What is under the pointer, else the body that was clicked. */
+  /** Shows the object under the pointer, or the body that was clicked. */
   #inspect(): void {
     if (this.#hover) {
       const now = this.view.frameOf(this.#hover.source);

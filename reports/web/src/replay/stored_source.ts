@@ -6,7 +6,7 @@ import { type Contacts, type Frame, type FrameSource, indexAt, type ReplayEvent 
 
 /** Contacts of all frames, one after the other; `start` of frame i to `start` of frame i + 1, -1: not stored. */
 export interface ContactTable {
-  start: Int32Array; // of each frame, -1: not stored
+  start: Int32Array; // start of each frame, -1: not stored
   count: Int32Array;
   ids: Int32Array; // bodyA, bodyB, shapeA, shapeB
   instantsKnown: boolean; // they belong to the poses of their frame
@@ -14,7 +14,7 @@ export interface ContactTable {
 }
 export const contactColumns = 14;
 export const idColumns = 4;
-/** Of a file of an older format. */
+/** Instant of contacts in a file of an older format. */
 export const unknownInstant = 'at an instant that the stored file does not tell';
 
 /** All frames of a run, frame by frame. */
@@ -29,7 +29,7 @@ export interface FrameTable {
   contacts: ContactTable | null;
 }
 
-/** How a source is called and drawn. */
+/** Name and colours of a source. */
 export interface SourceLook {
   label: string;
   spec: string;

@@ -48,13 +48,13 @@ export interface Panel {
   rect: Rect;
 }
 
-/** What the pointer is on. */
+/** Object under the pointer. */
 export interface Pick {
   source: FrameSource;
   frame: Frame;
   body: number; // -1: none
-  shape: number; // among the shapes of the body
-  contact: number; // of the frame, -1: none
+  shape: number; // index among the shapes of the body
+  contact: number; // index of the contact in the frame, -1: none
   point: Vec3; // [m] on the surface, or of the contact
   island: number;
 }
@@ -75,7 +75,7 @@ export class ReplayView {
   readonly options: ViewOptions = defaultOptions();
   /** Seconds that the last drawing took: placing, colouring and overlays; and with three.js and the driver. */
   readonly spent = { own: 0, all: 0, calls: 0 };
-  /** After every drawing. */
+  /** Called after every drawing. */
   onDraw: (() => void) | null = null;
   /** The camera was moved by hand. */
   onCamera: (() => void) | null = null;
@@ -177,7 +177,7 @@ export class ReplayView {
     return null;
   }
 
-  /** What is drawn of a source; null while nothing is. For tests and the browser's tools. */
+  /** Drawing of a source, null while there is none; for tests and the browser's tools. */
   drawn(spec: string): Drawn | null {
     for (const { layers } of this.#pictures)
       for (const layer of layers) if (layer.source.spec === spec && layer.frame) return layer.drawn;
@@ -209,7 +209,7 @@ export class ReplayView {
 
   // ---- pointer ----
 
-  /** What is under a point of the page, by clientX and clientY. */
+  /** Object under a point of the page, by clientX and clientY. */
   pick(clientX: number, clientY: number): Pick | null {
     const box = this.canvas.getBoundingClientRect();
     const [x, y] = [clientX - box.left, clientY - box.top];
@@ -260,7 +260,9 @@ export class ReplayView {
     return { origin: origin.toArray() as Vec3, direction: direction.toArray() as Vec3 };
   }
 
-  /** Where a point of the world is seen in the picture of a source, from the canvas' upper left [px]; null: nowhere. */
+  /**
+   * Position of a point of the world in the picture of a source, from the canvas' upper left [px]; null: not visible.
+   */
   project(source: FrameSource, point: Vec3): [number, number] | null {
     const picture = this.#pictures.find(({ panel }) => panel.sources.includes(source));
     if (!picture) return null;
@@ -271,7 +273,7 @@ export class ReplayView {
     return [rect.x + ((at.x + 1) / 2) * rect.width, rect.y + ((1 - at.y) / 2) * rect.height];
   }
 
-  /** While something else uses the pointer. */
+  /** Switched off while something else uses the pointer. */
   set cameraEnabled(on: boolean) {
     this.#rig.enabled = on;
   }

@@ -5,7 +5,7 @@
 import { toNumber } from '../common/format.ts';
 import type { BriefCase, Column, Scenario, Shown } from './data.ts';
 
-/** Which of the time steps a cell speaks of. */
+/** Time steps that a cell shows. */
 export type StepChoice = 'all' | 'finest' | 'coarsest';
 
 const order: Shown[] = [
@@ -19,7 +19,7 @@ const order: Shown[] = [
   'timeout',
   'crashed',
 ];
-/** How bad, for sorting and for the worst of several: unsupported is the mildest. */
+/** Severity, for sorting and for the worst of several: unsupported is the mildest. */
 export const severity = (shown: Shown): number => order.indexOf(shown);
 export const isLost = (shown: Shown): boolean => severity(shown) > severity('fail');
 export const isBad = (shown: Shown): boolean => severity(shown) >= severity('fail');
@@ -27,7 +27,7 @@ export const isBad = (shown: Shown): boolean => severity(shown) >= severity('fai
 export interface Cell {
   cases: BriefCase[]; // finest time step first
   worst: BriefCase;
-  at: BriefCase; // whose numbers are shown
+  at: BriefCase; // case whose numbers are shown
 }
 
 export function cellOf(scenario: Scenario, column: Column, step: StepChoice = 'all'): Cell | null {
@@ -48,14 +48,14 @@ export const errorOf = (cell: Cell | null): number =>
 export const relativeOf = (cell: Cell | null): number =>
   cell === null || isLost(cell.worst.shown) ? NaN : toNumber(cell.at.judged.relative);
 
-/** What a cell is marked with: its grade where it ran, else how it ended. */
+/** Grade that a cell is marked with if it ran; otherwise it is marked with its ending. */
 export const gradeOf = (cell: Cell): string => (isLost(cell.worst.shown) ? '' : cell.at.judged.grade);
 
 export const costOf = (cell: Cell | null): number => toNumber(cell?.at.step?.median);
 
 /**
- * Where a value stands between `least` and `most` on a logarithmic scale, 0 to 1; NaN for what is no number. Zero
- * stands at the least.
+ * Position of a value between `least` and `most` on a logarithmic scale, 0 to 1; NaN for a value that is no number.
+ * Zero is at the least.
  */
 export function logPlace(value: number, least: number, most: number): number {
   if (Number.isNaN(value)) return NaN;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which curves a scenario has: positions of a body, and the series of errors, energies, depths, normals, of all engines
-// and the reference over each other.
+// Curves of a scenario: positions of a body, and the series of errors, energies, depths, normals, of all engines and
+// the reference over each other.
 import { words } from '../common/format.ts';
 import { spreadsByDecades, unpack, withGaps } from './charts/samples.ts';
 import type { Case } from './data.ts';

@@ -22,9 +22,9 @@ export interface Column {
   spec: string;
   engine: string;
   preset: string;
-  options: string; // of the spec, without the preset
+  options: string; // options of the spec, without the preset
   label: string;
-  dash: number[]; // of its lines; empty: solid
+  dash: number[]; // dash pattern of its lines; empty: solid
 }
 
 /** A list of names, or one fact, that an engine tells of itself. */
@@ -42,7 +42,7 @@ export interface EngineOption {
 
 export interface Described {
   capabilities: { [key: string]: Capability };
-  presets: string[]; // that it has
+  presets: string[]; // presets that it has
   options: EngineOption[];
 }
 
@@ -53,7 +53,7 @@ export interface Engine {
   precision: string;
   buildNotes: string;
   problem: string; // why it could not take part; "" when it did
-  described?: Described | null; // what it says that it can do; null in runs that did not store it
+  described?: Described | null; // declared features; null in runs that did not store it
 }
 
 export interface Step {
@@ -64,7 +64,7 @@ export interface Step {
   p90: Stored;
   samples: number;
   contacts: Stored; // mean number of contacts
-  bodies?: number; // that move; 0: not stored
+  bodies?: number; // number of moving bodies; 0: not stored
   phases?: Record<string, Stored>; // medians
   first?: Maybe; // the first step; the following are of all others
   mean?: Maybe;
@@ -74,7 +74,10 @@ export interface Step {
   realTimeFactor?: Maybe; // dt over the mean
 }
 
-/** Of a column: medians over the scenarios at their finest time steps; mean and what follows without the first step. */
+/**
+ * Costs of a column: medians over the scenarios at their finest time steps; the mean and the statistics after it
+ * without the first step.
+ */
 export interface StepCost {
   scenarios: number;
   median: Stored;
@@ -113,20 +116,22 @@ export interface Miss {
 
 export type Regression = 'unchanged' | 'better' | 'worse' | 'no record';
 
-/** How near a case is to the physics, and whether it changed: counted and worded by reports/model/rankings.cpp, sentences.cpp. */
+/**
+ * Grade of a case and its change against the record: counted and worded by reports/model/rankings.cpp, sentences.cpp.
+ */
 export interface Judged {
   grade: string; // "A" .. "E"; "": not graded
   by: string; // the metric that decides
   relative: Maybe; // its error over the scenario's own scale
   ideal: Maybe; // the same of an ideal run of the engine's scheme; null: not known
-  beside: 'unknown' | 'nearer' | 'same' | 'farther'; // that ideal run
+  beside: 'unknown' | 'nearer' | 'same' | 'farther'; // relation to that ideal run
   toBest: Maybe; // relative error over the smallest at this time step
-  toOurs: Maybe; // over the in-house engine's
+  toOurs: Maybe; // ratio to the in-house engine's
   regression: Regression;
   red: boolean;
-  says: string; // on accuracy, a sentence
-  change: string; // on the record, a sentence; may be ""
-  orders?: Orders | null; // of insertion; null: run in one order
+  says: string; // sentence on accuracy
+  change: string; // sentence on the record; may be ""
+  orders?: Orders | null; // orders of insertion; null: run in one order
 }
 
 /** A case that was run in several orders of insertion. */
@@ -145,16 +150,16 @@ export interface OrderDependent {
   scenario: string;
   spec: string;
   dt: number;
-  metric: string; // that varies most, with its unit and values; "" where endings alone differ
+  metric: string; // metric that varies most, with its unit and values; "" where endings alone differ
   unit: string;
-  value: Maybe; // in the order as written
+  value: Maybe; // value in the order as written
   least: Maybe;
   greatest: Maybe;
   run: number; // orders
   completed: number;
   dependence: 'value' | 'grade' | 'verdict'; // the gravest thing that depends on the order
   verdicts: string; // "2 of 5 orders fail (pass 3, fail 2)"; '' where all have one
-  grade: string; // in the order as written
+  grade: string; // grade in the order as written
   best: string; // grades over the orders
   worst: string;
   note: string;
@@ -169,10 +174,10 @@ export interface BriefCase {
   verdict: string;
   shown: Shown;
   reason: string;
-  refusal?: string; // of an unsupported case: adapter or library
-  value: Maybe; // of the scenario's main metric
+  refusal?: string; // refusal of an unsupported case: adapter or library
+  value: Maybe; // value of the scenario's main metric
   bound: Maybe;
-  range?: string | null; // of that metric over orders of insertion, where it is wider than rounding
+  range?: string | null; // range of that metric over orders of insertion, if it is wider than rounding
   step: Step | null;
   inRun: InRun | null;
   miss?: Miss | null; // the metric furthest outside its bound
@@ -207,26 +212,26 @@ export interface Scenario {
   cases: BriefCase[];
 }
 
-/** How a column did over some scenarios, each at its finest time step. */
+/** Results of a column over some scenarios, each at its finest time step. */
 export interface Ranking {
   scenarios: number; // it could take part in
   lost: number; // crashed, timed out, not finite, or not what was asked for
   grades: number[]; // scenarios of grade A to E
-  within: number; // of grade C or better
+  within: number; // scenarios of grade C or better
   ungraded: number;
   known: number; // wrong physics with a reason on file
-  farther: number; // than its own scheme
+  farther: number; // scenarios farther from the solution than its own scheme
   red: number;
   toBest: Maybe; // typical error over the best engine's
-  toOurs: Maybe; // over the in-house engine's
+  toOurs: Maybe; // ratio to the in-house engine's
   cost: Maybe; // median of a step [s]
-  costRatio: Maybe; // over the cheapest engine's
+  costRatio: Maybe; // ratio to the cheapest engine's
 }
 
 /** Scenarios of one mechanism, or of one thing that people simulate. */
 export interface Mechanism {
-  name: string; // of a task: its key
-  title: string; // of a task
+  name: string; // name; for a task its key
+  title: string; // title of a task
   about: string;
   scenarios: string[];
   order: number[]; // columns that took part, the most trusted first
@@ -266,7 +271,7 @@ export interface GatheredLedger extends LedgerLine {
   scenarios: string[];
 }
 
-/** Of run-data: the overview. */
+/** Content of run-data: the overview. */
 export interface Run {
   suite: string;
   title: string; // the suite, or the first of the scenarios named
@@ -276,7 +281,7 @@ export interface Run {
   planned: number;
   total: number;
   environment: Record<string, string>;
-  bench?: Bench | null; // of `rigor bench`
+  bench?: Bench | null; // results of `rigor bench`
   symbols: Record<Shown, { symbol: string; word: string; count: number; detail: string }>;
   columns: Column[];
   engines: Engine[];
@@ -289,13 +294,13 @@ export interface Run {
   mechanisms: Mechanism[];
   tasks: Mechanism[];
   overall: Mechanism;
-  costs?: StepCost[]; // by column
+  costs?: StepCost[]; // costs by column
   insertionOrders?: { heading: string; rows: OrderDependent[] } | null; // null: every case in one order
   audit: { scenario: string; rows: Audit[] }[];
   ledger: GatheredLedger[];
 }
 
-/** What `rigor bench` timed; as reports/tables/bench.cpp writes it. Times in seconds an operation. */
+/** Timing of `rigor bench` as reports/tables/bench.cpp writes it. Times in seconds an operation. */
 export interface BenchCase {
   id: string;
   part: string; // 'scene', or an isolated part
@@ -308,7 +313,7 @@ export interface BenchCase {
   operation: string;
   command: string;
   repetitions: number;
-  clock: string; // of time, low, high and the ratio: 'cpu' or 'wall'
+  clock: string; // clock of time, low, high and the ratio: 'cpu' or 'wall'
   time: Maybe; // median
   low: Maybe;
   high: Maybe;
@@ -356,11 +361,11 @@ export interface Metric {
   expectation: Maybe;
   verdict: string;
   note: string;
-  scale: Maybe; // what the value is measured against, in its unit
+  scale: Maybe; // scale of the value, in its unit
   relative: Maybe;
   ideal: Maybe;
   recorded: Maybe;
-  orderMin?: Maybe; // over orders of insertion
+  orderMin?: Maybe; // least value over orders of insertion
   orderMax?: Maybe;
   orderCount?: number | null;
   dependsOnOrder?: boolean; // the range is wider than rounding
@@ -465,7 +470,7 @@ export interface Fairness {
   limit: Maybe;
 }
 
-/** Of data/scenario-<n>.js. */
+/** Content of data/scenario-<n>.js. */
 export interface ScenarioData {
   name: string;
   text: string; // the scenario file as run
@@ -534,7 +539,7 @@ export interface Symptom {
   cured: boolean;
 }
 
-/** Of study-data. */
+/** Content of study-data. */
 export interface Study {
   name: string;
   title: string;

@@ -10,8 +10,8 @@ import { chip, looseHeadRow } from './widgets.ts';
 const mark: Record<string, Shown> = { exact: 'pass', approximate: 'known_deviation', unsupported: 'unsupported' };
 
 export interface LabelledLine extends LedgerLine {
-  label: string; // who
-  scenarios?: string[]; // where, for lines gathered over a run
+  label: string; // label of the line's column
+  scenarios?: string[]; // scenarios of a line gathered over a run
 }
 
 export function ledgerTable(rows: LabelledLine[], who: string): HTMLElement {

@@ -19,7 +19,7 @@ import { themeButton } from './theme.ts';
 
 const page = document.getElementById('page') as HTMLElement;
 let shown = ''; // the route without its query: what is on the page
-let leave = () => {}; // what is to be ended with the page
+let leave = () => {}; // function that is called at the end of the page
 let visit = 0; // a page that loads slowly is dropped when another one was opened
 
 interface Page {
@@ -93,7 +93,7 @@ addEventListener('hashchange', () => {
   if (shown === '#' && !location.hash.startsWith('#/')) return; // the browser scrolls
   void route();
 });
-/** On paper: light, and plots as wide as a column of it. */
+/** Style for paper: light, and plots as wide as a column. */
 function printing(now: boolean): void {
   const { classList, dataset } = document.documentElement;
   if (now === classList.contains('printing')) return;

@@ -9,7 +9,7 @@ export interface Placed extends Ranking {
   column: Column;
 }
 
-/** Those who took part, the most trusted first. */
+/** Engines that took part, the best first. */
 export const placed = (m: Mechanism, columns: Column[]): Placed[] =>
   m.order.flatMap((i) => {
     const [ranking, column] = [m.rankings[i], columns[i]];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the sections are made of: panels, chips, number cells, heads of tables with a column per engine.
+// Elements of the sections: panels, chips, number cells, heads of tables with a column per engine.
 import { type Attributes, type Child, el } from '../common/elements.ts';
 import { duration, format, full, type Maybe, timeStep } from '../common/format.ts';
 import type { Column, Regression, Shown } from './data.ts';

@@ -6,7 +6,7 @@ export interface Place {
   bodies: string[];
   time: number; // [s], six digits
   step: number | null; // steps up to the frame; null where an older store names none
-  contact: number | null; // among the stored contacts of the frame, from 0; null: none of them, or not told
+  contact: number | null; // index among the stored contacts of the frame, from 0; null: none of them, or not known
   dt: number | null; // [s] of the run; null where none is named
   what: string; // "missed", "spurious" or "normal"; "" where it is not told
   spec: string; // "" where none is named
@@ -15,8 +15,8 @@ export interface Place {
 const kinds = new Set(['missed', 'spurious', 'spurious, far apart', 'normal']);
 
 /**
- * Where the worst of an audit was: "block|floor at t=0.25, step 15, contact 2 (normal)"; gathered over runs, spec and time step of
- * the run stand in brackets of their own: "(bullet:preset=default) (dt=0.01)".
+ * Place of the worst result of an audit: "block|floor at t=0.25, step 15, contact 2 (normal)"; gathered over runs,
+ * spec and time step of the run are in brackets of their own: "(bullet:preset=default) (dt=0.01)".
  */
 export function worstPlace(text: string): Place | null {
   const match = /^(.*?)\s*at t=([-+0-9.eE]+)(?:, step (\d+))?(?:, contact (\d+))?((?: \([^()]*\))*)$/.exec(text.trim());
@@ -33,7 +33,7 @@ export function worstPlace(text: string): Place | null {
   return { pair, bodies: pair ? pair.split('|') : [], time, step, contact, dt, what, spec };
 }
 
-/** What a link to the place says. The step finds the very frame, where the time has lost digits. */
+/** Query of a link to the place. The step identifies the exact frame, since the time has lost digits. */
 export function placeQuery(place: Place | null, dt: number | undefined) {
   return { dt: dt ?? place?.dt, t: place?.time, step: place?.step, pair: place?.pair, contact: place?.contact };
 }

@@ -87,14 +87,14 @@ function turned([w, ...u]: Pose['q'], v: Vec): Vec {
 }
 const inFrame = ({ p, q: [w, x, y, z] }: Pose, v: Vec): Vec => turned([w, -x, -y, -z], add(v, p, -1));
 
-/** From the plank to a ball whose centre is outside of it: away from the nearest point of the plank. */
+/** Normal from the plank to a sphere whose centre is outside of it: away from the nearest point of the plank. */
 function fromPlank(of: Pose, center: Vec): Vec {
   const local = inFrame(of, center);
   const nearest = local.map((x, k) => Math.min(plank[k] as number, Math.max(-(plank[k] as number), x))) as Vec;
   return turned(of.q, unit(add(local, nearest, -1)));
 }
 
-/** Of two boxes of the plane that overlap: the normals of sides along which they overlap least. */
+/** Normals of the sides along which two overlapping 2D boxes overlap least. */
 function leastOverlap(of: Pose, pose: Pose, half: Vec): Vec[] {
   const corners = (h: Vec, place: (v: Vec) => Vec) =>
     [0, 1, 2, 3].map((i) => place([i & 1 ? h[0] : -h[0], i & 2 ? h[1] : -h[1], 0]));
@@ -124,7 +124,7 @@ function statesOf(file: string, spec: string, csv: string): Map<string, Pose> {
   );
 }
 
-/** What an inspector and the picture tell of a contact. */
+/** Values of a contact in the inspector and the picture. */
 interface Seen {
   step: number;
   body: string;
@@ -168,7 +168,7 @@ describe('links of the contact audit', { skip }, () => {
     await it.page.waitForFunction((old) => document.querySelector('#page')?.getAttribute('data-shown') !== old, before);
   }
 
-  /** What is inspected once the frame of a step is drawn. */
+  /** Inspected values once the frame of a step is drawn. */
   async function seen(spec: string, step: number): Promise<Seen> {
     await it.page.waitForSelector('.replay canvas');
     await it.page.waitForFunction(

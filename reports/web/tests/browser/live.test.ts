@@ -26,7 +26,7 @@ after(async () => {
   rmSync(saved, { recursive: true, force: true });
 });
 
-/** What the server has now, asked by the page itself. */
+/** Current state of the server, requested by the page itself. */
 async function now(page: Page): Promise<News> {
   const numbers = await page.evaluate(async () => {
     const answer = await fetch('/api/frames?after=0&wait=0');

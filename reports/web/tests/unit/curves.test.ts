@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which curves a scenario's page plots, and moments as numbers of steps.
+// Tests of the curves that a scenario's page plots, and of moments as numbers of steps.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { stepAt } from '../../src/common/steps.ts';
@@ -91,7 +91,7 @@ test('a moment is a number of steps where a step ends', () => {
   for (let n = 0; n <= 5000; ++n) assert.equal(stepAt(n / 240, 1 / 240), n);
   let summed = 0;
   for (let n = 1; n <= 1000; ++n) {
-    summed += 0.1; // with the rounding of a sum
+    summed += 0.1; // a time with the rounding of a sum
     assert.equal(stepAt(summed, 0.1), n);
   }
   assert.equal(stepAt(0.015, 0.01), null, 'within a step');

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which scenarios the scoreboard shows, and in which order; and what the page knows of its run.
+// Tests of the scenarios that the scoreboard shows, their order, and the page's data of its run.
 import assert from 'node:assert/strict';
 import { before, test } from 'node:test';
 import type { BriefCase, Column, Judged, Scenario } from '../../src/report/data.ts';

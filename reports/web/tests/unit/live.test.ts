@@ -13,7 +13,7 @@ import { type StageData, stageData } from '../../src/live/stage_data.ts';
 import { type Frame, middleOf } from '../../src/replay/frames.ts';
 import type { Pick } from '../../src/replay/view.ts';
 
-/** What validation/results/array_bundle.cpp writes, said a second time. */
+/** The format of validation/results/array_bundle.cpp, written a second time. */
 function bundle(arrays: Record<string, number[]>, integers: Record<string, number[]> = {}): ArrayBundle {
   const entries: object[] = [];
   const parts: Uint8Array[] = [];

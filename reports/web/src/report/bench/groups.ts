@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is compared with what in a bench, and the numbers of its curves: pure functions of its data.
+// Comparisons in a bench and the numbers of its curves: pure functions of its data.
 import { toNumber } from '../../common/format.ts';
 import type { BenchCase } from '../data.ts';
 
@@ -108,7 +108,7 @@ export const byTime = (cases: BenchCase[]): BenchCase[] => {
   return [...cases].sort((a, b) => (key(a) === key(b) ? 0 : key(a) - key(b)));
 };
 
-/** So many a second: "3.4 M". */
+/** Rate per second: "3.4 M". */
 export function rate(seconds: BenchCase['time']): string {
   let perSecond = 1 / toNumber(seconds);
   if (!Number.isFinite(perSecond)) return '—';
@@ -118,7 +118,7 @@ export function rate(seconds: BenchCase['time']): string {
   return Number(perSecond.toPrecision(3)) + (prefixes[thousands] as string);
 }
 
-/** How much faster than on one thread, by the wall; NaN where one of the two is no timing. */
+/** Speed-up over one thread by wall time; NaN if one of the two is no timing. */
 export function speedUp(c: BenchCase, cases: BenchCase[]): number {
   const single = cases.find((o) => o.engine === c.engine && o.threads === 1);
   if (c.threads === 1 || !single?.valid || !c.valid) return NaN;

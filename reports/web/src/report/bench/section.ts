@@ -90,7 +90,7 @@ function meaning(bench: Bench): Child {
 
 const fewSpecs = 12;
 
-/** What the short names stand for. */
+/** Legend of the short names. */
 function specs(bench: Bench): Child {
   const key = specKey(bench.cases);
   const list = () => facts(key.map(([label, spec]): [string, Child] => [label, el('code', null, spec)]));

@@ -44,10 +44,10 @@ export function bars(cases: BenchCase[]): HTMLElement {
 interface Column {
   head: string;
   cell: (c: BenchCase) => string;
-  below?: (c: BenchCase) => string; // in small letters
+  below?: (c: BenchCase) => string; // text in small letters
 }
 
-/** Of scenes: what their contacts cost. */
+/** Columns of scenes: cost of their contacts. */
 const sceneWork: Column[] = [
   { head: 'Contacts', cell: (c) => (workIn(c, 'contacts') >= 0 ? format(workIn(c, 'contacts')) : '—') },
   {
@@ -58,7 +58,7 @@ const sceneWork: Column[] = [
 ];
 const workIn = (c: BenchCase, name: string): number => toNumber(c.counts[name]);
 
-/** Of isolated parts: how much an operation was, and how well it was done. */
+/** Columns of isolated parts: work per operation and its quality. */
 function partWork(cases: BenchCase[]): Column[] {
   const first = cases[0] as BenchCase;
   const counts = new Set(cases.flatMap((c) => Object.keys(c.counts)).filter((name) => name !== first.sizeUnit));

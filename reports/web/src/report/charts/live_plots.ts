@@ -30,7 +30,7 @@ export function addPlot(plot: LivePlot): HTMLElement {
   return plot.node;
 }
 
-/** Of a page that is left, or of a part of it that is drawn anew. */
+/** Drops the plots of a page that is left, or of a part of it that is drawn anew. */
 export function dropPlots(within: HTMLElement): void {
   const gone = plots.filter((plot) => within.contains(plot.node));
   for (const plot of gone) {
@@ -40,7 +40,7 @@ export function dropPlots(within: HTMLElement): void {
   plots = plots.filter((plot) => !gone.includes(plot));
 }
 
-/** As for printing: also those out of view, in the colours of now. */
+/** Draws all plots, as for printing: also those out of view, in the current colours. */
 export function drawAllPlots(): void {
   for (const plot of plots) {
     plot.drop();

@@ -21,14 +21,14 @@ export interface Line {
   bare?: boolean; // marks alone
   x: ArrayLike<number>; // ascending
   y: (number | null)[];
-  low?: (number | null)[]; // of an interval around y
+  low?: (number | null)[]; // bound of an interval around y
   high?: (number | null)[];
   notes?: string[]; // said of each sample when it is read out
 }
 
 export interface Plot {
   title: Child;
-  name: string; // for those who do not see it, and for tests
+  name: string; // name for screen readers and tests
   unit: string;
   xTitle: string;
   xUnit: string;
@@ -37,7 +37,7 @@ export interface Plot {
   logY?: boolean;
   tall?: boolean;
   zeroY?: boolean; // the axis includes zero
-  cursor?: Cursor; // over time
+  cursor?: Cursor; // cursor of a plot over time
   focus?: string | null; // spec of the line that stands out
 }
 

@@ -11,7 +11,7 @@ export function unpack(text: string | null | undefined): Float32Array | null {
   return Float32Array.from({ length: bytes.length / 4 }, (_, i) => view.getFloat32(4 * i, true));
 }
 
-/** What is not finite is a gap. */
+/** Values that are not finite are gaps. */
 export const withGaps = (values: ArrayLike<number>): (number | null)[] =>
   Array.from(values, (v) => (Number.isFinite(v) ? v : null));
 
@@ -52,7 +52,7 @@ export function spreadsByDecades(values: (number | null)[], decades = 3): boolea
   return most > least * 10 ** decades;
 }
 
-/** At most about eight ticks of a logarithmic axis: decades, or 1, 2 and 5 of each where there are few. */
+/** Ticks of a logarithmic axis, at most about eight: decades, or 1, 2 and 5 of each where there are few. */
 export function logTicks(min: number, max: number): number[] {
   const first = Math.floor(Math.log10(min) + 1e-9);
   const last = Math.ceil(Math.log10(max) - 1e-9);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// How an engine's contacts compare with the exact oracle over the whole run: those it acted upon, and its answers when it
-// is asked as a collision engine.
+// Comparison of an engine's contacts with the exact oracle over the whole run: those it acted upon, and its results
+// when it is queried as a collision engine.
 import { type Child, el } from '../../common/elements.ts';
 import { angle, format, type Maybe, toNumber } from '../../common/format.ts';
 import type { Engine } from '../data.ts';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the engine says that it can do, and its settings in each of its presets, as the run stored them.
+// Declared features of the engine, and its settings in each of its presets, as the run stored them.
 import { type Child, el } from '../../common/elements.ts';
 import { format, words } from '../../common/format.ts';
 import type { Capability, Engine, EngineOption } from '../data.ts';

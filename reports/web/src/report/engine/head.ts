@@ -8,7 +8,7 @@ import { type Placed, placed } from '../ranking.ts';
 import { engineLink, run } from '../run.ts';
 import { chip, facts, gradeBar, headRow, panel, scroll } from '../widgets.ts';
 
-/** What it is, and how its columns did over all scenarios. */
+/** Identity of an engine, and the results of its columns over all scenarios. */
 export function engineHead(engine: Engine): HTMLElement {
   const list = placed(run.overall, run.columns).filter((s) => s.column.engine === engine.name);
   const others = run.engines.filter((e) => e !== engine);

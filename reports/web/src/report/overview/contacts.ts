@@ -59,7 +59,7 @@ function inRunCell(s: Scenario, column: Column): HTMLElement {
   );
 }
 
-/** What each run acted upon, worst over its time steps. */
+/** Contacts that each run acted upon, the worst over its time steps. */
 export function contactsActedUpon(): HTMLElement | null {
   const rows = run.scenarios.filter((s) => s.cases.some((c) => c.inRun?.overlapping));
   if (rows.length === 0) return null;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the scoreboard shows: filters and order. They outlive a visit to another page of the report.
+// Filters and order of the scoreboard. They are kept during a visit to another page of the report.
 
 import { Observable } from '../../common/cursor.ts';
 import { cellOf, costOf, errorOf, gradeOf, relativeOf, type StepChoice, severity } from '../cells.ts';
@@ -11,14 +11,14 @@ import { run } from '../run.ts';
 export interface Filters {
   text: string;
   task: string;
-  mechanism: string; // or tag
+  mechanism: string; // mechanism or tag
   dimension: string;
   preset: string;
   grade: string;
-  change: string; // against the record
-  verdict: string; // how it ended
+  change: string; // change against the record
+  verdict: string; // ending
   step: StepChoice;
-  number: 'error' | 'relative' | 'ours' | 'cost'; // what the cells say
+  number: 'error' | 'relative' | 'ours' | 'cost'; // number in the cells
   sort: string; // "name", "metric", a spec; "": as stored
   descending: boolean;
 }
@@ -64,7 +64,7 @@ export function matches(s: Scenario, columns: Column[], f: Filters): boolean {
   });
 }
 
-/** In the order asked for; by a column: by what its cells say, those without a number last. */
+/** Scenarios in the selected order; by a column: by the numbers in its cells, those without a number last. */
 export function ordered(list: Scenario[], columns: Column[], f: Filters): Scenario[] {
   if (!f.sort) return list;
   const column = columns.find((c) => c.spec === f.sort);
@@ -89,9 +89,9 @@ export function ordered(list: Scenario[], columns: Column[], f: Filters): Scenar
   return keyed.map((k) => k.s);
 }
 
-/** Of a row: what its bars are measured against. */
+/** Scale of the bars of a row. */
 export interface RowScale {
-  bestError: number; // of what cells say, the smallest of the row; NaN when fewer than two have one
+  bestError: number; // smallest number in the row's cells; NaN if fewer than two have one
   leastCost: number; // the fastest of the row
 }
 export function rowScale(s: Scenario, columns: Column[], step: StepChoice, number: Filters['number']): RowScale {

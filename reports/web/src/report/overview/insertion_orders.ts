@@ -8,7 +8,7 @@ import type { OrderDependent } from '../data.ts';
 import { labelOf, run, scenarioLink } from '../run.ts';
 import { gradeChip, headRow, numberCell, panel, scroll } from '../widgets.ts';
 
-/** Where the value as written lies between least and greatest. */
+/** Position of the value as written between least and greatest. */
 function strip(d: OrderDependent): Child {
   const [least, greatest, value] = [d.least, d.greatest, d.value].map(toNumber) as [number, number, number];
   const place = (value - least) / (greatest - least);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What is measured and how, what the verdicts mean, what cannot be matched, and who wrote this.
+// Method: the measurements, the meaning of the verdicts, the differences that cannot be matched, and the authors.
 import { el } from '../../common/elements.ts';
 import type { Shown } from '../data.ts';
 import { run } from '../run.ts';

@@ -17,8 +17,8 @@ import { timing } from './timing.ts';
 import { trust } from './trust.ts';
 
 interface OverviewSection {
-  id: string; // of its element
-  title: string; // in the navigation; "": not there
+  id: string; // id of its element
+  title: string; // title in the navigation; "": not there
   make: () => HTMLElement | null;
 }
 

@@ -23,7 +23,7 @@ const meaning: Record<Shown, string> = {
   unsupported: '“not yet”: not in the adapter yet, “n/a”: the library has none',
 };
 
-/** What the cell says in words, for its tooltip and for those who do not see it. */
+/** Content of the cell in words, for its tooltip and for screen readers. */
 function sentence(s: Scenario, column: Column, cell: Cell, scale: RowScale): string[] {
   const { at, worst, cases } = cell;
   const lines = [`${column.label}, ${s.name}: ${verdictText(worst.shown).word}`, at.judged.says];
@@ -68,7 +68,7 @@ function orderMark(cell: Cell): string {
   return marks.includes('⇅') ? '⇅' : (marks.find(Boolean) ?? '');
 }
 
-const manyColumns = 10; // from here on cells are narrow
+const manyColumns = 10; // number of columns from which cells are narrow
 
 const meter = (kind: string, place: number): HTMLElement | null =>
   Number.isNaN(place) ? null : el('i', { class: `meter ${kind}`, style: `--fill:${(100 * place).toFixed(1)}%` });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Which engine for what, and why: a card for each thing that people simulate, then every mechanism in a table.
+// Ranking of engines by purpose, with reasons: a card for each task, then every mechanism in a table.
 import { type Child, el } from '../../common/elements.ts';
 import { duration, ratio, toNumber } from '../../common/format.ts';
 import { isLost } from '../cells.ts';

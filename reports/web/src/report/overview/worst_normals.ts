@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Where the contact normals of each engine went most wrong: the frames to look at first.
+// Frames with the worst contact normals of each engine.
 import { type Child, el } from '../../common/elements.ts';
 import { angle, format, full, type Maybe, timeStep, toNumber } from '../../common/format.ts';
 import type { Scenario } from '../data.ts';
@@ -20,7 +20,10 @@ interface Wrong {
   place: Place;
 }
 
-/** Of what runs acted upon, the worst first; runs whose worst is an overlap missed or invented are listed by that. */
+/**
+ * Contacts that runs acted upon, the worst first; runs whose worst error is a missed or false overlap are listed by
+ * that.
+ */
 function wrongNormals(engine: string): Wrong[] {
   const specs = new Set(run.columns.filter((c) => c.engine === engine).map((c) => c.spec));
   const found: Wrong[] = [];

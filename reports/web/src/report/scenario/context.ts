@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the sections of a scenario's page are given, and the links that show a moment of it.
+// Input of the sections of a scenario's page, and the links that show a moment of it.
 import type { Cursor, Focus } from '../../common/cursor.ts';
 import { type Child, el } from '../../common/elements.ts';
 import { format } from '../../common/format.ts';
@@ -11,12 +11,12 @@ import { scenarioLink } from '../run.ts';
 
 export interface Context {
   scenario: Scenario;
-  index: number; // in the run
+  index: number; // index in the run
   data: ScenarioData;
   steps: number[]; // coarsest first [s]
   dt: number; // the one shown
-  cases: Case[]; // at this time step
-  spec: string | null; // what the link that led here speaks of
+  cases: Case[]; // cases at this time step
+  spec: string | null; // selection of the link that led here
   cursor: Cursor; // shared by curves, tables and the replay
   leaving: (() => void)[]; // called when the page is left
 }

@@ -20,7 +20,7 @@ const lineStyle = (spec: string) => {
   return { label: column.label, colour: engineColour(column.engine), dash: column.dash, width: 1.5 };
 };
 
-const fewSamples = 50; // have a mark each
+const fewSamples = 50; // curves with at most so many samples have a mark at each
 
 function card({ cursor, cases, spec }: Context, plot: CurvePlot): HTMLElement {
   const lines = plot.curves.map((curve) => ({

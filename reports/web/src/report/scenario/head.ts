@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// What the scenario is: its statement, the exact solution, the time steps, and how the engines did.
+// Head of a scenario: its statement, the exact solution, the time steps, and the results of the engines.
 import { type Child, el } from '../../common/elements.ts';
 import { format, timeStep } from '../../common/format.ts';
 import { formula } from '../formula.ts';

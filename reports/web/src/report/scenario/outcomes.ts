@@ -9,7 +9,7 @@ import { type Context, moment } from './context.ts';
 
 const most = 6; // metrics of one case
 
-/** What is claimed of every run, on accuracy and on the record, and how its error stands beside others'. */
+/** Statements about every run, on accuracy and on the record, and its error compared with the others'. */
 export function verdicts(context: Context): HTMLElement | null {
   const ran = context.cases.filter((c) => c.shown !== 'unsupported');
   if (ran.length === 0) return null;
@@ -47,7 +47,7 @@ export function verdicts(context: Context): HTMLElement | null {
   );
 }
 
-/** What ended otherwise than by running through, or has wrong physics, and why: with the moment where it was worst. */
+/** Runs that did not complete or have wrong physics, with the reason and the moment of the worst error. */
 export function outcomes(context: Context): HTMLElement | null {
   const odd = context.cases.filter((c) => !['pass', 'no_bound', 'unsupported'].includes(c.shown));
   const unable = context.cases.filter((c) => c.shown === 'unsupported');

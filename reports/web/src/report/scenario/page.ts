@@ -58,7 +58,7 @@ function contextOf(index: number, data: ScenarioData, query: URLSearchParams): C
 export interface ShownPage {
   nodes: HTMLElement[];
   shown: () => void; // called when they are in the document
-  left: () => void; // and when they go
+  left: () => void; // called when the page is left
 }
 
 export async function scenarioPage(name: string, query: URLSearchParams): Promise<ShownPage> {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Over all time steps of a scenario: order of convergence, error against cost, and engines compared in four labelled
-// ways. There from three time steps on.
+// Results over all time steps of a scenario: order of convergence, error against cost, and engines compared in four
+// labelled ways. Shown from three time steps on.
 import { el } from '../../common/elements.ts';
 import { duration, format, full, timeStep, toNumber, unitText, words } from '../../common/format.ts';
 import { dropPlots } from '../charts/live_plots.ts';
