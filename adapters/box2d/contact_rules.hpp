@@ -11,12 +11,12 @@
 
 namespace rigor::box2d {
 
-/// Behind b2FixtureUserData::pointer.
+/// Data behind b2FixtureUserData::pointer.
 struct FixtureTag {
     int body = 0, shape = 0, material = 0;
 };
 
-/// Behind b2BodyUserData::pointer: the force and torque of the coming step [Box2D units].
+/// Data behind b2BodyUserData::pointer: the force and torque of the coming step [Box2D units].
 struct BodyTag {
     b2Vec2 force{0.0f, 0.0f};
     float torque = 0.0f;

@@ -35,7 +35,7 @@ Def common(const Ends& ends) {
     return def;
 }
 
-/// Too little to be felt, enough for Box2D to take a damper for a spring.
+/// Stiffness too small to have an effect, but enough for Box2D to take a damper for a spring.
 constexpr float kLeastStiffness = 1e-20f;
 
 /// A bound in Box2D's units; what is no bound in the format is far away.
@@ -164,7 +164,7 @@ bool freeAltogether(const scenario::JointAxis& axis) {
 }
 
 /// The joint of the format that leaves one travel, the angle, or both to choose for, as a six_dof that does.
-/// Where its travel is along the normal, that is the axis.
+/// If its travel is along the normal, that is the axis.
 Joint reducedSixDof(const Joint& joint) {
     const auto chosen = [](scenario::JointAxis axis) {
         if (axis.mode == scenario::AxisMode::Usual) axis.mode = scenario::AxisMode::Free;

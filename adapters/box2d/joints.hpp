@@ -25,7 +25,7 @@ Parts addJoint(b2World& world, const scenario::Joint& joint, const JointEnd& a, 
 /// Reaction of a joint on its bodies in the last step of dt, averaged.
 struct Reaction {
     double force = 0.0;   ///< [N]
-    double torque = 0.0;  ///< about B's anchor [N m]
+    double torque = 0.0;  ///< torque about B's anchor [N m]
 };
 Reaction reactionOf(const Parts& parts, double dt, double scale);
 

@@ -3,7 +3,7 @@
 //
 // Bodies put somewhere else between two steps. b2Body::SetTransform moves the boxes of the broad phase;
 // contacts stay with the impulses of their points, from which the next step would start, so those are set to
-// zero. What joints keep is theirs alone.
+// zero. The impulses that joints store are not accessible.
 #include <cmath>
 #include <numbers>
 

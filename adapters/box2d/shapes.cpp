@@ -96,8 +96,9 @@ struct Builder {
         shapes.push_back(std::move(edge));
         return shapes;
     }
-    /// Box2D's chains have one side, the format's two: one chain there and one back. At a free end the ghost
-    /// vertex is the neighbour, as if the chain came back itself, so that bodies meet its last vertex.
+    /// Box2D's chains have one side, the format's two: one chain there and one back. The ghost vertex of a
+    /// free end is the neighbour, as if the chain came back itself, so that bodies collide with its last
+    /// vertex.
     Shapes operator()(const scenario::Chain& c) const {
         std::vector<b2Vec2> points;
         for (const Vec3& v : c.vertices) points.push_back(toBox2d(inBody * v, settings.scale));

@@ -3,8 +3,8 @@
 //
 // Bodies on joints in reduced coordinates: btMultiBody, Featherstone's articulated-body algorithm. Every set
 // of dynamic bodies that joints connect becomes one multibody: a spanning tree of its joints from the world,
-// or from its first body where nothing holds it, and constraints for the joints that close loops. In the
-// plane a first body that nothing holds is a link too, which travels along x and y and turns about z.
+// or from its first body where nothing holds it, and constraints for the joints that close loops. In 2D a
+// first body without a joint to the world is a link too, which travels along x and y and turns about z.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>

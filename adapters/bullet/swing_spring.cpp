@@ -9,7 +9,7 @@
 namespace rigor::bullet {
 namespace {
 
-/// Below this the direction of a swing is rounding [rad].
+/// Angle below which the direction of a swing is rounding [rad].
 constexpr btScalar kSmallSwing = sizeof(btScalar) == 8 ? btScalar(1e-8) : btScalar(1e-4);
 
 }  // namespace

@@ -27,12 +27,12 @@ using adapter::Aabb;
 using adapter::Pair;
 using Manager = fcl::BroadPhaseCollisionManagerd;
 
-/// Relative growth of the boxes given to FCL: its sorted lists miss pairs whose ends coincide. What that
-/// finds too much is taken out again.
+/// Relative growth of the boxes given to FCL: its sorted lists miss pairs whose ends coincide. Pairs that
+/// only the growth adds are removed again.
 constexpr double kGrowth = 1e-12;
 
 /// Cells of twice the mean extent over twice the region of the boxes: those that leave it meet all others
-/// that did. As many buckets as boxes, at least the default.
+/// that did. The hash has as many buckets as boxes, at least the default.
 std::unique_ptr<Manager> spatialHash(std::span<const Aabb> boxes) {
     fcl::Vector3d low(0, 0, 0), high(1, 1, 1);
     double extent = 0.0;

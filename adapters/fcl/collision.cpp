@@ -47,8 +47,8 @@ struct Separation {
     Vec3 onA, onB;
 };
 
-/// fcl::distance; nothing where libccd gives up (it throws). With `inside` an overlap is measured by EPA,
-/// without it has some negative distance.
+/// fcl::distance; nothing where libccd gives up (it throws). If `inside`, an overlap is measured by EPA;
+/// otherwise its distance is some negative number.
 std::optional<Separation> separation(const FclShape& a, const FclShape& b, bool inside,
                                      fcl::GJKSolverType solver = fcl::GST_LIBCCD) {
     const fcl::DistanceRequestd request(true, inside, 0.0, 0.0, kDistanceTolerance, solver);
@@ -69,9 +69,9 @@ bool isPolytope(const Geometry& geometry) {
 }
 
 /// True if libccd's EPA may be called for an overlap: only for polytopes (two boxes have SAT with clipping),
-/// and not for touching ones. Of 2 million queries around the first touch some 40 with a round shape failed
-/// an assertion in it, which ends the process; coaxial capsules and coinciding cylinders keep it busy for
-/// ever.
+/// and not for touching ones. About 40 of 2 million queries around the first touch, with a round shape,
+/// failed an assertion in it, which ends the process; coaxial capsules and coinciding cylinders keep it busy
+/// for ever.
 bool mayAskEpa(const Geometry& a, const Geometry& b, double depth) {
     const bool boxes = is<scenario::Box>(a) && is<scenario::Box>(b);
     return isPolytope(a) && isPolytope(b) && !boxes && depth > kLeastDepth;

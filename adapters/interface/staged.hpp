@@ -61,8 +61,8 @@ struct StagedIteration {
     std::vector<double> impulses;  ///< impulses of all rows after it [N s] or [N m s]
 };
 
-/// A step in stages. World::step and these must not be mixed within a step. What is read is that of the last
-/// stage that made it: before the broad phase of a step the boxes are those of the last step.
+/// A step in stages. World::step and these must not be mixed within a step. The data are those of the last
+/// stage that made them: before the broad phase of a step the boxes are those of the last step.
 class StagedWorld {
   public:
     virtual ~StagedWorld() = default;
@@ -88,7 +88,7 @@ class StagedWorld {
 class Snapshots {
   public:
     virtual ~Snapshots() = default;
-    /// Replaces `bytes`. Not between the stages of a step.
+    /// Replaces `bytes`. It must not be called between the stages of a step.
     virtual void save(std::vector<unsigned char>& bytes) const = 0;
     /// Restores the state of the same world, or one built alike; its future is the same bit for bit. False:
     /// the structure of the world has changed since (a joint is gone); then it stays as it is.

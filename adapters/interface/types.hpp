@@ -61,7 +61,7 @@ struct LedgerEntry {
 struct BodyReadBack {
     double mass = 0.0;  ///< [kg]; 0 for bodies the engine does not move
     Vec3 centerOfMass;  ///< centre of mass in the body frame [m]
-    Mat3 inertia;       ///< about the centre of mass, body axes [kg m^2]; in 2D only (2,2)
+    Mat3 inertia;       ///< inertia about the centre of mass, body axes [kg m^2]; in 2D only (2,2)
     BodyState state;
     Vec3 gravity;  ///< acceleration acting on this body [m/s^2]
 };

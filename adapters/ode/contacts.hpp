@@ -19,7 +19,7 @@ struct FoundPoint {
     double depth = 0.0;      ///< [m], >= 0
 };
 
-/// All points of two geoms (untruncated). With `planar` they are brought into the plane z = 0 and equal ones
+/// All points of two geoms (untruncated). If `planar`, they are moved into the plane z = 0 and equal ones are
 /// merged: the two edges of a prism are one corner of a polygon. Replaces `points`.
 void collideGeoms(dGeomID a, dGeomID b, bool planar, std::vector<FoundPoint>& points);
 

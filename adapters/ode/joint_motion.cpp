@@ -20,7 +20,7 @@ using scenario::JointType;
 
 namespace {
 
-/// Below this the direction of a swing is rounding [rad].
+/// Angle below which the direction of a swing is rounding [rad].
 constexpr double kSmallSwing = 1e-8;
 
 Vec3 anyNormal(const Vec3& x) {

@@ -35,8 +35,9 @@ struct Coordinate {
 };
 
 enum class Angle {
-    Turn,   ///< about the joint's turning axis: hinge, wheel, six_dof in 2D
-    Twist,  ///< about A's axis, of a wheel its pin, after the swing is taken back, see scenarios/FORMAT.md
+    Turn,   ///< angle about the joint's turning axis: hinge, wheel, six_dof in 2D
+    Twist,  ///< angle about A's axis, of a wheel its pin, after the swing is taken back, see
+            ///< scenarios/FORMAT.md
     Cone,   ///< angle between the axes of A and B, >= 0
     SwingY,
     SwingZ  ///< components of the swing vector along A's normals

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Joints of the format out of ODE's. ODE measures angles and travels of the first body against the second, so
-// B is attached first: an angle then grows when B turns about the axis. What happens step by step (user-mode
-// motors, breaking) stands in joint_steps.cpp.
+// B is attached first: an angle then grows when B turns about the axis. The work of each step (user-mode
+// motors, breaking) is in joint_steps.cpp.
 #include "adapters/ode/joints.hpp"
 
 #include <algorithm>

@@ -23,7 +23,7 @@ class OdeJoint {
     OdeJoint(const OdeJoint&) = delete;
     OdeJoint& operator=(const OdeJoint&) = delete;
 
-    /// Angles, axes and springs that depend on the poses. To be called at the poses that the step starts
+    /// Angles, axes and springs that depend on the poses. Must be called at the poses that the step starts
     /// from.
     void beforeStep();
     /// Detaches a joint whose mean force or torque over the last step was too large; true if it did.

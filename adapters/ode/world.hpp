@@ -98,7 +98,7 @@ class OdeWorld final : public adapter::World, public adapter::Snapshots, public 
     std::size_t maxContacts_ = 0;
     std::size_t worldStepLimit_ = 0;
     double bounceThreshold_ = 0.0, contactCfm_ = 0.0;
-    double ballMergeCosine_ = 2.0;  ///< above 1: balls keep all their points
+    double ballMergeCosine_ = 2.0;  ///< merge angle as a cosine; above 1: spheres keep all their points
 
     adapter::PairTable pairs_;
     dWorldID world_ = nullptr;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // A scenario inside the in-house engine. Bodies are added in the order of the scenario, so that A of a
-// contact is the body of lower index on both sides. What is read back comes from the engine's own objects.
+// contact is the body of lower index on both sides. Read-back comes from the engine's own objects.
 #include <algorithm>
 
 #include "adapters/interface/input_check.hpp"
@@ -259,7 +259,7 @@ class RigorWorld final : public World, public StateSetting {
     }
 
     /// The scenario's pair table, in which pairs that it does not name have sqrt(mu_a mu_b) and min(e_a,
-    /// e_b). Where another combine rule is asked for, those pairs are left to the engine.
+    /// e_b). If another combine rule is requested, those pairs are left to the engine.
     void addMaterials() {
         const bool ownRule = !combinesAsScenarios(settings_);
         const auto named = [&](int a, int b) {

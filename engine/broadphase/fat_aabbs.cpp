@@ -9,7 +9,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kBoxGrain = 128;  ///< worth a task: some microseconds of work
+constexpr std::size_t kBoxGrain = 128;  ///< least number of boxes for a task: some microseconds of work
 
 template <class S>
 Aabb<S> fatAabb(const Aabb<S>& box, bool movable, typename S::Real margin) {

@@ -11,10 +11,10 @@
 //     h / 2 < longest edge / 2 <= h,    the cell that holds its centre.
 // A box stays in its cell while the loose bounds hold it and its size suits, so proxies that move a little
 // cost nothing; cells without boxes below them are freed. The root doubles towards a box that it does not
-// hold. For the pairs each box asks the tree from the root down to its own depth: partners in larger cells,
-// and partners in cells of the same depth with a higher index. Each pair is met once. Deviation: the search
-// prunes by the bounds of the boxes really there, renewed from the leaves up in every update, not by the
-// loose bounds (a third of the time: neighbouring loose bounds overlap, what is in them mostly does not).
+// hold. To find the pairs, each box queries the tree from the root down to its own depth: partners in larger
+// cells, and partners in cells of the same depth with a higher index. Each pair is met once. Deviation: the
+// search prunes by the bounds of the boxes really there, renewed from the leaves up in every update, not by
+// the loose bounds (a third of the time: neighbouring loose bounds overlap, what is in them mostly does not).
 //
 // Where the loose bounds of a child do not hold the box after rounding, the box stays one level up. No cell
 // is smaller than 1/16 of the median box, nor than what can be told apart at its distance from the origin.

@@ -65,7 +65,7 @@ class UniformGrid final : public BroadPhase<S> {
             edge_ = longestEdge<S>(all) / static_cast<Real>(std::pow(n, 1.0 / S::dim));
         }
         if (!(edge_ > 0)) edge_ = 1;
-        // Below this the quotient x / c could overflow.
+        // The quotient x / c could overflow for a smaller edge.
         edge_ = std::max(edge_, std::sqrt(std::numeric_limits<Real>::min()));
         perEdge_ = Real(1) / edge_;
     }

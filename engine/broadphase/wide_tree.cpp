@@ -183,8 +183,8 @@ class WideTree final : public BroadPhase<S> {
             bound(levels_[level].nodes[g], levels_[level + 1].nodes[g / kChildren], g % kChildren);
     }
 
-    /// The bounds of a node become child j of the one above; returns the sum of their edges [m]. What is not
-    /// a number is passed over.
+    /// The bounds of a node become child j of the one above; returns the sum of their edges [m]. NaNs are
+    /// skipped.
     static float bound(const Node& node, Node& above, std::size_t j) {
         float sum = 0;
         for (int k = 0; k < kDim; ++k) {

@@ -27,7 +27,7 @@ struct ImpactEvent {
     typename S::Real time;     ///< time since the step began [s]
     typename S::Vec point;     ///< halfway between the closest points, world frame [m]
     typename S::Vec normal;    ///< unit, A to B
-    typename S::Real impulse;  ///< along the normal [N s], >= 0
+    typename S::Real impulse;  ///< impulse along the normal [N s], >= 0
 };
 
 /// The world around the move of a (sub-)step.

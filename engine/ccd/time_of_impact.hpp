@@ -28,16 +28,16 @@ struct TimeOfImpact {
 template <class S>
 typename S::Real touchingGap(const MovingShape<S>& a, const MovingShape<S>& b);
 
-/// The first time in [0, horizon] at which the shapes are within touchingGap and approaching, by
-/// conservative advancement (time_of_impact.cpp). An approach that starts from touching, or any approach of
-/// shapes whose contact is `known` to the solver, counts only if it would carry them deeper into each other
-/// than a quarter of their thickness until the horizon. At least one of the shapes is not a half-space.
+/// The first time in [0, horizon] at which the shapes are within touchingGap and approaching, by conservative
+/// advancement (time_of_impact.cpp). An approach that starts from touching, or any approach of shapes whose
+/// contact is `known` to the solver, counts only if it would carry them deeper into each other than a quarter
+/// of their thickness until the horizon. At least one of the shapes must not be a half-space.
 template <class S>
 TimeOfImpact<S> timeOfImpact(const MovingShape<S>& a, const MovingShape<S>& b, typename S::Real horizon,
                              bool known = false);
 
 /// The manifold of a hit where it takes place: the narrow phase's within twice the touching gap, or the
-/// closest points where it finds none. At least one point.
+/// closest points where it finds none. There must be at least one point.
 template <class S>
 void collideAt(const MovingShape<S>& a, const MovingShape<S>& b, const TimeOfImpact<S>& impact,
                const NarrowPhase<S>& narrowPhase, Manifold<S>& manifold);

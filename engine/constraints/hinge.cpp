@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Hinge: the rows of a ball joint, and (3D) an axis aA of A that stays parallel to aB of B. With t1, t2
+// Hinge: the rows of a ball joint, and (3D) an axis aA of A that stays parallel to aB of B. Rows for t1, t2
 // normal to aA and fixed in A:
 //     C_i = t_i . aB      C_i_dot = (wB - wA) . (aB x t_i)
 // 5 rows (2D: 2). Coordinate: the angle about the axis, counted over turns. Limit: C_i also vanishes for

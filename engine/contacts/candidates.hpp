@@ -67,7 +67,7 @@ class Candidates {
     /// Slots of contacts whose candidate was removed; cleared by who removes them.
     std::vector<std::uint32_t>& orphans() { return orphans_; }
 
-    /// Distances that the cached manifolds were found with. Those of other distances are not valid.
+    /// Distances that the cached manifolds were found with. Results for other distances are not valid.
     const ContactSearch<S>& cachedSearch() const { return cachedSearch_; }
     ContactSearch<S>& cachedSearch() { return cachedSearch_; }
     /// Completes restored candidates: what follows from their shapes. False: they are not in order, or a shape

@@ -13,7 +13,8 @@ void ContactEvents<S>::add(const BodyArrays<S>& bodies, std::span<const ShapeRec
                            const ContactList<S>& contacts, std::span<const EndedContact> ended,
                            std::vector<Event<S>>& events, const Tasks& tasks) {
     using Real = typename S::Real;
-    constexpr std::size_t kContactGrain = 64;  // worth a task: some microseconds of work
+    // least number of contacts for a task: some microseconds of work
+    constexpr std::size_t kContactGrain = 64;
     touchChanged_.resize(contacts.size());
     tasks.forEach(contacts.size(), kContactGrain,
                   [&](std::size_t k) { touchChanged_[k] = contacts[k].touching != contacts[k].touched; });

@@ -12,7 +12,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kContactGrain = 64;  ///< worth a task: some microseconds of work
+constexpr std::size_t kContactGrain = 64;  ///< least number of contacts for a task: some microseconds of work
 
 template <class R>
 void put(Lanes<PatchReal>& to, std::size_t lane, R x) {

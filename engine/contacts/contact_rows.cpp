@@ -22,7 +22,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kContactGrain = 16;  ///< worth a task: some microseconds of work
+constexpr std::size_t kContactGrain = 16;  ///< least number of contacts for a task: some microseconds of work
 
 /// Rounding of coordinates of order one metre: closer than this is touching.
 template <class R>

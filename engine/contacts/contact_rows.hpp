@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Contacts as rows, in every sub-step anew. What a point becomes, and when it gets no rows: contact_rows.cpp.
+// Contacts as rows, in every sub-step anew. The rows of a point, and the conditions for none, are in
+// contact_rows.cpp.
 //
 // Invariant: Contact::block[i] is the row block of point i in the last sub-step, kNullIndex where it has none.
 #pragma once

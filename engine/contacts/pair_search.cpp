@@ -8,7 +8,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kPairGrain = 256;  ///< worth a task: some microseconds of work
+constexpr std::size_t kPairGrain = 256;  ///< least number of pairs for a task: some microseconds of work
 
 }  // namespace
 

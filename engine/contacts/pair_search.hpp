@@ -33,10 +33,10 @@ class PairSearch {
         changed_ = true;
     }
 
-    /// near() holds the pairs of boxes and no others.
+    /// True if near() holds the pairs of overlapping boxes and no others.
     bool exact() const { return exact_; }
     const std::vector<ProxyPair>& near() const { return exact_ ? found_ : fatBoxes_.pairs(); }
-    /// near() is not what it was at the last take(), or may not be.
+    /// True if near() may have changed since the last take().
     bool changed() const { return changed_ || (exact_ && taken_ != found_); }
     void take();
 

@@ -7,7 +7,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kShapeGrain = 64;  ///< worth a task: some microseconds of work
+constexpr std::size_t kShapeGrain = 64;  ///< least number of shapes for a task: some microseconds of work
 
 }  // namespace
 

@@ -8,7 +8,7 @@
 //     boxes     [ b0 | b1 | b2 ]     at those poses; of dynamic bodies grown by a margin
 //     movable   [  0 |  1 |  1 ]     1: the body is dynamic
 //
-// Invariant: after update() the arrays have one element per record. Those of static bodies are computed once
+// Invariant: after update() the arrays have one element per record. Boxes of static bodies are computed once
 // and stay until changed().
 #pragma once
 

@@ -71,7 +71,7 @@ class SlotList {
     bool fragmented() const { return changes_ > size() / 4; }
     /// Moves the item of each position k to slot k.
     void defragment(const Tasks& tasks) {
-        constexpr std::size_t kGrain = 32;  // worth a task: some microseconds of work
+        constexpr std::size_t kGrain = 32;  // least number of slots for a task: some microseconds of work
         spare_.reserve(slots_.capacity());
         spare_.resize(order_.size());
         tasks.forEach(order_.size(), kGrain, [this](std::size_t k) { spare_[k] = slots_[order_[k]]; });

@@ -7,7 +7,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kShapeGrain = 256;  ///< worth a task: some microseconds of work
+constexpr std::size_t kShapeGrain = 256;  ///< least number of shapes for a task: some microseconds of work
 
 template <class S>
 bool blocked(const Shape<S>& surface, const typename S::Vec& from, const typename S::Vec& to,

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The mistake: every pair of shapes goes to the narrow phase; no bounding volumes are compared first.
-// What it does: the answers stay right, and a step costs n (n - 1) / 2 of its dearest tests.
+// Effect: the results stay right, and a step costs n (n - 1) / 2 of its dearest tests.
 // Cure: bounding boxes, and a broad phase that does not look at most pairs at all.
 #include "engine/faults/fault.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The mistake: collisions are resolved, resting is not: a contact that closes slower than 0.5 m/s "is no
-// collision". What it does: gravity is never balanced. A body at rest falls into the floor until it is fast
+// collision". Effect: gravity is never balanced. A body at rest falls into the floor until it is fast
 // enough to collide, is stopped, and falls on: it sinks at about half of the threshold, and without position
 // correction does not come back. Cure: a contact constraint is a constraint at every speed; thresholds are
 // for restitution.

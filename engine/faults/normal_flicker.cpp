@@ -3,7 +3,7 @@
 //
 // The mistake: of two separating axes that are nearly as good, the one that wins by rounding is taken, and
 // another one in the next step. Here every normal is tipped by 0.1 rad to one side in even steps and to the
-// other in odd ones. What it does: the impulse that carries a resting body gets a sideways part of a tenth of
+// other in odd ones. Effect: the impulse that carries a resting body gets a sideways part of a tenth of
 // m g h that changes its sign from step to step; where friction does not hold it the body shakes, and the
 // impulses kept for warm starting belong to another normal. Cure: an axis is left only for one that is better
 // by more than a tolerance.

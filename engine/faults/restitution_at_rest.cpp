@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The mistake: v' = -e v at every touching contact, however slow, with a v that already holds this step's
-// gravity. What it does: a resting body is thrown up with e g h in every step; it never comes to rest, stacks
+// gravity. Effect: a resting body is thrown up with e g h in every step; it never comes to rest, stacks
 // rattle apart. Cure: the approach speed from before this step's forces, and a threshold below which nothing
 // bounces.
 #include "engine/faults/fault.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The mistake: the impulse that makes the relative velocity zero is applied without asking for its sign.
-// What it does: contacts pull as well as push; what touches once sticks: a body can be stopped but not lifted
+// Effect: contacts pull as well as push; what touches once sticks: a body can be stopped but not lifted
 // off. Cure: lambda_n >= 0, on the accumulated impulse.
 #include "engine/faults/fault.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The mistake: the normal of two spheres is d / |d| with d = xB - xA, without a test for d = 0.
-// What it does: coincident centres (a spawner that puts two bodies in one place) give 0 / 0; the NaN is in
+// Effect: coincident centres (a spawner that puts two bodies in one place) give 0 / 0; the NaN is in
 // the impulse, the velocities and, a step later, in the whole scene. Cure: below rounding any unit vector is
 // as good as any other; take one.
 #include "engine/faults/fault.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The mistake: q := q + h/2 (0, w) q and nothing after it.
-// What it does: each step multiplies |q| by sqrt(1 + (h |w| / 2)^2) (2D, cosine and sine: sqrt(1 + (h w)^2));
+// Effect: each step multiplies |q| by sqrt(1 + (h |w| / 2)^2) (2D, cosine and sine: sqrt(1 + (h w)^2));
 // the matrix of q is no rotation any more, shapes are distorted and inertia tensors with them, and a spinning
 // body gains energy at every contact. Cure: the exponential map, or at least q / |q| after every step.
 #include "engine/faults/fault.hpp"

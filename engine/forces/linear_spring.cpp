@@ -4,7 +4,7 @@
 // Spring and damper along the line of two anchors. With l their distance, n the unit vector from A to B and u
 // the relative velocity of the anchors,
 //     tension = k (l - l0) + c u . n,     F_B = -tension n,  F_A = +tension n.
-// Where the anchors coincide there is no line: no force (the limit for l0 = 0, c = 0; a choice otherwise).
+// If the anchors coincide there is no line, and no force (the limit for l0 = 0, c = 0; a choice otherwise).
 #include "engine/core/error.hpp"
 #include "engine/forces/force.hpp"
 

@@ -8,7 +8,7 @@
 namespace rigor::engine {
 namespace {
 
-constexpr std::size_t kBlockGrain = 16;  ///< worth sharing: some microseconds of work
+constexpr std::size_t kBlockGrain = 16;  ///< least number of blocks for a task: some microseconds of work
 
 /// Blocks of the bodies [first, last); first is a multiple of kLanes.
 constexpr std::size_t blocksIn(std::size_t first, std::size_t last) {

@@ -41,7 +41,7 @@ class BlockMotion {
     bool gyroscopic_ = true;
     std::vector<Velocity<S>> kept_, add_;
     std::vector<BodyBlock> moving_;           ///< blocks of the bodies 8 k .. 8 k + 7
-    std::vector<TumblingBlock<S>> tumbling_;  ///< likewise; none where there is no gyroscopic term
+    std::vector<TumblingBlock<S>> tumbling_;  ///< blocks of bodies with a gyroscopic term
     std::vector<std::uint32_t> twisted_;  ///< bodies with torques and an inertia that is not isotropic; used
                                           ///< without gyroscopic term
 };

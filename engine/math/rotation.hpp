@@ -34,7 +34,7 @@ Rot2<R> expMap(R v) {
         x *= R(0.5);
         ++halvings;
     }
-    if (x * x > R(1.0 / 16)) return {};  // too large for its turns to be counted
+    if (x * x > R(1.0 / 16)) return {};  // angle too large for its turns to be counted
     R c, s;
     cosSinc(x * x, c, s);
     s *= x;
@@ -54,7 +54,8 @@ Eigen::Quaternion<R> expMap(const Eigen::Matrix<R, 3, 1>& v) {
         u *= R(0.5);
         ++halvings;
     }
-    if (u.squaredNorm() > R(1.0 / 16)) return Eigen::Quaternion<R>::Identity();  // too large to be counted
+    // angle too large to be counted
+    if (u.squaredNorm() > R(1.0 / 16)) return Eigen::Quaternion<R>::Identity();
     R c, s;
     cosSinc(u.squaredNorm(), c, s);
     u *= s;
@@ -66,7 +67,8 @@ Eigen::Quaternion<R> expMap(const Eigen::Matrix<R, 3, 1>& v) {
     return Eigen::Quaternion<R>(c, u.x(), u.y(), u.z());
 }
 
-/// The rotation vector of q, of angle at most pi. Not for the step's hot path in flight (uses atan2).
+/// The rotation vector of q, of angle at most pi. It must not be used in the step's hot path, since it uses
+/// atan2.
 template <class R>
 R logMap(const Rot2<R>& q) {
     return q.angle();

@@ -5,9 +5,9 @@
 // they overlap, EPA; the rounding radii come off in the end:
 //   distance(A, B) = distance(core A, core B) - rA - rB
 // A core difference without volume (two crossing segments, concentric spheres) has no inside: the cores
-// touch, the normal is across it, and its sign such that B is on the side of its own centre. Where EPA ran
-// out of vertices (rings of nearly as deep ways out of curved sides) the descents of mpr.cpp, which need no
-// more of the surface than a portal, go on from its normal and from the shapes' axes.
+// touch, the normal is across it, and its sign such that B is on the side of its own centre. If EPA ran out
+// of vertices (rings of nearly equal penetration vectors of curved sides), the descents of mpr.cpp, which
+// need no more of the surface than a portal, go on from its normal and from the shapes' axes.
 #include "engine/narrowphase/distance.hpp"
 
 #include <algorithm>
@@ -64,7 +64,7 @@ void finishByDescent(const Minkowski<S>& D, CoreContact<S>& r) {
     std::partial_sort(starts.begin(), starts.begin() + kDescents, starts.end(),
                       [](const auto& x, const auto& y) { return x.first < y.first; });
     for (std::size_t i = 0; i < kDescents; ++i) descend<S>(query, starts[i].second);
-    // Along a ring that is nearly level a descent runs out of rays.
+    // A descent along a ring that is nearly level runs out of rays.
     R before = std::numeric_limits<R>::max();
     for (int again = 0; again < 8 && query.least() < before - query.tolerance(); ++again) {
         before = query.least();

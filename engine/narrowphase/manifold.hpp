@@ -45,7 +45,7 @@ struct Manifold {
 };
 
 /// Fills `out` for two posed shapes. Points are reported up to `speculativeDistance` >= 0 [m] of separation.
-/// Of `out` only the memory is read: that of the same pair in the last step, or an empty one, which gives the
+/// Only the memory of `out` is read: that of the same pair in the last step, or an empty one, which gives the
 /// deepest axis there is.
 template <class S>
 using CollideFunction = void (*)(const Shape<S>& a, const Pose<S>& Xa, const Shape<S>& b, const Pose<S>& Xb,

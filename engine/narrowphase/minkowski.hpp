@@ -95,7 +95,7 @@ struct Simplex {
 };
 
 /// Drops the points that the nearest point to `target` does not need, sets the weights and returns the vector
-/// from target to the nearest point. With dim + 1 points left, target is inside and the vector zero.
+/// from target to the nearest point. If dim + 1 points are left, the target is inside and the vector is zero.
 template <class S>
 typename S::Vec reduceSimplex(Simplex<S>& simplex, const typename S::Vec& target);
 

@@ -23,7 +23,7 @@ RIGOR_PAIR(Sphere, HalfSpace)
 RIGOR_PAIR(Box, HalfSpace)
 RIGOR_PAIR(Capsule, HalfSpace)
 RIGOR_PAIR(Hull, HalfSpace)
-// Per dimension, declared as templates over the scalar: 2d/, 3d/.
+// Pairs of each dimension, declared as templates over the scalar: 2d/, 3d/.
 #undef RIGOR_PAIR
 
 #define RIGOR_PAIR(D, A, B)                                                                         \

@@ -54,7 +54,7 @@ void setSpringFrequency(const Row<S>* equalities, const Block<S>& block,
         for (int j = 0; j < block.rows; ++j)
             taken += ci * inverse(i, j) * rowCoupling<S>(row, equalities[j], block);
     }
-    // Below the rounding of K the coordinate cannot move, and the spring has no effect.
+    // A coordinate whose mobility is below the rounding of K cannot move, and the spring has no effect.
     const Real left = K - taken;
     if (!(left > Real(16) * std::numeric_limits<Real>::epsilon() * K)) return;
     const SoftTerms<Real> terms = softTerms(spring, left, h);

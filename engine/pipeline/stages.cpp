@@ -154,7 +154,7 @@ void Step<S>::solveImpacts() {
     state_.warmStart.clear();
     for (const Row<S>& row : rows_.rows) state_.warmStart.push_back(row.impulse);
     const bool relinearized = std::exchange(state_.jointStep.relinearized, false);
-    // Like a first step, an impact has no impulses to start from.
+    // An impact has no impulses for a warm start, like a first step.
     algorithms_.restitution->impact(rows_, bodies_.velocity, [this] {
         solveVelocities(std::max(def_.firstStepIterations, world_.velocityIterations()), false);
     });

@@ -84,7 +84,7 @@ class World {
     }  ///< mean of the last step, of A on B at B's anchor [N]
     Ang jointTorque(JointId joint) const {
         return parts_.joints.torque(joint, parts_.lastStepSize());
-    }  ///< likewise, about B's anchor [N m]
+    }  ///< mean torque of the last step, of A on B about B's anchor [N m]
     /// Replaces the limits, motor and spring of a coordinate.
     void setJointAxis(JointId joint, int axis, const JointAxis<Real>& control);
     /// Motor of a coordinate: its speed [m/s] or [rad/s] and largest force or torque; 0: none.

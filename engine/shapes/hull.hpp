@@ -44,7 +44,7 @@ struct HullData<Space<R, 3>> {
     Vec center;                      ///< mean of the vertices: strictly inside
 };
 
-/// Per dimension; the makeHull of shape.hpp forwards here.
+/// One per dimension; the makeHull of shape.hpp forwards here.
 template <class R>
 HullData<Space<R, 2>> buildHull(std::span<const Eigen::Matrix<R, 2, 1>> points);
 template <class R>

@@ -148,7 +148,7 @@ Aabb<S> boxOf(const HalfSpace<S>& s, const Pose<S>& X) {
     }
     return box;
 }
-/// Around `count` points, posed.
+/// Box around `count` posed points.
 template <class S, class Point>
 Aabb<S> boxAround(std::size_t count, Point point, const Pose<S>& X) {
     const typename S::Mat m = toMatrix(X.q);

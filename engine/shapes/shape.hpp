@@ -170,8 +170,8 @@ MassProperties<S> massProperties(const Shape<S>& shape, typename S::Real density
 template <class S>
 Aabb<S> boundingBox(const Shape<S>& shape, const Pose<S>& X);
 
-/// A point of the shape furthest along `direction` (need not be unit), shape frame. Not for half-spaces;
-/// of a composite a point of its convex hull.
+/// A point of the shape furthest along `direction` (need not be unit), shape frame. Half-spaces have none;
+/// that of a composite is a point of its convex hull.
 template <class S>
 typename S::Vec support(const Shape<S>& shape, const typename S::Vec& direction);
 

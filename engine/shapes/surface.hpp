@@ -209,7 +209,7 @@ struct HeightFieldData {
     }
 };
 
-/// The data of a composite shape: calls use(data). For anything else use is not called.
+/// The data of a composite shape: calls use(data). `use` is not called for any other shape.
 template <class S, class Use>
 void withSurface(const Shape<S>& shape, Use use) {
     std::visit(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Islands: dynamic bodies that contacts and joints connect, directly or through others. What happens in one
-// does not reach another within the step.
+// Islands: dynamic bodies that contacts and joints connect, directly or through others. Events in one island
+// do not affect another within the step.
 #pragma once
 
 #include <cstdint>

@@ -37,7 +37,7 @@ template <int D>
 struct Row<MatrixSpace<D>> {
     std::size_t index = 0;           ///< index of the row in W
     const double* column = nullptr;  ///< W e_index, contiguous, as long as w; the maker of the row keeps it
-    double bias = 0, softness = 0, impulse = 0, invK = 0;  ///< as in Row<S>
+    double bias = 0, softness = 0, impulse = 0, invK = 0;  ///< members as in Row<S>
     double lower = -std::numeric_limits<double>::infinity();
     double upper = std::numeric_limits<double>::infinity();
     double error = 0, relaxedBias = 0, relaxedSoftness = 0;

@@ -125,8 +125,8 @@ enum class ContactOrder : std::uint8_t {
     FrictionLast,   ///< the friction of all contacts after everything else
 };
 
-/// Sweeps over all blocks in their order. What follows each other between the same two bodies, which has to
-/// wait for each other anyway, is a unit of the order.
+/// Sweeps over all blocks in their order. Consecutive blocks between the same two bodies, which depend on
+/// each other anyway, are one unit of the order.
 template <class S>
 class BlockSweeps {
   public:

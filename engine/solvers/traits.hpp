@@ -14,8 +14,8 @@
 
 namespace rigor::engine {
 
-/// The set that the friction impulse of a contact point with the normal impulse n is taken from. In the
-/// plane all but None are the same.
+/// The set that the friction impulse of a contact point with the normal impulse n is taken from. All but None
+/// are the same in 2D.
 enum class FrictionShape : std::uint8_t {
     None,
     Cone,     ///< |f| <= mu n, against the slip

@@ -21,8 +21,8 @@ enum class BodyType : std::uint8_t { Static, Kinematic, Dynamic };
 /// wherever bodies are shared, so that a thread meets its own again.
 inline constexpr std::size_t kBodyGrain = 64;
 
-/// Velocity of the centre of mass [m/s] and angular velocity [rad/s], world frame. In memory groups of four
-/// numbers, the gaps 0, that SIMD takes as they are: (v, gap), (w, gap) in 3D, (v, w, gap) in 2D.
+/// Velocity of the centre of mass [m/s] and angular velocity [rad/s], world frame. The layout is groups of
+/// four numbers, with gaps of 0, that SIMD loads as they are: (v, gap), (w, gap) in 3D, (v, w, gap) in 2D.
 template <class S>
 struct Velocity;
 template <class R>
@@ -58,11 +58,11 @@ struct BodyConstants {
     BodyType type = BodyType::Static;
     bool collides = true;
     typename S::Real mass = 0;                       ///< [kg]; 0 unless dynamic
-    typename S::Inertia inertia = zeroInertia<S>();  ///< about the centre of mass, body axes [kg m^2]
+    typename S::Inertia inertia = zeroInertia<S>();  ///< inertia about the centre of mass, body axes [kg m^2]
     typename S::Vec centerOfMass = S::Vec::Zero();   ///< centre of mass in the body frame [m]
     typename S::Real gravityScale = 1;               ///< factor on the world's gravity
     typename S::Real linearVelocityKept = 1;         ///< v(t) = v0 kept^t, (0, 1], per second
-    typename S::Real angularVelocityKept = 1;        ///< likewise for the angular velocity
+    typename S::Real angularVelocityKept = 1;        ///< fraction kept per second for the angular velocity
 };
 
 template <class S>

@@ -48,7 +48,7 @@ struct BodyDef {
     Real mass = 1;                                   ///< [kg], > 0; read for dynamic bodies only
     typename S::Vec centerOfMass = S::Vec::Zero();   ///< centre of mass in the body frame [m]
     typename S::Inertia inertia =
-        identityInertia();         ///< about the centre of mass, body axes; positive definite
+        identityInertia();         ///< inertia about the centre of mass, body axes; positive definite
     Real linearVelocityKept = 1;   ///< fraction kept per second, in (0, 1]
     Real angularVelocityKept = 1;  ///< fraction kept per second, in (0, 1]
     Real gravityScale = 1;         ///< factor on the world's gravity

@@ -109,7 +109,7 @@ struct Mechanism {
     std::string name;          ///< name as in the scenarios' `isolates`; for a task its key
     std::string title, about;  ///< title and description of a task
     std::vector<std::string> scenarios;
-    std::vector<Ranking> rankings;   ///< per column
+    std::vector<Ranking> rankings;   ///< one ranking per column
     std::vector<std::size_t> order;  ///< columns that took part, the most trusted first
     int best = -1;                   ///< column; -1: none
 };

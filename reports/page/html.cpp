@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Puts the page together: template, style, script and the data of the overview, all inline. What is shown is
-// built by web/src/report from the data, through the document's own text nodes, so no name from a scenario is
-// ever parsed as markup.
+// Puts the page together: template, style, script and the data of the overview, all inline. The page is built
+// by web/src/report from the data, through the document's own text nodes, so no name from a scenario is ever
+// parsed as markup.
 #include "reports/page/html.hpp"
 
 #include <stdexcept>

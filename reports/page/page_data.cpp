@@ -29,7 +29,7 @@ namespace {
 using results::CaseRow;
 
 constexpr std::size_t kMostBodies = 6;      // curves of more bodies would drown the page
-constexpr std::size_t kMostSubjects = 6;    // per series
+constexpr std::size_t kMostSubjects = 6;    // most subjects per series
 constexpr std::size_t kMostReadBack = 200;  // rows per case that differ
 
 std::string text(const Json& json) {

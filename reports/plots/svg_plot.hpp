@@ -21,7 +21,7 @@ struct PlotLine {
 struct Plot {
     std::string title, xLabel, yLabel;
     bool logarithmic = false;   ///< values <= 0 are gaps then
-    bool logarithmicX = false;  ///< likewise
+    bool logarithmicX = false;  ///< x <= 0 is a gap then
     bool marked = false;        ///< a dot at every point
     std::vector<PlotLine> lines;
 };

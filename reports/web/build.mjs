@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// node build.mjs OUTPUT [--tests]
-// The bundles that are embedded in the program: each is one script and one style sheet, fonts and pictures inside,
-// so that a page fetches nothing. With --tests the tests instead, for `node --test`.
+// node build.mjs OUTPUT [--tests] The bundles that are embedded in the program: each is one script and one style sheet,
+// fonts and pictures inside, so that a page fetches nothing. With --tests it builds the tests instead, for `node
+// --test`.
 import { existsSync, readdirSync } from 'node:fs';
 import { build } from 'esbuild';
 

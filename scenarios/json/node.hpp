@@ -75,7 +75,7 @@ class Node {
     Vec3 angularVector() const;
 
     /// A number, or {"size": f, "power": p, "plus": c}, which is f N^p + c with N the scene's size (power 1,
-    /// plus 0 where not given). What it comes to must be within the range. (scaled.cpp)
+    /// plus 0 where not given). Its result must be within the range. (scaled.cpp)
     double scaled(double min, double max) const;
     /// The same, to the nearest whole number.
     int scaledInteger(int min, int max) const;

@@ -30,7 +30,7 @@ struct CollisionCase {
     Shape a, b;  ///< poses in the world; materials mean nothing here
     ExpectedContact expected;
     std::vector<std::string> tags;
-    std::string unsupported;  ///< why the case cannot be asked (a kind of shape we do not have); else ""
+    std::string unsupported;  ///< reason why the case cannot be queried (an unknown kind of shape); else ""
     int line = 0;             ///< line of the file, 1-based
     std::string text;         ///< the case by itself, JSON in its file's format: see readCollisionCase
 };

@@ -82,7 +82,7 @@ void applyOverride(JsonDocument& document, const std::string& text, const std::s
         refuse("override.unknown", "'" + key + "'",
                furthest(document.value, key) +
                    "; a path is like bodies.block.velocity or materials.wood.friction");
-    // Words need no quotes: --set reference=none. What opens a bracket or a quote is no word.
+    // Words need no quotes: --set reference=none. Text that opens a bracket or a quote is no word.
     if (parsed.is_discarded() && !value.empty() && std::string("[{\"").find(value[0]) != std::string::npos)
         refuse("override.value", key + "=" + value,
                "a JSON value after '=', like [3.1, 0, -0.2] (-.2 and 2. are no JSON numbers)");

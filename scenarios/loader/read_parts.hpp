@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Parts of a scenario, read from their JSON; one file each. What is wrong becomes a Problem of the context.
+// Parts of a scenario, read from their JSON; one file each. Errors become Problems of the context.
 #pragma once
 
 #include <optional>

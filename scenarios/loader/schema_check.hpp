@@ -11,7 +11,7 @@ namespace rigor::scenario {
 /// Holds a document against scenarios/schema/scenario.schema.json (built into the program). Throws LoadError
 /// ("schema.violation").
 void checkScenarioSchema(const JsonDocument& document, const std::string& fileName);
-/// Likewise against suite.schema.json, collision.schema.json and study.schema.json.
+/// The same checks against suite.schema.json, collision.schema.json and study.schema.json.
 void checkSuiteSchema(const JsonDocument& document, const std::string& fileName);
 void checkCollisionSchema(const JsonDocument& document, const std::string& fileName);
 void checkStudySchema(const JsonDocument& document, const std::string& fileName);

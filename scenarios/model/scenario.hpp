@@ -52,7 +52,8 @@ struct Cone {
 struct ConvexHull {
     std::vector<Vec3> vertices;
 };
-/// Solid where dot(normal, x) <= offset, local frame, unit normal. Static bodies only. In 2D a half-plane.
+/// Solid where dot(normal, x) <= offset, local frame, unit normal. Static bodies only. It is a half-plane in
+/// 2D.
 struct HalfSpace {
     Vec3 normal{0.0, 1.0, 0.0};
     double offset = 0.0;
@@ -124,7 +125,7 @@ struct PairCoefficients {
 // ---------------------------------------------------------------------------------------------- bodies
 enum class BodyType { Static, Kinematic, Dynamic };
 
-/// About the centre of mass, axes of the body frame.
+/// Mass, and inertia about the centre of mass, axes of the body frame.
 struct MassProperties {
     double mass = 0.0;  ///< [kg]; 0 for static and kinematic bodies
     Vec3 centerOfMass;  ///< centre of mass in the body frame [m]
@@ -141,7 +142,7 @@ struct Body {
     MassProperties massProperties;     ///< complete after loading: given, or computed from the shapes
     bool collides = true;              ///< false: shapes give mass and a picture, never contacts
     double linearVelocityKept = 1.0;   ///< damping: v(t) = v0 * kept^t without forces; (0, 1], per second
-    double angularVelocityKept = 1.0;  ///< likewise for the angular velocity
+    double angularVelocityKept = 1.0;  ///< fraction kept per second for the angular velocity
     double gravityScale = 1.0;         ///< factor on the scenario's gravity
 };
 
@@ -196,7 +197,7 @@ struct Joint {
     Vec3 spinAxisB{0.0, 0.0, 1.0};  ///< wheel (3D): unit; B's body frame
     std::array<JointAxis, kMaxJointAxes> axes;
     double breakForce = 1e300;   ///< a step's mean force above this breaks the joint [N]; beyond 1e299: never
-    double breakTorque = 1e300;  ///< likewise its torque about B's anchor [N m]
+    double breakTorque = 1e300;  ///< largest torque about B's anchor [N m]
 
     /// "limit", "motor", "spring", "break": what it asks for beyond its type.
     std::vector<std::string> features() const;

@@ -48,7 +48,8 @@ struct SceneScales {
 /// of the scene together.
 SceneScales sceneScales(const scenario::Scenario& scenario, const Reference* reference);
 
-/// Why a scene has no accuracy grade: it has no exact answer, or a recording; empty when it can have one.
+/// Reason why a scene has no accuracy grade: it has no exact solution, or a recording; empty if it can have
+/// one.
 std::string whyNotGraded(const scenario::Scenario& scenario, const Reference* reference);
 
 /// The run that the engine's scheme gives when nothing else is wrong, at the frames of a recorded one, and
@@ -76,8 +77,8 @@ class RelativeErrors {
     explicit RelativeErrors(const MetricInput& input);
 
     /// Sets scale and relative of the rows of one metric, whole scene first; the relative error of the whole
-    /// scene is the largest over its subjects. Where the scenario names the metric also ideal, of the whole
-    /// scene.
+    /// scene is the largest over its subjects. If the scenario names the metric, the ideal of the whole scene
+    /// is also set.
     void fill(const MetricEntry& entry, std::vector<results::MetricRow>& rows);
     /// The worst over the metrics that the scenario names.
     results::AccuracyRow accuracyOf(const std::vector<results::MetricRow>& rows) const;

@@ -22,8 +22,9 @@ namespace {
 
 using namespace scenario;
 
-constexpr int kSamples = 512;          // evenly over the time that the exact solution answers for
-constexpr double kMoves = 1e-9;        // beside Size or 1 rad: below it is rounding of the reference
+constexpr int kSamples = 512;  // evenly over the time that the exact solution answers for
+// motion relative to Size or 1 rad; smaller ones are rounding of the reference
+constexpr double kMoves = 1e-9;
 constexpr double kRestsBeside = 1e-6;  // kinetic energy beside the weights: below it the scene rests
 
 struct Extremes {

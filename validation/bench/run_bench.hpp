@@ -21,7 +21,7 @@ struct BenchOptions {
     std::filesystem::path directory;
     std::filesystem::path binary;  ///< the `rigor` program itself
     bool resume = false;
-    std::size_t memoryLimitMiB = 8192;  ///< per child
+    std::size_t memoryLimitMiB = 8192;  ///< memory limit per child
     BenchTarget target;
     std::string base;  ///< spec or engine that ratios are to; "": the first that is valid
     std::string suite, command;

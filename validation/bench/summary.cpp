@@ -32,7 +32,7 @@ std::string missed(const BenchQuality& q) {
     return text + " is out of bounds";
 }
 
-/// Why the timing is not one; "" when it is.
+/// Reason why the timing is not valid; "" if it is.
 std::string objection(const BenchCase& c) {
     if (c.repetitions.empty()) return "not run";
     for (const BenchRepetition& r : c.repetitions)

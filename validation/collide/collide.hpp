@@ -65,7 +65,7 @@ struct CollideAnswer {
                                                        ///< points
     int contacts = 0;
     double seconds = 0.0;  ///< wall time of the call
-    std::string message;   ///< why there is no answer
+    std::string message;   ///< reason why there is no result
 
     std::optional<double> distanceError;  ///< |signedDistance - truth| [m]
     std::optional<double> normalAngle;    ///< angle to the nearest minimiser [rad]

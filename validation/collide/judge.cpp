@@ -206,7 +206,7 @@ CollideSummary summarise(const CollideRun& run, std::size_t spec) {
         if (answer.verdict == CollideVerdict::WrongNormal || answer.verdict == CollideVerdict::NoNormal)
             ++s.wrongNormal;
         const double sd = c.truth.signedDistance;
-        // Beside a wrong verdict the errors would say the same again, and hide those of the other cases.
+        // Errors of a case with a wrong verdict would repeat the verdict and hide those of the other cases.
         if (c.truth.source == "none" || answer.verdict == CollideVerdict::WrongOverlap) continue;
         if (sd < -run.tolerance.touch) {
             depth.add(answer.distanceError);

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::size_t kChunk = 1000;      ///< cases per child
-constexpr std::size_t kMemoryMiB = 4096;  ///< per child
+constexpr std::size_t kMemoryMiB = 4096;  ///< memory limit per child
 constexpr double kChunkSeconds = 3600.0;  ///< the alarm of each query comes long before
 constexpr const char* kAlgorithmKey = "narrow_phase";
 

@@ -18,8 +18,8 @@ inline constexpr double kRoundingDouble = 1e-9, kRoundingSingle = 1e-6;
 
 /// Sets regression, regressionReason and the `recorded` of the metrics. A number is unchanged within the
 /// range of those on record, widened by kSameShare of the larger and by the rounding of the case's precision;
-/// worse when farther from zero or lost. Of scenes without an exact answer, whose motion is chaotic, the
-/// outcome is compared, and numbers only where the record holds several: their scatter is then known.
+/// worse when farther from zero or lost. For scenes without an exact solution, whose motion is chaotic, the
+/// outcome is compared, and numbers only if the record holds several: their scatter is then known.
 void compareWithRecord(const Record& record, const results::ScenarioRow& scenario, results::CaseRow& row);
 
 }  // namespace rigor::validation

@@ -29,7 +29,8 @@ RatioOfMedians ratioOfMedians(const std::vector<double>& one, const std::vector<
                               std::uint64_t seed, int resamples = 4000);
 
 /// The ratio other[i] / one[i] of pairs that were taken beside each other: its median, and an interval of
-/// that median from order statistics (medianInterval; none below six pairs). Not empty, of equal length.
+/// that median from order statistics (medianInterval; none below six pairs). The samples must not be empty
+/// and have equal length.
 struct PairedRatio {
     double ratio = 1.0;
     std::optional<Interval> interval;

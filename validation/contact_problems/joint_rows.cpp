@@ -48,7 +48,7 @@ class Rows {
         if (flat_) return {{1, 0, 0}, {0, 1, 0}};
         return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     }
-    /// Across the joint's axis.
+    /// Two unit vectors normal to the joint's axis.
     std::vector<Vec3> across() const {
         const auto both = tangentsOf(axis_, flat_ ? 2 : 3);
         if (flat_) return {both[0]};

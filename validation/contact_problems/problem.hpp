@@ -37,8 +37,8 @@ std::vector<Triplet> toTriplets(const SparseMatrix& A);
 void multiplyAdd(const SparseMatrix& A, const std::vector<double>& x, std::vector<double>& y);
 void multiplyTransposedAdd(const SparseMatrix& A, const std::vector<double>& x, std::vector<double>& y);
 
-/// Checks sizes and numbers, and condenses a global problem to W and q by LU (M may be unsymmetric). What is
-/// wrong is a BadInput that names `what`, the offending part, what was found and what was expected.
+/// Checks sizes and numbers, and condenses a global problem to W and q by LU (M may be unsymmetric). Errors
+/// are reported as a BadInput that names `what`, the offending part, what was found and what was expected.
 void complete(ExportedProblem& exported, const std::string& what);
 
 /// v of a global problem for the impulses r.

@@ -22,7 +22,7 @@ struct ContactResidual {
     double cone = 0.0;         ///< largest (|r_T| - mu r_N)+, relative to the largest |r_N|
     /// Relative natural map of the law with the friction that the solver says it solves for: normal and
     /// friction by themselves, r_N - (r_N - u_N)+ and r_T - P(r_T - u_T), P onto the section of its pyramid.
-    /// The same as `relative` for the cone. What `relative` is above it is the error of the model.
+    /// The same as `relative` for the cone. The excess of `relative` over it is the error of the model.
     double own = 0.0;
 };
 

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::size_t kChunk = 120;       ///< cases per child: seconds of work against a start of 0.05 s
-constexpr std::size_t kMemoryMiB = 4096;  ///< per child
+constexpr std::size_t kMemoryMiB = 4096;  ///< memory limit per child
 constexpr double kChunkSeconds = 3600.0;  ///< the alarm of each case comes long before
 
 CaseValues broken(std::size_t metrics, const std::string& problem) {

@@ -60,8 +60,7 @@ std::vector<Pivot> readPivots(const fs::path& file) {
     return pivots;
 }
 
-/// A point mass swings faster. Where it is ahead by more than a third of a swing, its place does not tell any
-/// more.
+/// A point mass swings faster. If it is ahead by more than a third of a swing, its place is ambiguous.
 bool tellsPointMass(const Pivot& p) {
     constexpr double kPi = 3.14159265358979323846;
     return 2.0 * kPi * std::sqrt(p.distance / lab::kGravity) > 0.75 * p.period;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Tables of numbers as data sets come: a header line, values between commas. What is wrong is said with file,
-// line, what was found and what was expected.
+// Tables of numbers as data sets come: a header line, values between commas. Errors are reported with file,
+// line, the text found and the one expected.
 #pragma once
 
 #include <filesystem>

@@ -5,10 +5,10 @@
 //
 // The hand drives the scenario: a finger follows the point of the hand that pushes, as it was recorded; the
 // cube is simulated from rest. The hand's shape is not given, and its tracked frame is not at the fingers.
-// Which point of the hand pushes is found by least squares over the recordings to fit on
-// (push_recording.hpp): one point, fixed in the hand, for all of them. How high above the table it is can not
-// be seen from the push: the finger's lowest point comes within 5 mm of the table, so that the finger passes
-// over the cube where the real one does.
+// The pushing point of the hand is found by least squares over the recordings to fit on (push_recording.hpp):
+// one point, fixed in the hand, for all of them. How high above the table it is can not be seen from the
+// push: the finger's lowest point comes within 5 mm of the table, so that the finger passes over the cube
+// where the real one does.
 //
 // The finger is a body of 100 t, free of gravity, whose velocity is changed by an impulse at each frame: the
 // friction of a cube of 88 g changes its speed by 3e-6 m/s in a second.

@@ -35,7 +35,7 @@ constexpr Vec3 kInertia{0.80833333, 0.68333333, 0.14166667};  // [kg m^2], as in
 // The published errors have six digits, and are of first or second order in the time step: other roundings of
 // dt and of the inertia change them by far less than this.
 constexpr double kSame = 0.02;
-// Below this an error is the round-off of ten thousand steps and no constant of a scheme [m, rad, 1].
+// Error below which it is the round-off of ten thousand steps and no constant of a scheme [m, rad, 1].
 constexpr double kRoundOff = 1e-8;
 
 struct Motion {

@@ -45,7 +45,7 @@ struct Pendulum {
     std::string name, title, description, source;
     double mass = 1.0;             ///< [kg]
     double distance = 0.0;         ///< distance of the centre of mass from the axis [m]
-    double inertia = 0.0;          ///< about the centre of mass [kg m^2]
+    double inertia = 0.0;          ///< inertia about the centre of mass [kg m^2]
     double period = 0.0;           ///< measured [s]
     nlohmann::ordered_json shape;  ///< shape of the body, around its centre of mass
 };

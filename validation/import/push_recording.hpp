@@ -25,7 +25,7 @@ struct Push {
     std::size_t moved = 0;      ///< the first at which the cube has moved by 3 mm
     std::size_t fastest = 0;    ///< the cube is nowhere faster
     std::size_t stopped = 0;    ///< the first within 0.5 mm of where it ends
-    double displacement = 0.0;  ///< along x, from rest to rest [m]
+    double displacement = 0.0;  ///< displacement along x, from rest to rest [m]
 };
 
 /// Reads columns t, h* (hand), c* (cube): positions x, y, z and quaternions qw .. qz; frames before 0.2 s are

@@ -27,7 +27,7 @@ class InstanceProcess {
         Kind kind = Kind::Done;
         Packet packet;
         std::string error;    ///< Refused: "unsupported", "bad_input", "error"
-        std::string message;  ///< why, where it is not Done
+        std::string message;  ///< reason if it is not Done
     };
     /// Asks and waits for the answer, at most `seconds`. Once the child has crashed or timed out it is gone,
     /// and every answer is that.

@@ -14,10 +14,10 @@
 //                                                   min(K_nn p_n, u_n - u_high)   (it pushes what leaves)
 //                What position stabilisation may do to gap and overlap is not counted: a pressing contact may
 //                take any velocity up to u_high = max(0, -s)/h + e (approach), which removes the overlap
-//                within the step, and a gap may be closed within the step or held. Not counted as an error of
-//                this law is how fast overlap is removed; overlap itself is overlap_max's. The approach is
-//                (-u_n-)+ or that with the gravity of the step in it, u_low taking the smaller and u_high the
-//                larger: both are in use.
+//                within the step, and a gap may be closed within the step or held. The rate at which overlap
+//                is removed is not an error of this law; overlap itself is measured by overlap_max. The
+//                approach is (-u_n-)+ or that with the gravity of the step in it, u_low taking the smaller and
+//                u_high the larger: both are in use.
 //   Coulomb      |p_t| <= mu p_n: the residual is k (|p_t| - mu p_n)+, k = K along p_t. The largest of both
 //                coefficients counts where the pair has a static one.
 //   dissipation  p_t maximises the power it takes, -p_t . u_t, over the disc |p_t| <= mu p_n: with P the

@@ -3,8 +3,8 @@
 //
 // Excess of the engine's penetration over that of the scenario's poses: contacts of the first step were found
 // at the initial poses, where the exact overlap along their normals is that of the supporting planes. Margins
-// that grow shapes outwards show here, and only here before anything has moved. Source: Ericson, Real-Time
-// Collision Detection, 2005, section 4.2 (extent of a shape along a direction).
+// that grow shapes outwards show here, and only here before anything has moved.
+// Source: Ericson, Real-Time Collision Detection, 2005, section 4.2 (extent of a shape along a direction).
 #include <algorithm>
 #include <cmath>
 #include <limits>

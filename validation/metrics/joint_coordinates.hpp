@@ -22,8 +22,8 @@ struct JointCoordinate {
 };
 
 /// Coordinate k of a joint as the scenario format counts it, zero at the scenario's own poses (distance: the
-/// distance of the anchors). `a` and `b` are the poses of its bodies now, the identity for the world. None
-/// where it has no such coordinate, or where an angle depends on the order of several free turns.
+/// distance of the anchors). `a` and `b` are the poses of its bodies now, the identity for the world. Empty
+/// if it has no such coordinate, or if an angle depends on the order of several free turns.
 std::optional<JointCoordinate> jointCoordinate(const scenario::Scenario& scenario,
                                                const scenario::Joint& joint, std::size_t k,
                                                const scenario::Pose& a, const scenario::Pose& b);

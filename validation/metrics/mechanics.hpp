@@ -30,7 +30,7 @@ struct Mechanics {
     scenario::Vec3 momentum;         ///< [kg m/s]
     scenario::Vec3 weight;           ///< sum of the gravity forces [N]
     scenario::Vec3 centerOfMass;     ///< centre of mass of all dynamic bodies [m]
-    scenario::Vec3 angularMomentum;  ///< about the common centre of mass [kg m^2/s]
+    scenario::Vec3 angularMomentum;  ///< angular momentum about the common centre of mass [kg m^2/s]
     double momentumScale = 0.0;      ///< sum m |v| [kg m/s]
     double angularScale = 0.0;       ///< sum m |x - X||v - V| + |R I R^T w| [kg m^2/s]
     double energy() const { return kinetic + potential; }

@@ -23,7 +23,7 @@ namespace {
 
 using namespace oracle;
 
-/// Below this, relative to the size, cores count as touching: long double leaves 1e-19.
+/// Distance relative to the size below which cores count as touching: long double leaves 1e-19.
 constexpr Real kTouching = 1e-16L;
 
 Real supportAlong(const Core& c, Vec n) {

@@ -63,7 +63,7 @@ Vec3 centerOfMass(const Body& body);                          ///< initial, worl
 Vec3 centerOfMass(const Body& body, const BodyState& state);  ///< world frame [m]
 /// Gravity that acts on the body, its gravityScale included [m/s^2].
 Vec3 gravityOn(const Scenario& scenario, int body);
-Mat3 worldInertia(const Body& body);  ///< about the centre of mass, initial orientation [kg m^2]
+Mat3 worldInertia(const Body& body);  ///< Inertia about the centre of mass, initial orientation [kg m^2]
 
 /// The complete state from that of the centre of mass.
 PartialState stateOf(const Body& body, Vec3 com, Quat orientation, Vec3 velocity, Vec3 angularVelocity);

@@ -15,10 +15,10 @@
 //   static_equilibrium).
 // - Accuracy. Closed forms are evaluated to rounding. Integrated motions keep a local error of 1e-14 (1e-13
 //   and 1e-12 where the file says so) beside the scales of the scene: its lengths, speeds and times, not
-//   metres and seconds. Where neighbouring motions part so fast that this is lost, validUntil() ends the
-//   answer.
+//   metres and seconds. If neighbouring motions diverge so fast that this is lost, validUntil() ends the
+//   solution.
 // - Units. No threshold is an absolute number of a physical unit, so that a scene and the same scene in other
-//   units get the same answer.
+//   units get the same solution.
 // - Time. Every search and every integration has a bound on its steps and ends with an answer, an answer up to
 //   validUntil(), or a refusal.
 //   No reference measures its own time: `validate`, `run` and `check` compute it in a child under the limits

@@ -66,7 +66,7 @@ struct BenchSummary {
         high;                     ///< 95 % interval of the median of `clock` [s]; none below six repetitions
     bool converged = false;       ///< the interval is as narrow as was asked for
     bool valid = false;           ///< completed, and all quality within bounds
-    std::string reason;           ///< why not
+    std::string reason;           ///< reason why not
     std::string base;             ///< id of the case that it is compared with, "" where there is none
     std::optional<double> ratio;  ///< median over rounds of time / base's time in the same round
     std::optional<double> ratioLow, ratioHigh;  ///< 95 % interval of that median
@@ -95,7 +95,7 @@ struct BenchChange {
     double ratio = 1.0, low = 1.0, high = 1.0;  ///< ratio after / before with its 95 % interval (bootstrap)
     double p = 1.0;       ///< Mann and Whitney, corrected for the number of cases (Holm)
     std::string verdict;  ///< "slower", "faster", "same", "not compared"
-    std::string reason;   ///< why not compared
+    std::string reason;   ///< reason why it is not compared
 };
 
 /// Everything of `rigor bench` in a run folder; empty in a run of `rigor validate`.

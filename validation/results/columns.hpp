@@ -139,8 +139,8 @@ class Binder {
     int next_ = 1, reasonAt_ = 0;
 };
 
-/// Takes the columns of the current row from left to right. Where the last one is kNonFiniteColumn, a NULL
-/// that it names becomes the number it was. In stores of older schemas NaN is a text.
+/// Takes the columns of the current row from left to right. If the last one is kNonFiniteColumn, a NULL that
+/// it names becomes the number it was. In stores of older schemas NaN is a text.
 class Taker {
   public:
     explicit Taker(SQLite::Statement& statement) : statement_(statement) {

@@ -14,7 +14,7 @@ namespace rigor::results {
 
 /// A: relative error up to 1e-6, what single precision can hold. B: up to 1e-4, invisible in any picture. C:
 /// up to 1e-2, seen beside the exact solution. D: up to 1e-1, seen without it. E: beyond, or another outcome
-/// (it falls where it stands, another law). None: nothing to be graded by.
+/// (it falls where it stands, another law). None: there is no error to be graded by.
 enum class Grade { None, A, B, C, D, E };
 inline constexpr std::array<Grade, 5> kGrades{Grade::A, Grade::B, Grade::C, Grade::D, Grade::E};
 

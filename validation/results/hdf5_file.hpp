@@ -12,7 +12,7 @@
 namespace rigor::results {
 
 /// An open HDF5 file; paths are absolute ("/bodies/block/position"). Every member throws std::runtime_error
-/// naming the path. Not for use from several threads: the library is not built for that.
+/// naming the path. It must not be used from several threads: the library is not built for that.
 class Hdf5File {
   public:
     static Hdf5File create(const std::filesystem::path& file);  ///< truncates

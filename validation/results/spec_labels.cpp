@@ -101,7 +101,7 @@ std::map<std::string, std::string> specLabels(const std::vector<std::string>& sp
             if (words || label != joined(spec.engine, options, true)) ++used[label];
         }
     std::map<std::string, std::string> labels;
-    std::map<std::string, int> numbers;  // per engine
+    std::map<std::string, int> numbers;  // numbers per engine
     for (const Spec& spec : list) {
         std::string label;
         for (const bool words : {false, true}) {  // words are used if they are unique

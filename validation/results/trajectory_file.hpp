@@ -59,8 +59,8 @@ struct TrajectoryFile {
 /// True if the contacts of the step that begins at this frame are stored; the last frame begins none.
 bool contactsStored(const TrajectoryFile& file, std::size_t frame);
 
-/// Replaces `file` at once: it is the old one or the whole new one, never a part. What was read from an older
-/// format without instants of contacts is written in that again. Throws std::runtime_error.
+/// Replaces `file` at once: it is the old one or the whole new one, never a part. Data read from an older
+/// format without instants of contacts are written in that format again. Throws std::runtime_error.
 void writeTrajectory(const std::filesystem::path& file, const TrajectoryFile& data);
 /// Throws std::runtime_error naming the file when it can not be read. `withContacts` false leaves contacts
 /// empty.

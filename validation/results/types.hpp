@@ -60,8 +60,8 @@ struct AccuracyRow {
     Grade grade = Grade::None;
     std::string metric;              ///< metric that decides; "" for None
     std::optional<double> relative;  ///< relative error of that metric
-    std::optional<double> ideal;     ///< likewise, of an ideal run of the scheme; none: unknown
-    std::string note;                ///< why there is no grade
+    std::optional<double> ideal;     ///< error of an ideal run of the scheme; none: unknown
+    std::string note;                ///< reason why there is no grade
 };
 
 /// Property of a case that depends on the order of insertion, the gravest alone: the verdict (or how it
@@ -77,7 +77,8 @@ struct InsertionOrders {
     std::optional<std::int64_t> completed;  ///< number of them that ended as a completed case
     /// Grades over the orders; one that does not complete counts as E. None: the case is not graded, or run.
     Grade best = Grade::None, worst = Grade::None;
-    std::string note;  ///< why there is no other order, or how others ended; "" also where none was asked for
+    std::string note;  ///< reason why there is no other order, or the ends of others; "" also if none was
+                       ///< requested
     /// Number of them with the verdict fail, crashed, timeout or non-finite; none in runs before schema 10.
     std::optional<std::int64_t> failed = std::nullopt;
     std::string verdicts = {};  ///< counted verdicts of the orders: "pass 3, fail 2"; "" in runs before
@@ -128,7 +129,7 @@ struct AuditRow {
 /// Seconds of wall time.
 struct TimingRow {
     std::string phase;                                       ///< "step", "build", "collide", ...
-    double median = 0.0, p10 = 0.0, p90 = 0.0, total = 0.0;  ///< per step, except total
+    double median = 0.0, p10 = 0.0, p90 = 0.0, total = 0.0;  ///< times per step, except total
     std::int64_t samples = 0;
     double meanContacts = 0.0;
     /// 95 % interval of the median; none for fewer than six samples and in runs before schema 3.
@@ -205,7 +206,7 @@ struct ScenarioRow {
     std::vector<double> timeSteps;
     std::string reference, referenceTitle, referenceFormula, referenceSource;  ///< "" when cross-engine only
     std::string referenceTex;      ///< the formula as TeX, display mode; "" in runs before schema 3
-    std::string referenceProblem;  ///< why the reference does not hold for these values; "" when it does
+    std::string referenceProblem;  ///< reason why the reference does not hold for these values; "" if it does
     std::string text;              ///< the scenario file as run (JSON, overrides applied)
     /// "none", "holds", "reference_assumption", "reference_timeout", "reference_out_of_memory",
     /// "reference_crashed"; "" in runs before schema 8.
@@ -230,7 +231,7 @@ struct Run {
     std::vector<ScenarioRow> scenarios;
     std::vector<CaseRow> cases;
     std::vector<OrderRow> orders;       ///< written when the run has ended
-    std::vector<FairnessRow> fairness;  ///< likewise
+    std::vector<FairnessRow> fairness;  ///< written when the run has ended
     Bench bench;                        ///< results of `rigor bench`
     std::int64_t plannedCases = 0;
 };

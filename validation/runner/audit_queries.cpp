@@ -18,7 +18,7 @@ using scenario::Scenario;
 using scenario::Vec3;
 
 constexpr std::size_t kFrames = 20;
-constexpr std::size_t kMostQueries = 400;  ///< per case
+constexpr std::size_t kMostQueries = 400;  ///< most queries per case
 constexpr double kNearby = 0.02;           ///< bounding spheres closer than this are asked about [m]
 
 /// Smallest sphere we know around a shape, shape frame; infinite radius for a half-space.

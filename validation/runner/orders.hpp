@@ -24,7 +24,7 @@ int otherOrders(const scenario::Scenario& scenario, int asked);
 struct OrderEnd {
     int number = 0;         ///< 1 for the first of otherListings()
     results::CaseRow row;   ///< outcome, reason, metrics and grade; of the scenario as written
-    std::string reference;  ///< why its reference gave no answer; "" where it did or there is none
+    std::string reference;  ///< reason why its reference gave no solution; "" if it did or there is none
 };
 
 /// Other orders are run of whatever the engine can build: one that fails as written may go well in another.

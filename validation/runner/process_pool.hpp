@@ -19,10 +19,11 @@ namespace rigor::validation {
 
 struct ProcessLimits {
     /// Wall time; then the group is killed, but not as long as the child works and has had less processor
-    /// time than that: on a busy machine a child gets a part of the clock alone. At most kMostWaiting times it.
+    /// time than that: on a busy machine a child gets a part of the clock alone. The limit is at most
+    /// kMostWaiting times as long.
     double seconds = 60.0;
     std::size_t memoryMiB =
-        0;  ///< address space; 0: none. Not set in sanitizer builds, which reserve terabytes.
+        0;  ///< address space; 0: none. It is not set in sanitizer builds, which reserve terabytes.
 };
 
 inline constexpr double kMostWaiting = 20.0;

@@ -36,7 +36,7 @@ ReferenceOutcome parseReferenceOutcome(const std::string& name);  ///< throws st
 
 struct ReferenceCheck {
     ReferenceOutcome outcome = ReferenceOutcome::None;
-    std::string problem;  ///< why there is none: a sentence, "" for None and Holds
+    std::string problem;  ///< reason why there is none: a sentence, "" for None and Holds
 
     /// It broke down: neither the scenario's values nor an engine can be told to be the cause.
     bool brokeDown() const;
@@ -63,7 +63,7 @@ std::vector<ReferenceCheck> checkReferences(const std::vector<ReferenceQuestion>
 ReferenceCheck checkReference(const ReferenceQuestion& question, const ReferenceLimits& limits,
                               const std::filesystem::path& binary);
 
-/// Why a process that computed a reference gave no answer, as of waitpid.
+/// Reason why a process that computed a reference gave no solution, as of waitpid.
 ReferenceCheck referenceFailure(bool timedOut, int status, const ReferenceLimits& limits);
 
 /// The child's side: `__reference <request.json>`.

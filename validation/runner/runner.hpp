@@ -38,7 +38,7 @@ struct RunOptions {
     int jobs = 1;
     bool resume = false;
     bool audit = true;
-    std::size_t memoryLimitMiB = 4096;  ///< per child
+    std::size_t memoryLimitMiB = 4096;  ///< memory limit per child
     std::filesystem::path records;      ///< folder of what engine versions gave; "": nothing is on record
     std::string suite, command;
     std::vector<int> pieces;  ///< lengths in steps of short piecesthat are measured as well (pieces.hpp)
@@ -83,7 +83,7 @@ struct EngineDescription {
     adapter::EngineInfo info;
     adapter::Capabilities capabilities;
     std::vector<adapter::Option> options;
-    std::vector<adapter::Preset> presets;  ///< beside the usual ones
+    std::vector<adapter::Preset> presets;  ///< presets in addition to the usual ones
     std::vector<std::string> precisions;
     std::string problem;
 };
@@ -103,7 +103,7 @@ struct LiveOptions {
     std::function<void(const adapter::World&)> onWorld;
     /// Called when the engine is done and the reference is about to be made and asked; may be empty.
     std::function<void()> onSimulated;
-    /// Why the reference is not made: found before. Empty: it is.
+    /// Reason, found before, why the reference is not made. Empty: it is made.
     std::optional<ReferenceCheck> withoutReference;
     ReferenceMaker makeReference;  ///< empty: validation::makeReference
     /// Scenario that the engine gets in place of the original. Its run is transformed back and measured as

@@ -88,7 +88,7 @@ class Filler {
         auto one = std::make_shared<Stored>(Stored{trajectoryOf(file), file.contactStride});
         return recent_[id] = one;
     }
-    /// Why a case gives no number; a run that broke is infinitely far.
+    /// Value of a case without a number, with the reason; a run that broke is infinitely far.
     StudyValue without(const std::string& id, const std::string& unit) const {
         const CaseRow* row = caseOf(id);
         StudyValue v{std::nullopt, unit, row == nullptr ? "not run" : results::outcomeName(row->outcome)};

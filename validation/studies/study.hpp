@@ -21,7 +21,7 @@ namespace rigor::validation {
 struct SymmetricCase {
     std::string symmetry;
     std::string caseId;   ///< "" where there is none
-    std::string problem;  ///< why there is none
+    std::string problem;  ///< reason why there is none
     std::function<Trajectory(const Trajectory&)> back;
 };
 

@@ -30,7 +30,7 @@ Listing shuffled(const scenario::Scenario& scenario, std::uint32_t seed);
 std::size_t listingCount(const scenario::Scenario& scenario, std::size_t most);
 
 /// At most `count` orders beside the one as written, all different: everything reversed, then shuffles from
-/// seeds 1, 2, .... The k-th is the same for every count. Fewer where there are not so many.
+/// seeds 1, 2, .... The k-th is the same for every count. There are fewer if not so many exist.
 std::vector<Listing> otherListings(const scenario::Scenario& scenario, std::size_t count);
 
 /// The scenario listed otherwise. `listing` must be of this scenario.

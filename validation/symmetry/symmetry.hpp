@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Symmetries of Newton's equations: a scenario turned into another one whose motion is known from that of the
-// first, and the way back. What is left after the way back is the engine's, whatever the motion is: no
+// first, and the way back. The difference after the way back is due to the engine, for any motion: no
 // reference is needed. Source: Landau and Lifshitz, Mechanics, 1976, sections 3, 5, 7-10.
 #pragma once
 
@@ -38,8 +38,8 @@ struct SymmetryEntry {
     const char* title;
     Rerun rerun;
     const char* formula;
-    /// Why the exact motion of this scenario does not have the symmetry, or why the model can not say the
-    /// other scenario; "" when it has it.
+    /// Reason why the exact motion of this scenario does not have the symmetry, or why the model cannot
+    /// express the other scenario; "" if it has it.
     std::string (*obstacle)(const scenario::Scenario&);
     /// `firstRun`: of the scenario, for Reversed; else null. Throws std::invalid_argument where there is an
     /// obstacle, or the run does not reach the end of the scenario.

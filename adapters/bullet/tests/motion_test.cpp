@@ -41,7 +41,7 @@ TEST(BulletMotion, VelocityIsOfTheCenterOfMassAndPositionOfTheBodyFrame) {
     addBody(s, Box{{0.5, 0.5, 0.5}}, {1, 0, 0}, 2.0, {0.4, 0.5, 0.6});
     s.bodies[0].massProperties.centerOfMass = {0.3, 0, 0};
     s.bodies[0].velocity = {0, 1, 0};
-    s.bodies[0].angularVelocity = {0, 0, 2};  // about a principal axis
+    s.bodies[0].angularVelocity = {0, 0, 2};  // the spin is about a principal axis
     const double dt = 1.0 / 240;
     Simulation run(s, dt);
     run.steps(240);

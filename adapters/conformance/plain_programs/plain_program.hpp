@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Plain programs: scenes written against an engine's library alone, the way its manual does it, whose
-// trajectories the adapter has to reproduce for the scenario file of the same scene. What a program and the
-// adapter share is the library and the numbers in the two files; nothing here converts or builds anything.
+// trajectories the adapter has to reproduce for the scenario file of the same scene. A program and the
+// adapter share only the library and the numbers in the two files; nothing here converts or builds anything.
 #pragma once
 
 #include <gtest/gtest.h>

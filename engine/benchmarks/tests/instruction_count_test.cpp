@@ -3,9 +3,9 @@
 //
 // Instruction counts against recorded ones: a check of speed that noise cannot move. The work is small and
 // the same on every run (counted_work.hpp); callgrind counts it alone, not the start of the program. So that
-// neither processor nor surroundings matter, Highway is told its instruction set, the C library is told to
-// use none beyond SSE4 (it picks its memory and mathematical functions by processor), and the environment is
-// empty. What is left are the compiler and the libraries' own versions: the record is one file per compiler.
+// neither processor nor surroundings matter, Highway's instruction set is fixed, the C library is limited to
+// SSE4 (it picks its memory and mathematical functions by processor), and the environment is empty. The
+// compiler and the libraries' own versions remain: the record is one file per compiler.
 //
 // Measured: two runs with different environments give the same counts to the last instruction.
 #include <gtest/gtest.h>

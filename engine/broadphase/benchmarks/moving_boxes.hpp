@@ -57,7 +57,7 @@ class MovingBoxes {
     double sideOf(std::size_t count) const {
         const auto n = static_cast<double>(count);
         if (scene_ == "uniform") return S::dim == 2 ? std::sqrt(4 * n) : std::cbrt(8 * n);
-        return 1.5 * (S::dim == 2 ? std::sqrt(n) : std::cbrt(n));  // about one neighbour per box
+        return 1.5 * (S::dim == 2 ? std::sqrt(n) : std::cbrt(n));  // box size for about one neighbour per box
     }
     Vec vector(double low, double high) {
         Vec v;

@@ -3,7 +3,8 @@
 //
 // Every broad phase of the table against a plain double loop, over scenes that are hard for one or another of
 // them: points, equal boxes, sizes from 1 mm to 100 m, far from the origin, everything jumping at once,
-// changing counts, fixed boxes, boxes that are not numbers. And: no allocation once a motion repeats itself.
+// changing counts, fixed boxes, boxes that are not numbers. No memory is allocated once a motion repeats
+// itself.
 #include <gtest/gtest.h>
 
 #include <functional>

@@ -100,7 +100,7 @@ TYPED_TEST(Impacts, OfTurningBoxesIsTheFirstTouchOfAFineSampling) {
             nearest = std::min(nearest, d);
             if (d <= 0) first = k;
         }
-        if (first > samples && nearest < 2e-3) continue;  // too close to call by sampling
+        if (first > samples && nearest < 2e-3) continue;  // the case is too close to call by sampling
         const double sampled = 0.1 * first / samples;
         ASSERT_EQ(found.hit, first <= samples) << i << " nearest " << nearest;
         (found.hit ? hits : misses)++;

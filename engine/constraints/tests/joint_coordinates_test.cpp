@@ -208,7 +208,7 @@ TYPED_TEST(JointCoordinates, TwistAndSwingAreReadBack) {
             Pose<S> away = turnedAbout<S>(this->B, this->anchor(), this->axis(), static_cast<R>(twist));
             away = turnedAbout<S>(away, this->anchor(), swingAxis, static_cast<R>(phi));
             const JointRows<S> rows = this->rows(this->joint, this->A, away);
-            // Near half a turn the direction of the swing, and with it the twist, is ever less defined.
+            // The direction of the swing, and with it the twist, is less and less defined near half a turn.
             const double tolerance = 50 * this->kTolerance / (1 + std::cos(phi));
             ASSERT_NEAR(rows.value[3], twist, tolerance);
             const typename S::Vec y = rotate(this->A.q, this->joint.turnPerpA1);

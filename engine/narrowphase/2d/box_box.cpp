@@ -88,7 +88,8 @@ void clipSides(const SidePair<R>& m, const Pose<Space<R, 2>>& ref, R speculative
     const int i0 = incSide, i1 = (incSide + 1) & 3, r0 = m.side, r1 = (m.side + 1) & 3;
     Vec2<R> p = m.incident(i0), q = m.incident(i1);
     std::uint32_t fp = vertexFeature(!m.refIsA, i0), fq = vertexFeature(!m.refIsA, i1);
-    // Along the reference side, from r0 to r1. Counter-clockwise sides face each other: tp > tq.
+    // Coordinates are along the reference side, from r0 to r1. Counter-clockwise sides face each other: tp >
+    // tq.
     const int o = 1 - m.axis();
     const R way = m.side < 2 ? R(1) : R(-1), end = m.refHalf[o];
     const R tp = way * p[o], tq = way * q[o], hp = m.height(p), hq = m.height(q);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Contact points along a normal n that GJK, EPA or MPR found, in 2D: of each shape the edge that
-// supports n (a sphere has none); the one most nearly perpendicular to n is the reference, the other is
-// clipped to the strip that it sweeps along n, with separations measured along n. Where neither is flat
-// against n there is one point, the closest pair.
+// Contact points along a normal n that GJK, EPA or MPR found, in 2D: of each shape the edge that supports n
+// (a sphere has none); the one most nearly perpendicular to n is the reference, the other is clipped to the
+// strip that it sweeps along n, with separations measured along n. If neither is flat against n there is one
+// point, the closest pair.
 #include "engine/narrowphase/minkowski.hpp"
 
 namespace rigor::engine {

@@ -274,7 +274,7 @@ void collidePolygons(const Polygon<R>& a, const Pose<Space<R, 2>>& Xa, const Pol
     const Reference<R> c =
         refIsA ? Reference<R>{a, b, XAB, true, speculative} : Reference<R>{b, a, XBA, false, speculative};
     clipEdges<R>(c, edge, out);
-    // Along an edge that is not the best the deepest vertex can well be beside the edge.
+    // The deepest vertex can be beside an edge that is not the best axis.
     if (separation < -tolerance && !apart && (separation == widest || out.count == 0))
         restoreDeepest<R>(c, edge, separation, tolerance, out);
     toWorldFrame<S>(out, refIsA ? Xa : Xb);

@@ -29,7 +29,7 @@ int loopVertex(int face, int i) {
 std::uint32_t loopEdge(int face, int i) {
     return edgeName(loopVertex(face, i), loopVertex(face, i + 1));
 }
-/// Is vertex i on the positive side along the axis?
+/// True if vertex i is on the positive side along the axis.
 bool positive(int vertex, int axis) {
     return ((vertex >> axis) & 1) != 0;
 }

@@ -125,7 +125,7 @@ bool edgeAxis(const Core<R>& core, int k, const Vec3<R>& outward, CoreAxis<R>& a
     return true;
 }
 
-/// The best face. Of equal ones the first.
+/// The best face. The first of equal ones is taken.
 template <class R>
 CoreAxis<R> bestFace(const Core<R>& core, R tolerance) {
     CoreAxis<R> best;

@@ -37,8 +37,8 @@ void closestPair(const Segments<R>& s, R& y, R& t) {
 template <class R>
 inline constexpr R kSideBySide = R(0.05);
 
-/// The contact normal. Where the closest points are inside both segments it is the common perpendicular,
-/// which stays accurate when the axes nearly meet; `across` = axis A x axis B, of length sine.
+/// The contact normal. If the closest points are inside both segments it is the common perpendicular, which
+/// stays accurate when the axes nearly meet; `across` = axis A x axis B, of length sine.
 template <class R>
 Vec3<R> contactNormal(const Segments<R>& s, R y, R t, const Vec3<R>& across, R sine, R size) {
     const Vec3<R> d = s.onB(t) - s.onA(y);

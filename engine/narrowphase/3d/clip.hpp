@@ -109,8 +109,8 @@ const ClipPolygon<R>& clipToPrism(const FaceLoop<R>& ref, const FaceLoop<R>& inc
     return buffers[now];
 }
 
-/// Closest points of two segments p + s d, q + t e, clamped to the segments. Of parallel ones, as far as
-/// rounding can tell, points that face each other.
+/// Closest points of two segments p + s d, q + t e, clamped to the segments. For parallel ones, up to
+/// rounding, the points face each other.
 template <class R>
 void closestOnEdges(const Vec3<R>& p, const Vec3<R>& d, const Vec3<R>& q, const Vec3<R>& e, Vec3<R>& onP,
                     Vec3<R>& onQ) {

@@ -38,7 +38,7 @@ enum class Mark : char { Unknown, Seen, Beyond };
 template <class R>
 struct Face {
     std::array<int, 3> v;      ///< counter-clockwise seen from outside
-    std::array<Link, 3> next;  ///< across the edge from v[i] to v[i + 1]
+    std::array<Link, 3> next;  ///< neighbour across the edge from v[i] to v[i + 1]
     Vec3<R> normal;
     R offset;
     bool alive = false, sliver = false;

@@ -5,7 +5,7 @@
 // face of a box or hull, the segment of a capsule, a point of a sphere, what feature.hpp tells of others. The
 // one most nearly perpendicular to n is the reference; the other is clipped to the prism that it sweeps along
 // n (Sutherland-Hodgman), with separations measured along n. Two segments side by side share a stretch of
-// both. Where nothing is flat against n there is one point, the closest pair.
+// both. If nothing is flat against n there is one point, the closest pair.
 #include "engine/narrowphase/3d/clip.hpp"
 #include "engine/narrowphase/3d/feature.hpp"
 #include "engine/narrowphase/minkowski.hpp"

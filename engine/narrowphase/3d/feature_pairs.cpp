@@ -148,8 +148,8 @@ R smallerSide(const SupportFeature<R>& a, const SupportFeature<R>& b) {
     return std::min((a.at[1] - a.at[0]).norm(), (b.at[1] - b.at[0]).norm());
 }
 
-/// A disc's points all are as deep where it lies flat. Which of them count as deepest must not hang on the
-/// rocking of a resting body: another choice in every step has no impulses to start from.
+/// A disc's points all are as deep where it lies flat. The choice of the deepest ones must not depend on the
+/// rocking of a resting body: another choice in every step has no impulses for the warm start.
 template <class R>
 R selectionNoise(const FeaturePair<R>& m, const SupportFeature<R>& ref, const SupportFeature<R>& inc) {
     const bool discs = ref.count == kRimPoints || inc.count == kRimPoints;

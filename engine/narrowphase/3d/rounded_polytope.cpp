@@ -20,8 +20,8 @@ struct Closest {
     R squared = std::numeric_limits<R>::max();
     Vec3<R> onCore, onHull;
     std::uint32_t feature = 0;
-    /// Along the normal, either sign, where the features themselves fix it (a face; two crossing edges):
-    /// better than the difference of two points that are close together. Zero where they do not.
+    /// Direction along the normal, of either sign, if the features themselves fix it (a face; two crossing
+    /// edges): better than the difference of two points that are close together. Zero if they do not.
     Vec3<R> direction = Vec3<R>::Zero();
 };
 
@@ -32,7 +32,7 @@ void consider(const Vec3<R>& onCore, const Vec3<R>& onHull, std::uint32_t featur
     if (squared < best.squared) best = {squared, onCore, onHull, feature, direction};
 }
 
-/// Is the foot of x on the plane of the face inside the face?
+/// True if the foot of x on the plane of the face is inside the face.
 template <class R>
 bool overFace(const Polytope<R>& p, const HullFace<R>& f, const Vec3<R>& x) {
     for (int i = 0; i < f.count; ++i) {
@@ -83,13 +83,13 @@ struct CoreHeights {
         first[static_cast<std::size_t>(face)] = atFirst;
         second[static_cast<std::size_t>(face)] = atSecond;
     }
-    /// Is either end higher than `level` over either face?
+    /// True if one end is higher than `level` over one of the faces.
     bool over(const HullEdge& e, R level) const {
         if (e.left >= kMost || e.right >= kMost) return true;
         const auto l = static_cast<std::size_t>(e.left), r = static_cast<std::size_t>(e.right);
         return first[l] > level || first[r] > level || second[l] > level || second[r] > level;
     }
-    /// Has each end more than `level` over one of the faces?
+    /// True if each end is higher than `level` over one of the faces.
     bool bothOver(const HullEdge& e, R level) const {
         if (e.left >= kMost || e.right >= kMost) return true;
         const auto l = static_cast<std::size_t>(e.left), r = static_cast<std::size_t>(e.right);

@@ -32,7 +32,7 @@ void expectSame(const Manifold<S>& m, const Manifold<S>& oracle, double eps, dou
     EXPECT_LE((m.normal - oracle.normal).norm(), normalEps);
 }
 
-/// Deep, touching and apart; thin capsules too, whose cores are hardly apart. Where two axes are equally deep
+/// Deep, touching and apart; thin capsules too, whose cores are hardly apart. If two axes are equally deep
 /// either is right: normals are compared where the same depth is not had along the other's normal.
 TYPED_TEST(BoxCapsule, IsWhatTheHullOfItsCornersGives) {
     using S = TypeParam;
@@ -77,7 +77,7 @@ TYPED_TEST(BoxCapsule, ClosestFeatureOfTheBox) {
     const auto at = [&](const typename S::Vec& p, const typename S::Rot& q) {
         return collide<S>(this->box, origin, capsule, pose<S>(p, q), 0.1);
     };
-    // Across the edge x = 0.5, y = 0.3 along z, from (1.5, -0.7) to (-0.5, 1.3), 0.1 m off it.
+    // The core lies across the edge x = 0.5, y = 0.3 along z, from (1.5, -0.7) to (-0.5, 1.3), 0.1 m off it.
     const typename S::Real off = static_cast<typename S::Real>(r2 * 0.1);
     const auto edge = at(vec<S>(0.5, 0.3, 0.1) + vec<S>(off, off, 0), turn<S>(std::atan(1.0)));
     ASSERT_EQ(edge.count, 1);

@@ -3,7 +3,7 @@
 //
 // Bodies that rest and rock on each other with noise in every frame, each frame given the memory of the one
 // before: the normal moves with the noise but does not alternate between ways out that are equally deep, the
-// points keep their number and their names. What the memory keeps is worse than the best by kKeep at most.
+// points keep their number and their names. A remembered choice is worse than the best by kKeep at most.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -28,7 +28,7 @@ constexpr Rest kRests[] = {
     {"face on face", 0.1, 0.999, 0.05, 0, 0, 0},
     {"rocking by a thousandth", 0.1, 0.9992, 0.05, 0.2, 1e-3, 1e-3},
     {"rocking by a hundredth", 0.1, 0.9995, 0.05, 0.2, 1e-2, 0, 0, 2 / 0.2},
-    // Across two edges (here too) the normal is as well known as their angle allows.
+    // The accuracy of the normal across two edges (here too) depends on their angle.
     {"crossing edges", 0, kOverEdges, 0, 1.5707963, 0, kEdgeOn, kEdgeOn},
     {"near-parallel edges", 0, kOverEdges, 0, 0.02, 0, kEdgeOn, kEdgeOn, 4 / 0.02},
     // Eight corners are equally good for four places; the deepest is kept where it is by more than kKeep.

@@ -51,7 +51,8 @@ TYPED_TEST(Pairs, ManifoldKeepsItsContract) {
             EXPECT_LE(p.separation, reach);
             const typename S::Vec gap = p.pointB - p.pointA;
             EXPECT_NEAR(gap.dot(m.normal), p.separation, eps);
-            // Beside each other only where the edges of separated polytopes pass each other's ends.
+            // The points are beside each other only where the edges of separated polytopes pass each other's
+            // ends.
             if (p.separation <= 0) {
                 EXPECT_LE((gap - p.separation * m.normal).norm(), eps);
             }

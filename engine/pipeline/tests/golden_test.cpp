@@ -8,10 +8,10 @@
 // with and without fused multiply-add: another libm is recognised by a hash of its own results, and the test
 // skipped.
 //
-// A difference says that results have changed. Where that was meant, renew the file by
+// A difference says that results have changed. If the change was intended, renew the file by
 //     RIGOR_RENEW_GOLDEN=1 build/release/tests/engine_pipeline_state_test --gtest_filter=Golden.*
-// and say in the commit why. Where it was not, or where Debug and Release differ, look for what depends on
-// the compiler: libm calls folded at compile time, uninitialised values, the order of evaluation.
+// and say in the commit why. If it was not, or if Debug and Release differ, look for what depends on the
+// compiler: libm calls folded at compile time, uninitialised values, the order of evaluation.
 #include <gtest/gtest.h>
 
 #include <cmath>

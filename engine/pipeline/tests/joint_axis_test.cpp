@@ -230,7 +230,7 @@ TYPED_TEST(JointAxes, SpringsAreTheImplicitOscillatorOfTheirFrequencyAndDamping)
         for (int k = 0; k < 2; ++k) {
             const double h = k == 0 ? 1.0 / 200 : 1.0 / 800;
             if (type == JointType::Distance) {
-                // Along x from the origin: the target is a length.
+                // The anchor moves along x from the origin: the target is a length.
                 OneBody<S> one(WorldDef<S>{}, def, startX);
                 one.world.setJointTarget(one.joint, 0, R(1.7));
                 const double w = 2 * kPi * 1.5, zeta = 0.2, wd = w * std::sqrt(1 - zeta * zeta);

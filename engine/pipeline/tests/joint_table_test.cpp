@@ -169,7 +169,7 @@ TYPED_TEST(JointTable, EveryJointBreaksAboveItsForceAndNotBelow) {
                 def.axisA = def.axisB = at<S>(0, 1);
             def.breakForce = breaks ? R(19) : R(20);
             Pair<S> pair(def, WorldDef<S>{}, true);
-            // Along the line of the anchors, so that the joint carries it without a torque.
+            // The force is along the line of the anchors, so that the joint carries it without a torque.
             int gone = -1;
             for (int i = 0; i < 50 && gone < 0; ++i) {
                 pair.world.applyForce(pair.ids[1], at<S>(19.62, 0), zeroAng<S>());

@@ -149,7 +149,7 @@ TYPED_TEST(WidePatches, PointsOfOnePatchKnowOfEachOther) {
         world.readContacts(contacts);
         for (const ContactView<S>& c : contacts) {
             const typename S::Vec r = c.pointA - before;  // the ground's point, where it was found
-            // About the other axes it does not turn.
+            // It does not turn about the other axes.
             const double v = static_cast<double>(world.velocity(box)[1]) +
                              spinOf<S>(world.angularVelocity(box)) * static_cast<double>(r[0]);
             if (c.normalImpulse > 0) worst = std::max(worst, -v);

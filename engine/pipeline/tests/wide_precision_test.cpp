@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The solver `wide` in worlds of f64: patches are in f32, bodies are not. What two bodies have of each other
-// is known to f32's rounding of just that, however fast and far from the origin both of them are, and what
+// The solver `wide` in worlds of f64: patches are in f32, bodies are not. The relative motion of two bodies
+// is accurate to f32's rounding of that motion, at any common speed and distance from the origin, and what
 // one gains the other loses to as much of what they exchange.
 #include <gtest/gtest.h>
 

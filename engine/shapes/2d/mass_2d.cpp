@@ -17,7 +17,7 @@ using V = Eigen::Vector2d;
 struct Moments {
     double area = 0.0;
     V center = V::Zero();
-    double inertia = 0.0;  ///< per unit density, about the centre
+    double inertia = 0.0;  ///< inertia per unit density, about the centre
 };
 
 template <class R>

@@ -20,7 +20,7 @@ using M = Eigen::Matrix3d;
 struct Moments {
     double volume = 0.0;
     V center = V::Zero();
-    M inertia = M::Zero();  ///< per unit density, about the centre
+    M inertia = M::Zero();  ///< inertia per unit density, about the centre
 };
 
 M diagonal(double x, double y, double z) {

@@ -26,7 +26,7 @@ double distanceOf(const typename S::Vec& x, const Shape<S>& shape, const Pose<S>
     return static_cast<double>(closestPoints<S>(dot, pose<S>(x), shape, X).distance);
 }
 
-/// Fraction of the first point of the ray that is on the shape, 2: none. From outside.
+/// Fraction of the first point of the ray that is on the shape, 2: none. The ray comes from outside.
 template <class S>
 double marched(const Shape<S>& shape, const Pose<S>& X, const typename S::Vec& o, const typename S::Vec& d,
                double eps) {

@@ -44,7 +44,7 @@ class Ngs final : public PositionCorrection<S> {
 
   private:
     static constexpr Real kBaumgarte = Real(0.2);    ///< beta of contacts
-    static constexpr Real kLongestMove = Real(0.2);  ///< per contact and iteration [m]
+    static constexpr Real kLongestMove = Real(0.2);  ///< longest move per contact and iteration [m]
 
     /// Returns the largest error of a row that holds.
     Real correctJoints(PositionProblem<S>& problem, bool together) {

@@ -45,7 +45,7 @@ class SplitImpulse final : public PositionCorrection<S> {
 
   private:
     static constexpr Real kBaumgarte = Real(0.2);    ///< beta
-    static constexpr Real kLongestMove = Real(0.2);  ///< per step and contact [m]
+    static constexpr Real kLongestMove = Real(0.2);  ///< longest move per step and contact [m]
 
     struct Unit {
         Block<S> block;

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // All joints of a step as one unit of a solver's sweep: equality blocks at once by a direct method
-// (joint_system.hpp), bounded rows (limits, motors, springs) between them one by one. For solvers that solve
-// joints and contacts in turn:
+// (joint_system.hpp), bounded rows (limits, motors, springs) between them one by one. Used by solvers that
+// solve joints and contacts in turn:
 //     begin      finds the joints among the rows and factors them; again whenever a row or a softness changed
 //     solve      one pass, as often as wanted: biases and impulses may change in between
 // Where so many joints meet that the factors would be nearly dense the pass is a sweep over all blocks

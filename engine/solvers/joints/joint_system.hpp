@@ -60,7 +60,7 @@ class JointSystem {
         int size;                            ///< rows of a block
         std::size_t coupling, lastCoupling;  ///< range of its couplings, the last one excluded
         std::size_t lower, diagonal, x;      ///< indices of its first numbers
-        std::size_t target;                  ///< likewise
+        std::size_t target;                  ///< index of its first entry in target_
         std::uint32_t fronts;                ///< kNullIndex, or where its fronts are
     };
     static Place placeOf(const Item& item);

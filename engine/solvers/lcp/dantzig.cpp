@@ -146,8 +146,8 @@ class Dantzig final : public DirectRounds<S> {
         }
     }
 
-    /// next_ = normals if all rows keep their states and bounded friction is mu times its normal. The
-    /// unknowns are the free rows.
+    /// Sets next_ to the normal impulses if all rows keep their states and bounded friction is mu times its
+    /// normal. The unknowns are the free rows.
     bool solveCoupled() {
         const std::vector<BoxState>& state = lcp_.states();
         const std::size_t n = problem_.n;

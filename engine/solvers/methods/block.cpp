@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Block Gauss-Seidel on velocities: projected Gauss-Seidel (pgs.cpp) whose unit is not the row but everything
-// that acts between two bodies, and all joints together. Kernels: sequential_impulses.hpp; source [Catto2005],
-// [Catto2009]. What differs:
+// that acts between two bodies, and all joints together. Kernels: sequential_impulses.hpp; source
+// [Catto2005], [Catto2009]. Differences:
 //   - the contacts between two bodies are a group that is swept until it is nearly solved before the next one
 //     is solved: a box then meets its neighbours without the rotation that solving its corners one by one
 //     would leave it with, which is what makes tall stacks rock;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The contact law of one contact alone, exactly. With w = W r + b (r its impulse, b the velocity that all
-// other impulses lead to, bias included) three cases are told apart:
+// other impulses lead to, bias included) there are three cases:
 //     open    b_n >= 0: r = 0
 //     stick   r = -W^-1 b, if that is in the cone (of static friction)
 //     slip    w_n = 0, w_t = -alpha r_t, |r_t| = mu r_n, alpha > 0. With r_n eliminated,
@@ -18,8 +18,8 @@
 
 namespace rigor::engine {
 
-/// The impulse (n, t1, t2) of one contact. Where `applied` > 0 the limit of friction is mu (r_n + applied),
-/// and an open contact may have friction too. In 2D W(2, 2) is any positive number, the rest zero.
+/// The impulse (n, t1, t2) of one contact. If `applied` > 0 the limit of friction is mu (r_n + applied), and
+/// an open contact may have friction too. In 2D W(2, 2) is any positive number, the rest zero.
 template <class R>
 Eigen::Matrix<R, 3, 1> solveContactAlone(const Eigen::Matrix<R, 3, 3>& W, const Eigen::Matrix<R, 3, 1>& b,
                                          R mu, R muStatic, R applied);

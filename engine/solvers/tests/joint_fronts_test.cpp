@@ -33,7 +33,7 @@ struct Problem {
         std::vector<std::set<std::uint32_t>> near(nodes);
         for (std::size_t e = 0; e < static_cast<std::size_t>(degree * double(nodes)); ++e) {
             const auto a = static_cast<std::uint32_t>(random() % nodes);
-            // Near ones, so that there is a band with some order in it.
+            // Neighbours are near ones, so that there is a band with some order in it.
             const auto b = static_cast<std::uint32_t>((a + 1 + random() % (2 + nodes / 8)) % nodes);
             if (a != b) {
                 near[a].insert(b);

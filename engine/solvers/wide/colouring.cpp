@@ -73,8 +73,8 @@ void Colouring::sumWork(std::span<const PatchDescriptor> descriptors, ThreadResu
     }
 }
 
-/// Intervals of about equal work. As far as bodies are numbered by position, those of an interval are
-/// neighbours.
+/// Intervals of about equal work. The bodies of an interval are neighbours if bodies are numbered by
+/// position.
 void Colouring::makeIntervals() {
     std::fill(interval_.begin(), interval_.end(), 0);
     std::uint64_t all = 0, before = 0;
@@ -237,8 +237,8 @@ std::uint32_t Colouring::end(const Range& range, std::uint32_t sizeClass, std::u
     return sizeClass + 1 < kSizeClasses ? begin[sizeClass + 1][0] : range.last;
 }
 
-/// Splits at the border of an interval. Where a thread would then have much more work than others in this
-/// range, the split moves as far as needed towards an even split of every size class.
+/// Splits at the border of an interval. If a thread would then have much more work than others in this range,
+/// the split moves as far as needed towards an even split of every size class.
 Colouring::Split Colouring::split(const Range& range, double fraction) const {
     constexpr double kUneven = 1.0 / 16;  // a chunk may exceed its size by this fraction of a range
     constexpr double kLeast = workOf(kSizeClasses) / 2;  // or by half a block, if that is more

@@ -13,7 +13,7 @@ const binaries = process.env.RIGOR_BINARY_DIR ?? '';
 const found = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((path) =>
   existsSync(path),
 );
-/** Why browser tests cannot run; false when they can. */
+/** Reason why browser tests cannot run; false if they can. */
 export const skip: string | false =
   found === undefined ? 'Chromium is not installed' : binaries === '' ? 'RIGOR_BINARY_DIR is not set' : false;
 

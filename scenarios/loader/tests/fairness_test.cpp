@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// No engine is let off, ours least: the library grades accuracy by one scale and bounds no engine by a
-// result. What is wrong physics says of whom, why, and how that is known.
+// The same rules hold for every engine: the library grades accuracy by one scale and bounds no engine by a
+// result. Every known deviation names the engine, the reason, and its evidence.
 #include <gtest/gtest.h>
 
 #include <cmath>

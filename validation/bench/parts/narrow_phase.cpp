@@ -3,8 +3,8 @@
 //
 // Narrow phases by themselves: a thousand pairs of one kind, asked one after the other, each as at its first
 // contact. Shapes are built and poses converted before (adapter::CollisionBatch), contacts stay in the
-// engine's own form. What the batch costs by itself is the engine "interface", which reads the poses and
-// answers nothing. The depths are those of the exact oracle or the timing does not count.
+// engine's own form. The cost of the batch itself is that of the engine "interface", which reads the poses
+// and returns no contacts. The depths are those of the exact oracle or the timing does not count.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // A library to be put before all others (LD_PRELOAD) in the process of a bench's look: every call of the C
-// library's allocator, from whatever library, is counted and passed on. operator new ends here too. What an
-// engine takes from a pool of its own is not seen, and costs no such call; what it takes from the system by
-// mmap is not seen either.
+// library's allocator, from whatever library, is counted and passed on. operator new ends here too. Memory
+// that an engine takes from a pool of its own is not counted, and costs no such call; memory that it takes
+// from the system by mmap is not counted either.
 #include <atomic>
 #include <cerrno>
 #include <cstddef>

@@ -70,7 +70,8 @@ TEST(Judge, ErrorsAreTheOnesThatWereMade) {
     judgeAnswer(c, truthOf(c, tolerance), tolerance, a);
     EXPECT_NEAR(a.distanceError.value(), 1e-4, 1e-15);
     EXPECT_NEAR(a.normalAngle.value(), 1e-3, 1e-12);
-    // Along a direction turned by t, balls d apart overlap by rA + rB - d cos t: deeper by d (1 - cos t).
+    // Spheres at the distance d overlap along a direction turned by t by rA + rB - d cos t: deeper by d (1 -
+    // cos t).
     EXPECT_NEAR(a.normalExcess.value(), 1.25 * (1 - std::cos(1e-3)), 1e-12);
 }
 

@@ -95,7 +95,8 @@ TEST(Compare, Verdicts) {
     EXPECT_NE(comparisonText(c, {}, 5).find("pass -> fail (why)"), std::string::npos);
 }
 
-/// 20 % slower in every case: shown. In half the cases slower, in half faster: not shown.
+/// 20 % slower in every case: shown. A time that is slower in half the cases and faster in half is not
+///    evidence.
 TEST(Compare, TimesNeedEvidence) {
     Stored slower = exampleRun(), mixed = exampleRun();
     for (std::size_t i = 0; i < 8; ++i) {

@@ -3,7 +3,7 @@
 //
 // The whole way: tosses whose friction and restitution are known are written as a folder of recordings,
 // imported, fitted and scored, each engine in children of its own; what an engine does to its process stays
-// an outcome; a fit goes on where it was interrupted. With RIGOR_DATA the real tosses.
+// an outcome; a fit goes on where it was interrupted. If RIGOR_DATA is set, the real tosses are used.
 #include <gmock/gmock.h>
 
 #include <cmath>

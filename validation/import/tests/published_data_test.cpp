@@ -205,7 +205,8 @@ TEST(GazeboBoxes, PublishedErrorsBecomeBounds) {
     const auto study = nlohmann::json::parse(imported.studies.at(0).text);
     const auto& energy = study["parts"][3]["findings"][2];
     ASSERT_EQ(energy["metric"], "energy_drift");
-    // Per kinetic energy at the end, 5 (4 + 4 + 90^2) + 8.55 J, instead of at the start, 5 * 72 + 8.55 J.
+    // The scale is the kinetic energy at the end, 5 (4 + 4 + 90^2) + 8.55 J, instead of that at the
+    // start, 5 * 72 + 8.55 J.
     EXPECT_NEAR(energy["at_most"].get<double>(), 1.02 * 0.0125 * 368.546 / 40548.546, 1e-7);
     writeText(folder / "BENCHMARK_boxes_dt.csv", text.substr(0, text.find("bullet")));
     EXPECT_THAT(refusal("gazebo-boxes", folder), HasSubstr("no line of bullet"));

@@ -333,7 +333,7 @@ TEST(Joints, InjectedSeparationAndTilt) {
     c.run = exactRun(still, *makeReference(still), 0.01, 10);
     EXPECT_EQ(c.worst("joint_drift"), 0.0);
     c.state(4, 0).position += {0.003, 0, 0.004};
-    c.state(5, 1).position += {0.5, 0.002, 0};  // along the axis is free
+    c.state(5, 1).position += {0.5, 0.002, 0};  // the motion along the axis is free
     c.state(6, 2).position += {0, -0.07, 0};
     const auto rows = c.rows("joint_drift");
     ASSERT_EQ(rows.size(), 4U);

@@ -79,7 +79,7 @@ TEST(RoundOracle, TwoCylinders) {
     EXPECT_TRUE(hasNormal(crossed, {0, 0, 1}) && hasNormal(crossed, {0, 0, -1}));
 }
 
-/// Around a common axis every direction is as good: a continuum, with samples all around.
+/// Every direction around a common axis is equally good: a continuum, with samples all around.
 TEST(RoundOracle, CoaxialAndIdentical) {
     const Geometry pin = Cylinder{0.2, 3.0};
     const Quat any = normalized(Quat{0.3, -0.5, 0.7, 0.2});

@@ -25,7 +25,7 @@ constexpr double kCircle = 3.14159265358979323846;
 struct Mass {
     double amount = 0.0;  ///< volume (area in 2D)
     Vec3 center;
-    Mat3 moments;  ///< about the centre, per density
+    Mat3 moments;  ///< moments about the centre, per density
 };
 
 double at(const Mat3& m, int i, int j) {

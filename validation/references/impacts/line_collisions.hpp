@@ -29,7 +29,7 @@ class LineCollisions {
     PartialState exact(int body, double t) const;
     /// True if the last impact of all is within the duration: no neighbours collide later either.
     bool isOver() const;
-    /// Along the line after the last impact of those that a run comes to, relative to the fall [m/s].
+    /// Velocity along the line after the last impact within a run, relative to the fall [m/s].
     double velocityAfter(int body) const;
     double velocityBefore(int body) const;  ///< initial, along the line
     double energyLoss() const;              ///< kinetic energy lost in the impacts [J]

@@ -5,7 +5,8 @@
 // at the next is T_(i+1) = T_i - m_i g, and balance of moments turns link i, whose centre of mass is the part
 // c_i of its length l_i from its first hinge, into the direction of T_i - (1 - c_i) m_i g:
 //   sum l_i (T_i - (1 - c_i) m_i g)/|...| = end - start,
-// two equations for T (Newton's method); of uniform links tan = (V + (i + 1/2) m g)/H. Not a catenary.
+// two equations for T (Newton's method); of uniform links tan = (V + (i + 1/2) m g)/H. The shape is not a
+// catenary.
 // Source: Routh, A Treatise on Analytical Statics, 1891, ch. 10; Beer and Johnston, Vector Mechanics for
 // Engineers: Statics, ch. 7. Assumes: hinges or ball joints in a row between two fixed points, all at rest
 // where they hang, gravity alone. Quantities: sag (depth of the lowest hinge under the first), at the end.

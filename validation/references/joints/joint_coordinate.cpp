@@ -28,7 +28,8 @@ using scenario::JointType;
 
 /// A free coordinate, its data and its solution.
 struct Coordinate {
-    bool turn = false;     ///< about `direction` through the anchor; else along it
+    bool turn = false;     ///< true: a rotation about `direction` through the anchor; false: a translation
+                           ///< along it
     Vec3 direction;        ///< world, unit; q grows with the body's motion along it
     double inertia = 0.0;  ///< J [kg] or [kg m^2]
     double load = 0.0;     ///< Q [N] or [N m]
@@ -145,7 +146,7 @@ void solve(Coordinate& x, double end) {
         const double fast = std::max(std::abs(phase.v), std::abs(x.motorSpeed));
         std::tie(q, v) = inPhase(x, phase, next);
         if (x.motorForce > 0.0 && !atSpeed && std::abs(v - x.motorSpeed) <= 1e-9 * fast) v = x.motorSpeed;
-        // Beside where it comes from and how far it may have gone.
+        // Tolerance relative to its start and its largest possible travel.
         const double far = std::abs(phase.q) + std::abs(q) + std::max(fast, std::abs(v)) * (next - t);
         if (std::abs(q - x.lower) <= 1e-9 * far) q = x.lower;
         if (std::abs(q - x.upper) <= 1e-9 * far) q = x.upper;

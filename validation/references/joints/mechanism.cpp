@@ -25,7 +25,8 @@ using scenario::JointType;
 using scenario::kNone;
 using Equation = MechanismMotion::Equation;
 
-constexpr Real kJointsApart = 1e-8L;                         // beside the size: a part that is lost
+// gap relative to the size at which a part is lost
+constexpr Real kJointsApart = 1e-8L;
 constexpr std::size_t kMechanismOperations = 2'500'000'000;  // 2.5 s
 
 class Mechanism : public Reference {

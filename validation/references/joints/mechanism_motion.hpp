@@ -28,7 +28,7 @@ class MechanismMotion {
 
     struct Member {
         Real mass = 1;
-        Real33 inertia{};     ///< about the centre of mass, body axes
+        Real33 inertia{};     ///< inertia about the centre of mass, body axes
         Real3 gravity;        ///< [m/s^2]
         bool driven = false;  ///< keeps its velocity and its world angular velocity, whatever acts on it
     };

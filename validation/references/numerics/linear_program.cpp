@@ -11,9 +11,9 @@
 namespace rigor::validation::numerics {
 namespace {
 
-constexpr Real kCost = 1e-14L;      // beside the multipliers: which reduced costs count as negative
+constexpr Real kCost = 1e-14L;      // threshold of negative reduced costs, relative to the multipliers
 constexpr Real kFeasible = 1e-15L;  // largest negative value of an unknown that the ratio test allows
-constexpr Real kPivot = 1e-10L;     // beside the largest entry of its column
+constexpr Real kPivot = 1e-10L;     // threshold relative to the largest entry of the column
 constexpr int kRefactor = 100;      // pivots on one inverse
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// See principal_axes.hpp. In extended precision, rounded at the end.
+// See principal_axes.hpp. It is computed in extended precision and rounded at the end.
 #include "validation/references/numerics/principal_axes.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -71,7 +71,7 @@ class PlanarPart {
         return std::min(next, motion_.validUntil());
     }
     double startOf(std::size_t k) const { return k > 0 ? impacts_[k - 1].time : 0.0; }
-    /// Beside an event by next to nothing of the duration.
+    /// Kind of motion just after t, by 1e-9 of the duration.
     Kind kindAfter(double t) const { return motion_.modeAt(t + 1e-9 * duration_).kind; }
     Kind kindBefore(double t) const { return motion_.modeAt(t - 1e-9 * duration_).kind; }
     bool isFree(std::size_t k) const {

@@ -18,13 +18,13 @@ using numerics::OdeState;
 using Real = numerics::Real;
 using Kind = PlanarMotion::Kind;
 
-constexpr Real kStill = 1e-10L;  // beside the speeds of the scene: rounding of events, not physics
+constexpr Real kStill = 1e-10L;  // speed relative to those of the scene: rounding of events, not physics
 constexpr int kChunks = 48;      // pieces of the duration that are integrated at a time
 constexpr int kShorter = 10;     // times that a piece is cut to a quarter
 constexpr std::size_t kMostEvents = 200;
 // tolerance of the event functions relative to lengths, speeds and forces of the scene
 constexpr Real kZero = 1e-15L;
-constexpr Real kNear = 1e-3L;  // beside the size: a corner that may land soon
+constexpr Real kNear = 1e-3L;  // distance relative to the size of a corner that may land soon
 constexpr std::size_t kMostPhases = 5000;
 constexpr int kMostStops = 8;                        // changes of the mode in a row in which no time passes
 constexpr std::size_t kMostEvaluations = 1'500'000;  // evaluations of the equations of motion: 1.5 s

@@ -171,7 +171,8 @@ class PlanarFrame {
 
     const Body& body_;
     Plane plane_;
-    Vec3 along_, above_, axis_{0, 0, 1}, origin_;  ///< along_ = above_ x axis_; phi > 0 is about axis_
+    Vec3 along_, above_, axis_{0, 0, 1}, origin_;  ///< axes with along_ = above_ x axis_; phi > 0 is about
+                                                   ///< axis_
     PlanarMotion::Setup setup_;
     PlanarMotion::State start_;
 };

@@ -96,7 +96,7 @@ class BallInCylinder : public Reference {
     }
 
   private:
-    /// Above the start [m].
+    /// Height above the start [m].
     double heightAt(double t) const {
         return middle_ - middle_ * std::cos(nu_ * t) + rise_ / nu_ * std::sin(nu_ * t);
     }

@@ -127,7 +127,8 @@ class BallOffBall : public Reference {
     /// Margin of friction of a contact that rolls.
     Real spareOf(const OdeState& y) const { return holds_ * loadOf(y) - std::abs(needOf(y)); }
 
-    /// y = theta, theta', angle turned, spin. From the start to the separation, rolling or slipping.
+    /// y = theta, theta', angle turned, spin. It covers the time from the start to the separation, rolling or
+    /// slipping.
     void follow(OdeState y) {
         double t = 0.0;
         const double end = runEnd(scenario_);

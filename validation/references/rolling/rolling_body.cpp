@@ -61,7 +61,7 @@ class RollingBody : public Reference {
         const Quat q = scenario::normalized(Quat{static_cast<double>(y[0]), static_cast<double>(y[1]),
                                                  static_cast<double>(y[2]), static_cast<double>(y[3])});
         const Real3 v = rolls_ ? cross(f.r, f.w) : Real3{y[10], y[11], y[12]};
-        // Along the plane from the integral, above it from the contact.
+        // The position along the plane is from the integral, the height from the contact.
         Real3 com{y[7], y[8], y[9]};
         com = com + (static_cast<Real>(plane_.offset) - dot(normal_, com) - dot(f.gamma, f.r)) * normal_;
         return stateOf(body_, toVec3(com), q, toVec3(f.turn * v), toVec3(f.turn * f.w));

@@ -18,8 +18,9 @@ using numerics::Real3;
 constexpr int kSides = 8;           // rays of a cone in space at first
 constexpr int kRounds = 60;         // rounds in which rays are added
 constexpr Real kInside = 1e-17L;    // margin of rays in 3D inside the round cone, for rounding
-constexpr Real kViolated = 1e-13L;  // beside the velocities: which rays are added
-constexpr double kAgree = 1e-9;     // beside all loads: the least and the greatest force agree
+constexpr Real kViolated = 1e-13L;  // violation, relative to the velocities, of rays that are added
+// difference, relative to all loads, at which the least and the greatest force agree
+constexpr double kAgree = 1e-9;
 
 std::size_t rowsOf(const LoadedBodies& problem) {
     return problem.bodies.size() * (problem.dimension == 2 ? 3 : 6);

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Looks for contact forces that balance given loads, or for the motion that shows that none do: a linear
-// program (numerics/linear_program.hpp) over rays of the friction cones. In the plane a cone has two rays. In
-// space it starts with eight, and each solution adds, at every contact, the ray of the round cone that it
-// violates most, until forces or motion satisfy the round cones (cutting planes: Kelley, J. SIAM 8 (1960)
-// 703). What is found counts only with the certificate of force_balance.hpp.
+// program (numerics/linear_program.hpp) over rays of the friction cones. A cone has two rays in 2D. In 3D it
+// starts with eight, and each solution adds, at every contact, the ray of the round cone that it violates
+// most, until forces or motion satisfy the round cones (cutting planes: Kelley, J. SIAM 8 (1960) 703). A
+// result counts only with the certificate of force_balance.hpp.
 #pragma once
 
 #include <map>
@@ -25,7 +25,7 @@ class ContactForces {
     Verdict verdict() const { return verdict_; }
 
     /// The sum of the normal forces [N] over the contacts of a pair, by the pair's number, where all forces
-    /// that balance the loads agree on it. To be asked where they balance.
+    /// that balance the loads agree on it. It may be called only if they balance.
     std::map<int, double> determinate();
 
   private:

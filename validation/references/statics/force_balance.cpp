@@ -16,7 +16,7 @@ using Rational = boost::multiprecision::cpp_rational;
 
 const Rational kBalanced(1, 100000000000);  // tolerance as a fraction of a body's load
 const Rational kUnbalanced(1, 1000000000);  // threshold as a fraction of a body's load
-const Rational kMostForce(1000000);         // beside all loads
+const Rational kMostForce(1000000);         // largest force relative to all loads
 
 struct RationalVector {
     Rational x, y, z;

@@ -12,7 +12,7 @@
 //   Source: Farkas, J. reine angew. Math. 124 (1902) 1; Livesley, Int. J. Numer. Meth. Eng. 12 (1978) 1853.
 // The numbers of a scene are rounded, so both statements have a margin: forces balance up to 1e-11 of each
 // body's own load; they do not where every choice, with all normal forces together up to 1e6 times all loads,
-// leaves more than 1e-9 of some body's load. What lies between is undecided.
+// leaves more than 1e-9 of some body's load. Anything between is undecided.
 #pragma once
 
 #include <optional>

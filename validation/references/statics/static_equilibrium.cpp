@@ -27,8 +27,9 @@ namespace {
 
 using scenario::BodyType;
 
-constexpr double kMoved = 0.02,
-                 kTurned = 0.05;  // beside the size; [rad]: far above what any engine at rest shows
+/// Motion relative to the size of a body, and turn [rad], of a moved body: far above what any engine shows
+/// at rest.
+constexpr double kMoved = 0.02, kTurned = 0.05;
 
 class StaticEquilibrium : public Reference {
   public:

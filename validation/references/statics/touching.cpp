@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// See touching.hpp. In two dimensions every shape is a polygon of one, two or more corners grown by a radius;
-// contacts are corners against edges, from both sides, and corners against corners where one is round. In
-// three, balls against planes, balls and boxes; boxes against boxes where faces lie on each other (polygon
-// clipping: Sutherland and Hodgman, Comm. ACM 17 (1974) 32).
+// See touching.hpp. In 2D every shape is a polygon of one, two or more corners grown by a radius; contacts
+// are corners against edges, from both sides, and corners against corners where one is round. In 3D, balls
+// against planes, balls and boxes; boxes against boxes where faces lie on each other (polygon clipping:
+// Sutherland and Hodgman, Comm. ACM 17 (1974) 32).
 #include "validation/references/statics/touching.hpp"
 
 #include <algorithm>

@@ -63,7 +63,7 @@ Scenario scene(const char* name, double duration) {
 }
 
 /// Problem A05 of the IFToMM library: rods with heavy tips on a free shaft, springs and dampers to a slider.
-/// Not a scenario: its dampers (4e4 N s/m on 3 kg) ask an explicit spring for steps of 1e-5 s.
+/// It is not a scenario: its dampers (4e4 N s/m on 3 kg) need steps of 1e-5 s with an explicit spring.
 Scenario governor(double duration) {
     Scenario s = emptyScene(3, {0, 0, -9.81}, duration);
     const double rod = 3000 * 1e-4, heavy = 3000 * 1e-3, tip = 5, w = 2 * std::numbers::pi;

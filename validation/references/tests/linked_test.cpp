@@ -283,7 +283,7 @@ TEST(MotorPair, CatalogueValuesAndMeasures) {
 TEST(MotorPair, TorquesAreOppositeAndBoundedAndDriveTheDifference) {
     Scenario s = motorPair(3);
     s.bodies[0].angularVelocity = {0, 0, 5};
-    s.bodies[1].angularVelocity = {0, 0, 14};  // Too fast: the motor brakes.
+    s.bodies[1].angularVelocity = {0, 0, 14};  // The body is too fast: the motor brakes.
     const auto r = makeReference(s);
     for (const double t : {0.2, 1.5}) {
         const Wrench a = wrenchOn(s, *r, 0, t), b = wrenchOn(s, *r, 1, t);

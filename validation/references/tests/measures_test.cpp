@@ -130,7 +130,8 @@ TEST(Swing, TheFirstPassageIsTheFirstTimeAtTheLowestPoint) {
                                       std::pair{-2.0, 8.0}, std::pair{0.3, -8.5}}) {
         const Swing swing(3.0L, angle, rate);
         const bool turns = swing.parameter() > 1;
-        // Towards growing angle; a body that turns over the other way counts the other way.
+        // The sign is positive towards a growing angle; a body that turns over the other way counts the other
+        // way.
         const double sign = turns && rate < 0 ? -1 : 1;
         const auto round = [&](double t) {
             return std::remainder(sign * static_cast<double>(swing.at(t).angle), 2 * pi);

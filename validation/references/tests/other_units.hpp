@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A scene in other units of length, time and mass: every number that has a unit is multiplied by it, so that the
-// answers of a reference must be multiplied likewise. Where the units are powers of two rounding is the same.
+// A scene in other units of length, time and mass: every number that has a unit is multiplied by it, so that
+// the answers of a reference must be multiplied likewise. If the units are powers of two rounding is the
+// same.
 #pragma once
 
 #include <cmath>

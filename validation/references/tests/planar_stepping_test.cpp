@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // planar_motion of boxes that bounce, rock and slide against a second method that shares nothing with it:
-// Moreau's time stepping, impulses at the corners by projected Gauss-Seidel in every step. Its error is of the
-// order of the step, and is told by a run of half the step. And where the motion is said to end.
+// Moreau's time stepping, impulses at the corners by projected Gauss-Seidel in every step. Its error is of
+// the order of the step, and is estimated by a run with half the step. The end of the motion is tested too.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,8 +57,8 @@ RandomBox randomBox(unsigned seed) {
 class Stepping {
   public:
     explicit Stepping(const RandomBox& box) : setup_(box.setup), s_(box.start) {}
-    /// Moreau 1988: corners that are in the floor at the middle of the step take part. Those that lie on it hop
-    /// by some g h^2, and have to take part in the impact of another corner in whichever step it falls.
+    /// Moreau 1988: corners that are in the floor at the middle of the step take part. Corners that lie on it
+    /// hop by some g h^2, and have to take part in the impact of another corner in whichever step it falls.
     void step(double h) {
         const State before = s_;
         s_.x += h / 2 * before.vx;

@@ -123,7 +123,7 @@ TEST(PlanarContact, SlenderRodFromUprightSticksAndThenSlipsBackOrForth) {
                     1e-8);
         EXPECT_NEAR(static_cast<double>(load->tangential), 9.81 * 0.75 * si * (3 * c - 2 * c0), 1e-8);
     }
-    // Below 0.3706 the foot slips back before 35 degrees, above it forward after 48.
+    // The foot slips back before 35 degrees if mu is below 0.3706, forward after 48 if it is above.
     for (const double mu : {0.36, 0.38}) {
         Scenario slips = onFloor(1.06, mu, 0);
         addRod(slips, 0.5, 0.001, 0.0);
@@ -295,7 +295,7 @@ TEST(PlanarContact, TippingThresholds) {
         const bool stays = std::abs(makeReference(s)->exact(1, 0.3).orientation->z) < 1e-15;
         EXPECT_EQ(stays, factor < 1);
     }
-    // Too smooth a floor: it slides as a whole.
+    // The floor is too smooth: the body slides as a whole.
     Scenario s = onFloor(0.3, 0.1, 0);
     addBox(s, "box", {0.2, 0.5, 0}, 1, {0, 0.5, 0});
     s.gravity = {2, -9, 0};

@@ -128,7 +128,7 @@ TEST(QuadraticDrag, ClosedFormsOfTheVerticalAndForcesOfTheFlight) {
     s.bodies[0].velocity = {};
     const double vt = std::sqrt(9.81 / 0.05);
     EXPECT_NEAR(makeReference(s)->exact(0, 1.3).velocity->z, -vt * std::tanh(1.3 * 9.81 / vt), 1e-11);
-    // Across, with linear drag besides: the force asked of the motion, and the scheme by hand.
+    // Motion across, with linear drag as well: the force from the motion, and the scheme by hand.
     s.bodies[0].velocity = {5, -2, 7};
     s.forces[0] = DragForce{0, 0.3, 0.08};
     const auto across = makeReference(s);
@@ -349,7 +349,7 @@ TEST(SphericalPendulum, CatalogueValues) {
     const Vec3 arm{0, 0, -1};
     const Quat q = fromAxisAngle({0, 1, 0}, -theta);  // (sin, 0, -cos)
     const Vec3 r = rotate(q, arm), velocity = cross(Vec3{0, 0, 2}, r);
-    const Vec3 spin = cross(r, velocity);  // across the arm
+    const Vec3 spin = cross(r, velocity);  // spin normal to the arm
     const Scenario s = fixedPointBody(Mat3::diagonal(0, 0, 0.1), 1, arm, {0, 0, -9.81}, q, spin, 1);
     expectVec(*makeReference(s)->exact(0, 1).position, {-0.7333494232, -0.392626553, -0.555016228}, 1e-9);
 }

@@ -40,7 +40,7 @@ double threshold(double low, double high, const F& scene) {
         try {
             (stands(scene(middle)) ? high : low) = middle;
         } catch (const AssumptionViolated&) {
-            return middle;  // too near to decide
+            return middle;  // too near to the threshold to decide
         }
     }
     return 0.5 * (low + high);
@@ -117,8 +117,8 @@ Scenario arch(int n, double thickness) {
 
 /// The thickness at which the line of thrust just fits into the right half of arch(n): the crown pushes with
 /// H at the height M/H, and at every joint the resultant of what is above passes between intrados and
-/// extrados, two conditions that are linear in H and M. Where the widest gap between them is zero the arch is
-/// critical.
+/// extrados, two conditions that are linear in H and M. The arch is critical if the widest gap between them
+/// is zero.
 double criticalThickness(int n) {
     const auto widest = [n](double thickness) {
         const Scenario s = arch(n, thickness);

@@ -199,7 +199,8 @@ std::string checkEnergy(const Scenario& s, const Reference& r, double end) {
         least = std::min(least, *e);
         most = std::max(most, *e);
     }
-    // Beside what the bodies hold: falls and drops that are long compared to the scene count as well.
+    // Tolerance relative to the energies of the bodies: falls and drops that are long compared to the scene
+    // count as well.
     const double tolerance = 1e-7 * (weight + std::abs(least) + std::abs(most));
     for (std::size_t k = 1; k < energy.size(); ++k)
         if (energy[k] > energy[k - 1] + tolerance)

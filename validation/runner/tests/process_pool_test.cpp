@@ -54,8 +54,8 @@ TEST(ProcessPool, EndsWhatTakesTooLongWithAllItStarted) {
     EXPECT_FALSE(std::filesystem::exists(mark)) << "a grandchild went on";
 }
 
-/// A stand-in for a busy machine: the child is stopped for eight ninths of the time. What it needs of the
-/// processor is within its limit, what the clock shows is not.
+/// A stand-in for a busy machine: the child is stopped for eight ninths of the time. Its processor time is
+/// within the limit, its wall time is not.
 TEST(ProcessPool, WaitsForAChildThatGetsAPartOfTheProcessor) {
     const ScratchFolder folder;
     const std::string mark = (folder.path() / "mark").string();

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // A symmetry is right when the exact motion has it: exact solutions of the transformed scenario, seen back,
-// are those of the scenario. And the transformations undo themselves.
+// are those of the scenario. The inverses of the transformations are tested too.
 #include "validation/symmetry/symmetry.hpp"
 
 #include <gtest/gtest.h>

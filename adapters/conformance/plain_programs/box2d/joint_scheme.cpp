@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Plane mechanisms in Box2D beside its scheme written out: J v' = 0 with J of the start of the step, and then
-// positions are moved onto the joints one after the other, without the velocities, until no error is above the
-// slop (b2_linearSlop, 0.005 units, of a world scaled by four in `matched`). A body leaves along the tangent and
-// loses energy; moving it back takes nothing out and gives nothing back. What is told of it: Box2D's trajectories
-// and energies are those of that scheme, and what is left of the energy error where positions are held instead,
-// or errors go back through the velocities.
+// positions are moved onto the joints one after the other, without the velocities, until no error is above
+// the slop (b2_linearSlop, 0.005 units, of a world scaled by four in `matched`). A body leaves along the
+// tangent and loses energy; moving it back takes nothing out and gives nothing back. The tests measure that
+// Box2D's trajectories and energies are those of that scheme, and the energy error that is left if positions
+// are held instead, or if errors are corrected through the velocities.
 #include "adapters/conformance/plain_programs/planar_scheme.hpp"
 
 namespace rigor::plain {

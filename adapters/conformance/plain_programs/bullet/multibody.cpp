@@ -142,8 +142,9 @@ TEST(PlainBullet, MultibodyContactAndSpring) {
     EXPECT_TRUE(same(plain, adapter, kSameBits));
 }
 
-/// Why the adapter does not break joints of btMultiBody by their feedback: of a link of 1 kg that turns at w
-/// about a hinge 0.5 m away it reports the force of the joint with its centrifugal part w^2 r twice.
+/// Reason why the adapter does not break joints of btMultiBody by their feedback: for a link of 1 kg that
+/// turns at w about a hinge 0.5 m away it reports the force of the joint with its centrifugal part w^2 r
+/// twice.
 TEST(PlainBullet, MultibodyFeedbackHasTheCentrifugalForceTwice) {
     for (const btScalar w : {0.0, 1.0, 4.0}) {
         MultiDofDemo demo;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Plane mechanisms in ODE beside its scheme written out: joints are held on velocities, J v' = -(erp / h) C with J
-// of the start of the step. A body on such a joint leaves along the tangent and loses energy; error reduction
-// brings it back and with it a part of the energy, two tenths a step by default. What is told of it:
-// ODE's trajectories are those of that scheme, at every erp; what is left of the error with erp = 0.8, and with
-// positions held instead.
+// Plane mechanisms in ODE beside its scheme written out: joints are held on velocities, J v' = -(erp / h) C
+// with J of the start of the step. A body on such a joint leaves along the tangent and loses energy; error
+// reduction brings it back and with it a part of the energy, two tenths a step by default. The tests measure
+// that ODE's trajectories are those of that scheme, at every erp, and the error that is left with erp = 0.8,
+// and with positions held instead.
 #include "adapters/conformance/plain_programs/planar_scheme.hpp"
 
 namespace rigor::plain {

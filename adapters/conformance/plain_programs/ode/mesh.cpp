@@ -34,7 +34,7 @@ TEST(PlainOde, TriangleMesh) {
     const Trajectory plain = demo.run(1.0 / 240, 120);
     EXPECT_GT(travel(plain, 1), 0.3);
     // The program takes the first 8 points that dCollide finds; the adapter asks for all and keeps the
-    // deepest and the farthest from it. In these steps there are at most 8.
+    // deepest and the farthest from it. These steps have at most 8.
     EXPECT_TRUE(same(plain, adapterRun("ode:preset=default", scene, 1.0 / 240, 120)));
     dGeomTriMeshDataDestroy(data);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Numbers as people read them. What JSON lacks is stored as "nan", "inf" and "-inf"; what is absent is null.
+// Numbers as people read them. Values that JSON lacks are stored as "nan", "inf" and "-inf"; absent values are null.
 
 export type Stored = number | 'nan' | 'inf' | '-inf';
 export type Maybe = Stored | null;

@@ -40,7 +40,7 @@ export class Ground {
     this.#scene = scene;
   }
 
-  /** Around what the camera frames. */
+  /** Builds the ground around the box that the camera frames. */
   build(center: Vec3, radius: number, theme: Theme): void {
     this.#clear();
     const flat = this.#scene.dimension === 2;

@@ -89,7 +89,7 @@ export function describe(event: ReplayEvent): string {
   return text;
 }
 
-/** Next stored time of the shown sources after (`forward`) or before a time; null at the end. */
+/** Time of the next stored frame of the shown sources after (`forward`) or before a time; null at the end. */
 export function neighbourTime(sources: readonly FrameSource[], time: number, forward: boolean): number | null {
   let best: number | null = null;
   for (const { times } of sources)

@@ -16,7 +16,7 @@ export interface Pose {
 export type Geometry =
   | { kind: 'sphere'; radius: number }
   | { kind: 'box'; half: Vec3 }
-  | { kind: 'capsule' | 'cylinder' | 'cone'; radius: number; halfLength: number } // along y
+  | { kind: 'capsule' | 'cylinder' | 'cone'; radius: number; halfLength: number } // axis along y
   | { kind: 'hull'; vertices: Vec3[] }
   | { kind: 'half_space'; normal: Vec3; offset: number }
   | { kind: 'segment' | 'chain'; vertices: Vec3[]; loop: boolean }

@@ -130,7 +130,7 @@ export class ReplayStage implements ReplayActions {
     return this.shown.includes(source);
   }
 
-  /** Switches the picture of an engine. What the curves have switched off comes back here alone with them. */
+  /** Switches the picture of an engine. An engine that the curves have switched off is shown again only with them. */
   toggleEngine(source: FrameSource): void {
     const { hidden } = this.#context.cursor;
     if (hidden.value.has(source.spec)) {

@@ -248,7 +248,7 @@ export class ReplayView {
     return null;
   }
 
-  /** The ray under a point of the page; null outside of all pictures. For dragging. */
+  /** The ray under a point of the page; null outside of all pictures. Used for dragging. */
   aim(clientX: number, clientY: number): Aim | null {
     const box = this.canvas.getBoundingClientRect();
     const [x, y] = [clientX - box.left, clientY - box.top];

@@ -52,7 +52,7 @@ export interface Engine {
   version: string;
   precision: string;
   buildNotes: string;
-  problem: string; // why it could not take part; "" when it did
+  problem: string; // reason why it could not take part; "" when it did
   described?: Described | null; // declared features; null in runs that did not store it
 }
 
@@ -236,7 +236,7 @@ export interface Mechanism {
   scenarios: string[];
   order: number[]; // columns that took part, the most trusted first
   best: number; // column; -1: none
-  rankings: Ranking[]; // per column
+  rankings: Ranking[]; // one ranking per column
 }
 
 export interface Audit {
@@ -321,7 +321,7 @@ export interface BenchCase {
   cpu: Stored;
   converged: boolean;
   valid: boolean;
-  reason: string; // why not
+  reason: string; // reason why not
   base: string; // id
   ratio: Maybe;
   ratioLow: Maybe;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The frame that a link of the contact audit opens is the frame that was measured: of every audited contact that the page
-// links to, the normal that is drawn and the number agree. What is exact is computed here, from the poses of a run of its
-// own: bodies on a plank that turns by 0.05 rad a step roll over its edge, so that another frame has another normal.
+// The frame that a link of the contact audit opens is the frame that was measured: of every audited contact that the
+// page links to, the normal that is drawn and the number agree. Exact values are computed here, from the poses of a run
+// of its own: bodies on a plank that turns by 0.05 rad a step roll over its edge, so that another frame has another
+// normal.
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';

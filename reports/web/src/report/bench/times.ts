@@ -21,7 +21,7 @@ export const interval = (
 const timeOf = (c: BenchCase): Child =>
   c.time === null ? '—' : c.valid ? duration(c.time) : el('s', { title: c.reason }, duration(c.time));
 
-/** Too far apart for one linear scale. */
+/** True if the values are too far apart for one linear scale. */
 export const isWide = (values: number[]): boolean => spreadsByDecades(values, 2);
 
 export function bars(cases: BenchCase[]): HTMLElement {
