@@ -72,8 +72,8 @@ double parseTimeStep(const std::string& text);
 
 /// A scenario of the library or a file, and what became of its reference, which is computed in a child with
 /// limits. Throws LoadError for an unknown reference and wrong parameters. Values for which the reference
-/// does not hold, and a reference that breaks down, are told on stderr; with `mustHold` they are LoadErrors,
-/// of which `isBrokenReference` tells the second kind.
+/// does not hold, and a reference that breaks down, are reported on stderr; with `mustHold` they are
+/// LoadErrors, of which `isBrokenReference` recognises the second kind.
 scenario::LoadedScenario loadWithReference(const std::string& nameOrFile,
                                            const std::vector<std::string>& overrides,
                                            const validation::ReferenceLimits& limits, bool mustHold = false,

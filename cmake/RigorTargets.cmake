@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The Rigor authors
 #
-# rigor_library(<target> [COLD] [LIBS ...] SOURCES ...), rigor_adapter(<name> [PRECISION f32] SOURCES ... LIBS ...),
-# rigor_test(<name> SOURCES ... LIBS ... [LABELS ...] [COST seconds]), rigor_benchmark(<name> SOURCES ... LIBS ...): our
-# own targets, with our warnings and flags. COLD: nothing in it is timed (RigorPrecompiled.cmake). COST: about how long a
-# long test takes. Several files of a target are compiled at once (RigorUnity.cmake).
+# rigor_library(<target> [COLD] [LIBS ...] SOURCES ...), rigor_adapter(<name> [PRECISION f32] SOURCES ... LIBS
+# ...), rigor_test(<name> SOURCES ... LIBS ... [LABELS ...] [COST seconds]), rigor_benchmark(<name> SOURCES
+# ... LIBS ...): the project's targets, with its warnings and flags. COLD: nothing in it is timed
+# (RigorPrecompiled.cmake). COST: about how long a long test takes. Several files of a target are compiled at
+# once (RigorUnity.cmake).
 
 add_library(rigor_flags INTERFACE)
 target_include_directories(rigor_flags INTERFACE ${PROJECT_SOURCE_DIR})

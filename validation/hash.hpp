@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// FNV-1a, 64 bit (Fowler, Noll, Vo; draft-eastlake-fnv): small, stable everywhere, good enough to tell cases
-// and final states apart.
+// FNV-1a, 64 bit (Fowler, Noll, Vo; draft-eastlake-fnv): small, stable everywhere, good enough to distinguish
+// cases and final states.
 #pragma once
 
 #include <bit>

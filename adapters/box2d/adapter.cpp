@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Box2D as an engine: who it is, what it can do, which keys it has.
+// Box2D as an engine: its identity, its features, and its option keys.
 #include "adapters/box2d/broadphase.hpp"
 #include "adapters/box2d/collision.hpp"
 #include "adapters/box2d/world.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // b2BroadPhase (a dynamic tree of fattened boxes) as a set of boxes, used as b2World uses it: boxes move with
-// their displacement, for which the tree leaves room; UpdatePairs tells of pairs that may be new, and pairs
+// their displacement, for which the tree leaves room; UpdatePairs reports pairs that may be new, and pairs
 // are kept until their fattened boxes part.
 #include "adapters/box2d/broadphase.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Bullet Physics as an engine: who it is, what it can do, which keys it has.
+// Bullet Physics as an engine: its identity, its features, and its option keys.
 #include <btBulletDynamicsCommon.h>
 
 #include "adapters/bullet/broadphase.hpp"

@@ -291,8 +291,8 @@ void Articulations::pullSprings() {
     }
 }
 
-/// A ball joint is one coincident point, a hinge two of its axis (one row of six is then redundant), in the
-/// plane one.
+/// A ball joint is one coincident point, a hinge two of its axis (one row of six is then redundant), in 2D
+/// one.
 void Articulations::closeLoop(btMultiBody& multiBody, const Joint& joint) {
     // The first end is one that moves.
     const bool fromB = moves(scenario_, joint.bodyB);

@@ -7,8 +7,8 @@
 // that depend on another row ("limitDependency": lo = -mu, hi = mu times that row's x). btLemkeSolver knows
 // fixed bounds only; so that it can take part, each of its iterations is one solution with the bounds that
 // the normals of the one before set, starting without friction: the fixed point of these rounds obeys the law
-// (Haslinger 1983, as for the in-house direct solvers). In Bullet's own steps its friction has fixed bounds.
-// The precision is that of the library.
+// (Haslinger 1983, as for Rigor's direct solvers). In Bullet's own steps its friction has fixed bounds. The
+// precision is that of the library.
 #include "adapters/bullet/contact_solver.hpp"
 
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>

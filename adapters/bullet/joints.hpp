@@ -40,7 +40,7 @@ struct Frames {
 };
 Frames framesOf(const scenario::Joint& joint, const adapter::Quat& inA, const JointEnd& a, const JointEnd& b);
 
-/// Bullet constraints that are one joint, and what has to be told them before each step.
+/// Bullet constraints that are one joint, and the values that they need before each step.
 struct BuiltJoint {
     BuiltJoint() = default;
     explicit BuiltJoint(std::unique_ptr<btTypedConstraint> only) { parts.push_back(std::move(only)); }

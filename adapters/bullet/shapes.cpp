@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Geometries of the scenario format as Bullet shapes. Bullet's capsule, cylinder and cone lie along local y
-// like the format's; its lengths are full, ours are halves.
+// like the format's; its lengths are full, the format's are halves.
 #include "adapters/bullet/shapes.hpp"
 
 #include <BulletCollision/CollisionDispatch/btInternalEdgeUtility.h>

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Limits of a hinge beyond half a turn or on one side alone. Bullet's hinge knows its angle in (-pi, pi] and
-// normalises its limits, so it is told before each step those of a window of less than a turn about the angle
+// normalises its limits, so before each step it gets those of a window of less than a turn about the angle
 // that was counted over turns: the true bounds where they are near, else bounds that no step reaches.
 #pragma once
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The instant that contacts belong to: the start of the step. Bodies move by a good part of their size in a
-// step, so that points and normals tell the poses they stand at.
+// step, so that points and normals show the poses they belong to.
 #include <algorithm>
 #include <cmath>
 
@@ -140,8 +140,8 @@ TEST_P(ContactInstant, NormalsOnAPlankThatTurnsTurnWithIt) {
     }
 }
 
-/// 1.2 m a step at a wall 0.4 m ahead: who stops the ball there has found the contact within the step, and
-/// tells it as of its start.
+/// 1.2 m a step at a wall 0.4 m ahead: an engine that stops the sphere there has found the contact within the
+/// step, and reports it as of its start.
 TEST_P(ContactInstant, PointsOfAnImpactWithinAStepLieWhereTheBodiesBegan) {
     Scenario s = scene();
     addStatic(s, block({0.05, 2, 2}), {0.5, 0, 0});

@@ -3,8 +3,8 @@
 //
 // Presets: names for whole sets of option values, the value of a spec's key "preset". Every engine has
 // "default", as it ships, and "matched", as near as it comes to what is asked of all alike; Option holds
-// their values. An engine that is meant to be used in further ways is an EngineWithPresets (dynamic_cast
-// tells).
+// their values. An engine that is meant to be used in further ways is an EngineWithPresets (found by
+// dynamic_cast).
 #pragma once
 
 #include <map>

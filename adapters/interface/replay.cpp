@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A log is a sequence of entries, each one byte that tells its kind and then its numbers as they stand in
+// A log is a sequence of entries, each one byte that gives its kind and then its numbers as they stand in
 // memory: 'S' and how many steps, 'F' (force) or 'I' (impulse) with body and two vectors, 'P' with the number
 // of bodies and their states.
 #include "adapters/interface/replay.hpp"

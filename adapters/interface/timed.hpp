@@ -26,8 +26,7 @@ class TimedBroadPhase : public BroadPhase {
     /// Takes the current boxes and stores them in the engine's own precision, rounded outwards, without
     /// passing them on yet.
     virtual void take(std::span<const Aabb> boxes) = 0;
-    /// Tells the engine of every box that it has moved, and has it find its pairs, which stay in its own
-    /// form.
+    /// Passes every moved box to the engine, which finds its pairs, which stay in its own form.
     virtual void run() = 0;
     /// The pairs that the engine then holds, in any order, perhaps repeated, a < b: all that overlap, and
     /// what comes on top of them from enlarged or rounded boxes and from pairs that are kept for a while.

@@ -35,7 +35,7 @@ struct BodyState {
 /// One point of contact. A is the body with the lower index in the scenario.
 struct ContactPoint {
     int bodyA = 0, bodyB = 0;    ///< scenario indices
-    int shapeA = 0, shapeB = 0;  ///< index within Body::shapes; 0 where the engine does not tell
+    int shapeA = 0, shapeB = 0;  ///< index within Body::shapes; 0 if the engine does not report it
     Vec3 pointA, pointB;         ///< points on the surfaces of A and B [m]
     Vec3 normal;                 ///< unit, from A to B
     double depth = 0.0;          ///< penetration [m], > 0 when overlapping; minus the signed distance
@@ -75,7 +75,7 @@ struct ReadBack {
     std::vector<PairReadBack> pairs;   ///< every pair of materials that can meet
 };
 
-/// Work counters of the last step; -1 where the engine does not tell.
+/// Work counters of the last step; -1 if the engine does not report them.
 struct StepCounters {
     std::int64_t pairTests = -1;  ///< box tests of the broad phase
     std::int64_t pairs = -1, contacts = -1, islands = -1, solverIterations = -1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The Open Dynamics Engine: who it is, what it can do, which keys it has.
+// The Open Dynamics Engine: its identity, its features, and its option keys.
 #include <ode/ode.h>
 
 #include "adapters/interface/input_check.hpp"

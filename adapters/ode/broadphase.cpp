@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// ODE's spaces, fed with geoms of a class of our own whose bounding box is exactly the box given: a dBox
-// would be rebuilt from its centre and sides and lose touching pairs to rounding.
+// ODE's spaces, fed with geoms of a user class whose bounding box is exactly the box given: a dBox would be
+// rebuilt from its centre and sides and lose touching pairs to rounding.
 #include "adapters/ode/broadphase.hpp"
 
 #include <ode/ode.h>

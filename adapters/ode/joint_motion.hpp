@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Coordinates of a scenario's joint at the present poses of its bodies: what the adapter has to tell those of
-// ODE's joints that do not measure for themselves (AMotor in user mode, contact joints), and what a spring swings.
+// Coordinates of a scenario's joint at the present poses of its bodies: the values that the adapter sets in
+// those of ODE's joints that do not measure by themselves (AMotor in user mode, contact joints), and what a
+// spring swings.
 #pragma once
 
 #include <ode/ode.h>

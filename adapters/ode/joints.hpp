@@ -11,7 +11,7 @@
 
 namespace rigor::ode {
 
-/// A scenario's joint as one or several ODE joints, and what those have to be told before each step. The ODE
+/// A scenario's joint as one or several ODE joints, and the values that those need before each step. The ODE
 /// objects belong to the world and go with it.
 class OdeJoint {
   public:

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Bodies put somewhere else between two steps. ODE makes the contacts of every step anew, and moves a body's
-// geoms with it; of its joints it keeps nothing from step to step unless it is told to.
+// geoms with it; of its joints it keeps nothing from step to step unless a flag is set.
 #include "adapters/ode/convert.hpp"
 #include "adapters/ode/library.hpp"
 #include "adapters/ode/world.hpp"

@@ -118,8 +118,8 @@ bool Geom::meetsBacks(dGeomID geom) {
     return kind == dSphereClass || kind == dCapsuleClass || kind == dCylinderClass || kind == dConvexClass;
 }
 
-/// ODE's height fields are ours: heights along y, centred in x and z, x running fastest, cells split
-/// from (i + 1, k) to (i, k + 1). It is not wrapped: a wrapped one repeats without end.
+/// ODE's height fields are those of the format: heights along y, centred in x and z, x running fastest, cells
+/// split from (i + 1, k) to (i, k + 1). It is not wrapped: a wrapped one repeats without end.
 void Geom::createField(const scenario::HeightField& field) {
     field_ = std::make_unique<Field>();
     field_->data = dGeomHeightfieldDataCreate();

@@ -3,7 +3,7 @@
 //
 // The state of an ODE world as bytes. dWorldStep keeps nothing from step to step but poses, velocities and
 // forces (contact joints are made anew, random numbers are seeded before each step); angles of user-mode
-// motors are ours. Positions, velocities and forces go in as they came out; orientations do not: ODE
+// motors are the adapter's. Positions, velocities and forces go in as they came out; orientations do not: ODE
 // normalises what it is given, which changes the last bit of most unit quaternions. A factor is looked for
 // with which the normalised product is the quaternion asked for.
 #include <array>

@@ -23,7 +23,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Slower than this a contact does not tell where it is about to slide [m/s].
+/// Speed below which a contact has no sliding direction [m/s].
 constexpr double kNoDirection = 1e-12;
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The in-house engine as an adapter: who it is, what it can do, and every choice it offers. Algorithm names
-// come from the engine's own tables.
+// The in-house engine as an adapter: its identity, its features, and every choice that it offers. Algorithm
+// names come from the engine's own tables.
 #include <algorithm>
 #include <map>
 

@@ -414,7 +414,7 @@ TEST(CommandLine, TwoScenariosOfOneNameAreRefused) {
     EXPECT_NE(result.out.find("'projectile'"), std::string::npos) << result.out;
 }
 
-/// Folders that can not be used are the caller's error, told as such.
+/// Folders that can not be used are the caller's error, and are reported as such.
 TEST(CommandLine, UnusableFoldersAreBadInput) {
     const auto folder = freshFolder("folders");
     const auto file = writeProjectile().string(), run = (folder / "run").string();
@@ -437,7 +437,8 @@ TEST(CommandLine, UnusableFoldersAreBadInput) {
     EXPECT_EQ(rigor("report " + run).code, 2);
 }
 
-/// A library that aborts, ends the process or throws must not look like a green run, nor like our own error.
+/// A library that aborts, ends the process or throws must not look like a green run, nor like an error of
+/// this program.
 TEST(CommandLine, RunTellsOfLibrariesThatFail) {
     const std::string doubles = "RIGOR_ADAPTER_PATH=" + std::string(RIGOR_BINARY_DIR) + "/tests/doubles";
     const auto file = writeProjectile().string();

@@ -8,7 +8,7 @@
 //     token           of the printed URL: valid once, and exchanged for a session cookie (HttpOnly,
 //                     SameSite=Strict)
 //     cookie          is present in every other request
-//     Origin          is ours and the content is JSON, for requests that change something
+//     Origin          is this server and the content is JSON, for requests that change something
 //     Sec-Fetch-Site  where a browser sends it, does not name another site (other ports of this host are the
 //                     same site for cookies, but not for this server)
 #pragma once

@@ -15,7 +15,7 @@
 
 #include "engine/benchmarks/counted_work.hpp"
 
-/// A name that callgrind can be told, and a boundary that the compiler keeps.
+/// A name that can be passed to callgrind, and a boundary that the compiler keeps.
 extern "C" [[gnu::noinline]] void rigorCountedWork(const std::function<void()>& work) {
     work();
     asm volatile("" ::: "memory");

@@ -17,8 +17,8 @@
 // the loose bounds (a third of the time: neighbouring loose bounds overlap, what is in them mostly does not).
 //
 // Where the loose bounds of a child do not hold the box after rounding, the box stays one level up. No cell
-// is smaller than 1/16 of the median box, nor than what can be told apart at its distance from the origin.
-// Unbounded boxes stay outside and are tested against all others.
+// is smaller than 1/16 of the median box, nor than the resolution of positions at its distance from the
+// origin. Unbounded boxes stay outside and are tested against all others.
 //
 // Cost per update: O(n + cells + moved boxes times depth + n times the cells met). Limits: a box may meet
 // several cells per level; one box far away deepens the whole tree by log2 of its distance.

@@ -22,8 +22,8 @@
 // tested again with the boxes themselves. A box that is not a number overlaps nothing. Boxes without bounds
 // are leaves like others, last in the order.
 //
-// Threads share the units of the search and the nodes of a level; who does what does not matter, since the
-// pairs are sorted at the end (pair_sort.hpp) and sums are of integers.
+// Threads share the units of the search and the nodes of a level; the assignment of the work to threads does
+// not matter, since the pairs are sorted at the end (pair_sort.hpp) and sums are of integers.
 //
 // Cost per update: O(n + changed log n + pairs). Limits: in double precision a scene wider than 10^7 of its
 // boxes is searched coarsely.

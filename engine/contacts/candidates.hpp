@@ -64,7 +64,7 @@ class Candidates {
 
     SlotList<Candidate<S>>& list() { return list_; }
     const SlotList<Candidate<S>>& list() const { return list_; }
-    /// Slots of contacts whose candidate was removed; cleared by who removes them.
+    /// Slots of contacts whose candidate was removed; cleared by the function that removes them.
     std::vector<std::uint32_t>& orphans() { return orphans_; }
 
     /// Distances that the cached manifolds were found with. Results for other distances are not valid.

@@ -3,7 +3,7 @@
 //
 // Contact cache: the narrow phase is not called again while two shapes have hardly moved relative to each
 // other (WorldDef::cacheTolerance). The idea is that of the contact caches of [Rouwe2022] and [Box2D2024];
-// code and bounds are our own.
+// code and bounds are written anew.
 //
 // Let T be the pose of the smaller shape (by its radius r about its origin) in the frame of the other, and T'
 // the same at the last query. No point of the smaller shape has moved, relative to the other, by more than

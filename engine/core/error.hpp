@@ -9,7 +9,7 @@
 
 namespace rigor::engine {
 
-/// id() is a stable snake_case name ("body_mass", "unknown_algorithm", ...); what() tells the rest.
+/// id() is a stable snake_case name ("body_mass", "unknown_algorithm", ...); what() describes the error.
 class EngineError : public std::invalid_argument {
   public:
     EngineError(std::string id, const std::string& message)

@@ -16,7 +16,7 @@ namespace rigor::engine {
 /// Index that refers to no element of an array.
 inline constexpr std::uint32_t kNullIndex = 0xffffffffu;
 
-/// index 0 is "none" (for bodies: the world); generation tells re-used slots apart.
+/// index 0 is "none" (for bodies: the world); the generation distinguishes re-used slots.
 template <class Tag>
 struct Id {
     std::uint32_t index = 0;

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // No gyroscopic term: without torque the angular velocity is constant in the world. Right for spheres and in
-// the plane; wrong for every other body, whose angular momentum then turns with it. Several engines do so.
+// 2D; wrong for every other body, whose angular momentum then turns with it. Several engines do so.
 #include "engine/integrators/rotation.hpp"
 #include "engine/integrators/traits.hpp"
 

@@ -16,7 +16,7 @@
 
 namespace rigor::engine {
 
-/// Rotation of the plane, stored as cosine and sine of its angle; c^2 + s^2 = 1.
+/// Rotation in 2D, stored as cosine and sine of its angle; c^2 + s^2 = 1.
 template <class R>
 struct Rot2 {
     R c = R(1), s = R(0);

@@ -9,10 +9,10 @@
 //            h(n') = t n . n' <= h(n). So n := n' falls until a facet is met at its own foot point.
 // Rounding radii and the speculative distance grow D by a margin where the cores are apart.
 //
-// Deviation: the paper takes the first portal's normal; the descent above is ours. It ends in a local minimum
-// of h, which a deep overlap can have several of, so it starts again from every face of either polytope (each
-// is a facet of D) and from the neighbours of a grid point (26 directions in 3D, 8 in 2D), lowest
-// support first, and the least is kept.
+// Deviation: the paper takes the first portal's normal; the descent above is of this project. It ends in a
+// local minimum of h, which a deep overlap can have several of, so it starts again from every face of either
+// polytope (each is a facet of D) and from the neighbours of a grid point (26 directions in 3D, 8 in 2D),
+// lowest support first, and the least is kept.
 //
 // Known limits: in 3D the least depth is not proven, unlike EPA's: crossings of edges are facets that a
 // descent has to run into. Of 6000 pairs of hulls of 8 to 20 vertices, boxes, spheres and capsules, a third
@@ -75,7 +75,7 @@ void eachSide(const Shape<S>& shape, Visit visit) {
     }
 }
 
-/// False when the shapes are further apart than the margin. `sides(visit)` tells the normals of the flat
+/// False when the shapes are further apart than the margin. `sides(visit)` visits the normals of the flat
 /// sides of D that are known beforehand.
 template <class S, class Sides>
 bool leastSupport(PortalQuery<S>& query, const typename S::Vec& inner, const Sides& sides) {

@@ -3,10 +3,10 @@
 //
 // The state of a world as a hash, as bytes, and back (state/state_fields.def).
 //
-// Bytes: "RIGORSNP", version, a word that tells the byte order, dimension, size of a number, a hash of the
+// Bytes: "RIGORSNP", version, a word that shows the byte order, dimension, size of a number, a hash of the
 // world's structure, the fields, and a hash (FNV-1a, 64 bits) of all bytes before it. The structure is the
-// bodies, shapes and joints of the world as built, with their constants. Settings are not part
-// of it: restored into a world of other settings the state goes on under those.
+// bodies, shapes and joints of the world as built, with their constants. Settings are not part of it:
+// restored into a world of other settings the state goes on under those.
 //
 // Spatial structures of the broad phase are not stored: which pairs it finds, and in which order, does not
 // depend on its history (broad_phase.hpp), so it starts afresh.

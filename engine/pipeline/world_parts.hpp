@@ -10,8 +10,8 @@
 //     islands             what connects the bodies
 //     clock               steps so far
 //
-// Invariant: a part knows the bodies of the others by their dense index, 0 the world. A function that
-// changes dense indices tells all parts (removeBody).
+// Invariant: a part knows the bodies of the others by their dense index, 0 the world. A function that changes
+// dense indices notifies all parts (removeBody).
 #pragma once
 
 #include <cstdint>

@@ -28,7 +28,7 @@ CastResult<S> castConvex(const Shape<S>& a, const Pose<S>& Xa, const typename S:
     const Aabb<S> box = boundingBox<S>(a, Xa);
     const R size = std::max({(box.max - box.min).maxCoeff(), translation.cwiseAbs().maxCoeff(),
                              (Xb.p - Xa.p).cwiseAbs().maxCoeff()});
-    // 64 roundings of the sizes met: what closestPoints can tell from zero.
+    // 64 roundings of the sizes met: the least distance that closestPoints distinguishes from zero.
     const R touching = R(64) * std::numeric_limits<R>::epsilon() * size;
     R t = 0;
     for (int step = 0; step < kMostSteps; ++step) {

@@ -8,8 +8,8 @@
 // read and write w itself:
 //     J v + bias = w_i,    v += M^-1 J^T lambda  becomes  w += W e_i lambda,    J_i M^-1 J_j^T = W_ij
 // so that it is the same solver, with n operations for a row instead of some forty. W may be unsymmetric.
-// Every block has the one "body" 0. Solvers that make something of who touches whom (pairs of bodies as
-// units, masses to split, positions) have no meaning here; matrix_solvers.def lists those that do.
+// Every block has the one "body" 0. Solvers that use the bodies of contacts (pairs of bodies as units, masses
+// to split, positions) have no meaning here; matrix_solvers.def lists those that do.
 #pragma once
 
 #include <cstddef>

@@ -56,7 +56,7 @@ double errorOf(const ViewModel& view, std::size_t scenario, const CaseRow& row) 
     return std::max(std::abs(m->value), results::gradeLimit(Grade::A) * m->scale.value_or(1.0));
 }
 
-/// The in-house engine's case that another stands beside; null where it has none.
+/// The in-house engine's case that another is compared with; null where it has none.
 const CaseRow* oursBeside(const ViewModel& view, std::size_t scenario, const CaseRow& row) {
     const CaseRow* found = nullptr;
     for (std::size_t c = 0; c < view.columns().size(); ++c) {

@@ -190,7 +190,7 @@ std::string cellText(const ViewModel& view, std::size_t scenario, std::size_t co
 /// One sentence on the accuracy of a case and one on its record: what is claimed, and nothing more.
 std::string accuracySentence(const results::CaseRow& row);
 std::string regressionSentence(const results::CaseRow& row);
-/// The same over several scenarios: rankings, who comes first, from the indices of scenarios.
+/// The same over several scenarios: rankings from the indices of scenarios.
 Mechanism rankingsOver(const ViewModel& view, const std::vector<std::size_t>& scenarios);
 /// Costs of a step by column.
 std::vector<StepCost> stepCosts(const ViewModel& view);

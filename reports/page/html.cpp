@@ -36,7 +36,7 @@ std::string dataElement(const std::string& id, const std::string& json) {
     return "<script type=\"application/json\" id=\"" + id + "\">" + inScript(json) + "</script>\n";
 }
 
-/// A closing tag inside our own code or a library would end the element early.
+/// A closing tag inside the page's own code or a library would end the element early.
 std::string inlined(std::string_view name) {
     const auto code = webAsset(name);
     if (code.find("</script") != std::string_view::npos || code.find("</style") != std::string_view::npos)

@@ -25,7 +25,7 @@ struct ReplayEvent {
     std::string unit;        ///< unit of the value
     double threshold = 0.0;  ///< divergence and engine_divergence: the distance that was passed [m]
     std::string text;        ///< audit: its own words
-    long contact = -1;       ///< audit: which of the contacts of the frame, -1: not told
+    long contact = -1;       ///< audit: which of the contacts of the frame, -1: not known
 };
 
 /// More contact events of one case are left out: a pile has thousands.

@@ -25,7 +25,7 @@ struct Mean {
     double value() const { return sum / told; }
 };
 
-/// Means over the timed repetitions, in the order in which they were told.
+/// Means over the timed repetitions, in the order in which they were reported.
 std::vector<std::pair<std::string, double>> means(const BenchCase& c, bool phases) {
     std::vector<std::string> order;
     std::map<std::string, Mean> sums;

@@ -167,7 +167,7 @@ TEST_F(Page, FetchesNothing) {
 
 TEST_F(Page, HostileNamesStayText) {
     const std::string beforeCode =
-        html_->substr(0, html_->find("<script nonce="));  // the rest is our own code
+        html_->substr(0, html_->find("<script nonce="));  // the rest is the page's own code
     EXPECT_EQ(beforeCode.find("<img"), std::string::npos);
     EXPECT_EQ(beforeCode.find("<b>x</b>"), std::string::npos);
     const json overview = data("run-data");

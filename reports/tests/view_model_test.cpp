@@ -77,7 +77,7 @@ TEST(ViewModel, StandsBesideTheInHouseEngineInTheSamePresetElseItsDefault) {
     EXPECT_DOUBLE_EQ(ViewModel(run).ratios(run.cases[3]).toOurs, 0.5) << "else the default";
 }
 
-/// Lines of one engine have one colour: dashes alone tell its columns apart.
+/// Lines of one engine have one colour: dashes alone distinguish its columns.
 TEST(ViewModel, NoTwoColumnsOfAnEngineHaveTheSameDashes) {
     results::Run run = twoScenarios();
     for (const char* spec : {"one:preset=default", "one:preset=matched", "one:preset=fast",

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Files of collision queries: two posed shapes each, with the exact answer where the file knows it. Two
-// formats: our own (JSON, collision.schema.json) and one query per line (JSON lines) as collections of known
-// answers are published.
+// formats: Rigor's format (JSON, collision.schema.json) and one query per line (JSON lines) as collections of
+// known answers are published.
 #pragma once
 
 #include <filesystem>
@@ -42,8 +42,8 @@ struct CollisionFile {
 };
 
 /// Reads either format: a file whose first line is a whole JSON object is read line by line, unless that
-/// object is itself a file of ours (it has the key `rigor_collision`). Throws LoadError with every problem of
-/// a file of ours, with the problems of the first bad line of the other.
+/// object is itself a file in Rigor's format (it has the key `rigor_collision`). Throws LoadError with every
+/// problem of a file in Rigor's format, with the problems of the first bad line of the other.
 CollisionFile loadCollisionFile(const std::filesystem::path& file);
 
 /// The case whose `text` this is.

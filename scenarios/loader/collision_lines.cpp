@@ -11,8 +11,8 @@
 //   expected        {signed_distance, overlap, normal (a to b), normal_unique, other_normals, accuracy,
 //                   normal_tolerance}; missing or null where not known
 //
-// The axis of capsule, cylinder and cone is local z (ours: local y). Ellipsoids and hulls without volume are
-// kept as cases that cannot be asked.
+// The axis of capsule, cylinder and cone is local z (Rigor's format: local y). Ellipsoids and hulls without
+// volume are kept as cases that cannot be asked.
 #include "scenarios/loader/collision_lines.hpp"
 
 #include <cmath>

@@ -18,7 +18,7 @@
 
 namespace rigor::scenario {
 
-/// A value with no physical counterpart that "nothing was given" can be told from.
+/// A value with no physical counterpart that marks "nothing was given".
 inline constexpr int kNone = -1;
 
 // ---------------------------------------------------------------------------------------------- shapes

@@ -20,7 +20,8 @@ struct BenchRequest {
     std::vector<std::string> engines;  ///< specs as given; empty: every engine that can take part
     std::vector<std::string> only;     ///< names of cases, usual or not; empty: all of them
     std::vector<double> sizes;         ///< instead of the family's own; empty: its own
-    bool full = false;                 ///< everything there is; else what tells most in some minutes
+    bool full = false;                 ///< everything there is; false: the most informative cases in some
+                                       ///< minutes
     std::vector<int> threads{1};       ///< thread counts of engines that have threads
     unsigned long long seed = 1;       ///< seed of the random parts of the work
     std::string preset;  ///< preset of specs that name none, if it matters; empty: each one's default

@@ -29,7 +29,7 @@ std::unique_ptr<BenchCase> makeCase(const PlannedBench& planned, const json& req
     throw adapter::BadInput("bench: no part is called '" + planned.part + "'");
 }
 
-/// A repetition that a process of its own makes, with what all of them tell.
+/// A repetition that a process of its own makes, with the data that all of them report.
 BenchRepetition repeat(const json& request) {
     const PlannedBench planned = plannedFromJson(request.at("planned"));
     const int round = request.at("round").get<int>();

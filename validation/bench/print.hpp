@@ -25,7 +25,7 @@ std::string changesText(const results::Run& run, const std::string& baseline,
 /// A case in few words: "box_pyramid 1240 bodies, ode:preset=matched, 2 threads".
 std::string benchCaseName(const results::BenchCase& c);
 
-/// The mean of a count over the repetitions that tell it, or -1.
+/// The mean of a count over the repetitions that report it, or -1.
 double countOf(const results::BenchCase& c, const std::string& name);
 
 }  // namespace rigor::validation

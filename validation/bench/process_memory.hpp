@@ -24,8 +24,8 @@ std::optional<Allocations> allocationsSoFar();
 /// sanitizer build, which has an allocator of its own.
 std::vector<std::string> withCountedAllocations(std::vector<std::string> command);
 
-/// Resident memory now, and the most since the last call of forgetPeak() or the start [KiB]; 0 where the
-/// system does not tell.
+/// Resident memory now, and the most since the last call of forgetPeak() or the start [KiB]; 0 if the system
+/// does not report it.
 std::int64_t residentKiB();
 std::int64_t peakResidentKiB();
 void forgetPeak();

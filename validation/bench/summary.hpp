@@ -26,8 +26,8 @@ struct BaselineOptions {
 };
 
 /// Cases of `after` against the same cases of `before` (equal id: same work, same spec), valid on both sides.
-/// "slower" or "faster" is what Mann and Whitney's test (corrected by Holm) tells from chance, whose interval
-/// of the ratio of medians does not hold 1, and whose ratio is beyond the threshold.
+/// "slower" or "faster" is a change that Mann and Whitney's test (corrected by Holm) finds significant, whose
+/// interval of the ratio of medians does not hold 1, and whose ratio is beyond the threshold.
 std::vector<results::BenchChange> changesSince(const results::Bench& before, const results::Bench& after,
                                                const BaselineOptions& options);
 bool becameSlower(const std::vector<results::BenchChange>& changes);

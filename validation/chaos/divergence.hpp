@@ -50,7 +50,7 @@ struct DivergenceOptions {
 };
 
 /// Frames are compared by their times. A pair of bodies touches in a frame when a contact between them
-/// carried an impulse, or overlaps where the engine does not tell impulses; it has split when one run has it
+/// carried an impulse, or overlaps if the engine does not report impulses; it has split when one run has it
 /// and the other neither then nor one frame before or after: a step of delay is no split. Throws
 /// std::invalid_argument for other bodies, or frames at other times.
 Divergence divergenceOf(const scenario::Scenario& scenario, const Trajectory& a, const Trajectory& b,

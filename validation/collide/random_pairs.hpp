@@ -23,7 +23,7 @@ struct RandomPairs {
 };
 
 /// "generic", "touching", "grazing", "parallel", "deep", "thin", "tiny", "huge", "far", "concentric",
-/// "identical"; the README tells what they are.
+/// "identical"; the README describes them.
 const std::vector<std::string>& randomPairKinds();
 /// Names as in files: sphere, box, capsule, hull, cylinder, cone; circle, box, capsule, polygon.
 const std::vector<std::string>& randomPairShapes(int dimension);

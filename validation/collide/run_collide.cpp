@@ -119,7 +119,7 @@ class QueryRunner {
     std::int64_t done_ = 0, total_ = 0;
 };
 
-/// Truth and judgement of every case: our own code, on threads, each case by one of them.
+/// Truth and judgement of every case: code of this program, on threads, each case by one of them.
 void judgeAll(CollideRun& run, int jobs, const std::atomic<bool>& interrupted) {
     std::atomic<std::size_t> next{0};
     const auto work = [&] {

@@ -30,7 +30,7 @@ struct AppliedLoad {
     scenario::Vec3 force, torque;
 };
 
-/// One step as an engine told it.
+/// One step as an engine reported it.
 struct RecordedStep {
     double dt = 0.0;
     std::vector<BodyState> before, after;  ///< states by scenario index
@@ -38,7 +38,7 @@ struct RecordedStep {
     std::vector<AppliedLoad> loads;  ///< loads by scenario index
 };
 
-/// The problem of a step, complete, with the engine's own answer as the stored solution (r where it told all
+/// The problem of a step, complete, with the engine's own solution as the stored one (r if it reported all
 /// impulses, v and u from its states after the step). Throws Unsupported for what the form has no place for,
 /// BadInput where there are no contacts.
 ExportedProblem exportStep(const scenario::Scenario& scenario, const RecordedStep& step);
@@ -59,7 +59,8 @@ RecordedStep runToStep(const scenario::Scenario& scenario, const ExportRequest& 
 struct ExportSummary {
     std::size_t contacts = 0, bodies = 0;
     double time = 0.0;           ///< time at which the step ends
-    double storedResidual = -1;  ///< relative natural map of the engine's own answer; -1: told no impulses
+    double storedResidual = -1;  ///< relative natural map of the engine's own solution; -1: no impulses
+                                 ///< reported
 };
 /// The same in a child process, to `file`. Throws Unsupported, BadInput, and std::runtime_error for a crash.
 ExportSummary exportToFile(const ExportRequest& request, const std::filesystem::path& binary,

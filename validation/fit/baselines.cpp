@@ -15,7 +15,7 @@ namespace {
 
 using namespace scenario;
 
-/// A run in which `body` moves as told and all others stay.
+/// A run in which `body` moves as given and all others stay.
 Trajectory told(const Scenario& s, double dt, int body, const std::function<BodyState(double)>& motion) {
     Trajectory run;
     run.dt = dt;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The published model of a pendulum of one to three arms, integrated here so that a recorded swing can be
-// given a start and be told how far that model is from it. Angles absolute, from straight up.
+// The published model of a pendulum of one to three arms, integrated here so that a recorded swing can get a
+// start, and the error of that model be measured. Angles absolute, from straight up.
 #pragma once
 
 #include <cstddef>

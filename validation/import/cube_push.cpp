@@ -14,7 +14,7 @@
 // friction of a cube of 88 g changes its speed by 3e-6 m/s in a second.
 //
 // What is recorded besides: after its largest speed the cube runs ahead of the hand and slides to rest, which
-// tells its friction on the table apart from any engine: deceleration/g.
+// gives its friction on the table independently of any engine: deceleration/g.
 // Source: Collins, Howard, Leitner, Quantifying the reality gap in robotic manipulation tasks, ICRA 2019.
 #include <algorithm>
 #include <array>

@@ -136,7 +136,7 @@ std::string scenarioOf(int id, bool train, const Recording& recording, const Sta
          {"metrics", {"measured_position_mean", "measured_orientation_mean", "measured_loss"}}});
 }
 
-/// The heights of a recording tell it from all others; a copy of it turned about z has the same.
+/// The heights of a recording distinguish it from all others; a copy of it turned about z has the same.
 class CopyFinder {
   public:
     void check(const Recording& recording, const fs::path& file) {

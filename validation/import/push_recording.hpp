@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A recorded push: a hand and the cube that it pushes along +x, as poses at a steady rate, and what the poses
-// tell: when the cube moves, where on the hand it is pushed, how it slides when the hand falls behind.
-// World z up.
+// A recorded push: a hand and the cube that it pushes along +x, as poses at a steady rate, and the quantities
+// derived from the poses: when the cube moves, where on the hand it is pushed, how it slides when the hand
+// falls behind. World z up.
 #pragma once
 
 #include <filesystem>
@@ -34,8 +34,8 @@ struct Push {
 Push readPush(const std::filesystem::path& file);
 
 /// The point of the hand that pushes: fixed in the hand's frame, in its y-z plane (x is across the push, and
-/// no turn of the hand tells it), such that it stays at the cube's rear face from the first movement up to
-/// the largest speed. Least squares over all frames of all pushes, along the push alone.
+/// no turn of the hand determines it), such that it stays at the cube's rear face from the first movement up
+/// to the largest speed. Least squares over all frames of all pushes, along the push alone.
 struct PushPoint {
     scenario::Vec3 inHand;  ///< [m]
     double rms = 0.0;       ///< RMS of the residual [m]

@@ -91,7 +91,7 @@ void InstanceWorld::advance(std::size_t steps, double seconds) {
     }
 }
 
-/// Keeping the impulses of every iteration costs more than the rest of what is read: only for those who look.
+/// Keeping the impulses of every iteration costs more than the rest of what is read: only for display.
 void InstanceWorld::watch(bool on) {
     if (watched_ == on || world_->staged() == nullptr) return;
     world_->staged()->watchIterations(on);

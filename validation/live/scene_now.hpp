@@ -50,7 +50,7 @@ struct SceneNow {
 /// Bodies that move have the poses and velocities of the moment. Joints keep their meaning: anchors are where
 /// they are, limits and targets of springs are counted from the new poses. Forces and events are those still
 /// to come. The reference, bounds and deviations no longer hold and are dropped; the engines' memory
-/// (impulses to start from, who sleeps) is no part of a scenario.
+/// (impulses of the warm start, sleeping bodies) is no part of a scenario.
 SceneNow sceneNow(const scenario::Scenario& scenario, const Moment& moment);
 
 }  // namespace rigor::validation

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The laws of Signorini and Coulomb, point by point, for engines that tell their impulses: by how much, as a
-// velocity [m/s], what the engine did at a contact misses each law. With the frame, arms and K of
+// The laws of Signorini and Coulomb, point by point, for engines that report their impulses: by how much, as
+// a velocity [m/s], what the engine did at a contact misses each law. With the frame, arms and K of
 // contact_point.hpp at the states where the step began, u the relative velocity at its end (u- at its start),
 // p_n and p_t the impulses of the step, s the separation (minus the depth), h the step, e and mu those of the
 // pair:
@@ -25,10 +25,10 @@
 //                not counted twice), the residual is |p' - P(p' - rho u_t)|/rho: zero where it sticks, or
 //                slides against friction at its limit; at most the slip.
 //
-// Only contacts with told impulses and, if apart, with an impulse count. Only records of every step do for
-// the first and the last; frames further apart lack the states that the step ended with. These are the parts
-// of the natural map of the contact problem (De Saxce and Feng, Math. Comput. Modelling 28, 1998; Facchinei
-// and Pang, 2003, section 1.5), each by itself. Newton's law of impact as in Moreau, 1988.
+// Only contacts with reported impulses and, if apart, with an impulse count. Only records of every step do
+// for the first and the last; frames further apart lack the states that the step ended with. These are the
+// parts of the natural map of the contact problem (De Saxce and Feng, Math. Comput. Modelling 28, 1998;
+// Facchinei and Pang, 2003, section 1.5), each by itself. Newton's law of impact as in Moreau, 1988.
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -48,7 +48,7 @@ std::optional<PairGeometry> exactPair(const MetricInput& input, const ContactPoi
                           poseOf(input.trajectory.state(frame, contact.bodyB), *b), input.scenario.dimension);
 }
 
-/// Engines that do not tell which shape touched say 0: only bodies of one shape are judged.
+/// Engines that do not report which shape touched give 0: only bodies of one shape are judged.
 bool shapesAreKnown(const MetricInput& input, const ContactPoint& contact) {
     return input.scenario.bodies[contact.bodyA].shapes.size() == 1 &&
            input.scenario.bodies[contact.bodyB].shapes.size() == 1;

@@ -194,7 +194,7 @@ OracleAnswer planeAnswer(Real sd, Vec onShape, const Plane& plane, bool shapeIsA
     return answer;
 }
 
-/// Core over a half-space; `coreIsA` tells the direction of the normal.
+/// Core over a half-space; `coreIsA` decides the direction of the normal.
 OracleAnswer planeContact(const Core& c, const Plane& plane, bool coreIsA, scenario::Vec3 origin) {
     const Real low = -supportAlong(c, -1 * plane.normal);
     Vec deepest;

@@ -29,7 +29,7 @@ struct BenchPhase {
 struct BenchQuality {
     std::string name, unit;
     double value = 0.0;
-    std::optional<double> min, max;  ///< bounds; neither: told, not judged
+    std::optional<double> min, max;  ///< bounds; neither: reported, not judged
     bool ok = true;                  ///< true if the value is within the bounds; NaN never is
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Opening results.sqlite, and its schema. README.md describes every table for people who read the file with
-// other tools.
+// Opening results.sqlite, and its schema. README.md describes every table for readers of the file with other
+// tools.
 #pragma once
 
 #include <SQLiteCpp/SQLiteCpp.h>

@@ -16,7 +16,7 @@ constexpr int kFormat = 3;
 constexpr int kLastWithoutInstants = 2;
 constexpr const char* kScene = "_";  ///< dataset name of a series without a subject
 
-/// Names become HDF5 links: '/' and '.' have a meaning there, and "_" is ours.
+/// Names become HDF5 links: '/' and '.' have a meaning there, and "_" marks the escape.
 std::string linkName(const std::string& name) {
     if (name == kScene) return "%5F";
     if (name.empty()) return kScene;

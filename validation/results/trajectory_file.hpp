@@ -36,7 +36,7 @@ struct ContactSample {
     int bodyA = 0, bodyB = 0, shapeA = 0, shapeB = 0;
     double pointA[3] = {}, pointB[3] = {}, normal[3] = {};
     double depth = 0.0;
-    double normalImpulse = 0.0;  ///< NaN where the engine does not tell
+    double normalImpulse = 0.0;  ///< NaN if the engine does not report it
     double frictionImpulse[3] = {};
 };
 

@@ -72,8 +72,8 @@ results::AuditRow pairRow(const std::string& a, const std::vector<AuditAnswer>& 
 inline constexpr const char* kInRun = "in_run";
 /// The contacts that the run acted upon, held against the oracle at the poses where its step began. A contact
 /// that the engine let act on an overlap counts as found whatever depth it gave it; one between shapes that
-/// are apart is spurious when its depth claims an overlap. Without questions where the file does not tell the
-/// poses.
+/// are apart is spurious when its depth claims an overlap. There are no queries if the file does not store
+/// the poses.
 results::AuditRow inRunRow(const scenario::Scenario& scenario, const AuditCase& questions);
 /// Time [s] and worst angle [rad] between the normals of deepest contacts that the run acted upon and the
 /// nearest exact ones, for each sampled frame with an overlap that it found; in time order.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Exit codes by which a child tells its parent what an answer file could not.
+// Exit codes by which a child reports to its parent what a result file could not.
 #pragma once
 
 namespace rigor::validation {

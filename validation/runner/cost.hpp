@@ -13,7 +13,7 @@
 
 namespace rigor::validation {
 
-/// Means over the steps of what the engine tells.
+/// Means over the steps of the counters that the engine reports.
 class CostMeter {
   public:
     void add(const adapter::StepCounters& counters);

@@ -33,7 +33,7 @@ std::vector<adapter::EngineSpec> withAllPresets(const std::vector<adapter::Engin
 void checkSettings(const adapter::EngineSpec& spec, const EngineDescription& description);
 
 /// Throws BadInput for an engine that is not installed, and for a key or value of a spec that its engine does
-/// not have. An engine that can not be described is left to its cases, which tell what became of it.
+/// not have. An engine that can not be described is left to its cases, which report what became of it.
 void checkSpecs(const std::vector<adapter::EngineSpec>& specs, const std::filesystem::path& binary);
 
 /// The same of every spec of a plan, with what scenarios ask of engines; to be called before anything is run

@@ -26,7 +26,7 @@ std::string valueIn(const char* file, const std::string& key, char separator) {
     return "unknown";
 }
 
-/// "unknown" where there is no such file: virtual machines do not tell their clock.
+/// "unknown" where there is no such file: virtual machines do not report their clock.
 std::string firstWord(const char* file) {
     std::ifstream in(file);
     std::string word;

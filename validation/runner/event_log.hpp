@@ -18,7 +18,7 @@
 //
 // A is the body of lower index, n the normal from A to B at the deepest point, depth [m] there (< 0: apart),
 // p the middle between its two surface points [m]; jn [N s] the normal impulses of all points together, jt [N
-// s] the sum of the friction impulses on B, both only where the engine tells them. vn [m/s]: speed at which B
+// s] the sum of the friction impulses on B, both only if the engine reports them. vn [m/s]: speed at which B
 // leaves A at p, < 0: they approach.
 #pragma once
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // References are computed in children with limits: one that never ends, eats the memory or crashes costs its
-// own answer, is told by a name of its own, and is blamed on no engine.
+// own solution, is reported by a name of its own, and counts against no engine.
 #pragma once
 
 #include <filesystem>
@@ -38,7 +38,7 @@ struct ReferenceCheck {
     ReferenceOutcome outcome = ReferenceOutcome::None;
     std::string problem;  ///< reason why there is none: a sentence, "" for None and Holds
 
-    /// It broke down: neither the scenario's values nor an engine can be told to be the cause.
+    /// It broke down: neither the scenario's values nor an engine can be named as the cause.
     bool brokeDown() const;
     /// "reference_timeout: the reference did not finish within 20 s".
     std::string text() const;

@@ -103,7 +103,7 @@ class RunInProgress {
     }
 
   private:
-    /// Adds what only all cases together tell, then the mark of the end.
+    /// Adds the results of all cases together, then the mark of the end.
     void finish(results::Run& run) {
         run.orders = observedOrders(run);
         run.fairness = fairComparisons(run);

@@ -99,7 +99,7 @@ struct LiveOptions {
     int stride = 0;  ///< 0: chosen from size and duration
     std::function<void(double time, std::span<const BodyState>, const std::vector<ContactPoint>&)>
         onStep;  ///< called after each step; may be empty
-    /// Called before each onStep with the world, for what only the engine can tell; may be empty.
+    /// Called before each onStep with the world, for data that only the engine has; may be empty.
     std::function<void(const adapter::World&)> onWorld;
     /// Called when the engine is done and the reference is about to be made and asked; may be empty.
     std::function<void()> onSimulated;

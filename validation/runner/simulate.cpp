@@ -32,8 +32,8 @@ void describeAfterFirst(const std::vector<double>& samples, results::TimingRow& 
     row.worst = others.back();
 }
 
-/// The interval of the median is that of statistics.hpp: what this run's steps tell of their median. Steps of
-/// one run resemble their neighbours, and another run may find the machine in another mood.
+/// The interval of the median is that of statistics.hpp: the information of this run's steps on their median.
+/// Steps of one run resemble their neighbours, and another run may find the machine in another mood.
 results::TimingRow timingRow(const std::string& phase, std::vector<double> samples, double meanContacts) {
     results::TimingRow row;
     row.phase = phase;

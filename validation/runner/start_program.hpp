@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A child process of ours: it leads its own process group, has no core dump and no input, and dies with this
-// process, however this process ends.
+// A child process of this program: it leads its own process group, has no core dump and no input, and dies
+// with this process, however this process ends.
 #pragma once
 
 #include <sys/types.h>

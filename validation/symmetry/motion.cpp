@@ -17,7 +17,7 @@ namespace {
 using namespace scenario;
 
 constexpr Vec3 kVelocity{1.7, 0.6, -0.9};  ///< [m/s] no multiple of anything, of the size of usual speeds
-constexpr double kFar = 500.0;             ///< [m] single precision still tells 0.03 mm there
+constexpr double kFar = 500.0;             ///< [m] single precision still resolves 0.03 mm there
 
 bool hasStaticOnlyShape(const Body& b) {
     return std::any_of(b.shapes.begin(), b.shapes.end(),

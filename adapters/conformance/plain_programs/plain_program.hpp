@@ -74,7 +74,7 @@ inline double largest(const Quat& a, const Quat& b) {
                      std::abs(a.z - sign * b.z)});
 }
 
-/// Success where every state of every step agrees; otherwise tells the first difference (step, body,
+/// Success where every state of every step agrees; otherwise reports the first difference (step, body,
 /// quantity) and the largest of the run. A NaN agrees with nothing.
 inline ::testing::AssertionResult same(const Trajectory& plain, const Trajectory& adapter,
                                        const Bounds& bounds = {}) {

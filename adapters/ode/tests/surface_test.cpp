@@ -103,7 +103,7 @@ TEST(OdeSurfaces, AHeightFieldStandsWhereItsFrameSays) {
     EXPECT_LT(heightUnder(11.0, 0.0), 0.5);
 }
 
-/// A closed chain of the plane holds a box within and on it.
+/// A closed 2D chain supports a box within and on it.
 TEST(OdeSurfaces, AChainHoldsFromWithinAndWithout) {
     const scenario::Chain loop{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, true};
     for (const bool within : {true, false}) {

@@ -3,8 +3,8 @@
 //
 // Every narrow phase of the engine against the exact oracle on the hard cases of convex pairs, hulls of 8 to
 // 20 vertices in both precisions, and on the published and generated cases of RIGOR_DATA. "sat" and "gjk_epa"
-// give the exact depth and a minimising normal; "mpr" gives the exact verdict, a direction that parts the
-// shapes by the depth it tells, and the least depth where the overlap is shallow.
+// give the exact depth and a minimising normal; "mpr" gives the exact verdict, a direction that separates the
+// shapes by the depth that it reports, and the least depth where the overlap is shallow.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -156,7 +156,7 @@ TYPED_TEST(ConvexPairs, HardCasesAgreeWithTheOracle) {
                 exact = validation::exactContact(a.geometry, a.pose, b.geometry, b.pose, S::dim);
             }
             overlapping += exact->signedDistance < 0;
-            // Positions are rounded to the precision before anyone subtracts them.
+            // Positions are rounded to the precision before they are subtracted.
             const double placed = kind.place * 4 * std::numeric_limits<typename S::Real>::epsilon();
             checkPair<S>(a, b, exact->signedDistance, kind.size, kExact<S> * kind.size + placed);
         }

@@ -72,7 +72,7 @@ TEST_P(ForeignNarrowPhase, HoldsAStackThatTheInHouseSolverSolves) {
     const int ball = addBody(s, Sphere{0.3}, {2, 0.5, 0}, 1, even(0.036));
     Simulation run(s, 1.0 / 240, key);
     run.seconds(1.5);
-    // Contacts are told of overlaps only, and EPA of none below 1e-7 m.
+    // Contacts are reported for overlaps only, and EPA of none below 1e-7 m.
     EXPECT_NEAR(run.state(lower).position.y, 0.5, 2e-3);
     EXPECT_NEAR(run.state(upper).position.y, 1.5, 4e-3);
     EXPECT_NEAR(run.state(ball).position.y, 0.3, 2e-3);

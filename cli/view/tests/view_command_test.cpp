@@ -22,7 +22,7 @@ using nlohmann::json;
 using test::Browser;
 using validation::Packet;
 
-/// A program that runs until it is told to end.
+/// A program that runs until it gets a signal.
 class Program {
   public:
     explicit Program(std::vector<std::string> arguments) {

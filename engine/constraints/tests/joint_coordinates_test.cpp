@@ -151,7 +151,7 @@ TYPED_TEST(JointCoordinates, SlidersAndWheelsMeasureTheTravel) {
                 EXPECT_NEAR(rows.value[static_cast<std::size_t>(k)], 0, 4 * this->kTolerance);
             for (int i = 0; i < rows.equalities; ++i)
                 EXPECT_NEAR(rows.error[static_cast<std::size_t>(i)], 0, 4 * this->kTolerance);
-            // Off the line the rows of a slider or a wheel tell by how much.
+            // Off the line the rows of a slider or a wheel measure by how much.
             away.p += static_cast<R>(0.25) * this->normalTo(this->axis());
             const JointRows<S> off = this->rows(this->joint, this->A, away);
             double squared = 0;

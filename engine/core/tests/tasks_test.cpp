@@ -217,7 +217,7 @@ TEST(Tasks, ExceptionsOfStagesReachTheCallerAndWorkGoesOn) {
     }
 }
 
-/// More threads than there are processors, on runs of stages of all sizes: who comes late finds nothing left.
+/// More threads than there are processors, on runs of stages of all sizes: a late thread finds nothing left.
 TEST(Tasks, ShortRunsOfStagesFollowEachOther) {
     const Tasks tasks(8);
     tasks.withWorkers([&] {

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // The order of every integrator on smooth problems, measured by halving the step twice: differences of three
-// runs tell it without a reference, closed forms where there is one tell that it converges to the right
-// thing.
+// runs measure it without a reference, closed forms, if there are any, show that it converges to the exact
+// solution.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -20,7 +20,7 @@
 //    neither grown nor asked for its offset.
 //  - The final normal is computed again from the widest triangle of D's points in the facet.
 // Cost: about as many support points as D has vertices near the facet; O(faces) each. Curved sides converge
-// quadratically in the number of points per direction; kMaxVertices ends it and `converged` tells.
+// quadratically in the number of points per direction; kMaxVertices ends it and `converged` reports it.
 #include "engine/narrowphase/minkowski.hpp"
 
 namespace rigor::engine {

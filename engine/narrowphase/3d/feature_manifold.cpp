@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
 // Contact points along a normal n that GJK, EPA or MPR found. Of each shape the feature that supports n: a
-// face of a box or hull, the segment of a capsule, a point of a sphere, what feature.hpp tells of others. The
-// one most nearly perpendicular to n is the reference; the other is clipped to the prism that it sweeps along
-// n (Sutherland-Hodgman), with separations measured along n. Two segments side by side share a stretch of
-// both. If nothing is flat against n there is one point, the closest pair.
+// face of a box or hull, the segment of a capsule, a point of a sphere, the result of feature.hpp for others.
+// The one most nearly perpendicular to n is the reference; the other is clipped to the prism that it sweeps
+// along n (Sutherland-Hodgman), with separations measured along n. Two segments side by side share a stretch
+// of both. If nothing is flat against n there is one point, the closest pair.
 #include "engine/narrowphase/3d/clip.hpp"
 #include "engine/narrowphase/3d/feature.hpp"
 #include "engine/narrowphase/minkowski.hpp"

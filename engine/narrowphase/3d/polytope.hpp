@@ -111,7 +111,7 @@ struct Relative {
     Relative inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation)}; }
 };
 
-/// Penetration deeper than this is not told apart: an edge pair must be better than the best face by more.
+/// Penetration deeper than this is not resolved: an edge pair must be better than the best face by more.
 template <class R>
 R axisTolerance(R size, R separation) {
     return kRounding<R> * size + R(1e-7) * std::abs(separation);

@@ -128,7 +128,7 @@ TYPED_TEST(Distance, HardCasesAreProven) {
     }
 }
 
-/// Moved to touch, then apart or together by as little as rounding can tell: no wrong verdict.
+/// Moved to touch, then apart or together by as little as rounding resolves: no wrong verdict.
 TYPED_TEST(Distance, GrazingIsToldApart) {
     using S = TypeParam;
     using R = typename S::Real;

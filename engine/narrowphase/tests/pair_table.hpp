@@ -83,7 +83,7 @@ struct Random {
     }
 };
 
-/// Indices of Shape that tests name; the others are told by kKinds alone.
+/// Indices of Shape that tests name; the others are found by kKinds alone.
 struct Kind {
     enum { Sphere, Box, Capsule, HalfSpace, Hull };
 };

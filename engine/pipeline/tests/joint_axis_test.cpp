@@ -81,7 +81,7 @@ TYPED_TEST(JointAxes, MotorAcceleratesByItsTorqueAndHoldsItsSpeed) {
     double angle = 0;
     for (int i = 1; i <= 800; ++i) angle += h * std::min(a * h * i, 10.0);
     EXPECT_NEAR(one.world.jointCoordinate(one.joint), angle, tol<S>(1e-10, 2e-3));
-    // A new speed while running; the torque is told.
+    // A new speed while running; the torque is reported.
     one.world.setJointMotor(one.joint, 0, R(-5), R(2));
     one.world.step(static_cast<R>(h));
     EXPECT_NEAR(spinOf<S>(one.world.angularVelocity(one.body)), 10 - 4 * h, tol<S>(1e-12, 2e-5));

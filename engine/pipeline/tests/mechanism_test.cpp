@@ -20,7 +20,7 @@ class Mechanisms : public testing::Test {};
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(Mechanisms, Spaces);
 
-/// Thin rods between points of the plane, hinged to each other and to the ground.
+/// Thin rods between points in 2D, hinged to each other and to the ground.
 template <class S>
 struct Mechanism {
     using R = typename S::Real;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Laws of impact, coefficients of pairs, and what a step tells of its solver.
+// Laws of impact, coefficients of pairs, and the report of a step on its solver.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Area, centroid and second moment of the plane shapes; computed in double.
+// Area, centroid and second moment of 2D shapes; computed in double.
 //   polygon: fan of triangles (o, a, b) of signed area T = (a x b) / 2 from a vertex o:
 //     centroid (a + b) / 3, second moment about o: T (a.a + a.b + b.b) / 6
 //   capsule: rectangle 2r x 2h and two half discs, whose centroids lie 4r / (3 pi) beyond the ends.

@@ -96,7 +96,7 @@ class Solids : public testing::Test {};
 using Spaces = testing::Types<Space2f, Space2d, Space3f, Space3d>;
 TYPED_TEST_SUITE(Solids, Spaces);
 
-/// Entry of an inertia tensor; the one number of the plane whatever the indices.
+/// Entry of an inertia tensor; the one number of 2D for all indices.
 template <class I>
 double inertiaEntry(const I& inertia, int r, int c) {
     if constexpr (std::is_arithmetic_v<I>)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Islands against a flood fill, and who sleeps and wakes when.
+// Islands against a flood fill, and the times at which bodies sleep and wake.
 #include <gtest/gtest.h>
 
 #include <cmath>

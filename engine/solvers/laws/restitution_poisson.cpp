@@ -7,8 +7,8 @@
 //                   0 <= x_n _|_ n . u >= 0 for what more is needed where bodies would still approach
 // Friction obeys Coulomb's law in each phase, with limits mu c_n and mu (e c_n + x_n) and the velocities at
 // the end of the phase; so a contact may slide in one and stick, or slide back, in the other, which Newton's
-// law (one phase) cannot tell. Joints hold in both; what a bounded row has used of its bounds in compression
-// is not there in expansion.
+// law (one phase) cannot express. Joints hold in both; what a bounded row has used of its bounds in
+// compression is not there in expansion.
 //
 // Impacts take place before the forces of the step, from the velocities that the bodies hit with; afterwards
 // the contacts keep the separation speed that they got, as with Newton's law: the forces of one step do not

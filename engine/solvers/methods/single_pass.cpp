@@ -19,8 +19,8 @@
 //     not converge to the answer;
 //   - friction is limited by the normal impulse of this pass alone, which for resting contacts is what
 //     is left of g h after the neighbours' impulses: stacks slide apart.
-// It is exact where nothing couples: one contact or joint row per body and step, so for a ball that bounces
-// it cannot be told from the others. Measured (pipeline/tests/solver_test.cpp): a stack of five boxes
+// It is exact where nothing couples: one contact or joint row per body and step, so for a bouncing sphere it
+// cannot be distinguished from the others. Measured (pipeline/tests/solver_test.cpp): a stack of five boxes
 // collapses whatever corrects its positions; a box slides on a slope that holds it; a pendulum on two rows
 // loses most of its energy.
 #include "engine/solvers/matrix_space.hpp"

@@ -27,7 +27,7 @@ std::vector<Block<S>> randomUnits(unsigned seed, std::size_t units, std::uint32_
     return blocks;
 }
 
-/// A product that does not commute: what each body has been told, in order.
+/// A product that does not commute: the blocks that have acted on each body, in order.
 struct Told {
     std::vector<std::uint64_t> bodies;
     std::uint64_t tell(const Block<S>& block, std::uint64_t unit) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// node bench/replay_speed.mjs [bodies] [frames]
-// What a frame of the replay costs the processor, in Chromium without a graphics card: medians and 95th percentiles of
-// our own part (placing, colouring, overlays) and of the whole drawing, which here includes the pixels.
+// node bench/replay_speed.mjs [bodies] [frames] What a frame of the replay costs the processor, in Chromium without a
+// graphics card: medians and 95th percentiles of the page's own part (placing, colouring, overlays) and of the whole
+// drawing, which here includes the pixels.
 import { existsSync } from 'node:fs';
 import { build } from 'esbuild';
 import { chromium } from 'playwright-core';

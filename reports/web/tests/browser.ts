@@ -121,7 +121,7 @@ export async function faultsOf(browser: Browser, options: BrowserContextOptions,
   return { page, context, faults };
 }
 
-/** A page that can reach files alone, and tells of every fault. */
+/** A page that can reach files alone, and reports every error. */
 export async function watched(browser: Browser, options: BrowserContextOptions = {}): Promise<Watched> {
   const mayAsk = (url: string) => /^(file|data|blob):/.test(url);
   const { page, context, faults } = await faultsOf(browser, { offline: true, ...options }, mayAsk);

@@ -50,7 +50,7 @@ TEST(CollisionFiles, TheLibraryLoads) {
     }
 }
 
-/// Their axis is z, ours is y: the apex of a cone must come out where they have it.
+/// Their axis is z, that of Rigor's format is y: the apex of a cone must come out where they have it.
 TEST(CollisionFiles, AxesOfLinesAreTurned) {
     const CollisionFile file = loadCollisionFile(written("cone.jsonl", "\n" + kLine + "\n"));
     ASSERT_EQ(file.cases.size(), 1u);
@@ -65,7 +65,7 @@ TEST(CollisionFiles, AxesOfLinesAreTurned) {
     EXPECT_EQ(c.expected.normals, (std::vector<Vec3>{{0, 0, 1}}));
 }
 
-/// The format is told by what is in the file, not by its name.
+/// The format is recognised by the content of the file, not by its name.
 TEST(CollisionFiles, FormatsAreToldApart) {
     EXPECT_EQ(loadCollisionFile(written("lines.json", kLine + "\n" + kLine + "\n")).cases.size(), 2u);
     const std::string own =

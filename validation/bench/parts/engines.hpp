@@ -41,7 +41,7 @@ bool isWanted(const BenchRequest& request, const std::string& name, bool usual =
 /// The command that runs one case again; the interface alone is not to be had.
 std::string partCommand(const PlannedBench& planned, const BenchRequest& request);
 
-/// A value with the largest it may have; none: told, not judged.
+/// A value with the largest it may have; none: reported, not judged.
 results::BenchQuality judged(const std::string& name, const std::string& unit, double value,
                              std::optional<double> max);
 

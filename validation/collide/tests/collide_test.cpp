@@ -133,7 +133,7 @@ TEST(Judge, SetsOfNormals) {
 
 TEST(Judge, ShapesTheOracleLacksAreJudgedByTheFile) {
     scenario::CollisionCase c;
-    c.dimension = 2;  // a cylinder is no shape of the plane
+    c.dimension = 2;  // a cylinder is no 2D shape
     c.a.geometry = scenario::Cylinder{1.0, 1.0};
     c.b.geometry = scenario::Cylinder{1.0, 1.0};
     c.b.pose.position = {0, 1.75, 0};

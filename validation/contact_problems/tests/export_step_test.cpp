@@ -94,7 +94,7 @@ TEST(ExportStep, SolvingItIsTheEnginesStep) {
         }
 }
 
-/// Every engine that tells contacts can be exported: what it says carries the block's weight.
+/// Every engine that reports contacts can be exported: what it says carries the block's weight.
 TEST(ExportStep, WorksForEveryEngineWithContacts) {
     setenv("RIGOR_ADAPTER_PATH", (std::string(RIGOR_BINARY_DIR) + "/bin/adapters").c_str(), 1);
     std::size_t engines = 0;

@@ -130,8 +130,8 @@ TEST(Fclib, LayoutIsThatOfTheFormat) {
     EXPECT_EQ(*std::max_element(p.begin(), p.end()), 2);
 }
 
-/// u = H^T v + w and M v = H r + G l + f, G^T v + b = 0: l is found by least squares, so that what is left of
-/// the equation of motion along G's complement tells.
+/// u = H^T v + w and M v = H r + G l + f, G^T v + b = 0: l is found by least squares, so that the residual of
+/// the equation of motion along G's complement is the measure.
 TEST(Condensation, AgreesWithTheEquationsItComesFrom) {
     for (const int bilateral : {0, 1, 3}) {
         const ExportedProblem exported = randomGlobal(3, 3, 8, bilateral, 11);

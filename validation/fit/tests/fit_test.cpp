@@ -336,7 +336,7 @@ TEST(RealTosses, EveryEngineIsBetterThanACubeThatStaysWhereItIs) {
     EXPECT_LT(apart[0], 0.8 * apart[3]);
 }
 
-/// A run that broke counts as infinite: no number of the tables, but told.
+/// A run that broke counts as infinite: no number of the tables, but reported.
 TEST(FitFiles, HaveNoTextAmongNumbers) {
     const double inf = std::numeric_limits<double>::infinity();
     FitResult result;

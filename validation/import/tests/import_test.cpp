@@ -251,7 +251,8 @@ double frozenLoss(const Scenario& s) {
         .value;
 }
 
-/// The folder of the data set, or one above it, with a slash behind or not; another one is told what is there.
+/// The folder of the data set, or one above it, with a slash behind or not; the error for another one lists
+/// what is there.
 TEST(DataFolder, IsFoundInTheFoldersAboveIt) {
     const fs::path data = fs::path(::testing::TempDir()) / "data-folders";
     fs::remove_all(data);

@@ -61,8 +61,8 @@ TEST_P(Instances, GoBackToTheSameBits) {
     EXPECT_EQ(bits(*world), states[15]) << "what was dragged later is forgotten";
 }
 
-/// A block slides at metres a second: its contacts are told as the step found them, and drawn where they have
-/// gone with it; after a step back as well.
+/// A block slides at metres a second: its contacts are reported as the step found them, and drawn where they
+/// have gone with it; after a step back as well.
 TEST_P(Instances, ContactsAreCarriedAlongWithTheirBodies) {
     const auto world = instance(GetParam());
     world->advance(5, kLong);

@@ -67,7 +67,7 @@ class Still : public Reference {
     const Scenario& scenario_;
 };
 
-/// A plate filmed while it is carried along and turned; who filmed it knows no velocities.
+/// A plate filmed while it is carried along and turned; a filmed motion has no velocities.
 class Filmed : public Reference {
   public:
     std::vector<int> bodies() const override { return {0}; }

@@ -8,8 +8,8 @@
 // Source: Brach, Mechanical Impact Dynamics, 1991; Walton 1993; Foerster et al. 1994.
 // Assumes: free flight in the same gravity before and after; they meet within the duration.
 // Quantities, for each body: velocity_x_<body>, velocity_y_<body> (velocity_z_<body>) right after the impact,
-// taken from the end of the run less what gravity has added since, and spin_<body>, in space spin_x_<body>
-// and so on.
+// taken from the end of the run less what gravity has added since, and spin_<body>, in 3D spin_x_<body> and
+// so on.
 #include <cmath>
 
 #include "validation/references/impacts/impact_law.hpp"

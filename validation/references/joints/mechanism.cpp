@@ -142,7 +142,7 @@ class Mechanism : public Reference {
         }
         if (joint.type == JointType::Slider || joint.type == JointType::Fixed) square(t, u);
     }
-    /// World directions across a slider's rail: two, in the plane one.
+    /// World directions across a slider's rail: two, in 2D one.
     std::vector<Vec3> acrossRail(const scenario::Joint& joint) const {
         const Quat turn =
             joint.bodyA == kNone ? Quat{} : scenario::normalized(body(joint.bodyA).pose.orientation);

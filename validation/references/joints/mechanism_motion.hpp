@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Rigid bodies that joints hold together, in open chains and closed loops, planar or in space: Newton's and
+// Rigid bodies that joints hold together, in open chains and closed loops, planar or in 3D: Newton's and
 // Euler's laws for every body with the forces of the joints as Lagrange multipliers,
 //   m v' = f + sum j_v^T lambda,  I w' + w x I w = t + sum j_w^T lambda,
 // and every joint's equations g = 0 differentiated twice, g'' = -2 c g' - c^2 g. The exact motion has

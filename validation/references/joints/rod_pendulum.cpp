@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// A body whose centre of mass hangs on a rod or a taut rope from a fixed point p, in a plane or in space: a
-// point mass on a sphere of radius l. With n = (x - p)/l:
+// A body whose centre of mass hangs on a rod or a taut rope from a fixed point p, in 2D or in 3D: a point
+// mass on a sphere of radius l. With n = (x - p)/l:
 //   x'' = g - (g.n + |v|^2/l) n, tension m (g.n + |v|^2/l),
 // integrated to 1e-12 (ode.hpp); the body does not turn. A rope's answer ends when its tension does.
 // Source: Goldstein, Poole, Safko 2002, chapter 1 (Lagrange multipliers); Whittaker 1937, sections 44, 55.

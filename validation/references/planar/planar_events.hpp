@@ -17,8 +17,8 @@ struct Watched {
     numerics::Real small = 0;
 };
 
-/// The first time in [begin, end] at which the function becomes negative, from 64 samples; between samples that
-/// are positive their least value tells whether it dips below zero.
+/// The first time in [begin, end] at which the function becomes negative, from 64 samples; between samples
+/// that are positive their least value shows whether it dips below zero.
 std::optional<numerics::Real> firstZero(const Watched& watched, numerics::Real begin, numerics::Real end);
 
 }  // namespace rigor::validation

@@ -10,7 +10,7 @@
 namespace rigor::validation {
 namespace {
 
-/// A corner in space: a vertex, or the centre of a sphere or cap.
+/// A corner in 3D: a vertex, or the centre of a sphere or cap.
 struct SpaceCorner {
     Vec3 point;  ///< world, initial pose
     double radius = 0.0;

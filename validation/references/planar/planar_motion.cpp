@@ -239,7 +239,7 @@ double PlanarMotion::pieceFrom(const State& s, const Mode& mode) const {
         if (i == mode.corner || gap > kNear * setup_.size || flight < 1e-9L * duration_) continue;
         piece = std::min(piece, 32 * flight);
     }
-    // The samples of the event functions tell the corners of a body that spins apart.
+    // The samples of the event functions resolve the corners of a body that spins.
     if (s.rate != 0) piece = std::min(piece, 2 * numerics::kPi / std::abs(s.rate));
     return static_cast<double>(piece);
 }

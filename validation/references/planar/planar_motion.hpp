@@ -74,9 +74,9 @@ class PlanarMotion {
         Real normal = 0, tangential = 0;  ///< [N]
     };
 
-    /// Follows the motion for `duration`, and on to `end` as far as the laws tell. Throws AssumptionViolated
-    /// for a start inside the floor, contacts that do not fit the velocities, and impacts within `duration`
-    /// and before neighbours part that have no answer or several.
+    /// Follows the motion for `duration`, and on to `end` as far as the laws determine it. Throws
+    /// AssumptionViolated for a start inside the floor, contacts that do not fit the velocities, and impacts
+    /// within `duration` and before neighbours part that have no answer or several.
     PlanarMotion(Setup setup, State start, double duration, double end);
     PlanarMotion(Setup setup, State start, double duration)
         : PlanarMotion(std::move(setup), start, duration, duration) {}

@@ -15,7 +15,7 @@ using numerics::LinearProgram;
 using numerics::Real;
 using numerics::Real3;
 
-constexpr int kSides = 8;           // rays of a cone in space at first
+constexpr int kSides = 8;           // rays of a cone in 3D at first
 constexpr int kRounds = 60;         // rounds in which rays are added
 constexpr Real kInside = 1e-17L;    // margin of rays in 3D inside the round cone, for rounding
 constexpr Real kViolated = 1e-13L;  // violation, relative to the velocities, of rays that are added

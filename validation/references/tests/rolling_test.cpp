@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Bodies that roll and slip in space, tripods, a ball on a ball, block and wedge: catalogued values,
-// constants of the motion, and contact forces asked of Newton's and Euler's laws.
+// Bodies that roll and slip in 3D, tripods, a ball on a ball, block and wedge: catalogued values, constants
+// of the motion, and contact forces asked of Newton's and Euler's laws.
 #include <gtest/gtest.h>
 
 #include <cmath>

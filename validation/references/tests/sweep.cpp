@@ -103,7 +103,7 @@ std::string checkStart(const Scenario& s, const Reference& r) {
     return "";
 }
 
-/// Position of the centre of mass, where the reference tells it.
+/// Position of the centre of mass, if the reference determines it.
 std::optional<Vec3> centerAt(const Scenario& s, const Reference& r, int body, double t) {
     const Body& b = s.bodies[static_cast<std::size_t>(body)];
     const PartialState x = r.exact(body, t);

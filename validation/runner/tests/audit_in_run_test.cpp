@@ -172,7 +172,7 @@ TEST_F(InRun, FramesSeveralStepsApartAreAsked) {
     EXPECT_LT(row.normalErrorMax.value(), 1e-9);
 }
 
-/// The worst place names the step, which tells the frame where six digits of its time do not.
+/// The worst place names the step, which identifies the frame where six digits of its time do not.
 TEST_F(InRun, TheWorstPlaceNamesItsStep) {
     file_.stride = 2;
     for (auto& c : file_.contacts)
@@ -208,7 +208,7 @@ TEST_F(InRun, TheWorstPlaceNamesItsContact) {
     EXPECT_EQ(std::stol(row.worst.substr(at + 10)) % 2, 1) << "the deeper one of its pair: " << row.worst;
 }
 
-/// A file of an older format does not tell which poses its contacts belong to: they are not judged.
+/// A file of an older format does not store which poses its contacts belong to: they are not judged.
 TEST_F(InRun, ContactsOfAnUnknownInstantAreNotJudged) {
     EXPECT_GT(audited().queries, 0);
     file_.contactInstantsKnown = false;

@@ -128,7 +128,7 @@ TEST(AuditPairs, EquallyGoodNormalsDoNotDiffer) {
     EXPECT_EQ(pairRow("a", {AuditAnswer{}}, "b", {answer({1, 0, 0}, true)}).queries, 0);
 }
 
-/// Shapes that an auditor does not have are counted and told, not errors.
+/// Shapes that an auditor does not have are counted and reported, and are no errors.
 TEST_F(Audit, WhatAnAuditorLacksIsSaid) {
     std::string text = fixtures::crossingBalls();
     const std::string ball = R"({"sphere": {"radius": 0.25}})";

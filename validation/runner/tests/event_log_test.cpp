@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The event log against made-up steps: what begins, goes on and ends, impacts seen in the velocities, what an
-// engine tells of sleep and joints.
+// The event log against made-up steps: what begins, goes on and ends, impacts seen in the velocities, an
+// engine's reports on sleep and joints.
 #include "validation/runner/event_log.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// References that hang, eat the memory or crash: each is told by its name, costs no run and no engine.
+// References that hang, eat the memory or crash: each is reported by its name, and costs no run and no
+// engine.
 #include <gmock/gmock.h>
 
 #include <chrono>

@@ -232,7 +232,7 @@ TEST_F(RunCases, AccuracyIsGradedAndChangesAreSeenAgainstTheRecord) {
 }
 
 /// The reference's assumption (no contact) is broken by the scenario itself: the case runs, the reason is
-/// told, and nothing is compared with an exact solution that does not hold.
+/// reported, and nothing is compared with an exact solution that does not hold.
 TEST_F(RunCases, AReferenceThatDoesNotHoldIsSaidAndNotUsed) {
     const auto wrong = fixtures::load(thrownBall("ball", R"(, "accept": {"*": {"position_final": 0.01}})"));
     auto cases = planCases({wrong}, adapter::parseSpecList("double_free_flight:preset=default"), {});

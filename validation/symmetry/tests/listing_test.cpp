@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The k-th order of a scenario lists the same things, differently each time, and what came of it is told of
+// The k-th order of a scenario lists the same things, differently each time, and the results are reported for
 // the bodies and shapes as they were written.
 #include "validation/symmetry/listing.hpp"
 

@@ -26,7 +26,7 @@ Scenario libraryScenario(const std::string& name) {
     return scenario::loadScenario(scenario::findScenario(name)).scenario;
 }
 
-/// States that the exact solution does not tell are left at zero in both.
+/// States that the exact solution does not determine are left at zero in both.
 Trajectory exactTrajectory(const Scenario& s, const scenario::ReferenceSpec& spec, int frames) {
     Scenario with = s;
     with.reference = spec;

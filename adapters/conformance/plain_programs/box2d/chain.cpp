@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Chain, the mesh of the plane: a disc and a square in a trough. Box2D's chain is solid to the left of its
+// Chain, the mesh of 2D: a disc and a square in a trough. Box2D's chain is solid to the left of its
 // direction, so the manual's way is from right to left, with ghost vertices that go on in the same direction.
 #include "adapters/conformance/plain_programs/box2d/run.hpp"
 

@@ -28,7 +28,7 @@ TEST(PlainBullet, Joint) {
     const Scenario scene = load("adapters/conformance/plain_programs/bullet/joint.json");
     EXPECT_GT(travel(plain, 3), 3.0);
     EXPECT_TRUE(same(plain, adapterRun("bullet:preset=default", scene, 1.0 / 60, 180), kSameBits));
-    // The comparison tells a difference of one iteration.
+    // The comparison detects a difference of one iteration.
     EXPECT_FALSE(
         same(plain, adapterRun("bullet:preset=default,iterations=11", scene, 1.0 / 60, 180), kSameBits));
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Stop: a rod falls to the edge of its cone, a ball joint with an AMotor in user mode, whose one axis and angle
-// are told before each step (manual, "AMotor"). The stop acts in the first step that starts beyond it, and
-// takes the velocity out there: until then the rod falls as freely as without one, so that it overshoots by the
-// rest of a step, here 0.0601 rad of the 0.0725 that it turns in 1/60 s.
+// Stop: a rod falls to the edge of its cone, a ball joint with an AMotor in user mode, whose one axis and
+// angle are set before each step (manual, "AMotor"). The stop acts in the first step that starts beyond it,
+// and takes the velocity out there: until then the rod falls as freely as without one, so that it overshoots
+// by the rest of a step, here 0.0601 rad of the 0.0725 that it turns in 1/60 s.
 #include "adapters/conformance/plain_programs/ode/simulation.hpp"
 
 namespace rigor::plain {

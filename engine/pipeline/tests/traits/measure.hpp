@@ -21,7 +21,7 @@ struct MeasuredSolver {
     double contactSpring = 0;  ///< frequency where kAskedContact is asked for [Hz]; 0: rigid
     double jointSpring = 0;    ///< frequency where kAskedJoint is asked for [Hz]; 0: rigid
     bool ownsCorrection = false;
-    bool countsIterations = false;  ///< traits.iterations could be told
+    bool countsIterations = false;  ///< traits.iterations could be measured
 };
 inline constexpr double kAskedContact = 10, kAskedJoint = 12;
 
@@ -42,7 +42,8 @@ ManifoldTraits measureManifold(const std::string& name);
 /// Whether the velocity that removes overlap stays in a body.
 bool correctionKeepsVelocity(const std::string& name);
 
-/// The traits in which what is declared is not what is measured; empty for an algorithm that tells the truth.
+/// The traits in which what is declared is not what is measured; empty for an algorithm whose traits are
+/// right.
 std::vector<std::string> liesOfSolver(const std::string& name);
 std::vector<std::string> liesOfFriction(const std::string& name);
 std::vector<std::string> liesOfIntegrator(const std::string& name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// Friction laws told by how bodies slide.
+// Friction laws identified by the motion of sliding bodies.
 #pragma once
 
 #include <optional>

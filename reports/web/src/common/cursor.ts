@@ -4,7 +4,10 @@
 // State shared by curves, tables and the replay of one scenario: the selected time, engine and pair, and the engines
 // that are switched off. Each part reads, sets and follows the same observables and knows no other part.
 
-/** A value that tells when it changes. `source`: who set it, so that a listener can leave its own changes alone. */
+/**
+ * A value with listeners to its changes. `source`: the component that set it, so that a listener can leave its own
+ * changes alone.
+ */
 export class Observable<T> {
   #value: T;
   readonly #listeners = new Set<(value: T, source: unknown) => void>();
@@ -17,7 +20,7 @@ export class Observable<T> {
     return this.#value;
   }
 
-  /** Tells the listeners unless the value is the same. */
+  /** Calls the listeners unless the value is the same. */
   set(value: T, source?: unknown): void {
     if (Object.is(value, this.#value)) return;
     this.#value = value;

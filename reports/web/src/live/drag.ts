@@ -46,7 +46,7 @@ export class Dragger {
   #waiting = false;
   #stale = false;
 
-  /** `moves`: whether a body can be dragged. `send`: tells the server; null: let go. */
+  /** `moves`: whether a body can be dragged. `send`: sends it to the server; null: let go. */
   constructor(view: Surface, moves: (body: number) => boolean, send: (held: Held | null) => Promise<unknown>) {
     this.#view = view;
     this.#moves = moves;

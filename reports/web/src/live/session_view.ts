@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // SPDX-FileCopyrightText: 2026 The Rigor authors
 //
-// The session as the page knows it: what the server told last, the instances' frames, and how to tell it something.
+// The session as the page knows it: the last report of the server, the instances' frames, and commands to it.
 import type { Json } from '../replay/json.ts';
 import { command, type News, news, Refused, type SessionState } from './api.ts';
 import { InstanceSource } from './instance_source.ts';
@@ -20,7 +20,7 @@ export class SessionView {
   #scenario = '';
   #ended = false;
 
-  /** Tells the server; what it refuses is said. */
+  /** Sends a command to the server; what it refuses is said. */
   async tell(request: { command: string } & Record<string, unknown>): Promise<Json | null> {
     try {
       const answer = await command(request);

@@ -19,7 +19,7 @@ export interface Contacts {
   pointB: ArrayLike<number>; // [m] on B
   normal: ArrayLike<number>; // unit, from A to B
   depth: ArrayLike<number>; // [m], > 0: overlap
-  normalImpulse: ArrayLike<number>; // [N s]; NaN where the engine does not tell
+  normalImpulse: ArrayLike<number>; // [N s]; NaN if the engine does not report it
   frictionImpulse: ArrayLike<number>; // [N s] on B
   instant?: string; // note on the poses that they belong to
   carriedA?: ArrayLike<number>; // [m] where points on A are drawn

@@ -27,7 +27,7 @@ export interface Column {
   dash: number[]; // dash pattern of its lines; empty: solid
 }
 
-/** A list of names, or one fact, that an engine tells of itself. */
+/** A list of names, or one fact, that an engine reports of itself. */
 export type Capability = string | number | boolean | null | Capability[] | { [key: string]: Capability };
 
 /** A setting of an engine spec. */

@@ -13,7 +13,7 @@ export function formula(tex: string, plain: string): HTMLElement | null {
       katex.render(tex, holder, { displayMode: true, throwOnError: true, trust: false, strict: 'ignore' });
       return holder;
     } catch {
-      // told below in plain text
+      // shown below in plain text
     }
   }
   return plain ? el('pre', { class: 'formula' }, plain) : null;

@@ -17,7 +17,7 @@ export const labelOf = (spec: string): string => columnOf(spec)?.label ?? spec;
 export const subtitleOf = (c: Column): string => [c.preset, c.options].filter(Boolean).join(' ') || c.spec;
 export const scenarioOf = (name: string): Scenario | undefined => run.scenarios.find((s) => s.name === name);
 export const caseOf = (cases: Case[], column: Column): Case | undefined => cases.find((c) => c.spec === column.spec);
-/** Columns of those who are among the cases. */
+/** Columns of the specs that are among the cases. */
 export const columnsAmong = (cases: { spec: string }[]): Column[] =>
   run.columns.filter((c) => cases.some((x) => x.spec === c.spec));
 export const isFirstOfEngine = (columns: Column[], i: number): boolean =>

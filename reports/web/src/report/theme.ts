@@ -15,7 +15,7 @@ function stored(): Theme {
   }
 }
 
-/** The button that goes through automatic, light and dark; `changed` is told afterwards. */
+/** The button that goes through automatic, light and dark; `changed` is called afterwards. */
 export function themeButton(changed: () => void): HTMLElement {
   let theme = stored();
   const apply = () => {

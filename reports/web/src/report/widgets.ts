@@ -58,7 +58,7 @@ const heads = (titles: Child[], kind: (index: number) => string | null): HTMLEle
       titles.map((t, i) => el('th', { class: kind(i), scope: 'col' }, t)),
     ),
   );
-/** A row of heads; `numeric` tells which stand over numbers, the first one sticks. */
+/** A row of heads; `numeric` marks those over numbers, the first one sticks. */
 export const headRow = (titles: Child[], numeric: (index: number) => boolean = () => false): HTMLElement =>
   heads(titles, (i) => (i === 0 ? 'sticky' : numeric(i) ? 'num' : null));
 /** The same where nothing sticks. */

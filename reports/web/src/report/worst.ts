@@ -8,7 +8,7 @@ export interface Place {
   step: number | null; // steps up to the frame; null where an older store names none
   contact: number | null; // index among the stored contacts of the frame, from 0; null: none of them, or not known
   dt: number | null; // [s] of the run; null where none is named
-  what: string; // "missed", "spurious" or "normal"; "" where it is not told
+  what: string; // "missed", "spurious" or "normal"; "" if it is not known
   spec: string; // "" where none is named
 }
 

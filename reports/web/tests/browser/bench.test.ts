@@ -47,7 +47,7 @@ describe('the report of a bench', { skip }, () => {
   test('a narrow page has nothing to scroll sideways but its tables', async () => {
     await it.open();
     await it.page.setViewportSize({ width: 420, height: 900 });
-    // Charts follow the page's width when they are told of it, on a busy machine some seconds later.
+    // Charts follow the page's width when they are notified of it, on a busy machine some seconds later.
     await it.page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth);
     await it.page.setViewportSize({ width: 1400, height: 1000 });
     it.clean();

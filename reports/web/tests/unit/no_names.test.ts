@@ -27,7 +27,7 @@ test('no engine and no preset is named in the code of the pages', () => {
     .filter((entry) => entry.isDirectory() && !kept.has(entry.name))
     .map((entry) => entry.name);
   assert.ok(engines.length >= 5, engines.join());
-  // "rigor" is the program, too: it is told from the engine where it stands alone.
+  // "rigor" is the program, too: it is distinguished from the engine if it stands alone.
   const named = new RegExp(`preset=|^(?:${[...engines, 'default', 'matched', 'fast'].join('|')})(?::.*)?$`);
   const files = filesUnder(join(root, 'reports/web/src')).filter((file) => file.endsWith('.ts'));
   assert.ok(files.length > 80);

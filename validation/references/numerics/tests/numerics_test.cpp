@@ -190,7 +190,7 @@ TEST(Roots, FindRootAndFirstDescent) {
 }
 
 /// Hilbert's matrix of order 6, condition 1.5e7, against its inverse of integers; equations in other units
-/// answer alike, and a matrix of rank 5 is told even where rounding leaves no exact zero.
+/// have the same solution, and a matrix of rank 5 is recognised even where rounding leaves no exact zero.
 TEST(LinearSystem, SolvesInAnyUnitsAndTellsSingularMatrices) {
     constexpr int kOrder = 6;
     const double inverseOfLast[kOrder] = {-2772, 83160, -582120, 1552320, -1746360, 698544};

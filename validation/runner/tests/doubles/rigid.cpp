@@ -153,7 +153,7 @@ struct NormalFlickers : RigidWorld {
         return p;
     }
 };
-/// Forgets to tell its contacts in one step of four.
+/// Does not report its contacts in one step of four.
 struct ContactsBlink : RigidWorld {
     using RigidWorld::RigidWorld;
     void readContacts(std::vector<ContactPoint>& contacts) const override {

@@ -47,7 +47,7 @@ export function dashesOf(curves: BenchCase[]): number[][] {
   });
 }
 
-/** Contact points of an operation, or what else tells how much work it is; 0 where nothing does. */
+/** Contact points of an operation, or another measure of its work; 0 where nothing does. */
 export function workOf(c: BenchCase): number {
   for (const name of ['contacts', 'pairs', 'touching_pairs']) {
     const value = toNumber(c.counts[name]);

@@ -4,7 +4,7 @@ import { type Child, el } from '../../common/elements.ts';
 import { run } from '../run.ts';
 import { panel } from '../widgets.ts';
 
-/** Title, totals, what is unfinished, and who wrote this. */
+/** Title, totals, unfinished parts, and authors. */
 export function headline(): HTMLElement {
   const engines = new Set(run.columns.map((c) => c.engine));
   const unfinished = run.planned > run.total || !run.finished;

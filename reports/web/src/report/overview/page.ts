@@ -22,7 +22,7 @@ interface OverviewSection {
   make: () => HTMLElement | null;
 }
 
-/** A run of `rigor bench` has no cases to judge: what tells of them is left out. */
+/** A run of `rigor bench` has no cases to judge: the parts about them are left out. */
 const judged = (make: () => HTMLElement | null) => () => (run.columns.length > 0 ? make() : null);
 
 const sections: OverviewSection[] = [

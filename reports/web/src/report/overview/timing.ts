@@ -145,7 +145,7 @@ const accuracy = (columns: Column[]): HTMLElement[] => {
 const costs = (column: Column) => run.costs?.[run.columns.indexOf(column)];
 const finite = (value: Maybe | undefined): string => (Number.isFinite(toNumber(value)) ? format(value, 3) : '—');
 
-/** Medians over the scenarios; what an engine tells of its phases as shares of its step. */
+/** Medians over the scenarios; the phases that an engine reports, as fractions of its step. */
 function summaryTable(): HTMLElement {
   const list = placed(run.overall, run.columns).filter((s) => toNumber(s.cost) > 0);
   const phases = (spec: string) => {
