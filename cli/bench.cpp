@@ -194,7 +194,7 @@ std::string clockText(double seconds) {
 }
 
 /// A live line on a terminal, a line for each repetition elsewhere.
-void tell(const validation::BenchProgress& p, bool live) {
+void showProgress(const validation::BenchProgress& p, bool live) {
     const std::string eta = p.etaSeconds >= 0.0 ? "  ETA " + clockText(p.etaSeconds) : "";
     if (live) {
         std::string line = std::to_string(p.done) + " repetitions, about " + std::to_string(p.coming) +
@@ -279,7 +279,7 @@ int bench(const BenchArguments& a) {
     auto run = validation::runBench(
         work, options,
         [&](const validation::BenchProgress& p) {
-            if (!a.quiet) tell(p, live);
+            if (!a.quiet) showProgress(p, live);
         },
         interrupted);
     if (live && !a.quiet) std::fprintf(stderr, "\r\033[K");

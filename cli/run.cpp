@@ -205,16 +205,16 @@ int runHere(const RunArguments& a) {
     if (a.order > 1) options.given = otherOrder(s, a.order);
     const scenario::Scenario& given = options.given ? options.given->scenario : s;
     validation::EventLog log(given, dt, logWhat(a.log));
-    validation::EventLog::EngineReports told;
+    validation::EventLog::EngineReports reports;
     if (!a.log.empty())
         options.onWorld = [&](const adapter::World& world) {
-            told = {[&](int body) { return world.isAsleep(body); },
-                    [&](int joint) { return world.jointHolds(joint); }};
+            reports = {[&](int body) { return world.isAsleep(body); },
+                       [&](int joint) { return world.jointHolds(joint); }};
         };
     options.onStep = [&](double time, std::span<const validation::BodyState> states,
                          const std::vector<validation::ContactPoint>& contacts) {
         if (csv != nullptr) writeCsvRows(*csv, time, states, given);
-        if (!a.log.empty()) writeLog(log.step(time, states, contacts, told));
+        if (!a.log.empty()) writeLog(log.step(time, states, contacts, reports));
     };
     const auto live = runEngine(
         s, validation::withScenarioSettings(adapter::parseSpec(a.engine), loaded.text), dt, options);
@@ -265,8 +265,8 @@ int runGuarded(const RunArguments& arguments, const std::function<int()>& work) 
         }
         std::cout.flush();
         std::fflush(nullptr);
-        const bool told = write(finished[1], "x", 1) == 1;
-        _exit(told ? code : kInternal);
+        const bool reported = write(finished[1], "x", 1) == 1;
+        _exit(reported ? code : kInternal);
     }
     close(finished[1]);
     int status = 0;

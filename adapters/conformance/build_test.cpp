@@ -112,15 +112,16 @@ TEST_P(Build, ReadBackIsTheScenario) {
         EXPECT_LE(norm(read.state.angularVelocity - body.angularVelocity), eps);
         EXPECT_LE(norm(read.gravity - body.gravityScale * s.gravity), 10 * eps);
     }
-    std::set<std::pair<int, int>> told;
+    std::set<std::pair<int, int>> listedPairs;
     for (const auto& pair : back.pairs) {
         const auto expected = scenario::pairCoefficients(s, pair.materialA, pair.materialB);
         EXPECT_NEAR(pair.friction, expected.friction, 1e-6);
         EXPECT_NEAR(pair.restitution, expected.restitution, 1e-6);
-        told.insert(std::minmax(pair.materialA, pair.materialB));
+        listedPairs.insert(std::minmax(pair.materialA, pair.materialB));
     }
     if (!touching) return;
-    EXPECT_TRUE(told.contains({0, 0}) && told.contains({0, 1})) << "pairs that can meet are read back";
+    EXPECT_TRUE(listedPairs.contains({0, 0}) && listedPairs.contains({0, 1}))
+        << "pairs that can meet are read back";
 }
 
 TEST_P(Build, TheLedgerExplainsWhatDiffers) {

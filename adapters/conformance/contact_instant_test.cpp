@@ -102,7 +102,7 @@ TEST_P(ContactInstant, PointsOfABallThatSlidesLieWhereItWas) {
     EXPECT_GT(seen.contacts, 10u);
     within("instant_slide_points", seen.surface, 2e-3);
     within("instant_slide_normal", seen.normal, 1e-3);
-    EXPECT_GT(seen.surfaceAtEnd, 0.05) << "this scene would not tell the instants apart";
+    EXPECT_GT(seen.surfaceAtEnd, 0.05) << "this scene would not distinguish the instants";
 }
 
 /// The line between the centres turns by a third of a radian in the step.

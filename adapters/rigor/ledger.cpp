@@ -254,8 +254,8 @@ class Ledger {
             lines_.push_back({"fault", "none", text("fault"), Realisation::Unsupported,
                               "a deliberate mistake was asked for"});
         const auto& ccd = engine::continuousCollisionTraits(text("continuous_collision"));
-        const std::string told = ccd.acts ? text("continuous_collision") : "off";
-        add("continuous_collision", told, told,
+        const std::string realised = ccd.acts ? text("continuous_collision") : "off";
+        add("continuous_collision", realised, realised,
             ccd.losesRest ? "what an impact of a fast body leaves of its step is lost" : "");
     }
 

@@ -321,7 +321,7 @@ std::filesystem::path writeThreeBalls() {
 }
 
 /// The engine moves the body of index i by i mm.
-TEST(CommandLine, OrdersOfInsertionAreRunAndTold) {
+TEST(CommandLine, OrdersOfInsertionAreRunAndReported) {
     const auto folder = freshFolder("orders");
     const auto run = (folder / "run").string(), file = writeProjectile().string();
     const std::string doubles = "RIGOR_ADAPTER_PATH=" + std::string(RIGOR_BINARY_DIR) + "/tests/doubles";
@@ -379,7 +379,7 @@ TEST(CommandLine, SuitesSayInHowManyOrdersTheyAreRun) {
 }
 
 /// No reference can be computed in a tenth of a millisecond, which a process needs to begin.
-TEST(CommandLine, AReferenceThatDoesNotFinishIsToldByItsName) {
+TEST(CommandLine, AReferenceThatDoesNotFinishIsReportedByItsName) {
     const auto folder = freshFolder("slow_reference");
     const auto run = (folder / "run").string(), limit = std::string(" --reference-limit 1e-4");
     const std::string sentence = "the reference did not finish within 0.0001 s";

@@ -17,12 +17,12 @@ using results::BenchRepetition;
 using results::BenchSummary;
 
 struct Mean {
-    double sum = 0.0, told = 0.0;
+    double sum = 0.0, count = 0.0;
     void add(double value) {
         sum += value;
-        told += 1.0;
+        count += 1.0;
     }
-    double value() const { return sum / told; }
+    double value() const { return sum / count; }
 };
 
 /// Means over the timed repetitions, in the order in which they were reported.
@@ -46,8 +46,8 @@ std::vector<std::pair<std::string, double>> means(const BenchCase& c, bool phase
 }
 
 std::optional<double> countOf(const BenchCase& c, const std::string& name) {
-    for (const auto& [told, value] : means(c, false))
-        if (told == name) return value;
+    for (const auto& [known, value] : means(c, false))
+        if (known == name) return value;
     return std::nullopt;
 }
 
@@ -190,18 +190,17 @@ Table timesTable(const results::Run& run) {
 }
 
 Table valuesTable(const results::Run& run) {
-    Table table{
-        "bench_work",
-        "How much work the timed operations were, and what the engine tells of its phases (means over "
-        "repetitions; phases in seconds)",
-        {{"name"},
-         {"size", ColumnKind::Number},
-         {"engine"},
-         {"threads", ColumnKind::Number},
-         {"kind"},
-         {"what"},
-         {"value", ColumnKind::Number}},
-        {}};
+    Table table{"bench_work",
+                "How much work the timed operations were, and the phases that the engine reports (means over "
+                "repetitions; phases in seconds)",
+                {{"name"},
+                 {"size", ColumnKind::Number},
+                 {"engine"},
+                 {"threads", ColumnKind::Number},
+                 {"kind"},
+                 {"what"},
+                 {"value", ColumnKind::Number}},
+                {}};
     for (const BenchCase& c : run.bench.cases)
         for (const bool phases : {false, true})
             for (const auto& [name, value] : means(c, phases))

@@ -274,7 +274,7 @@ std::vector<Table> timing(const ViewModel& view) {
 }
 
 std::vector<Table> phases(const ViewModel& view) {
-    Table table{"phases", "What the engines tell of the parts of a step", caseColumns(), {}};
+    Table table{"phases", "Phases of a step, as far as the engines report them", caseColumns(), {}};
     table.columns.push_back({"phase"});
     for (const auto& column : timingColumns()) table.columns.push_back(column);
     forEachCase(view, [&](std::size_t, const SpecColumn& column, const CaseRow& row) {

@@ -162,7 +162,7 @@ TEST_F(Page, FetchesNothing) {
         "default-src 'none'; script-src 'self' 'nonce-rigor'; style-src 'unsafe-inline'; img-src data: "
         "blob:; "
         "font-src data:; connect-src 'self'; base-uri 'none'; form-action 'none'";
-    EXPECT_NE(html_->find(policy), std::string::npos) << "and the browser is told so";
+    EXPECT_NE(html_->find(policy), std::string::npos) << "and the browser gets it";
 }
 
 TEST_F(Page, HostileNamesStayText) {

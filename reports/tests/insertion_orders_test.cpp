@@ -155,7 +155,7 @@ TEST(InsertionOrders, WhatIsTheSameInAllOfThemIsSaidToBe) {
     EXPECT_TRUE(orderDependents(run).empty());
 }
 
-TEST(InsertionOrders, AnOrderThatCrashesIsTold) {
+TEST(InsertionOrders, AnOrderThatCrashesIsReported) {
     results::Run run = plainRun();
     CaseRow& c = orderedCase(run, 0.0031, 0.0031);
     c.orders.completed = 4;

@@ -273,10 +273,11 @@ TEST_F(ReplayFiles, WhatIsNotFiniteStaysSo) {
     for (int column = 0; column < 3; ++column) codes.series(steps.size(), 1.0);  // b1
     const auto x = codes.series(steps.size(), 1.0);
     for (std::size_t i = 0; i < steps.size(); ++i) EXPECT_EQ(std::isnan(x[i]), steps[i] >= 200) << steps[i];
-    bool told = false;
+    bool reported = false;
     for (const auto& event : bundle.meta["cases"][c]["events"])
-        told = told || (event["kind"] == "nonfinite" && event["subject"] == "b2" && event["time"] == 2.0);
-    EXPECT_TRUE(told);
+        reported =
+            reported || (event["kind"] == "nonfinite" && event["subject"] == "b2" && event["time"] == 2.0);
+    EXPECT_TRUE(reported);
 }
 
 TEST_F(ReplayFiles, ContactsReadBack) {

@@ -79,7 +79,7 @@ TEST(StudyCharts, ColumnsOfARefinementAreShownOverTheirCost) {
     EXPECT_FALSE(charts[2].points[1].value.has_value()) << "a run without a time";
 }
 
-TEST(StudyCharts, ARunThatBrokeIsNoPointButIsTold) {
+TEST(StudyCharts, ARunThatBrokeIsNoPointButIsReported) {
     Json rows = Json::array();
     for (const char* variant : {"good", "bad", "none"})
         rows.push_back(studyRow("stack", variant, 0.01, {}, {{"rest_sink", 0.5}}));

@@ -270,14 +270,14 @@ std::string shortName(const BenchCase& c, const Labels& labels) {
 }  // namespace
 
 double countOf(const BenchCase& c, const std::string& name) {
-    double sum = 0.0, told = 0.0;
+    double sum = 0.0, samples = 0.0;
     for (const BenchRepetition& r : c.repetitions)
         for (const auto& count : r.counts)
             if (count.name == name) {
                 sum += count.value;
-                told += 1.0;
+                samples += 1.0;
             }
-    return told > 0.0 ? sum / told : -1.0;
+    return samples > 0.0 ? sum / samples : -1.0;
 }
 
 std::string benchCaseName(const BenchCase& c) {

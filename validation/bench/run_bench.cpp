@@ -94,7 +94,7 @@ class BenchInProgress {
     results::Run run(const std::atomic<bool>& interrupted) {
         prepare();
         queueNext();
-        const bool complete = pool_.run(interrupted, [&](const std::string& name) { tell(name, nullptr); });
+        const bool complete = pool_.run(interrupted, [&](const std::string& name) { report(name, nullptr); });
         char load[32];
         std::snprintf(load, sizeof load, "%.2f", loadNow());
         header_.environment["load_after"] = load;
@@ -199,10 +199,10 @@ class BenchInProgress {
         BenchCase& c = bench_.cases[next.index];
         writer_.writeBenchRepetition(c.id, r);
         c.repetitions.push_back(std::move(r));
-        tell("", &c);
+        report("", &c);
     }
 
-    void tell(const std::string& current, const BenchCase* finished) {
+    void report(const std::string& current, const BenchCase* finished) {
         if (!onProgress_) return;
         BenchProgress progress;
         for (const BenchCase& c : bench_.cases)

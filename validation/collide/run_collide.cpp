@@ -54,8 +54,8 @@ CollideAnswer lostAnswer(const ProcessResult& result) {
 class QueryRunner {
   public:
     QueryRunner(CollideRun& run, const CollideOptions& options,
-                const std::function<void(std::int64_t, std::int64_t)>& tell)
-        : run_(run), options_(options), tell_(tell), pool_(std::max(1, options.jobs)) {
+                const std::function<void(std::int64_t, std::int64_t)>& progress)
+        : run_(run), options_(options), progress_(progress), pool_(std::max(1, options.jobs)) {
         json questions = json::array();
         for (const CollideCase& c : run_.cases) questions.push_back(c.asked.text);
         writeJsonFile(questions_, questions);
@@ -101,7 +101,7 @@ class QueryRunner {
             while (neverStarted && first < last) put(spec, first++, lostAnswer(result));
             queue(spec, first, last);
         }
-        if (tell_) tell_(done_, total_);
+        if (progress_) progress_(done_, total_);
     }
 
     void put(std::size_t spec, std::size_t index, CollideAnswer answer) {
@@ -111,7 +111,7 @@ class QueryRunner {
 
     CollideRun& run_;
     const CollideOptions& options_;
-    const std::function<void(std::int64_t, std::int64_t)>& tell_;
+    const std::function<void(std::int64_t, std::int64_t)>& progress_;
     ProcessPool pool_;
     ScratchFolder scratch_;
     fs::path questions_ = scratch_.path() / "questions.json";

@@ -54,11 +54,11 @@ class StepExporter {
         for (std::size_t i = 0; i < s_.bodies.size(); ++i)
             if (first_[i] != kNone) addBody(static_cast<int>(i));
         for (const Joint& joint : s_.joints) addJoint(joint);
-        bool told = true;
+        bool hasImpulses = true;
         for (const ContactPoint& contact : step_.contacts) {
             if (!isKnownContact(s_, contact)) continue;
             addContact(contact);
-            told = told && contact.hasImpulse;
+            hasImpulses = hasImpulses && contact.hasImpulse;
         }
         if (p().mu.empty()) throw adapter::BadInput("the step has no contacts to export");
         const int rows = dofs_ * bodies_, columns = static_cast<int>(p().w.size());
@@ -68,7 +68,7 @@ class StepExporter {
         if (!problem_.b.empty())
             problem_.G = fromTriplets(rows, static_cast<int>(problem_.b.size()), bilateral_);
         problem_.isGlobal = true;
-        if (told) problem_.storedR = impulses_;
+        if (hasImpulses) problem_.storedR = impulses_;
         storeVelocities();
         complete(problem_, s_.name);
         return std::move(problem_);

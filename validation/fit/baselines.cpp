@@ -16,7 +16,7 @@ namespace {
 using namespace scenario;
 
 /// A run in which `body` moves as given and all others stay.
-Trajectory told(const Scenario& s, double dt, int body, const std::function<BodyState(double)>& motion) {
+Trajectory runOf(const Scenario& s, double dt, int body, const std::function<BodyState(double)>& motion) {
     Trajectory run;
     run.dt = dt;
     run.bodyCount = s.bodies.size();
@@ -96,7 +96,7 @@ std::vector<double> predict(Kind kind, const Scenario& s, double dt,
                             const std::vector<std::string>& metrics) {
     const auto reference = makeReference(s);
     if (!reference) return {};
-    Trajectory run = told(s, dt, kNone, {});
+    Trajectory run = runOf(s, dt, kNone, {});
     if (kind != Kind::Frozen) {
         const auto slide = slideOf(s, *reference);
         if (!slide) return {};
@@ -106,7 +106,7 @@ std::vector<double> predict(Kind kind, const Scenario& s, double dt,
             if (!end || !end->orientation) return {};
             attitude = *end->orientation;
         }
-        run = told(s, dt, slide->body, [&](double t) { return BodyState{slide->at(t), attitude, {}, {}}; });
+        run = runOf(s, dt, slide->body, [&](double t) { return BodyState{slide->at(t), attitude, {}, {}}; });
     }
     std::vector<double> values;
     for (const std::string& name : metrics) {

@@ -55,12 +55,12 @@ std::string endingOf(const ProcessResult& result) {
 class Batch {
   public:
     Batch(ProcessPool& pool, const fs::path& binary, const fs::path& folder, std::size_t metrics,
-          std::size_t count, std::function<void(int)> tell)
+          std::size_t count, std::function<void(int)> progress)
         : pool_(pool),
           binary_(binary),
           folder_(folder),
           metrics_(metrics),
-          tell_(std::move(tell)),
+          progress_(std::move(progress)),
           answers_(count) {}
 
     void queue(std::size_t first, std::size_t last) {
@@ -101,13 +101,13 @@ class Batch {
             } while (neverStarted && first < last);
             queue(first, last);
         }
-        tell_(finished);
+        progress_(finished);
     }
 
     ProcessPool& pool_;
     fs::path binary_, folder_;
     std::size_t metrics_;
-    std::function<void(int)> tell_;
+    std::function<void(int)> progress_;
     std::vector<CaseValues> answers_;
     int next_ = 0;
 };
@@ -161,8 +161,8 @@ std::vector<std::string> overridesAt(const FitTask& task, const FitPoint& point)
 }
 
 Objective::Objective(const FitTask& task, const FitOptions& options, EvaluationLog& log,
-                     std::function<void(int)> tell, const std::atomic<bool>& interrupted)
-    : task_(task), options_(options), log_(log), tell_(std::move(tell)), interrupted_(interrupted) {
+                     std::function<void(int)> progress, const std::atomic<bool>& interrupted)
+    : task_(task), options_(options), log_(log), progress_(std::move(progress)), interrupted_(interrupted) {
     for (const bool train : {true, false}) {
         json texts = json::array();
         for (const auto& s : train ? task.train : task.test) texts.push_back(s.text);
@@ -190,7 +190,7 @@ bool Objective::evaluate(const adapter::EngineSpec& spec, bool train, const std:
                                               {"metrics", task_.metrics},
                                               {"points", overrides}});
         ProcessPool pool(options_.jobs);
-        Batch batch(pool, options_.binary, folder, task_.metrics.size(), open.size() * scenarios, tell_);
+        Batch batch(pool, options_.binary, folder, task_.metrics.size(), open.size() * scenarios, progress_);
         const std::size_t total = open.size() * scenarios, jobs = static_cast<std::size_t>(options_.jobs);
         const std::size_t chunk = std::max<std::size_t>(1, std::min(kChunk, (total + jobs - 1) / jobs));
         for (std::size_t first = 0; first < total; first += chunk)

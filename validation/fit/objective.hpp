@@ -39,9 +39,9 @@ class EvaluationLog {
 
 class Objective {
   public:
-    /// `tell` is called with the number of cases that have ended since the last call.
+    /// `progress` is called with the number of cases that have ended since the last call.
     Objective(const FitTask& task, const FitOptions& options, EvaluationLog& log,
-              std::function<void(int)> tell, const std::atomic<bool>& interrupted);
+              std::function<void(int)> progress, const std::atomic<bool>& interrupted);
 
     /// The values at each point; points that are known are not run again. False when interrupted.
     bool evaluate(const adapter::EngineSpec& spec, bool train, const std::vector<FitPoint>& points,
@@ -51,7 +51,7 @@ class Objective {
     const FitTask& task_;
     const FitOptions& options_;
     EvaluationLog& log_;
-    std::function<void(int)> tell_;
+    std::function<void(int)> progress_;
     const std::atomic<bool>& interrupted_;
     ScratchFolder scratch_;
     int next_ = 0;

@@ -53,7 +53,7 @@ std::map<EventLog::Pair, EventLog::Manifold> EventLog::gathered(const std::vecto
 }
 
 std::string EventLog::step(double time, std::span<const BodyState> states,
-                           const std::vector<ContactPoint>& contacts, const EngineReports& told) {
+                           const std::vector<ContactPoint>& contacts, const EngineReports& reports) {
     out_.clear();
     const auto stampOf = [](double t, std::size_t step) {
         return "t=" + results::exactText(t) + " step=" + std::to_string(step) + " ";
@@ -63,7 +63,7 @@ std::string EventLog::step(double time, std::span<const BodyState> states,
     contactEvents(manifolds);
     if (what_ != LogWhat::Contacts) impactEvents(states, manifolds);
     stamp_ = stampOf(time, step_);
-    if (what_ != LogWhat::Contacts) reportedEvents(told);
+    if (what_ != LogWhat::Contacts) reportedEvents(reports);
     before_.assign(states.begin(), states.end());
     beforeTime_ = time;
     ++step_;
@@ -126,18 +126,18 @@ double EventLog::separationSpeed(const Pair& pair, const ContactPoint& at,
     return dot(velocity(pair[1]) - velocity(pair[0]), at.normal);
 }
 
-void EventLog::reportedEvents(const EngineReports& told) {
+void EventLog::reportedEvents(const EngineReports& reports) {
     asleep_.resize(scenario_.bodies.size(), 0);
-    for (std::size_t i = 0; told.asleep && i < asleep_.size(); ++i) {
-        const char now = told.asleep(static_cast<int>(i)) ? 1 : 0;
+    for (std::size_t i = 0; reports.asleep && i < asleep_.size(); ++i) {
+        const char now = reports.asleep(static_cast<int>(i)) ? 1 : 0;
         if (now != asleep_[i])
             line(std::string(now ? "sleep" : "wake") + " body=" + scenario_.bodies[i].name +
                  " id=" + std::to_string(i));
         asleep_[i] = now;
     }
     broken_.resize(scenario_.joints.size(), 0);
-    for (std::size_t i = 0; told.holds && i < broken_.size(); ++i) {
-        if (broken_[i] || told.holds(static_cast<int>(i))) continue;
+    for (std::size_t i = 0; reports.holds && i < broken_.size(); ++i) {
+        if (broken_[i] || reports.holds(static_cast<int>(i))) continue;
         broken_[i] = 1;
         const auto& joint = scenario_.joints[i];
         const auto name = [&](int body) {

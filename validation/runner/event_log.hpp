@@ -57,7 +57,7 @@ class EventLog {
     /// The lines of the step that led to `time`, with its contacts and the states after it, each ended by a
     /// line break; "" when nothing happened. The first call is the start, before any step.
     std::string step(double time, std::span<const BodyState> states,
-                     const std::vector<ContactPoint>& contacts, const EngineReports& told);
+                     const std::vector<ContactPoint>& contacts, const EngineReports& reports);
 
   private:
     using Pair = std::array<int, 4>;  ///< body A, body B, shape A, shape B
@@ -79,7 +79,7 @@ class EventLog {
     static std::map<Pair, Manifold> gathered(const std::vector<ContactPoint>& contacts);
     void contactEvents(const std::map<Pair, Manifold>& manifolds);
     void impactEvents(std::span<const BodyState> states, const std::map<Pair, Manifold>& manifolds);
-    void reportedEvents(const EngineReports& told);
+    void reportedEvents(const EngineReports& reports);
     double separationSpeed(const Pair& pair, const ContactPoint& at, std::span<const BodyState> states) const;
     std::string pairText(const Pair& pair) const;
     std::string idText(const Pair& pair) const;

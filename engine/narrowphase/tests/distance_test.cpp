@@ -129,7 +129,7 @@ TYPED_TEST(Distance, HardCasesAreProven) {
 }
 
 /// Moved to touch, then apart or together by as little as rounding resolves: no wrong verdict.
-TYPED_TEST(Distance, GrazingIsToldApart) {
+TYPED_TEST(Distance, GrazingIsDistinguished) {
     using S = TypeParam;
     using R = typename S::Real;
     Random<S> random{std::mt19937(8)};
@@ -142,7 +142,7 @@ TYPED_TEST(Distance, GrazingIsToldApart) {
             static_cast<R>((i % 2 ? 1 : -1) * tol<S>(1e-13, 1e-5) * std::pow(10, random.uniform(0, 2)));
         Xb.p += (gap - first.distance) * first.normal;
         const ClosestPoints<S> second = closestPoints<S>(a, Xa, b, Xb);
-        EXPECT_EQ(second.distance < 0, gap < 0) << gap << " told as " << second.distance;
+        EXPECT_EQ(second.distance < 0, gap < 0) << gap << " reported as " << second.distance;
         // Parted along the normal of the shortest way out the shapes may still slide: never further apart.
         EXPECT_NEAR(static_cast<double>(second.distance), static_cast<double>(gap), tol<S>(5e-15, 3e-6));
     }

@@ -158,7 +158,7 @@ TYPED_TEST(Surface, RidgesTurnTheNormalValleysDoNot) {
 }
 
 /// Seen from below a two-sided surface pushes down; a field that is solid below pushes up.
-TYPED_TEST(Surface, SidesAreTold) {
+TYPED_TEST(Surface, SidesAreReported) {
     using S = TypeParam;
     using R = typename S::Real;
     const Shape<S> ball = Sphere<S>{R(0.5)};

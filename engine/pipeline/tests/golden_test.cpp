@@ -180,7 +180,7 @@ TEST(Golden, EverySceneHasItsBits) {
     if (std::getenv("RIGOR_RENEW_GOLDEN") != nullptr) {
         std::ofstream out(kFile);
         out << "// SPDX-License-Identifier: MIT\n// SPDX-FileCopyrightText: 2026 The Rigor authors\n"
-            << "// GOLDEN(scene, state hash), written by golden_test.cpp, which tells how and when.\n";
+            << "// GOLDEN(scene, state hash), written by golden_test.cpp, which describes how and when.\n";
         for (const auto& [name, hash] : hashes) {
             char line[100];
             std::snprintf(line, sizeof line, "GOLDEN(%s, 0x%016llx)\n", name.c_str(),

@@ -182,7 +182,7 @@ TYPED_TEST(Impacts, ObliqueImpactsFollowTheLawsInClosedForm) {
             std::max(largestDifference, std::abs(impulseOf(o, true).n - impulseOf(o, false).n));
     }
     EXPECT_GT(mostByNewton, 1.01) << "the known defect of Newton's law with friction";
-    EXPECT_GT(largestDifference, 0.1) << "else these impacts do not tell the laws apart";
+    EXPECT_GT(largestDifference, 0.1) << "else these impacts do not distinguish the laws";
 }
 
 TYPED_TEST(Impacts, RestingBodiesDoNotBounceUnderPoisson) {

@@ -183,7 +183,7 @@ TYPED_TEST(Worlds, HandlesSurviveRemovalAndStaleOnesAreKnown) {
     EXPECT_NEAR(world.pose(high).p[1], 1.5, 1e-3);
     const BodyId next = addCube<S>(world, 5, 0.5, 0.5, 1, m);
     EXPECT_FALSE(next == gone);
-    EXPECT_EQ(next.index, gone.index) << "the slot is used again, the generation tells them apart";
+    EXPECT_EQ(next.index, gone.index) << "the slot is used again, the generation distinguishes them";
     EXPECT_DEATH(world.pose(gone), "stale");
 }
 

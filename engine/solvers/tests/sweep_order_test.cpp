@@ -28,14 +28,14 @@ std::vector<Block<S>> randomUnits(unsigned seed, std::size_t units, std::uint32_
 }
 
 /// A product that does not commute: the blocks that have acted on each body, in order.
-struct Told {
+struct Visited {
     std::vector<std::uint64_t> bodies;
-    std::uint64_t tell(const Block<S>& block, std::uint64_t unit) {
-        std::uint64_t heard = 0;
+    std::uint64_t add(const Block<S>& block, std::uint64_t unit) {
+        std::uint64_t sum = 0;
         for (const auto& [body, moved] :
              {std::pair(block.a, block.invMassA > 0), {block.b, block.invMassB > 0}})
-            if (moved) heard += bodies[body] = bodies[body] * 6364136223846793005ull + unit + 1;
-        return heard;
+            if (moved) sum += bodies[body] = bodies[body] * 6364136223846793005ull + unit + 1;
+        return sum;
     }
 };
 
@@ -53,17 +53,17 @@ TEST(SweepOrder, SharedSweepsAreTheSweepForwardsAndBackwards) {
                 for (const Block<S>& block : blocks) order.add<S>({&block, 1});
                 order.finish();
                 ASSERT_EQ(order.units(), blocks.size());
-                Told told{std::vector<std::uint64_t>(bodies, 0)};
+                Visited visited{std::vector<std::uint64_t>(bodies, 0)};
                 double most = 0;
                 for (int i = 0; i < 3; ++i)
                     most = order.largest<double>(backwards, [&](std::size_t k) {
-                        return static_cast<double>(told.tell(blocks[k], k) % 1000003);
+                        return static_cast<double>(visited.add(blocks[k], k) % 1000003);
                     });
                 if (threads == 1) {
-                    expected = told.bodies;
+                    expected = visited.bodies;
                     expectedMost = most;
                 }
-                EXPECT_EQ(told.bodies, expected) << seed << " " << threads;
+                EXPECT_EQ(visited.bodies, expected) << seed << " " << threads;
                 EXPECT_EQ(most, expectedMost);
             }
         }

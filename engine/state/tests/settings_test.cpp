@@ -49,14 +49,14 @@ TYPED_TEST_SUITE(EverySetting, Spaces);
 TYPED_TEST(EverySetting, HasTheDefaultOfWorldDef) {
     using S = TypeParam;
     const WorldDef<S> plain;
-    WorldDef<S> told;
-    assignSettings(told, Given{});
-#define CHOICE(member, key, byDefault, help) EXPECT_EQ(told.member, plain.member) << key;
-#define INTEGER(member, key, byDefault, min, max, help) EXPECT_EQ(told.member, plain.member) << key;
-#define REAL(member, key, byDefault, min, max, help) EXPECT_EQ(told.member, plain.member) << key;
-#define SWITCH(member, key, byDefault, help) EXPECT_EQ(told.member, plain.member) << key;
+    WorldDef<S> assigned;
+    assignSettings(assigned, Given{});
+#define CHOICE(member, key, byDefault, help) EXPECT_EQ(assigned.member, plain.member) << key;
+#define INTEGER(member, key, byDefault, min, max, help) EXPECT_EQ(assigned.member, plain.member) << key;
+#define REAL(member, key, byDefault, min, max, help) EXPECT_EQ(assigned.member, plain.member) << key;
+#define SWITCH(member, key, byDefault, help) EXPECT_EQ(assigned.member, plain.member) << key;
 #include "engine/state/settings.def"
-    EXPECT_NO_THROW(World<S>{told});
+    EXPECT_NO_THROW(World<S>{assigned});
 }
 
 TYPED_TEST(EverySetting, IsAcceptedWithinItsRangeAlone) {

@@ -78,7 +78,7 @@ TEST(Summary, OneBadRepetitionMakesATimingInvalid) {
         EXPECT_FALSE(bench.cases[1].summary.valid);
         EXPECT_EQ(bench.cases[1].summary.reason, "max_penetration 0.012 m > 0.005");
         EXPECT_FALSE(bench.cases[1].summary.ratio) << "an invalid timing enters no ratio";
-        EXPECT_GT(bench.cases[1].summary.cpu, 0.0) << "it is still told";
+        EXPECT_GT(bench.cases[1].summary.cpu, 0.0) << "it is still reported";
     }
 }
 
@@ -202,7 +202,7 @@ TEST(Changes, AreOfValidTimingsAlone) {
     EXPECT_FALSE(becameSlower(found));
 }
 
-TEST(Changes, AnotherMachineIsTold) {
+TEST(Changes, AnotherMachineIsReported) {
     results::Run before, after;
     before.environment = {{"cpu", "A"}, {"cores", "2"}, {"load", "0.1"}};
     after.environment = {{"cpu", "B"}, {"cores", "2"}, {"load", "0.9"}};

@@ -111,7 +111,7 @@ TEST(Compare, TimesNeedEvidence) {
     EXPECT_LT(unclear.timeInterval->low, 1.0);
     EXPECT_GT(unclear.timeInterval->high, 1.0);
     EXPECT_EQ(unclear.pTime, 1.0);
-    EXPECT_FALSE(becameWorse(compareRuns({exampleRun()}, {slower}))) << "times are told, not judged";
+    EXPECT_FALSE(becameWorse(compareRuns({exampleRun()}, {slower}))) << "times are reported, not judged";
 }
 
 TEST(Compare, TimesAreMediansOverTheRunsOfASide) {

@@ -147,7 +147,7 @@ TEST(ExportStep, RestitutionGapsAndMovingGroundAreInTheProblem) {
     EXPECT_NEAR(w(belt)[0], -0.5, 1e-15);
     const ExportedProblem exported = exportStep(s, step);
     EXPECT_NEAR(exported.problem.f[0], 2 * 1 + 0.01 * (2 * 5 + 7), 1e-5);
-    EXPECT_TRUE(exported.storedR.empty()) << "no impulses were told";
+    EXPECT_TRUE(exported.storedR.empty()) << "no impulses were reported";
     auto held = s;
     held.pairs = {{0, 0, 0.5, 0.0, 0.7}};
     EXPECT_THROW(exportStep(held, step), adapter::Unsupported);

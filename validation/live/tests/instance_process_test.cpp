@@ -54,7 +54,7 @@ TEST_F(Processes, RefusalsAreNoEnd) {
     EXPECT_EQ(instance_.ask(advance(1), 20).kind, Kind::Done);
 }
 
-TEST_F(Processes, AnAbortIsToldBySignalAndLastWords) {
+TEST_F(Processes, AnAbortIsReportedBySignalAndLastWords) {
     ASSERT_EQ(load(instance_, "double_abort").kind, Kind::Done);
     const auto crash = instance_.ask(advance(20), 20);
     EXPECT_EQ(crash.kind, Kind::Crashed);

@@ -67,7 +67,7 @@ class Sessions : public testing::Test {
         viewer_ = std::make_unique<Viewer>(*session_);
         ASSERT_TRUE(viewer_->until([&] { return viewer_->allReady(); }));
     }
-    json tell(json request) { return session_->command(request); }
+    json send(json request) { return session_->command(request); }
 
     ScratchFolder scratch_;
     std::unique_ptr<Session> session_;
@@ -76,26 +76,26 @@ class Sessions : public testing::Test {
 
 TEST_F(Sessions, InstancesStepTogetherForwardsAndBack) {
     open("rigor,rigor:solver=tgs_soft");
-    tell({{"command", "step"}, {"steps", 7}});
+    send({{"command", "step"}, {"steps", 7}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(7); }));
     const auto seven = viewer_->poses_;
-    tell({{"command", "step"}, {"steps", 5}});
+    send({{"command", "step"}, {"steps", 5}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(12); }));
     EXPECT_NE(viewer_->poses_, seven);
-    tell({{"command", "back"}, {"steps", 5}});
+    send({{"command", "back"}, {"steps", 5}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(7); }));
     EXPECT_EQ(viewer_->poses_, seven);
-    tell({{"command", "reset"}});
+    send({{"command", "reset"}});
     EXPECT_TRUE(viewer_->until([&] { return viewer_->allAt(0); }));
 }
 
 TEST_F(Sessions, PlayFollowsRealTimeTimesTheSpeed) {
     open("rigor");
-    tell({{"command", "speed"}, {"factor", 0.5}});
+    send({{"command", "speed"}, {"factor", 0.5}});
     const auto begin = std::chrono::steady_clock::now();
-    tell({{"command", "play"}});
+    send({{"command", "play"}});
     std::this_thread::sleep_for(std::chrono::seconds(1));
-    tell({{"command", "pause"}});
+    send({{"command", "pause"}});
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     viewer_->look(0);
     const double simulated = viewer_->state_["step"].get<double>() / 120;
@@ -110,7 +110,7 @@ TEST_F(Sessions, PlayFollowsRealTimeTimesTheSpeed) {
 /// One engine aborts, one hangs, one leaves the numbers at step 5: each says so, the others play on.
 TEST_F(Sessions, EnginesThatFailLeaveTheOthersAlone) {
     open("double_abort,double_hang,double_nan,double_free_flight,no_such_engine");
-    tell({{"command", "play"}});
+    send({{"command", "play"}});
     ASSERT_TRUE(viewer_->until(
         [&] { return viewer_->instance(3)["step"] > 120 && viewer_->instance(1)["state"] == "timeout"; }));
     EXPECT_EQ(viewer_->instance(0)["state"], "crashed");
@@ -120,7 +120,7 @@ TEST_F(Sessions, EnginesThatFailLeaveTheOthersAlone) {
     EXPECT_EQ(viewer_->instance(3)["state"], "ready");
     EXPECT_EQ(viewer_->instance(4)["state"], "bad_input");
     EXPECT_THAT(viewer_->instance(4)["message"].get<std::string>(), testing::HasSubstr("no_such_engine"));
-    tell({{"command", "reset"}});
+    send({{"command", "reset"}});
     EXPECT_TRUE(viewer_->until([&] {
         return viewer_->instance(0)["state"] == "ready" && viewer_->instance(2)["state"] == "ready";
     })) << "a reset begins anew";
@@ -130,20 +130,20 @@ TEST_F(Sessions, StagesStopInsideAStep) {
     open("rigor,double_free_flight");
     EXPECT_TRUE(viewer_->instance(0)["has_stages"].get<bool>());
     EXPECT_FALSE(viewer_->instance(1)["has_stages"].get<bool>());
-    tell({{"command", "step"}, {"steps", 3}});
+    send({{"command", "step"}, {"steps", 3}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(3); }));
-    tell({{"command", "stage"}});
+    send({{"command", "stage"}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->frames_[0]["stage"]["done"] == "broad_phase"; }));
     EXPECT_TRUE(viewer_->frames_[0]["has_stages"].get<bool>());
-    EXPECT_THROW(tell({{"command", "save"}, {"instance", 0}}), CommandError) << "in the middle of a step";
+    EXPECT_THROW(send({{"command", "save"}, {"instance", 0}}), CommandError) << "in the middle of a step";
     for (int i = 0; i < 20 && viewer_->instance(0)["step"] == 3; ++i) {
         const json before = viewer_->frames_[0]["stage"]["done"];
-        tell({{"command", "stage"}});
+        send({{"command", "stage"}});
         ASSERT_TRUE(viewer_->until([&] { return viewer_->frames_[0]["stage"]["done"] != before; }));
     }
     EXPECT_TRUE(viewer_->until([&] { return viewer_->allAt(4); })) << "the other takes the step as a whole";
-    tell({{"command", "stage"}});
-    tell({{"command", "step"}});
+    send({{"command", "stage"}});
+    send({{"command", "step"}});
     EXPECT_TRUE(viewer_->until([&] { return viewer_->allAt(5); }));
     EXPECT_FALSE(viewer_->frames_[0]["stage"]["in_step"].get<bool>());
 }
@@ -151,47 +151,47 @@ TEST_F(Sessions, StagesStopInsideAStep) {
 /// Both branches are displayed: the original goes on unchanged, the branch from there with other physics.
 TEST_F(Sessions, ABranchLeavesFromWhereItsOriginIs) {
     open("rigor");
-    tell({{"command", "step"}, {"steps", 40}});
+    send({{"command", "step"}, {"steps", 40}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(40); }));
-    const auto same = tell({{"command", "branch"}, {"instance", 0}});
-    const auto other = tell({{"command", "branch"}, {"instance", 0}, {"options", {{"solver", "xpbd"}}}});
-    const auto moon = tell({{"command", "branch"}, {"instance", 0}, {"set", {"gravity=[0,-1.6,0]"}}});
+    const auto same = send({{"command", "branch"}, {"instance", 0}});
+    const auto other = send({{"command", "branch"}, {"instance", 0}, {"options", {{"solver", "xpbd"}}}});
+    const auto moon = send({{"command", "branch"}, {"instance", 0}, {"set", {"gravity=[0,-1.6,0]"}}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(40); }));
     EXPECT_EQ(viewer_->instance(2)["options"]["solver"], "xpbd");
     EXPECT_EQ(viewer_->instance(3)["branch_of"], 0);
     for (const json& branch : {same, other, moon})
         for (std::size_t i = 0; i < 9; ++i)
             EXPECT_NEAR(viewer_->poses_[branch["instance"]][i], viewer_->poses_[0][i], 1e-12);
-    tell({{"command", "step"}, {"steps", 60}});
+    send({{"command", "step"}, {"steps", 60}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(100); }));
     const double height = viewer_->poses_[0][7], onMoon = viewer_->poses_[moon["instance"]][7];
     EXPECT_GT(onMoon, height + 0.3) << "the ball falls more slowly";
     for (std::size_t i = 0; i < 9; ++i)
         EXPECT_NEAR(viewer_->poses_[same["instance"]][i], viewer_->poses_[0][i], 1e-4);
-    tell({{"command", "back"}, {"steps", 80}});
+    send({{"command", "back"}, {"steps", 80}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->instance(0)["step"] == 20; }));
     EXPECT_TRUE(viewer_->until([&] { return viewer_->instance(3)["step"] == 40; })) << "not before its start";
-    EXPECT_THROW(tell({{"command", "branch"}, {"instance", 0}, {"options", {{"solver", "hope"}}}}),
+    EXPECT_THROW(send({{"command", "branch"}, {"instance", 0}, {"options", {{"solver", "hope"}}}}),
                  CommandError);
-    EXPECT_THROW(tell({{"command", "branch"}, {"instance", 0}, {"set", {"bodies.unknown.mass=1"}}}),
+    EXPECT_THROW(send({{"command", "branch"}, {"instance", 0}, {"set", {"bodies.unknown.mass=1"}}}),
                  CommandError);
     viewer_->look();
     EXPECT_EQ(viewer_->state_["instances"].size(), 4u) << "what could not be loaded is no instance";
-    tell({{"command", "remove"}, {"lane", moon["instance"]}});  // the name of version 0.1
+    send({{"command", "remove"}, {"lane", moon["instance"]}});  // the name of version 0.1
     viewer_->look();
     EXPECT_EQ(viewer_->state_["instances"].size(), 3u);
 }
 
 TEST_F(Sessions, ABranchIsTakenFromAnInstanceThatPlays) {
     open("rigor");
-    tell({{"command", "play"}});
+    send({{"command", "play"}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->instance(0)["step"] > 10; }));
-    tell({{"command", "branch"}, {"instance", 0}, {"options", {{"solver", "tgs_soft"}}}});
+    send({{"command", "branch"}, {"instance", 0}, {"options", {{"solver", "tgs_soft"}}}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->state_["instances"].size() == 2; }));
     const int start = viewer_->instance(1)["start_step"];
     EXPECT_GT(start, 10);
     ASSERT_TRUE(viewer_->until([&] { return viewer_->instance(1)["step"] > start + 30; }));
-    tell({{"command", "pause"}});
+    send({{"command", "pause"}});
     viewer_->look();
     const std::size_t step = viewer_->state_["step"];
     EXPECT_TRUE(viewer_->until([&] { return viewer_->allAt(step); })) << "both at one clock";
@@ -199,24 +199,24 @@ TEST_F(Sessions, ABranchIsTakenFromAnInstanceThatPlays) {
 
 TEST_F(Sessions, ADragMovesTheBodyInEveryInstance) {
     open("rigor,double_free_flight");
-    tell({{"command", "drag"}, {"body", 2}, {"point", {0, 0, 0}}, {"target", {3, 5, 2}}});
-    tell({{"command", "step"}, {"steps", 240}});
+    send({{"command", "drag"}, {"body", 2}, {"point", {0, 0, 0}}, {"target", {3, 5, 2}}});
+    send({{"command", "step"}, {"steps", 240}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(240); }));
     for (const int instance : {0, 1}) {
         EXPECT_NEAR(viewer_->poses_[instance][6], 3.0, 0.05);
         EXPECT_EQ(viewer_->frames_[instance]["drag"]["body"], 2);
     }
-    tell({{"command", "release"}});
+    send({{"command", "release"}});
     EXPECT_TRUE(viewer_->until([&] { return !viewer_->frames_[0].contains("drag"); }));
-    EXPECT_THROW(tell({{"command", "drag"}, {"body", 2}, {"point", {0}}, {"target", {3, 5, 2}}}),
+    EXPECT_THROW(send({{"command", "drag"}, {"body", 2}, {"point", {0}}, {"target", {3, 5, 2}}}),
                  CommandError);
 }
 
 TEST_F(Sessions, WhatIsSavedCanBeLoadedAndRunsAlike) {
     open("rigor:solver=tgs_soft,substeps=2");
-    tell({{"command", "step"}, {"steps", 30}});
+    send({{"command", "step"}, {"steps", 30}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(30); }));
-    const json saved = tell({{"command", "save"}, {"instance", 0}, {"write", true}});
+    const json saved = send({{"command", "save"}, {"instance", 0}, {"write", true}});
     EXPECT_EQ(saved["name"], "slide_at_0.25s.json");
     const auto loaded = scenario::loadScenario(saved["file"].get<std::string>());
     EXPECT_EQ(loaded.text, saved["text"].get<std::string>());
@@ -224,7 +224,7 @@ TEST_F(Sessions, WhatIsSavedCanBeLoadedAndRunsAlike) {
     EXPECT_FALSE(loaded.scenario.reference.has_value());
     EXPECT_THAT(loaded.scenario.description, testing::HasSubstr("tgs_soft"));
     EXPECT_THAT(loaded.text, testing::HasSubstr("\"substeps\": 2"));
-    EXPECT_THROW(tell({{"command", "save"}, {"instance", 0}, {"write", true}}), CommandError)
+    EXPECT_THROW(send({{"command", "save"}, {"instance", 0}, {"write", true}}), CommandError)
         << "a file that is there stays";
 }
 
@@ -232,8 +232,8 @@ TEST_F(Sessions, WhatIsSavedCanBeLoadedAndRunsAlike) {
 /// grow with what was missed.
 TEST_F(Sessions, ASlowViewerSkipsFrames) {
     open("rigor,double_free_flight");
-    tell({{"command", "speed"}, {"factor", 20}});
-    tell({{"command", "play"}});
+    send({{"command", "speed"}, {"factor", 20}});
+    send({{"command", "play"}});
     viewer_->until([&] { return viewer_->instance(1)["step"] > 50; });
     const std::size_t kept = session_->keptBytes();
     std::size_t least = 1 << 30, most = 0;
@@ -259,16 +259,16 @@ TEST_F(Sessions, NonsenseIsRefused) {
           json{{"command", "speed"}, {"factor", -1}}, json{{"command", "speed"}, {"factor", "fast"}},
           json{{"command", "remove"}, {"instance", 77}}, json{{"command", "save"}, {"instance", 77}},
           json{{"command", "branch"}}, json{{"command", "stage"}}, json{{"command", "add"}, {"spec", ":::"}}})
-        EXPECT_THROW(tell(request), CommandError) << request;
+        EXPECT_THROW(send(request), CommandError) << request;
     EXPECT_EQ(session_->scene(77), nullptr);
     EXPECT_EQ(session_->scene(0)["scenario"]["bodies"].size(), 3u);
 }
 
 TEST_F(Sessions, AnotherScenarioIsOpenedForTheSameEngines) {
     open("rigor,double_free_flight");
-    tell({{"command", "step"}, {"steps", 9}});
+    send({{"command", "step"}, {"steps", 9}});
     ASSERT_TRUE(viewer_->until([&] { return viewer_->allAt(9); }));
-    tell({{"command", "branch"}, {"instance", 0}});
+    send({{"command", "branch"}, {"instance", 0}});
     session_->open(scenario::loadScenario(scenario::findScenario("free_flight_2d")).text);
     ASSERT_TRUE(
         viewer_->until([&] { return viewer_->state_["instances"].size() == 2 && viewer_->allReady(); }));
@@ -281,8 +281,8 @@ TEST_F(Sessions, AnotherScenarioIsOpenedForTheSameEngines) {
 TEST_F(Sessions, NoMoreThanEightInstances) {
     open("double_free_flight");
     for (std::size_t i = 1; i < Session::kMaxInstances; ++i)
-        tell({{"command", "add"}, {"spec", "double_free_flight"}});
-    EXPECT_THROW(tell({{"command", "add"}, {"spec", "double_free_flight"}}), CommandError);
+        send({{"command", "add"}, {"spec", "double_free_flight"}});
+    EXPECT_THROW(send({{"command", "add"}, {"spec", "double_free_flight"}}), CommandError);
 }
 
 }  // namespace

@@ -135,15 +135,15 @@ class StaticEquilibrium : public Reference {
     static std::optional<double> meanForce(const Trajectory& run, int a, int b) {
         double sum = 0.0;
         std::size_t count = 0;
-        bool told = false;
+        bool impulsesKnown = false;
         // No step begins at the last frame.
         for (std::size_t k = run.frames() - run.frames() / 4; k + 1 < run.frames(); ++k, ++count)
             for (const auto& c : run.contacts[k]) {
                 if (!((c.bodyA == a && c.bodyB == b) || (c.bodyA == b && c.bodyB == a))) continue;
-                told = told || c.hasImpulse;
+                impulsesKnown = impulsesKnown || c.hasImpulse;
                 sum += c.normalImpulse;
             }
-        if (count == 0 || !told) return std::nullopt;
+        if (count == 0 || !impulsesKnown) return std::nullopt;
         return sum / (static_cast<double>(count) * run.dt);
     }
 

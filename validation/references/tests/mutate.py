@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # SPDX-FileCopyrightText: 2026 The Rigor authors
-"""Breaks the formulas of the references one at a time and tells which breaks no test notices.
+"""Breaks the formulas of the references one at a time and lists the breaks that no test notices.
 
     mutate.py BUILD_FOLDER [--files REGEX] [--per-file N] [--seed N] [--list]
 

@@ -156,7 +156,7 @@ TEST(PlanarMotion, BouncingBoxesAreThoseOfMoreausStepping) {
         EXPECT_LT(off, 20 * own + 20 * h) << seed << ", " << motion->events().size() << " events";
         compared += own < 100 * h ? 1 : 0;
     }
-    EXPECT_GE(compared, 5) << "of eight boxes these were told by the stepping at all";
+    EXPECT_GE(compared, 5) << "of eight boxes these were resolved by the stepping at all";
 }
 
 TEST(PlanarMotion, EndsWhereNeighboursPart) {

@@ -134,13 +134,13 @@ std::string checkRate(const Scenario& s, const Reference& r, double end, unsigne
     std::uniform_real_distribution<double> share(0.02, 0.98);
     constexpr int kTimes = 24;
     for (const int body : r.bodies()) {
-        int off = 0, told = 0;
+        int off = 0, determined = 0;
         double worst = 0.0;
         for (int k = 0; k < kTimes; ++k) {
             const double t = share(random) * end;
             const auto coarse = rateMiss(s, r, body, t, end, 2e-5 * end);
             if (!coarse) continue;
-            ++told;
+            ++determined;
             if (*coarse <= 0.0) continue;
             // The wide difference itself is too coarse for hundreds of swings in the run.
             const auto fine = rateMiss(s, r, body, t, end, 2e-6 * end);
@@ -148,7 +148,7 @@ std::string checkRate(const Scenario& s, const Reference& r, double end, unsigne
             worst = std::max(worst, *coarse);
             ++off;
         }
-        if (told >= 8 && 4 * off > told) return at("rate", body, worst);
+        if (determined >= 8 && 4 * off > determined) return at("rate", body, worst);
     }
     return "";
 }

@@ -209,7 +209,7 @@ TEST(Green, TheInHouseEngineMayNotBecomeWorseAndOthersMayNotLoseAGrade) {
     };
     using results::Regression;
     EXPECT_FALSE(green(kInHouseEngine, Regression::Worse, 0.019));
-    EXPECT_TRUE(green("ode", Regression::Worse, 0.019)) << "told, and still of grade C";
+    EXPECT_TRUE(green("ode", Regression::Worse, 0.019)) << "reported, and still of grade C";
     EXPECT_FALSE(green("ode", Regression::Worse, 0.021)) << "of grade D now";
     for (const auto r : {Regression::NoRecord, Regression::Unchanged, Regression::Better})
         EXPECT_TRUE(green(kInHouseEngine, r, 0.9));

@@ -206,7 +206,7 @@ TEST(AddOrders, TheOneAsWrittenMayBeTheOneThatFails) {
     EXPECT_FALSE(isRunInOrders(row));
 }
 
-TEST(AddOrders, AnOrderThatMissesABoundIsTold) {
+TEST(AddOrders, AnOrderThatMissesABoundIsReported) {
     const auto bounded = [](double value) {
         MetricRow m = metric("a", value);
         m.bound = 1.0;

@@ -96,7 +96,7 @@ export class BranchForm {
       const request: Record<string, unknown> = { instance: instance.id, set };
       if (choice.value !== '') request.spec = choice.value;
       else request.options = changes(settings, Object.fromEntries(this.#chosen(own)));
-      void this.#session.tell({ command: 'branch', ...request });
+      void this.#session.send({ command: 'branch', ...request });
     });
     this.element.replaceChildren(form);
     this.element.showModal();

@@ -95,17 +95,17 @@ export class Dragger {
     const target = meet(aim, this.#plane.point, this.#plane.normal);
     if (!target) return;
     this.#held.target = target;
-    this.#tell();
+    this.#sendDrag();
   }
 
   release(): void {
     if (!this.#held) return;
     this.#held = null;
     this.#view.cameraEnabled = true;
-    this.#tell();
+    this.#sendDrag();
   }
 
-  #tell(): void {
+  #sendDrag(): void {
     if (this.#waiting) {
       this.#stale = true;
       return;
@@ -115,7 +115,7 @@ export class Dragger {
     const held = this.#held ? { ...this.#held } : null;
     void this.#send(held).finally(() => {
       this.#waiting = false;
-      if (this.#stale) this.#tell();
+      if (this.#stale) this.#sendDrag();
     });
   }
 }

@@ -27,7 +27,7 @@ export class InstancesPanel {
   readonly #known = el('datalist', { id: 'known-engines' });
   readonly #branch: (instance: InstanceState) => void;
   readonly #save: (instance: InstanceState) => void;
-  #told = '';
+  #shownKey = '';
 
   constructor(
     session: SessionView,
@@ -48,7 +48,7 @@ export class InstancesPanel {
       const spec = this.#add.value.trim();
       if (spec === '') return;
       this.#add.value = '';
-      void session.tell({ command: 'add', spec });
+      void session.send({ command: 'add', spec });
     };
     this.element = el(
       'section',
@@ -71,8 +71,8 @@ export class InstancesPanel {
   refresh(): void {
     const instances = this.#session.state?.instances ?? [];
     const key = JSON.stringify(instances.map((l) => [l.id, l.state, l.message, l.title]));
-    if (key !== this.#told) {
-      this.#told = key;
+    if (key !== this.#shownKey) {
+      this.#shownKey = key;
       this.#list.replaceChildren(...instances.map((instance) => this.#row(instance)));
     }
     for (const instance of instances) {
@@ -123,7 +123,7 @@ export class InstancesPanel {
         ),
         act('Save', 'What is seen here as a scenario file', 'save', this.#with(instance.id, this.#save), alive),
         act('Remove', 'End this instance', 'remove', () => {
-          void this.#session.tell({ command: 'remove', instance: instance.id });
+          void this.#session.send({ command: 'remove', instance: instance.id });
         }),
       ),
     );

@@ -7,7 +7,7 @@ import { keyList, layerKeys } from '../replay/key_list.ts';
 import type { LayerName } from '../replay/layers.ts';
 
 export interface KeyActions {
-  tell(command: string, steps?: number): void;
+  send(command: string, steps?: number): void;
   toggle(): void;
   shiftSpeed(by: number): void;
   layer(name: LayerName): void;
@@ -53,10 +53,10 @@ export function keyAction(key: string, shift: boolean, actions: KeyActions): (()
   const steps = shift ? 10 : 1;
   const simple: Record<string, () => void> = {
     ' ': () => actions.toggle(),
-    ArrowLeft: () => actions.tell('back', steps),
-    ArrowRight: () => actions.tell('step', steps),
-    s: () => actions.tell('stage'),
-    Home: () => actions.tell('reset'),
+    ArrowLeft: () => actions.send('back', steps),
+    ArrowRight: () => actions.send('step', steps),
+    s: () => actions.send('stage'),
+    Home: () => actions.send('reset'),
     '+': () => actions.shiftSpeed(1),
     '-': () => actions.shiftSpeed(-1),
     o: () => actions.overlay(),

@@ -31,7 +31,7 @@ const instances = new InstancesPanel(
   (instance) => void openBranch(instance),
   (instance) => void save(instance),
 );
-const stages = new StagesPanel((on) => void session.tell({ command: 'stages', on }));
+const stages = new StagesPanel((on) => void session.send({ command: 'stages', on }));
 const transport = new Transport(session, switchLayer, () => help.showModal());
 const arrangement = new Arrangement(
   (options) => {
@@ -68,7 +68,7 @@ function switchLayer(name: LayerName): void {
 }
 
 const drag = (held: Held | null) =>
-  held ? session.tell({ command: 'drag', ...held }) : session.tell({ command: 'release' });
+  held ? session.send({ command: 'drag', ...held }) : session.send({ command: 'release' });
 
 async function openBranch(instance: api.InstanceState): Promise<void> {
   const { description } = await api.scene(instance.id);
@@ -77,7 +77,7 @@ async function openBranch(instance: api.InstanceState): Promise<void> {
 
 /** Saves to the folder that was passed to `rigor view`, or as a download if the name exists there. */
 async function save(instance: api.InstanceState): Promise<void> {
-  const answer = await session.tell({ command: 'save', instance: instance.id, write: true });
+  const answer = await session.send({ command: 'save', instance: instance.id, write: true });
   if (!answer) return;
   const notes = (answer.notes as string[]).length > 0 ? ` Not kept: ${(answer.notes as string[]).join('; ')}.` : '';
   said.textContent = `Saved as ${answer.file}.${notes}`;
@@ -135,7 +135,7 @@ session.onNews = (others) => {
 };
 
 bindKeys({
-  tell: (command, steps) => void session.tell(steps === undefined ? { command } : { command, steps }),
+  send: (command, steps) => void session.send(steps === undefined ? { command } : { command, steps }),
   toggle: () => transport.toggle(),
   shiftSpeed: (by) => transport.shiftSpeed(by),
   layer: switchLayer,
@@ -148,7 +148,7 @@ bindKeys({
 });
 
 open.addEventListener('change', () => {
-  if (open.value !== '') void session.tell({ command: 'open', scenario: open.value });
+  if (open.value !== '') void session.send({ command: 'open', scenario: open.value });
   open.value = '';
 });
 

@@ -21,7 +21,7 @@ export class SessionView {
   #ended = false;
 
   /** Sends a command to the server; what it refuses is said. */
-  async tell(request: { command: string } & Record<string, unknown>): Promise<Json | null> {
+  async send(request: { command: string } & Record<string, unknown>): Promise<Json | null> {
     try {
       const answer = await command(request);
       this.onSay?.('');

@@ -83,13 +83,13 @@ export class StagesPanel {
       );
       return;
     }
-    const told = stage.substep > 0 ? `, sub-step ${stage.substep + 1}` : '';
+    const substep = stage.substep > 0 ? `, sub-step ${stage.substep + 1}` : '';
     const ended = stage.in_step ? '' : ' (the step has ended)';
     const parts = [
       el(
         'p',
         { class: 'hint' },
-        stage.done === '' ? 'After a whole step.' : `After ${words(stage.done)}${told}${ended}.`,
+        stage.done === '' ? 'After a whole step.' : `After ${words(stage.done)}${substep}${ended}.`,
       ),
       this.#part(
         'Broad phase',

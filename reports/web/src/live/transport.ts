@@ -26,11 +26,11 @@ export class Transport {
 
   constructor(session: SessionView, change: (layer: LayerName) => void, help: () => void) {
     this.#session = session;
-    const tell = (command: string, steps?: number) => () => {
-      void session.tell(steps === undefined ? { command } : { command, steps });
+    const sender = (command: string, steps?: number) => () => {
+      void session.send(steps === undefined ? { command } : { command, steps });
     };
     this.#play = button('▶', 'Play or pause (space)', () => this.toggle(), 'play');
-    this.#stage = button('Stage', 'One stage of the step (s)', tell('stage'), 'stage');
+    this.#stage = button('Stage', 'One stage of the step (s)', sender('stage'), 'stage');
     for (const s of more) this.#speed.append(el('option', { value: s }, s === 1 ? 'real time' : `${s} ×`));
     this.#speed.addEventListener('change', () => this.setSpeed(Number(this.#speed.value)));
     for (const name of Object.keys(layerNames) as LayerName[])
@@ -44,12 +44,12 @@ export class Transport {
       el(
         'div',
         { class: 'transport' },
-        button('| ◀', 'All instances back to the start (Home)', tell('reset'), 'reset'),
-        button('◀◀', 'Ten steps back (shift ←)', tell('back', 10), 'back10'),
-        button('◀', 'One step back (←)', tell('back', 1), 'back'),
+        button('| ◀', 'All instances back to the start (Home)', sender('reset'), 'reset'),
+        button('◀◀', 'Ten steps back (shift ←)', sender('back', 10), 'back10'),
+        button('◀', 'One step back (←)', sender('back', 1), 'back'),
         this.#play,
-        button('▶\u200a|', 'One step (→)', tell('step', 1), 'step'),
-        button('▶▶', 'Ten steps (shift →)', tell('step', 10), 'step10'),
+        button('▶\u200a|', 'One step (→)', sender('step', 1), 'step'),
+        button('▶▶', 'Ten steps (shift →)', sender('step', 10), 'step10'),
         this.#stage,
         this.#clock,
         this.#speed,
@@ -62,11 +62,11 @@ export class Transport {
   }
 
   toggle(): void {
-    void this.#session.tell({ command: this.#session.state?.playing ? 'pause' : 'play' });
+    void this.#session.send({ command: this.#session.state?.playing ? 'pause' : 'play' });
   }
 
   setSpeed(factor: number): void {
-    void this.#session.tell({ command: 'speed', factor });
+    void this.#session.send({ command: 'speed', factor });
   }
 
   /** One faster or slower. */

@@ -23,7 +23,7 @@ interface Label {
   node: HTMLElement;
   state: HTMLElement;
   sources: FrameSource[];
-  told: string;
+  text: string;
 }
 
 export class PanelLabels {
@@ -40,8 +40,8 @@ export class PanelLabels {
       node.style.transform = `translate(${rect.x}px, ${rect.y}px)`;
       node.style.maxWidth = `${rect.width}px`;
       const text = this.#stateOf(view, sources);
-      if (text === this.#labels[i]?.told) return;
-      (this.#labels[i] as Label).told = text;
+      if (text === this.#labels[i]?.text) return;
+      (this.#labels[i] as Label).text = text;
       state.textContent = text;
     });
   }
@@ -70,7 +70,7 @@ export class PanelLabels {
       const names = sources.map((s) =>
         el('b', { class: s.ghost ? 'ghost' : null }, el('i', { style: `background:${s.colour}` }), s.label),
       );
-      return { node: el('div', { class: 'label' }, names, state), state, sources, told: '' };
+      return { node: el('div', { class: 'label' }, names, state), state, sources, text: '' };
     });
     this.element.replaceChildren(...this.#labels.map((l) => l.node));
   }

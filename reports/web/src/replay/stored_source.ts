@@ -15,7 +15,7 @@ export interface ContactTable {
 export const contactColumns = 14;
 export const idColumns = 4;
 /** Instant of contacts in a file of an older format. */
-export const unknownInstant = 'at an instant that the stored file does not tell';
+export const unknownInstant = 'at an instant that the stored file does not name';
 
 /** All frames of a run, frame by frame. */
 export interface FrameTable {

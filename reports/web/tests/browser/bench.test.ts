@@ -53,7 +53,7 @@ describe('the report of a bench', { skip }, () => {
     it.clean();
   });
 
-  test('the machine is told once', async () => {
+  test('the machine is named once', async () => {
     await it.open();
     assert.equal(await it.page.locator('dt', { hasText: /^cpu$/ }).count(), 1);
   });
@@ -67,7 +67,7 @@ describe('the report of a bench', { skip }, () => {
     it.clean();
   });
 
-  test('a part tells the fastest of each engine, and unfolded how much work it was and how well done', async () => {
+  test('a part shows the fastest of each engine, and unfolded how much work it was and how well done', async () => {
     await it.open();
     const part = it.page.locator('[data-part="broad_phase"]');
     const best = part.locator('table').first().locator('tbody tr');
@@ -82,7 +82,7 @@ describe('the report of a bench', { skip }, () => {
     it.clean();
   });
 
-  test('tells what became slower, and the command of each', async () => {
+  test('shows what became slower, and the command of each', async () => {
     await it.open();
     assert.match(await it.text('#bench tr.change-slower'), /rigor.*1\.5.*slower/);
     await it.page.locator('#bench details summary').first().click();

@@ -252,7 +252,10 @@ describe('links of the contact audit', { skip }, () => {
       `SELECT a.normal_error_max FROM audit a JOIN cases c ON c.id = a.case_id WHERE a.auditor = 'in_run'
        AND c.scenario = '${name}' AND c.spec = '${spec}'`,
     ).flat()[0] as number;
-    assert.ok(Math.abs(wrongBy(saw, states) - number) < agree, `${wrongBy(saw, states)} is drawn, ${number} is told`);
+    assert.ok(
+      Math.abs(wrongBy(saw, states) - number) < agree,
+      `${wrongBy(saw, states)} is drawn, ${number} is reported`,
+    );
     it.clean();
   });
 
@@ -288,7 +291,7 @@ describe('links of the contact audit', { skip }, () => {
         const saw = await seen(spec, step);
         const states = statesOf(fileOf(name), spec, join(folder, `${name}.csv`));
         const angle = wrongBy(saw, states);
-        assert.ok(Math.abs(angle - number) < agree, `${spec}, ${worst}: ${angle} is drawn, ${number} is told`);
+        assert.ok(Math.abs(angle - number) < agree, `${spec}, ${worst}: ${angle} is drawn, ${number} is reported`);
         assertDrawnThere(saw, bodies.indexOf(saw.body), 2e-4 + pointError);
         largest = Math.max(largest, angle);
       }

@@ -153,8 +153,8 @@ describe('the replay of a real run', { skip }, () => {
     await press('End');
     await it.page.waitForFunction(() => {
       const view = new URLSearchParams(location.hash.split('?')[1]).get('view') ?? '';
-      const told = new URLSearchParams(view);
-      return told.get('over') === '1' && Number(told.get('t')) > 0;
+      const link = new URLSearchParams(view);
+      return link.get('over') === '1' && Number(link.get('t')) > 0;
     });
     const [hash, end] = [await it.page.evaluate(() => location.hash), await time()];
     await show('slip_to_roll_2d');

@@ -31,8 +31,8 @@ test('a recorded run is served with all its frames', { skip }, async (t) => {
   await page.waitForSelector('#page[data-shown]');
   await page.goto(`${served.origin}/#/scenario/pile`);
   await page.waitForSelector('.replay canvas');
-  const asTold = () => page.locator('.replay .label small').first().innerText();
-  const thinned = Number(/frame \d+\/(\d+)/.exec(await asTold())?.[1]);
+  const label = () => page.locator('.replay .label small').first().innerText();
+  const thinned = Number(/frame \d+\/(\d+)/.exec(await label())?.[1]);
   const [answer] = await Promise.all([
     page.waitForResponse((response) => response.url().includes('/trajectory/')),
     page.click('.replay [data-switch="all"]'),

@@ -86,7 +86,7 @@ test('growth is time per contact, without what is no timing', () => {
   );
 });
 
-test('where there are no contacts, what else tells of the work counts', () => {
+test('where there are no contacts, another measure of the work counts', () => {
   assert.equal(workOf(made('a', 10, 1, { counts: { contacts: 0, pairs: 7 } })), 7);
   assert.equal(workOf(made('a', 10, 1, { counts: {} })), 0);
 });

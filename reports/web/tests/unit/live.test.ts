@@ -88,7 +88,7 @@ test('an instance keeps its last frames, and forgets those after a step back', (
   const contacts = instance.newest?.contacts;
   assert.ok(contacts);
   assert.deepEqual(middleOf(contacts, 0), [300, 2, 4], 'drawn where the bodies have carried it');
-  assert.equal(contacts.pointA[0], 1, 'told as it was found');
+  assert.equal(contacts.pointA[0], 1, 'reported as it was found');
   assert.match(contacts.instant ?? '', /where the last step began/);
   instance.push(head(100), frame(100));
   assert.equal(instance.times.length, 41);
@@ -191,7 +191,7 @@ test('curves are those of the largest impulses, residuals of nothing are gaps', 
   );
 });
 
-test('a branch tells only what was changed', () => {
+test('a branch sends only the changes', () => {
   const now = { solver: 'block', slop: '1e-5', friction: 'cone' };
   assert.deepEqual(changes(now, { solver: 'xpbd', slop: '1e-5', friction: '' }), { solver: 'xpbd' });
   assert.deepEqual(overrides(' gravity=[0,-1,0] \n\nbodies.a.mass=2\n'), ['gravity=[0,-1,0]', 'bodies.a.mass=2']);
@@ -200,7 +200,7 @@ test('a branch tells only what was changed', () => {
 test('keys do what the buttons do', () => {
   const done: string[] = [];
   const actions: KeyActions = {
-    tell: (command, steps) => done.push(`${command} ${steps ?? ''}`.trim()),
+    send: (command, steps) => done.push(`${command} ${steps ?? ''}`.trim()),
     toggle: () => done.push('toggle'),
     shiftSpeed: (by) => done.push(`speed ${by}`),
     layer: (name) => done.push(name),

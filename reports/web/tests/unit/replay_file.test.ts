@@ -206,7 +206,7 @@ test('all frames of a trajectory arrive in parts', async () => {
   assert.equal(c.count, 2);
   assert.deepEqual([...(c.pointB as Float32Array)].slice(0, 3), [5, 6, 7]);
   assert.equal(source.frame(4).contacts?.count, 1);
-  assert.match(c.instant ?? '', /does not tell/, 'of an older file');
+  assert.match(c.instant ?? '', /does not name/, 'of an older file');
   const known = await fullSource(look, async (from) => part(from, frames - from, true));
   assert.equal(known.frame(2).contacts?.instant, undefined);
   await assert.rejects(fullSource(look, async (from) => part(from, 0)));

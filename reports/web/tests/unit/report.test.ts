@@ -27,15 +27,15 @@ test('numbers are read and written', () => {
   assert.deepEqual([median([3, 1, 2]), median([4, 1, 2, 3])], [2, 2.5]);
 });
 
-test('an observable tells of changes alone, with who made them', () => {
+test('an observable reports changes alone, with their source', () => {
   const { time } = newCursor(1);
-  const told: unknown[] = [];
-  const end = time.follow((value, source) => told.push([value, source]));
+  const reported: unknown[] = [];
+  const end = time.follow((value, source) => reported.push([value, source]));
   time.set(1);
   time.set(2, 'chart');
   end();
   time.set(3);
-  assert.deepEqual(told, [[2, 'chart']]);
+  assert.deepEqual(reported, [[2, 'chart']]);
 });
 
 const column = (spec: string): Column => ({ spec, engine: spec, preset: '', options: '', label: spec, dash: [] });

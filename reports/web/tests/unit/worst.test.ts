@@ -17,7 +17,7 @@ test('the worst of one audit names pair, time and what was wrong', () => {
   });
 });
 
-test('the step tells the frame where the digits of the time end before it', () => {
+test('the step identifies the frame where the digits of the time end before it', () => {
   const place = worstPlace('a|b at t=0.883333, step 53 (spurious, far apart)');
   assert.ok(place);
   assert.equal(place.step, 53);
@@ -27,7 +27,7 @@ test('the step tells the frame where the digits of the time end before it', () =
   assert.deepEqual(placeQuery(place, 1 / 60), { dt: 1 / 60, t: 0.883333, step: 53, pair: 'a|b', contact: null });
 });
 
-test('the contact is told among all of its frame', () => {
+test('the contact is identified among all of its frame', () => {
   const place = worstPlace('a|b at t=0.25, step 15, contact 12 (normal) (ode:preset=matched) (dt=0.01)');
   assert.ok(place);
   assert.equal(place.contact, 12);

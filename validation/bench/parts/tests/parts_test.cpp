@@ -140,7 +140,7 @@ TEST(BroadPhasePart, AForgottenPairMakesATimingInvalid) {
             EXPECT_EQ(valid(done), !forgets);
             EXPECT_EQ(qualityOf(done, "missed_pairs"), forgets ? 1.0 : 0.0);
             const double excess = 100.0 * 99.0 / 2.0 - countOf(done, "pairs");
-            EXPECT_DOUBLE_EQ(qualityOf(done, "excess_pairs"), all ? excess : 0.0) << "told, not judged";
+            EXPECT_DOUBLE_EQ(qualityOf(done, "excess_pairs"), all ? excess : 0.0) << "reported, not judged";
         }
 }
 

@@ -73,7 +73,7 @@ struct CompoundInertia : RigidWorld {
 };
 struct CompoundInertiaHidden : CompoundInertia {
     using CompoundInertia::CompoundInertia;
-    Mat3 toldInertia(std::size_t i) const override { return RigidWorld::inertiaOf(i); }
+    Mat3 reportedInertia(std::size_t i) const override { return RigidWorld::inertiaOf(i); }
 };
 struct CompoundInertiaAnnounced : CompoundInertia {
     using CompoundInertia::CompoundInertia;

@@ -79,7 +79,7 @@ class RigidWorld : public World {
         ReadBack back;
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
             const auto& m = scenario_.bodies[i].massProperties;
-            back.bodies.push_back({m.mass, m.centerOfMass, toldInertia(i), stateOf(i), gravityOn(i)});
+            back.bodies.push_back({m.mass, m.centerOfMass, reportedInertia(i), stateOf(i), gravityOn(i)});
         }
         return back;
     }
@@ -106,7 +106,7 @@ class RigidWorld : public World {
     }
     virtual double stepOf() const { return dt_; }
     virtual Mat3 inertiaOf(std::size_t i) const { return scenario_.bodies[i].massProperties.inertia; }
-    virtual Mat3 toldInertia(std::size_t i) const { return inertiaOf(i); }
+    virtual Mat3 reportedInertia(std::size_t i) const { return inertiaOf(i); }
     virtual Quat frameOfInertia(const Quat& q) const { return q; }
     virtual PairCoefficients coefficients(int a, int b) const {
         return pairCoefficients(scenario_, scenario_.bodies[index(a)].shapes[0].material,

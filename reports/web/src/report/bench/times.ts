@@ -64,7 +64,7 @@ function partWork(cases: BenchCase[]): Column[] {
   const counts = new Set(cases.flatMap((c) => Object.keys(c.counts)).filter((name) => name !== first.sizeUnit));
   const checks = new Set(cases.flatMap((c) => c.quality.map((q) => q.name)));
   const rated: Column = { head: `${first.operation}s a second`, cell: (c) => (c.valid ? rate(c.time) : '—') };
-  const told = [...counts].map((name) => ({ head: words(name), cell: (c: BenchCase) => format(c.counts[name]) }));
+  const counted = [...counts].map((name) => ({ head: words(name), cell: (c: BenchCase) => format(c.counts[name]) }));
   const checked = [...checks].map((name) => ({
     head: words(name),
     cell: (c: BenchCase) => {
@@ -72,7 +72,7 @@ function partWork(cases: BenchCase[]): Column[] {
       return q ? `${format(q.value, 3)}${unitText(q.unit)}` : '—';
     },
   }));
-  return [rated, ...told, ...checked];
+  return [rated, ...counted, ...checked];
 }
 
 /** All but the name, the median and whether it counts. */
@@ -169,8 +169,8 @@ function qualityTable(cases: BenchCase[]): HTMLElement {
 }
 
 function phasesText(c: BenchCase): string {
-  const told = Object.entries(c.phases);
-  return told.map(([name, seconds]) => `${words(name)} ${duration(seconds)}`).join(', ');
+  const phases = Object.entries(c.phases);
+  return phases.map(([name, seconds]) => `${words(name)} ${duration(seconds)}`).join(', ');
 }
 
 export function more(cases: BenchCase[]): HTMLElement {
@@ -184,7 +184,7 @@ export function more(cases: BenchCase[]): HTMLElement {
         : null,
       phases.length
         ? [
-            el('h5', null, 'Phases, where the engine tells (wall time)'),
+            el('h5', null, 'Phases, if the engine reports them (wall time)'),
             facts(phases.map((c): [string, Child] => [labelOf(c), phasesText(c)])),
           ]
         : null,

@@ -157,7 +157,7 @@ function summaryTable(): HTMLElement {
     }
     return [...shares].map(([phase, values]) => `${phase} ${(100 * median(values)).toFixed(0)} %`).join(', ');
   };
-  const told = list.map((s) => phases(s.column.spec));
+  const shownPhases = list.map((s) => phases(s.column.spec));
   return scroll(
     el(
       'table',
@@ -201,7 +201,7 @@ function summaryTable(): HTMLElement {
             el('td', { class: 'num' }, ratio(s.toOurs) || '—'),
             el('td', { class: 'num' }, `${s.within} of ${s.scenarios}`),
             el('td', null, gradeBar(s.grades)),
-            el('td', { class: 'small claim' }, told[i] || '—'),
+            el('td', { class: 'small claim' }, shownPhases[i] || '—'),
           ),
         ),
       ),

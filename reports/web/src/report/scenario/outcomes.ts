@@ -73,9 +73,9 @@ export function outcomes(context: Context): HTMLElement | null {
   const why = (c: Case): Child => {
     const missed = c.metrics.filter((m) => m.verdict !== 'pass');
     const whole = missed.filter((m) => !m.subject);
-    const told = (whole.length ? whole : missed).slice(0, most);
-    const isTold = told.some((m) => m.note && c.reason.endsWith(m.note));
-    return [c.reason && !isTold ? el('div', null, c.reason) : null, lines(c, told)];
+    const shown = (whole.length ? whole : missed).slice(0, most);
+    const isShown = shown.some((m) => m.note && c.reason.endsWith(m.note));
+    return [c.reason && !isShown ? el('div', null, c.reason) : null, lines(c, shown)];
   };
   const rows = odd.map((c) =>
     el(

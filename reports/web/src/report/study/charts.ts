@@ -57,14 +57,14 @@ export function studyChart(chart: StudyChart): HTMLElement {
     for (const [k, v] of Object.entries(attributes)) card.setAttribute(k, v);
     return card;
   }
-  const told = (p: StudyPoint) =>
+  const textOf = (p: StudyPoint) =>
     p.outcome !== 'completed' ? p.outcome : p.value === null ? 'no value' : format(p.value) + unitText(chart.unit);
   const bars = chart.points.map((p) => ({
     label: p.label,
     value: toNumber(p.value),
     low: toNumber(p.low),
     high: toNumber(p.high),
-    text: told(p),
+    text: textOf(p),
     title: p.note,
   }));
   return el(
